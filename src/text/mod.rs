@@ -1,0 +1,22 @@
+//! The text of every document: strict YAML in, one canonical form out, errors that point into the file.
+//!
+//! * [`rule`]: what a signed text may contain, how a number and a string are written: writer and reader of
+//!   the rule side by side.
+//! * [`node`]: YAML to a tree, with the place of every value found again when an error needs it.
+//! * [`record`]: from that tree to a Rust struct and back, every mistake reported, not only the first.
+//! * [`problem`]: what is wrong, where, what was expected, what to do.
+
+pub mod node;
+pub mod problem;
+pub mod record;
+pub mod rule;
+
+pub use node::Node;
+pub use problem::{Path, Problems, Unreadable};
+pub use record::Field;
+pub(crate) use record::record;
+
+/// The largest document that is read at all, in bytes.
+///
+/// A stand with a thousand positions takes a fifth of it; what is larger is not a document of this project.
+pub const LARGEST_DOCUMENT_BYTES: usize = 1 << 20;

@@ -1,0 +1,307 @@
+//! A document as a tree: YAML in through `serde_yaml`, every key kept in order (double ones too), JSON out.
+
+use super::problem::{Location, Problems, Step, Target, Unreadable};
+use super::{LARGEST_DOCUMENT_BYTES, Path};
+use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::ser::{Serialize, SerializeMap, Serializer};
+use std::fmt;
+
+/// A value of a document.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Node {
+    /// Nothing after the colon.
+    Null,
+    /// `true` or `false`.
+    Bool(bool),
+    /// A whole number without point or exponent.
+    Integer(i64),
+    /// A number with a point or an exponent.
+    Number(f64),
+    /// A string.
+    Text(String),
+    /// A list.
+    List(Vec<Node>),
+    /// A mapping in the order of the text; a key that stands twice is kept twice.
+    Map(Vec<(String, Node)>),
+}
+
+impl Node {
+    /// Reads one YAML document.
+    ///
+    /// `name` is the file's name, for messages. Refused are: more than [`LARGEST_DOCUMENT_BYTES`], bytes that are
+    /// no UTF-8, a byte order mark, CR, and whatever `serde_yaml` cannot read (with line and column).
+    pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<(Self, String), Unreadable> {
+        let text = plain_text(name, bytes)?;
+        if text.lines().all(|line| line.trim_start().is_empty() || line.trim_start().starts_with('#')) {
+            return Err(Unreadable::whole(name, None, "nothing but blanks and comments", "a YAML document", ""));
+        }
+        let node = serde_yaml::Deserializer::from_str(text);
+        match Whole.deserialize(node) {
+            Ok(node) => Ok((node, text.to_owned())),
+            Err(error) => Err(unreadable_yaml(name, &error)),
+        }
+    }
+
+    /// What it is, in the words of a message: its value when that is short, else its kind.
+    pub fn describe(&self) -> String {
+        match self {
+            Node::Null => "nothing".to_owned(),
+            Node::Bool(value) => format!("{value}"),
+            Node::Integer(value) => format!("{value}"),
+            Node::Number(value) => format!("{value}"),
+            Node::Text(value) if value.chars().count() <= 60 => format!("the text {value:?}"),
+            Node::Text(value) => format!("a text of {} characters", value.chars().count()),
+            Node::List(items) => format!("a list of {}", items.len()),
+            Node::Map(_) => "a mapping".to_owned(),
+        }
+    }
+
+    /// The value under `key` of a mapping.
+    pub fn get(&self, key: &str) -> Option<&Node> {
+        match self {
+            Node::Map(entries) => entries.iter().find(|(name, _)| name == key).map(|(_, value)| value),
+            _ => None,
+        }
+    }
+}
+
+/// The bytes as text, when they are UTF-8 without a byte order mark and with LF alone.
+pub fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
+    let refuse = |location, found: &str, expected: &str, advice: &str| {
+        Err(Unreadable::whole(name, location, found, expected, advice))
+    };
+    if bytes.is_empty() {
+        return refuse(None, "an empty file", "a document", "was it copied to the end?");
+    }
+    if bytes.len() > LARGEST_DOCUMENT_BYTES {
+        let found = format!("{} bytes", bytes.len());
+        return refuse(None, &found, &format!("at most {LARGEST_DOCUMENT_BYTES} bytes"), "is this the right file?");
+    }
+    if bytes.starts_with(&[0xFE, 0xFF]) || bytes.starts_with(&[0xFF, 0xFE]) {
+        return refuse(None, "UTF-16", "UTF-8", "save the file as UTF-8 without a byte order mark");
+    }
+    if bytes.starts_with(&[0xEF, 0xBB, 0xBF]) {
+        let advice = "save the file as UTF-8 without BOM";
+        return refuse(Some(Location { line: 1, column: 1 }), "a byte order mark (BOM)", "plain UTF-8", advice);
+    }
+    let text = match std::str::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(error) => {
+            let at = location_of(&bytes[..error.valid_up_to()]);
+            let found = format!("the byte 0x{:02X}, which is no UTF-8", bytes[error.valid_up_to()]);
+            return refuse(Some(at), &found, "UTF-8", "save the file as UTF-8");
+        }
+    };
+    if let Some(index) = text.find('\r') {
+        let at = Some(location_of(&bytes[..index]));
+        return if text[index..].starts_with("\r\n") {
+            let advice = "the file was changed in transit, e.g. by git autocrlf: fetch it again byte for byte, \
+                          or for a file of your own save it with LF";
+            refuse(at, "a line end CR LF", "LF", advice)
+        } else {
+            refuse(at, "a carriage return (CR)", "line ends of LF alone", "save the file with LF")
+        };
+    }
+    Ok(text)
+}
+
+/// The place just after `before`, which must be valid UTF-8.
+pub(crate) fn location_of(before: &[u8]) -> Location {
+    let line_start = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |at| at + 1);
+    Location {
+        line: before.iter().filter(|&&byte| byte == b'\n').count() + 1,
+        column: String::from_utf8_lossy(&before[line_start..]).chars().count() + 1,
+    }
+}
+
+fn unreadable_yaml(name: &str, error: &serde_yaml::Error) -> Unreadable {
+    let location = error.location().map(|at| Location { line: at.line(), column: at.column() });
+    let mut words = error.to_string();
+    if let Some(at) = words.find(" at line ") {
+        words.truncate(at);
+    }
+    Unreadable::whole(name, location, format!("no valid YAML ({words})"), "a YAML mapping", "")
+}
+
+/// Finds the line and column of a mistake by reading the text again up to it.
+///
+/// `serde_yaml` tells the place of an error and of nothing else; so this reader makes an error at the target.
+pub(crate) fn locate(text: &str, target: &Target) -> Option<Location> {
+    let probe = Probe { steps: &target.steps, entry: target.entry };
+    let error = probe.deserialize(serde_yaml::Deserializer::from_str(text)).err()?;
+    error.location().map(|at| Location { line: at.line(), column: at.column() })
+}
+
+impl Serialize for Node {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Node::Null => serializer.serialize_unit(),
+            Node::Bool(value) => serializer.serialize_bool(*value),
+            Node::Integer(value) => serializer.serialize_i64(*value),
+            Node::Number(value) => serializer.serialize_f64(*value),
+            Node::Text(value) => serializer.serialize_str(value),
+            Node::List(items) => items.serialize(serializer),
+            Node::Map(entries) => {
+                let mut map = serializer.serialize_map(Some(entries.len()))?;
+                for (key, value) in entries {
+                    map.serialize_entry(key, value)?;
+                }
+                map.end()
+            }
+        }
+    }
+}
+
+/// Builds the tree.
+struct Whole;
+
+impl<'de> DeserializeSeed<'de> for Whole {
+    type Value = Node;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Node, D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Whole {
+    type Value = Node;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a plain YAML value without a tag")
+    }
+    fn visit_unit<E: de::Error>(self) -> Result<Node, E> {
+        Ok(Node::Null)
+    }
+    fn visit_bool<E: de::Error>(self, value: bool) -> Result<Node, E> {
+        Ok(Node::Bool(value))
+    }
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Node, E> {
+        Ok(Node::Integer(value))
+    }
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Node, E> {
+        Ok(i64::try_from(value).map_or(Node::Number(value as f64), Node::Integer))
+    }
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Node, E> {
+        Ok(Node::Number(value))
+    }
+    fn visit_str<E: de::Error>(self, value: &str) -> Result<Node, E> {
+        Ok(Node::Text(value.to_owned()))
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Node, A::Error> {
+        let mut items = Vec::new();
+        while let Some(item) = list.next_element_seed(Whole)? {
+            items.push(item);
+        }
+        Ok(Node::List(items))
+    }
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Node, A::Error> {
+        let mut entries = Vec::new();
+        while let Some(key) = map.next_key_seed(Whole)? {
+            let key = match key {
+                Node::Text(key) => key,
+                // `alpha_arcsec: 12,4` inside braces is a key 4 without a value: kept, and refused by name.
+                Node::Integer(key) => key.to_string(),
+                other => return Err(de::Error::custom(format!("{} as a key", other.describe()))),
+            };
+            entries.push((key, map.next_value_seed(Whole)?));
+        }
+        Ok(Node::Map(entries))
+    }
+}
+
+/// Reads to the target and fails there, so that `serde_yaml` says where that is.
+#[derive(Clone, Copy)]
+struct Probe<'a> {
+    steps: &'a [Step],
+    entry: Option<usize>,
+}
+
+impl<'de> DeserializeSeed<'de> for Probe<'_> {
+    type Value = ();
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl Probe<'_> {
+    fn here<E: de::Error>() -> Result<(), E> {
+        Err(E::custom("here"))
+    }
+}
+
+impl<'de> Visitor<'de> for Probe<'_> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a plain YAML value without a tag")
+    }
+    fn visit_unit<E: de::Error>(self) -> Result<(), E> {
+        Self::here()
+    }
+    fn visit_bool<E: de::Error>(self, _: bool) -> Result<(), E> {
+        Self::here()
+    }
+    fn visit_i64<E: de::Error>(self, _: i64) -> Result<(), E> {
+        Self::here()
+    }
+    fn visit_u64<E: de::Error>(self, _: u64) -> Result<(), E> {
+        Self::here()
+    }
+    fn visit_f64<E: de::Error>(self, _: f64) -> Result<(), E> {
+        Self::here()
+    }
+    fn visit_str<E: de::Error>(self, _: &str) -> Result<(), E> {
+        Self::here()
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<(), A::Error> {
+        let Some((Step::Item(target), rest)) = self.steps.split_first() else {
+            return Self::here();
+        };
+        for _ in 0..*target {
+            list.next_element::<de::IgnoredAny>()?;
+        }
+        list.next_element_seed(Probe { steps: rest, entry: self.entry })?;
+        Self::here()
+    }
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
+        match (self.steps.split_first(), self.entry) {
+            (Some((Step::Key(target), rest)), _) => {
+                while let Some(key) = map.next_key_seed(Whole)? {
+                    if key == Node::Text(target.clone()) {
+                        map.next_value_seed(Probe { steps: rest, entry: self.entry })?;
+                    } else {
+                        map.next_value::<de::IgnoredAny>()?;
+                    }
+                }
+                Self::here()
+            }
+            (None, Some(entry)) => {
+                for _ in 0..entry {
+                    map.next_entry::<de::IgnoredAny, de::IgnoredAny>()?;
+                }
+                map.next_key_seed(Probe { steps: &[], entry: None })?;
+                Self::here()
+            }
+            _ => Self::here(),
+        }
+    }
+}
+
+/// Reads a document of the record type `T`: the tree, then the fields, then the rules of its content (`check`).
+///
+/// Every mistake of the stage that fails is reported.
+pub fn read_document<T: super::Field>(
+    name: &str,
+    bytes: &[u8],
+    check: impl FnOnce(&T, &mut Problems),
+) -> Result<T, Unreadable> {
+    let (node, text) = Node::from_yaml(name, bytes)?;
+    let mut problems = Problems::new();
+    let value = T::read(&node, &Path::Root, &mut problems);
+    if let Some(value) = &value {
+        check(value, &mut problems);
+    }
+    match value {
+        Some(value) if problems.is_empty() => Ok(value),
+        _ => Err(problems.refuse(name, &text)),
+    }
+}

@@ -1,0 +1,230 @@
+//! What is wrong in a document, where, what was expected there, and what to do.
+
+use std::fmt::{self, Display, Formatter};
+
+/// The way from the top of a document to one of its values, such as `positions[3].alpha_arcsec`.
+///
+/// It borrows its parent, so that walking a good document allocates nothing. Items of a list count from 0.
+#[derive(Debug, Clone, Copy)]
+pub enum Path<'a> {
+    /// The document itself.
+    Root,
+    /// A key of a mapping.
+    Key(&'a Path<'a>, &'a str),
+    /// An item of a list, counted from 0.
+    Item(&'a Path<'a>, usize),
+}
+
+/// One step of a [`Path`], owned.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Step {
+    Key(String),
+    Item(usize),
+}
+
+impl<'a> Path<'a> {
+    /// The value under `key`.
+    pub fn key(&'a self, key: &'a str) -> Path<'a> {
+        Path::Key(self, key)
+    }
+
+    /// The item `index` of a list, counted from 0.
+    pub fn item(&'a self, index: usize) -> Path<'a> {
+        Path::Item(self, index)
+    }
+
+    /// The last key on the way, which carries the unit of a number.
+    pub fn last_key(&self) -> &str {
+        match self {
+            Path::Root => "",
+            Path::Key(_, key) => key,
+            Path::Item(parent, _) => parent.last_key(),
+        }
+    }
+
+    pub(crate) fn steps(&self) -> Vec<Step> {
+        match self {
+            Path::Root => Vec::new(),
+            Path::Key(parent, key) => extended(parent, Step::Key((*key).to_owned())),
+            Path::Item(parent, index) => extended(parent, Step::Item(*index)),
+        }
+    }
+}
+
+fn extended(parent: &Path, step: Step) -> Vec<Step> {
+    let mut steps = parent.steps();
+    steps.push(step);
+    steps
+}
+
+impl Display for Path<'_> {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Path::Root => Ok(()),
+            Path::Key(Path::Root, key) => write!(f, "{key}"),
+            Path::Key(parent, key) => write!(f, "{parent}.{key}"),
+            Path::Item(parent, index) => write!(f, "{parent}[{index}]"),
+        }
+    }
+}
+
+/// Where in the tree a mistake is: at a value, or at the n-th key of a mapping (a key may stand there twice).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Target {
+    pub(crate) steps: Vec<Step>,
+    pub(crate) entry: Option<usize>,
+}
+
+/// Line and column, both counted from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Location {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+}
+
+/// One mistake in a document.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// Where it stands, when it stands anywhere (a missing key is placed at the mapping that lacks it).
+    pub location: Option<Location>,
+    /// The field, as `positions[3].alpha_arcsec`; empty when the mistake is not in a field.
+    pub field: String,
+    /// What was found.
+    pub found: String,
+    /// What was expected.
+    pub expected: String,
+    /// What to do about it; empty when that says itself.
+    pub advice: String,
+}
+
+impl Display for Problem {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        if !self.field.is_empty() {
+            write!(f, "{}: ", self.field)?;
+        }
+        write!(f, "found {}, expected {}", self.found, self.expected)?;
+        if !self.advice.is_empty() {
+            write!(f, "; {}", self.advice)?;
+        }
+        Ok(())
+    }
+}
+
+/// Mistakes collected while a document is read; [`Problems::refuse`] finds their lines and columns.
+#[derive(Debug, Default)]
+pub struct Problems {
+    found: Vec<(Option<Target>, Problem)>,
+}
+
+impl Problems {
+    /// Nothing is wrong so far.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Whether nothing is wrong so far.
+    pub fn is_empty(&self) -> bool {
+        self.found.is_empty()
+    }
+
+    /// Notes that the value at `at` is `found` where `expected` was due.
+    pub fn at(&mut self, at: &Path, found: impl Into<String>, expected: impl Into<String>, advice: impl Into<String>) {
+        let target = Target { steps: at.steps(), entry: None };
+        self.push(at.to_string(), Some(target), found.into(), expected.into(), advice.into());
+    }
+
+    /// Notes a mistake in the n-th key (from 0) of the mapping at `at`.
+    pub fn at_entry(
+        &mut self,
+        at: &Path,
+        entry: usize,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+        advice: impl Into<String>,
+    ) {
+        let target = Target { steps: at.steps(), entry: Some(entry) };
+        self.push(at.to_string(), Some(target), found.into(), expected.into(), advice.into());
+    }
+
+    fn push(&mut self, field: String, target: Option<Target>, found: String, expected: String, advice: String) {
+        self.found.push((target, Problem { location: None, field, found, expected, advice }));
+    }
+
+    /// The refusal of the document `name` whose text is `text`, every mistake with its line and column,
+    /// in the order of the text.
+    pub fn refuse(self, name: &str, text: &str) -> Unreadable {
+        let mut problems: Vec<Problem> = self
+            .found
+            .into_iter()
+            .map(|(target, problem)| Problem {
+                location: target.and_then(|target| super::node::locate(text, &target)),
+                ..problem
+            })
+            .collect();
+        problems.sort_by_key(|problem| problem.location.map(|at| (at.line, at.column)));
+        Unreadable { name: name.to_owned(), problems }
+    }
+}
+
+/// A document that cannot be read as what it should be: its name and every mistake found.
+///
+/// Displayed as one line a mistake, `name:line:column: field: found …, expected …; what to do`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unreadable {
+    name: String,
+    problems: Vec<Problem>,
+}
+
+impl Unreadable {
+    /// A document refused as a whole, or at one place.
+    pub fn whole(
+        name: &str,
+        location: Option<Location>,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+        advice: impl Into<String>,
+    ) -> Self {
+        let problem = Problem {
+            location,
+            field: String::new(),
+            found: found.into(),
+            expected: expected.into(),
+            advice: advice.into(),
+        };
+        Self { name: name.to_owned(), problems: vec![problem] }
+    }
+
+    /// Several mistakes, their places already known.
+    pub fn of(name: &str, problems: Vec<Problem>) -> Self {
+        Self { name: name.to_owned(), problems }
+    }
+
+    /// The document's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Every mistake, in the order of the text.
+    pub fn problems(&self) -> &[Problem] {
+        &self.problems
+    }
+}
+
+impl Display for Unreadable {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        for (index, problem) in self.problems.iter().enumerate() {
+            if index > 0 {
+                writeln!(f)?;
+            }
+            match problem.location {
+                Some(at) => write!(f, "{}:{}:{}: {problem}", self.name, at.line, at.column)?,
+                None => write!(f, "{}: {problem}", self.name)?,
+            }
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Unreadable {}

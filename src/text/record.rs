@@ -1,0 +1,255 @@
+//! From a [`Node`] to a Rust struct and back, from one declaration: what [`record!`] declares is the format.
+
+use super::{Node, Path, Problems};
+
+/// A type that a field of a document can have.
+pub trait Field: Sized {
+    /// Reads it; `None` when something is wrong, which is then in `problems`.
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self>;
+
+    /// Its value when the key is absent; `None` when the key is required.
+    fn absent() -> Option<Self> {
+        None
+    }
+
+    /// What is written; `None` when the key is left out.
+    fn write(&self) -> Option<Node>;
+}
+
+/// Declares a struct whose fields are the keys of a mapping, in the order in which they are written.
+///
+/// A field of type `Option` may be absent, every other is required; unknown and double keys are refused.
+macro_rules! record {
+    ($(#[$about:meta])* pub struct $name:ident { $($(#[$doc:meta])* pub $field:ident : $type:ty,)* }) => {
+        $(#[$about])*
+        #[derive(Debug, Clone, PartialEq, schemars::JsonSchema)]
+        #[schemars(deny_unknown_fields)]
+        pub struct $name { $($(#[$doc])* pub $field: $type,)* }
+
+        impl $crate::text::Field for $name {
+            fn read(
+                node: &$crate::text::Node,
+                at: &$crate::text::Path,
+                problems: &mut $crate::text::Problems,
+            ) -> Option<Self> {
+                let entries = $crate::text::record::entries(node, at, problems, &[$(stringify!($field)),*])?;
+                $(let $field = $crate::text::record::read_field(entries, stringify!($field), at, problems);)*
+                Some(Self { $($field: $field?,)* })
+            }
+
+            fn write(&self) -> Option<$crate::text::Node> {
+                let entries = [$((stringify!($field), $crate::text::Field::write(&self.$field)),)*];
+                Some($crate::text::Node::Map(
+                    entries.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?))).collect(),
+                ))
+            }
+        }
+    };
+}
+pub(crate) use record;
+
+/// The entries of a mapping, once unknown and double keys have been reported.
+pub fn entries<'n>(node: &'n Node, at: &Path, problems: &mut Problems, known: &[&str]) -> Option<&'n [(String, Node)]> {
+    let Node::Map(entries) = node else {
+        problems.at(at, node.describe(), format!("a mapping with the keys {}", known.join(", ")), "");
+        return None;
+    };
+    for (index, (key, value)) in entries.iter().enumerate() {
+        if entries[..index].iter().any(|(earlier, _)| earlier == key) {
+            let advice = "keep one of the two: which one counts would depend on the reader";
+            problems.at_entry(at, index, format!("the key {key:?} a second time"), "every key once", advice);
+        } else if !known.contains(&key.as_str()) {
+            let advice = unknown_key_advice(entries, index, key, value, known);
+            problems.at_entry(
+                at,
+                index,
+                format!("the unknown key {key:?}"),
+                format!("one of {}", known.join(", ")),
+                advice,
+            );
+        }
+    }
+    Some(entries)
+}
+
+fn unknown_key_advice(entries: &[(String, Node)], index: usize, key: &str, value: &Node, known: &[&str]) -> String {
+    let previous = index.checked_sub(1).and_then(|before| entries.get(before));
+    if let Some((name, Node::Integer(whole))) = previous
+        && *value == Node::Null
+        && key.bytes().all(|byte| byte.is_ascii_digit())
+    {
+        return format!("a decimal comma ends the value: write {name}: {whole}.{key}");
+    }
+    let nearest = known.iter().map(|name| (strsim::damerau_levenshtein(name, key), name)).min();
+    match nearest {
+        Some((distance, name)) if distance <= 3 => format!("did you mean {name}?"),
+        _ => "remove it, or put it in a comment".to_owned(),
+    }
+}
+
+/// Reads the field `key`, or its value when absent.
+pub fn read_field<T: Field>(entries: &[(String, Node)], key: &str, at: &Path, problems: &mut Problems) -> Option<T> {
+    match entries.iter().find(|(name, _)| name == key) {
+        Some((_, node)) => T::read(node, &at.key(key), problems),
+        None => T::absent().or_else(|| {
+            problems.at(
+                at,
+                format!("no key {key}"),
+                format!("{key}: {}", expected_number_or(key, "a value")),
+                "add it",
+            );
+            None
+        }),
+    }
+}
+
+/// What a number under `key` means: the unit is in the key.
+fn expected_number_or(key: &str, otherwise: &str) -> String {
+    const UNITS: [(&str, &str); 12] = [
+        ("_deg_per_h_per_g2", "in degrees per hour per g squared"),
+        ("_deg_per_h_per_g", "in degrees per hour per g"),
+        ("_deg_per_h_per_ma", "in degrees per hour per milliampere"),
+        ("_deg_per_h", "in degrees per hour"),
+        ("_arcsec", "in arcseconds"),
+        ("_deg", "in degrees"),
+        ("_ma", "in milliamperes"),
+        ("_m_per_s2", "in metres per second squared"),
+        ("_m", "in metres"),
+        ("_percent", "in percent"),
+        ("_temperature_c", "in degrees Celsius"),
+        ("_g", "in g"),
+    ];
+    UNITS
+        .iter()
+        .find(|(suffix, _)| key.ends_with(suffix))
+        .map_or_else(|| otherwise.to_owned(), |(_, unit)| format!("a number {unit}"))
+}
+
+impl Field for f64 {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        match node {
+            // Adding zero turns -0.0 into 0.0, the only zero that a document knows.
+            Node::Number(value) if value.is_finite() => Some(*value + 0.0),
+            Node::Integer(value) => Some(*value as f64),
+            other => {
+                problems.at(at, other.describe(), expected_number_or(at.last_key(), "a number"), number_advice(other));
+                None
+            }
+        }
+    }
+
+    fn write(&self) -> Option<Node> {
+        Some(Node::Number(*self))
+    }
+}
+
+fn number_advice(node: &Node) -> &'static str {
+    match node {
+        Node::Text(text) if text.contains(',') && text.chars().all(|c| c.is_ascii_digit() || "+-,. ".contains(c)) => {
+            "the decimal mark is a point"
+        }
+        Node::Text(text) if text.parse::<f64>().is_ok_and(f64::is_finite) => "write the number without quotes",
+        Node::Text(text) if !text.is_ascii() => "write the number with ASCII digits, point and minus",
+        Node::Number(_) => "not-a-number and infinity are not measured values",
+        _ => "",
+    }
+}
+
+impl Field for u32 {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        match node {
+            Node::Integer(value) if u32::try_from(*value).is_ok() => u32::try_from(*value).ok(),
+            other => {
+                problems.at(at, other.describe(), "a whole number", "");
+                None
+            }
+        }
+    }
+
+    fn write(&self) -> Option<Node> {
+        Some(Node::Integer(i64::from(*self)))
+    }
+}
+
+impl Field for bool {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        match node {
+            Node::Bool(value) => Some(*value),
+            other => {
+                problems.at(at, other.describe(), "true or false", "");
+                None
+            }
+        }
+    }
+
+    fn write(&self) -> Option<Node> {
+        Some(Node::Bool(*self))
+    }
+}
+
+impl Field for String {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        let Node::Text(text) = node else {
+            problems.at(at, node.describe(), "a text", "put it in double quotes");
+            return None;
+        };
+        if let Some(refused) = text.chars().find(|&c| !super::rule::allowed_in_string(c)) {
+            let found = format!("the character U+{:04X}", u32::from(refused));
+            let advice = "control, combining, bidirectional, invisible and separator characters cannot be signed: \
+                          remove it, or write a composed character (NFC)";
+            problems.at(at, found, "printable text on one line", advice);
+            return None;
+        }
+        Some(text.clone())
+    }
+
+    fn write(&self) -> Option<Node> {
+        Some(Node::Text(self.clone()))
+    }
+}
+
+impl<T: Field> Field for Option<T> {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        T::read(node, at, problems).map(Some)
+    }
+
+    fn absent() -> Option<Self> {
+        Some(None)
+    }
+
+    fn write(&self) -> Option<Node> {
+        self.as_ref().and_then(T::write)
+    }
+}
+
+impl<T: Field> Field for Vec<T> {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        let Node::List(items) = node else {
+            problems.at(at, node.describe(), "a list", "");
+            return None;
+        };
+        let read: Vec<Option<T>> =
+            items.iter().enumerate().map(|(index, item)| T::read(item, &at.item(index), problems)).collect();
+        read.into_iter().collect()
+    }
+
+    fn write(&self) -> Option<Node> {
+        Some(Node::List(self.iter().filter_map(T::write).collect()))
+    }
+}
+
+impl<T: Field, const N: usize> Field for [T; N] {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        match node {
+            Node::List(items) if items.len() == N => Vec::read(node, at, problems)?.try_into().ok(),
+            other => {
+                problems.at(at, other.describe(), format!("a list of {N}"), "");
+                None
+            }
+        }
+    }
+
+    fn write(&self) -> Option<Node> {
+        Some(Node::List(self.iter().filter_map(T::write).collect()))
+    }
+}
