@@ -4,12 +4,14 @@
 //!   the rule side by side.
 //! * [`node`]: YAML to a tree, with the place of every value found again when an error needs it.
 //! * [`record`]: from that tree to a Rust struct and back, every mistake reported, not only the first.
+//! * [`scalar`]: identifiers, dates and times.
 //! * [`problem`]: what is wrong, where, what was expected, what to do.
 
 pub mod node;
 pub mod problem;
 pub mod record;
 pub mod rule;
+pub mod scalar;
 
 pub use node::Node;
 pub use problem::{Path, Problems, Unreadable};

@@ -286,16 +286,21 @@ impl<'de> Visitor<'de> for Probe<'_> {
     }
 }
 
-/// Reads a document of the record type `T`: the tree, then the fields, then the rules of its content (`check`).
-///
-/// Every mistake of the stage that fails is reported.
+/// Reads a document of the record type `T`: the tree, its `format`, then the fields, then the rules of its content
+/// (`check`). Every mistake of the stage that fails is reported.
 pub fn read_document<T: super::Field>(
     name: &str,
     bytes: &[u8],
+    format: &str,
     check: impl FnOnce(&T, &mut Problems),
 ) -> Result<T, Unreadable> {
     let (node, text) = Node::from_yaml(name, bytes)?;
     let mut problems = Problems::new();
+    if let Some(found) = node.get("format").filter(|found| **found != Node::Text(format.to_owned())) {
+        let advice = "is this the right file?";
+        problems.at(&Path::Root.key("format"), found.describe(), format!("{format:?}"), advice);
+        return Err(problems.refuse(name, &text));
+    }
     let value = T::read(&node, &Path::Root, &mut problems);
     if let Some(value) = &value {
         check(value, &mut problems);

@@ -148,6 +148,18 @@ impl Problems {
         self.push(at.to_string(), Some(target), found.into(), expected.into(), advice.into());
     }
 
+    /// Notes a number that is there and not within `low..=high`.
+    pub fn within(&mut self, at: &Path, value: Option<f64>, low: f64, high: f64) {
+        let Some(value) = value else { return };
+        if !(low..=high).contains(&value) {
+            let expected = match (low, high) {
+                (0.0, f64::MAX) => "a number that is not negative".to_owned(),
+                (low, high) => format!("a number from {low} to {high}"),
+            };
+            self.at(at, format!("{value}"), expected, "");
+        }
+    }
+
     fn push(&mut self, field: String, target: Option<Target>, found: String, expected: String, advice: String) {
         self.found.push((target, Problem { location: None, field, found, expected, advice }));
     }

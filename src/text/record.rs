@@ -32,21 +32,40 @@ macro_rules! record {
                 at: &$crate::text::Path,
                 problems: &mut $crate::text::Problems,
             ) -> Option<Self> {
-                let entries = $crate::text::record::entries(node, at, problems, &[$(stringify!($field)),*])?;
-                $(let $field = $crate::text::record::read_field(entries, stringify!($field), at, problems);)*
-                Some(Self { $($field: $field?,)* })
+                Self::read_beside(node, &[], at, problems)
             }
 
             fn write(&self) -> Option<$crate::text::Node> {
-                let entries = [$((stringify!($field), $crate::text::Field::write(&self.$field)),)*];
+                let entries = [$(($crate::text::record::key(stringify!($field)), $crate::text::Field::write(&self.$field)),)*];
                 Some($crate::text::Node::Map(
                     entries.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?))).collect(),
                 ))
             }
         }
+
+        impl $name {
+            /// Reads it from a mapping that also has the keys `beside`, which somebody else reads.
+            pub(crate) fn read_beside(
+                node: &$crate::text::Node,
+                beside: &[&str],
+                at: &$crate::text::Path,
+                problems: &mut $crate::text::Problems,
+            ) -> Option<Self> {
+                let own = [$($crate::text::record::key(stringify!($field))),*];
+                let known: Vec<&str> = beside.iter().chain(&own).copied().collect();
+                let entries = $crate::text::record::entries(node, at, problems, &known)?;
+                $(let $field = $crate::text::record::read_field(entries, $crate::text::record::key(stringify!($field)), at, problems);)*
+                Some(Self { $($field: $field?,)* })
+            }
+        }
     };
 }
 pub(crate) use record;
+
+/// The key that a field's name stands for: `type` is a word of Rust, so its field is `r#type`.
+pub fn key(field: &str) -> &str {
+    field.trim_start_matches("r#")
+}
 
 /// The entries of a mapping, once unknown and double keys have been reported.
 pub fn entries<'n>(node: &'n Node, at: &Path, problems: &mut Problems, known: &[&str]) -> Option<&'n [(String, Node)]> {
@@ -193,6 +212,10 @@ impl Field for String {
             problems.at(at, node.describe(), "a text", "put it in double quotes");
             return None;
         };
+        if text.is_empty() {
+            problems.at(at, "an empty text", "a text", "leave the key out where it is not required");
+            return None;
+        }
         if let Some(refused) = text.chars().find(|&c| !super::rule::allowed_in_string(c)) {
             let found = format!("the character U+{:04X}", u32::from(refused));
             let advice = "control, combining, bidirectional, invisible and separator characters cannot be signed: \

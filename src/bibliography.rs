@@ -1,0 +1,36 @@
+//! The papers and standards that the formulas come from. A citation in the code is a link to a variant here.
+
+/// A source of formulas, constants or rules.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bibliography {
+    /// Tang Xingyuan and V. P. Podchezertsev, "Algorithms of dynamically tuned gyroscope certification under
+    /// conditions of real-world orientation relative to the geographic coordinate system", Engineering Journal:
+    /// Science and Innovation, 2017, no. 10, <https://doi.org/10.18698/2308-6033-2017-10-1691>.
+    ///
+    /// "The paper" everywhere in this crate; its equations are cited by number.
+    Tang17,
+    /// G. Petit and B. Luzum (eds.), IERS Conventions (2010), IERS Technical Note 36, table 1.2: the nominal mean
+    /// angular velocity of the Earth, 7.292115e-5 rad/s.
+    Iers10,
+    /// NGA.STND.0036_1.0.0_WGS84, Department of Defense World Geodetic System 1984: the ellipsoid (chapter 3) and
+    /// normal gravity (chapter 4, eq. 4-1 to 4-3).
+    Wgs84,
+    /// W. A. Heiskanen and H. Moritz, Physical Geodesy, Freeman, 1967: the deflection of the vertical and the
+    /// Laplace correction of an azimuth (sections 2-20, 5-4), normal gravity above the ellipsoid (eq. 2-123).
+    HeiskanenMoritz67,
+    /// C. F. F. Karney, "Algorithms for geodesics", Journal of Geodesy 87, 2013, 43-55,
+    /// <https://doi.org/10.1007/s00190-012-0578-z>.
+    Karney13,
+    /// JCGM 100:2008, Evaluation of measurement data: Guide to the expression of uncertainty in measurement.
+    Gum,
+    /// OpenSSH, PROTOCOL.sshsig: the signature format, its armor and its namespaces.
+    SshSig,
+    /// OpenSSH, PROTOCOL.krl: key revocation lists.
+    SshKrl,
+    /// OpenSSH, ssh-keygen(1), section "ALLOWED SIGNERS".
+    AllowedSigners,
+    /// OpenSSH, PROTOCOL.u2f: signatures made by FIDO tokens.
+    SshU2f,
+    /// YAML Ain't Markup Language, versions 1.1 (2005) and 1.2.2 (2021): what a scalar means to a reader of either.
+    Yaml,
+}

@@ -1,0 +1,216 @@
+//! What a calibration needs to know about a stand at a site: specific force and Earth rate in the case axes of every
+//! position, and the paper's Δ, B, C with their parts.
+//!
+//! [`StandGeometry`] holds all that is free of the site; [`StandGeometry::at`] adds the two numbers that a site is,
+//! ω_Γ and ω_B. So one stand serves many sites.
+//! Source: [the paper](crate::bibliography::Bibliography::Tang17), eq. (5) and (9)-(15).
+
+use crate::attitude::{self, Deviation};
+use nalgebra::{Matrix2, Matrix3, Vector2};
+
+/// Frame index i and platform index j of a position, both counted from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PositionIndex {
+    /// Frame index.
+    pub i: u32,
+    /// Platform index.
+    pub j: u32,
+}
+
+impl std::fmt::Display for PositionIndex {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        write!(f, "({}, {})", self.i, self.j)
+    }
+}
+
+/// The eight positions of the paper: index, θ in degrees, φ in degrees (paper, fig. 3).
+pub const EIGHT_POSITIONS: [(PositionIndex, f64, f64); 8] = [
+    (PositionIndex { i: 1, j: 1 }, 0.0, 0.0),
+    (PositionIndex { i: 1, j: 2 }, 0.0, 90.0),
+    (PositionIndex { i: 1, j: 3 }, 0.0, 180.0),
+    (PositionIndex { i: 1, j: 4 }, 0.0, 270.0),
+    (PositionIndex { i: 2, j: 1 }, 90.0, 0.0),
+    (PositionIndex { i: 2, j: 2 }, 90.0, 90.0),
+    (PositionIndex { i: 2, j: 3 }, 90.0, 180.0),
+    (PositionIndex { i: 2, j: 4 }, 90.0, 270.0),
+];
+
+/// One position of a stand: where it should be, and how far it is from there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Position {
+    /// Which one.
+    pub index: PositionIndex,
+    /// Frame angle θ about ξ.
+    pub theta_deg: f64,
+    /// Platform angle φ about the spin axis.
+    pub phi_deg: f64,
+    /// Certified deviation.
+    pub deviation: Deviation,
+}
+
+/// The Earth's rotation at a site, in its base frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EarthRate {
+    /// ω_Γ, northward.
+    pub horizontal_deg_per_h: f64,
+    /// ω_B, upward.
+    pub vertical_deg_per_h: f64,
+}
+
+/// The eight positions leave n_2 without an inverse: no passport matrices exist for this stand.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "the differences of specific force n_2 have no inverse (condition {condition:.1e}): the g-sensitive drift cannot be separated"
+)]
+pub struct SingularPositions {
+    /// Condition number of n_2.
+    pub condition: f64,
+}
+
+/// The orientation of every position: all of a stand that is free of the site.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StandGeometry {
+    positions: Vec<(PositionIndex, Matrix3<f64>)>,
+    eight: Option<EightGeometry>,
+}
+
+/// A_1, A_2, n_1, n_2 and what follows from them (differences of the paper's eight positions).
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct EightGeometry {
+    a1: Matrix2<f64>,
+    a2: Matrix2<f64>,
+    n1: Matrix2<f64>,
+    n2: Matrix2<f64>,
+    n2_inverse: Matrix2<f64>,
+    delta: Matrix2<f64>,
+}
+
+impl StandGeometry {
+    /// The geometry of `positions`, in their order. The paper's eight may be among them or not.
+    ///
+    /// # Errors
+    /// [`SingularPositions`] when the eight are there and n_2 cannot be inverted.
+    pub fn new(positions: &[Position]) -> Result<Self, SingularPositions> {
+        let positions: Vec<_> = positions
+            .iter()
+            .map(|position| {
+                (position.index, attitude::actual(position.theta_deg, position.phi_deg, &position.deviation))
+            })
+            .collect();
+        let eight = eight_attitudes(&positions).map(|eight| EightGeometry::new(&eight)).transpose()?;
+        Ok(Self { positions, eight })
+    }
+
+    /// Whether all of the paper's eight positions are there.
+    pub fn has_the_eight(&self) -> bool {
+        self.eight.is_some()
+    }
+
+    /// Ã of every position, 3×3, base to case.
+    pub fn attitudes(&self) -> impl Iterator<Item = (PositionIndex, &Matrix3<f64>)> {
+        self.positions.iter().map(|(index, attitude)| (*index, attitude))
+    }
+
+    /// The coefficients at a site with the Earth rate `earth` (paper, eq. (5), (12), (13), (15)).
+    ///
+    /// B = ω_Γ (A_1 − A_2 Δ) and C = ω_B·1 + ω_Γ A_2 n_2⁻¹, which are the paper's B and C with the part that is free
+    /// of the site taken out.
+    pub fn at(&self, earth: EarthRate) -> Coefficients {
+        let EarthRate { horizontal_deg_per_h: w_h, vertical_deg_per_h: w_v } = earth;
+        let positions = self.positions.iter().map(|(index, attitude)| {
+            let (a, b) = (attitude.m12, attitude.m22);
+            let (c, d) = (attitude.m13, attitude.m23);
+            PositionCoefficients {
+                index: *index,
+                specific_force_g: Vector2::new(c, d),
+                specific_force_z_g: attitude.m33,
+                earth_rate_deg_per_h: Vector2::new(a * w_h + c * w_v, b * w_h + d * w_v),
+            }
+        });
+        let matrices = self.eight.map(|g| Matrices {
+            delta: g.delta,
+            b_deg_per_h: (g.a1 - g.a2 * g.delta) * w_h,
+            c_deg_per_h_per_g: Matrix2::identity() * w_v + g.a2 * g.n2_inverse * w_h,
+            n1: g.n1,
+            n2: g.n2,
+            n2_inverse: g.n2_inverse,
+            omega1_deg_per_h: g.a1 * w_h + g.n1 * w_v,
+            omega2_deg_per_h: g.a2 * w_h + g.n2 * w_v,
+        });
+        Coefficients { positions: positions.collect(), matrices }
+    }
+}
+
+/// Ã of the eight in the paper's order, when all are there.
+fn eight_attitudes(positions: &[(PositionIndex, Matrix3<f64>)]) -> Option<[Matrix3<f64>; 8]> {
+    let mut eight = [Matrix3::zeros(); 8];
+    for (slot, (index, _, _)) in eight.iter_mut().zip(EIGHT_POSITIONS) {
+        *slot = positions.iter().find(|(found, _)| *found == index)?.1;
+    }
+    Some(eight)
+}
+
+impl EightGeometry {
+    fn new(eight: &[Matrix3<f64>; 8]) -> Result<Self, SingularPositions> {
+        let north = |position: usize| Vector2::new(eight[position].m12, eight[position].m22);
+        let up = |position: usize| Vector2::new(eight[position].m13, eight[position].m23);
+        // X_1 = (x_11 - x_13, x_12 - x_14), X_2 = (x_21 - x_23, x_22 - x_24), as columns (paper, eq. (11)).
+        let (a1, a2) = pair_differences(north);
+        let (n1, n2) = pair_differences(up);
+        let singular_values = n2.singular_values();
+        let condition = singular_values.max() / singular_values.min();
+        let n2_inverse = n2.try_inverse().filter(|_| condition < 1e12).ok_or(SingularPositions { condition })?;
+        Ok(Self { a1, a2, n1, n2, n2_inverse, delta: n2_inverse * n1 })
+    }
+}
+
+/// X_1 and X_2 of the vectors x of the eight positions in their order: differences of opposite positions as columns
+/// (paper, eq. (9)-(11)).
+pub fn pair_differences(x: impl Fn(usize) -> Vector2<f64>) -> (Matrix2<f64>, Matrix2<f64>) {
+    let first = Matrix2::from_columns(&[x(0) - x(2), x(1) - x(3)]);
+    let second = Matrix2::from_columns(&[x(4) - x(6), x(5) - x(7)]);
+    (first, second)
+}
+
+/// What a calibration needs, at one site.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coefficients {
+    /// Specific force and Earth rate of every position, in the stand's order.
+    pub positions: Vec<PositionCoefficients>,
+    /// The paper's matrices, when all of its eight positions are there.
+    pub matrices: Option<Matrices>,
+}
+
+/// Specific force and Earth rate in the case axes of one position (paper, eq. (5)).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PositionCoefficients {
+    /// Which position.
+    pub index: PositionIndex,
+    /// n = (c, d), along x and y.
+    pub specific_force_g: Vector2<f64>,
+    /// Ã₃₃, along the spin axis.
+    pub specific_force_z_g: f64,
+    /// ω_3 = (a ω_Γ + c ω_B, b ω_Γ + d ω_B), along x and y.
+    pub earth_rate_deg_per_h: Vector2<f64>,
+}
+
+/// The paper's matrices, each 2×2 (eq. (12), (13), (15)).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Matrices {
+    /// Δ = n_2⁻¹ n_1.
+    pub delta: Matrix2<f64>,
+    /// B = ω_31 − ω_32 n_2⁻¹ n_1.
+    pub b_deg_per_h: Matrix2<f64>,
+    /// C = ω_32 n_2⁻¹.
+    pub c_deg_per_h_per_g: Matrix2<f64>,
+    /// n_1, differences of specific force in the positions with θ = 0°.
+    pub n1: Matrix2<f64>,
+    /// n_2, differences of specific force in the positions with θ = 90°.
+    pub n2: Matrix2<f64>,
+    /// n_2⁻¹.
+    pub n2_inverse: Matrix2<f64>,
+    /// ω_31, differences of Earth rate in the positions with θ = 0°.
+    pub omega1_deg_per_h: Matrix2<f64>,
+    /// ω_32, differences of Earth rate in the positions with θ = 90°.
+    pub omega2_deg_per_h: Matrix2<f64>,
+}

@@ -1,0 +1,151 @@
+//! The gyro: its parameters, the currents that they make, and the files that state a type.
+//!
+//! Source: [the paper](crate::bibliography::Bibliography::Tang17), eq. (2), (5) and its table.
+
+use crate::coefficients::PositionCoefficients;
+use crate::text::{Path, Problems, Unreadable, node, record};
+use nalgebra::{Matrix2, Vector2};
+
+/// The parameters of a dynamically tuned gyro in rate mode.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GyroParameters {
+    /// K, 2×2: K_x, K_xy; K_yx, K_y.
+    pub k_deg_per_h_per_ma: Matrix2<f64>,
+    /// ω_0, the drift that does not depend on g.
+    pub omega0_deg_per_h: Vector2<f64>,
+    /// ω_g, from the rotor's centre of mass along the spin axis.
+    pub omega_g_deg_per_h_per_g: f64,
+    /// ω_k, from quadrature torques.
+    pub omega_k_deg_per_h_per_g: f64,
+}
+
+impl GyroParameters {
+    /// ω_n = [[ω_g, −ω_k], [ω_k, ω_g]], 2×2 (paper, eq. (5)).
+    pub fn omega_n_deg_per_h_per_g(&self) -> Matrix2<f64> {
+        let (w_g, w_k) = (self.omega_g_deg_per_h_per_g, self.omega_k_deg_per_h_per_g);
+        Matrix2::new(w_g, -w_k, w_k, w_g)
+    }
+
+    /// The torquer currents (J_x, J_y) in mA in one position: K J + ω_0 + ω_n n = ω_3 solved for J (paper, eq. (5)).
+    ///
+    /// `None` when K has no inverse.
+    pub fn currents_ma(&self, position: &PositionCoefficients) -> Option<Vector2<f64>> {
+        let torqued = position.earth_rate_deg_per_h
+            - self.omega0_deg_per_h
+            - self.omega_n_deg_per_h_per_g() * position.specific_force_g;
+        Some(self.k_deg_per_h_per_ma.try_inverse()? * torqued)
+    }
+}
+
+record! {
+    /// The parameters of a gyro as documents state them.
+    pub struct Parameters {
+        /// K: [[K_x, K_xy], [K_yx, K_y]].
+        pub k_deg_per_h_per_ma: [[f64; 2]; 2],
+        /// ω_0: [x, y].
+        pub omega0_deg_per_h: [f64; 2],
+        /// ω_g, per local g.
+        pub omega_g_deg_per_h_per_g: f64,
+        /// ω_k, per local g.
+        pub omega_k_deg_per_h_per_g: f64,
+    }
+}
+
+impl Parameters {
+    /// As the model takes them.
+    pub fn to_model(&self) -> GyroParameters {
+        let [[kx, kxy], [kyx, ky]] = self.k_deg_per_h_per_ma;
+        GyroParameters {
+            k_deg_per_h_per_ma: Matrix2::new(kx, kxy, kyx, ky),
+            omega0_deg_per_h: Vector2::from(self.omega0_deg_per_h),
+            omega_g_deg_per_h_per_g: self.omega_g_deg_per_h_per_g,
+            omega_k_deg_per_h_per_g: self.omega_k_deg_per_h_per_g,
+        }
+    }
+}
+
+record! {
+    /// How far the parameters of a good gyro may be from the nominal ones.
+    pub struct Tolerance {
+        /// K_x and K_y, in percent of their value.
+        pub k_main_percent: f64,
+        /// K_xy and K_yx, in percent of their value.
+        pub k_cross_percent: f64,
+        /// ω_0x and ω_0y.
+        pub omega0_deg_per_h: f64,
+        /// ω_g.
+        pub omega_g_deg_per_h_per_g: f64,
+        /// ω_k.
+        pub omega_k_deg_per_h_per_g: f64,
+    }
+}
+
+record! {
+    /// A type of gyro: its nominal parameters and their tolerance (`dtg-gyro/1`).
+    pub struct GyroType {
+        /// Always "dtg-gyro/1".
+        pub format: String,
+        /// The type's name.
+        pub r#type: String,
+        /// Nominal parameters.
+        pub nominal: Parameters,
+        /// Tolerance about them.
+        pub tolerance: Tolerance,
+        /// The g that the type's drifts are stated for; 9.80665 when absent.
+        pub gravity_m_per_s2: Option<f64>,
+    }
+}
+
+/// The format of a gyro type file.
+pub const GYRO_FORMAT: &str = "dtg-gyro/1";
+
+impl GyroType {
+    /// Reads a `dtg-gyro/1` file; `name` is its name in messages.
+    ///
+    /// # Errors
+    /// Every mistake with its line, column and field: see [`Unreadable`].
+    pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
+        node::read_document(name, bytes, GYRO_FORMAT, Self::check)
+    }
+
+    fn check(&self, problems: &mut Problems) {
+        let at = Path::Root.key("nominal");
+        if self.nominal.to_model().k_deg_per_h_per_ma.try_inverse().is_none() {
+            let at = at.key("k_deg_per_h_per_ma");
+            problems.at(&at, "a matrix without an inverse", "scale factors of two axes", "");
+        }
+        let tolerance = &self.tolerance;
+        for (key, value) in [
+            ("k_main_percent", tolerance.k_main_percent),
+            ("k_cross_percent", tolerance.k_cross_percent),
+            ("omega0_deg_per_h", tolerance.omega0_deg_per_h),
+            ("omega_g_deg_per_h_per_g", tolerance.omega_g_deg_per_h_per_g),
+            ("omega_k_deg_per_h_per_g", tolerance.omega_k_deg_per_h_per_g),
+        ] {
+            problems.within(&Path::Root.key("tolerance").key(key), Some(value), 0.0, f64::MAX);
+        }
+        problems.within(&Path::Root.key("gravity_m_per_s2"), self.gravity_m_per_s2, 9.7, 9.9);
+    }
+
+    /// The paper's gyro, GVK-6, with its nominal values and tolerances (paper, table).
+    pub fn gvk_6() -> Self {
+        Self {
+            format: GYRO_FORMAT.to_owned(),
+            r#type: "GVK-6".to_owned(),
+            nominal: Parameters {
+                k_deg_per_h_per_ma: [[95.0, 9.5], [9.5, 95.0]],
+                omega0_deg_per_h: [20.0, 20.0],
+                omega_g_deg_per_h_per_g: 10.0,
+                omega_k_deg_per_h_per_g: 10.0,
+            },
+            tolerance: Tolerance {
+                k_main_percent: 0.05,
+                k_cross_percent: 0.5,
+                omega0_deg_per_h: 0.01,
+                omega_g_deg_per_h_per_g: 0.01,
+                omega_k_deg_per_h_per_g: 0.01,
+            },
+            gravity_m_per_s2: None,
+        }
+    }
+}

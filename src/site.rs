@@ -1,0 +1,304 @@
+//! A place of delivery: the file `sites/<id>.yaml` (`dtg-site/1`), and what the Earth does there.
+
+use crate::coefficients::EarthRate;
+use crate::earth::{self, LaplaceCorrection, Place};
+use crate::text::scalar::Identifier;
+use crate::text::{Field, Node, Path, Problems, Unreadable, node, record};
+use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};
+
+/// The format of a site file.
+pub const SITE_FORMAT: &str = "dtg-site/1";
+
+/// Standard uncertainty of a deflection component taken as 0 because it is unknown.
+pub const UNKNOWN_DEFLECTION_U_ARCSEC: f64 = 10.0;
+
+/// The change of ω_Γ or ω_B that sets the radius of validity, where a site names none.
+pub const DEFAULT_VALID_WITHIN_DEG_PER_H: f64 = 0.001;
+
+/// How far a geodetic latitude may be from the astronomic one where no deflection is known.
+pub const LATITUDE_MARGIN_ARCSEC: f64 = 30.0;
+
+record! {
+    /// Deflection of the vertical: how far the plumb line's zenith lies from the ellipsoid's.
+    pub struct Deflection {
+        /// ξ, positive to the north.
+        pub xi: f64,
+        /// η, positive to the east.
+        pub eta: f64,
+        /// Standard uncertainty of each.
+        pub u: Option<f64>,
+    }
+}
+
+record! {
+    /// A mark whose direction from the pillar gives north. Both points are geodetic (WGS 84).
+    pub struct AzimuthMark {
+        /// What it is.
+        pub name: Option<String>,
+        /// Latitude of the mark.
+        pub latitude_deg: f64,
+        /// Longitude of the mark.
+        pub longitude_deg: f64,
+        /// Latitude of the pillar.
+        pub pillar_latitude_deg: f64,
+        /// Longitude of the pillar.
+        pub pillar_longitude_deg: f64,
+        /// Standard uncertainty of each coordinate of both points.
+        pub position_u_m: Option<f64>,
+    }
+}
+
+record! {
+    /// Standard uncertainties of the stand's base as it is set up at the site.
+    pub struct SiteUncertainty {
+        /// Of the astronomic latitude.
+        pub latitude_arcsec: Option<f64>,
+        /// Of the base's azimuth: from the mark to the base.
+        pub azimuth_arcsec: Option<f64>,
+        /// Of the base's level, per axis.
+        pub level_arcsec: Option<f64>,
+    }
+}
+
+record! {
+    /// What a passport says of a site: the site file without its `format`.
+    pub struct Site {
+        /// Its identifier, which is the file's name.
+        pub id: Identifier,
+        /// A name for people.
+        pub name: Option<String>,
+        /// Geodetic latitude, WGS 84; or the astronomic one in its place.
+        pub latitude_deg: Option<f64>,
+        /// Astronomic latitude, when that was measured.
+        pub astronomic_latitude_deg: Option<f64>,
+        /// Longitude, east positive.
+        pub longitude_deg: Option<f64>,
+        /// Height above the ellipsoid.
+        pub height_m: Option<f64>,
+        /// Deflection of the vertical.
+        pub deflection_arcsec: Option<Deflection>,
+        /// Measured gravity.
+        pub gravity_m_per_s2: Option<f64>,
+        /// Its standard uncertainty.
+        pub gravity_u_m_per_s2: Option<f64>,
+        /// The mark that gives north.
+        pub azimuth_mark: Option<AzimuthMark>,
+        /// The change of ω_Γ or ω_B that sets the radius of validity; 0.001 when absent.
+        pub valid_within_deg_per_h: Option<f64>,
+        /// Standard uncertainties of the base as set up.
+        pub uncertainty: Option<SiteUncertainty>,
+        /// Where the numbers come from.
+        pub source: Option<String>,
+    }
+}
+
+/// A site file: `format`, then the keys of [`Site`].
+#[derive(Debug, Clone, PartialEq, schemars::JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub struct SiteFile {
+    /// Always "dtg-site/1".
+    pub format: String,
+    /// The site itself, its keys beside `format`.
+    #[schemars(flatten)]
+    pub site: Site,
+}
+
+impl Field for SiteFile {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        let Node::Map(entries) = node else {
+            problems.at(at, node.describe(), "a mapping", "");
+            return None;
+        };
+        let format = crate::text::record::read_field(entries, "format", at, problems);
+        let site = Site::read_beside(node, &["format"], at, problems);
+        Some(Self { format: format?, site: site? })
+    }
+
+    fn write(&self) -> Option<Node> {
+        let mut entries = vec![("format".to_owned(), Node::Text(self.format.clone()))];
+        if let Some(Node::Map(site)) = self.site.write() {
+            entries.extend(site);
+        }
+        Some(Node::Map(entries))
+    }
+}
+
+record! {
+    /// The Earth at a site as a passport states it.
+    pub struct Earth {
+        /// Ω.
+        pub rate_deg_per_h: f64,
+        /// Φ, the astronomic latitude used.
+        pub latitude_deg: f64,
+        /// ω_Γ = Ω cos Φ.
+        pub horizontal_deg_per_h: f64,
+        /// ω_B = Ω sin Φ.
+        pub vertical_deg_per_h: f64,
+        /// The g that g-sensitive drifts are stated in.
+        pub gravity_m_per_s2: f64,
+        /// How far along the meridian the vectors hold within `valid_within_deg_per_h`.
+        pub valid_radius_m: f64,
+        /// The change of ω_Γ or ω_B that sets the radius.
+        pub valid_within_deg_per_h: f64,
+        /// Astronomic azimuth from the pillar to the mark, clockwise from north.
+        pub azimuth_deg: Option<f64>,
+        /// Its standard uncertainty: pillar, mark and η.
+        pub azimuth_u_arcsec: Option<f64>,
+    }
+}
+
+impl Earth {
+    /// ω_Γ and ω_B.
+    pub fn rate(&self) -> EarthRate {
+        EarthRate { horizontal_deg_per_h: self.horizontal_deg_per_h, vertical_deg_per_h: self.vertical_deg_per_h }
+    }
+}
+
+impl Site {
+    /// Reads a `dtg-site/1` file; `name` is its name in messages.
+    ///
+    /// # Errors
+    /// Every mistake with its line, column and field: see [`Unreadable`].
+    pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
+        let check = |file: &SiteFile, problems: &mut Problems| file.site.check(&Path::Root, problems);
+        Ok(node::read_document(name, bytes, SITE_FORMAT, check)?.site)
+    }
+
+    /// The rules of a site's content.
+    pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
+        self.check_latitude(at, problems);
+        problems.within(&at.key("longitude_deg"), self.longitude_deg, -180.0, 180.0);
+        problems.within(&at.key("height_m"), self.height_m, -500.0, 9000.0);
+        problems.within(&at.key("gravity_m_per_s2"), self.gravity_m_per_s2, 9.7, 9.9);
+        problems.within(&at.key("gravity_u_m_per_s2"), self.gravity_u_m_per_s2, 0.0, f64::MAX);
+        problems.within(&at.key("valid_within_deg_per_h"), self.valid_within_deg_per_h, 1e-6, 1.0);
+        if self.gravity_u_m_per_s2.is_some() && self.gravity_m_per_s2.is_none() {
+            let advice = "give gravity_m_per_s2, or leave both out";
+            problems.at(&at.key("gravity_u_m_per_s2"), "an uncertainty without its value", "both or neither", advice);
+        }
+        if let Some(deflection) = &self.deflection_arcsec {
+            let at = at.key("deflection_arcsec");
+            problems.within(&at.key("xi"), Some(deflection.xi), -150.0, 150.0);
+            problems.within(&at.key("eta"), Some(deflection.eta), -150.0, 150.0);
+            problems.within(&at.key("u"), deflection.u, 0.0, f64::MAX);
+        }
+        if let Some(mark) = &self.azimuth_mark {
+            mark.check(&at.key("azimuth_mark"), problems);
+        }
+        if let Some(uncertainty) = &self.uncertainty {
+            let at = at.key("uncertainty");
+            problems.within(&at.key("latitude_arcsec"), uncertainty.latitude_arcsec, 0.0, f64::MAX);
+            problems.within(&at.key("azimuth_arcsec"), uncertainty.azimuth_arcsec, 0.0, f64::MAX);
+            problems.within(&at.key("level_arcsec"), uncertainty.level_arcsec, 0.0, f64::MAX);
+        }
+    }
+
+    fn check_latitude(&self, at: &Path, problems: &mut Problems) {
+        problems.within(&at.key("latitude_deg"), self.latitude_deg, -90.0, 90.0);
+        problems.within(&at.key("astronomic_latitude_deg"), self.astronomic_latitude_deg, -90.0, 90.0);
+        match (self.latitude_deg, self.astronomic_latitude_deg) {
+            (Some(_), Some(_)) => {
+                let advice = "keep the geodetic one, with deflection_arcsec, or the astronomic one";
+                problems.at(&at.key("astronomic_latitude_deg"), "both latitudes", "one of them", advice);
+            }
+            (None, None) => {
+                let expected = "latitude_deg (geodetic) or astronomic_latitude_deg";
+                problems.at(at, "no latitude", expected, "add the one that is known");
+            }
+            _ => {
+                let latitude = self.astronomic_deg();
+                if latitude.abs() >= 90.0 {
+                    let key = if self.latitude_deg.is_some() { "latitude_deg" } else { "astronomic_latitude_deg" };
+                    let found = format!("the astronomic latitude {latitude}");
+                    let advice = "at a pole the Earth's horizontal rate is zero, and K cannot be found there";
+                    problems.at(&at.key(key), found, "a latitude between -90 and 90 degrees", advice);
+                }
+            }
+        }
+    }
+
+    /// Φ: the astronomic latitude, measured, or the geodetic one with ξ (0 when unknown).
+    fn astronomic_deg(&self) -> f64 {
+        let xi = self.deflection_arcsec.as_ref().map_or(0.0, |deflection| deflection.xi);
+        match (self.astronomic_latitude_deg, self.latitude_deg) {
+            (Some(astronomic), _) => astronomic,
+            (None, geodetic) => earth::astronomic_latitude_deg(geodetic.unwrap_or(0.0), xi),
+        }
+    }
+
+    /// φ: the geodetic latitude, given, or the astronomic one without ξ (0 when unknown).
+    pub fn geodetic_deg(&self) -> f64 {
+        let xi = self.deflection_arcsec.as_ref().map_or(0.0, |deflection| deflection.xi);
+        match (self.latitude_deg, self.astronomic_latitude_deg) {
+            (Some(geodetic), _) => geodetic,
+            (None, astronomic) => astronomic.unwrap_or(0.0) - xi / ARCSECONDS_PER_DEGREE,
+        }
+    }
+
+    /// Whether the geodetic latitude is known only through an astronomic one without deflection.
+    pub fn geodetic_is_uncertain(&self) -> bool {
+        self.latitude_deg.is_none() && self.deflection_arcsec.is_none()
+    }
+
+    /// What the Earth does here.
+    pub fn earth(&self) -> Earth {
+        let latitude_deg = self.astronomic_deg();
+        let rate = EarthRate::at_astronomic_latitude(latitude_deg);
+        let geodetic_deg = self.geodetic_deg();
+        let valid_within_deg_per_h = self.valid_within_deg_per_h.unwrap_or(DEFAULT_VALID_WITHIN_DEG_PER_H);
+        // The meridian has the same length at every longitude.
+        let place = Place { latitude_deg: geodetic_deg, longitude_deg: self.longitude_deg.unwrap_or(0.0) };
+        let normal_gravity = || earth::normal_gravity_m_per_s2(geodetic_deg, self.height_m.unwrap_or(0.0));
+        let azimuth = self.azimuth(latitude_deg);
+        Earth {
+            rate_deg_per_h: earth::rotation_deg_per_h(),
+            latitude_deg,
+            horizontal_deg_per_h: rate.horizontal_deg_per_h,
+            vertical_deg_per_h: rate.vertical_deg_per_h,
+            gravity_m_per_s2: self.gravity_m_per_s2.unwrap_or_else(normal_gravity),
+            valid_radius_m: earth::validity_radius_m(latitude_deg, place, valid_within_deg_per_h),
+            valid_within_deg_per_h,
+            azimuth_deg: azimuth.map(|azimuth| azimuth.azimuth_deg),
+            azimuth_u_arcsec: azimuth.and_then(|azimuth| azimuth.u_arcsec),
+        }
+    }
+
+    fn azimuth(&self, astronomic_latitude_deg: f64) -> Option<earth::Azimuth> {
+        let mark = self.azimuth_mark.as_ref()?;
+        let (eta_arcsec, eta_u_arcsec) = match &self.deflection_arcsec {
+            Some(deflection) => (deflection.eta, deflection.u),
+            None => (0.0, Some(UNKNOWN_DEFLECTION_U_ARCSEC)),
+        };
+        let laplace = LaplaceCorrection { eta_arcsec, eta_u_arcsec, latitude_deg: astronomic_latitude_deg };
+        Some(earth::astronomic_azimuth(mark.pillar(), mark.mark(), laplace, mark.position_u_m))
+    }
+
+    /// 1/cos Φ: how many times K's uncertainty is what it would be at the equator.
+    pub fn uncertainty_growth(&self) -> f64 {
+        1.0 / sin_cos_of_degrees(self.astronomic_deg()).1
+    }
+}
+
+impl AzimuthMark {
+    fn pillar(&self) -> Place {
+        Place { latitude_deg: self.pillar_latitude_deg, longitude_deg: self.pillar_longitude_deg }
+    }
+
+    fn mark(&self) -> Place {
+        Place { latitude_deg: self.latitude_deg, longitude_deg: self.longitude_deg }
+    }
+
+    fn check(&self, at: &Path, problems: &mut Problems) {
+        problems.within(&at.key("latitude_deg"), Some(self.latitude_deg), -90.0, 90.0);
+        problems.within(&at.key("longitude_deg"), Some(self.longitude_deg), -180.0, 180.0);
+        problems.within(&at.key("pillar_latitude_deg"), Some(self.pillar_latitude_deg), -90.0, 90.0);
+        problems.within(&at.key("pillar_longitude_deg"), Some(self.pillar_longitude_deg), -180.0, 180.0);
+        problems.within(&at.key("position_u_m"), self.position_u_m, 0.0, f64::MAX);
+        let inside = |latitude: f64, longitude: f64| latitude.abs() <= 90.0 && longitude.abs() <= 180.0;
+        let known = inside(self.latitude_deg, self.longitude_deg)
+            && inside(self.pillar_latitude_deg, self.pillar_longitude_deg);
+        if known && earth::distance_m(self.pillar(), self.mark()) < 1.0 {
+            problems.at(at, "pillar and mark less than 1 m apart", "two points that give a direction", "");
+        }
+    }
+}

@@ -1,0 +1,278 @@
+//! A test stand and what its factory certified of it: the file `stand.yaml` (`dtg-stand/1`).
+
+use crate::attitude::Deviation;
+use crate::coefficients::{EIGHT_POSITIONS, Position, PositionIndex, SingularPositions, StandGeometry};
+use crate::text::scalar::Identifier;
+use crate::text::{Path, Problems, Unreadable, node, record};
+use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
+use jiff::civil::Date;
+
+/// The format of a stand file.
+pub const STAND_FORMAT: &str = "dtg-stand/1";
+
+/// The largest deviation that can be certified, either way.
+pub const LARGEST_DEVIATION_DEG: f64 = 45.0;
+
+record! {
+    /// Which stand it is.
+    pub struct Identity {
+        /// Who made it.
+        pub manufacturer: Option<String>,
+        /// Model; becomes a folder's name.
+        pub model: Identifier,
+        /// Serial number; becomes a folder's name.
+        pub serial: Identifier,
+        /// Configuration, when the stand has several.
+        pub configuration: Option<String>,
+        /// A name for people.
+        pub name: Option<String>,
+        /// For whom it was certified.
+        pub customer: Option<String>,
+    }
+}
+
+record! {
+    /// The certificate that the deviations come from. Uncertainties are standard uncertainties (k = 1).
+    pub struct Certificate {
+        /// Its number.
+        pub number: String,
+        /// Day of issue.
+        pub issued: Date,
+        /// Day of the measurement.
+        pub performed: Option<Date>,
+        /// Day on which the stand was received.
+        pub received: Option<Date>,
+        /// Last day of validity.
+        pub valid_until: Option<Date>,
+        /// By whose agreement it ends then.
+        pub valid_until_basis: Option<String>,
+        /// The certifying laboratory.
+        pub laboratory: String,
+        /// Its address.
+        pub address: Option<String>,
+        /// Who authorised the certificate.
+        pub authorized_by: Option<String>,
+        /// The laboratory's accreditation.
+        pub accreditation: Option<String>,
+        /// Method of measurement.
+        pub method: Option<String>,
+        /// Traceability to the SI.
+        pub traceability: Option<String>,
+        /// Temperature during the measurement.
+        pub temperature_c: Option<f64>,
+        /// Temperatures between which the certificate holds.
+        pub temperature_range_c: Option<[f64; 2]>,
+        /// Of one return to a position, per axis.
+        pub repeatability_arcsec: Option<f64>,
+        /// Its degrees of freedom; infinite when absent.
+        pub repeatability_degrees_of_freedom: Option<f64>,
+        /// Shared by all positions, per axis of the platform (turned from the left).
+        pub common_platform_arcsec: Option<f64>,
+        /// Shared by all positions, per axis of the base (turned from the right).
+        pub common_base_arcsec: Option<f64>,
+    }
+}
+
+record! {
+    /// The surfaces of the stand that realise the axes ξηζ and xyz.
+    pub struct Datum {
+        /// What is levelled.
+        pub level: Option<String>,
+        /// What points north.
+        pub azimuth: Option<String>,
+        /// What the gyro sits on.
+        pub gyro_seat: Option<String>,
+    }
+}
+
+record! {
+    /// One certified position: nominal angles and deviations from them.
+    pub struct CertifiedPosition {
+        /// Frame index, from 1.
+        pub i: u32,
+        /// Platform index, from 1.
+        pub j: u32,
+        /// Frame angle θ about ξ.
+        pub theta_deg: f64,
+        /// Platform angle φ about the spin axis.
+        pub phi_deg: f64,
+        /// α, about the platform's x axis.
+        pub alpha_arcsec: f64,
+        /// β, about the platform's y axis.
+        pub beta_arcsec: f64,
+        /// γ, about the platform's z axis.
+        pub gamma_arcsec: f64,
+        /// Standard uncertainty of the certified mean of α, the position's own part.
+        pub u_alpha_arcsec: Option<f64>,
+        /// The same of β.
+        pub u_beta_arcsec: Option<f64>,
+        /// The same of γ.
+        pub u_gamma_arcsec: Option<f64>,
+        /// Degrees of freedom of the three; infinite when absent.
+        pub degrees_of_freedom: Option<f64>,
+    }
+}
+
+impl CertifiedPosition {
+    /// Which position it is.
+    pub fn index(&self) -> PositionIndex {
+        PositionIndex { i: self.i, j: self.j }
+    }
+
+    /// As the model takes it, angles in radians.
+    pub fn to_model(&self) -> Position {
+        Position {
+            index: self.index(),
+            theta_deg: self.theta_deg,
+            phi_deg: self.phi_deg,
+            deviation: Deviation {
+                alpha_rad: radians_from_arcseconds(self.alpha_arcsec),
+                beta_rad: radians_from_arcseconds(self.beta_arcsec),
+                gamma_rad: radians_from_arcseconds(self.gamma_arcsec),
+            },
+        }
+    }
+}
+
+record! {
+    /// A stand file: which stand, its certificate, its positions (`dtg-stand/1`).
+    pub struct Stand {
+        /// Always "dtg-stand/1".
+        pub format: String,
+        /// Which stand.
+        pub stand: Identity,
+        /// Its certificate.
+        pub certificate: Certificate,
+        /// The surfaces that realise its axes.
+        pub datum: Option<Datum>,
+        /// Its positions, sorted by (i, j) once read.
+        pub positions: Vec<CertifiedPosition>,
+    }
+}
+
+impl Stand {
+    /// Reads a `dtg-stand/1` file; `name` is its name in messages.
+    ///
+    /// # Errors
+    /// Every mistake with its line, column and field: see [`Unreadable`].
+    pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
+        let mut stand = node::read_document(name, bytes, STAND_FORMAT, |stand: &Self, problems| {
+            check(&stand.certificate, &stand.positions, problems);
+        })?;
+        stand.positions.sort_by_key(CertifiedPosition::index);
+        Ok(stand)
+    }
+
+    /// Its geometry, free of any site.
+    ///
+    /// # Errors
+    /// [`SingularPositions`] when the paper's eight are there and n_2 has no inverse.
+    pub fn geometry(&self) -> Result<StandGeometry, SingularPositions> {
+        geometry(&self.positions)
+    }
+}
+
+/// The geometry of certified positions.
+///
+/// # Errors
+/// [`SingularPositions`] when the paper's eight are there and n_2 has no inverse.
+pub fn geometry(positions: &[CertifiedPosition]) -> Result<StandGeometry, SingularPositions> {
+    let positions: Vec<Position> = positions.iter().map(CertifiedPosition::to_model).collect();
+    StandGeometry::new(&positions)
+}
+
+/// The rules of a certificate and its positions, at the top of a stand file or of a passport alike.
+pub(crate) fn check(certificate: &Certificate, positions: &[CertifiedPosition], problems: &mut Problems) {
+    check_certificate(certificate, problems);
+    let at = Path::Root.key("positions");
+    if positions.is_empty() {
+        problems.at(&at, "an empty list", "at least one position", "");
+    }
+    for (index, position) in positions.iter().enumerate() {
+        let at = at.item(index);
+        check_position(position, &at, problems);
+        if positions[..index].iter().any(|earlier| earlier.index() == position.index()) {
+            let advice = "keep one of the two";
+            problems.at(&at, format!("position {} a second time", position.index()), "every position once", advice);
+        }
+    }
+}
+
+fn check_certificate(certificate: &Certificate, problems: &mut Problems) {
+    let at = Path::Root.key("certificate");
+    let days = [
+        ("received", certificate.received),
+        ("performed", certificate.performed),
+        ("issued", Some(certificate.issued)),
+        ("valid_until", certificate.valid_until),
+    ];
+    let known: Vec<_> = days.into_iter().filter_map(|(key, day)| Some((key, day?))).collect();
+    for pair in known.windows(2) {
+        let [(earlier, from), (later, to)] = pair else { continue };
+        if to < from {
+            problems.at(&at.key(later), format!("{to}"), format!("a day not before {earlier}, {from}"), "");
+        }
+    }
+    if certificate.valid_until.is_none() && certificate.valid_until_basis.is_some() {
+        problems.at(&at.key("valid_until_basis"), "a basis without valid_until", "both or neither", "");
+    }
+    if let Some([low, high]) = certificate.temperature_range_c
+        && low > high
+    {
+        problems.at(&at.key("temperature_range_c"), format!("[{low}, {high}]"), "[lowest, highest]", "");
+    }
+    for (key, value) in [
+        ("repeatability_arcsec", certificate.repeatability_arcsec),
+        ("common_platform_arcsec", certificate.common_platform_arcsec),
+        ("common_base_arcsec", certificate.common_base_arcsec),
+    ] {
+        problems.within(&at.key(key), value, 0.0, f64::MAX);
+    }
+    let degrees_of_freedom = certificate.repeatability_degrees_of_freedom;
+    check_degrees_of_freedom(degrees_of_freedom, &at.key("repeatability_degrees_of_freedom"), problems);
+}
+
+fn check_degrees_of_freedom(value: Option<f64>, at: &Path, problems: &mut Problems) {
+    if let Some(value) = value
+        && value <= 0.0
+    {
+        problems.at(at, format!("{value}"), "a positive number", "leave it out when it is infinite");
+    }
+}
+
+fn check_position(position: &CertifiedPosition, at: &Path, problems: &mut Problems) {
+    for (key, index) in [("i", position.i), ("j", position.j)] {
+        if index == 0 {
+            problems.at(&at.key(key), "0", "an index from 1", "i and j count from 1");
+        }
+    }
+    let nominal = EIGHT_POSITIONS.iter().find(|(index, ..)| *index == position.index());
+    if let Some((index, theta, phi)) = nominal {
+        for (key, found, due) in [("theta_deg", position.theta_deg, *theta), ("phi_deg", position.phi_deg, *phi)] {
+            if found != due {
+                let advice = "the eight positions have fixed angles; another orientation needs another (i, j)";
+                problems.at(&at.key(key), format!("{found}"), format!("{due} for position {index}"), advice);
+            }
+        }
+    }
+    let largest = LARGEST_DEVIATION_DEG * ARCSECONDS_PER_DEGREE;
+    for (key, value) in [
+        ("alpha_arcsec", position.alpha_arcsec),
+        ("beta_arcsec", position.beta_arcsec),
+        ("gamma_arcsec", position.gamma_arcsec),
+    ] {
+        if value.abs() > largest {
+            let advice = "deviations are from the nominal position; is the unit arcseconds?";
+            let expected = format!("at most {LARGEST_DEVIATION_DEG} degrees ({largest} arcseconds) either way");
+            problems.at(&at.key(key), format!("{value}"), expected, advice);
+        }
+    }
+    for (key, value) in [
+        ("u_alpha_arcsec", position.u_alpha_arcsec),
+        ("u_beta_arcsec", position.u_beta_arcsec),
+        ("u_gamma_arcsec", position.u_gamma_arcsec),
+    ] {
+        problems.within(&at.key(key), value, 0.0, f64::MAX);
+    }
+    check_degrees_of_freedom(position.degrees_of_freedom, &at.key("degrees_of_freedom"), problems);
+}

@@ -1,0 +1,142 @@
+//! Texts with a form of their own: identifiers, dates, times.
+
+use super::{Field, Node, Path, Problems};
+use jiff::Timestamp;
+use jiff::civil::Date;
+use jiff::tz::TimeZone;
+use std::fmt;
+
+/// A name that becomes a folder or file name: `[A-Za-z0-9][A-Za-z0-9._-]{0,63}` without `..`.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, schemars::JsonSchema)]
+#[schemars(transparent)]
+pub struct Identifier(#[schemars(regex(pattern = r"^[A-Za-z0-9](?!.*\.\.)[A-Za-z0-9._-]{0,63}$"))] String);
+
+impl Identifier {
+    /// The identifier `text`, or in words what is wrong with it.
+    ///
+    /// # Errors
+    /// What was found, for a message that goes on "expected …".
+    pub fn new(text: &str) -> Result<Self, String> {
+        let odd = text.chars().find(|&c| !c.is_ascii_alphanumeric() && !"._-".contains(c));
+        if let Some(odd) = odd {
+            return Err(format!("{} in {text:?}", character(odd)));
+        }
+        match text.chars().next() {
+            None => Err("an empty text".to_owned()),
+            Some(first) if !first.is_ascii_alphanumeric() => Err(format!("{first:?} at the beginning of {text:?}")),
+            _ if text.len() > 64 => Err(format!("{} characters", text.len())),
+            _ if text.contains("..") => Err(format!("\"..\" in {text:?}")),
+            _ => Ok(Self(text.to_owned())),
+        }
+    }
+
+    /// The identifier as text.
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+fn character(c: char) -> String {
+    let script = match c {
+        '\u{0400}'..='\u{052F}' => "the Cyrillic letter ",
+        '\u{0370}'..='\u{03FF}' => "the Greek letter ",
+        _ => "",
+    };
+    format!("{script}{c:?} (U+{:04X})", u32::from(c))
+}
+
+impl fmt::Display for Identifier {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl Field for Identifier {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        const EXPECTED: &str = "1 to 64 of the ASCII letters, digits, '.', '_', '-', a letter or digit first, no '..'";
+        const ADVICE: &str = "it becomes a folder or file name; free text goes into name";
+        let found = match node {
+            Node::Text(text) => match Self::new(text) {
+                Ok(identifier) => return Some(identifier),
+                Err(found) => found,
+            },
+            Node::Integer(_) | Node::Number(_) => {
+                problems.at(at, format!("the number {}", node.describe()), EXPECTED, "put it in double quotes");
+                return None;
+            }
+            other => other.describe(),
+        };
+        problems.at(at, found, EXPECTED, ADVICE);
+        None
+    }
+
+    fn write(&self) -> Option<Node> {
+        Some(Node::Text(self.0.clone()))
+    }
+}
+
+impl Field for Date {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        if let Node::Text(text) = node
+            && let Ok(date) = text.parse::<Date>()
+            && date.to_string() == *text
+        {
+            return Some(date);
+        }
+        problems.at(at, node.describe(), "a date as \"2026-11-02\"", "year, month, day, in double quotes");
+        None
+    }
+
+    fn write(&self) -> Option<Node> {
+        Some(Node::Text(self.to_string()))
+    }
+}
+
+impl Field for Timestamp {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        if let Node::Text(text) = node
+            && let Ok(time) = text.parse::<Timestamp>()
+            && time.to_string() == *text
+            && time.subsec_nanosecond() == 0
+        {
+            return Some(time);
+        }
+        problems.at(at, node.describe(), "a time as \"2026-11-02T09:30:00Z\"", "RFC 3339, UTC, whole seconds");
+        None
+    }
+
+    fn write(&self) -> Option<Node> {
+        Some(Node::Text(self.to_string()))
+    }
+}
+
+/// The first and the last second of a UTC day, both included.
+pub fn day(date: Date) -> (Timestamp, Timestamp) {
+    let start = TimeZone::UTC.to_timestamp(date.at(0, 0, 0, 0)).unwrap_or(Timestamp::MIN);
+    let end = start.as_second().saturating_add(86_399);
+    (start, Timestamp::from_second(end).unwrap_or(Timestamp::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn identifiers_are_safe_file_names() {
+        for good in ["a", "SPS-2", "0017", "moscow-bmstu", "A.b_c-9"] {
+            assert!(Identifier::new(good).is_ok(), "{good}");
+        }
+        let long = "a".repeat(65);
+        for bad in ["", "../x", "a..b", ".a", "-a", "a b", "а", "a/b", "a\\b", "a\0", &long, "é"] {
+            assert!(Identifier::new(bad).is_err(), "{bad}");
+        }
+        assert!(Identifier::new("SPS-2А").unwrap_err().contains("Cyrillic"));
+    }
+
+    #[test]
+    fn a_day_is_its_86400_seconds() {
+        let (start, end) = day("2026-11-02".parse().unwrap());
+        assert_eq!(start.to_string(), "2026-11-02T00:00:00Z");
+        assert_eq!(end.to_string(), "2026-11-02T23:59:59Z");
+    }
+}

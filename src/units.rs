@@ -1,0 +1,77 @@
+//! Angles and rates: the one place that converts. Inside the crate angles are radians and rates degrees per hour.
+
+use std::f64::consts::PI;
+
+/// Seconds in an hour.
+const SECONDS_PER_HOUR: f64 = 3600.0;
+
+/// Arcseconds in a degree.
+pub const ARCSECONDS_PER_DEGREE: f64 = 3600.0;
+
+/// Radians from arcseconds.
+pub fn radians_from_arcseconds(arcseconds: f64) -> f64 {
+    arcseconds * (PI / 648_000.0)
+}
+
+/// Arcseconds from radians.
+pub fn arcseconds_from_radians(radians: f64) -> f64 {
+    radians * (648_000.0 / PI)
+}
+
+/// Radians from degrees.
+pub fn radians_from_degrees(degrees: f64) -> f64 {
+    degrees * (PI / 180.0)
+}
+
+/// Degrees from radians.
+pub fn degrees_from_radians(radians: f64) -> f64 {
+    radians * (180.0 / PI)
+}
+
+/// Degrees per hour from radians per second.
+pub fn degrees_per_hour_from_radians_per_second(rate: f64) -> f64 {
+    rate * SECONDS_PER_HOUR * (180.0 / PI)
+}
+
+/// Sine and cosine of an angle in degrees, exact (0, ±1) at whole quadrants.
+///
+/// The angle is reduced by whole quadrants before it becomes radians, which loses nothing; so `cos 90° = 0`, where
+/// the cosine of the nearest binary64 to π/2 would be 6e-17.
+pub fn sin_cos_of_degrees(degrees: f64) -> (f64, f64) {
+    let (rest, quadrant) = libm::remquo(degrees, 90.0);
+    let (sin, cos) = libm::sincos(radians_from_degrees(rest));
+    let (sin, cos) = match quadrant.rem_euclid(4) {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    };
+    // Adding zero turns -0.0 into 0.0.
+    (sin + 0.0, cos + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_quadrants_are_exact() {
+        let cases = [(0.0, 0.0, 1.0), (90.0, 1.0, 0.0), (180.0, 0.0, -1.0), (270.0, -1.0, 0.0), (360.0, 0.0, 1.0)];
+        for (degrees, sin, cos) in cases {
+            for turn in [-720.0, -360.0, 0.0, 360.0] {
+                let found = sin_cos_of_degrees(degrees + turn);
+                assert_eq!(found, (sin, cos), "{degrees} + {turn}");
+                assert!(found.0.is_sign_positive() || sin < 0.0);
+            }
+        }
+    }
+
+    /// Expected values: sin 30° = 1/2, cos 60° = 1/2, tan 45° = 1.
+    #[test]
+    fn other_angles_keep_their_digits() {
+        assert!((sin_cos_of_degrees(30.0).0 - 0.5).abs() < 1e-16);
+        assert!((sin_cos_of_degrees(-60.0).1 - 0.5).abs() < 2e-16);
+        let (sin, cos) = sin_cos_of_degrees(225.0);
+        assert!((sin / cos - 1.0).abs() < 2e-16 && sin < 0.0);
+    }
+}
