@@ -173,6 +173,9 @@ pub const NORMAL_GRAVITY_U_M_PER_S2: f64 = 5e-4;
 /// Standard gravity, m/s², the g of a gyro type that names none.
 pub const STANDARD_GRAVITY_M_PER_S2: f64 = 9.80665;
 
+/// Mean radius of the Earth, (2a + b)/3, for allowances that need no more digits.
+pub const MEAN_RADIUS_M: f64 = 6_371_008.8;
+
 /// Normal gravity at a geodetic latitude and a height above the ellipsoid
 /// ([WGS 84](crate::bibliography::Bibliography::Wgs84), eq. 4-1 and 4-3).
 pub fn normal_gravity_m_per_s2(geodetic_latitude_deg: f64, height_m: f64) -> f64 {
@@ -208,7 +211,7 @@ mod tests {
     /// Expected: the reference vectors give 15.04106687606545 °/h.
     #[test]
     fn rotation_in_degrees_per_hour() {
-        assert!((rotation_deg_per_h() - 15.041_066_876_065_45).abs() < 2e-15);
+        assert_eq!(rotation_deg_per_h(), 15.041_066_876_065_45);
     }
 
     /// Expected: 0.001 °/h is 513 m in Moscow (docs/model.md); at the equator Ω alone counts: 0.001/15.041 rad over

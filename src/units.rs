@@ -30,7 +30,8 @@ pub fn degrees_from_radians(radians: f64) -> f64 {
 
 /// Degrees per hour from radians per second.
 pub fn degrees_per_hour_from_radians_per_second(rate: f64) -> f64 {
-    rate * SECONDS_PER_HOUR * (180.0 / PI)
+    // One factor, so that the rate is rounded once.
+    rate * (SECONDS_PER_HOUR * 180.0 / PI)
 }
 
 /// Sine and cosine of an angle in degrees, exact (0, ±1) at whole quadrants.

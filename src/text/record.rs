@@ -99,12 +99,15 @@ fn unknown_key_advice(entries: &[(String, Node)], index: usize, key: &str, value
     {
         return format!("a decimal comma ends the value: write {name}: {whole}.{key}");
     }
-    let nearest = known.iter().map(|name| (strsim::damerau_levenshtein(name, key), name)).min();
-    match nearest {
-        Some((distance, name)) if distance <= 3 => format!("did you mean {name}?"),
+    let alike = |name: &&str| strsim::jaro_winkler(name, key);
+    match known.iter().max_by(|a, b| alike(a).total_cmp(&alike(b))) {
+        Some(name) if alike(name) > ALIKE => format!("did you mean {name}?"),
         _ => "remove it, or put it in a comment".to_owned(),
     }
 }
+
+/// From this Jaro-Winkler similarity on, an unknown key is taken for a slip of a known one.
+const ALIKE: f64 = 0.85;
 
 /// Reads the field `key`, or its value when absent.
 pub fn read_field<T: Field>(entries: &[(String, Node)], key: &str, at: &Path, problems: &mut Problems) -> Option<T> {

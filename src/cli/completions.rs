@@ -1,0 +1,19 @@
+//! `completions`: for shells.
+
+use super::{Cli, Code, Failure, output};
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+
+/// Print completions for a shell
+#[derive(Args)]
+pub struct Options {
+    /// Shell
+    shell: Shell,
+}
+
+pub fn run(options: &Options) -> Result<Code, Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(options.shell, &mut Cli::command(), "dtg-passport", &mut script);
+    output::result(&String::from_utf8_lossy(&script))?;
+    Ok(0)
+}

@@ -1,0 +1,23 @@
+//! `demo`: the factory's and the laboratory's whole job on a built-in example.
+
+use super::{Code, Failure, REFUSED, output, trust_options};
+use clap::Args;
+use dtg_passport::demonstration;
+use std::path::PathBuf;
+
+/// Show the factory's and the laboratory's whole job on a built-in example, and leave its files to look at
+#[derive(Args)]
+pub struct Options {
+    /// Folder for the files; it must be empty or not exist [default: dtg-passport-demo, numbered if that exists]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+pub fn run(options: &Options) -> Result<Code, Failure> {
+    let folder = options.out.clone().unwrap_or_else(demonstration::free_folder);
+    match demonstration::run(&folder, trust_options::now(), &mut |line| output::result(&format!("{line}\n")).is_ok()) {
+        Ok(true) => Ok(0),
+        Ok(false) => Ok(REFUSED),
+        Err(error) => Err(Failure::unusable(error)),
+    }
+}

@@ -1,0 +1,44 @@
+//! KEY and WHO: who signs. The passphrase of an encrypted key comes from a terminal or from the environment.
+
+use super::Failure;
+use clap::Args;
+use dtg_passport::passport::document::Signer;
+use dtg_passport::signing;
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use zeroize::Zeroizing;
+
+/// The variable that holds a passphrase where no terminal asks for it.
+pub const PASSPHRASE_VARIABLE: &str = "DTG_PASSPORT_PASSPHRASE";
+
+#[derive(Args)]
+pub struct KeyOptions {
+    /// Private key, or a .pub file whose private half is in ssh-agent or a FIDO token
+    #[arg(long, value_name = "KEY")]
+    pub key: PathBuf,
+    /// The issuer: the principal by which allowed_signers knows the key
+    #[arg(long, value_name = "WHO")]
+    pub identity: String,
+}
+
+impl KeyOptions {
+    pub fn signer(&self) -> Result<Box<dyn Signer>, Failure> {
+        signing::signer(&self.key, &ask).map_err(Failure::unusable)
+    }
+}
+
+/// The passphrase of an existing key.
+fn ask(key: &Path) -> Result<Zeroizing<String>, String> {
+    passphrase(&format!("Passphrase of {}: ", key.display()))
+}
+
+/// A passphrase from the environment, or from the terminal.
+pub fn passphrase(prompt: &str) -> Result<Zeroizing<String>, String> {
+    if let Ok(passphrase) = std::env::var(PASSPHRASE_VARIABLE) {
+        return Ok(Zeroizing::new(passphrase));
+    }
+    if !std::io::stdin().is_terminal() {
+        return Err(format!("there is no terminal to ask for its passphrase; set {PASSPHRASE_VARIABLE}"));
+    }
+    rpassword::prompt_password(prompt).map(Zeroizing::new).map_err(|error| error.to_string())
+}

@@ -1,0 +1,81 @@
+//! `keygen`: a signing key.
+
+use super::key_options::{PASSPHRASE_VARIABLE, passphrase};
+use super::{Code, Failure, output};
+use clap::Args;
+use dtg_passport::files::{self, Access};
+use dtg_passport::signing::allowed_signers_line;
+use dtg_passport::trust::SigningKey;
+use std::path::{Path, PathBuf};
+use zeroize::Zeroizing;
+
+/// Make a signing key: KEY (mode 0600) and KEY.pub; prints the line for allowed_signers
+///
+/// The passphrase is asked for, or taken from DTG_PASSPORT_PASSPHRASE.
+#[derive(Args)]
+#[command(verbatim_doc_comment)]
+pub struct Options {
+    /// The new private key file; nothing is replaced
+    key: PathBuf,
+    /// Whose key it is, as allowed_signers and passports name the issuer [default: the file's name]
+    #[arg(long, value_name = "WHO")]
+    identity: Option<String>,
+    /// Leave the key unencrypted
+    #[arg(long)]
+    no_passphrase: bool,
+}
+
+pub fn run(options: &Options) -> Result<Code, Failure> {
+    let stem = options.key.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let identity = options.identity.clone().or(stem).unwrap_or_default();
+    let key = SigningKey::generate().map_err(Failure::unusable)?;
+    let line = allowed_signers_line(&identity, &key.public_key()).map_err(Failure::unusable)?;
+    let passphrase = new_passphrase(options)?;
+    let private = key.to_openssh(&identity, passphrase.as_ref().map(|p| p.as_str())).map_err(Failure::unusable)?;
+    let public_path = with_pub(&options.key);
+    if public_path.exists() {
+        let exists = files::FileError::Exists { path: public_path, replaceable: false };
+        return Err(Failure::refused(exists));
+    }
+    write(&options.key, private.as_bytes(), Access::Private)?;
+    let public = format!("{} {identity}\n", key.public_key().to_openssh());
+    write(&public_path, public.as_bytes(), Access::Shared)?;
+    output::say(&format!(
+        "wrote {} (keep it secret) and {}; put this line into allowed_signers:",
+        options.key.display(),
+        public_path.display()
+    ));
+    output::result(&(line + "\n"))?;
+    Ok(0)
+}
+
+fn write(path: &Path, bytes: &[u8], access: Access) -> Result<(), Failure> {
+    files::write_new(path, bytes, access).map_err(|error| match error {
+        files::FileError::Exists { .. } => Failure::refused(error),
+        _ => Failure::unusable(error),
+    })
+}
+
+fn with_pub(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".pub");
+    PathBuf::from(name)
+}
+
+fn new_passphrase(options: &Options) -> Result<Option<Zeroizing<String>>, Failure> {
+    if options.no_passphrase {
+        return Ok(None);
+    }
+    let advice = |error: String| Failure::unusable(format!("{error}, or give --no-passphrase"));
+    let first = passphrase("Passphrase for the new key: ").map_err(advice)?;
+    if std::env::var_os(PASSPHRASE_VARIABLE).is_none() {
+        let second = passphrase("The same again: ").map_err(advice)?;
+        if first != second {
+            return Err(Failure::unusable("the two passphrases differ; no key was made"));
+        }
+    }
+    if first.is_empty() {
+        return Err(Failure::unusable("the passphrase is empty; give --no-passphrase for an unencrypted key"));
+    }
+    Ok(Some(first))
+}

@@ -1,0 +1,88 @@
+//! The command line. A file a verb: read, call the library, write. No formula and no rule lives here.
+//!
+//! Rules of the user interface: results go to standard output, words about them to standard error. Exit code 0: done,
+//! or the document is good. 1: a document or a result is refused. 2: wrong usage, or a file that cannot be read as what
+//! it should be. Of several files every one is reported, and the highest code counts.
+
+mod completions;
+mod demo;
+mod issue;
+mod key_options;
+mod keygen;
+mod output;
+mod reissue;
+mod schema;
+mod show;
+mod trust_options;
+mod verify;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Signed passports that let a cheap test stand calibrate a dynamically tuned gyro as well as an expensive one.
+#[derive(Parser)]
+#[command(name = "dtg-passport", version, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Subcommand)]
+enum Verb {
+    Demo(demo::Options),
+    Keygen(keygen::Options),
+    Issue(issue::Options),
+    Reissue(reissue::Options),
+    Verify(verify::Options),
+    Show(show::Options),
+    Schema(schema::Options),
+    Completions(completions::Options),
+}
+
+/// What a verb ends with when nothing threw it out: 0, or the highest code of what it reported.
+type Code = u8;
+
+/// A document or a result is refused.
+const REFUSED: Code = 1;
+
+/// Wrong usage, or a file that cannot be read as what it should be.
+const UNUSABLE: Code = 2;
+
+/// What ends a verb at once: a message and an exit code.
+#[derive(Debug)]
+struct Failure {
+    message: String,
+    code: Code,
+}
+
+impl Failure {
+    fn refused(error: impl std::fmt::Display) -> Self {
+        Self { message: error.to_string(), code: REFUSED }
+    }
+
+    fn unusable(error: impl std::fmt::Display) -> Self {
+        Self { message: error.to_string(), code: UNUSABLE }
+    }
+}
+
+/// Parses the arguments and runs the verb.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let result = match cli.verb {
+        Verb::Demo(options) => demo::run(&options),
+        Verb::Keygen(options) => keygen::run(&options),
+        Verb::Issue(options) => issue::run(&options),
+        Verb::Reissue(options) => reissue::run(&options),
+        Verb::Verify(options) => verify::run(&options),
+        Verb::Show(options) => show::run(&options),
+        Verb::Schema(options) => schema::run(&options),
+        Verb::Completions(options) => completions::run(&options),
+    };
+    match result {
+        Ok(code) => ExitCode::from(code),
+        Err(failure) => {
+            output::say(&failure.message);
+            ExitCode::from(failure.code)
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! Results to standard output, words to standard error; a closed pipe ends quietly.
+
+use super::{Code, Failure, REFUSED, UNUSABLE};
+use clap::ValueEnum;
+use dtg_passport::files::FileError;
+use dtg_passport::folder::FolderRefused;
+use dtg_passport::passport::issue::IssueRefused;
+use std::io::{self, Write};
+
+/// The form of a result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// For people.
+    Text,
+    /// For programs.
+    Json,
+}
+
+/// Writes a result.
+pub fn result(text: &str) -> Result<(), Failure> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        // Whoever reads has read enough.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        Err(error) => Err(Failure::unusable(format!("standard output: {error}"))),
+        Ok(()) => Ok(()),
+    }
+}
+
+/// Writes a result as JSON.
+pub fn json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(Failure::unusable)?;
+    result(&(text + "\n"))
+}
+
+/// Writes words about a result. Nothing is to be done when even standard error is closed.
+pub fn say(words: &str) {
+    let _ = writeln!(io::stderr().lock(), "dtg-passport: {}", words.replace('\n', "\n              "));
+}
+
+/// The exit code of a refusal by the folder: what the file system or the signer refuses is no verdict on a document.
+pub fn code_of(refused: &FolderRefused) -> Code {
+    match refused {
+        FolderRefused::File(FileError::Exists { .. }) => REFUSED,
+        FolderRefused::File(_) | FolderRefused::Issue(IssueRefused::Signing(_) | IssueRefused::BadIdentity(_)) => {
+            UNUSABLE
+        }
+        _ => REFUSED,
+    }
+}

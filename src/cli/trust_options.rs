@@ -1,0 +1,107 @@
+//! TRUST: whom to trust, and what is asked. The same options everywhere, by this code.
+
+use super::Failure;
+use clap::Args;
+use dtg_passport::earth::Place;
+use dtg_passport::files;
+use dtg_passport::passport::{Question, Trust};
+use dtg_passport::text::scalar::day;
+use dtg_passport::trust::{AllowedSigners, LARGEST_TRUST_FILE_BYTES, RevokedKeys};
+use jiff::Timestamp;
+use jiff::civil::Date;
+use std::path::{Path, PathBuf};
+
+#[derive(Args)]
+pub struct TrustFiles {
+    /// The keys that may sign: OpenSSH's allowed_signers
+    #[arg(long, value_name = "SIGNERS")]
+    trust: PathBuf,
+    /// Keys that no longer count: a KRL of OpenSSH or a list of public keys (repeatable)
+    #[arg(long, value_name = "FILE")]
+    revoked: Vec<PathBuf>,
+}
+
+#[derive(Args)]
+pub struct Asked {
+    /// The issuer it must be
+    #[arg(long, value_name = "WHO")]
+    issuer: Option<String>,
+    /// The serial number of the stand that stands here
+    #[arg(long, value_name = "S")]
+    serial: Option<String>,
+    /// Where the stand is, in degrees: latitude and longitude, north and east positive
+    #[arg(long, value_name = "LAT,LON", value_parser = place, allow_hyphen_values = true)]
+    at: Option<Place>,
+    /// The time that is asked about, RFC 3339 or a UTC day (its first second) [default: now]
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    time: Option<Timestamp>,
+}
+
+#[derive(Args)]
+pub struct TrustOptions {
+    #[command(flatten)]
+    files: TrustFiles,
+    #[command(flatten)]
+    asked: Asked,
+}
+
+impl TrustOptions {
+    pub fn load(&self) -> Result<(Trust, Question), Failure> {
+        Ok((load(&self.files.trust, &self.files.revoked)?, self.asked.question()))
+    }
+}
+
+impl Asked {
+    pub fn question(&self) -> Question {
+        Question {
+            time: self.time.unwrap_or_else(now),
+            issuer: self.issuer.clone(),
+            serial: self.serial.clone(),
+            place: self.at,
+        }
+    }
+}
+
+/// Reads the trust files.
+pub fn load(signers: &Path, revoked: &[PathBuf]) -> Result<Trust, Failure> {
+    let read = |path: &Path| files::read(path, LARGEST_TRUST_FILE_BYTES).map_err(Failure::unusable);
+    let name = |path: &Path| path.display().to_string();
+    let signers = AllowedSigners::parse(&name(signers), &read(signers)?).map_err(Failure::unusable)?;
+    let revoked = revoked
+        .iter()
+        .map(|path| RevokedKeys::parse(&name(path), &read(path)?).map_err(Failure::unusable))
+        .collect::<Result<_, _>>()?;
+    Ok(Trust { signers, revoked })
+}
+
+/// A time as the options take it.
+pub fn time(text: &str) -> Result<Timestamp, String> {
+    if let Ok(date) = text.parse::<Date>() {
+        return Ok(day(date).0);
+    }
+    match text.parse::<Timestamp>() {
+        Ok(time) if time.subsec_nanosecond() == 0 => Ok(time),
+        Ok(_) => Err("whole seconds, as in 2026-11-02T09:30:00Z".to_owned()),
+        Err(_) => Err("a time as 2026-11-02T09:30:00Z, or a UTC day as 2026-11-02".to_owned()),
+    }
+}
+
+fn place(text: &str) -> Result<Place, String> {
+    const FORM: &str = "two numbers with decimal points, as in 55.7658,37.6856";
+    let (latitude, longitude) = text.split_once(',').ok_or(FORM)?;
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| FORM.to_owned());
+    let (latitude_deg, longitude_deg) = (number(latitude)?, number(longitude)?);
+    if !(-90.0..=90.0).contains(&latitude_deg) {
+        return Err(format!("latitude {latitude_deg}, expected -90 to 90"));
+    }
+    if !(-180.0..=180.0).contains(&longitude_deg) {
+        return Err(format!("longitude {longitude_deg}, expected -180 to 180"));
+    }
+    Ok(Place { latitude_deg, longitude_deg })
+}
+
+/// The clock, in whole seconds: what a passport states.
+pub fn now() -> Timestamp {
+    let now = Timestamp::now();
+    Timestamp::from_second(now.as_second()).unwrap_or(now)
+}

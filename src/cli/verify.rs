@@ -1,0 +1,50 @@
+//! `verify`: may I use this passport, on this stand, here, now?
+
+use super::output::Format;
+use super::trust_options::TrustOptions;
+use super::{Code, Failure, REFUSED, UNUSABLE, output};
+use clap::Args;
+use dtg_passport::files::{self, FileError};
+use dtg_passport::passport::verify;
+use dtg_passport::report::verdict;
+use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
+use std::path::PathBuf;
+
+/// Answer: may I use this passport, on this stand, here, now?
+#[derive(Args)]
+pub struct Options {
+    /// Passports
+    #[arg(required = true, value_name = "PASSPORT")]
+    passports: Vec<PathBuf>,
+    #[command(flatten)]
+    trust: TrustOptions,
+    /// Form of the result
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+pub fn run(options: &Options) -> Result<Code, Failure> {
+    let (trust, question) = options.trust.load()?;
+    let mut code = 0;
+    let mut verdicts = Vec::new();
+    for path in &options.passports {
+        // One byte more than a passport can have is enough to see that it is none.
+        match files::read(path, LARGEST_DOCUMENT_BYTES) {
+            Ok(bytes) => {
+                let name = path.display().to_string();
+                let verification = verify(&name, &bytes, &trust, &question);
+                code = code.max(if verification.valid() { 0 } else { REFUSED });
+                verdicts.push(verdict::Verdict::of(&name, &verification));
+            }
+            Err(error) => {
+                output::say(&error.to_string());
+                code = code.max(if matches!(error, FileError::TooLarge { .. }) { REFUSED } else { UNUSABLE });
+            }
+        }
+    }
+    match options.format {
+        Format::Json => output::json(&verdicts)?,
+        Format::Text => output::result(&verdict::text(&verdicts))?,
+    }
+    Ok(code)
+}

@@ -1,0 +1,214 @@
+//! The whole story on a built-in example: a key, a stand, two sites, passports, verification, a re-issue, an altered
+//! byte, a wrong place. Nothing but this program is needed.
+
+use crate::earth::Place;
+use crate::files::{self, Access, FileError};
+use crate::folder::{Folder, FolderRefused, Issued, Seal};
+use crate::gyro::GyroType;
+use crate::passport::issue::Issue;
+use crate::passport::reissue::{Order, ReissueRefused, successor};
+use crate::passport::verification::{CheckName, Question, Trust, Verification, verify};
+use crate::signing::{BadIdentity, allowed_signers_line};
+use crate::site::Site;
+use crate::stand::Stand;
+use crate::text::scalar::day;
+use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable};
+use crate::trust::{AllowedSigners, KeyError, SigningKey};
+use jiff::Timestamp;
+use std::path::{Path, PathBuf};
+
+const STAND: &str = include_str!("../passports/SPS-1/0203/stand.yaml");
+const MOSCOW: &str = include_str!("../sites/moscow-bmstu.yaml");
+const BEIJING: &str = include_str!("../sites/beijing-nim.yaml");
+const IDENTITY: &str = "factory@example.org";
+
+/// What stopped the demonstration.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Stopped {
+    /// The folder has files in it.
+    #[error("{}: is there already and not an empty folder; give another one with --out", .0.display())]
+    NotEmpty(PathBuf),
+    /// A file could not be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A passport could not be issued.
+    #[error(transparent)]
+    Folder(#[from] FolderRefused),
+    /// Or not issued anew.
+    #[error(transparent)]
+    Reissue(#[from] ReissueRefused),
+    /// A built-in file could not be read.
+    #[error(transparent)]
+    Unreadable(#[from] Unreadable),
+    /// There is no key.
+    #[error(transparent)]
+    Key(#[from] KeyError),
+    /// The identity is a pattern.
+    #[error(transparent)]
+    Identity(#[from] BadIdentity),
+    /// Nobody reads.
+    #[error("the output was closed")]
+    Closed,
+}
+
+/// `dtg-passport-demo` in the current folder, numbered when that is there already.
+pub fn free_folder() -> PathBuf {
+    let first = PathBuf::from("dtg-passport-demo");
+    let numbered = (2..).map(|number: u32| PathBuf::from(format!("dtg-passport-demo-{number}")));
+    std::iter::once(first).chain(numbered).find(|folder| !folder.exists()).unwrap_or_default()
+}
+
+/// Plays it in `folder` at the time `now`, telling it to `tell` line by line (which says whether anybody still
+/// listens); `true` when every verdict was the expected one.
+///
+/// # Errors
+/// See [`Stopped`].
+pub fn run(folder: &Path, now: Timestamp, tell: &mut dyn FnMut(&str) -> bool) -> Result<bool, Stopped> {
+    let stand = Stand::from_yaml("stand.yaml", STAND.as_bytes())?;
+    // The example must also play on a machine whose clock is behind its certificate.
+    let now = now.max(day(stand.certificate.issued).0);
+    let mut stage = Stage { folder, now, tell, as_expected: true };
+    stage.play(&stand)?;
+    Ok(stage.as_expected)
+}
+
+struct Stage<'a> {
+    folder: &'a Path,
+    now: Timestamp,
+    tell: &'a mut dyn FnMut(&str) -> bool,
+    as_expected: bool,
+}
+
+impl Stage<'_> {
+    fn play(&mut self, stand: &Stand) -> Result<(), Stopped> {
+        let empty = |folder: &Path| std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
+        if self.folder.exists() && !empty(self.folder) {
+            return Err(Stopped::NotEmpty(self.folder.to_owned()));
+        }
+        let moscow = Site::from_yaml("moscow-bmstu.yaml", MOSCOW.as_bytes())?;
+        let beijing = Site::from_yaml("beijing-nim.yaml", BEIJING.as_bytes())?;
+        let (key, trust) = self.key()?;
+        let here = self.issue(stand, &moscow, &key)?;
+        self.laboratory(&here, &moscow, &beijing, &trust)?;
+        let there = self.moved(&here, &beijing, &key, &trust)?;
+        self.altered(&there, &trust)?;
+        self.line("")?;
+        self.line(&format!("Look at the files in {}; verify them yourself:", self.folder.display()))?;
+        let (signers, passport) = (self.path("allowed_signers"), there.path.display());
+        self.line(&format!("  dtg-passport verify {passport} --trust {} --serial 0203", signers.display()))
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    fn line(&mut self, words: &str) -> Result<(), Stopped> {
+        if (self.tell)(words) { Ok(()) } else { Err(Stopped::Closed) }
+    }
+
+    fn key(&mut self) -> Result<(SigningKey, Trust), Stopped> {
+        let key = SigningKey::generate()?;
+        let signers = allowed_signers_line(IDENTITY, &key.public_key())? + "\n";
+        files::write_new(&self.path("factory.key"), key.to_openssh(IDENTITY, None)?.as_bytes(), Access::Private)?;
+        files::write_new(&self.path("allowed_signers"), signers.as_bytes(), Access::Shared)?;
+        self.line("THE FACTORY")?;
+        self.line("1. makes a signing key and gives every laboratory its public half, once:")?;
+        self.line(&format!("   {}", self.path("allowed_signers").display()))?;
+        Ok((key, Trust { signers: AllowedSigners::parse("allowed_signers", signers.as_bytes())?, revoked: Vec::new() }))
+    }
+
+    fn issue(&mut self, stand: &Stand, moscow: &Site, key: &SigningKey) -> Result<Issued, Stopped> {
+        files::write_new(&self.path("stand.yaml"), STAND.as_bytes(), Access::Shared)?;
+        files::write_new(&self.path("sites/moscow-bmstu.yaml"), MOSCOW.as_bytes(), Access::Shared)?;
+        files::write_new(&self.path("sites/beijing-nim.yaml"), BEIJING.as_bytes(), Access::Shared)?;
+        let angles = stand.positions.iter().flat_map(|at| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec]);
+        let largest = angles.fold(0.0, |largest: f64, angle| largest.max(angle.abs())) / 3600.0;
+        self.line(&format!(
+            "2. measures how far a cheap stand is from its eight positions: up to {largest:.1} degrees."
+        ))?;
+        self.line("3. computes for the place of delivery what a calibration needs, and signs it:")?;
+        let order = Issue {
+            issuer: IDENTITY.to_owned(),
+            issued_at: self.now,
+            valid_until: None,
+            revision: 1,
+            predecessor: None,
+            self_check_gyro: GyroType::gvk_6().nominal,
+        };
+        let issued = self.passports().issue(stand, moscow, &order, Seal { signer: key, trust: None })?;
+        self.line(&format!("   {}", issued.path.display()))?;
+        if let Some(growth) = issued.remarks.noise {
+            let worst = growth.worst();
+            self.line(&format!("   A calibration on this stand is {worst:.2} times as noisy as on a perfect one."))?;
+        }
+        Ok(issued)
+    }
+
+    fn passports(&self) -> Folder {
+        Folder::new(self.path("passports"))
+    }
+
+    fn laboratory(&mut self, here: &Issued, moscow: &Site, beijing: &Site, trust: &Trust) -> Result<(), Stopped> {
+        self.line("")?;
+        self.line("THE LABORATORY")?;
+        self.line("4. in Moscow asks: may I use this passport, on stand 0203, here, now?")?;
+        let bytes = files::read(&here.path, LARGEST_DOCUMENT_BYTES)?;
+        let ask = |site: &Site| Question {
+            serial: Some("0203".to_owned()),
+            place: site.longitude_deg.map(|longitude_deg| Place { latitude_deg: site.geodetic_deg(), longitude_deg }),
+            ..Question::at(self.now)
+        };
+        let (in_moscow, in_beijing) = (ask(moscow), ask(beijing));
+        let answer = verify(&here.id, &bytes, trust, &in_moscow);
+        self.answer(&answer, None)?;
+        self.line("5. in Beijing asks the same of the same passport:")?;
+        let answer = verify(&here.id, &bytes, trust, &in_beijing);
+        self.answer(&answer, Some(CheckName::Place))
+    }
+
+    fn moved(&mut self, here: &Issued, beijing: &Site, key: &SigningKey, trust: &Trust) -> Result<Issued, Stopped> {
+        self.line("")?;
+        self.line("THE STAND MOVES")?;
+        self.line("6. The factory re-issues the passport for Beijing from the old passport alone:")?;
+        let bytes = files::read(&here.path, LARGEST_DOCUMENT_BYTES)?;
+        let old = verify(&here.id, &bytes, trust, &Question::at(self.now));
+        let order = Order {
+            stand: None,
+            site: Some(beijing.clone()),
+            moved: true,
+            reason: "delivered to Beijing".to_owned(),
+            issuer: IDENTITY.to_owned(),
+            issued_at: self.now,
+            valid_until: None,
+        };
+        let issued =
+            self.passports().reissue(&successor(&bytes, &old, &order)?, Seal { signer: key, trust: Some(trust) })?;
+        self.line(&format!("   {}", issued.path.display()))?;
+        let bytes = files::read(&issued.path, LARGEST_DOCUMENT_BYTES)?;
+        let answer = verify(&issued.id, &bytes, trust, &Question::at(self.now));
+        self.answer(&answer, None)?;
+        Ok(issued)
+    }
+
+    fn altered(&mut self, there: &Issued, trust: &Trust) -> Result<(), Stopped> {
+        self.line("")?;
+        self.line("A FORGER")?;
+        self.line("7. changes one digit of it:")?;
+        let text = String::from_utf8_lossy(&files::read(&there.path, LARGEST_DOCUMENT_BYTES)?).into_owned();
+        let forged = text.replacen("alpha_arcsec: 4310.0", "alpha_arcsec: 4311.0", 1);
+        files::write_new(&self.path("forged.yaml"), forged.as_bytes(), Access::Shared)?;
+        let answer = verify("forged.yaml", forged.as_bytes(), trust, &Question::at(self.now));
+        self.answer(&answer, Some(CheckName::Signature))
+    }
+
+    /// Tells the answer: yes, or the first check that failed; and remembers whether it was the expected one.
+    fn answer(&mut self, answer: &Verification, expected: Option<CheckName>) -> Result<(), Stopped> {
+        let failed = answer.checks().iter().find(|check| check.passed() == Some(false));
+        self.as_expected &= failed.map(|check| check.name) == expected;
+        match failed {
+            None => self.line(&format!("   YES: all {} checks passed.", answer.checks().len())),
+            Some(check) => self.line(&format!("   NO: {}: {}", check.name.as_str(), check.detail)),
+        }
+    }
+}

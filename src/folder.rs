@@ -1,0 +1,198 @@
+//! Passports in a folder: where each stands, what is there already, new ones written whole and never over another.
+
+use crate::files::{self, Access, FileError};
+use crate::passport::content::Content;
+use crate::passport::document::{SignedText, Signer};
+use crate::passport::issue::{self, Draft, Issue, IssueRefused, Remarks};
+use crate::passport::reissue::{Successor, sha256_hex};
+use crate::passport::verification::{Question, Trust, verify};
+use crate::passport::{NAMESPACE, read};
+use crate::site::Site;
+use crate::stand::{Identity, Stand};
+use crate::text::LARGEST_DOCUMENT_BYTES;
+use crate::text::scalar::Identifier;
+use std::path::{Path, PathBuf};
+
+/// A folder of passports: `<model>/<serial>/<site id>-<revision>.yaml`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Folder {
+    root: PathBuf,
+}
+
+/// Who signs, and by whose trust a new passport must hold before it is written.
+#[derive(Clone, Copy)]
+pub struct Seal<'a> {
+    /// The signer.
+    pub signer: &'a dyn Signer,
+    /// The trust of those who will verify; `None` to leave that to them.
+    pub trust: Option<&'a Trust>,
+}
+
+/// What became of an order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Issued {
+    /// The passport's id.
+    pub id: String,
+    /// Its file.
+    pub path: PathBuf,
+    /// SHA-256 of the file.
+    pub sha256: String,
+    /// Whether it is new; otherwise an equal one was there, and was left.
+    pub new: bool,
+    /// What the factory should know about it.
+    pub remarks: Remarks,
+}
+
+/// Why a folder got no new passport.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FolderRefused {
+    /// A passport with other content has the name.
+    #[error("{}: exists with other content; a changed stand or site is re-issued: `reissue {}`", path.display(), path.display())]
+    OtherContent {
+        /// The file that is there.
+        path: PathBuf,
+    },
+    /// The old passport has another successor already.
+    #[error("{}: is already a successor of the same passport for this site, with other content", path.display())]
+    OtherSuccessor {
+        /// The successor that is there.
+        path: PathBuf,
+    },
+    /// What has the name is no passport.
+    #[error("{}: exists and is no passport that can be compared ({reason}); move it away", path.display())]
+    NotComparable {
+        /// The file that is there.
+        path: PathBuf,
+        /// Why it cannot be compared.
+        reason: String,
+    },
+    /// By the trust given, nobody could verify it.
+    #[error("the new passport would not verify ({check}: {detail}); nothing was written")]
+    NotVerifiable {
+        /// The check that failed.
+        check: &'static str,
+        /// In its words.
+        detail: String,
+    },
+    /// No such passport can be issued.
+    #[error(transparent)]
+    Issue(#[from] IssueRefused),
+    /// The file system refused.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+impl Folder {
+    /// The folder `root`, which need not exist yet.
+    pub fn new(root: impl Into<PathBuf>) -> Self {
+        Self { root: root.into() }
+    }
+
+    /// Where the passport of a stand for a site stands.
+    pub fn path_of(&self, stand: &Identity, site: &Identifier, revision: u32) -> PathBuf {
+        let folder = self.root.join(stand.model.as_str()).join(stand.serial.as_str());
+        folder.join(format!("{site}-{revision}.yaml"))
+    }
+
+    /// Issues revision 1 of a stand for a site.
+    ///
+    /// An equal passport (its time, program and signature aside) is left as it is; another one of that name is never
+    /// replaced.
+    ///
+    /// # Errors
+    /// See [`FolderRefused`].
+    pub fn issue(&self, stand: &Stand, site: &Site, order: &Issue, seal: Seal) -> Result<Issued, FolderRefused> {
+        let draft = issue::draft(stand, site, order)?;
+        let path = self.path_of(&stand.stand, &site.id, order.revision);
+        match existing(&path)? {
+            Some(there) if same(&there.content, draft.content()) => Ok(there.left(&draft)),
+            Some(there) => Err(FolderRefused::OtherContent { path: there.path }),
+            None => write(path, &draft, seal),
+        }
+    }
+
+    /// Issues the successor of a passport.
+    ///
+    /// # Errors
+    /// See [`FolderRefused`].
+    pub fn reissue(&self, successor: &Successor, seal: Seal) -> Result<Issued, FolderRefused> {
+        let mut revision = successor.first_revision();
+        loop {
+            let draft = successor.draft(revision)?;
+            let path = self.path_of(&successor.stand().stand, &successor.site().id, revision);
+            let Some(there) = existing(&path)? else { return write(path, &draft, seal) };
+            let of_the_same = there.predecessor_sha256() == Some(successor.old_sha256());
+            if same(&there.content, draft.content()) {
+                return Ok(there.left(&draft));
+            }
+            // At the old site only one successor can follow; at another the next revision does.
+            if of_the_same || successor.same_site() {
+                return Err(FolderRefused::OtherSuccessor { path: there.path });
+            }
+            revision = revision.saturating_add(1);
+        }
+    }
+}
+
+fn write(path: PathBuf, draft: &Draft, seal: Seal) -> Result<Issued, FolderRefused> {
+    let text = draft.sign(seal.signer)?;
+    if let Some(trust) = seal.trust {
+        check_verifiable(&path, &text, draft, trust)?;
+    }
+    files::write_new(&path, text.as_bytes(), Access::Shared)?;
+    let id = draft.content().passport.id.clone();
+    Ok(Issued { id, path, sha256: sha256_hex(text.as_bytes()), new: true, remarks: draft.remarks() })
+}
+
+/// A passport that nobody could verify is worse than none.
+fn check_verifiable(path: &Path, text: &str, draft: &Draft, trust: &Trust) -> Result<(), FolderRefused> {
+    let question = Question::at(draft.content().passport.issued_at);
+    let verification = verify(&path.display().to_string(), text.as_bytes(), trust, &question);
+    match verification.checks().iter().find(|check| check.passed() != Some(true)) {
+        None => Ok(()),
+        Some(failed) => {
+            Err(FolderRefused::NotVerifiable { check: failed.name.as_str(), detail: failed.detail.clone() })
+        }
+    }
+}
+
+/// A passport that is there already.
+struct Existing {
+    path: PathBuf,
+    sha256: String,
+    content: Content,
+}
+
+impl Existing {
+    fn left(self, draft: &Draft) -> Issued {
+        let id = self.content.passport.id.clone();
+        Issued { id, path: self.path, sha256: self.sha256, new: false, remarks: draft.remarks() }
+    }
+
+    fn predecessor_sha256(&self) -> Option<&str> {
+        self.content.passport.reissued_from.as_ref().map(|predecessor| predecessor.sha256.as_str())
+    }
+}
+
+fn existing(path: &Path) -> Result<Option<Existing>, FolderRefused> {
+    if !path.try_exists().map_err(|error| FileError::Read { path: path.to_owned(), error })? {
+        return Ok(None);
+    }
+    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES)?;
+    let name = path.display().to_string();
+    let incomparable = |reason: String| FolderRefused::NotComparable { path: path.to_owned(), reason };
+    let text =
+        SignedText::split(&name, &bytes, NAMESPACE).map_err(|malformed| incomparable(malformed.fault.to_string()))?;
+    let payload = text.signed_payload().map_err(|error| incomparable(error.to_string()))?;
+    let content = read::content(&name, payload).map_err(|error| incomparable(error.to_string()))?;
+    Ok(Some(Existing { path: path.to_owned(), sha256: sha256_hex(&bytes), content }))
+}
+
+/// Whether two passports say the same, the time of issue and the program that wrote them aside.
+fn same(there: &Content, new: &Content) -> bool {
+    let mut there = there.clone();
+    there.passport.issued_at = new.passport.issued_at;
+    there.passport.issued_with.clone_from(&new.passport.issued_with);
+    there == *new
+}

@@ -1,0 +1,164 @@
+//! The comments of a passport: units, equations, and what is absent with what it costs. They are signed with the rest
+//! and mean nothing to a program.
+
+use super::content::Content;
+use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
+use crate::text::rule;
+use crate::{earth, units};
+
+/// The payload of a passport: its content in canonical form, with its comments.
+pub fn payload(content: &Content) -> String {
+    use crate::text::Field;
+    let node = content.write().unwrap_or(crate::text::Node::Null);
+    rule::write(&node, &|path| comments(content, path))
+}
+
+/// What this passport cannot state because it was not given, and what that costs; each one sentence in ASCII.
+pub fn absences(content: &Content) -> Vec<String> {
+    let mut said = of_the_certificate(content);
+    said.extend(of_the_site(content));
+    said
+}
+
+fn of_the_certificate(content: &Content) -> Vec<String> {
+    let mut said = Vec::new();
+    let certificate = &content.certificate;
+    let uncertain = content.positions.iter().any(|position| {
+        position.u_alpha_arcsec.is_none() || position.u_beta_arcsec.is_none() || position.u_gamma_arcsec.is_none()
+    });
+    if uncertain {
+        said.push(
+            "No uncertainty of the deviations is certified (u_alpha_arcsec and so on): none can be stated.".into(),
+        );
+    }
+    if certificate.repeatability_arcsec.is_none() {
+        said.push("No repeatability is certified: what a return to a position adds is unknown.".into());
+    }
+    if certificate.common_platform_arcsec.is_none() || certificate.common_base_arcsec.is_none() {
+        said.push("The part common to all positions is not certified for platform and base: it is unknown.".into());
+    }
+    if certificate.traceability.is_none() {
+        said.push("No traceability is stated: the deviations are numbers, not traceable measurements.".into());
+    }
+    if certificate.temperature_c.is_none() && certificate.temperature_range_c.is_none() {
+        said.push("No temperature is certified: whether the deviations hold at another one is unknown.".into());
+    }
+    if certificate.valid_until.is_none() {
+        said.push(
+            "The certificate names no last day: who uses the stand decides when to have it certified again.".into(),
+        );
+    }
+    if content.datum.is_none() {
+        said.push(
+            "No datum is stated: which surfaces to level, to turn north and to seat the gyro on is unknown.".into(),
+        );
+    }
+    if content.matrices.is_none() {
+        said.push(
+            "Not all of the eight positions are certified: no matrices, no self-check, least squares alone.".into(),
+        );
+    }
+    said
+}
+
+fn of_the_site(content: &Content) -> Vec<String> {
+    let mut said = Vec::new();
+    let site = &content.site;
+    if site.deflection_arcsec.is_none() && site.astronomic_latitude_deg.is_none() {
+        let u_deg = UNKNOWN_DEFLECTION_U_ARCSEC / units::ARCSECONDS_PER_DEGREE;
+        let cost = earth::rotation_deg_per_h() * units::radians_from_degrees(u_deg);
+        said.push(format!(
+            "The deflection of the vertical is unknown: taken as 0 with u = {UNKNOWN_DEFLECTION_U_ARCSEC} arcsec, \
+             up to {cost:.1e} deg/h in the rates."
+        ));
+    }
+    if site.longitude_deg.is_none() {
+        said.push("The longitude is unknown: of the place only the latitude can be checked.".into());
+    }
+    if site.geodetic_is_uncertain() {
+        said.push(format!(
+            "The geodetic latitude is unknown: the check of place allows {LATITUDE_MARGIN_ARCSEC} arcsec for it."
+        ));
+    }
+    if site.gravity_m_per_s2.is_none() && site.height_m.is_none() {
+        said.push("The height is unknown: normal gravity is that at 0 m, 3.1e-6 m/s2 too large for each metre.".into());
+    }
+    if site.uncertainty.is_none() {
+        said.push("No uncertainty of latitude, azimuth and level of the base is stated for this site.".into());
+    }
+    if site.azimuth_mark.is_none() {
+        said.push("No azimuth mark is given: north must come from elsewhere.".into());
+    }
+    said
+}
+
+fn comments(content: &Content, path: &str) -> Vec<String> {
+    let fixed: &[&str] = match path {
+        "format" => &[
+            "Passport of a two-axis test stand for dynamically tuned gyros.",
+            "Signed as it stands: any change, even of a blank or of this comment, makes the signature fail.",
+            "Frames: base xi east, eta north, zeta up; case x, y, z with z along the spin axis. i and j count from 1.",
+            "Equations: Tang and Podchezertsev 2017, doi 10.18698/2308-6033-2017-10-1691.",
+            "Standard uncertainties (k = 1). Matrices are lists of rows.",
+        ],
+        "certificate" => &["What the stand's factory measured, and how well."],
+        "positions" => &[
+            "Nominal frame angle theta and platform angle phi; deviation of the real orientation from them:",
+            "E = Rz(gamma) Ry(beta) Rx(alpha) turns coordinates from the nominal to the real platform, eq. (4).",
+        ],
+        "matrices" => &[
+            "With J1 = (J11 - J13, J12 - J14), J2 = (J21 - J23, J22 - J24) as columns, in mA:",
+            "K = B (J1 - J2 Delta)^-1, eq. (13); omega_n = C - K J2 n2^-1, eq. (15);",
+            "omega_g = (omega_n11 + omega_n22)/2, omega_k = (omega_n21 - omega_n12)/2, eq. (16);",
+            "omega_0 = mean over all positions of (omega - K J - omega_n n), eq. (8), with n and omega from `vectors`.",
+        ],
+        "vectors" => &["Specific force n = (c, d) in g and Earth rate omega_3 in deg/h along x and y, eq. (5)."],
+        "self_check" => {
+            &["From these currents correct laboratory software finds the parameters below, to 1e-9 of each."]
+        }
+        _ => &[],
+    };
+    let mut lines: Vec<String> = fixed.iter().map(|line| (*line).to_owned()).collect();
+    match path {
+        "certificate" => lines.extend(of_the_certificate(content)),
+        "site" => lines.extend(of_the_site(content)),
+        "earth" => lines.extend(of_the_earth(content)),
+        _ => {}
+    }
+    lines
+}
+
+fn of_the_earth(content: &Content) -> Vec<String> {
+    let site = &content.site;
+    let gravity = match (site.gravity_m_per_s2, site.gravity_u_m_per_s2) {
+        (Some(_), Some(u)) => format!("Gravity was measured, standard uncertainty {u} m/s2."),
+        (Some(_), None) => "Gravity was measured; its uncertainty is not stated.".to_owned(),
+        (None, _) => format!(
+            "Gravity is normal gravity (WGS 84) at {} m, standard uncertainty {} m/s2.",
+            site.height_m.unwrap_or(0.0),
+            earth::NORMAL_GRAVITY_U_M_PER_S2,
+        ),
+    };
+    let mut lines = vec![
+        "Earth rate at the astronomic latitude: horizontal = rate cos(latitude), vertical = rate sin(latitude), eq. (5)."
+            .to_owned(),
+        format!(
+            "The uncertainty of K grows towards the poles as 1/cos(latitude): here {:.3} times that at the equator.",
+            site.uncertainty_growth()
+        ),
+        gravity,
+        "Drifts per g are per this local g.".to_owned(),
+        format!(
+            "Valid within {:.0} m of the site: farther north or south a rate is off by more than valid_within_deg_per_h.",
+            content.earth.valid_radius_m
+        ),
+    ];
+    if content.earth.azimuth_deg.is_some() {
+        lines
+            .push("Astronomic azimuth from pillar to mark, clockwise from north: geodetic + eta tan(latitude).".into());
+        if content.earth.azimuth_u_arcsec.is_none() {
+            lines.push("Its uncertainty is not stated: position_u_m or the deflection's u is unknown.".into());
+        }
+    }
+    lines
+}

@@ -1,0 +1,347 @@
+//! What a passport says (`dtg-passport/1`), and how its numbers follow from the stand and the site.
+
+use crate::calibration::analytic;
+use crate::coefficients::{Coefficients, Matrices, PositionCoefficients, PositionIndex, SingularPositions};
+use crate::gyro::{GyroParameters, Parameters};
+use crate::site::{Earth, Site};
+use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity};
+use crate::text::scalar::Identifier;
+use crate::text::{Field, Node, Path, Problems, record};
+use jiff::Timestamp;
+use jiff::civil::Date;
+use nalgebra::{Matrix2, Vector2};
+
+/// The format of a passport.
+pub const PASSPORT_FORMAT: &str = "dtg-passport/1";
+
+record! {
+    /// The passport that another one was made from.
+    pub struct Predecessor {
+        /// Its id.
+        pub id: String,
+        /// SHA-256 of its whole file, lower-case hexadecimal.
+        pub sha256: String,
+        /// Why there is a new one.
+        pub reason: String,
+        /// What differs, in words.
+        pub changed: String,
+    }
+}
+
+record! {
+    /// Which passport it is, from whom, since when.
+    pub struct Header {
+        /// "<model>/<serial>/<site id>/<revision>".
+        pub id: String,
+        /// Counts from 1 at each site of a stand.
+        pub revision: u32,
+        /// When it was issued.
+        pub issued_at: Timestamp,
+        /// Who issued it: a principal of allowed_signers.
+        pub issuer: String,
+        /// Last day of validity, when it ends.
+        pub valid_until: Option<Date>,
+        /// Program and version.
+        pub issued_with: Option<String>,
+        /// The passport it was made from.
+        pub reissued_from: Option<Predecessor>,
+        /// Whether that one is no longer to be used.
+        pub supersedes: Option<bool>,
+    }
+}
+
+/// A 2×2 matrix, row by row.
+pub type Rows = [[f64; 2]; 2];
+
+record! {
+    /// The paper's matrices at the site, each a list of two rows.
+    pub struct MatrixRows {
+        /// Δ = n_2⁻¹ n_1.
+        pub delta: Rows,
+        /// B = ω_31 − ω_32 n_2⁻¹ n_1.
+        pub b_deg_per_h: Rows,
+        /// C = ω_32 n_2⁻¹.
+        pub c_deg_per_h_per_g: Rows,
+        /// n_1.
+        pub n1: Rows,
+        /// n_2.
+        pub n2: Rows,
+        /// n_2⁻¹.
+        pub n2_inverse: Rows,
+        /// ω_31.
+        pub omega1_deg_per_h: Rows,
+        /// ω_32.
+        pub omega2_deg_per_h: Rows,
+    }
+}
+
+record! {
+    /// Specific force and Earth rate in the case axes of one position.
+    pub struct PositionVectors {
+        /// Frame index.
+        pub i: u32,
+        /// Platform index.
+        pub j: u32,
+        /// n = (c, d).
+        pub specific_force_g: [f64; 2],
+        /// Ã₃₃.
+        pub specific_force_z_g: f64,
+        /// ω_3 along x and y.
+        pub omega_deg_per_h: [f64; 2],
+    }
+}
+
+record! {
+    /// The currents of the gyro of the self-check in one position.
+    pub struct PositionCurrents {
+        /// Frame index.
+        pub i: u32,
+        /// Platform index.
+        pub j: u32,
+        /// J_x.
+        pub jx_ma: f64,
+        /// J_y.
+        pub jy_ma: f64,
+    }
+}
+
+record! {
+    /// Currents, and the parameters that correct laboratory software finds from them.
+    pub struct SelfCheck {
+        /// In every position.
+        pub currents: Vec<PositionCurrents>,
+        /// K.
+        pub k_deg_per_h_per_ma: Rows,
+        /// ω_0.
+        pub omega0_deg_per_h: [f64; 2],
+        /// ω_g.
+        pub omega_g_deg_per_h_per_g: f64,
+        /// ω_k.
+        pub omega_k_deg_per_h_per_g: f64,
+    }
+}
+
+record! {
+    /// All that a passport says, its signature apart; the keys in the order in which they are written.
+    pub struct Content {
+        /// Always "dtg-passport/1".
+        pub format: String,
+        /// Which passport.
+        pub passport: Header,
+        /// Which stand.
+        pub stand: Identity,
+        /// The stand's certificate.
+        pub certificate: Certificate,
+        /// The surfaces that realise its axes.
+        pub datum: Option<Datum>,
+        /// Its positions, sorted by (i, j).
+        pub positions: Vec<CertifiedPosition>,
+        /// The place of delivery.
+        pub site: Site,
+        /// What the Earth does there.
+        pub earth: Earth,
+        /// The paper's matrices; absent without the paper's eight positions.
+        pub matrices: Option<MatrixRows>,
+        /// What least squares needs, for every position.
+        pub vectors: Vec<PositionVectors>,
+        /// A test of laboratory software; absent without the paper's eight positions.
+        pub self_check: Option<SelfCheck>,
+    }
+}
+
+/// The numbers of a passport that follow from its stand and its site.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Derived {
+    /// What the Earth does at the site.
+    pub earth: Earth,
+    /// The paper's matrices.
+    pub matrices: Option<MatrixRows>,
+    /// Specific force and Earth rate.
+    pub vectors: Vec<PositionVectors>,
+    /// The test of laboratory software, for the gyro given.
+    pub self_check: Option<SelfCheck>,
+}
+
+/// Computes all that follows from certified positions and a site; `gyro` is that of the self-check.
+///
+/// # Errors
+/// [`SingularPositions`] when the paper's eight are there and n_2 has no inverse.
+pub fn derive(positions: &[CertifiedPosition], site: &Site, gyro: &Parameters) -> Result<Derived, SingularPositions> {
+    let earth = site.earth();
+    let coefficients = stand::geometry(positions)?.at(earth.rate());
+    let vectors = coefficients.positions.iter().map(PositionVectors::from_model).collect();
+    let matrices = coefficients.matrices.as_ref().map(MatrixRows::from_model);
+    let self_check = matrices.is_some().then(|| SelfCheck::of(gyro, &coefficients)).flatten();
+    Ok(Derived { earth, matrices, vectors, self_check })
+}
+
+fn rows(matrix: &Matrix2<f64>) -> Rows {
+    // Adding zero turns -0.0, which products of exact zeros leave, into the only zero that a document knows.
+    [[matrix.m11 + 0.0, matrix.m12 + 0.0], [matrix.m21 + 0.0, matrix.m22 + 0.0]]
+}
+
+fn matrix(rows: &Rows) -> Matrix2<f64> {
+    let [[m11, m12], [m21, m22]] = *rows;
+    Matrix2::new(m11, m12, m21, m22)
+}
+
+fn pair(vector: &Vector2<f64>) -> [f64; 2] {
+    [vector.x + 0.0, vector.y + 0.0]
+}
+
+impl MatrixRows {
+    fn from_model(m: &Matrices) -> Self {
+        Self {
+            delta: rows(&m.delta),
+            b_deg_per_h: rows(&m.b_deg_per_h),
+            c_deg_per_h_per_g: rows(&m.c_deg_per_h_per_g),
+            n1: rows(&m.n1),
+            n2: rows(&m.n2),
+            n2_inverse: rows(&m.n2_inverse),
+            omega1_deg_per_h: rows(&m.omega1_deg_per_h),
+            omega2_deg_per_h: rows(&m.omega2_deg_per_h),
+        }
+    }
+
+    fn to_model(&self) -> Matrices {
+        Matrices {
+            delta: matrix(&self.delta),
+            b_deg_per_h: matrix(&self.b_deg_per_h),
+            c_deg_per_h_per_g: matrix(&self.c_deg_per_h_per_g),
+            n1: matrix(&self.n1),
+            n2: matrix(&self.n2),
+            n2_inverse: matrix(&self.n2_inverse),
+            omega1_deg_per_h: matrix(&self.omega1_deg_per_h),
+            omega2_deg_per_h: matrix(&self.omega2_deg_per_h),
+        }
+    }
+}
+
+impl PositionVectors {
+    fn from_model(at: &PositionCoefficients) -> Self {
+        Self {
+            i: at.index.i,
+            j: at.index.j,
+            specific_force_g: pair(&at.specific_force_g),
+            specific_force_z_g: at.specific_force_z_g + 0.0,
+            omega_deg_per_h: pair(&at.earth_rate_deg_per_h),
+        }
+    }
+
+    fn to_model(&self) -> PositionCoefficients {
+        PositionCoefficients {
+            index: PositionIndex { i: self.i, j: self.j },
+            specific_force_g: Vector2::from(self.specific_force_g),
+            specific_force_z_g: self.specific_force_z_g,
+            earth_rate_deg_per_h: Vector2::from(self.omega_deg_per_h),
+        }
+    }
+}
+
+impl SelfCheck {
+    /// The exact currents of `gyro`; `None` when its K has no inverse.
+    fn of(gyro: &Parameters, coefficients: &Coefficients) -> Option<Self> {
+        let model = gyro.to_model();
+        let currents = coefficients.positions.iter().map(|at| {
+            let [jx_ma, jy_ma] = pair(&model.currents_ma(at)?);
+            Some(PositionCurrents { i: at.index.i, j: at.index.j, jx_ma, jy_ma })
+        });
+        Some(Self {
+            currents: currents.collect::<Option<_>>()?,
+            k_deg_per_h_per_ma: gyro.k_deg_per_h_per_ma,
+            omega0_deg_per_h: gyro.omega0_deg_per_h,
+            omega_g_deg_per_h_per_g: gyro.omega_g_deg_per_h_per_g,
+            omega_k_deg_per_h_per_g: gyro.omega_k_deg_per_h_per_g,
+        })
+    }
+
+    /// The parameters that the currents must give.
+    pub fn parameters(&self) -> Parameters {
+        Parameters {
+            k_deg_per_h_per_ma: self.k_deg_per_h_per_ma,
+            omega0_deg_per_h: self.omega0_deg_per_h,
+            omega_g_deg_per_h_per_g: self.omega_g_deg_per_h_per_g,
+            omega_k_deg_per_h_per_g: self.omega_k_deg_per_h_per_g,
+        }
+    }
+
+    /// Calibrates the currents again by the paper's closed solution: how far the worst parameter is off, relative to
+    /// its own size; infinite when there is no solution.
+    pub fn error(&self, coefficients: &Coefficients) -> f64 {
+        let currents: Vec<_> = self.currents.iter().map(|at| Vector2::new(at.jx_ma, at.jy_ma)).collect();
+        match analytic::solve(coefficients, &currents) {
+            Ok(found) => largest_relative_difference(&found.parameters, &self.parameters().to_model()),
+            Err(_) => f64::INFINITY,
+        }
+    }
+}
+
+fn largest_relative_difference(found: &GyroParameters, due: &GyroParameters) -> f64 {
+    let numbers = |gyro: &GyroParameters| {
+        let k = gyro.k_deg_per_h_per_ma;
+        let [x, y]: [f64; 2] = gyro.omega0_deg_per_h.into();
+        [k.m11, k.m12, k.m21, k.m22, x, y, gyro.omega_g_deg_per_h_per_g, gyro.omega_k_deg_per_h_per_g]
+    };
+    let relative = |(found, due): (f64, f64)| if due == 0.0 { found.abs() } else { (found / due - 1.0).abs() };
+    let differences = numbers(found).into_iter().zip(numbers(due)).map(relative);
+    // `f64::max` would pass over a NaN.
+    differences.fold(0.0, |worst, next| if next <= worst { worst } else { next })
+}
+
+impl Content {
+    /// What the passport's calibration works with: the numbers that are signed.
+    pub fn coefficients(&self) -> Coefficients {
+        Coefficients {
+            positions: self.vectors.iter().map(PositionVectors::to_model).collect(),
+            matrices: self.matrices.as_ref().map(MatrixRows::to_model),
+        }
+    }
+
+    /// "<model>/<serial>/<site id>/<revision>", as the parts say.
+    pub fn id_of_parts(&self) -> String {
+        passport_id(&self.stand, &self.site.id, self.passport.revision)
+    }
+
+    /// The last second in which the passport may be used, and which of its two dates ends it.
+    pub fn last_day(&self) -> Option<(Date, &'static str)> {
+        let passport = self.passport.valid_until.map(|day| (day, "passport"));
+        let certificate = self.certificate.valid_until.map(|day| (day, "certificate"));
+        passport.into_iter().chain(certificate).min_by_key(|(day, _)| *day)
+    }
+
+    /// Reads the tree of a signed text.
+    pub(crate) fn from_node(node: &Node, problems: &mut Problems) -> Option<Self> {
+        let content = Self::read(node, &Path::Root, problems)?;
+        content.check(problems);
+        Some(content)
+    }
+
+    /// Every rule of the content that its own inputs do not already settle.
+    fn check(&self, problems: &mut Problems) {
+        let at = Path::Root;
+        if self.format != PASSPORT_FORMAT {
+            problems.at(&at.key("format"), format!("{:?}", self.format), format!("{PASSPORT_FORMAT:?}"), "");
+        }
+        stand::check(&self.certificate, &self.positions, problems);
+        self.site.check(&at.key("site"), problems);
+        let header = at.key("passport");
+        if self.passport.id != self.id_of_parts() {
+            let expected = format!("{:?}, as stand, site and revision say", self.id_of_parts());
+            problems.at(&header.key("id"), format!("{:?}", self.passport.id), expected, "");
+        }
+        if self.passport.revision == 0 {
+            problems.at(&header.key("revision"), "0", "a whole number from 1", "");
+        }
+        if self.passport.reissued_from.is_some() != self.passport.supersedes.is_some() {
+            problems.at(&header, "one of reissued_from and supersedes", "both or neither", "");
+        }
+        if !self.positions.is_sorted_by_key(CertifiedPosition::index) {
+            problems.at(&at.key("positions"), "positions out of order", "positions sorted by i, then j", "");
+        }
+    }
+}
+
+/// "<model>/<serial>/<site id>/<revision>".
+pub fn passport_id(stand: &Identity, site: &Identifier, revision: u32) -> String {
+    format!("{}/{}/{site}/{revision}", stand.model, stand.serial)
+}

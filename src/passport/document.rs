@@ -1,0 +1,184 @@
+//! A signed document: text, then OpenSSH's signature over it. Steps 1 to 5 of verification, and signing.
+//!
+//! The file is `payload` + `signature: |` + the armor indented by two spaces, and nothing more. The signed message is
+//! every byte before `signature: |`.
+
+use crate::text::LARGEST_DOCUMENT_BYTES;
+use crate::text::problem::{Location, Unreadable};
+use crate::text::rule;
+use crate::trust::{KeyError, PublicKey, Signature, SignatureError, SigningKey};
+
+/// The line that ends the payload.
+const SIGNATURE_LINE: &str = "signature: |\n";
+
+/// How far the armor is indented.
+const INDENT: &str = "  ";
+
+/// Something that signs: a key in memory, or a program that has one.
+pub trait Signer {
+    /// Signs `message` for `namespace`.
+    ///
+    /// # Errors
+    /// Why there is no signature, in words.
+    fn sign(&self, namespace: &str, message: &[u8]) -> Result<Signature, SigningFailed>;
+}
+
+/// There is no signature.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct SigningFailed(pub String);
+
+impl From<KeyError> for SigningFailed {
+    fn from(error: KeyError) -> Self {
+        Self(error.to_string())
+    }
+}
+
+impl Signer for SigningKey {
+    fn sign(&self, namespace: &str, message: &[u8]) -> Result<Signature, SigningFailed> {
+        Ok(SigningKey::sign(self, namespace, message)?)
+    }
+}
+
+/// A document whose form is good (verification steps 1 to 3). Nothing of it has been parsed.
+#[derive(Debug, Clone)]
+pub struct SignedText<'a> {
+    payload: &'a str,
+    signature: Signature,
+}
+
+/// A document's form is not good: what is wrong, and whether it is that it was signed for something else.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Malformed {
+    /// What is wrong and where.
+    pub fault: Unreadable,
+    /// The namespace it was signed for, when that is what is wrong.
+    pub other_namespace: Option<String>,
+}
+
+impl<'a> SignedText<'a> {
+    /// Checks the text rule, splits the file and checks the signature's form, in this order.
+    ///
+    /// # Errors
+    /// [`Malformed`] with the line and the column of the first fault.
+    pub fn split(name: &str, bytes: &'a [u8], namespace: &str) -> Result<Self, Malformed> {
+        let malformed = |fault| Malformed { fault, other_namespace: None };
+        if bytes.len() > LARGEST_DOCUMENT_BYTES {
+            rule::check(name, bytes).map_err(malformed)?;
+        }
+        // The payload obeys the rule; the armor is compared with the one form it can have. So text of any other kind
+        // has no place to stand in.
+        let payload_end = signature_line(bytes);
+        let payload_bytes = &bytes[..payload_end.unwrap_or(bytes.len())];
+        let payload = rule::check(name, payload_bytes).map_err(malformed)?;
+        let Some(payload_end) = payload_end else {
+            let location = Some(Location { line: payload.lines().count() + 1, column: 1 });
+            let advice = "an unsigned text is no passport; was the file cut?";
+            return Err(malformed(Unreadable::whole(name, location, "no signature", "`signature: |`", advice)));
+        };
+        let at = Location { line: payload.lines().count() + 2, column: 1 };
+        let refuse = |found: String| {
+            let advice = "the signature, or what follows it, was changed";
+            Unreadable::whole(
+                name,
+                Some(at),
+                found,
+                "an armored SSH signature indented by two spaces, and no more",
+                advice,
+            )
+        };
+        let tail = &bytes[payload_end + SIGNATURE_LINE.len()..];
+        let armor = std::str::from_utf8(tail).ok().and_then(unindented);
+        let armor = armor.ok_or_else(|| malformed(refuse("lines that are no indented armor".to_owned())))?;
+        let signature = Signature::from_armor(&armor).map_err(|error| malformed(refuse(error.to_string())))?;
+        if signature.namespace() != namespace {
+            let other = signature.namespace().to_owned();
+            let found = format!("a signature for {other:?}");
+            let advice = "it was signed as another kind of document";
+            let fault = Unreadable::whole(name, Some(at), found, format!("one for {namespace:?}"), advice);
+            return Err(Malformed { fault, other_namespace: Some(other) });
+        }
+        Ok(Self { payload, signature })
+    }
+
+    /// The text, whoever wrote it.
+    pub(crate) fn unverified_payload(&self) -> &'a str {
+        self.payload
+    }
+
+    /// The key that the signature names.
+    pub fn key(&self) -> &PublicKey {
+        self.signature.public_key()
+    }
+
+    /// Checks the signature against the key that it names (step 4); gives the signed text, which may now be parsed.
+    ///
+    /// # Errors
+    /// The signature does not hold: the text is not the one that was signed.
+    pub fn signed_payload(&self) -> Result<&'a str, SignatureError> {
+        self.signature.verify(self.signature.namespace(), self.payload.as_bytes())?;
+        Ok(self.payload)
+    }
+}
+
+/// Where the payload ends: at the first line `signature: |`.
+fn signature_line(bytes: &[u8]) -> Option<usize> {
+    let line = SIGNATURE_LINE.as_bytes();
+    let found = bytes.windows(line.len() + 1).position(|window| window[0] == b'\n' && window[1..] == *line)?;
+    Some(found + 1)
+}
+
+/// The armor without its indent, when every line has it.
+fn unindented(text: &str) -> Option<String> {
+    text.split_inclusive('\n').map(|line| line.strip_prefix(INDENT)).collect()
+}
+
+/// Puts payload and signature together, as [`SignedText::split`] takes them apart.
+pub fn join(payload: &str, signature: &Signature) -> String {
+    let armor: String = signature.to_armor().lines().map(|line| format!("{INDENT}{line}\n")).collect();
+    format!("{payload}{SIGNATURE_LINE}{armor}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NAMESPACE: &str = "dtg-passport";
+
+    fn signed(payload: &str) -> String {
+        let key = SigningKey::generate().unwrap();
+        join(payload, &Signer::sign(&key, NAMESPACE, payload.as_bytes()).unwrap())
+    }
+
+    #[test]
+    fn what_was_joined_is_split_again() {
+        let text = signed("a: 1\n");
+        let split = SignedText::split("x", text.as_bytes(), NAMESPACE).unwrap();
+        assert_eq!(split.signed_payload().unwrap(), "a: 1\n");
+    }
+
+    #[test]
+    fn nothing_may_stand_after_the_armor_or_beside_it() {
+        let good = signed("a: 1\n");
+        let bad = [
+            format!("{good}\n"),
+            format!("{good}  \n"),
+            format!("{good}b: 2\n"),
+            format!("{good}# comment\n"),
+            good.trim_end().to_owned(),
+            good.replace("signature: |\n", "signature: |-\n"),
+            good.replace("signature: |\n", "signature: |\n\n"),
+            good.replace("signature: |\n", "\"signature\": |\n"),
+            good.replace("signature: |\n", "signature: |\r\n"),
+            good.replace("signature: |\n", "signature: |\u{85}"),
+            good.replace("signature: |\n", "signature: |\u{2028}"),
+            good.replace("  -----END", "   -----END"),
+            good.replace("a: 1\n", "a: 1\nsignature: |\n"),
+        ];
+        for text in bad {
+            assert!(SignedText::split("x", text.as_bytes(), NAMESPACE).is_err(), "{text}");
+        }
+        let other = SignedText::split("x", good.as_bytes(), "dtg-revocation").unwrap_err();
+        assert_eq!(other.other_namespace.as_deref(), Some(NAMESPACE));
+    }
+}

@@ -1,0 +1,213 @@
+//! From a certified stand and a site to a signed passport.
+
+use super::annotations::{absences, payload};
+use super::content::{self, Content, Header, PASSPORT_FORMAT, Predecessor, passport_id};
+use super::document::{Signer, SigningFailed, join};
+use super::{NAMESPACE, read};
+use crate::calibration::noise::{self, NoiseGrowth};
+use crate::coefficients::SingularPositions;
+use crate::gyro::Parameters;
+use crate::site::Site;
+use crate::stand::Stand;
+use crate::text::scalar::day;
+use crate::text::{Unreadable, rule};
+use crate::trust::SignatureError;
+use jiff::Timestamp;
+use jiff::civil::Date;
+
+/// The self-check, calibrated again, may be off by this much of each parameter.
+pub const SELF_CHECK_LIMIT: f64 = 1e-9;
+
+/// From this much more noise on than on a perfect stand the factory is warned.
+pub const NOISE_WARNING: f64 = 2.0;
+
+/// Who issues, and when.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Issue {
+    /// The issuer: a principal of allowed_signers.
+    pub issuer: String,
+    /// When; whole seconds.
+    pub issued_at: Timestamp,
+    /// Last day of the passport; the certificate's when `None`.
+    pub valid_until: Option<Date>,
+    /// Counts from 1 at each site of a stand.
+    pub revision: u32,
+    /// After a re-issue: the passport it was made from, and whether that one is superseded.
+    pub predecessor: Option<(Predecessor, bool)>,
+    /// The gyro of the self-check.
+    pub self_check_gyro: Parameters,
+}
+
+/// Why no passport was issued.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum IssueRefused {
+    /// n_2 has no inverse.
+    #[error(transparent)]
+    Singular(#[from] SingularPositions),
+    /// The issue is dated before the certificate.
+    #[error("issued_at {issued_at} is before the certificate's day of issue, {certified}: is the clock right?")]
+    BeforeCertificate {
+        /// When the passport would be issued.
+        issued_at: Timestamp,
+        /// When the certificate was.
+        certified: Date,
+    },
+    /// The passport would have ended before it began.
+    #[error("issued_at {issued_at} is after the last day of validity, {last}: the stand must be certified again")]
+    AlreadyExpired {
+        /// When the passport would be issued.
+        issued_at: Timestamp,
+        /// Its last day.
+        last: Date,
+    },
+    /// The issuer's name cannot stand in a passport.
+    #[error("the identity {0:?} holds a character that no signed text may hold, or is empty")]
+    BadIdentity(String),
+    /// The self-check does not give its own parameters back.
+    #[error(
+        "the self-check, calibrated again, is off by {error:.1e} of a parameter (limit {SELF_CHECK_LIMIT:e}): \
+         on this stand at this site the eight positions do not determine the gyro"
+    )]
+    SelfCheckFails {
+        /// How far the worst parameter is off, relative to its size.
+        error: f64,
+    },
+    /// The text, read again, is not what was written: a defect of this program.
+    #[error("the text read back differs from what was written; nothing was signed. {0}")]
+    ReadBack(Unreadable),
+    /// The signer gave no signature.
+    #[error(transparent)]
+    Signing(#[from] SigningFailed),
+    /// The signer gave a signature that does not hold.
+    #[error("the signature just made does not hold: {0}")]
+    BadSignature(#[from] SignatureError),
+}
+
+/// A passport ready to be signed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Draft {
+    content: Content,
+    payload: String,
+}
+
+/// Computes everything that the passport of `stand` at `site` says, writes it, and checks what was written.
+///
+/// # Errors
+/// See [`IssueRefused`]: nothing is signed whose self-check fails, or that does not read back bit for bit.
+pub fn draft(stand: &Stand, site: &Site, issue: &Issue) -> Result<Draft, IssueRefused> {
+    check_identity(&issue.issuer)?;
+    let derived = content::derive(&stand.positions, site, &issue.self_check_gyro)?;
+    let (reissued_from, supersedes) = issue.predecessor.clone().unzip();
+    let content = Content {
+        format: PASSPORT_FORMAT.to_owned(),
+        passport: Header {
+            id: passport_id(&stand.stand, &site.id, issue.revision),
+            revision: issue.revision,
+            issued_at: issue.issued_at,
+            issuer: issue.issuer.clone(),
+            valid_until: issue.valid_until.or(stand.certificate.valid_until),
+            issued_with: Some(concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")).to_owned()),
+            reissued_from,
+            supersedes,
+        },
+        stand: stand.stand.clone(),
+        certificate: stand.certificate.clone(),
+        datum: stand.datum.clone(),
+        positions: stand.positions.clone(),
+        site: site.clone(),
+        earth: derived.earth,
+        matrices: derived.matrices,
+        vectors: derived.vectors,
+        self_check: derived.self_check,
+    };
+    check_dates(&content)?;
+    let payload = payload(&content);
+    let read_back = read_back(&payload, &content)?;
+    if let Some(self_check) = &read_back.self_check {
+        let error = self_check.error(&read_back.coefficients());
+        if error.is_nan() || error > SELF_CHECK_LIMIT {
+            return Err(IssueRefused::SelfCheckFails { error });
+        }
+    }
+    Ok(Draft { content, payload })
+}
+
+fn check_identity(identity: &str) -> Result<(), IssueRefused> {
+    if identity.is_empty() || !identity.chars().all(rule::allowed_in_string) {
+        return Err(IssueRefused::BadIdentity(identity.to_owned()));
+    }
+    Ok(())
+}
+
+fn check_dates(content: &Content) -> Result<(), IssueRefused> {
+    let issued_at = content.passport.issued_at;
+    let certified = content.certificate.issued;
+    if issued_at < day(certified).0 {
+        return Err(IssueRefused::BeforeCertificate { issued_at, certified });
+    }
+    match content.last_day() {
+        Some((last, _)) if issued_at > day(last).1 => Err(IssueRefused::AlreadyExpired { issued_at, last }),
+        _ => Ok(()),
+    }
+}
+
+/// The written text is read as any verifier would read it, and every number compared bit for bit.
+fn read_back(payload: &str, content: &Content) -> Result<Content, IssueRefused> {
+    const NAME: &str = "the new passport";
+    rule::check(NAME, payload.as_bytes()).map_err(IssueRefused::ReadBack)?;
+    let read = read::content(NAME, payload).map_err(IssueRefused::ReadBack)?;
+    if read != *content {
+        let fault = Unreadable::whole(NAME, None, "other content", "the content that was written", "");
+        return Err(IssueRefused::ReadBack(fault));
+    }
+    Ok(read)
+}
+
+impl Draft {
+    /// What the passport will say.
+    pub fn content(&self) -> &Content {
+        &self.content
+    }
+
+    /// The text that will be signed.
+    pub fn payload(&self) -> &str {
+        &self.payload
+    }
+
+    /// Signs it; gives the whole file. The signature is checked before it is given out.
+    ///
+    /// # Errors
+    /// [`IssueRefused::Signing`] and [`IssueRefused::BadSignature`].
+    pub fn sign(&self, signer: &dyn Signer) -> Result<String, IssueRefused> {
+        let signature = signer.sign(NAMESPACE, self.payload.as_bytes())?;
+        signature.verify(NAMESPACE, self.payload.as_bytes())?;
+        Ok(join(&self.payload, &signature))
+    }
+
+    /// Words about the passport for the factory: how much noisier a calibration is on this stand than on a perfect
+    /// one, what is not known, and where K grows uncertain.
+    pub fn remarks(&self) -> Remarks {
+        let content = &self.content;
+        let noise = noise::growth(&content.positions, content.earth.rate(), &self.noise_gyro());
+        Remarks { noise, uncertainty_growth: content.site.uncertainty_growth(), absences: absences(content) }
+    }
+
+    fn noise_gyro(&self) -> Parameters {
+        match &self.content.self_check {
+            Some(self_check) => self_check.parameters(),
+            None => crate::gyro::GyroType::gvk_6().nominal,
+        }
+    }
+}
+
+/// What the factory should know about a passport before it hands it over.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Remarks {
+    /// How much noisier than on a perfect stand; `None` when the positions do not determine all parameters.
+    pub noise: Option<NoiseGrowth>,
+    /// 1/cos Φ.
+    pub uncertainty_growth: f64,
+    /// What is not known, and what that costs.
+    pub absences: Vec<String>,
+}

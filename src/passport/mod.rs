@@ -1,0 +1,25 @@
+//! The signed passport: what it says, how it is written and read, issued, re-issued and verified.
+//!
+//! * [`content`]: the records, and the numbers that follow from stand and site.
+//! * [`annotations`]: the comments that stand between them.
+//! * [`document`]: text and signature, joined and split.
+//! * [`read`]: signed text to content, canonical form required.
+//! * [`issue`]: a stand and a site to a signed passport.
+//! * [`recomputed`]: every number again from the signed inputs.
+//! * [`verification`]: the six steps, and "may I use this passport, on this stand, here, now?".
+//! * [`reissue`]: a new passport from an old one.
+
+pub mod annotations;
+pub mod content;
+pub mod document;
+pub mod issue;
+pub mod read;
+pub mod recomputed;
+pub mod reissue;
+pub mod verification;
+
+pub use content::Content;
+pub use verification::{Question, Trust, Verification, verify};
+
+/// The namespace that passports are signed for.
+pub const NAMESPACE: &str = "dtg-passport";

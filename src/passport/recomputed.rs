@@ -1,0 +1,140 @@
+//! Every number of a passport that follows from its inputs, computed again and compared.
+
+use super::content::{Content, PositionVectors, derive};
+use crate::earth::{AZIMUTH_QUANTUM_DEG, LENGTH_QUANTUM_M};
+use crate::text::{Field, Node};
+
+/// The largest difference allowed, relative to the largest element of each matrix, each set of vectors, each number.
+pub const LIMIT: f64 = 1e-12;
+
+/// A number that does not follow from the passport's own inputs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WrongNumber {
+    /// Where it stands, such as `matrices.delta[0][1]`.
+    pub field: String,
+    /// What the passport says; NaN where it says nothing.
+    pub stated: f64,
+    /// What follows from its inputs; NaN where nothing does.
+    pub computed: f64,
+}
+
+impl std::fmt::Display for WrongNumber {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let words = |value: f64| if value.is_nan() { "nothing".to_owned() } else { format!("{value}") };
+        let (stated, computed) = (words(self.stated), words(self.computed));
+        write!(f, "{}: the passport says {stated}, its own inputs give {computed}", self.field)
+    }
+}
+
+/// Compares earth, matrices, vectors and self-check with what the signed inputs give; the worst number first.
+///
+/// The self-check is computed for the gyro that it states itself.
+///
+/// # Errors
+/// The wrong numbers, or in words why there is nothing to compare with.
+pub fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
+    let gyro = content.self_check.as_ref().map(super::content::SelfCheck::parameters);
+    let gyro = gyro.unwrap_or_else(|| crate::gyro::GyroType::gvk_6().nominal);
+    let Ok(derived) = derive(&content.positions, &content.site, &gyro) else {
+        let field = "matrices.n2_inverse".to_owned();
+        return Err(vec![WrongNumber { field, stated: f64::NAN, computed: f64::NAN }]);
+    };
+    let mut wrong = Vec::new();
+    for (key, stated, computed) in [
+        ("earth", content.earth.write(), derived.earth.write()),
+        ("matrices", content.matrices.write(), derived.matrices.write()),
+        ("self_check", content.self_check.write(), derived.self_check.write()),
+    ] {
+        compare_entries(key, &stated, &computed, &mut wrong);
+    }
+    compare_vectors(&content.vectors, &derived.vectors, &mut wrong);
+    if wrong.is_empty() { Ok(()) } else { Err(wrong) }
+}
+
+/// Compares the values of two mappings key by key, each value against its own largest element.
+fn compare_entries(path: &str, stated: &Option<Node>, computed: &Option<Node>, wrong: &mut Vec<WrongNumber>) {
+    let entries = |node: &Option<Node>| match node {
+        Some(Node::Map(entries)) => entries.clone(),
+        _ => Vec::new(),
+    };
+    let (stated, computed) = (entries(stated), entries(computed));
+    let keys = stated.iter().chain(&computed).map(|(key, _)| key);
+    let mut seen: Vec<&String> = Vec::new();
+    for key in keys {
+        if seen.contains(&key) {
+            continue;
+        }
+        seen.push(key);
+        let numbers = |entries: &[(String, Node)]| {
+            let mut numbers = Vec::new();
+            if let Some((_, node)) = entries.iter().find(|(name, _)| name == key) {
+                collect(node, &format!("{path}.{key}"), &mut numbers);
+            }
+            numbers
+        };
+        compare_numbers(&numbers(&stated), &numbers(&computed), quantum(key), wrong);
+    }
+}
+
+/// What a number was rounded to: the platform's trigonometry may have rounded it the other way.
+fn quantum(key: &str) -> f64 {
+    match key {
+        "valid_radius_m" => LENGTH_QUANTUM_M,
+        "azimuth_deg" => AZIMUTH_QUANTUM_DEG,
+        "azimuth_u_arcsec" => 1e-6,
+        _ => 0.0,
+    }
+}
+
+fn collect(node: &Node, path: &str, numbers: &mut Vec<(String, f64)>) {
+    match node {
+        Node::Number(value) => numbers.push((path.to_owned(), *value)),
+        Node::Integer(value) => numbers.push((path.to_owned(), *value as f64)),
+        Node::List(items) => {
+            for (index, item) in items.iter().enumerate() {
+                collect(item, &format!("{path}[{index}]"), numbers);
+            }
+        }
+        Node::Map(entries) => {
+            for (key, value) in entries {
+                collect(value, &format!("{path}.{key}"), numbers);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Specific forces are one set of vectors, Earth rates another.
+fn compare_vectors(stated: &[PositionVectors], computed: &[PositionVectors], wrong: &mut Vec<WrongNumber>) {
+    type Set = (&'static str, fn(&PositionVectors) -> Vec<f64>);
+    let sets: [Set; 4] = [
+        ("i, j", |at| vec![f64::from(at.i), f64::from(at.j)]),
+        ("specific_force_g", |at| at.specific_force_g.to_vec()),
+        ("specific_force_z_g", |at| vec![at.specific_force_z_g]),
+        ("omega_deg_per_h", |at| at.omega_deg_per_h.to_vec()),
+    ];
+    for (key, of) in sets {
+        let numbers = |vectors: &[PositionVectors]| -> Vec<(String, f64)> {
+            let each = vectors.iter().enumerate();
+            each.flat_map(|(index, at)| of(at).into_iter().map(move |x| (format!("vectors[{index}].{key}"), x)))
+                .collect()
+        };
+        compare_numbers(&numbers(stated), &numbers(computed), 0.0, wrong);
+    }
+}
+
+fn compare_numbers(stated: &[(String, f64)], computed: &[(String, f64)], quantum: f64, wrong: &mut Vec<WrongNumber>) {
+    let largest = computed.iter().fold(0.0, |largest: f64, (_, value)| largest.max(value.abs()));
+    // One and a half quanta: two neighbours on the grid of rounded values, and their own binary64 rounding.
+    let limit = (LIMIT * largest).max(1.5 * quantum);
+    for index in 0..stated.len().max(computed.len()) {
+        let number = |numbers: &[(String, f64)]| numbers.get(index).map_or(f64::NAN, |(_, value)| *value);
+        let (s, c) = (number(stated), number(computed));
+        // A NaN differs from everything, itself included.
+        let agrees = (s - c).abs() <= limit;
+        if !agrees {
+            let field = stated.get(index).or(computed.get(index)).map(|(field, _)| field.clone()).unwrap_or_default();
+            wrong.push(WrongNumber { field, stated: s, computed: c });
+        }
+    }
+}

@@ -1,0 +1,468 @@
+//! "May I use this passport, on this stand, here, now?"
+//!
+//! Verification is a function of bytes, trusted keys and a time: no file, no clock, so that it can run anywhere. The
+//! steps come in an order that parses nothing before the signature holds.
+
+use super::content::{Content, PASSPORT_FORMAT};
+use super::document::{Malformed, SignedText};
+use super::{NAMESPACE, read, recomputed};
+use crate::coefficients::Coefficients;
+use crate::earth::{self, Place};
+use crate::site::LATITUDE_MARGIN_ARCSEC;
+use crate::text::scalar::day;
+use crate::trust::{AllowedSigners, NotAuthorised, PublicKey, RevokedKeys};
+use crate::units::radians_from_arcseconds;
+use jiff::Timestamp;
+
+/// Whom to trust.
+#[derive(Debug, Clone)]
+pub struct Trust {
+    /// The keys that may sign, each with its principals, purposes and times.
+    pub signers: AllowedSigners,
+    /// Keys that no longer count, whatever they signed and when.
+    pub revoked: Vec<RevokedKeys>,
+}
+
+/// What is asked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Question {
+    /// Now, or the time that is asked about.
+    pub time: Timestamp,
+    /// The issuer it must be.
+    pub issuer: Option<String>,
+    /// The serial number of the stand that stands here.
+    pub serial: Option<String>,
+    /// Where it stands.
+    pub place: Option<Place>,
+}
+
+impl Question {
+    /// Only whether the passport is good and in force at `time`.
+    pub fn at(time: Timestamp) -> Self {
+        Self { time, issuer: None, serial: None, place: None }
+    }
+}
+
+/// The checks, in their order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum CheckName {
+    /// The text rule, the split, the form of the signature.
+    Grammar,
+    /// The signature over the text.
+    Signature,
+    /// The content in its one form, and every rule of it.
+    Schema,
+    /// The key is the issuer's, for passports, at the time of issue.
+    Signer,
+    /// Neither key nor passport is revoked.
+    Revocation,
+    /// Every number follows from the signed inputs.
+    Recomputed,
+    /// Issued, and not expired.
+    InForce,
+    /// The issuer is the one asked for.
+    Issuer,
+    /// The stand is the one asked for.
+    Stand,
+    /// The place is within the radius of validity.
+    Place,
+}
+
+impl CheckName {
+    /// As `verify --format json` names it.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Grammar => "grammar",
+            Self::Signature => "signature",
+            Self::Schema => "schema",
+            Self::Signer => "signer",
+            Self::Revocation => "revocation",
+            Self::Recomputed => "recomputed",
+            Self::InForce => "in_force",
+            Self::Issuer => "issuer",
+            Self::Stand => "stand",
+            Self::Place => "place",
+        }
+    }
+}
+
+/// The verdict of a check, for programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Code {
+    /// Passed.
+    Ok,
+    /// An earlier check failed, and this one needs it.
+    NotRun,
+    /// The text rule, the split or the armor is broken.
+    Malformed,
+    /// The text is not the one that was signed.
+    Altered,
+    /// Signed as another kind of document.
+    WrongNamespace,
+    /// The content breaks a rule, or is not in its one form.
+    BadContent,
+    /// The key is nobody's that is trusted.
+    UnknownKey,
+    /// The key is somebody else's.
+    WrongPrincipal,
+    /// The key's time had not begun when the passport was issued.
+    KeyNotYetValid,
+    /// The key's time had ended when the passport was issued.
+    KeyExpired,
+    /// The key was revoked.
+    KeyRevoked,
+    /// A number does not follow from the signed inputs.
+    WrongNumber,
+    /// Issued later than the time asked about.
+    NotYetValid,
+    /// Past its last day.
+    Expired,
+    /// From another issuer.
+    WrongIssuer,
+    /// Of another stand.
+    WrongStand,
+    /// For another place.
+    WrongPlace,
+}
+
+impl Code {
+    /// As `verify --format json` writes it.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Ok => "ok",
+            Self::NotRun => "not_run",
+            Self::Malformed => "malformed",
+            Self::Altered => "altered",
+            Self::WrongNamespace => "wrong_namespace",
+            Self::BadContent => "bad_content",
+            Self::UnknownKey => "unknown_key",
+            Self::WrongPrincipal => "wrong_principal",
+            Self::KeyNotYetValid => "key_not_yet_valid",
+            Self::KeyExpired => "key_expired",
+            Self::KeyRevoked => "key_revoked",
+            Self::WrongNumber => "wrong_number",
+            Self::NotYetValid => "not_yet_valid",
+            Self::Expired => "expired",
+            Self::WrongIssuer => "wrong_issuer",
+            Self::WrongStand => "wrong_stand",
+            Self::WrongPlace => "wrong_place",
+        }
+    }
+}
+
+/// One check.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Check {
+    /// Which.
+    pub name: CheckName,
+    /// Its verdict.
+    pub code: Code,
+    /// One line that a laboratory engineer understands.
+    pub detail: String,
+}
+
+impl Check {
+    /// Whether it passed; `None` when it was not run.
+    pub fn passed(&self) -> Option<bool> {
+        match self.code {
+            Code::Ok => Some(true),
+            Code::NotRun => None,
+            _ => Some(false),
+        }
+    }
+}
+
+/// The answer: every check, and the passport's content as far as it may be believed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verification {
+    checks: Vec<Check>,
+    key: Option<PublicKey>,
+    content: Option<Box<Content>>,
+}
+
+/// A passport that passed every check that was asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VerifiedPassport {
+    content: Box<Content>,
+    key: PublicKey,
+}
+
+impl VerifiedPassport {
+    /// What it says.
+    pub fn content(&self) -> &Content {
+        &self.content
+    }
+
+    /// The key that signed it.
+    pub fn key(&self) -> &PublicKey {
+        &self.key
+    }
+
+    /// What a calibration with it works with.
+    pub fn coefficients(&self) -> Coefficients {
+        self.content.coefficients()
+    }
+}
+
+impl Verification {
+    /// Every check, in the order of [`CheckName`].
+    pub fn checks(&self) -> &[Check] {
+        &self.checks
+    }
+
+    /// Whether every check passed.
+    pub fn valid(&self) -> bool {
+        self.checks.iter().all(|check| check.code == Code::Ok)
+    }
+
+    /// The code of one check.
+    pub fn code(&self, name: CheckName) -> Option<Code> {
+        self.checks.iter().find(|check| check.name == name).map(|check| check.code)
+    }
+
+    /// The passport's id, once its signature holds and its content is good.
+    pub fn id(&self) -> Option<&str> {
+        self.content.as_ref().map(|content| content.passport.id.as_str())
+    }
+
+    /// The key that the signature names, once the signature's form is good.
+    pub fn key(&self) -> Option<&PublicKey> {
+        self.key.as_ref()
+    }
+
+    /// The content when text, signature, form and numbers hold, whoever signed it and whenever: enough to name the
+    /// passport and to make a new one, not enough to calibrate with.
+    pub fn unauthorised_content(&self) -> Option<&Content> {
+        const NEEDED: [CheckName; 4] =
+            [CheckName::Grammar, CheckName::Signature, CheckName::Schema, CheckName::Recomputed];
+        let holds = NEEDED.iter().all(|name| self.code(*name) == Some(Code::Ok));
+        self.content.as_deref().filter(|_| holds)
+    }
+
+    /// The passport, when every check passed; otherwise the checks say what failed.
+    pub fn passport(&self) -> Option<VerifiedPassport> {
+        let (content, key) = self.content.clone().zip(self.key.clone()).filter(|_| self.valid())?;
+        Some(VerifiedPassport { content, key })
+    }
+}
+
+/// Verifies the bytes of a passport; `name` is the file's name, for messages.
+///
+/// Steps 1 to 3 are the check `grammar`, 4 `signature`, 5 `schema`, 6 `signer`, `revocation` and `in_force`; then every
+/// number is computed again, and what the question names is compared.
+pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> Verification {
+    let mut run = Run { checks: Vec::new() };
+    let mut verification = Verification { checks: Vec::new(), key: None, content: None };
+    if let Some(text) = run.grammar(name, bytes) {
+        verification.key = Some(text.key().clone());
+        if let Some(payload) = run.signature(&text) {
+            verification.content = run.schema(name, payload).map(Box::new);
+            run.revocation(text.key(), trust);
+            if let Some(content) = &verification.content {
+                run.signer(text.key(), content, trust);
+                run.recomputed(content);
+                run.in_force(content, question.time);
+                run.asked(content, question);
+            }
+        }
+    }
+    run.note_what_was_not_run(question);
+    run.checks.sort_by_key(|check| check.name);
+    verification.checks = run.checks;
+    verification
+}
+
+/// The checks made so far.
+struct Run {
+    checks: Vec<Check>,
+}
+
+impl Run {
+    fn note(&mut self, name: CheckName, code: Code, detail: impl Into<String>) {
+        self.checks.push(Check { name, code, detail: detail.into() });
+    }
+
+    fn grammar<'a>(&mut self, name: &str, bytes: &'a [u8]) -> Option<SignedText<'a>> {
+        match SignedText::split(name, bytes, NAMESPACE) {
+            Ok(text) => {
+                self.note(CheckName::Grammar, Code::Ok, "the text is in the form that every reader reads alike");
+                Some(text)
+            }
+            Err(Malformed { fault, other_namespace }) => {
+                let code = if other_namespace.is_some() { Code::WrongNamespace } else { Code::Malformed };
+                self.note(CheckName::Grammar, code, fault.to_string());
+                None
+            }
+        }
+    }
+
+    fn signature<'a>(&mut self, text: &SignedText<'a>) -> Option<&'a str> {
+        match text.signed_payload() {
+            Ok(payload) => {
+                self.note(
+                    CheckName::Signature,
+                    Code::Ok,
+                    format!("the text is as {} signed it", text.key().fingerprint()),
+                );
+                Some(payload)
+            }
+            Err(error) => {
+                let detail = format!("{error}; ask the issuer for the file again");
+                self.note(CheckName::Signature, Code::Altered, detail);
+                None
+            }
+        }
+    }
+
+    fn schema(&mut self, name: &str, payload: &str) -> Option<Content> {
+        match read::content(name, payload) {
+            Ok(content) => {
+                self.note(CheckName::Schema, Code::Ok, format!("the content is complete and obeys {PASSPORT_FORMAT}"));
+                Some(content)
+            }
+            Err(error) => {
+                self.note(CheckName::Schema, Code::BadContent, error.to_string());
+                None
+            }
+        }
+    }
+
+    fn revocation(&mut self, key: &PublicKey, trust: &Trust) {
+        match trust.revoked.iter().find_map(|list| list.revokes(key)) {
+            Some(why) => {
+                let detail = format!("the signing key {} was revoked: {why}", key.fingerprint());
+                self.note(CheckName::Revocation, Code::KeyRevoked, detail);
+            }
+            None if trust.revoked.is_empty() => {
+                self.note(CheckName::Revocation, Code::Ok, "no revocation list was given (--revoked)");
+            }
+            None => self.note(CheckName::Revocation, Code::Ok, "the signing key is not revoked"),
+        }
+    }
+
+    fn signer(&mut self, key: &PublicKey, content: &Content, trust: &Trust) {
+        let header = &content.passport;
+        match trust.signers.authorise(key, &header.issuer, NAMESPACE, header.issued_at) {
+            Ok(()) => self.note(CheckName::Signer, Code::Ok, format!("the key is that of {}", header.issuer)),
+            Err(miss) => {
+                let code = match miss {
+                    NotAuthorised::UnknownKey => Code::UnknownKey,
+                    NotAuthorised::WrongPrincipal { .. } => Code::WrongPrincipal,
+                    NotAuthorised::WrongNamespace { .. } => Code::WrongNamespace,
+                    NotAuthorised::NotYetValid { .. } => Code::KeyNotYetValid,
+                    NotAuthorised::Expired { .. } => Code::KeyExpired,
+                };
+                let (issuer, at) = (&header.issuer, header.issued_at);
+                let detail = format!("{miss} (key {}, issuer {issuer}, issued {at})", key.fingerprint());
+                self.note(CheckName::Signer, code, detail);
+            }
+        }
+    }
+
+    fn recomputed(&mut self, content: &Content) {
+        match recomputed::compare(content) {
+            Ok(()) => {
+                let detail = "every number follows from the signed deviations and site";
+                self.note(CheckName::Recomputed, Code::Ok, detail);
+            }
+            Err(wrong) => {
+                let others = wrong.len() - 1;
+                let more = if others > 0 { format!(" (and {others} more)") } else { String::new() };
+                let first = wrong.first().map(ToString::to_string).unwrap_or_default();
+                let detail = format!("rightly signed, but {first}{more}; the issuer made a mistake");
+                self.note(CheckName::Recomputed, Code::WrongNumber, detail);
+            }
+        }
+    }
+
+    fn in_force(&mut self, content: &Content, time: Timestamp) {
+        let issued_at = content.passport.issued_at;
+        let last = content.last_day();
+        let (code, detail) = match last {
+            _ if issued_at > time => {
+                (Code::NotYetValid, format!("issued at {issued_at}, which is after {time}: is the clock right?"))
+            }
+            Some((last, which)) if time > day(last).1 => {
+                let remedy = match which {
+                    "certificate" => "the stand must be certified again",
+                    _ => "ask the issuer for a new passport",
+                };
+                (Code::Expired, format!("the {which}'s last day was {last}, asked about {time}: {remedy}"))
+            }
+            Some((last, which)) => {
+                (Code::Ok, format!("issued {issued_at}, in force to the {which}'s last day, {last}"))
+            }
+            None => (Code::Ok, format!("issued {issued_at}; neither passport nor certificate names a last day")),
+        };
+        self.note(CheckName::InForce, code, detail);
+    }
+
+    fn asked(&mut self, content: &Content, question: &Question) {
+        if let Some(issuer) = &question.issuer {
+            let found = &content.passport.issuer;
+            let code = if found == issuer { Code::Ok } else { Code::WrongIssuer };
+            let detail = if found == issuer {
+                format!("issued by {found}")
+            } else {
+                format!("issued by {found}, not by {issuer}")
+            };
+            self.note(CheckName::Issuer, code, detail);
+        }
+        if let Some(serial) = &question.serial {
+            let found = content.stand.serial.as_str();
+            let stand = format!("the passport is of stand {} {found}", content.stand.model);
+            let (code, detail) = if found == serial {
+                (Code::Ok, stand)
+            } else {
+                (Code::WrongStand, format!("{stand}, not of {serial}: its deviations are not this stand's"))
+            };
+            self.note(CheckName::Stand, code, detail);
+        }
+        if let Some(place) = question.place {
+            let (code, detail) = place_verdict(content, place);
+            self.note(CheckName::Place, code, detail);
+        }
+    }
+
+    fn note_what_was_not_run(&mut self, question: &Question) {
+        use CheckName::{Grammar, InForce, Issuer, Place, Recomputed, Revocation, Schema, Signature, Signer, Stand};
+        let always = [Grammar, Signature, Schema, Signer, Revocation, Recomputed, InForce];
+        let asked = [
+            question.issuer.as_ref().map(|_| Issuer),
+            question.serial.as_ref().map(|_| Stand),
+            question.place.map(|_| Place),
+        ];
+        for name in always.into_iter().chain(asked.into_iter().flatten()) {
+            if !self.checks.iter().any(|check| check.name == name) {
+                self.note(name, Code::NotRun, "not run: an earlier check failed");
+            }
+        }
+    }
+}
+
+/// Whether `place` is within the radius of validity: by geodesic distance, or by latitude alone where the site has no
+/// longitude.
+fn place_verdict(content: &Content, place: Place) -> (Code, String) {
+    let site = &content.site;
+    let latitude_deg = site.geodetic_deg();
+    let known = Place { latitude_deg, longitude_deg: site.longitude_deg.unwrap_or(place.longitude_deg) };
+    let distance = earth::distance_m(known, place);
+    let margin = if site.geodetic_is_uncertain() {
+        radians_from_arcseconds(LATITUDE_MARGIN_ARCSEC) * earth::MEAN_RADIUS_M
+    } else {
+        0.0
+    };
+    let radius = content.earth.valid_radius_m + margin;
+    let how = if site.longitude_deg.is_some() { "" } else { " in latitude (the site's longitude is unknown)" };
+    let allowance = if margin > 0.0 {
+        format!(", {margin:.0} m of it for the unknown deflection of the vertical ({LATITUDE_MARGIN_ARCSEC} arcsec)")
+    } else {
+        String::new()
+    };
+    let words = format!("{distance:.0} m from {}{how}, valid within {radius:.0} m{allowance}", site.id);
+    if distance <= radius {
+        (Code::Ok, words)
+    } else {
+        (Code::WrongPlace, format!("{words}: ask the factory to re-issue the passport for this place"))
+    }
+}

@@ -1,0 +1,9 @@
+//! What people read: verdicts, tables, words about a result.
+//!
+//! * [`verdict`]: the answer of `verify`.
+//! * [`issued`]: what became of an order, and what the factory should know about it.
+//! * [`passport_table`]: a passport in a terminal.
+
+pub mod issued;
+pub mod passport_table;
+pub mod verdict;

@@ -1,0 +1,209 @@
+//! A passport in a terminal: aligned tables of 100 columns at most, units in the headings.
+
+use crate::passport::Content;
+use crate::passport::content::Rows;
+use crate::text::rule;
+use std::fmt::{Display, Write};
+
+/// The width of a terminal that nothing is wider than, but for a word or a row that cannot be broken.
+const COLUMNS: usize = 100;
+
+/// The width of the names at the left.
+const NAME_COLUMNS: usize = 26;
+
+/// The whole passport as tables. `verified` is said in the first line.
+pub fn text(content: &Content, verified: bool) -> String {
+    let mut out = String::new();
+    let header = &content.passport;
+    let state = if verified { "verified" } else { "NOT VERIFIED" };
+    let _ = writeln!(out, "Passport {}  ({state})", header.id);
+    line(&mut out, "issued", format!("{} by {}", header.issued_at, header.issuer));
+    option(&mut out, "with", header.issued_with.as_ref());
+    option(&mut out, "valid until", header.valid_until.as_ref());
+    if let Some(old) = &header.reissued_from {
+        line(&mut out, "re-issued from", format!("{}, sha256 {}", old.id, old.sha256));
+        line(&mut out, "reason", &old.reason);
+        line(&mut out, "changed", &old.changed);
+        line(&mut out, "supersedes it", if header.supersedes == Some(true) { "yes" } else { "no" });
+    }
+    stand(&mut out, content);
+    positions(&mut out, content);
+    site(&mut out, content);
+    matrices(&mut out, content);
+    vectors(&mut out, content);
+    self_check(&mut out, content);
+    out
+}
+
+fn heading(out: &mut String, words: &str) {
+    let _ = writeln!(out, "\n{words}");
+}
+
+/// A name and its value; a long value goes on under its beginning, within [`COLUMNS`].
+fn line(out: &mut String, name: &str, value: impl Display) {
+    let indent = 2 + NAME_COLUMNS;
+    let mut column = indent;
+    let _ = write!(out, "  {name:<NAME_COLUMNS$}");
+    for (index, word) in value.to_string().split(' ').enumerate() {
+        let width = word.chars().count() + 1;
+        if index > 0 && column + width > COLUMNS {
+            let _ = write!(out, "\n{:indent$}", "");
+            column = indent;
+        } else if index > 0 {
+            out.push(' ');
+        }
+        out.push_str(word);
+        column += width;
+    }
+    out.push('\n');
+}
+
+fn option(out: &mut String, name: &str, value: Option<impl Display>) {
+    if let Some(value) = value {
+        line(out, name, value);
+    }
+}
+
+fn stand(out: &mut String, content: &Content) {
+    let (stand, certificate) = (&content.stand, &content.certificate);
+    heading(out, "Stand");
+    option(out, "manufacturer", stand.manufacturer.as_ref());
+    line(out, "model, serial", format!("{} {}", stand.model, stand.serial));
+    option(out, "configuration", stand.configuration.as_ref());
+    option(out, "name", stand.name.as_ref());
+    option(out, "customer", stand.customer.as_ref());
+    heading(out, "Certificate (standard uncertainties, k = 1)");
+    line(out, "number", format!("{}, {}", certificate.number, certificate.issued));
+    line(out, "laboratory", &certificate.laboratory);
+    option(out, "address", certificate.address.as_ref());
+    option(out, "authorised by", certificate.authorized_by.as_ref());
+    option(out, "accreditation", certificate.accreditation.as_ref());
+    option(out, "received", certificate.received.as_ref());
+    option(out, "performed", certificate.performed.as_ref());
+    option(out, "valid until", certificate.valid_until.as_ref());
+    option(out, "by agreement of", certificate.valid_until_basis.as_ref());
+    option(out, "method", certificate.method.as_ref());
+    option(out, "traceability", certificate.traceability.as_ref());
+    option(out, "temperature, deg C", certificate.temperature_c);
+    option(out, "from, to, deg C", certificate.temperature_range_c.map(|[low, high]| format!("{low}, {high}")));
+    option(out, "repeatability, arcsec", certificate.repeatability_arcsec);
+    option(out, "common platform, arcsec", certificate.common_platform_arcsec);
+    option(out, "common base, arcsec", certificate.common_base_arcsec);
+    if let Some(datum) = &content.datum {
+        heading(out, "Datum");
+        option(out, "level", datum.level.as_ref());
+        option(out, "azimuth", datum.azimuth.as_ref());
+        option(out, "gyro seat", datum.gyro_seat.as_ref());
+    }
+}
+
+fn positions(out: &mut String, content: &Content) {
+    heading(out, "Positions: nominal angles in degrees; deviations and their standard uncertainties in arcseconds");
+    let names = ["i", "j", "theta", "phi", "alpha", "u", "beta", "u", "gamma", "u"];
+    let number = |value: f64| rule::number(value);
+    let maybe = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), number);
+    let rows = content.positions.iter().map(|at| {
+        vec![
+            at.i.to_string(),
+            at.j.to_string(),
+            number(at.theta_deg),
+            number(at.phi_deg),
+            number(at.alpha_arcsec),
+            maybe(at.u_alpha_arcsec),
+            number(at.beta_arcsec),
+            maybe(at.u_beta_arcsec),
+            number(at.gamma_arcsec),
+            maybe(at.u_gamma_arcsec),
+        ]
+    });
+    table(out, &names, &rows.collect::<Vec<_>>());
+}
+
+fn site(out: &mut String, content: &Content) {
+    let (site, earth) = (&content.site, &content.earth);
+    heading(out, "Site");
+    line(out, "id", &site.id);
+    option(out, "name", site.name.as_ref());
+    option(out, "latitude, deg", site.latitude_deg.or(site.astronomic_latitude_deg));
+    option(out, "longitude, deg", site.longitude_deg);
+    option(out, "height, m", site.height_m);
+    option(out, "source", site.source.as_ref());
+    heading(out, "Earth at the site");
+    line(out, "astronomic latitude, deg", earth.latitude_deg);
+    line(out, "horizontal rate, deg/h", earth.horizontal_deg_per_h);
+    line(out, "vertical rate, deg/h", earth.vertical_deg_per_h);
+    line(out, "gravity, m/s2", earth.gravity_m_per_s2);
+    let radius = format!("{:.0} (rates within {} deg/h)", earth.valid_radius_m, earth.valid_within_deg_per_h);
+    line(out, "valid within, m", radius);
+    option(out, "azimuth of mark, deg", earth.azimuth_deg);
+    option(out, "its u, arcsec", earth.azimuth_u_arcsec);
+}
+
+fn matrices(out: &mut String, content: &Content) {
+    let Some(m) = &content.matrices else {
+        heading(out, "Matrices: none, for not all of the eight positions are certified");
+        return;
+    };
+    heading(out, "Matrices, eq. (12), (13), (15)");
+    let row = |name: &str, unit: &str, [[a, b], [c, d]]: &Rows| {
+        let mut row = vec![name.to_owned(), unit.to_owned()];
+        row.extend([a, b, c, d].map(|value| format!("{value:.9}")));
+        row
+    };
+    let rows = [
+        row("Delta", "1", &m.delta),
+        row("B", "deg/h", &m.b_deg_per_h),
+        row("C", "deg/h/g", &m.c_deg_per_h_per_g),
+        row("n_1", "1", &m.n1),
+        row("n_2", "1", &m.n2),
+        row("n_2^-1", "1", &m.n2_inverse),
+        row("omega_31", "deg/h", &m.omega1_deg_per_h),
+        row("omega_32", "deg/h", &m.omega2_deg_per_h),
+    ];
+    table(out, &["", "unit", "11", "12", "21", "22"], &rows);
+}
+
+fn vectors(out: &mut String, content: &Content) {
+    heading(out, "Specific force in g and Earth rate in deg/h along the case axes, eq. (5)");
+    let rows = content.vectors.iter().map(|at| {
+        let [nx, ny] = at.specific_force_g;
+        let [wx, wy] = at.omega_deg_per_h;
+        let mut row = vec![at.i.to_string(), at.j.to_string()];
+        row.extend([nx, ny, at.specific_force_z_g, wx, wy].map(|value| format!("{value:.9}")));
+        row
+    });
+    table(out, &["i", "j", "n_x", "n_y", "n_z", "omega_x", "omega_y"], &rows.collect::<Vec<_>>());
+}
+
+fn self_check(out: &mut String, content: &Content) {
+    let Some(check) = &content.self_check else { return };
+    heading(out, "Self-check: from these currents (mA) laboratory software finds the parameters below");
+    let rows = check
+        .currents
+        .iter()
+        .map(|at| vec![at.i.to_string(), at.j.to_string(), format!("{:.9}", at.jx_ma), format!("{:.9}", at.jy_ma)]);
+    table(out, &["i", "j", "J_x", "J_y"], &rows.collect::<Vec<_>>());
+    let [[kx, kxy], [kyx, ky]] = check.k_deg_per_h_per_ma;
+    line(out, "K, deg/h/mA", format!("[[{kx}, {kxy}], [{kyx}, {ky}]]"));
+    let [x, y] = check.omega0_deg_per_h;
+    line(out, "omega_0, deg/h", format!("[{x}, {y}]"));
+    line(out, "omega_g, deg/h/g", check.omega_g_deg_per_h_per_g);
+    line(out, "omega_k, deg/h/g", check.omega_k_deg_per_h_per_g);
+}
+
+/// Columns as wide as their widest cell, numbers to the right.
+fn table(out: &mut String, names: &[&str], rows: &[Vec<String>]) {
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count());
+        cells.chain([names[column].chars().count()]).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..names.len()).map(width).collect();
+    let mut write = |cells: &mut dyn Iterator<Item = &str>| {
+        let padded: Vec<String> = cells.zip(&widths).map(|(cell, &width)| format!("{cell:>width$}")).collect();
+        let _ = writeln!(out, "  {}", padded.join("  "));
+    };
+    write(&mut names.iter().copied());
+    for row in rows {
+        write(&mut row.iter().map(String::as_str));
+    }
+}

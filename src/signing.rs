@@ -1,0 +1,149 @@
+//! How a factory signs: a key file, plain or encrypted, or `ssh-keygen` with an agent or a FIDO token.
+
+use crate::files::{self, FileError};
+use crate::passport::NAMESPACE;
+use crate::passport::document::{Signer, SigningFailed};
+use crate::trust::{KeyError, PublicKey, Signature, SigningKey};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use zeroize::Zeroizing;
+
+/// The largest key file that is read, in bytes.
+const LARGEST_KEY_FILE_BYTES: usize = 1 << 16;
+
+/// Why a key cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum KeyFileError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// It holds no key that signs.
+    #[error("{}: {error}", path.display())]
+    Key {
+        /// Which file.
+        path: PathBuf,
+        /// What is wrong.
+        error: KeyError,
+    },
+    /// Others can read the private key.
+    #[error("{}: mode {mode:04o} lets others read the private key; make it yours alone: chmod 600", path.display())]
+    Exposed {
+        /// Which file.
+        path: PathBuf,
+        /// Its permissions.
+        mode: u32,
+    },
+    /// There is no passphrase.
+    #[error("{}: the key is encrypted: {reason}", path.display())]
+    Passphrase {
+        /// Which file.
+        path: PathBuf,
+        /// Why there is none.
+        reason: String,
+    },
+    /// The file is not text.
+    #[error("{}: no text, expected a private key in OpenSSH format or a .pub file", path.display())]
+    NotText {
+        /// Which file.
+        path: PathBuf,
+    },
+}
+
+/// Asks for the passphrase of a key; called only for an encrypted one.
+pub type AskPassphrase<'a> = &'a dyn Fn(&Path) -> Result<Zeroizing<String>, String>;
+
+/// The signer for a key file: the key itself, or `ssh-keygen` for a `.pub` whose private half is in the agent or a token.
+///
+/// # Errors
+/// See [`KeyFileError`]. A private key that others can read is refused, as OpenSSH does.
+pub fn signer(path: &Path, ask: AskPassphrase) -> Result<Box<dyn Signer>, KeyFileError> {
+    let bytes = Zeroizing::new(files::read(path, LARGEST_KEY_FILE_BYTES)?);
+    let text = std::str::from_utf8(&bytes).map_err(|_| KeyFileError::NotText { path: path.to_owned() })?;
+    let key_error = |error| KeyFileError::Key { path: path.to_owned(), error };
+    if path.extension().is_some_and(|extension| extension == "pub") {
+        PublicKey::from_openssh(text.trim_end()).map_err(key_error)?;
+        return Ok(Box::new(SshKeygen { key: path.to_owned() }));
+    }
+    refuse_exposed(path)?;
+    match SigningKey::from_openssh(text, None) {
+        Ok(key) => Ok(Box::new(key)),
+        // The file of a token's key holds only a handle: ssh-keygen asks the token.
+        Err(KeyError::SecurityKey) => Ok(Box::new(SshKeygen { key: path.to_owned() })),
+        Err(KeyError::Encrypted) => {
+            let asked = ask(path);
+            let passphrase = asked.map_err(|reason| KeyFileError::Passphrase { path: path.to_owned(), reason })?;
+            Ok(Box::new(SigningKey::from_openssh(text, Some(&passphrase)).map_err(key_error)?))
+        }
+        Err(error) => Err(key_error(error)),
+    }
+}
+
+#[cfg(unix)]
+fn refuse_exposed(path: &Path) -> Result<(), KeyFileError> {
+    use std::os::unix::fs::PermissionsExt;
+    let failed = |error| FileError::Read { path: path.to_owned(), error };
+    let mode = std::fs::metadata(path).map_err(failed)?.permissions().mode() & 0o7777;
+    if mode & 0o077 != 0 {
+        return Err(KeyFileError::Exposed { path: path.to_owned(), mode });
+    }
+    Ok(())
+}
+
+#[cfg(not(unix))]
+fn refuse_exposed(_: &Path) -> Result<(), KeyFileError> {
+    Ok(())
+}
+
+/// An identity that cannot stand in allowed_signers as itself.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the identity {0:?} is empty or holds a blank, a quote or one of , * ? ! #: allowed_signers would read it as a pattern"
+)]
+pub struct BadIdentity(String);
+
+/// The line of allowed_signers that trusts `key` as `identity` for passports and their revocation lists.
+///
+/// # Errors
+/// [`BadIdentity`] when the identity would be read as a pattern of several.
+pub fn allowed_signers_line(identity: &str, key: &PublicKey) -> Result<String, BadIdentity> {
+    let plain = |c: char| !c.is_whitespace() && !c.is_control() && !"\"',*?!#".contains(c);
+    if identity.is_empty() || !identity.chars().all(plain) {
+        return Err(BadIdentity(identity.to_owned()));
+    }
+    Ok(format!("{identity} namespaces=\"{NAMESPACE},dtg-revocation\" {}", key.to_openssh()))
+}
+
+/// Signs through `ssh-keygen -Y sign`, which speaks to ssh-agent and to FIDO tokens.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SshKeygen {
+    key: PathBuf,
+}
+
+impl Signer for SshKeygen {
+    fn sign(&self, namespace: &str, message: &[u8]) -> Result<Signature, SigningFailed> {
+        let failed =
+            |what: String| SigningFailed(format!("ssh-keygen could not sign with {}: {what}", self.key.display()));
+        let mut child = Command::new("ssh-keygen")
+            .args(["-Y", "sign", "-q", "-n", namespace, "-f"])
+            .arg(&self.key)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .map_err(|error| failed(format!("{error}; is OpenSSH installed?")))?;
+        if let Some(mut stdin) = child.stdin.take() {
+            // A child that has already given up closes its end; its own words say why.
+            let _ = stdin.write_all(message);
+        }
+        let output = child.wait_with_output().map_err(|error| failed(error.to_string()))?;
+        if !output.status.success() {
+            let words = String::from_utf8_lossy(&output.stderr).trim().replace('\n', "; ");
+            let advice = "is ssh-agent running with this key (ssh-add -L), or the token plugged in?";
+            return Err(failed(format!("{words} ({advice})")));
+        }
+        let armor = String::from_utf8_lossy(&output.stdout);
+        Signature::from_armor(&armor).map_err(|error| failed(error.to_string()))
+    }
+}

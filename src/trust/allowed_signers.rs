@@ -1,0 +1,283 @@
+//! Allowed signers: whose key it is, for what and when (ssh-keygen(1), ALLOWED SIGNERS).
+//!
+//! Stricter than OpenSSH, which passes over a line that it cannot read: such a line is an error here, because
+//! whoever wrote it meant to trust somebody, or to end that trust.
+
+use super::PublicKey;
+use super::lines;
+use super::pattern::matches_list;
+use super::signer_line::{self, SignerLine};
+use crate::text::Unreadable;
+use jiff::Timestamp;
+use thiserror::Error;
+
+/// The keys that are trusted, each with the identities, purposes and time it is trusted for.
+#[derive(Debug, Clone)]
+pub struct AllowedSigners {
+    lines: Vec<SignerLine>,
+}
+
+/// Why a key does not count for an identity, a purpose and a time. Of several lines for one key the nearest miss is
+/// reported: the later in this list, the nearer.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum NotAuthorised {
+    /// No line names the key.
+    #[error("the signing key is not in the list of allowed signers")]
+    UnknownKey,
+    /// The key belongs to somebody else.
+    #[error("the signing key belongs to {}, not to the issuer that the document names", allowed.join(" or "))]
+    WrongPrincipal {
+        /// The patterns of principals that the key is trusted for.
+        allowed: Vec<String>,
+    },
+    /// The key is trusted for other purposes.
+    #[error("the signing key is trusted only for {allowed}, not for this kind of document")]
+    WrongNamespace {
+        /// The patterns of namespaces that the key is trusted for.
+        allowed: String,
+    },
+    /// The key was not valid yet.
+    #[error("the signing key is valid only from {from} on; the document was issued before")]
+    NotYetValid {
+        /// The first instant of its validity.
+        from: Timestamp,
+    },
+    /// The key was no longer valid.
+    #[error("the signing key was valid only until {until}; the document was issued later")]
+    Expired {
+        /// The last instant of its validity.
+        until: Timestamp,
+    },
+}
+
+impl AllowedSigners {
+    /// Reads a list of allowed signers in OpenSSH's format; `name` is the file's name for messages.
+    ///
+    /// A line holds patterns of principals, options (`namespaces`, `valid-after`, `valid-before`) and a public key of any
+    /// type that OpenSSH knows.
+    ///
+    /// # Errors
+    /// [`Unreadable`] with every mistake of every line. Refused with the reason are `cert-authority`, and dates without
+    /// `Z`: the local time of whoever verifies would decide. A list without any key is refused too.
+    pub fn parse(name: &str, text: &[u8]) -> Result<Self, Unreadable> {
+        let mut kept = Vec::new();
+        let mut problems = Vec::new();
+        for line in lines::of(name, text)? {
+            match signer_line::read(&line) {
+                Ok(line) => kept.push(line),
+                Err(mut found) => problems.append(&mut found),
+            }
+        }
+        if !problems.is_empty() {
+            return Err(Unreadable::of(name, problems));
+        }
+        if kept.is_empty() {
+            let advice = "`keygen` prints the line to put there";
+            return Err(Unreadable::whole(name, None, "no key", "a line for each trusted key", advice));
+        }
+        Ok(Self { lines: kept })
+    }
+
+    /// Whether `key` is trusted for a document of `namespace` that `principal` issued at the instant `at`.
+    ///
+    /// Patterns are OpenSSH's; both ends of a key's validity belong to it; instants are compared in whole seconds.
+    ///
+    /// # Errors
+    /// [`NotAuthorised`] with the nearest miss.
+    pub fn authorise(
+        &self,
+        key: &PublicKey,
+        principal: &str,
+        namespace: &str,
+        at: Timestamp,
+    ) -> Result<(), NotAuthorised> {
+        let mut nearest = NotAuthorised::UnknownKey;
+        for line in self.lines.iter().filter(|line| line.key == key.blob()) {
+            match line.authorise(principal, namespace, at) {
+                Ok(()) => return Ok(()),
+                Err(miss) => nearest = nearest.nearer(miss),
+            }
+        }
+        Err(nearest)
+    }
+}
+
+impl SignerLine {
+    fn authorise(&self, principal: &str, namespace: &str, at: Timestamp) -> Result<(), NotAuthorised> {
+        if !matches_list(principal, &self.principals) {
+            return Err(NotAuthorised::WrongPrincipal { allowed: vec![self.principals.clone()] });
+        }
+        if let Some(allowed) = self.namespaces.as_deref().filter(|allowed| !matches_list(namespace, allowed)) {
+            return Err(NotAuthorised::WrongNamespace { allowed: allowed.to_owned() });
+        }
+        if let Some(from) = self.valid_after.filter(|from| at.as_second() < from.as_second()) {
+            return Err(NotAuthorised::NotYetValid { from });
+        }
+        if let Some(until) = self.valid_before.filter(|until| at.as_second() > until.as_second()) {
+            return Err(NotAuthorised::Expired { until });
+        }
+        Ok(())
+    }
+}
+
+impl NotAuthorised {
+    /// The nearer of two misses; of two of one kind what both say together.
+    fn nearer(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::WrongPrincipal { mut allowed }, Self::WrongPrincipal { allowed: more }) => {
+                allowed.extend(more.into_iter().filter(|new| !allowed.contains(new)).collect::<Vec<_>>());
+                Self::WrongPrincipal { allowed }
+            }
+            (Self::WrongNamespace { allowed }, Self::WrongNamespace { allowed: more }) if allowed != more => {
+                Self::WrongNamespace { allowed: format!("{allowed} or {more}") }
+            }
+            (Self::NotYetValid { from }, Self::NotYetValid { from: other }) => {
+                Self::NotYetValid { from: from.min(other) }
+            }
+            (Self::Expired { until }, Self::Expired { until: other }) => Self::Expired { until: until.max(other) },
+            (one, other) if other.rank() > one.rank() => other,
+            (one, _) => one,
+        }
+    }
+
+    fn rank(&self) -> u8 {
+        match self {
+            Self::UnknownKey => 0,
+            Self::WrongPrincipal { .. } => 1,
+            Self::WrongNamespace { .. } => 2,
+            Self::NotYetValid { .. } => 3,
+            Self::Expired { .. } => 4,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trust::SigningKey;
+
+    const NAMESPACE: &str = "dtg-passport";
+
+    fn key() -> PublicKey {
+        SigningKey::generate().unwrap().public_key()
+    }
+
+    fn parsed(text: &str) -> AllowedSigners {
+        AllowedSigners::parse("allowed_signers", text.as_bytes()).unwrap()
+    }
+
+    fn refused(text: &str) -> String {
+        AllowedSigners::parse("f", text.as_bytes()).unwrap_err().to_string()
+    }
+
+    fn at(text: &str) -> Timestamp {
+        text.parse().unwrap()
+    }
+
+    #[test]
+    fn every_verdict() {
+        let (key, now) = (key(), at("2026-06-01T12:00:00Z"));
+        let line = |options: &str| parsed(&format!("*@factory,qa {options} {} comment", key.to_openssh()));
+        let verdict = |options: &str, principal: &str| line(options).authorise(&key, principal, NAMESPACE, now);
+        assert_eq!(verdict("", "lab@factory"), Ok(()));
+        assert_eq!(verdict("NameSpaces=\"git,dtg-*\",valid-after=\"20260601Z\"", "qa"), Ok(()));
+        assert_eq!(line("").authorise(&self::key(), "qa", NAMESPACE, now), Err(NotAuthorised::UnknownKey));
+        let allowed = vec!["*@factory,qa".to_owned()];
+        assert_eq!(verdict("", "QA"), Err(NotAuthorised::WrongPrincipal { allowed }));
+        let allowed = "git,!dtg-*,*".to_owned();
+        assert_eq!(verdict("namespaces=\"git,!dtg-*,*\"", "qa"), Err(NotAuthorised::WrongNamespace { allowed }));
+        let from = at("2026-06-01T12:00:01Z");
+        assert_eq!(verdict("valid-after=\"20260601120001Z\"", "qa"), Err(NotAuthorised::NotYetValid { from }));
+        let until = at("2026-06-01T11:59:59Z");
+        assert_eq!(verdict("valid-before=\"20260601115959Z\"", "qa"), Err(NotAuthorised::Expired { until }));
+    }
+
+    #[test]
+    fn both_ends_of_the_validity_belong_to_it() {
+        let key = key();
+        let signers = parsed(&format!("a valid-after=\"20260101Z\",valid-before=\"20260102Z\" {}", key.to_openssh()));
+        let holds = |instant: &str| signers.authorise(&key, "a", NAMESPACE, at(instant)).is_ok();
+        assert!(!holds("2025-12-31T23:59:59.9Z"));
+        assert!(holds("2026-01-01T00:00:00Z"));
+        assert!(holds("2026-01-02T00:00:00.9Z"));
+        assert!(!holds("2026-01-02T00:00:01Z"));
+    }
+
+    #[test]
+    fn of_several_lines_any_that_fits_counts_else_the_nearest_miss() {
+        let key = key();
+        let line = key.to_openssh();
+        let now = at("2026-06-01T12:00:00Z");
+        let misses = format!(
+            "b {line}\n\"c d\" {line}\na namespaces=\"git\" {line}\na valid-after=\"20270101Z\" {line}\n\
+             a valid-before=\"20250101Z\" {line}\na valid-before=\"20260101Z\" {line}\n"
+        );
+        let verdict = |count: usize| {
+            let text: String = misses.lines().take(count).map(|line| format!("{line}\r\n")).collect();
+            parsed(&text).authorise(&key, "a", NAMESPACE, now).unwrap_err()
+        };
+        let allowed = vec!["b".to_owned(), "c d".to_owned()];
+        assert_eq!(verdict(2), NotAuthorised::WrongPrincipal { allowed });
+        assert_eq!(verdict(3), NotAuthorised::WrongNamespace { allowed: "git".to_owned() });
+        assert_eq!(verdict(4), NotAuthorised::NotYetValid { from: at("2027-01-01T00:00:00Z") });
+        assert_eq!(verdict(6), NotAuthorised::Expired { until: at("2026-01-01T00:00:00Z") });
+        assert_eq!(parsed(&format!("{misses}a {line}")).authorise(&key, "a", NAMESPACE, now), Ok(()));
+    }
+
+    #[test]
+    fn every_mistake_of_every_line_is_reported_with_its_place() {
+        let key = key().to_openssh();
+        let text = format!(
+            "# who\n a cert-authority {key}\na valid-after=\"20260101\",colour=\"red\" {key}\n\
+             \"a b {key}\na\na {key}\na ssh-ed25519 AAAA!\n"
+        );
+        let refused = refused(&text);
+        let expected = [
+            "f:2:4: found cert-authority, expected a key that signs itself; an authority could certify",
+            "f:3:15: valid-after: found \"20260101\", expected a date in UTC, with Z at its end; without Z the local",
+            "f:3:26: found `colour=\"red\"`, expected namespaces=",
+            "f:4:1: principals: found a quote that is not closed, expected a closing quote",
+            "f:5:2: key: found nothing, expected a public key",
+            "f:7:15: key: found a damaged public key (its base64 is cut short or altered)",
+        ];
+        assert_eq!(refused.lines().count(), expected.len(), "{refused}");
+        for (line, beginning) in refused.lines().zip(expected) {
+            assert!(line.starts_with(beginning), "{line}\n  does not begin with\n{beginning}");
+        }
+    }
+
+    #[test]
+    fn options_are_strict() {
+        let key = key().to_openssh();
+        for (options, words) in [
+            ("namespaces=\"a\",namespaces=\"b\"", "f:1:18: namespaces: found the option a second time"),
+            ("namespaces=dtg-passport", "found `dtg-passport`, expected a value in double quotes"),
+            ("namespaces=\"a\"b", "found `\"a\"b`, expected a value in double quotes"),
+            ("namespaces=\"\"", "found an empty list"),
+            ("namespaces", "found no value, expected namespaces=\"…\""),
+            ("namespaces=\"a\",", "found nothing behind a comma"),
+            (",namespaces=\"a\"", "found nothing, expected namespaces"),
+            ("no-touch-required", "found `no-touch-required`, expected namespaces"),
+            ("valid-before=\"20260101Z\",valid-after=\"20260101Z\"", "expected an instant after valid-after"),
+            ("valid-before=\"20260230Z\"", "a date of the calendar"),
+            ("namespaces=\"a", "f:1:14: found a quote that is not closed"),
+        ] {
+            let refused = refused(&format!("a {options} {key}"));
+            assert!(refused.contains(words), "{options}: {refused}");
+        }
+        assert!(refused(&format!("{} {key}", "a".repeat(1023))).contains("a pattern of 1023 bytes"));
+        assert!(refused(&format!("\"\" {key}")).contains("found an empty list"));
+        assert!(refused(&format!("a\"b\" {key}")).contains("a quote inside the list"));
+        assert!(refused(&format!("\"a\"b {key}")).contains("text right behind the closing quote"));
+        assert!(refused(&format!("a {key}\u{7}")).contains("the control character U+0007"));
+        assert!(refused("# nobody so far\n").contains("found no key"));
+    }
+
+    #[test]
+    fn quotes_inside_values_and_keys_of_other_types_are_kept() {
+        let rsa = "ssh-rsa AAAAB3NzaC1yc2EAAAADAQABAAAAAwUAAQ==";
+        let signers = parsed(&format!("a namespaces=\"x\\\"y,z\" {}\nb {rsa}", key().to_openssh()));
+        assert_eq!(signers.lines[0].namespaces.as_deref(), Some("x\"y,z"));
+        assert_eq!(signers.lines.len(), 2);
+    }
+}

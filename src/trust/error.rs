@@ -1,0 +1,122 @@
+//! What can be wrong with a key or a signature, in words that say what to do.
+
+use thiserror::Error;
+
+/// Why a key cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum KeyError {
+    /// Not a line of OpenSSH's public key format.
+    #[error("found {found}, expected a public key in one line, such as `ssh-ed25519 AAAA… comment`")]
+    NotAPublicKey {
+        /// What was found instead.
+        found: String,
+    },
+    /// A public key whose base64 or its content does not hold together.
+    #[error("the public key is damaged: {0}; copy its line again, whole")]
+    DamagedPublicKey(String),
+    /// A good key of a type that signs no passport.
+    #[error("found a key of type {found}, expected ssh-ed25519 or sk-ssh-ed25519@openssh.com")]
+    OtherKeyType {
+        /// The type as OpenSSH names it.
+        found: String,
+    },
+    /// Not a private key file of OpenSSH.
+    #[error("found {found}, expected a private key file of OpenSSH (`-----BEGIN OPENSSH PRIVATE KEY-----`); {advice}")]
+    NotAPrivateKey {
+        /// What was found instead.
+        found: &'static str,
+        /// What to do about it.
+        advice: &'static str,
+    },
+    /// The file beside a security key: the private half is in the token.
+    #[error(
+        "the private half of this key is in a security key (FIDO token); give the .pub file, then ssh-keygen signs \
+         through the token"
+    )]
+    SecurityKey,
+    /// The private key is encrypted and no passphrase was given.
+    #[error("the private key is encrypted; its passphrase is needed")]
+    Encrypted,
+    /// The passphrase does not open the private key.
+    #[error("the passphrase does not open the private key (it is another one, or the file is damaged)")]
+    WrongPassphrase,
+    /// An empty passphrase was given to encrypt with.
+    #[error("the passphrase is empty; give one, or say that the key stays unencrypted")]
+    EmptyPassphrase,
+    /// The private key is encrypted in a way that is not read here.
+    #[error(
+        "the private key is encrypted with {found}, which is not read here; `ssh-keygen -p -f KEY` encrypts it anew"
+    )]
+    Encryption {
+        /// The cipher, or what is unusual about the encryption.
+        found: String,
+    },
+    /// A private key file whose content does not hold together.
+    #[error("the private key file is damaged: {0}; restore it from a copy")]
+    DamagedPrivateKey(String),
+    /// A comment that would not stay on the line of the public key.
+    #[error("the comment of a key holds a control character; write it as one line of plain text")]
+    Comment,
+    /// A namespace that OpenSSH does not sign for.
+    #[error("the namespace of a signature is empty")]
+    Namespace,
+    /// The operating system gives no random bytes.
+    #[error("the operating system gives no random bytes: {0}")]
+    NoRandomness(String),
+}
+
+/// Why a signature is not accepted.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum SignatureError {
+    /// The text is not OpenSSH's armor, or what it holds does not hold together.
+    #[error("the signature block is not OpenSSH's or is damaged: {0}")]
+    Damaged(String),
+    /// Another version of the format; the version is not signed, so only one can be accepted.
+    #[error("the signature block has format version {found}, expected 1")]
+    Version {
+        /// The version found.
+        found: u32,
+    },
+    /// The reserved field is not empty.
+    #[error("the signature block holds {length} reserved bytes, expected none")]
+    Reserved {
+        /// How many bytes it holds.
+        length: usize,
+    },
+    /// The message was hashed in another way.
+    #[error("the signed text was hashed with {found}, expected sha512")]
+    HashAlgorithm {
+        /// The algorithm found.
+        found: String,
+    },
+    /// Signed with a key of a type that signs no passport.
+    #[error("signed with {found}, expected a key of type ssh-ed25519 or sk-ssh-ed25519@openssh.com")]
+    KeyType {
+        /// The type found.
+        found: String,
+    },
+    /// The signature is of another algorithm than its key.
+    #[error("the key is of type {key}, its signature of type {signature}")]
+    Algorithm {
+        /// The key's type.
+        key: String,
+        /// The signature's type.
+        signature: String,
+    },
+    /// The armor is not byte for byte the one that OpenSSH writes for its content.
+    #[error("the signature block is written in another way than OpenSSH writes it (line length, line ends or padding)")]
+    NotCanonical,
+    /// A signature made for another purpose.
+    #[error("the signature was made for the namespace {found:?}, expected {expected:?}")]
+    WrongNamespace {
+        /// The namespace of the signature.
+        found: String,
+        /// The namespace that is verified for.
+        expected: String,
+    },
+    /// The signature is not this key's for this text.
+    #[error("the signature does not fit the text: the text or the signature was altered after signing")]
+    DoesNotHold,
+}

@@ -1,0 +1,106 @@
+//! Trust files that are text: what holds for each of them before its lines are read.
+
+use super::LARGEST_TRUST_FILE_BYTES;
+use crate::text::Unreadable;
+use crate::text::problem::{Location, Problem};
+
+/// A line that is neither empty nor a comment.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Line<'a> {
+    /// From 1.
+    pub(super) number: usize,
+    /// Without its line end.
+    pub(super) text: &'a str,
+}
+
+impl Line<'_> {
+    /// A mistake in this line, `at` bytes from its beginning.
+    pub(super) fn problem(
+        &self,
+        at: usize,
+        field: &str,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+        advice: impl Into<String>,
+    ) -> Problem {
+        let column = 1 + self.text.get(..at).unwrap_or(self.text).chars().count();
+        Problem {
+            location: Some(Location { line: self.number, column }),
+            field: field.to_owned(),
+            found: found.into(),
+            expected: expected.into(),
+            advice: advice.into(),
+        }
+    }
+
+    /// The control character in this line, if it holds one (a tab is none).
+    pub(super) fn control_character(&self) -> Option<Problem> {
+        let (at, c) = self.text.char_indices().find(|(_, c)| c.is_control() && *c != '\t')?;
+        let found = format!("the control character U+{:04X}", u32::from(c));
+        Some(self.problem(at, "", found, "text", "write the line again in a text editor"))
+    }
+}
+
+/// The lines of a trust file that say something; line ends are LF or CRLF.
+///
+/// # Errors
+/// When the file is larger than [`LARGEST_TRUST_FILE_BYTES`], not UTF-8, or begins with a byte order mark, which
+/// OpenSSH would take for a part of the first line.
+pub(super) fn of<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Line<'a>>, Unreadable> {
+    let start = Some(Location { line: 1, column: 1 });
+    if bytes.len() > LARGEST_TRUST_FILE_BYTES {
+        let found = format!("{} bytes", bytes.len());
+        let expected = format!("at most {LARGEST_TRUST_FILE_BYTES}");
+        return Err(Unreadable::whole(name, None, found, expected, "this is some other file"));
+    }
+    let mark = match bytes {
+        [0xEF, 0xBB, 0xBF, ..] => Some("a byte order mark (BOM)"),
+        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => Some("UTF-16"),
+        _ => None,
+    };
+    if let Some(found) = mark {
+        return Err(Unreadable::whole(name, start, found, "UTF-8 without a BOM", "save it as plain UTF-8"));
+    }
+    let text = std::str::from_utf8(bytes).map_err(|error| {
+        let before = &bytes[..error.valid_up_to()];
+        let line_start = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |at| at + 1);
+        let column = 1 + String::from_utf8_lossy(&before[line_start..]).chars().count();
+        let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
+        let found = format!("the byte 0x{:02X}", bytes[error.valid_up_to()]);
+        Unreadable::whole(name, Some(Location { line, column }), found, "UTF-8", "save it as plain UTF-8")
+    })?;
+    let lines = text
+        .split('\n')
+        .enumerate()
+        .map(|(index, line)| Line { number: index + 1, text: line.strip_suffix('\r').unwrap_or(line) });
+    Ok(lines.filter(|line| !line.text.trim().is_empty() && !line.text.trim_start().starts_with('#')).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comments_and_empty_lines_are_left_out() {
+        let lines = of("f", b"# one\n\n \t\r\n  a b\r\n\t# two\nc").unwrap();
+        let kept: Vec<_> = lines.iter().map(|line| (line.number, line.text)).collect();
+        assert_eq!(kept, [(4, "  a b"), (6, "c")]);
+    }
+
+    #[test]
+    fn other_encodings_are_named_with_their_place() {
+        let refusal = |bytes: &[u8]| of("f", bytes).unwrap_err().to_string();
+        assert!(refusal(b"\xEF\xBB\xBFa").starts_with("f:1:1: found a byte order mark"));
+        assert!(refusal(b"\xFF\xFEa\0").contains("found UTF-16"));
+        assert!(refusal("# жж\nж".as_bytes().split_last().unwrap().1).starts_with("f:2:1: found the byte 0xD0"));
+        assert!(refusal(&vec![b' '; LARGEST_TRUST_FILE_BYTES + 1]).contains("16777217 bytes"));
+    }
+
+    #[test]
+    fn control_characters_are_placed() {
+        let line = Line { number: 3, text: "жb\u{0}c" };
+        let problem = line.control_character().unwrap();
+        assert_eq!(problem.location, Some(Location { line: 3, column: 3 }));
+        assert!(problem.found.contains("U+0000"));
+    }
+}

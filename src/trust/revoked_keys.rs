@@ -1,0 +1,166 @@
+//! Keys that are no longer trusted: OpenSSH's key revocation list (`ssh-keygen -k`) or a list of public keys, one a line.
+
+use super::krl::{self, Revoked};
+use super::signer_line::read_key;
+use super::{LARGEST_TRUST_FILE_BYTES, PublicKey, lines};
+use crate::text::Unreadable;
+use sha1::Sha1;
+use sha2::{Digest, Sha256};
+
+/// The keys that one file revokes.
+#[derive(Debug, Clone)]
+pub struct RevokedKeys {
+    name: String,
+    revoked: Revoked,
+}
+
+impl RevokedKeys {
+    /// Reads a key revocation list or a list of public keys, told apart by content; `name` is the file's name for messages.
+    ///
+    /// A list of public keys has a key of any type that OpenSSH knows on each line, without options; `#` begins a comment
+    /// line. One that revokes nothing so far must say so in a comment: an empty file could be what is left of another.
+    ///
+    /// # Errors
+    /// [`Unreadable`] with every mistake of a list of public keys, or with the first of a key revocation list and its place
+    /// in bytes from the beginning.
+    pub fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
+        let revoked = if bytes.starts_with(b"SSHKRL") { binary(name, bytes)? } else { text(name, bytes)? };
+        Ok(Self { name: name.to_owned(), revoked })
+    }
+
+    /// Why `key` is revoked, in words, if it is.
+    pub fn revokes(&self, key: &PublicKey) -> Option<String> {
+        let blob = key.blob();
+        if self.revoked.keys.contains(blob) {
+            Some(format!("named in {}", self.name))
+        } else if self.revoked.sha256.contains(&Sha256::digest(blob)[..]) {
+            Some(format!("its SHA-256 fingerprint is in {}", self.name))
+        } else if self.revoked.sha1.contains(&Sha1::digest(blob)[..]) {
+            Some(format!("its SHA-1 fingerprint is in {}", self.name))
+        } else {
+            None
+        }
+    }
+}
+
+fn binary(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
+    if bytes.len() > LARGEST_TRUST_FILE_BYTES {
+        let found = format!("{} bytes", bytes.len());
+        let expected = format!("at most {LARGEST_TRUST_FILE_BYTES}");
+        return Err(Unreadable::whole(name, None, found, expected, "this is some other file"));
+    }
+    if bytes.starts_with(b"SSHKRL\r\n") {
+        let found = "a key revocation list whose line ends were changed in transit, e.g. by git autocrlf";
+        return Err(Unreadable::whole(name, None, found, "the list as ssh-keygen wrote it", "transfer it as binary"));
+    }
+    krl::read(bytes).map_err(|refusal| {
+        let advice = "make the list again with `ssh-keygen -k`, or transfer it again";
+        Unreadable::whole(name, None, refusal.found, refusal.expected, advice)
+    })
+}
+
+fn text(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
+    if bytes.trim_ascii().is_empty() {
+        let advice = "if no key is revoked so far, say so in a line that begins with #";
+        return Err(Unreadable::whole(name, None, "an empty file", "a list of revoked keys", advice));
+    }
+    let mut revoked = Revoked::default();
+    let mut problems = Vec::new();
+    for line in lines::of(name, bytes)? {
+        let start = line.text.len() - line.text.trim_start().len();
+        match line.control_character().map_or_else(|| read_key(&line, start), Err) {
+            Ok(key) => {
+                revoked.keys.insert(key.into_blob());
+            }
+            Err(problem) => problems.push(problem),
+        }
+    }
+    if problems.is_empty() { Ok(revoked) } else { Err(Unreadable::of(name, problems)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trust::SigningKey;
+
+    fn key() -> PublicKey {
+        SigningKey::generate().unwrap().public_key()
+    }
+
+    fn string(bytes: &[u8]) -> Vec<u8> {
+        [&(bytes.len() as u32).to_be_bytes()[..], bytes].concat()
+    }
+
+    fn section(kind: u8, items: &[&[u8]]) -> Vec<u8> {
+        let body: Vec<u8> = items.iter().flat_map(|item| string(item)).collect();
+        [vec![kind], string(&body)].concat()
+    }
+
+    fn list(sections: &[Vec<u8>]) -> Vec<u8> {
+        let header = [krl::MAGIC, &[0, 0, 0, 1], &[0; 24], &[0; 4], &string(b"why")].concat();
+        [header, sections.concat()].concat()
+    }
+
+    fn refused(bytes: &[u8]) -> String {
+        RevokedKeys::parse("krl", bytes).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn keys_are_revoked_by_themselves_or_by_either_fingerprint() {
+        let (key, other) = (key(), key());
+        let why = |section: Vec<u8>| RevokedKeys::parse("krl", &list(&[section])).unwrap().revokes(&key);
+        assert_eq!(why(section(2, &[other.blob(), key.blob()])).as_deref(), Some("named in krl"));
+        let sha1 = Sha1::digest(key.blob());
+        assert_eq!(why(section(3, &[&sha1])).as_deref(), Some("its SHA-1 fingerprint is in krl"));
+        let sha256 = Sha256::digest(key.blob());
+        assert_eq!(why(section(5, &[&sha256])).as_deref(), Some("its SHA-256 fingerprint is in krl"));
+        assert_eq!(why(section(2, &[other.blob()])), None);
+        assert_eq!(why(section(1, &[key.blob(), b"", b"anything"])), None);
+        let lines = format!("# lost\n{} bench\r\n", key.to_openssh());
+        let lines = RevokedKeys::parse("keys", lines.as_bytes()).unwrap();
+        assert_eq!((lines.revokes(&key).as_deref(), lines.revokes(&other)), (Some("named in keys"), None));
+    }
+
+    #[test]
+    fn sections_that_are_passed_over() {
+        let key = key();
+        let signature = [section(4, &[key.blob()]), string(b"signature")].concat();
+        let optional = [vec![255], string(&[string(b"note@here"), vec![0], string(b"x")].concat())].concat();
+        let good = list(&[optional, section(2, &[key.blob()]), signature.clone(), signature.clone()]);
+        assert!(RevokedKeys::parse("krl", &good).unwrap().revokes(&key).is_some());
+        assert!(refused(&list(&[signature, section(2, &[])])).contains("a section behind the signature, at byte"));
+    }
+
+    #[test]
+    fn what_cannot_be_understood_is_refused_with_its_place() {
+        let critical = [vec![255], string(&[string(b"must@here"), vec![1], string(b"")].concat())].concat();
+        let longer = [vec![255], string(&[string(b"note@here"), vec![0], string(b""), vec![7]].concat())].concat();
+        for (bytes, words) in [
+            (list(&[section(6, &[])]), "a section of type 6 at byte 47"),
+            (list(&[section(3, &[&[0; 32]])]), "a fingerprint of 32 bytes at byte 52, expected 20 bytes"),
+            (list(&[section(5, &[&[0; 20]])]), "a fingerprint of 20 bytes at byte 52, expected 32 bytes"),
+            (list(&[critical]), "the critical extension `must@here`"),
+            (list(&[longer]), "1 bytes behind an extension"),
+            (b"SSHKRL\r\n\0\0".to_vec(), "line ends were changed in transit"),
+            (b"SSHKRL".to_vec(), "only 6 bytes are left"),
+            (b"SSHKRL\n\0\0\0\0\x02".to_vec(), "format version 2 at byte 8"),
+            (b"SSHKRLxx".to_vec(), "other bytes at its beginning"),
+            (b" \n".to_vec(), "an empty file"),
+            (b"revoked: [a]\n".to_vec(), "krl:1:1: key: found `revoked:`, which is no key type"),
+        ] {
+            let refused = refused(&bytes);
+            assert!(refused.contains(words), "{refused}");
+        }
+        assert!(RevokedKeys::parse("krl", b"# none so far\n").is_ok());
+        assert!(RevokedKeys::parse("krl", &list(&[])).is_ok());
+    }
+
+    #[test]
+    fn a_list_cut_short_anywhere_is_refused() {
+        let whole = list(&[section(2, &[key().blob()]), section(3, &[&[0; 20]])]);
+        let ends = [47, whole.len() - 29];
+        for length in 1..whole.len() {
+            assert_eq!(RevokedKeys::parse("krl", &whole[..length]).is_ok(), ends.contains(&length), "{length}");
+        }
+    }
+}

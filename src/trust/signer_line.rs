@@ -1,0 +1,263 @@
+//! One line of allowed signers: `principals [options] key-type base64-key [comment]`.
+
+use super::error::KeyError;
+use super::lines::Line;
+use super::pattern::LONGEST_PATTERN;
+use super::public_key::{AnyKey, shortened};
+use super::validity;
+use crate::text::problem::Problem;
+use jiff::Timestamp;
+
+/// A key with what it may sign, as whom and when.
+#[derive(Debug, Clone)]
+pub(super) struct SignerLine {
+    /// Patterns of the identities that the key may sign as.
+    pub(super) principals: String,
+    /// Patterns of the purposes that it may sign for; none: any.
+    pub(super) namespaces: Option<String>,
+    /// The first instant of its validity.
+    pub(super) valid_after: Option<Timestamp>,
+    /// The last instant of its validity.
+    pub(super) valid_before: Option<Timestamp>,
+    /// The key as SSH transmits it.
+    pub(super) key: Vec<u8>,
+}
+
+/// Options of a line, each with the place where it stands.
+#[derive(Default)]
+struct Options {
+    namespaces: Option<String>,
+    valid_after: Option<Timestamp>,
+    valid_before: Option<Timestamp>,
+    seen: Vec<String>,
+}
+
+/// Reads a line; every mistake in it is reported.
+pub(super) fn read(line: &Line) -> Result<SignerLine, Vec<Problem>> {
+    if let Some(problem) = line.control_character() {
+        return Err(vec![problem]);
+    }
+    let mut problems = Vec::new();
+    let start = blanks(line.text, 0);
+    let (principals, at) = principals(line, start).map_err(|problem| vec![problem])?;
+    check_patterns(line, start, "principals", &principals, &mut problems);
+    let (options, at) = if AnyKey::is_type(word(line.text, at)) {
+        (Options::default(), at)
+    } else {
+        let end = options_end(line, at).map_err(|problem| vec![problem])?;
+        (options(line, at, end, &mut problems), blanks(line.text, end))
+    };
+    match key(line, at) {
+        Ok(key) if problems.is_empty() => Ok(SignerLine {
+            principals,
+            namespaces: options.namespaces,
+            valid_after: options.valid_after,
+            valid_before: options.valid_before,
+            key,
+        }),
+        Ok(_) => Err(problems),
+        Err(problem) => {
+            problems.push(problem);
+            Err(problems)
+        }
+    }
+}
+
+const BLANKS: [char; 2] = [' ', '\t'];
+
+/// The end of the blanks that begin at `at`.
+fn blanks(text: &str, at: usize) -> usize {
+    let rest = &text[at..];
+    text.len() - rest.trim_start_matches(BLANKS).len()
+}
+
+/// The word that begins at `at`.
+fn word(text: &str, at: usize) -> &str {
+    text[at..].split(BLANKS).next().unwrap_or_default()
+}
+
+/// The principals, out of their quotes, and where the next word begins.
+fn principals(line: &Line, start: usize) -> Result<(String, usize), Problem> {
+    let text = line.text;
+    let (value, end) = match text[start..].strip_prefix('"') {
+        Some(quoted) => {
+            let length = quoted.find('"').ok_or_else(|| {
+                line.problem(start, "principals", "a quote that is not closed", "a closing quote", "")
+            })?;
+            (&quoted[..length], start + length + 2)
+        }
+        None => {
+            let unquoted = word(text, start);
+            if let Some(quote) = unquoted.find('"') {
+                let advice = "put the whole list of principals into quotes, or none of it";
+                return Err(line.problem(start + quote, "principals", "a quote inside the list", "no quote", advice));
+            }
+            (unquoted, start + unquoted.len())
+        }
+    };
+    let next = blanks(text, end);
+    if next == end && next < text.len() {
+        return Err(line.problem(end, "principals", "text right behind the closing quote", "a blank", ""));
+    }
+    Ok((value.to_owned(), next))
+}
+
+/// A list of patterns must name something, and no pattern that OpenSSH gives up on.
+fn check_patterns(line: &Line, at: usize, field: &str, list: &str, problems: &mut Vec<Problem>) {
+    if list.is_empty() {
+        problems.push(line.problem(at, field, "an empty list", "at least one pattern", "write * for any"));
+    }
+    if let Some(long) = list.split(',').find(|pattern| pattern.len() > LONGEST_PATTERN) {
+        let found = format!("a pattern of {} bytes", long.len());
+        let expected = format!("at most {LONGEST_PATTERN}");
+        problems.push(line.problem(at, field, found, expected, "OpenSSH matches no longer ones"));
+    }
+}
+
+/// Where the options that begin at `at` end: at the first blank outside quotes.
+fn options_end(line: &Line, at: usize) -> Result<usize, Problem> {
+    let mut quote = None;
+    let mut escaped = false;
+    for (index, c) in line.text[at..].char_indices() {
+        let before_quote = line.text[at + index + c.len_utf8()..].starts_with('"');
+        match c {
+            _ if escaped => escaped = false,
+            '\\' => escaped = before_quote,
+            '"' if quote.is_some() => quote = None,
+            '"' => quote = Some(at + index),
+            ' ' | '\t' if quote.is_none() => return Ok(at + index),
+            _ => {}
+        }
+    }
+    match quote {
+        Some(open) => Err(line.problem(open, "", "a quote that is not closed", "a closing quote", "")),
+        None => Ok(line.text.len()),
+    }
+}
+
+/// Reads the options between `start` and `end`.
+fn options(line: &Line, start: usize, end: usize, problems: &mut Vec<Problem>) -> Options {
+    let mut options = Options::default();
+    let mut at = start;
+    while at < end {
+        let length = option_length(&line.text[at..end]);
+        if let Err(problem) = options.read(line, at, &line.text[at..at + length], problems) {
+            problems.push(problem);
+        }
+        at += length;
+        if line.text[at..end].starts_with(',') {
+            at += 1;
+            if at == end {
+                problems.push(line.problem(at, "", "nothing behind a comma", "another option", "remove the comma"));
+            }
+        }
+    }
+    if let (Some(after), Some(before)) = (options.valid_after, options.valid_before)
+        && before <= after
+    {
+        let expected = format!("an instant after valid-after, {after}");
+        problems.push(line.problem(start, "valid-before", before.to_string(), expected, "exchange or correct the two"));
+    }
+    options
+}
+
+/// The length of the option that `text` begins with: up to a comma outside quotes.
+fn option_length(text: &str) -> usize {
+    let (mut quoted, mut escaped) = (false, false);
+    for (index, c) in text.char_indices() {
+        match c {
+            _ if escaped => escaped = false,
+            '\\' => escaped = text[index + 1..].starts_with('"'),
+            '"' => quoted = !quoted,
+            ',' if !quoted => return index,
+            _ => {}
+        }
+    }
+    text.len()
+}
+
+impl Options {
+    /// Reads one option; its name may be in upper or lower case, as with OpenSSH.
+    fn read(&mut self, line: &Line, at: usize, option: &str, problems: &mut Vec<Problem>) -> Result<(), Problem> {
+        let (name, value) = option.split_once('=').map_or((option, None), |(name, value)| (name, Some(value)));
+        let name = name.to_ascii_lowercase();
+        let value_at = at + name.len() + 1;
+        if self.seen.contains(&name) {
+            return Err(line.problem(at, &name, "the option a second time", "it once", "remove one of the two"));
+        }
+        self.seen.push(name.clone());
+        match (name.as_str(), value) {
+            ("namespaces", Some(value)) => {
+                let list = unquoted(line, value_at, &name, value)?;
+                check_patterns(line, value_at, &name, &list, problems);
+                self.namespaces = Some(list);
+            }
+            ("valid-after", Some(value)) => self.valid_after = Some(date(line, value_at, &name, value)?),
+            ("valid-before", Some(value)) => self.valid_before = Some(date(line, value_at, &name, value)?),
+            ("namespaces" | "valid-after" | "valid-before", None) => {
+                let expected = format!("{name}=\"…\"");
+                return Err(line.problem(at, &name, "no value", expected, "write its value in double quotes"));
+            }
+            ("cert-authority", None) => {
+                let advice =
+                    "an authority could certify further keys without this list saying so; list each signing key";
+                return Err(line.problem(at, "", "cert-authority", "a key that signs itself", advice));
+            }
+            _ => return Err(unknown(line, at, option)),
+        }
+        Ok(())
+    }
+}
+
+fn unknown(line: &Line, at: usize, option: &str) -> Problem {
+    let found = if option.is_empty() { "nothing".to_owned() } else { format!("`{}`", shortened(option)) };
+    let expected = "namespaces=\"…\", valid-after=\"…\", valid-before=\"…\" or a key such as ssh-ed25519 AAAA…";
+    line.problem(at, "", found, expected, "a line is: principals, options separated by commas, key")
+}
+
+/// The value of an option, out of its quotes; `\"` is a quote.
+fn unquoted(line: &Line, at: usize, field: &str, value: &str) -> Result<String, Problem> {
+    let inner =
+        value.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).map(|inner| inner.replace("\\\"", "\u{0}"));
+    match inner {
+        Some(inner) if !inner.contains('"') => Ok(inner.replace('\u{0}', "\"")),
+        _ => {
+            let found = if value.is_empty() { "nothing".to_owned() } else { format!("`{}`", shortened(value)) };
+            Err(line.problem(at, field, found, "a value in double quotes", "such as \"dtg-passport\""))
+        }
+    }
+}
+
+fn date(line: &Line, at: usize, field: &str, value: &str) -> Result<Timestamp, Problem> {
+    let text = unquoted(line, at, field, value)?;
+    validity::instant(&text)
+        .map_err(|(expected, advice)| line.problem(at, field, format!("\"{}\"", shortened(&text)), expected, advice))
+}
+
+/// The key that begins at `at`, of any type.
+fn key(line: &Line, at: usize) -> Result<Vec<u8>, Problem> {
+    read_key(line, at).map(AnyKey::into_blob)
+}
+
+/// The key that begins at `at` of any line of a trust file.
+pub(super) fn read_key(line: &Line, at: usize) -> Result<AnyKey, Problem> {
+    const EXPECTED: &str = "a public key such as ssh-ed25519 AAAA…";
+    let algorithm = word(line.text, at);
+    let base64_at = blanks(line.text, at + algorithm.len());
+    let base64 = word(line.text, base64_at);
+    if base64.is_empty() {
+        let found =
+            if algorithm.is_empty() { "nothing".to_owned() } else { format!("only `{}`", shortened(algorithm)) };
+        return Err(line.problem(at, "key", found, EXPECTED, "copy the line of the .pub file here"));
+    }
+    AnyKey::read(algorithm, base64).map_err(|error| match error {
+        KeyError::NotAPublicKey { found } => {
+            line.problem(at, "key", found, EXPECTED, "copy the line of the .pub file here")
+        }
+        KeyError::DamagedPublicKey(reason) => {
+            let found = format!("a damaged public key ({reason})");
+            line.problem(base64_at, "key", found, "a whole public key", "copy the line of the .pub file again")
+        }
+        other => line.problem(at, "key", other.to_string(), EXPECTED, ""),
+    })
+}

@@ -1,0 +1,281 @@
+//! The private key that signs: Ed25519, in OpenSSH's file format (OpenSSH's PROTOCOL.key).
+
+use super::error::{KeyError, SignatureError};
+use super::public_key::{AnyKey, PublicKey, shortened};
+use super::sshsig::Signature;
+use super::wire::{Truncated, Wire};
+use base64ct::{Base64, Encoding};
+use ed25519_dalek::Signer as _;
+use ssh_key::private::{Ed25519Keypair, KeypairData};
+use ssh_key::public::KeyData;
+use ssh_key::rand_core::{OsRng, RngCore as _};
+use ssh_key::{Algorithm, Cipher, HashAlg, Kdf, LineEnding, PrivateKey, SshSig};
+use std::fmt::{self, Debug, Formatter};
+use zeroize::Zeroizing;
+
+/// Rounds of bcrypt that slow down guessing the passphrase: as many as newer releases of OpenSSH take.
+const BCRYPT_ROUNDS: u32 = 24;
+/// More rounds than that are taken for a damaged file: opening it would take hours.
+const MOST_BCRYPT_ROUNDS: u32 = 10_000;
+/// The longest private key file that is read, in bytes: far more than the largest RSA key takes.
+const LONGEST_FILE: usize = 1 << 16;
+const FIRST_LINE: &str = "-----BEGIN OPENSSH PRIVATE KEY-----";
+const LAST_LINE: &str = "-----END OPENSSH PRIVATE KEY-----";
+
+/// An Ed25519 key that signs. Its secret is erased from memory when it is dropped, and never printed.
+pub struct SigningKey {
+    key: ed25519_dalek::SigningKey,
+}
+
+impl Debug for SigningKey {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.debug_struct("SigningKey").field("public_key", &self.public_key().fingerprint()).finish_non_exhaustive()
+    }
+}
+
+impl SigningKey {
+    /// Makes a new key from the operating system's random bytes.
+    ///
+    /// # Errors
+    /// [`KeyError::NoRandomness`] when the operating system gives none.
+    pub fn generate() -> Result<Self, KeyError> {
+        let mut secret = Zeroizing::new([0; 32]);
+        random(&mut *secret)?;
+        Ok(Self { key: ed25519_dalek::SigningKey::from_bytes(&secret) })
+    }
+
+    /// Reads a private key file of OpenSSH. A passphrase for a file that is not encrypted is ignored.
+    ///
+    /// # Errors
+    /// Tells apart: not a private key file, or of another format ([`KeyError::NotAPrivateKey`]); of another type
+    /// ([`KeyError::OtherKeyType`], [`KeyError::SecurityKey`]); encrypted and no passphrase given
+    /// ([`KeyError::Encrypted`]); a wrong one ([`KeyError::WrongPassphrase`]); an encryption that is not read here
+    /// ([`KeyError::Encryption`]); damaged ([`KeyError::DamagedPrivateKey`]).
+    pub fn from_openssh(pem: &str, passphrase: Option<&str>) -> Result<Self, KeyError> {
+        let pem = pem.trim_start_matches('\u{feff}').trim();
+        check_kind(pem)?;
+        check_header(pem)?;
+        let file = PrivateKey::from_openssh(pem).map_err(damaged)?;
+        let opened = if file.is_encrypted() { decrypted(&file, passphrase)? } else { file };
+        match opened.key_data() {
+            KeypairData::Ed25519(pair) => {
+                let key = ed25519_dalek::SigningKey::try_from(pair).map_err(damaged)?;
+                Ok(Self { key })
+            }
+            KeypairData::SkEd25519(_) => Err(KeyError::SecurityKey),
+            _ => Err(KeyError::OtherKeyType { found: opened.algorithm().to_string() }),
+        }
+    }
+
+    /// The key as OpenSSH writes it; with a passphrase encrypted with aes256-ctr under bcrypt, as `ssh-keygen` does.
+    ///
+    /// # Errors
+    /// [`KeyError::EmptyPassphrase`], [`KeyError::Comment`] for a comment of more than one line,
+    /// [`KeyError::NoRandomness`].
+    pub fn to_openssh(&self, comment: &str, passphrase: Option<&str>) -> Result<Zeroizing<String>, KeyError> {
+        if comment.chars().any(char::is_control) {
+            return Err(KeyError::Comment);
+        }
+        if passphrase == Some("") {
+            return Err(KeyError::EmptyPassphrase);
+        }
+        let pair = KeypairData::from(Ed25519Keypair::from(&self.key));
+        let plain = PrivateKey::new(pair, comment).map_err(damaged)?;
+        match passphrase {
+            None => plain.to_openssh(LineEnding::LF).map_err(damaged),
+            Some(passphrase) => {
+                let (mut salt, mut check) = (vec![0; 16], [0; 4]);
+                random(&mut salt)?;
+                random(&mut check)?;
+                let kdf = Kdf::Bcrypt { salt, rounds: BCRYPT_ROUNDS };
+                let sealed = plain
+                    .encrypt_with(Cipher::Aes256Ctr, kdf, u32::from_be_bytes(check), passphrase)
+                    .map_err(damaged)?;
+                sealed.to_openssh(LineEnding::LF).map_err(damaged)
+            }
+        }
+    }
+
+    /// The public half.
+    pub fn public_key(&self) -> PublicKey {
+        let key = ssh_key::public::Ed25519PublicKey(self.key.verifying_key().to_bytes());
+        PublicKey::of_ed25519(key)
+    }
+
+    /// Signs `message` for `namespace`: the same bytes every time, those that `ssh-keygen -Y sign` gives.
+    ///
+    /// # Errors
+    /// [`KeyError::Namespace`] when the namespace is empty.
+    pub fn sign(&self, namespace: &str, message: &[u8]) -> Result<Signature, KeyError> {
+        let signed = SshSig::signed_data(namespace, HashAlg::Sha512, message).map_err(|_| KeyError::Namespace)?;
+        let bytes = self.key.sign(&signed).to_bytes();
+        let key: KeyData = ssh_key::public::Ed25519PublicKey(self.key.verifying_key().to_bytes()).into();
+        let block = ssh_key::Signature::new(Algorithm::Ed25519, bytes)
+            .and_then(|signature| SshSig::new(key, namespace, HashAlg::Sha512, signature))
+            .map_err(damaged)?;
+        Signature::of(block).map_err(|error: SignatureError| KeyError::DamagedPrivateKey(error.to_string()))
+    }
+}
+
+fn random(bytes: &mut [u8]) -> Result<(), KeyError> {
+    OsRng.try_fill_bytes(bytes).map_err(|error| KeyError::NoRandomness(error.to_string()))
+}
+
+fn damaged(error: ssh_key::Error) -> KeyError {
+    KeyError::DamagedPrivateKey(error.to_string())
+}
+
+/// Opens an encrypted key. A wrong passphrase and altered bytes look alike: what comes out is noise.
+fn decrypted(file: &PrivateKey, passphrase: Option<&str>) -> Result<PrivateKey, KeyError> {
+    let passphrase = passphrase.ok_or(KeyError::Encrypted)?;
+    match file.kdf() {
+        Kdf::Bcrypt { rounds, .. } if *rounds > MOST_BCRYPT_ROUNDS => {
+            Err(KeyError::Encryption { found: format!("{rounds} rounds of bcrypt") })
+        }
+        _ => file.decrypt(passphrase).map_err(|error| match error {
+            ssh_key::Error::Crypto => KeyError::WrongPassphrase,
+            other => damaged(other),
+        }),
+    }
+}
+
+/// Refuses what is not a private key file of OpenSSH, naming what it is.
+fn check_kind(pem: &str) -> Result<(), KeyError> {
+    const NEW_KEY: &str = "make a key with `keygen`";
+    let (found, advice) = match pem {
+        ours if ours.starts_with(FIRST_LINE) => {
+            return if pem.len() <= LONGEST_FILE && pem.ends_with(LAST_LINE) {
+                Ok(())
+            } else {
+                Err(KeyError::DamagedPrivateKey(format!("it does not end with `{LAST_LINE}` where it should")))
+            };
+        }
+        "" => ("an empty file", "give the file that `keygen` wrote"),
+        pkcs8
+            if pkcs8.starts_with("-----BEGIN PRIVATE KEY") || pkcs8.starts_with("-----BEGIN ENCRYPTED PRIVATE KEY") =>
+        {
+            ("a private key in PKCS#8 (PEM)", NEW_KEY)
+        }
+        rsa if rsa.starts_with("-----BEGIN RSA") => ("an RSA key in PEM", NEW_KEY),
+        ec if ec.starts_with("-----BEGIN EC") => ("an ECDSA key in PEM", NEW_KEY),
+        putty if putty.starts_with("PuTTY-User-Key-File") => {
+            ("a private key of PuTTY", "export it with puttygen as an OpenSSH key")
+        }
+        certificate if certificate.starts_with("-----BEGIN CERTIFICATE") => ("a certificate", NEW_KEY),
+        public
+            if public.starts_with("---- BEGIN SSH2")
+                || public.split_ascii_whitespace().next().is_some_and(AnyKey::is_type) =>
+        {
+            ("a public key", "give the private key, the file without .pub")
+        }
+        _ => ("something else", "give the file that `keygen` or `ssh-keygen -t ed25519` wrote"),
+    };
+    Err(KeyError::NotAPrivateKey { found, advice })
+}
+
+/// Reads the unencrypted head of the file: which type of key it is and how it is encrypted.
+fn check_header(pem: &str) -> Result<(), KeyError> {
+    let body = pem.strip_prefix(FIRST_LINE).and_then(|rest| rest.strip_suffix(LAST_LINE)).unwrap_or_default();
+    let base64: Zeroizing<String> = Zeroizing::new(body.split_ascii_whitespace().collect());
+    let bytes = Base64::decode_vec(&base64)
+        .map(Zeroizing::new)
+        .map_err(|_| KeyError::DamagedPrivateKey("its base64 is cut short or altered".to_owned()))?;
+    let rest = bytes
+        .strip_prefix(b"openssh-key-v1\0")
+        .ok_or_else(|| KeyError::DamagedPrivateKey("its first bytes are not OpenSSH's".to_owned()))?;
+    let (cipher, key_type) = header(rest).map_err(|error: Truncated| KeyError::DamagedPrivateKey(error.to_string()))?;
+    match key_type.as_str() {
+        "ssh-ed25519" => {}
+        "sk-ssh-ed25519@openssh.com" | "sk-ecdsa-sha2-nistp256@openssh.com" => return Err(KeyError::SecurityKey),
+        other => return Err(KeyError::OtherKeyType { found: shortened(other) }),
+    }
+    match cipher.parse::<Cipher>() {
+        Ok(Cipher::TDesCbc) | Err(_) => Err(KeyError::Encryption { found: shortened(&cipher) }),
+        Ok(_) => Ok(()),
+    }
+}
+
+/// The cipher and the type of the first key (PROTOCOL.key, sections 1 and 2).
+fn header(bytes: &[u8]) -> Result<(String, String), Truncated> {
+    let text = |bytes| String::from_utf8_lossy(bytes).into_owned();
+    let mut wire = Wire::new(bytes);
+    let cipher = text(wire.string()?);
+    let _kdf = wire.string()?;
+    let _kdf_options = wire.string()?;
+    let _keys = wire.u32()?;
+    let mut public_key = wire.nested()?;
+    Ok((cipher, text(public_key.string()?)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(pem: &str) -> KeyError {
+        SigningKey::from_openssh(pem, None).unwrap_err()
+    }
+
+    #[test]
+    fn a_key_comes_back_from_its_file() {
+        let key = SigningKey::generate().unwrap();
+        let plain = key.to_openssh("lab@factory", None).unwrap();
+        let read = SigningKey::from_openssh(&plain, None).unwrap();
+        assert_eq!(read.public_key(), key.public_key());
+        assert_eq!(read.sign("n", b"m"), key.sign("n", b"m"));
+        let windows = plain.replace('\n', "\r\n");
+        assert_eq!(SigningKey::from_openssh(&windows, Some("ignored")).unwrap().public_key(), key.public_key());
+    }
+
+    #[test]
+    fn a_passphrase_is_needed_and_must_be_the_right_one() {
+        let key = SigningKey::generate().unwrap();
+        let sealed = key.to_openssh("", Some("пароль")).unwrap();
+        assert_eq!(refused(&sealed), KeyError::Encrypted);
+        assert_eq!(SigningKey::from_openssh(&sealed, Some("")).unwrap_err(), KeyError::WrongPassphrase);
+        assert_eq!(SigningKey::from_openssh(&sealed, Some("parol")).unwrap_err(), KeyError::WrongPassphrase);
+        let opened = SigningKey::from_openssh(&sealed, Some("пароль")).unwrap();
+        assert_eq!(opened.public_key(), key.public_key());
+        assert_eq!(key.to_openssh("", Some("")), Err(KeyError::EmptyPassphrase));
+        assert_eq!(key.to_openssh("a\nb", None), Err(KeyError::Comment));
+    }
+
+    #[test]
+    fn the_secret_is_not_printed() {
+        let key = SigningKey::generate().unwrap();
+        let printed = format!("{key:?}");
+        assert_eq!(printed, format!("SigningKey {{ public_key: {:?}, .. }}", key.public_key().fingerprint()));
+    }
+
+    #[test]
+    fn other_files_are_told_apart() {
+        let public = SigningKey::generate().unwrap().public_key().to_openssh();
+        for (text, words) in [
+            ("", "an empty file"),
+            (public.as_str(), "a public key, expected a private key file of OpenSSH"),
+            ("-----BEGIN PRIVATE KEY-----\nMC4=\n-----END PRIVATE KEY-----", "PKCS#8"),
+            ("-----BEGIN RSA PRIVATE KEY-----", "an RSA key in PEM"),
+            ("PuTTY-User-Key-File-3: ssh-ed25519", "puttygen"),
+            ("hello", "something else"),
+            ("-----BEGIN OPENSSH PRIVATE KEY-----\nAAAA", "does not end with"),
+        ] {
+            let refused = refused(text).to_string();
+            assert!(refused.contains(words), "{text}: {refused}");
+        }
+    }
+
+    #[test]
+    fn damage_anywhere_is_refused_without_a_panic() {
+        let key = SigningKey::generate().unwrap();
+        let pem = key.to_openssh("c", None).unwrap();
+        for at in 0..pem.len() {
+            let mut bytes = pem.as_bytes().to_vec();
+            bytes[at] ^= 1;
+            let altered = String::from_utf8(bytes).unwrap();
+            // The check numbers and the comment carry no key: everything else must be noticed.
+            if let Ok(read) = SigningKey::from_openssh(&altered, None) {
+                assert_eq!(read.public_key(), key.public_key(), "byte {at}");
+            }
+            let _ = SigningKey::from_openssh(&pem[..at], None);
+        }
+    }
+}

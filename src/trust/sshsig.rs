@@ -1,0 +1,251 @@
+//! Signatures in OpenSSH's format SSHSIG (OpenSSH's PROTOCOL.sshsig; for security keys PROTOCOL.u2f).
+//!
+//! What is signed is `SSHSIG`, the namespace, an empty reserved field, the name of the hash and the hash of the
+//! message. The version of the block is not among it, and base64 can be wrapped in many ways: so only version 1 and
+//! only OpenSSH's own way of writing are accepted, and every byte of the block is bound.
+
+use super::error::{KeyError, SignatureError};
+use super::public_key::PublicKey;
+use ed25519_dalek::VerifyingKey;
+use sha2::{Digest, Sha256};
+use ssh_key::public::KeyData;
+use ssh_key::{HashAlg, LineEnding, SshSig};
+
+/// The longest armor that is read, in bytes: that of a security key with an unusually long application string.
+const LONGEST_ARMOR: usize = 4096;
+const FIRST_LINE: &str = "-----BEGIN SSH SIGNATURE-----";
+const LAST_LINE: &str = "-----END SSH SIGNATURE-----";
+
+/// A signature whose form is right; whether it holds for a text is what [`Signature::verify`] says.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Signature {
+    inner: SshSig,
+    key: PublicKey,
+    armor: String,
+}
+
+impl Signature {
+    /// Reads a signature block, from `-----BEGIN SSH SIGNATURE-----` to the line feed after its last line.
+    ///
+    /// # Errors
+    /// Every variant of [`SignatureError`] but [`SignatureError::WrongNamespace`] and
+    /// [`SignatureError::DoesNotHold`].
+    pub fn from_armor(armor: &str) -> Result<Self, SignatureError> {
+        if armor.len() > LONGEST_ARMOR {
+            return Err(SignatureError::Damaged(format!("{} bytes, expected at most {LONGEST_ARMOR}", armor.len())));
+        }
+        let inner = SshSig::from_pem(armor).map_err(|error| match SshSig::from_pem(rewrapped(armor)) {
+            Ok(_) => SignatureError::NotCanonical,
+            Err(_) => refusal(error),
+        })?;
+        if inner.version() != SshSig::VERSION {
+            return Err(SignatureError::Version { found: inner.version() });
+        }
+        if !inner.reserved().is_empty() {
+            return Err(SignatureError::Reserved { length: inner.reserved().len() });
+        }
+        if inner.hash_alg() != HashAlg::Sha512 {
+            return Err(SignatureError::HashAlgorithm { found: inner.hash_alg().to_string() });
+        }
+        let signature = Self::of(inner)?;
+        if signature.armor != armor {
+            return Err(SignatureError::NotCanonical);
+        }
+        Ok(signature)
+    }
+
+    /// Checks key and algorithm of a block and writes it as OpenSSH does.
+    pub(super) fn of(inner: SshSig) -> Result<Self, SignatureError> {
+        let key_type = inner.public_key().algorithm();
+        let key = PublicKey::from_data(inner.public_key().clone()).map_err(|error| match error {
+            KeyError::OtherKeyType { found } => SignatureError::KeyType { found },
+            damaged => SignatureError::Damaged(damaged.to_string()),
+        })?;
+        if inner.algorithm() != key_type {
+            return Err(SignatureError::Algorithm {
+                key: key_type.to_string(),
+                signature: inner.algorithm().to_string(),
+            });
+        }
+        let armor = inner.to_pem(LineEnding::LF).map_err(refusal)?;
+        Ok(Self { inner, key, armor })
+    }
+
+    /// The block as OpenSSH writes it, 70 columns wide, its last line ended by a line feed.
+    pub fn to_armor(&self) -> String {
+        self.armor.clone()
+    }
+
+    /// The purpose that the signature was made for.
+    pub fn namespace(&self) -> &str {
+        self.inner.namespace()
+    }
+
+    /// The key in the block. Whether that key counts is what the list of allowed signers says.
+    pub fn public_key(&self) -> &PublicKey {
+        &self.key
+    }
+
+    /// Checks that the key in the block signed exactly `message` for `namespace`.
+    ///
+    /// Ed25519 is verified strictly: weak keys and second encodings of a signature are refused. A signature of a
+    /// security key counts whatever its flags say, as with `ssh-keygen -Y verify`: whether the token asked for a touch
+    /// is a property of the key that its owner chose.
+    ///
+    /// # Errors
+    /// [`SignatureError::WrongNamespace`] when the signature was made for another purpose,
+    /// [`SignatureError::DoesNotHold`] when text or signature were altered.
+    pub fn verify(&self, namespace: &str, message: &[u8]) -> Result<(), SignatureError> {
+        if self.namespace() != namespace {
+            let found = self.namespace().to_owned();
+            return Err(SignatureError::WrongNamespace { found, expected: namespace.to_owned() });
+        }
+        let signed =
+            SshSig::signed_data(namespace, HashAlg::Sha512, message).map_err(|_| SignatureError::DoesNotHold)?;
+        let bytes = self.inner.signature_bytes();
+        match self.key.data() {
+            KeyData::Ed25519(key) => verify_strict(&key.0, &signed, bytes),
+            KeyData::SkEd25519(key) => {
+                let (signature, flags_and_counter) =
+                    bytes.split_at_checked(ed25519_dalek::SIGNATURE_LENGTH).ok_or(SignatureError::DoesNotHold)?;
+                let signed = signed_by_token(key.application(), flags_and_counter, &signed);
+                verify_strict(&key.public_key().0, &signed, signature)
+            }
+            _ => Err(SignatureError::DoesNotHold),
+        }
+    }
+}
+
+/// The same block as OpenSSH would wrap it: tells a block that was wrapped anew from a damaged one.
+fn rewrapped(armor: &str) -> String {
+    let base64: Vec<u8> = armor
+        .trim()
+        .trim_start_matches(FIRST_LINE)
+        .trim_end_matches(LAST_LINE)
+        .split_ascii_whitespace()
+        .flat_map(str::bytes)
+        .collect();
+    let lines: Vec<_> = base64.chunks(70).map(String::from_utf8_lossy).collect();
+    format!("{FIRST_LINE}\n{}\n{LAST_LINE}\n", lines.join("\n"))
+}
+
+/// What a security key signs in place of a message (PROTOCOL.u2f, SSH U2F Signatures).
+fn signed_by_token(application: &str, flags_and_counter: &[u8], message: &[u8]) -> Vec<u8> {
+    [&Sha256::digest(application)[..], flags_and_counter, &Sha256::digest(message)].concat()
+}
+
+fn verify_strict(key: &[u8; 32], message: &[u8], signature: &[u8]) -> Result<(), SignatureError> {
+    let key = VerifyingKey::from_bytes(key).map_err(|_| SignatureError::DoesNotHold)?;
+    let signature = ed25519_dalek::Signature::from_slice(signature).map_err(|_| SignatureError::DoesNotHold)?;
+    key.verify_strict(message, &signature).map_err(|_| SignatureError::DoesNotHold)
+}
+
+fn refusal(error: ssh_key::Error) -> SignatureError {
+    match error {
+        ssh_key::Error::Version { number } => SignatureError::Version { found: number },
+        ssh_key::Error::AlgorithmUnknown => SignatureError::KeyType { found: "a key of another type".to_owned() },
+        ssh_key::Error::AlgorithmUnsupported { algorithm } => SignatureError::KeyType { found: algorithm.to_string() },
+        other => SignatureError::Damaged(other.to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trust::SigningKey;
+    use base64ct::{Base64, Encoding};
+
+    const NAMESPACE: &str = "dtg-passport";
+    const MESSAGE: &[u8] = b"format: \"dtg-passport/1\"\n";
+
+    fn armored(blob: &[u8], width: usize) -> String {
+        let base64 = Base64::encode_string(blob);
+        let lines: Vec<_> = base64.as_bytes().chunks(width).map(String::from_utf8_lossy).collect();
+        format!("{FIRST_LINE}\n{}\n{LAST_LINE}\n", lines.join("\n"))
+    }
+
+    fn blob(armor: &str) -> Vec<u8> {
+        Base64::decode_vec(&armor.lines().filter(|line| !line.starts_with('-')).collect::<String>()).unwrap()
+    }
+
+    fn accepted(armor: &str) -> bool {
+        Signature::from_armor(armor).is_ok_and(|signature| signature.verify(NAMESPACE, MESSAGE).is_ok())
+    }
+
+    fn signed() -> String {
+        SigningKey::generate().unwrap().sign(NAMESPACE, MESSAGE).unwrap().to_armor()
+    }
+
+    #[test]
+    fn a_signature_holds_for_its_text_and_namespace_alone() {
+        let key = SigningKey::generate().unwrap();
+        let signature = key.sign(NAMESPACE, MESSAGE).unwrap();
+        let read = Signature::from_armor(&signature.to_armor()).unwrap();
+        assert_eq!(read, signature);
+        assert_eq!((read.namespace(), read.public_key()), (NAMESPACE, &key.public_key()));
+        assert_eq!(read.verify(NAMESPACE, MESSAGE), Ok(()));
+        assert_eq!(read.verify(NAMESPACE, &MESSAGE[1..]), Err(SignatureError::DoesNotHold));
+        let (found, expected) = (NAMESPACE.to_owned(), "dtg-revocation".to_owned());
+        let wrong = Err(SignatureError::WrongNamespace { found, expected });
+        assert_eq!(read.verify("dtg-revocation", MESSAGE), wrong);
+        assert_eq!(key.sign("", MESSAGE).unwrap_err(), crate::trust::KeyError::Namespace);
+    }
+
+    #[test]
+    fn every_single_bit_and_byte_of_the_armor_counts() {
+        let armor = signed();
+        assert!(accepted(&armor));
+        for at in 0..armor.len() {
+            for bit in 0..8 {
+                let mut bytes = armor.clone().into_bytes();
+                bytes[at] ^= 1 << bit;
+                assert!(!String::from_utf8(bytes).is_ok_and(|text| accepted(&text)), "bit {bit} of byte {at}");
+            }
+            for byte in (0..128).filter(|byte| *byte != armor.as_bytes()[at]) {
+                let mut bytes = armor.clone().into_bytes();
+                bytes[at] = byte;
+                assert!(!accepted(std::str::from_utf8(&bytes).unwrap()), "byte {at} changed to {byte}");
+            }
+            let (before, after) = armor.split_at(at);
+            assert!(!accepted(&format!("{before}{}", &after[1..])), "byte {at} removed");
+            assert!(!accepted(&format!("{before}{}{after}", &after[..1])), "byte {at} doubled");
+            assert!(!accepted(before), "cut at {at}");
+        }
+    }
+
+    #[test]
+    fn every_single_bit_of_the_block_counts() {
+        let blob = blob(&signed());
+        assert!(accepted(&armored(&blob, 70)));
+        for bit in 0..8 * blob.len() {
+            let mut altered = blob.clone();
+            altered[bit / 8] ^= 1 << (bit % 8);
+            assert!(!accepted(&armored(&altered, 70)), "bit {bit}");
+        }
+    }
+
+    #[test]
+    fn every_deviation_of_the_block_has_its_own_words() {
+        let refused = |blob: &[u8], width| Signature::from_armor(&armored(blob, width)).unwrap_err();
+        let good = blob(&signed());
+        for version in [0, 2] {
+            let mut altered = good.clone();
+            altered[9] = version;
+            assert_eq!(refused(&altered, 70), SignatureError::Version { found: u32::from(version) });
+        }
+        // Preamble, version, key, namespace: then the reserved field and the hash's name.
+        let reserved = 6 + 4 + (4 + 51) + (4 + NAMESPACE.len());
+        assert_eq!(&good[reserved..reserved + 14], b"\0\0\0\0\0\0\0\x06sha512");
+        let with_reserved = [&good[..reserved], b"\0\0\0\x02xy", &good[reserved + 4..]].concat();
+        assert_eq!(refused(&with_reserved, 70), SignatureError::Reserved { length: 2 });
+        let sha256 = [&good[..reserved + 8], b"sha256", &good[reserved + 14..]].concat();
+        assert_eq!(refused(&sha256, 70), SignatureError::HashAlgorithm { found: "sha256".to_owned() });
+        assert_eq!(refused(&good, 64), SignatureError::NotCanonical);
+        assert_eq!(refused(&good, 76), SignatureError::NotCanonical);
+        let longer = [&good[..], b"x"].concat();
+        assert!(matches!(refused(&longer, 70), SignatureError::Damaged(_)));
+        assert!(matches!(Signature::from_armor(&"x".repeat(5000)), Err(SignatureError::Damaged(_))));
+        let crlf = armored(&good, 70).replace('\n', "\r\n");
+        assert_eq!(Signature::from_armor(&crlf), Err(SignatureError::NotCanonical));
+    }
+}

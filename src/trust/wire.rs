@@ -1,0 +1,110 @@
+//! SSH's binary encoding (RFC 4251, section 5), read with every length checked against what is left.
+
+use std::fmt::{self, Display, Formatter};
+
+/// A length that points past the end of what holds it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Truncated {
+    /// Where the item that does not fit begins, in bytes from the start of the file.
+    pub(super) offset: usize,
+    needed: usize,
+    left: usize,
+}
+
+impl Display for Truncated {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        write!(f, "an item of {} bytes at byte {} where only {} bytes are left", self.needed, self.offset, self.left)
+    }
+}
+
+/// A place in a binary text; it knows how far from the start of the whole it is.
+#[derive(Debug, Clone)]
+pub(super) struct Wire<'a> {
+    rest: &'a [u8],
+    offset: usize,
+}
+
+impl<'a> Wire<'a> {
+    /// The beginning of `bytes`.
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        Self { rest: bytes, offset: 0 }
+    }
+
+    /// Bytes from the start of the whole.
+    pub(super) fn offset(&self) -> usize {
+        self.offset
+    }
+
+    /// What is left.
+    pub(super) fn rest(&self) -> &'a [u8] {
+        self.rest
+    }
+
+    /// Whether nothing is left.
+    pub(super) fn is_empty(&self) -> bool {
+        self.rest.is_empty()
+    }
+
+    /// The next `length` bytes.
+    pub(super) fn take(&mut self, length: usize) -> Result<&'a [u8], Truncated> {
+        let truncated = Truncated { offset: self.offset, needed: length, left: self.rest.len() };
+        let (taken, rest) = self.rest.split_at_checked(length).ok_or(truncated)?;
+        self.rest = rest;
+        self.offset += length;
+        Ok(taken)
+    }
+
+    fn array<const N: usize>(&mut self) -> Result<[u8; N], Truncated> {
+        let mut array = [0; N];
+        array.copy_from_slice(self.take(N)?);
+        Ok(array)
+    }
+
+    /// One byte.
+    pub(super) fn byte(&mut self) -> Result<u8, Truncated> {
+        self.array::<1>().map(|[byte]| byte)
+    }
+
+    /// Four bytes, the most significant first.
+    pub(super) fn u32(&mut self) -> Result<u32, Truncated> {
+        self.array().map(u32::from_be_bytes)
+    }
+
+    /// Eight bytes, the most significant first.
+    pub(super) fn u64(&mut self) -> Result<u64, Truncated> {
+        self.array().map(u64::from_be_bytes)
+    }
+
+    /// A string: its length in four bytes, then its bytes.
+    pub(super) fn string(&mut self) -> Result<&'a [u8], Truncated> {
+        self.nested().map(|nested| nested.rest)
+    }
+
+    /// A string that is itself encoded, to be read with offsets of the whole.
+    pub(super) fn nested(&mut self) -> Result<Wire<'a>, Truncated> {
+        let length = self.u32()? as usize;
+        let offset = self.offset;
+        Ok(Wire { rest: self.take(length)?, offset })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strings_are_read_and_offsets_count_from_the_start() {
+        let mut wire = Wire::new(b"\x00\x00\x00\x06\x00\x00\x00\x02abz");
+        let mut nested = wire.nested().unwrap();
+        assert_eq!(nested.string(), Ok(&b"ab"[..]));
+        assert_eq!((nested.offset(), nested.is_empty()), (10, true));
+        assert_eq!(wire.byte(), Ok(b'z'));
+        assert_eq!(wire.byte(), Err(Truncated { offset: 11, needed: 1, left: 0 }));
+    }
+
+    #[test]
+    fn a_length_past_the_end_is_refused_in_words() {
+        let error = Wire::new(b"\xff\xff\xff\xffab").string().unwrap_err();
+        assert_eq!(error.to_string(), "an item of 4294967295 bytes at byte 4 where only 2 bytes are left");
+    }
+}

@@ -1,0 +1,110 @@
+//! Revoked keys: lists that `ssh-keygen -k` makes, and lists of public keys, with the verdicts of `ssh-keygen`.
+
+use crate::{Bench, NAMESPACE, PRINCIPAL};
+use dtg_passport::trust::{RevokedKeys, SigningKey};
+use std::fs;
+
+const KEYS: usize = 6;
+
+fn bench_with_keys() -> (Bench, Vec<SigningKey>) {
+    let bench = Bench::new();
+    let keys = (0..KEYS).map(|index| bench.new_key(&format!("key{index}"))).collect();
+    bench.new_key("authority");
+    for (index, serial) in [(0, "5"), (1, "9")] {
+        let id = format!("id{index}");
+        let public = format!("key{index}.pub");
+        let made = bench.keygen(&["-q", "-s", "authority", "-I", &id, "-n", PRINCIPAL, "-z", serial, &public]);
+        assert!(made.good, "{}", made.errors);
+    }
+    (bench, keys)
+}
+
+/// Both verdicts on every key: those of `ssh-keygen -Q` and ours.
+fn compare(bench: &Bench, keys: &[SigningKey], list: &str, expected: &[usize]) {
+    let bytes = fs::read(bench.path(list)).unwrap();
+    let ours = RevokedKeys::parse(list, &bytes).unwrap();
+    for (index, key) in keys.iter().enumerate() {
+        let theirs = !bench.keygen(&["-Q", "-f", list, &format!("key{index}.pub")]).good;
+        let why = ours.revokes(&key.public_key());
+        assert_eq!(why.is_some(), theirs, "{list}, key {index}: {why:?}");
+        assert_eq!(theirs, expected.contains(&index), "{list}, key {index}");
+    }
+}
+
+#[test]
+fn lists_of_every_kind_of_entry() {
+    let (bench, keys) = bench_with_keys();
+    let line = |index: usize| keys[index].public_key().to_openssh();
+    let print = |index: usize| keys[index].public_key().fingerprint();
+    let specifications: [(&str, String, &[usize]); 9] = [
+        ("plain", format!("{}\n{} comment\n", line(0), line(3)), &[0, 3]),
+        ("key", format!("# lost\nkey: {}\n", line(1)), &[1]),
+        ("sha1", format!("sha1: {}\nsha1: {}\n", line(2), line(4)), &[2, 4]),
+        ("sha256", format!("sha256: {}\n", line(5)), &[5]),
+        ("hash", format!("hash: {}\nhash: {}\n", print(1), print(5)), &[1, 5]),
+        ("serials", "serial: 1-100\nserial: 200\nserial: 202\nserial: 9223372036854775807\n".to_owned(), &[]),
+        ("ids", "id: id0\nid: id1\n".to_owned(), &[]),
+        ("mixed", format!("serial: 5\nid: id1\n{}\nsha1: {}\nsha256: {}\n", line(0), line(1), line(2)), &[0, 1, 2]),
+        ("nothing", "# nobody so far\n".to_owned(), &[]),
+    ];
+    for (name, specification, expected) in specifications {
+        let text = format!("{name}.spec");
+        bench.write(&text, specification);
+        let made = bench.keygen(&["-q", "-k", "-s", "authority.pub", "-z", "7", "-f", name, &text]);
+        assert!(made.good, "{name}: {}", made.errors);
+        compare(&bench, &keys, name, expected);
+    }
+}
+
+#[test]
+fn lists_that_grew_and_lists_of_certificates() {
+    let (bench, keys) = bench_with_keys();
+    assert!(bench.keygen(&["-q", "-k", "-f", "krl", "key4.pub"]).good);
+    compare(&bench, &keys, "krl", &[4]);
+    bench.write("more", format!("sha256: {}\n", keys[2].public_key().to_openssh()));
+    assert!(bench.keygen(&["-q", "-k", "-u", "-f", "krl", "more"]).good);
+    compare(&bench, &keys, "krl", &[2, 4]);
+    // A revoked certificate does not revoke its key.
+    assert!(bench.keygen(&["-q", "-k", "-f", "certificates", "key0-cert.pub", "key1-cert.pub"]).good);
+    compare(&bench, &keys, "certificates", &[]);
+}
+
+#[test]
+fn lists_of_public_keys_count_as_with_ssh_keygen_verify() {
+    let (bench, keys) = bench_with_keys();
+    assert!(bench.keygen(&["-q", "-t", "rsa", "-b", "2048", "-N", "", "-f", "rsa"]).good);
+    assert!(bench.keygen(&["-q", "-t", "ecdsa", "-N", "", "-f", "ecdsa"]).good);
+    let others = format!("{}{}", bench.read("rsa.pub"), bench.read("ecdsa.pub"));
+    let (lost, sold) = (keys[1].public_key().to_openssh(), keys[3].public_key().to_openssh());
+    let list = format!("# lost and sold\n{others}  {lost} lost\n\n{sold}\n");
+    bench.write("revoked", &list);
+    let ours = RevokedKeys::parse("revoked", list.as_bytes()).unwrap();
+    for key in &keys {
+        bench.write("signers", format!("{PRINCIPAL} {}\n", key.public_key().to_openssh()));
+        let armor = key.sign(NAMESPACE, b"text").unwrap().to_armor();
+        let theirs = !bench.verify("signers", &armor, b"text", &["-r", "revoked"]).good;
+        assert_eq!(ours.revokes(&key.public_key()).is_some(), theirs);
+    }
+    assert_eq!(ours.revokes(&keys[1].public_key()).as_deref(), Some("named in revoked"));
+}
+
+#[test]
+fn a_list_cut_short_or_continued_is_refused_by_both() {
+    let (bench, keys) = bench_with_keys();
+    bench
+        .write("spec", format!("{}\nsha1: {}\n", keys[0].public_key().to_openssh(), keys[1].public_key().to_openssh()));
+    assert!(bench.keygen(&["-q", "-k", "-f", "krl", "spec"]).good);
+    let whole = fs::read(bench.path("krl")).unwrap();
+    let mut both_read = 0;
+    for length in (8..whole.len()).step_by(3).chain([whole.len() - 1]) {
+        bench.write("cut", &whole[..length]);
+        let theirs = bench.keygen(&["-Q", "-f", "cut", "key5.pub"]);
+        let ours = RevokedKeys::parse("cut", &whole[..length]);
+        assert_eq!(ours.is_ok(), theirs.good, "{length} bytes: {ours:?}, {}", theirs.errors);
+        both_read += usize::from(theirs.good);
+    }
+    assert!(both_read <= 2, "only a cut between two sections leaves a list");
+    bench.write("longer", [&whole[..], &[0]].concat());
+    assert!(!bench.keygen(&["-Q", "-f", "longer", "key5.pub"]).good);
+    assert!(RevokedKeys::parse("longer", &[&whole[..], &[0]].concat()).is_err());
+}
