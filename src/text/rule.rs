@@ -180,6 +180,10 @@ pub fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
 
 /// The byte offset of the first character of a line that breaks the rule, what it is, and what was expected.
 fn first_fault(line: &str) -> Option<(usize, String, &'static str)> {
+    // Of allowed characters alone, but with what follows another document: readers differ in which one they give.
+    if let Some(marker) = ["---", "..."].into_iter().find(|marker| line.starts_with(marker)) {
+        return Some((0, format!("the document marker `{marker}`"), "one document without markers"));
+    }
     let comment = line.trim_start_matches(' ').starts_with('#');
     let mut in_string = false;
     let mut escaped = false;
@@ -290,6 +294,8 @@ mod tests {
             ("a: \"e\u{301}\"", 5),
             ("? a", 0),
             ("%YAML 1.2", 0),
+            ("---", 0),
+            ("... # x", 0),
             ("<<: {}", 0),
             ("a: 1E5", 4),
         ];
