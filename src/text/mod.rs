@@ -3,7 +3,7 @@
 //! * [`rule`]: what a signed text may contain, how a number and a string are written: writer and reader of
 //!   the rule side by side.
 //! * [`node`]: YAML to a tree, with the place of every value found again when an error needs it.
-//! * [`record`]: from that tree to a Rust struct and back, every mistake reported, not only the first.
+//! * [`mod@record`]: from that tree to a Rust struct and back, every mistake reported, not only the first.
 //! * [`scalar`]: identifiers, dates and times.
 //! * [`problem`]: what is wrong, where, what was expected, what to do.
 

@@ -1,4 +1,4 @@
-//! From a [`Node`] to a Rust struct and back, from one declaration: what [`record!`] declares is the format.
+//! From a [`Node`] to a Rust struct and back, from one declaration: what `record!` declares is the format.
 
 use super::{Node, Path, Problems};
 

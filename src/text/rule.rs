@@ -1,7 +1,7 @@
 //! The text rule of signed documents: what they may contain, and the one way in which content is written.
 //!
 //! Every YAML 1.1 and 1.2 reader finds the same content in such a text, to the last bit of every number. The
-//! writer ([`write`], [`number`], [`quoted`]) and the reader of the rule ([`check`], [`differs`]) stand side by side.
+//! writer ([`write()`], [`number`], [`quoted`]) and the reader of the rule ([`check`], [`differs`]) stand side by side.
 
 use super::Node;
 use super::node::{location_of, plain_text};
