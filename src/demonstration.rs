@@ -128,14 +128,7 @@ impl Stage<'_> {
             "2. measures how far a cheap stand is from its eight positions: up to {largest:.1} degrees."
         ))?;
         self.line("3. computes for the place of delivery what a calibration needs, and signs it:")?;
-        let order = Issue {
-            issuer: IDENTITY.to_owned(),
-            issued_at: self.now,
-            valid_until: None,
-            revision: 1,
-            predecessor: None,
-            self_check_gyro: GyroType::gvk_6().nominal,
-        };
+        let order = Issue::first(IDENTITY, self.now, GyroType::gvk_6().nominal);
         let issued = self.passports().issue(stand, moscow, &order, Seal { signer: key, trust: None })?;
         self.line(&format!("   {}", issued.path.display()))?;
         if let Some(growth) = issued.remarks.noise {

@@ -1,4 +1,76 @@
-//! x
+//! Signed passports that let a cheap test stand calibrate a dynamically tuned gyro (DTG) as well as an expensive one.
+//!
+//! A DTG is calibrated in eight fixed positions of a two-axis test stand. A cheap stand is misaligned in each of them, but
+//! it repeats. So its factory measures the misalignment once, certifies it, and for each place of delivery computes what
+//! a calibration needs: the matrices Δ, B, C and the Earth-rate vectors of
+//! [the paper](bibliography::Bibliography::Tang17). It issues them as a signed text, the passport; the laboratory's
+//! software reads it, checks it, and finds the gyro's scale factors and drifts.
+//!
+//! The whole chain, stand → passport → signed text → verified → matrices:
+//!
+//! ```
+//! use dtg_passport::gyro::GyroType;
+//! use dtg_passport::passport::{Question, Trust, issue, verify};
+//! use dtg_passport::signing::allowed_signers_line;
+//! use dtg_passport::trust::{AllowedSigners, SigningKey};
+//! use dtg_passport::{site::Site, stand::Stand};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let stand = Stand::from_yaml("stand.yaml", include_bytes!("../passports/SPS-2/0017/stand.yaml"))?;
+//! let site = Site::from_yaml("moscow-bmstu.yaml", include_bytes!("../sites/moscow-bmstu.yaml"))?;
+//! let key = SigningKey::generate()?;
+//!
+//! // The factory: who issues, and when.
+//! let gyro = GyroType::gvk_6().nominal;
+//! let order = issue::Issue::first("factory@example.org", "2026-11-09T09:00:00Z".parse()?, gyro);
+//! let passport: String = issue::draft(&stand, &site, &order)?.sign(&key)?;
+//!
+//! // The laboratory: whom it trusts, and what it asks.
+//! let line = allowed_signers_line("factory@example.org", &key.public_key())?;
+//! let trust = Trust { signers: AllowedSigners::parse("allowed_signers", line.as_bytes())?, revoked: vec![] };
+//! let question = Question { serial: Some("0017".into()), ..Question::at("2026-12-01T00:00:00Z".parse()?) };
+//! let answer = verify("moscow-bmstu-1.yaml", passport.as_bytes(), &trust, &question);
+//! let passport = answer.passport().ok_or("a check failed: see answer.checks()")?;
+//! let matrices = passport.coefficients().matrices.ok_or("not all of the eight positions")?;
+//! assert!((matrices.b_deg_per_h.m12 - 16.9235).abs() < 1e-4);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # The modules, in the order of the data
+//!
+//! A module uses only those above it.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`bibliography`] | the papers and standards that formulas link to |
+//! | [`units`] | angles and rates: the one place that converts |
+//! | [`text`] | strict YAML in, one canonical form out, errors that point into the file |
+//! | [`attitude`] | eq. (3), (4): A, E, Ã |
+//! | [`coefficients`] | eq. (5), (9)-(13): n, ω_3, Δ, B, C |
+//! | [`earth`] | Earth rate, gravity, deflection, geodesics |
+//! | [`site`], [`stand`] | a place of delivery; a stand and its certified deviations |
+//! | [`gyro`], [`laboratory`] | eq. (2): parameters and currents, types of gyro; the meter and the seat |
+//! | [`calibration`] | from currents to parameters |
+//! | [`trust`] | signatures, keys, allowed signers, revocation: bytes and time in, a verdict out |
+//! | [`passport`] | content, document, issue, re-issue, verification |
+//! | [`schema`] | JSON Schemas of the formats |
+//! | [`files`], [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports |
+//! | [`report`] | what people read |
+//! | [`demonstration`] | the whole story on a built-in example |
+//!
+//! Only `files`, `signing`, `folder` and `demonstration` touch the file system or start a program; nothing reads the
+//! clock, prints, or looks at the environment (`ssh-keygen`, where it signs, looks for its agent there).
+//!
+//! # What it refuses
+//!
+//! Deviations over 45°, the poles, positions of the paper with other angles, keys of other types than Ed25519, text that
+//! is not in its one form, and every unknown key in every file. It has no certificate authorities: a list of allowed
+//! signers is the whole of its trust.
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
 pub mod attitude;
 pub mod bibliography;
 pub mod calibration;

@@ -50,13 +50,10 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let signer = options.key.signer()?;
     let trust = options.trust.as_deref().map(|path| trust_options::load(path, &[])).transpose()?;
     let seal = Seal { signer: signer.as_ref(), trust: trust.as_ref() };
+    let issued_at = options.issued_at.unwrap_or_else(trust_options::now);
     let order = Issue {
-        issuer: options.key.identity.clone(),
-        issued_at: options.issued_at.unwrap_or_else(trust_options::now),
         valid_until: options.valid_until,
-        revision: 1,
-        predecessor: None,
-        self_check_gyro: GyroType::gvk_6().nominal,
+        ..Issue::first(&options.key.identity, issued_at, GyroType::gvk_6().nominal)
     };
     let folder = Folder::new(&options.out);
     let mut reports = Vec::new();

@@ -31,7 +31,7 @@ record! {
 record! {
     /// Which passport it is, from whom, since when.
     pub struct Header {
-        /// "<model>/<serial>/<site id>/<revision>".
+        /// `<model>/<serial>/<site id>/<revision>`.
         pub id: String,
         /// Counts from 1 at each site of a stand.
         pub revision: u32,
@@ -297,7 +297,7 @@ impl Content {
         }
     }
 
-    /// "<model>/<serial>/<site id>/<revision>", as the parts say.
+    /// `<model>/<serial>/<site id>/<revision>`, as the parts say.
     pub fn id_of_parts(&self) -> String {
         passport_id(&self.stand, &self.site.id, self.passport.revision)
     }
@@ -341,7 +341,7 @@ impl Content {
     }
 }
 
-/// "<model>/<serial>/<site id>/<revision>".
+/// `<model>/<serial>/<site id>/<revision>`.
 pub fn passport_id(stand: &Identity, site: &Identifier, revision: u32) -> String {
     format!("{}/{}/{site}/{revision}", stand.model, stand.serial)
 }

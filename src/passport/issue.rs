@@ -38,6 +38,14 @@ pub struct Issue {
     pub self_check_gyro: Parameters,
 }
 
+impl Issue {
+    /// Revision 1, to the certificate's last day.
+    pub fn first(issuer: &str, issued_at: Timestamp, self_check_gyro: Parameters) -> Self {
+        let issuer = issuer.to_owned();
+        Self { issuer, issued_at, valid_until: None, revision: 1, predecessor: None, self_check_gyro }
+    }
+}
+
 /// Why no passport was issued.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
