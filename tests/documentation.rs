@@ -1,0 +1,113 @@
+//! The documentation is true: its console blocks are run and compared, its links lead somewhere.
+//!
+//! In a block ```` ```console ```` a line `$ …` is a command of a POSIX shell, run in a folder that holds copies of `passports/`,
+//! `sites/` and `docs/`; what follows is what it prints on both outputs, `…` standing for any text within a line.
+
+mod tools;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The pages, in the order in which they are run; each has a folder of its own.
+fn pages() -> Vec<PathBuf> {
+    let docs = fs::read_dir(tools::project("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let mut pages: Vec<PathBuf> =
+        docs.filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect();
+    pages.push(tools::project("README.md"));
+    pages.push(tools::project("CHANGELOG.md"));
+    pages.push(tools::project("sites/README.md"));
+    pages.sort();
+    pages
+}
+
+/// Commands of a page with their expected lines.
+fn transcripts(page: &str) -> Vec<(String, Vec<String>)> {
+    let mut transcripts: Vec<(String, Vec<String>)> = Vec::new();
+    for block in page.split("```console\n").skip(1) {
+        let block = block.split("```").next().unwrap();
+        for line in block.lines() {
+            match line.strip_prefix("$ ") {
+                Some(command) => transcripts.push((command.to_owned(), Vec::new())),
+                None => transcripts.last_mut().expect("a block begins with a command").1.push(line.to_owned()),
+            }
+        }
+    }
+    transcripts
+}
+
+fn matches(line: &str, pattern: &str) -> bool {
+    let mut rest = line;
+    let mut parts = pattern.split('…');
+    let first = parts.next().unwrap();
+    let Some(after) = rest.strip_prefix(first) else { return false };
+    rest = after;
+    let parts: Vec<&str> = parts.collect();
+    for (index, part) in parts.iter().enumerate() {
+        if index + 1 == parts.len() {
+            return rest.ends_with(part);
+        }
+        match rest.find(part) {
+            Some(at) => rest = &rest[at + part.len()..],
+            None => return false,
+        }
+    }
+    rest.is_empty()
+}
+
+#[test]
+fn console_blocks_print_what_they_say() {
+    let mut commands = 0;
+    for page in pages() {
+        let name = page.file_stem().unwrap().to_string_lossy().into_owned();
+        let folder = fresh_folder(&name);
+        for (command, expected) in transcripts(&fs::read_to_string(&page).unwrap()) {
+            let found = run(&command, &folder);
+            let found: Vec<&str> = found.lines().collect();
+            let alike = found.len() == expected.len() && found.iter().zip(&expected).all(|(f, e)| matches(f, e));
+            assert!(alike, "{name}: $ {command}\nprints\n{}\nnot\n{}", found.join("\n"), expected.join("\n"));
+            commands += 1;
+        }
+    }
+    assert!(commands >= 6, "the README has commands");
+}
+
+fn fresh_folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("documentation").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    for part in ["passports", "sites", "docs"] {
+        let mut copy = tools::on_path("cp");
+        copy.arg("-r").arg(tools::project(part)).arg(&folder);
+        tools::output(copy);
+    }
+    folder
+}
+
+/// Both outputs, in the order of writing.
+fn run(command: &str, folder: &Path) -> String {
+    let program = Path::new(env!("CARGO_BIN_EXE_dtg-passport")).parent().unwrap().to_owned();
+    let python = tools::project("target/test-tools/venv/bin");
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let path = std::env::join_paths([program, python].into_iter().chain(std::env::split_paths(&path))).unwrap();
+    let mut shell = tools::on_path("sh");
+    shell.arg("-c").arg(format!("{{ {command}\n}} 2>&1")).current_dir(folder).env("PATH", path);
+    String::from_utf8(shell.output().unwrap().stdout).unwrap()
+}
+
+/// Every link to a file of the project leads to one.
+#[test]
+fn links_lead_somewhere() {
+    let mut checked = 0;
+    for page in pages() {
+        let text = fs::read_to_string(&page).unwrap();
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            if link.starts_with("https://") || link.starts_with('#') {
+                continue;
+            }
+            let target = page.parent().unwrap().join(link.split('#').next().unwrap());
+            assert!(target.exists(), "{}: {link} leads nowhere", page.display());
+            checked += 1;
+        }
+    }
+    assert!(checked > 5);
+}
