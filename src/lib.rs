@@ -51,7 +51,8 @@
 //! | [`earth`] | Earth rate, gravity, deflection, geodesics |
 //! | [`site`], [`stand`] | a place of delivery; a stand and its certified deviations |
 //! | [`gyro`], [`laboratory`] | eq. (2): parameters and currents, types of gyro; the meter and the seat |
-//! | [`calibration`] | from currents to parameters |
+//! | [`statistics`] | least squares, distributions, random streams: no gyro in it |
+//! | [`calibration`] | from currents to parameters, their uncertainty, the fit |
 //! | [`trust`] | signatures, keys, allowed signers, revocation: bytes and time in, a verdict out |
 //! | [`passport`] | content, document, issue, re-issue, verification |
 //! | [`schema`] | JSON Schemas of the formats |
@@ -87,6 +88,7 @@ pub mod schema;
 pub mod signing;
 pub mod site;
 pub mod stand;
+pub mod statistics;
 pub mod text;
 pub mod trust;
 pub mod units;

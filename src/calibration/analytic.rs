@@ -1,6 +1,6 @@
 //! The paper's closed solution ([the paper](crate::bibliography::Bibliography::Tang17), eq. (8), (13)-(16)).
 
-use crate::coefficients::{Coefficients, EIGHT_POSITIONS, pair_differences};
+use crate::coefficients::{Coefficients, EIGHT_POSITIONS, Matrices, pair_differences};
 use crate::gyro::GyroParameters;
 use nalgebra::{Matrix2, Vector2};
 
@@ -53,29 +53,88 @@ pub fn solve(
     let inverse = (j1 - j2 * matrices.delta).try_inverse().ok_or(NoAnalyticSolution::SingularCurrents)?;
     let k = matrices.b_deg_per_h * inverse;
     let omega_n = matrices.c_deg_per_h_per_g - k * j2 * matrices.n2_inverse;
-    let sum: Vector2<f64> = positions
-        .iter()
-        .zip(currents_ma)
-        .map(|(at, current)| at.earth_rate_deg_per_h - k * current - omega_n * at.specific_force_g)
-        .sum();
-    let parameters = GyroParameters {
-        k_deg_per_h_per_ma: k,
-        omega0_deg_per_h: sum / positions.len() as f64,
-        omega_g_deg_per_h_per_g: (omega_n.m11 + omega_n.m22) / 2.0,
-        omega_k_deg_per_h_per_g: (omega_n.m21 - omega_n.m12) / 2.0,
-    };
-    Ok(AnalyticSolution { parameters, omega_n_deg_per_h_per_g: omega_n })
+    let omega0 = mean_misclosure(coefficients, currents_ma, &k, &omega_n);
+    Ok(AnalyticSolution::new(k, omega_n, omega0))
+}
+
+/// How the closed solution answers to misclosures of the equations, to first order.
+///
+/// When position p is out by e_p, (9)-(11) become δK J_1 + δω_n n_1 = e_1 and δK J_2 + δω_n n_2 = e_2.
+#[derive(Debug, Clone)]
+pub(crate) struct AnalyticMap<'a> {
+    coefficients: &'a Coefficients,
+    currents_ma: &'a [Vector2<f64>],
+    /// (J_1 − J_2 Δ)⁻¹.
+    inverse: Matrix2<f64>,
+    j2: Matrix2<f64>,
+    matrices: &'a Matrices,
+    /// Where the eight positions stand among all.
+    eight: [usize; 8],
+}
+
+impl<'a> AnalyticMap<'a> {
+    /// `None` where the closed solution does not exist.
+    pub(crate) fn new(coefficients: &'a Coefficients, currents_ma: &'a [Vector2<f64>]) -> Option<Self> {
+        let matrices = coefficients.matrices.as_ref()?;
+        let (j1, j2) = current_differences(coefficients, currents_ma)?;
+        let inverse = (j1 - j2 * matrices.delta).try_inverse()?;
+        Some(Self { coefficients, currents_ma, inverse, j2, matrices, eight: places_of_the_eight(coefficients)? })
+    }
+
+    /// The change of the solution for misclosures (°/h) of all positions.
+    pub(crate) fn apply(&self, misclosures: &[Vector2<f64>]) -> AnalyticSolution {
+        let (e1, e2) = pair_differences(|position| misclosures[self.eight[position]]);
+        let k = (e1 - e2 * self.matrices.delta) * self.inverse;
+        let omega_n = (e2 - k * self.j2) * self.matrices.n2_inverse;
+        let each = self.coefficients.positions.iter().zip(self.currents_ma).zip(misclosures);
+        let sum: Vector2<f64> =
+            each.map(|((at, current), misclosure)| misclosure - k * current - omega_n * at.specific_force_g).sum();
+        AnalyticSolution::new(k, omega_n, sum / misclosures.len() as f64)
+    }
+}
+
+impl AnalyticSolution {
+    /// With ω_g and ω_k taken from ω_n by (16).
+    fn new(k: Matrix2<f64>, omega_n: Matrix2<f64>, omega0: Vector2<f64>) -> Self {
+        let parameters = GyroParameters {
+            k_deg_per_h_per_ma: k,
+            omega0_deg_per_h: omega0,
+            omega_g_deg_per_h_per_g: (omega_n.m11 + omega_n.m22) / 2.0,
+            omega_k_deg_per_h_per_g: (omega_n.m21 - omega_n.m12) / 2.0,
+        };
+        Self { parameters, omega_n_deg_per_h_per_g: omega_n }
+    }
+}
+
+/// ω_0: the mean of ω_3 − K J − ω_n n over all positions (paper, eq. (8)), °/h.
+pub(crate) fn mean_misclosure(
+    coefficients: &Coefficients,
+    currents_ma: &[Vector2<f64>],
+    k: &Matrix2<f64>,
+    omega_n: &Matrix2<f64>,
+) -> Vector2<f64> {
+    let positions = &coefficients.positions;
+    let each = positions.iter().zip(currents_ma);
+    let sum: Vector2<f64> =
+        each.map(|(at, current)| at.earth_rate_deg_per_h - k * current - omega_n * at.specific_force_g).sum();
+    sum / positions.len() as f64
 }
 
 /// J_1 and J_2, the differences of the currents of the paper's eight positions (eq. (11)).
-fn current_differences(
+pub(crate) fn current_differences(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],
 ) -> Option<(Matrix2<f64>, Matrix2<f64>)> {
-    let mut eight = [Vector2::zeros(); 8];
-    for (slot, (index, _, _)) in eight.iter_mut().zip(EIGHT_POSITIONS) {
-        let place = coefficients.positions.iter().position(|at| at.index == index)?;
-        *slot = *currents_ma.get(place)?;
+    let eight = places_of_the_eight(coefficients)?;
+    (currents_ma.len() == coefficients.positions.len())
+        .then(|| pair_differences(|position| currents_ma[eight[position]]))
+}
+
+/// Where the paper's eight positions stand among all, when all are there.
+fn places_of_the_eight(coefficients: &Coefficients) -> Option<[usize; 8]> {
+    let mut places = [0; 8];
+    for (place, (index, _, _)) in places.iter_mut().zip(EIGHT_POSITIONS) {
+        *place = coefficients.positions.iter().position(|at| at.index == index)?;
     }
-    Some(pair_differences(|position| eight[position]))
+    Some(places)
 }

@@ -5,6 +5,7 @@
 //! * [`node`]: YAML to a tree, with the place of every value found again when an error needs it.
 //! * [`mod@record`]: from that tree to a Rust struct and back, every mistake reported, not only the first.
 //! * [`scalar`]: identifiers, dates and times.
+//! * [`table`]: tables of numbers (CSV).
 //! * [`problem`]: what is wrong, where, what was expected, what to do.
 
 pub mod node;
@@ -12,6 +13,7 @@ pub mod problem;
 pub mod record;
 pub mod rule;
 pub mod scalar;
+pub mod table;
 
 pub use node::Node;
 pub use problem::{Path, Problems, Unreadable};

@@ -1,0 +1,145 @@
+//! What a calibration takes for known: coefficients, and how uncertain everything that stands behind them is.
+
+use crate::attitude;
+use crate::coefficients::{Coefficients, EarthRate, Position, SingularPositions, StandGeometry};
+use crate::laboratory::Meter;
+use nalgebra::{Matrix3, Vector3};
+
+/// Standard uncertainties of everything that enters a calibration. Zero is "exact".
+///
+/// Parts that are shared by several readings are kept apart from those of each reading, so nothing counts twice.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InputUncertainty {
+    /// Of the certified α, β, γ of every position, its own part; in the order of the coefficients. Positions beyond
+    /// its end are exact.
+    pub angles_rad: Vec<[f64; 3]>,
+    /// Of one return to a position, per axis of the platform; every reading returns once.
+    pub repeatability_rad: f64,
+    /// Shared by all positions, per axis of the platform (turns E·A from the left).
+    pub common_platform_rad: f64,
+    /// Shared by all positions, per axis of the base (turns it from the right).
+    pub common_base_rad: f64,
+    /// Of the astronomic latitude.
+    pub latitude_rad: f64,
+    /// Of the base's azimuth.
+    pub azimuth_rad: f64,
+    /// Of the base's level, about east and about north.
+    pub level_rad: f64,
+    /// Of the gyro's seat, about x, y and z of the case.
+    pub seating_rad: [f64; 3],
+    /// Of the currents.
+    pub meter: MeterUncertainty,
+}
+
+/// Standard uncertainties of the currents.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeterUncertainty {
+    /// Of every reading by itself, as a share of the reading.
+    pub reading: f64,
+    /// Of every reading by itself, whatever its size; positive.
+    pub floor_ma: f64,
+    /// Of the gain that all readings share.
+    pub gain: f64,
+    /// Of the offset that all readings share.
+    pub offset_ma: f64,
+}
+
+impl From<&Meter> for MeterUncertainty {
+    fn from(meter: &Meter) -> Self {
+        Self {
+            reading: meter.reading_percent / 100.0,
+            floor_ma: meter.floor_ma,
+            gain: meter.gain_percent / 100.0,
+            offset_ma: meter.offset_ma,
+        }
+    }
+}
+
+impl MeterUncertainty {
+    /// Variance of one reading of the current `current_ma` by itself, mA².
+    pub fn own_variance_ma2(&self, current_ma: f64) -> f64 {
+        let share = self.reading * current_ma;
+        share * share + self.floor_ma * self.floor_ma
+    }
+}
+
+impl InputUncertainty {
+    /// A meter on an exact stand at an exact place.
+    pub fn of_meter(meter: MeterUncertainty) -> Self {
+        Self {
+            angles_rad: Vec::new(),
+            repeatability_rad: 0.0,
+            common_platform_rad: 0.0,
+            common_base_rad: 0.0,
+            latitude_rad: 0.0,
+            azimuth_rad: 0.0,
+            level_rad: 0.0,
+            seating_rad: [0.0; 3],
+            meter,
+        }
+    }
+}
+
+/// The stand at its site as a calibration takes it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setup {
+    coefficients: Coefficients,
+    turns: Vec<Turn>,
+    earth: EarthRate,
+    uncertainty: InputUncertainty,
+}
+
+/// How one position turns when its angles change.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Turn {
+    /// Ã, 3×3, base to case.
+    pub(crate) attitude: Matrix3<f64>,
+    /// The axes, in case coordinates, that α, β and γ turn about: E = Rz(γ)·Ry(β)·Rx(α).
+    pub(crate) axes: [Vector3<f64>; 3],
+}
+
+impl Setup {
+    /// `positions` of a stand at a place with the Earth rate `earth`.
+    ///
+    /// # Errors
+    /// [`SingularPositions`] when the paper's eight are there and n_2 has no inverse.
+    pub fn new(
+        positions: &[Position],
+        earth: EarthRate,
+        uncertainty: InputUncertainty,
+    ) -> Result<Self, SingularPositions> {
+        let coefficients = StandGeometry::new(positions)?.at(earth);
+        Ok(Self { coefficients, turns: positions.iter().map(Turn::of).collect(), earth, uncertainty })
+    }
+
+    /// What the mathematics takes.
+    pub fn coefficients(&self) -> &Coefficients {
+        &self.coefficients
+    }
+
+    /// How uncertain everything is.
+    pub fn uncertainty(&self) -> &InputUncertainty {
+        &self.uncertainty
+    }
+
+    pub(crate) fn turns(&self) -> &[Turn] {
+        &self.turns
+    }
+
+    /// The Earth rate in base axes: east, north, up.
+    pub(crate) fn earth_rate_in_base(&self) -> Vector3<f64> {
+        Vector3::new(0.0, self.earth.horizontal_deg_per_h, self.earth.vertical_deg_per_h)
+    }
+}
+
+impl Turn {
+    fn of(position: &Position) -> Self {
+        let deviation = attitude::deviation(&position.deviation);
+        let (sin_gamma, cos_gamma) = libm::sincos(position.deviation.gamma_rad);
+        Self {
+            attitude: deviation * attitude::nominal(position.theta_deg, position.phi_deg),
+            // α turns before β and γ: its axis is E's first column. β's is turned by γ alone, γ's stays.
+            axes: [deviation.column(0).into_owned(), Vector3::new(sin_gamma, cos_gamma, 0.0), Vector3::z()],
+        }
+    }
+}

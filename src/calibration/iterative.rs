@@ -1,0 +1,240 @@
+//! Successive approximation ([the paper](crate::bibliography::Bibliography::Tang17), eq. (17)-(19)).
+//!
+//! A step is K_λ = B J_1⁻¹ + K_{λ−1} T with T = J_2 Δ J_1⁻¹. So it converges exactly when the spectral radius
+//! ρ(T) < 1, its fixed point is the closed solution (13), and after any step exactly (K_λ − K_{λ−1}) T (1 − T)⁻¹ is
+//! still missing. The step itself bounds nothing: T is not normal.
+
+use super::analytic::{current_differences, mean_misclosure};
+use crate::coefficients::{Coefficients, Matrices};
+use crate::gyro::GyroParameters;
+use nalgebra::{Matrix2, Vector2};
+
+/// More steps than this are no convergence.
+pub const LARGEST_NUMBER_OF_STEPS: u32 = 200;
+
+/// When to stop: the paper's Δ₁ and Δ₂.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StopRule {
+    /// Δ₁: K_x and K_y moved by no more, percent.
+    pub delta1_percent: f64,
+    /// Δ₂: ω_g and ω_k moved by no more, °/h/g (the paper says °/h).
+    pub delta2_deg_per_h: f64,
+}
+
+impl Default for StopRule {
+    /// The paper's: 0.1 % and 0.001 °/h.
+    fn default() -> Self {
+        Self { delta1_percent: 0.1, delta2_deg_per_h: 0.001 }
+    }
+}
+
+/// Why successive approximation gives nothing.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum NoIterativeSolution {
+    /// The method is for the paper's eight positions.
+    #[error("the stand has not all of the eight positions that the iterative method needs: least squares takes any")]
+    EightPositionsMissing,
+    /// The number of current pairs is not that of the positions.
+    #[error("{found} pairs of currents for {expected} positions")]
+    WrongNumberOfCurrents {
+        /// Pairs of currents given.
+        found: usize,
+        /// Positions of the stand.
+        expected: usize,
+    },
+    /// J_1 has no inverse, so there is no first approximation.
+    #[error("there is no first approximation: J_1 has no inverse; the analytic method and least squares need none")]
+    SingularCurrents,
+    /// ρ(T) ≥ 1.
+    #[error(
+        "successive approximation diverges: the spectral radius is {spectral_radius:.4}, and it must be below 1; \
+         use the analytic method or least squares"
+    )]
+    Diverges {
+        /// ρ(T).
+        spectral_radius: f64,
+    },
+    /// Not there after 200 steps.
+    #[error(
+        "successive approximation did not converge in {LARGEST_NUMBER_OF_STEPS} steps (spectral radius \
+         {spectral_radius:.4}); use the analytic method or least squares"
+    )]
+    TooManySteps {
+        /// ρ(T).
+        spectral_radius: f64,
+    },
+}
+
+/// What successive approximation gives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IterativeSolution {
+    /// K, ω_0, ω_g and ω_k at the last step.
+    pub parameters: GyroParameters,
+    /// ω_n, 2×2, four free numbers, at the last step.
+    pub omega_n_deg_per_h_per_g: Matrix2<f64>,
+    /// Steps taken; the first approximation counts as 1.
+    pub steps: u32,
+    /// ρ(T).
+    pub spectral_radius: f64,
+    /// What K still lacks: (K_λ − K_{λ−1}) T (1 − T)⁻¹, exactly, °/h/mA.
+    pub remainder_k_deg_per_h_per_ma: Matrix2<f64>,
+    /// What ω_n still lacks, °/h/g.
+    pub remainder_omega_n_deg_per_h_per_g: Matrix2<f64>,
+}
+
+/// Everything that is known before the first step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plan {
+    /// K_(1) = ω_31 J_1⁻¹ (paper, eq. (17)).
+    first_k: Matrix2<f64>,
+    j1_inverse: Matrix2<f64>,
+    /// J_2 n_2⁻¹.
+    j2_per_n2: Matrix2<f64>,
+    /// T = J_2 Δ J_1⁻¹.
+    t: Matrix2<f64>,
+    matrices: Matrices,
+}
+
+impl Plan {
+    /// From the currents (J_x, J_y) of `coefficients.positions`, in the same order.
+    ///
+    /// # Errors
+    /// The first three of [`NoIterativeSolution`].
+    pub fn new(coefficients: &Coefficients, currents_ma: &[Vector2<f64>]) -> Result<Self, NoIterativeSolution> {
+        let (found, expected) = (currents_ma.len(), coefficients.positions.len());
+        if found != expected {
+            return Err(NoIterativeSolution::WrongNumberOfCurrents { found, expected });
+        }
+        let missing = NoIterativeSolution::EightPositionsMissing;
+        let matrices = coefficients.matrices.ok_or(missing)?;
+        let (j1, j2) = current_differences(coefficients, currents_ma).ok_or(missing)?;
+        let j1_inverse = j1.try_inverse().ok_or(NoIterativeSolution::SingularCurrents)?;
+        let plan = Self {
+            first_k: matrices.omega1_deg_per_h * j1_inverse,
+            j1_inverse,
+            j2_per_n2: j2 * matrices.n2_inverse,
+            t: j2 * matrices.delta * j1_inverse,
+            matrices,
+        };
+        let finite = plan.t.iter().chain(plan.first_k.iter()).all(|x| x.is_finite());
+        if finite { Ok(plan) } else { Err(NoIterativeSolution::SingularCurrents) }
+    }
+
+    /// ρ(T): below 1 the method converges, and each step leaves about this share of the error.
+    pub fn spectral_radius(&self) -> f64 {
+        let half_trace = 0.5 * (self.t.m11 + self.t.m22);
+        let half_difference = 0.5 * (self.t.m11 - self.t.m22);
+        // Eigenvalues are half_trace ± √discriminant; complex ones have the determinant as squared modulus.
+        let discriminant = half_difference * half_difference + self.t.m12 * self.t.m21;
+        if discriminant < 0.0 {
+            return (half_trace * half_trace - discriminant).sqrt();
+        }
+        half_trace.abs() + discriminant.sqrt()
+    }
+
+    /// How many steps it will take, from ρ(T) and the first approximation alone; `None` when ρ(T) ≥ 1.
+    ///
+    /// The first change is of the size of (B J_1⁻¹ − K_(1)) + K_(1) T, and each one after it ρ(T) times the last.
+    pub fn predicted_steps(&self, rule: &StopRule) -> Option<u32> {
+        let rho = self.spectral_radius();
+        if rho >= 1.0 {
+            return None;
+        }
+        let change = self.next_k(&self.omega_n(&self.first_k)) - self.first_k;
+        let moved_percent = 100.0 * (change.m11 / self.first_k.m11).abs().max((change.m22 / self.first_k.m22).abs());
+        let moved_drift = (change * self.j2_per_n2).amax();
+        let excess = (moved_percent / rule.delta1_percent).max(moved_drift / rule.delta2_deg_per_h);
+        if excess <= 1.0 || rho == 0.0 {
+            return Some(2);
+        }
+        let more = libm::ceil(libm::log(excess) / -libm::log(rho));
+        // 2 steps make the first change; saturating, for a radius just below 1.
+        Some(if more < f64::from(u32::MAX - 2) { 2 + more as u32 } else { u32::MAX })
+    }
+
+    /// ω_n for a K (paper, eq. (18)).
+    fn omega_n(&self, k: &Matrix2<f64>) -> Matrix2<f64> {
+        self.matrices.c_deg_per_h_per_g - k * self.j2_per_n2
+    }
+
+    /// The next K for the last ω_n (paper, eq. (19)).
+    fn next_k(&self, omega_n: &Matrix2<f64>) -> Matrix2<f64> {
+        self.first_k - omega_n * self.matrices.n1 * self.j1_inverse
+    }
+
+    /// Steps until the rule is met; `None` when 200 are not enough.
+    fn run(&self, rule: &StopRule) -> Option<LastStep> {
+        let (mut k, mut omega_n) = (self.first_k, self.omega_n(&self.first_k));
+        for step in 2..=LARGEST_NUMBER_OF_STEPS {
+            let next_k = self.next_k(&omega_n);
+            let next_omega_n = self.omega_n(&next_k);
+            let (change, change_omega_n) = (next_k - k, next_omega_n - omega_n);
+            (k, omega_n) = (next_k, next_omega_n);
+            if meets(rule, &k, &change, &change_omega_n) {
+                return Some(LastStep { k, omega_n, change, steps: step });
+            }
+        }
+        None
+    }
+
+    /// How many steps the rule asks for; `None` when 200 are not enough.
+    pub fn steps(&self, rule: &StopRule) -> Option<u32> {
+        self.run(rule).map(|last| last.steps)
+    }
+}
+
+/// Where successive approximation stopped.
+struct LastStep {
+    k: Matrix2<f64>,
+    omega_n: Matrix2<f64>,
+    /// K_λ − K_{λ−1}.
+    change: Matrix2<f64>,
+    steps: u32,
+}
+
+/// The paper's stop rule (under eq. (19)): K_x, K_y by at most Δ₁ %, ω_g, ω_k by at most Δ₂.
+fn meets(rule: &StopRule, k: &Matrix2<f64>, change: &Matrix2<f64>, change_omega_n: &Matrix2<f64>) -> bool {
+    let share = rule.delta1_percent / 100.0;
+    let omega_g = (change_omega_n.m11 + change_omega_n.m22) / 2.0;
+    let omega_k = (change_omega_n.m21 - change_omega_n.m12) / 2.0;
+    change.m11.abs() <= share * k.m11.abs()
+        && change.m22.abs() <= share * k.m22.abs()
+        && omega_g.abs() <= rule.delta2_deg_per_h
+        && omega_k.abs() <= rule.delta2_deg_per_h
+}
+
+/// Solves for the gyro by successive approximation, ω_0 by (8).
+///
+/// `currents_ma` are (J_x, J_y) of `coefficients.positions`, in the same order.
+///
+/// # Errors
+/// See [`NoIterativeSolution`].
+pub fn solve(
+    coefficients: &Coefficients,
+    currents_ma: &[Vector2<f64>],
+    rule: &StopRule,
+) -> Result<IterativeSolution, NoIterativeSolution> {
+    let plan = Plan::new(coefficients, currents_ma)?;
+    let spectral_radius = plan.spectral_radius();
+    if spectral_radius >= 1.0 {
+        return Err(NoIterativeSolution::Diverges { spectral_radius });
+    }
+    let too_many = NoIterativeSolution::TooManySteps { spectral_radius };
+    let LastStep { k, omega_n, change, steps } = plan.run(rule).ok_or(too_many)?;
+    let rest = (Matrix2::identity() - plan.t).try_inverse().ok_or(too_many)?;
+    let remainder = change * plan.t * rest;
+    let parameters = GyroParameters {
+        k_deg_per_h_per_ma: k,
+        omega0_deg_per_h: mean_misclosure(coefficients, currents_ma, &k, &omega_n),
+        omega_g_deg_per_h_per_g: (omega_n.m11 + omega_n.m22) / 2.0,
+        omega_k_deg_per_h_per_g: (omega_n.m21 - omega_n.m12) / 2.0,
+    };
+    Ok(IterativeSolution {
+        parameters,
+        omega_n_deg_per_h_per_g: omega_n,
+        steps,
+        spectral_radius,
+        remainder_k_deg_per_h_per_ma: remainder,
+        remainder_omega_n_deg_per_h_per_g: -remainder * plan.j2_per_n2,
+    })
+}

@@ -1,0 +1,271 @@
+//! Least squares on all readings of any positions, weighted by what is each position's own.
+//!
+//! The currents are measured and stand in the regressors; Earth rate and specific force are known far better. So what
+//! is minimised is Σ e' (K D K')⁻¹ e with the misclosures e and the currents' covariance D: the sum of squared errors
+//! *of the currents* in units of their uncertainty, which is unbiased. Each step takes its regressors and its weights
+//! from the currents that the last solution makes (effective variance, iterated), never from the noisy readings.
+
+use super::inputs::MeterUncertainty;
+use super::parameter::Parameter;
+use super::unknowns::{Unknowns, design};
+use crate::coefficients::Coefficients;
+use crate::gyro::GyroParameters;
+use crate::statistics::least_squares::{Factorised, condition};
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+
+/// Beyond this condition number positions do not determine all parameters: noise would grow that many times.
+///
+/// Columns are compared in units of the largest current, 1 °/h, 1 g. On the paper's eight positions the condition is
+/// below 20 for deviations up to 15°, and an anisoelastic coefficient needs one of several thousand at 10′.
+pub const LARGEST_CONDITION: f64 = 300.0;
+
+/// Steps until a solution must have settled; it takes three or four.
+const LARGEST_NUMBER_OF_STEPS: usize = 30;
+
+/// A step below this share of the solution's own uncertainty is the last one.
+const SETTLED: f64 = 1e-6;
+
+/// The parameters that fit all readings best.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LeastSquaresSolution {
+    /// K, ω_0, ω_g, ω_k.
+    pub parameters: GyroParameters,
+    /// The anisoelastic coefficient, when asked for.
+    pub anisoelasticity_deg_per_h_per_g2: Option<f64>,
+}
+
+/// Why there is no least-squares solution.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NoLeastSquares {
+    /// The number of current pairs is not that of the positions.
+    #[error("{found} pairs of currents for {expected} positions")]
+    WrongNumberOfCurrents {
+        /// Pairs of currents given.
+        found: usize,
+        /// Positions of the stand.
+        expected: usize,
+    },
+    /// The equations do not determine all parameters.
+    #[error("{}", inseparable(.groups, *.condition))]
+    Inseparable {
+        /// Groups of parameters that are mixed with each other; one alone is not determined at all.
+        groups: Vec<Vec<Parameter>>,
+        /// The condition number.
+        condition: f64,
+    },
+    /// Currents or uncertainties that are not finite, or a meter without any uncertainty.
+    #[error("the currents or their uncertainties are not usable: every current finite, every uncertainty positive")]
+    NotUsable,
+}
+
+fn inseparable(groups: &[Vec<Parameter>], condition: f64) -> String {
+    let words = groups.iter().map(|group| {
+        let symbols: Vec<&str> = group.iter().map(|parameter| parameter.symbol()).collect();
+        match symbols.as_slice() {
+            [] => "determine the parameters".to_owned(),
+            [one] => format!("determine {one}"),
+            [one, rest @ ..] => format!("separate {one} from {}", rest.join(" and ")),
+        }
+    });
+    let words: Vec<String> = words.collect();
+    format!("these positions cannot {} (condition {condition:.0e})", words.join(", nor "))
+}
+
+/// Solves for the gyro from the mean currents (J_x, J_y) of `coefficients.positions`, in the same order, one reading
+/// each.
+///
+/// # Errors
+/// See [`NoLeastSquares`].
+pub fn solve(
+    coefficients: &Coefficients,
+    currents_ma: &[Vector2<f64>],
+    meter: &MeterUncertainty,
+    anisoelasticity: bool,
+) -> Result<LeastSquaresSolution, NoLeastSquares> {
+    let fit = Fit::new(coefficients, currents_ma, anisoelasticity, |_, unknowns, current| {
+        let k = unknowns.parameters.k_deg_per_h_per_ma;
+        let variance = current.map(|current| meter.own_variance_ma2(current));
+        k * Matrix2::from_diagonal(&variance) * k.transpose()
+    })?;
+    Ok(fit.solution())
+}
+
+/// A solution with what its covariance needs.
+#[derive(Debug, Clone)]
+pub(crate) struct Fit {
+    pub(crate) unknowns: Unknowns,
+    /// Currents that the unknowns make, mA.
+    pub(crate) currents_ma: Vec<Vector2<f64>>,
+    /// For every position W with W C W' = 1, C being the covariance of what is its own.
+    pub(crate) whitening: Vec<Matrix2<f64>>,
+    /// The whitened equations.
+    pub(crate) model: Factorised,
+    /// Whether the steps settled; if not, the readings are far from any gyro's, and measured currents stood in.
+    pub(crate) settled: bool,
+    anisoelasticity: bool,
+}
+
+impl Fit {
+    /// Fits; `own_covariance` gives the covariance, 2×2, of what is a position's own for unknowns and a current.
+    pub(crate) fn new(
+        coefficients: &Coefficients,
+        currents_ma: &[Vector2<f64>],
+        anisoelasticity: bool,
+        own_covariance: impl Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>,
+    ) -> Result<Self, NoLeastSquares> {
+        let problem = Problem { coefficients, currents_ma, anisoelasticity, own_covariance };
+        let start = problem.first()?;
+        if let Some(fit) = problem.settle(start) {
+            return Ok(fit);
+        }
+        // Readings that no gyro makes: one step with the measured currents as regressors says all that can be said.
+        let (step, mut fit) = problem.step(&start, currents_ma.to_vec()).ok_or(NoLeastSquares::NotUsable)?;
+        fit.unknowns = start.plus(&step.0);
+        fit.settled = false;
+        Ok(fit)
+    }
+
+    pub(crate) fn solution(&self) -> LeastSquaresSolution {
+        let anisoelasticity = self.unknowns.anisoelasticity_deg_per_h_per_g2;
+        LeastSquaresSolution {
+            parameters: self.unknowns.parameters,
+            anisoelasticity_deg_per_h_per_g2: self.anisoelasticity.then_some(anisoelasticity),
+        }
+    }
+}
+
+/// The whole task, so that its steps need no long lists of arguments.
+struct Problem<'a, F> {
+    coefficients: &'a Coefficients,
+    currents_ma: &'a [Vector2<f64>],
+    anisoelasticity: bool,
+    own_covariance: F,
+}
+
+impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
+    fn columns(&self) -> usize {
+        if self.anisoelasticity { Parameter::NINE.len() } else { Parameter::EIGHT.len() }
+    }
+
+    /// The unweighted solution with measured currents, once rank and condition have been checked.
+    fn first(&self) -> Result<Unknowns, NoLeastSquares> {
+        let positions = &self.coefficients.positions;
+        if self.currents_ma.len() != positions.len() {
+            let (found, expected) = (self.currents_ma.len(), positions.len());
+            return Err(NoLeastSquares::WrongNumberOfCurrents { found, expected });
+        }
+        let largest = self.currents_ma.iter().fold(0.0, |a: f64, current| a.max(current.amax()));
+        if !largest.is_finite() {
+            return Err(NoLeastSquares::NotUsable);
+        }
+        let unit = if largest > 0.0 { largest } else { 1.0 };
+        let scaled: Vec<_> = self.currents_ma.iter().map(|current| current / unit).collect();
+        let design = design(positions, &scaled, self.columns());
+        let model = Factorised::new(design.clone()).ok().filter(|model| model.condition_bound() <= LARGEST_CONDITION);
+        let model = match model {
+            Some(model) => model,
+            None => self.checked(design)?,
+        };
+        let mut right = DMatrix::zeros(2 * positions.len(), 1);
+        for (place, at) in positions.iter().enumerate() {
+            right[(2 * place, 0)] = at.earth_rate_deg_per_h.x;
+            right[(2 * place + 1, 0)] = at.earth_rate_deg_per_h.y;
+        }
+        model.rotate(&mut right);
+        let (mut solution, _) = model.solve_rotated(&right);
+        solution.rows_mut(0, 4).scale_mut(1.0 / unit);
+        Ok(Unknowns::from_vector(&solution))
+    }
+
+    /// The model when its condition allows it: the bound said that it may not.
+    fn checked(&self, design: DMatrix<f64>) -> Result<Factorised, NoLeastSquares> {
+        let found = condition(&design, LARGEST_CONDITION).ok_or(NoLeastSquares::NotUsable)?;
+        if found.number <= LARGEST_CONDITION {
+            return Factorised::new(design).map_err(|_| NoLeastSquares::NotUsable);
+        }
+        Err(NoLeastSquares::Inseparable { groups: mixed(&found.undetermined), condition: found.number })
+    }
+
+    /// Steps from `start` until they no longer matter; `None` when they do not settle.
+    fn settle(&self, start: Unknowns) -> Option<Fit> {
+        let mut unknowns = start;
+        for _ in 0..LARGEST_NUMBER_OF_STEPS {
+            let currents_ma = unknowns.currents_ma(&self.coefficients.positions)?;
+            let ((step, length), mut fit) = self.step(&unknowns, currents_ma)?;
+            unknowns = unknowns.plus(&step);
+            fit.unknowns = unknowns;
+            if length < SETTLED {
+                return Some(fit);
+            }
+        }
+        None
+    }
+
+    /// One step from `unknowns` with regressors and weights from the currents `regressors_ma`, and its length in units
+    /// of the solution's own uncertainty.
+    fn step(&self, unknowns: &Unknowns, regressors_ma: Vec<Vector2<f64>>) -> Option<((DVector<f64>, f64), Fit)> {
+        let positions = &self.coefficients.positions;
+        let mut design = design(positions, &regressors_ma, self.columns());
+        let mut right = DMatrix::zeros(2 * positions.len(), 1);
+        let mut whitening = Vec::with_capacity(positions.len());
+        for (place, at) in positions.iter().enumerate() {
+            let covariance = (self.own_covariance)(place, unknowns, &regressors_ma[place]);
+            let whiten = whitening_of(&covariance)?;
+            let misclosure = whiten * unknowns.misclosure(at, &self.currents_ma[place]);
+            right.fixed_view_mut::<2, 1>(2 * place, 0).copy_from(&misclosure);
+            whiten_rows(&mut design, place, &whiten);
+            whitening.push(whiten);
+        }
+        let model = Factorised::new(design).ok()?;
+        model.rotate(&mut right);
+        let step = model.solve_rotated(&right);
+        let (unknowns, currents_ma) = (*unknowns, regressors_ma);
+        let anisoelasticity = self.anisoelasticity;
+        Some((step, Fit { unknowns, currents_ma, whitening, model, settled: true, anisoelasticity }))
+    }
+}
+
+/// L⁻¹ for C = L L'; `None` when C is not positive definite.
+pub(crate) fn whitening_of(covariance: &Matrix2<f64>) -> Option<Matrix2<f64>> {
+    let lower = covariance.cholesky()?.unpack();
+    let (a, b, c) = (lower.m11, lower.m21, lower.m22);
+    let inverse = Matrix2::new(1.0 / a, 0.0, -b / (a * c), 1.0 / c);
+    inverse.iter().all(|x| x.is_finite()).then_some(inverse)
+}
+
+/// W M for the two rows of a position, in place.
+pub(crate) fn whiten_rows(matrix: &mut DMatrix<f64>, place: usize, whiten: &Matrix2<f64>) {
+    for column in 0..matrix.ncols() {
+        let (x, y) = (matrix[(2 * place, column)], matrix[(2 * place + 1, column)]);
+        matrix[(2 * place, column)] = whiten.m11 * x + whiten.m12 * y;
+        matrix[(2 * place + 1, column)] = whiten.m21 * x + whiten.m22 * y;
+    }
+}
+
+/// Which parameters undetermined directions mix.
+///
+/// Elimination with the largest element as pivot leaves each direction with as few parameters as can be, so that two
+/// parameters that are undetermined by themselves do not seem mixed with each other.
+fn mixed(directions: &[DVector<f64>]) -> Vec<Vec<Parameter>> {
+    let mut rows: Vec<DVector<f64>> = directions.to_vec();
+    for pivot_row in 0..rows.len() {
+        let pivot = rows[pivot_row].iamax();
+        let divisor = rows[pivot_row][pivot];
+        if divisor == 0.0 {
+            continue;
+        }
+        let normalised = &rows[pivot_row] / divisor;
+        for (other, row) in rows.iter_mut().enumerate() {
+            if other != pivot_row {
+                let factor = row[pivot];
+                row.axpy(-factor, &normalised, 1.0);
+            }
+        }
+        rows[pivot_row] = normalised;
+    }
+    let involved = |row: &DVector<f64>| {
+        let limit = 0.1 * row.amax();
+        Parameter::NINE.into_iter().filter(|p| row.get(p.place()).is_some_and(|x| x.abs() > limit)).collect()
+    };
+    rows.iter().map(involved).collect()
+}

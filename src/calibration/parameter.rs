@@ -1,0 +1,112 @@
+//! The unknowns of eq. (2), one by one.
+
+use crate::gyro::GyroParameters;
+use nalgebra::{Matrix2, Vector2};
+
+/// One unknown of the drift model (paper, eq. (2)).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Parameter {
+    /// K_x, °/h/mA.
+    Kx,
+    /// K_xy, °/h/mA.
+    Kxy,
+    /// K_yx, °/h/mA.
+    Kyx,
+    /// K_y, °/h/mA.
+    Ky,
+    /// ω_0x, °/h.
+    Omega0x,
+    /// ω_0y, °/h.
+    Omega0y,
+    /// ω_g, °/h/g.
+    OmegaG,
+    /// ω_k, °/h/g.
+    OmegaK,
+    /// The anisoelastic coefficient, which eq. (2) calls ω_n, °/h/g².
+    Anisoelasticity,
+}
+
+impl Parameter {
+    /// The eight of every calibration, in the order of vectors and covariances.
+    pub const EIGHT: [Self; 8] =
+        [Self::Kx, Self::Kxy, Self::Kyx, Self::Ky, Self::Omega0x, Self::Omega0y, Self::OmegaG, Self::OmegaK];
+
+    /// The eight, and the anisoelastic coefficient last.
+    pub const NINE: [Self; 9] = [
+        Self::Kx,
+        Self::Kxy,
+        Self::Kyx,
+        Self::Ky,
+        Self::Omega0x,
+        Self::Omega0y,
+        Self::OmegaG,
+        Self::OmegaK,
+        Self::Anisoelasticity,
+    ];
+
+    /// Its name in results for machines.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Kx => "k_x",
+            Self::Kxy => "k_xy",
+            Self::Kyx => "k_yx",
+            Self::Ky => "k_y",
+            Self::Omega0x => "omega_0x",
+            Self::Omega0y => "omega_0y",
+            Self::OmegaG => "omega_g",
+            Self::OmegaK => "omega_k",
+            Self::Anisoelasticity => "anisoelasticity",
+        }
+    }
+
+    /// Its letter in the paper.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Kx => "K_x",
+            Self::Kxy => "K_xy",
+            Self::Kyx => "K_yx",
+            Self::Ky => "K_y",
+            Self::Omega0x => "ω_0x",
+            Self::Omega0y => "ω_0y",
+            Self::OmegaG => "ω_g",
+            Self::OmegaK => "ω_k",
+            Self::Anisoelasticity => "ω_n (anisoelasticity)",
+        }
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Kx | Self::Kxy | Self::Kyx | Self::Ky => "deg/h/mA",
+            Self::Omega0x | Self::Omega0y => "deg/h",
+            Self::OmegaG | Self::OmegaK => "deg/h/g",
+            Self::Anisoelasticity => "deg/h/g^2",
+        }
+    }
+
+    /// Its place in vectors of parameters.
+    pub fn place(self) -> usize {
+        self as usize
+    }
+}
+
+impl GyroParameters {
+    /// The eight numbers in the order of [`Parameter::EIGHT`].
+    pub fn to_vector(&self) -> [f64; 8] {
+        let k = &self.k_deg_per_h_per_ma;
+        let omega0 = &self.omega0_deg_per_h;
+        let (w_g, w_k) = (self.omega_g_deg_per_h_per_g, self.omega_k_deg_per_h_per_g);
+        [k.m11, k.m12, k.m21, k.m22, omega0.x, omega0.y, w_g, w_k]
+    }
+
+    /// From the eight numbers in the order of [`Parameter::EIGHT`].
+    pub fn from_vector(values: &[f64; 8]) -> Self {
+        let [kx, kxy, kyx, ky, omega0x, omega0y, omega_g, omega_k] = *values;
+        Self {
+            k_deg_per_h_per_ma: Matrix2::new(kx, kxy, kyx, ky),
+            omega0_deg_per_h: Vector2::new(omega0x, omega0y),
+            omega_g_deg_per_h_per_g: omega_g,
+            omega_k_deg_per_h_per_g: omega_k,
+        }
+    }
+}

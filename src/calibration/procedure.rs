@@ -1,0 +1,313 @@
+//! One calibration: every method asked for, its uncertainty, its fit.
+
+use super::analytic::{self, AnalyticMap, NoAnalyticSolution};
+use super::inputs::Setup;
+use super::iterative::{self, NoIterativeSolution, StopRule};
+use super::least_squares::{Fit, NoLeastSquares};
+use super::parameter::Parameter;
+use super::propagation::{Propagation, covariance, standard_deviations};
+use super::readings::Readings;
+use super::scatter::Scatter;
+use super::sensitivity::Sensitivity;
+use super::unknowns::Unknowns;
+use crate::coefficients::PositionIndex;
+use crate::gyro::GyroParameters;
+use crate::statistics::distributions::chi_square_larger;
+use nalgebra::{DMatrix, Matrix2, Vector2};
+
+/// A method of calibration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Method {
+    /// The paper's closed solution.
+    Analytic,
+    /// The paper's successive approximation.
+    Iterative,
+    /// Weighted least squares on all readings.
+    LeastSquares,
+}
+
+impl Method {
+    /// All of them, in the order of results: the last one is the answer.
+    pub const ALL: [Self; 3] = [Self::Analytic, Self::Iterative, Self::LeastSquares];
+
+    /// Its name in options and results.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Analytic => "analytic",
+            Self::Iterative => "iterative",
+            Self::LeastSquares => "least-squares",
+        }
+    }
+}
+
+/// What is asked of a calibration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Which methods.
+    pub methods: Vec<Method>,
+    /// When successive approximation stops.
+    pub stop_rule: StopRule,
+    /// Whether least squares also fits the anisoelastic coefficient of (2).
+    pub anisoelasticity: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { methods: Method::ALL.to_vec(), stop_rule: StopRule::default(), anisoelasticity: false }
+    }
+}
+
+/// The result of a calibration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Calibration {
+    /// Results in the order of the methods asked for; refused methods are missing.
+    pub results: Vec<MethodResult>,
+    /// Methods that gave nothing, and why.
+    pub refused: Vec<(Method, MethodRefusal)>,
+    /// Whether repeated readings agree; absent where nothing was repeated.
+    pub scatter: Option<Scatter>,
+    /// Whether the fit settled. If not, the readings are far from any gyro's on this stand.
+    pub settled: bool,
+}
+
+/// Why one method gave nothing.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MethodRefusal {
+    /// The closed solution.
+    #[error(transparent)]
+    Analytic(#[from] NoAnalyticSolution),
+    /// Successive approximation.
+    #[error(transparent)]
+    Iterative(#[from] NoIterativeSolution),
+    /// Least squares.
+    #[error(transparent)]
+    LeastSquares(#[from] NoLeastSquares),
+}
+
+/// What one method gives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MethodResult {
+    /// Which method.
+    pub method: Method,
+    /// K, ω_0, ω_g, ω_k.
+    pub parameters: GyroParameters,
+    /// ω_n, 2×2: four free numbers of the paper's methods, [[ω_g, −ω_k], [ω_k, ω_g]] of least squares.
+    pub omega_n_deg_per_h_per_g: Matrix2<f64>,
+    /// The anisoelastic coefficient, when fitted.
+    pub anisoelasticity_deg_per_h_per_g2: Option<f64>,
+    /// How successive approximation went.
+    pub iteration: Option<Iteration>,
+    /// Covariance of the parameters in the order of [`Parameter::NINE`], 8×8 or 9×9, from all inputs.
+    pub covariance: DMatrix<f64>,
+    /// Standard uncertainties of the elements of ω_n, 2×2.
+    pub omega_n_uncertainty_deg_per_h_per_g: Matrix2<f64>,
+    /// Whether the readings fit.
+    pub chi_square: ChiSquare,
+    /// What is left of each equation, in the order of the coefficients.
+    pub residuals: Vec<Residual>,
+}
+
+impl MethodResult {
+    /// Standard uncertainty of a parameter; `None` when it was not fitted.
+    pub fn standard_uncertainty(&self, parameter: Parameter) -> Option<f64> {
+        self.covariance.get((parameter.place(), parameter.place())).map(|variance| variance.sqrt())
+    }
+
+    /// Value of a parameter; `None` when it was not fitted.
+    pub fn value(&self, parameter: Parameter) -> Option<f64> {
+        match parameter {
+            Parameter::Anisoelasticity => self.anisoelasticity_deg_per_h_per_g2,
+            other => self.parameters.to_vector().get(other.place()).copied(),
+        }
+    }
+}
+
+/// How successive approximation went.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Iteration {
+    /// Steps taken, the first approximation counted as 1.
+    pub steps: u32,
+    /// Steps predicted before the first one.
+    pub predicted_steps: Option<u32>,
+    /// ρ(T), known before the first step.
+    pub spectral_radius: f64,
+    /// What K still lacks, exactly.
+    pub remainder_k_deg_per_h_per_ma: Matrix2<f64>,
+    /// What ω_n still lacks, exactly.
+    pub remainder_omega_n_deg_per_h_per_g: Matrix2<f64>,
+}
+
+/// Chi-square of a fit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ChiSquare {
+    /// Its value.
+    pub value: f64,
+    /// Readings less parameters.
+    pub degrees_of_freedom: usize,
+    /// Probability of a larger value when nothing is wrong.
+    pub probability: f64,
+}
+
+impl ChiSquare {
+    pub(crate) fn new((value, degrees_of_freedom): (f64, usize)) -> Self {
+        Self { value, degrees_of_freedom, probability: chi_square_larger(value, degrees_of_freedom) }
+    }
+}
+
+/// What is left of the two equations of a position: ω_3 − K J − ω_0 − ω_n n.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Residual {
+    /// Which position.
+    pub index: PositionIndex,
+    /// Along x and y.
+    pub residual_deg_per_h: Vector2<f64>,
+    /// In units of its standard uncertainty; 0 where it cannot differ from 0.
+    pub normalised: Vector2<f64>,
+}
+
+/// Calibrates: currents `readings` at `setup`, with the methods of `options`.
+///
+/// # Errors
+/// [`NoLeastSquares`] when the readings do not determine a gyro: then no method's result would mean anything.
+/// What a single method cannot do is in [`Calibration::refused`].
+pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Result<Calibration, NoLeastSquares> {
+    let currents_ma = readings.means_ma();
+    let (fit, scatter) = fit(setup, readings, &currents_ma, false)?;
+    let evaluation = Evaluation::new(setup, &currents_ma, &fit);
+    let mut calibration = Calibration { results: Vec::new(), refused: Vec::new(), scatter, settled: fit.settled };
+    for &method in &options.methods {
+        let result = match method {
+            Method::Analytic => evaluation.analytic().map_err(MethodRefusal::from),
+            Method::Iterative => evaluation.iterative(&options.stop_rule),
+            Method::LeastSquares if options.anisoelasticity => self::fit(setup, readings, &currents_ma, true)
+                .map(|(fit, _)| Evaluation::new(setup, &currents_ma, &fit).least_squares())
+                .map_err(MethodRefusal::from),
+            Method::LeastSquares => Ok(evaluation.least_squares()),
+        };
+        match result {
+            Ok(result) => calibration.results.push(result),
+            Err(refusal) => calibration.refused.push((method, refusal)),
+        }
+    }
+    Ok(calibration)
+}
+
+/// The weighted fit; once more with wider readings when repeated ones scatter more than was stated.
+pub(crate) fn fit(
+    setup: &Setup,
+    readings: &Readings,
+    currents_ma: &[Vector2<f64>],
+    anisoelasticity: bool,
+) -> Result<(Fit, Option<Scatter>), NoLeastSquares> {
+    let counts: Vec<usize> = readings.positions().iter().map(|position| position.each_ma.len()).collect();
+    let with = |variance_factor: f64| {
+        Fit::new(setup.coefficients(), currents_ma, anisoelasticity, |place, unknowns, current| {
+            Sensitivity::new(setup, unknowns).own_covariance(place, current, counts[place], variance_factor)
+        })
+    };
+    let fit = with(1.0)?;
+    let scatter = Scatter::of(setup, readings, &fit);
+    match scatter {
+        Some(found) if found.variance_factor > 1.0 => Ok((with(found.variance_factor)?, scatter)),
+        _ => Ok((fit, scatter)),
+    }
+}
+
+/// All that methods share.
+struct Evaluation<'a> {
+    setup: &'a Setup,
+    currents_ma: &'a [Vector2<f64>],
+    fit: &'a Fit,
+    propagation: Propagation<'a>,
+    chi_square: ChiSquare,
+}
+
+impl<'a> Evaluation<'a> {
+    fn new(setup: &'a Setup, currents_ma: &'a [Vector2<f64>], fit: &'a Fit) -> Self {
+        let propagation = Propagation::new(setup, fit);
+        let chi_square = ChiSquare::new(propagation.chi_square(setup, currents_ma));
+        Self { setup, currents_ma, fit, propagation, chi_square }
+    }
+
+    fn least_squares(&self) -> MethodResult {
+        let solution = self.fit.solution();
+        let spread = self.propagation.least_squares();
+        let covariance = covariance(&spread);
+        let [u_g, u_k] = [Parameter::OmegaG, Parameter::OmegaK].map(|p| covariance[(p.place(), p.place())].sqrt());
+        MethodResult {
+            method: Method::LeastSquares,
+            parameters: solution.parameters,
+            omega_n_deg_per_h_per_g: solution.parameters.omega_n_deg_per_h_per_g(),
+            anisoelasticity_deg_per_h_per_g2: solution.anisoelasticity_deg_per_h_per_g2,
+            iteration: None,
+            residuals: self.residuals(&self.fit.unknowns, &spread),
+            covariance,
+            omega_n_uncertainty_deg_per_h_per_g: Matrix2::new(u_g, u_k, u_k, u_g),
+            chi_square: self.chi_square,
+        }
+    }
+
+    fn analytic(&self) -> Result<MethodResult, NoAnalyticSolution> {
+        let solution = analytic::solve(self.setup.coefficients(), self.currents_ma)?;
+        let refusal = NoAnalyticSolution::SingularCurrents;
+        let (parameters, omega_n) = (solution.parameters, solution.omega_n_deg_per_h_per_g);
+        self.of_the_paper(Method::Analytic, parameters, omega_n, None).ok_or(refusal)
+    }
+
+    fn iterative(&self, rule: &StopRule) -> Result<MethodResult, MethodRefusal> {
+        let coefficients = self.setup.coefficients();
+        let found = iterative::solve(coefficients, self.currents_ma, rule)?;
+        let predicted_steps = iterative::Plan::new(coefficients, self.currents_ma)?.predicted_steps(rule);
+        let iteration = Iteration {
+            steps: found.steps,
+            predicted_steps,
+            spectral_radius: found.spectral_radius,
+            remainder_k_deg_per_h_per_ma: found.remainder_k_deg_per_h_per_ma,
+            remainder_omega_n_deg_per_h_per_g: found.remainder_omega_n_deg_per_h_per_g,
+        };
+        let (parameters, omega_n) = (found.parameters, found.omega_n_deg_per_h_per_g);
+        let result = self.of_the_paper(Method::Iterative, parameters, omega_n, Some(iteration));
+        result.ok_or(NoIterativeSolution::SingularCurrents.into())
+    }
+
+    /// A result of one of the paper's methods. Both have the closed solution's uncertainty: it is the fixed point of
+    /// the other, whose remainder is stated apart.
+    fn of_the_paper(
+        &self,
+        method: Method,
+        parameters: GyroParameters,
+        omega_n: Matrix2<f64>,
+        iteration: Option<Iteration>,
+    ) -> Option<MethodResult> {
+        let map = AnalyticMap::new(self.setup.coefficients(), &self.fit.currents_ma)?;
+        let (spread, spread_omega_n) = self.propagation.analytic(&map);
+        let u = standard_deviations(&spread_omega_n);
+        let unknowns = Unknowns { parameters, anisoelasticity_deg_per_h_per_g2: 0.0 };
+        Some(MethodResult {
+            method,
+            parameters,
+            omega_n_deg_per_h_per_g: omega_n,
+            anisoelasticity_deg_per_h_per_g2: None,
+            iteration,
+            residuals: self.residuals(&unknowns, &spread),
+            covariance: covariance(&spread),
+            omega_n_uncertainty_deg_per_h_per_g: Matrix2::from_row_slice(&u),
+            chi_square: self.chi_square,
+        })
+    }
+
+    fn residuals(&self, unknowns: &Unknowns, spread: &DMatrix<f64>) -> Vec<Residual> {
+        let u = self.propagation.of_residuals(spread);
+        let each = self.setup.coefficients().positions.iter().zip(self.currents_ma).zip(u.chunks_exact(2));
+        each.map(|((at, current), u)| {
+            let residual = unknowns.misclosure(at, current);
+            let normalised = |value: f64, u: f64| if u > 1e-12 { value / u } else { 0.0 };
+            Residual {
+                index: at.index,
+                residual_deg_per_h: residual,
+                normalised: Vector2::new(normalised(residual.x, u[0]), normalised(residual.y, u[1])),
+            }
+        })
+        .collect()
+    }
+}

@@ -1,0 +1,149 @@
+//! First order: from the uncertainty of all inputs to the covariance of misclosures, parameters and residuals.
+//!
+//! The covariance of the misclosures is F F', where F holds, one column each, the errors that independent causes of
+//! one standard uncertainty make: what is each position's own (two columns a position), then what all share. A
+//! method is a linear map L from misclosures to parameters; the parameters' covariance is (L F)(L F)', and the
+//! residuals' (F − X L F)(F − X L F)'.
+
+use super::analytic::AnalyticMap;
+use super::inputs::Setup;
+use super::least_squares::{Fit, whiten_rows};
+use super::sensitivity::Sensitivity;
+use super::unknowns::design;
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+
+/// The causes of error at a fit, and what the fit makes of them.
+#[derive(Debug, Clone)]
+pub(crate) struct Propagation<'a> {
+    fit: &'a Fit,
+    /// X, unwhitened: rows (two a position) × parameters.
+    design: DMatrix<f64>,
+    /// F: rows × causes.
+    causes: DMatrix<f64>,
+    /// Q'W F: rows × causes. Its upper part belongs to the parameters, the lower to what they cannot explain.
+    rotated: DMatrix<f64>,
+}
+
+impl<'a> Propagation<'a> {
+    pub(crate) fn new(setup: &Setup, fit: &'a Fit) -> Self {
+        let positions = &setup.coefficients().positions;
+        let rows = 2 * positions.len();
+        let mut shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma);
+        let mut causes = DMatrix::zeros(rows, rows + shared.ncols());
+        causes.columns_mut(rows, shared.ncols()).copy_from(&shared);
+        // W C W' = 1: the own part of F is W⁻¹, and becomes the identity when whitened.
+        let mut rotated = DMatrix::identity(rows, rows + shared.ncols());
+        for (place, whiten) in fit.whitening.iter().enumerate() {
+            let own = Matrix2::new(1.0 / whiten.m11, 0.0, -whiten.m21 / (whiten.m11 * whiten.m22), 1.0 / whiten.m22);
+            causes.fixed_view_mut::<2, 2>(2 * place, 2 * place).copy_from(&own);
+            whiten_rows(&mut shared, place, whiten);
+        }
+        rotated.columns_mut(rows, shared.ncols()).copy_from(&shared);
+        fit.model.rotate(&mut rotated);
+        Self { fit, design: design(positions, &fit.currents_ma, fit.model.columns()), causes, rotated }
+    }
+
+    /// L F of least squares: parameters × causes.
+    pub(crate) fn least_squares(&self) -> DMatrix<f64> {
+        let columns = self.fit.model.columns();
+        let r_inverse = self.fit.model.r_inverse();
+        let mut spread = DMatrix::zeros(columns, self.rotated.ncols());
+        for (cause, rotated) in self.rotated.column_iter().enumerate() {
+            for inner in 0..columns {
+                spread.column_mut(cause).axpy(rotated[inner], &r_inverse.column(inner), 1.0);
+            }
+        }
+        spread
+    }
+
+    /// L F of the closed solution, and of its ω_n's four elements by rows.
+    pub(crate) fn analytic(&self, map: &AnalyticMap) -> (DMatrix<f64>, DMatrix<f64>) {
+        let causes = self.causes.ncols();
+        let (mut spread, mut omega_n) = (DMatrix::zeros(8, causes), DMatrix::zeros(4, causes));
+        let mut misclosures = vec![Vector2::zeros(); self.causes.nrows() / 2];
+        for (cause, column) in self.causes.column_iter().enumerate() {
+            for (place, misclosure) in misclosures.iter_mut().enumerate() {
+                *misclosure = Vector2::new(column[2 * place], column[2 * place + 1]);
+            }
+            let change = map.apply(&misclosures);
+            spread.column_mut(cause).copy_from_slice(&change.parameters.to_vector());
+            let w = change.omega_n_deg_per_h_per_g;
+            omega_n.column_mut(cause).copy_from_slice(&[w.m11, w.m12, w.m21, w.m22]);
+        }
+        (spread, omega_n)
+    }
+
+    /// Standard deviations of the residuals of a method with the given L F, in the order of the rows.
+    pub(crate) fn of_residuals(&self, spread: &DMatrix<f64>) -> Vec<f64> {
+        let mut residual = self.causes.clone();
+        for (cause, mut column) in residual.column_iter_mut().enumerate() {
+            for parameter in 0..self.design.ncols() {
+                column.axpy(-spread[(parameter, cause)], &self.design.column(parameter), 1.0);
+            }
+        }
+        standard_deviations(&residual)
+    }
+
+    /// Chi-square of the misclosures of a solution with its degrees of freedom.
+    ///
+    /// It is r' C⁻ r with the residuals r of a method, their covariance C and any generalised inverse. What parameters
+    /// take up drops out of it, so it is the same for every method that fits exact readings exactly; it is computed
+    /// from z = Q₂'W e, whose covariance 1 + B B' has full rank.
+    pub(crate) fn chi_square(&self, setup: &Setup, currents_ma: &[Vector2<f64>]) -> (f64, usize) {
+        let rest = self.unexplained(setup, currents_ma);
+        (self.weighted_square(&rest), rest.len())
+    }
+
+    /// z = Q₂'W e of the fit, for readings `currents_ma`.
+    pub(crate) fn unexplained(&self, setup: &Setup, currents_ma: &[Vector2<f64>]) -> DVector<f64> {
+        let mut misclosures = DMatrix::zeros(self.fit.model.rows(), 1);
+        let each = setup.coefficients().positions.iter().zip(currents_ma).zip(&self.fit.whitening);
+        for (place, ((at, current), whiten)) in each.enumerate() {
+            let misclosure = whiten * self.fit.unknowns.misclosure(at, current);
+            misclosures.fixed_view_mut::<2, 1>(2 * place, 0).copy_from(&misclosure);
+        }
+        self.fit.model.rotate(&mut misclosures);
+        misclosures.column(0).rows(self.fit.model.columns(), self.degrees_of_freedom()).into_owned()
+    }
+
+    /// Rows that no parameter explains.
+    fn degrees_of_freedom(&self) -> usize {
+        self.fit.model.rows() - self.fit.model.columns()
+    }
+
+    /// z' (1 + B B')⁻¹ z, by Woodbury: z'z − (B'z)' (1 + B'B)⁻¹ (B'z).
+    pub(crate) fn weighted_square(&self, rest: &DVector<f64>) -> f64 {
+        let (rows, columns) = (self.fit.model.rows(), self.fit.model.columns());
+        let shared = self.rotated.ncols() - rows;
+        let b = self.rotated.view((columns, rows), (rest.len(), shared));
+        let projected = DVector::from_iterator(shared, b.column_iter().map(|column| column.dot(rest)));
+        let inner =
+            DMatrix::from_fn(shared, shared, |i, j| b.column(i).dot(&b.column(j)) + if i == j { 1.0 } else { 0.0 });
+        let taken = inner.cholesky().map_or(0.0, |cholesky| projected.dot(&cholesky.solve(&projected)));
+        rest.norm_squared() - taken
+    }
+}
+
+/// Covariance S S' of a spread S (parameters × causes).
+pub(crate) fn covariance(spread: &DMatrix<f64>) -> DMatrix<f64> {
+    let size = spread.nrows();
+    let mut covariance = DMatrix::zeros(size, size);
+    // Sums in a fixed order, so that results do not depend on the processor.
+    for cause in spread.column_iter() {
+        for column in 0..size {
+            covariance.column_mut(column).axpy(cause[column], &cause, 1.0);
+        }
+    }
+    covariance
+}
+
+/// Square roots of the diagonal of S S'.
+pub(crate) fn standard_deviations(spread: &DMatrix<f64>) -> Vec<f64> {
+    let mut squares = vec![0.0; spread.nrows()];
+    for cause in spread.column_iter() {
+        for (square, value) in squares.iter_mut().zip(cause.iter()) {
+            *square += value * value;
+        }
+    }
+    squares.into_iter().map(f64::sqrt).collect()
+}

@@ -1,0 +1,144 @@
+//! How far the equations are out when an input is: first-order sensitivities of the misclosures
+//! e = ω_3 − K J − ω_0 − ω_n n of all positions (two each) to every input.
+//!
+//! Coordinates turn passively: when the case turns by the small vector δ, coordinates v of a fixed vector change by
+//! v × δ; when the base turns by δ, Ã w changes by Ã (w × δ).
+
+use super::inputs::Setup;
+use super::unknowns::Unknowns;
+use nalgebra::{DMatrix, Matrix2, Vector2, Vector3};
+
+/// A change of the misclosure of one position per unit change of an input.
+type Change = Vector2<f64>;
+
+/// The misclosures' sensitivities at one solution.
+pub(crate) struct Sensitivity<'a> {
+    setup: &'a Setup,
+    unknowns: &'a Unknowns,
+    earth: Vector3<f64>,
+}
+
+impl<'a> Sensitivity<'a> {
+    pub(crate) fn new(setup: &'a Setup, unknowns: &'a Unknowns) -> Self {
+        Self { setup, unknowns, earth: setup.earth_rate_in_base() }
+    }
+
+    /// Of position `place`, to changes of the Earth rate and of the vertical in case coordinates.
+    fn of_vectors(&self, place: usize, earth_rate: &Vector3<f64>, vertical: &Vector3<f64>) -> Change {
+        let at = &self.setup.coefficients().positions[place];
+        let unknowns = self.unknowns;
+        let drift = unknowns.parameters.omega_n_deg_per_h_per_g() * vertical.xy();
+        // d(n n_z) = dn n_z + n dn_z (paper, eq. (2)).
+        let anisoelastic = vertical.xy() * at.specific_force_z_g + at.specific_force_g * vertical.z;
+        earth_rate.xy() - drift - anisoelastic * unknowns.anisoelasticity_deg_per_h_per_g2
+    }
+
+    /// Of position `place`, to a turn of the case by the unit vector `axis` (case coordinates), °/h per radian.
+    pub(crate) fn to_case_turn(&self, place: usize, axis: &Vector3<f64>) -> Change {
+        let attitude = &self.setup.turns()[place].attitude;
+        let earth_rate = (attitude * self.earth).cross(axis);
+        let vertical = attitude.column(2).cross(axis);
+        self.of_vectors(place, &earth_rate, &vertical)
+    }
+
+    /// Of position `place`, to a turn of the base by the unit vector `axis` (base coordinates), °/h per radian.
+    fn to_base_turn(&self, place: usize, axis: &Vector3<f64>) -> Change {
+        let attitude = &self.setup.turns()[place].attitude;
+        let earth_rate = attitude * self.earth.cross(axis);
+        let vertical = attitude * Vector3::z().cross(axis);
+        self.of_vectors(place, &earth_rate, &vertical)
+    }
+
+    /// Of position `place`, to the latitude, °/h per radian: ω_Γ falls by ω_B, ω_B rises by ω_Γ.
+    fn to_latitude(&self, place: usize) -> Change {
+        let attitude = &self.setup.turns()[place].attitude;
+        (attitude * Vector3::new(0.0, -self.earth.z, self.earth.y)).xy()
+    }
+
+    /// Covariance, 2×2, of what is each position's own: its meter readings, its returns, its certified angles.
+    ///
+    /// `readings` is how many the position has: what is own of every reading averages, the certified mean does not.
+    /// `variance_factor` enlarges what is own of every reading.
+    pub(crate) fn own_covariance(
+        &self,
+        place: usize,
+        current_ma: &Vector2<f64>,
+        readings: usize,
+        variance_factor: f64,
+    ) -> Matrix2<f64> {
+        let one_reading = self.of_one_reading(place, current_ma) * variance_factor;
+        one_reading / readings.max(1) as f64 + self.of_certified_angles(place)
+    }
+
+    /// Covariance, 2×2, of one reading and one return.
+    pub(crate) fn of_one_reading(&self, place: usize, current_ma: &Vector2<f64>) -> Matrix2<f64> {
+        let uncertainty = self.setup.uncertainty();
+        let k = &self.unknowns.parameters.k_deg_per_h_per_ma;
+        let meter = current_ma.map(|current| uncertainty.meter.own_variance_ma2(current));
+        let mut covariance = k * Matrix2::from_diagonal(&meter) * k.transpose();
+        if uncertainty.repeatability_rad > 0.0 {
+            for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
+                let change = self.to_case_turn(place, &axis) * uncertainty.repeatability_rad;
+                covariance += change * change.transpose();
+            }
+        }
+        covariance
+    }
+
+    fn of_certified_angles(&self, place: usize) -> Matrix2<f64> {
+        let angles = self.setup.uncertainty().angles_rad.get(place).copied().unwrap_or_default();
+        let axes = self.setup.turns()[place].axes;
+        angles.iter().zip(&axes).filter(|(u, _)| **u > 0.0).fold(Matrix2::zeros(), |sum, (u, axis)| {
+            let change = self.to_case_turn(place, axis) * *u;
+            sum + change * change.transpose()
+        })
+    }
+
+    /// What all positions share, each column (two rows a position) scaled by its standard uncertainty: platform and
+    /// seat, base with level and azimuth, latitude, meter gain and offset. Inputs that are exact have no column.
+    pub(crate) fn shared(&self, currents_ma: &[Vector2<f64>]) -> DMatrix<f64> {
+        let u = self.setup.uncertainty();
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let mut columns: Vec<(f64, Shared)> = Vec::with_capacity(9);
+        for (axis, seat) in axes.into_iter().zip(u.seating_rad) {
+            columns.push((libm::hypot(u.common_platform_rad, seat), Shared::Case(axis)));
+        }
+        for (axis, own) in axes.into_iter().zip([u.level_rad, u.level_rad, u.azimuth_rad]) {
+            columns.push((libm::hypot(u.common_base_rad, own), Shared::Base(axis)));
+        }
+        columns.push((u.latitude_rad, Shared::Latitude));
+        columns.push((u.meter.gain, Shared::Gain));
+        columns.push((u.meter.offset_ma, Shared::Offset));
+        columns.retain(|(u, _)| *u > 0.0);
+        let positions = currents_ma.len();
+        let mut matrix = DMatrix::zeros(2 * positions, columns.len());
+        for (column, (u, input)) in columns.iter().enumerate() {
+            for (place, current) in currents_ma.iter().enumerate() {
+                let change = self.to_shared(place, current, input) * *u;
+                matrix[(2 * place, column)] = change.x;
+                matrix[(2 * place + 1, column)] = change.y;
+            }
+        }
+        matrix
+    }
+
+    fn to_shared(&self, place: usize, current_ma: &Vector2<f64>, input: &Shared) -> Change {
+        let k = &self.unknowns.parameters.k_deg_per_h_per_ma;
+        match input {
+            Shared::Case(axis) => self.to_case_turn(place, axis),
+            Shared::Base(axis) => self.to_base_turn(place, axis),
+            Shared::Latitude => self.to_latitude(place),
+            Shared::Gain => -(k * current_ma),
+            Shared::Offset => -(k * Vector2::repeat(1.0)),
+        }
+    }
+}
+
+/// An input that all positions share.
+enum Shared {
+    Case(Vector3<f64>),
+    Base(Vector3<f64>),
+    Latitude,
+    Gain,
+    Offset,
+}

@@ -1,0 +1,103 @@
+//! Chi-square and normal probabilities.
+
+use std::f64::consts::SQRT_2;
+
+/// The probability that chi-square with `degrees_of_freedom` is larger than `value`.
+///
+/// 1 without degrees of freedom or at a value of 0 and below, 0 at infinity, NaN where `value` is NaN.
+///
+/// Q(k/2, x/2) for whole k is a finite sum of positive terms: Q(a + 1, t) = Q(a, t) + tᵃ e⁻ᵗ/Γ(a + 1), from
+/// Q(1, t) = e⁻ᵗ or Q(1/2, t) = erfc √t. So no digits are lost however far out in the tail.
+pub fn chi_square_larger(value: f64, degrees_of_freedom: usize) -> f64 {
+    if value.is_nan() || value == f64::INFINITY {
+        return if value.is_nan() { f64::NAN } else { 0.0 };
+    }
+    if degrees_of_freedom == 0 || value <= 0.0 {
+        return 1.0;
+    }
+    let t = value / 2.0;
+    let odd = degrees_of_freedom % 2 == 1;
+    let (mut a, mut sum) = if odd { (0.5, libm::erfc(t.sqrt())) } else { (1.0, libm::exp(-t)) };
+    // tᵃ e⁻ᵗ/Γ(a + 1), through logarithms: the power alone may overflow where the product does not.
+    while a < degrees_of_freedom as f64 / 2.0 {
+        sum += libm::exp(a * libm::log(t) - t - libm::lgamma(a + 1.0));
+        a += 1.0;
+    }
+    sum.min(1.0)
+}
+
+/// The probability that a standard normal variable is below `x`.
+pub fn normal_below(x: f64) -> f64 {
+    0.5 * libm::erfc(-x / SQRT_2)
+}
+
+/// The `x` below which a standard normal variable is with the given probability; infinite at 0 and 1, NaN outside.
+///
+/// By bisection of [`normal_below`], which never decreases: it is called once a result.
+pub fn normal_quantile(probability: f64) -> f64 {
+    if probability > 0.5 {
+        return -normal_quantile(1.0 - probability);
+    }
+    if probability.is_nan() || probability < 0.0 {
+        return f64::NAN;
+    }
+    if probability == 0.0 {
+        return f64::NEG_INFINITY;
+    }
+    // Below -39 there is nothing but zero in binary64.
+    let (mut low, mut high) = (-40.0, 0.0);
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return high;
+        }
+        if normal_below(middle) < probability {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Expected: tables of the chi-square distribution (upper points at 8 degrees of freedom and others; at 2 degrees
+    /// the probability is exp(-x/2)).
+    #[test]
+    fn chi_square_points() {
+        let upper: [(usize, f64, f64); 6] = [
+            (8, 2.733, 0.95),
+            (8, 7.344, 0.5),
+            (8, 15.507, 0.05),
+            (8, 26.124, 0.001),
+            (1, 3.841, 0.05),
+            (3, 7.815, 0.05),
+        ];
+        for (degrees_of_freedom, value, probability) in upper {
+            let found = chi_square_larger(value, degrees_of_freedom);
+            assert!((found / probability - 1.0).abs() < 1e-3, "{degrees_of_freedom} {value}: {found}");
+        }
+        for value in [0.1, 1.0, 10.0, 100.0, 1000.0] {
+            let expected = libm::exp(-value / 2.0);
+            assert!((chi_square_larger(value, 2) / expected - 1.0).abs() < 1e-10, "{value}");
+        }
+        assert_eq!(chi_square_larger(0.0, 8), 1.0);
+        assert_eq!(chi_square_larger(1e300, 8), 0.0);
+        assert_eq!(chi_square_larger(f64::INFINITY, 8), 0.0);
+        assert!(chi_square_larger(f64::NAN, 8).is_nan());
+    }
+
+    /// Expected: the usual quantiles, from tables.
+    #[test]
+    fn normal_points() {
+        for (probability, x) in [(0.5, 0.0), (0.975, 1.959_963_984_540_054), (0.841_344_746_068_543, 1.0)] {
+            assert!((normal_quantile(probability) - x).abs() < 1e-9, "{probability}");
+            assert!((normal_below(x) - probability).abs() < 1e-12, "{x}");
+        }
+        assert!((normal_below(-10.0) / 7.619_853_024_160_527e-24 - 1.0).abs() < 1e-12);
+        assert_eq!(normal_quantile(0.0), f64::NEG_INFINITY);
+        assert!(normal_quantile(1.5).is_nan());
+    }
+}

@@ -1,0 +1,147 @@
+//! A linear model y = X p + e whose errors e have unit covariance (whitened), through X = Q R.
+//!
+//! The normal equations, which square the condition, are never formed. Q'y holds all: its first rows determine p,
+//! the others are what no p can explain. Rank and condition come from the singular values of X.
+
+use nalgebra::{DMatrix, DVector, Dyn, QR, SVD};
+
+/// X = Q R, factorised.
+#[derive(Debug, Clone)]
+pub struct Factorised {
+    qr: QR<f64, Dyn, Dyn>,
+    r_inverse: DMatrix<f64>,
+    rows: usize,
+    columns: usize,
+}
+
+/// X has fewer independent columns than columns, or fewer rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the model is singular: it does not determine all of its parameters")]
+pub struct Singular;
+
+impl Factorised {
+    /// Factorises X, rows × columns, with at least as many rows as columns.
+    ///
+    /// # Errors
+    /// [`Singular`] when R has no inverse in binary64. Nearly singular is another question: see [`condition`].
+    pub fn new(design: DMatrix<f64>) -> Result<Self, Singular> {
+        let (rows, columns) = design.shape();
+        if rows < columns || columns == 0 || design.iter().any(|x| !x.is_finite()) {
+            return Err(Singular);
+        }
+        let qr = QR::new(design);
+        let mut r_inverse = DMatrix::identity(columns, columns);
+        let solved = qr.r().solve_upper_triangular_mut(&mut r_inverse);
+        if !solved || r_inverse.iter().any(|x| !x.is_finite()) {
+            return Err(Singular);
+        }
+        Ok(Self { qr, r_inverse, rows, columns })
+    }
+
+    /// Rows of X.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Columns of X.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Q'M in place of M (rows × any): the first `columns()` rows determine parameters, the others are residual.
+    pub fn rotate(&self, matrix: &mut DMatrix<f64>) {
+        self.qr.q_tr_mul(matrix);
+    }
+
+    /// The parameters for a right side already rotated, and the length of Q₁'y: how far the parameters are from
+    /// zero in units of their own covariance.
+    pub fn solve_rotated(&self, rotated: &DMatrix<f64>) -> (DVector<f64>, f64) {
+        let mut solution = DVector::zeros(self.columns);
+        let mut squared = 0.0;
+        for (column, value) in rotated.column(0).iter().take(self.columns).enumerate() {
+            solution.axpy(*value, &self.r_inverse.column(column), 1.0);
+            squared += value * value;
+        }
+        (solution, squared.sqrt())
+    }
+
+    /// An upper bound of the condition number of X, from the Frobenius norms of R and R⁻¹.
+    pub fn condition_bound(&self) -> f64 {
+        self.qr.r().norm() * self.r_inverse.norm()
+    }
+
+    /// R⁻¹, columns × columns: R⁻¹ times the first rows of a rotated right side are its parameters.
+    pub fn r_inverse(&self) -> &DMatrix<f64> {
+        &self.r_inverse
+    }
+}
+
+/// The condition of a model and, where it is bad, which parameters it mixes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Condition {
+    /// Largest over smallest singular value; infinite at rank deficiency.
+    pub number: f64,
+    /// Singular vectors (each of as many elements as X has columns) whose singular value is below the largest by
+    /// more than the limit: directions that the model does not determine.
+    pub undetermined: Vec<DVector<f64>>,
+}
+
+/// The condition of X, rows × columns; directions weaker than 1/`limit` of the strongest are undetermined.
+///
+/// `None` when the singular values cannot be found (values that are not finite).
+pub fn condition(design: &DMatrix<f64>, limit: f64) -> Option<Condition> {
+    if design.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    // Rows of zeros do not change singular values, and make every direction of the parameters appear.
+    let (rows, columns) = design.shape();
+    let square =
+        if rows < columns { design.clone().resize_vertically(columns, 0.0) } else { QR::new(design.clone()).r() };
+    let svd = SVD::try_new(square, false, true, f64::EPSILON, 10_000)?;
+    let largest = svd.singular_values.max();
+    let smallest = svd.singular_values.min();
+    let directions = svd.v_t.as_ref()?;
+    let weak = svd.singular_values.iter().enumerate().filter(|(_, value)| **value * limit <= largest);
+    let undetermined = weak.map(|(row, _)| directions.row(row).transpose()).collect();
+    let number = if smallest > largest * f64::EPSILON { largest / smallest } else { f64::INFINITY };
+    Some(Condition { number, undetermined })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A straight line through (0, 1), (1, 3), (2, 5), (3, 8), by hand: slope 2.3, intercept 0.8.
+    #[test]
+    fn a_straight_line() {
+        let design = DMatrix::from_row_slice(4, 2, &[0.0, 1.0, 1.0, 1.0, 2.0, 1.0, 3.0, 1.0]);
+        let model = Factorised::new(design.clone()).unwrap();
+        let mut right = DMatrix::from_column_slice(4, 1, &[1.0, 3.0, 5.0, 8.0]);
+        let y = right.clone();
+        model.rotate(&mut right);
+        let (line, _) = model.solve_rotated(&right);
+        assert!((line[0] - 2.3).abs() < 1e-14 && (line[1] - 0.8).abs() < 1e-14);
+        // The rotated rest has the length of the residuals: 0.2, -0.1, -0.4, 0.3.
+        let rest: f64 = right.column(0).iter().skip(2).map(|x| x * x).sum();
+        assert!((rest - 0.3).abs() < 1e-13);
+        assert!(((y - design * line).norm_squared() - 0.3).abs() < 1e-13);
+        // Variance of the slope: 1/Σ(x - 1.5)² = 0.2.
+        let slope: f64 = model.r_inverse().row(0).iter().map(|x| x * x).sum();
+        assert!((slope - 0.2).abs() < 1e-14);
+    }
+
+    #[test]
+    fn equal_columns_are_undetermined_together() {
+        let design = DMatrix::from_row_slice(3, 3, &[1.0, 1.0, 0.0, 2.0, 2.0, 1.0, 3.0, 3.0, 0.0]);
+        let found = condition(&design, 1e6).unwrap();
+        assert!(found.number > 1e12);
+        assert_eq!(found.undetermined.len(), 1);
+        let direction = &found.undetermined[0];
+        assert!((direction[0] + direction[1]).abs() < 1e-12 && direction[2].abs() < 1e-12);
+        let wide = DMatrix::from_row_slice(1, 2, &[1.0, 0.0]);
+        assert!(Factorised::new(wide.clone()).is_err());
+        assert_eq!(condition(&wide, 1e6).unwrap().number, f64::INFINITY);
+        assert!(condition(&DMatrix::from_element(2, 2, f64::NAN), 1e6).is_none());
+        assert!(Factorised::new(DMatrix::from_element(2, 2, 0.0)).is_err());
+    }
+}

@@ -1,0 +1,174 @@
+//! Streams of random numbers: the same seed gives the same numbers on any number of threads and on any platform.
+//!
+//! Work is cut into blocks of a fixed size. Block n has the generator (xoshiro256++, period 2^256) that n jumps of
+//! 2^128 numbers lead to from the seed, so streams never overlap, whoever works on them and in whatever order.
+
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Random numbers of one block.
+#[derive(Debug, Clone)]
+pub struct Stream(Xoshiro256PlusPlus);
+
+impl Stream {
+    /// The first stream of a seed.
+    pub fn new(seed: u64) -> Self {
+        Self(Xoshiro256PlusPlus::seed_from_u64(seed))
+    }
+
+    /// Uniform in [0, 1): the upper 53 bits of the next number.
+    pub fn unit(&mut self) -> f64 {
+        const PER_UNIT: f64 = (1_u64 << 53) as f64;
+        (self.0.next_u64() >> 11) as f64 / PER_UNIT
+    }
+
+    /// Uniform in [-limit, limit).
+    pub fn within(&mut self, limit: f64) -> f64 {
+        limit * (2.0 * self.unit() - 1.0)
+    }
+
+    /// -1 or 1.
+    pub fn sign(&mut self) -> f64 {
+        if self.unit() < 0.5 { -1.0 } else { 1.0 }
+    }
+
+    /// A whole number below `end`; 0 when `end` is 0.
+    pub fn below(&mut self, end: usize) -> usize {
+        ((self.unit() * end as f64) as usize).min(end.saturating_sub(1))
+    }
+
+    /// Standard normal, by the polar form of Box and Muller (only one of the pair is used).
+    pub fn normal(&mut self) -> f64 {
+        // 1 - u is in (0, 1], so its logarithm is finite.
+        let radius = (-2.0 * libm::log(1.0 - self.unit())).sqrt();
+        radius * libm::cos(std::f64::consts::TAU * self.unit())
+    }
+}
+
+/// Trials of one block.
+pub const BLOCK: u64 = 500;
+
+/// How a series of trials is run.
+#[derive(Clone, Copy)]
+pub struct Run<'a> {
+    /// Trials in all.
+    pub trials: u64,
+    /// Which random numbers.
+    pub seed: u64,
+    /// Threads to work on them; 0 and 1 are the same.
+    pub threads: usize,
+    /// Once true, blocks that have not begun are left out.
+    pub cancel: Option<&'a AtomicBool>,
+    /// Told after every block how many trials are done.
+    pub progress: Option<&'a (dyn Fn(u64) + Sync)>,
+}
+
+impl std::fmt::Debug for Run<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let Self { trials, seed, threads, .. } = self;
+        write!(f, "Run {{ trials: {trials}, seed: {seed}, threads: {threads} }}")
+    }
+}
+
+impl Run<'_> {
+    /// `trials` trials with the random numbers of `seed`, on all the machine's processors.
+    pub fn new(trials: u64, seed: u64) -> Self {
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        Self { trials, seed, threads, cancel: None, progress: None }
+    }
+
+    /// What `work` makes of every block of trials, in the order of the blocks.
+    ///
+    /// `work` gets the block's stream and the number of its trials. When cancelled, the blocks done come back: an
+    /// unbroken series from the first.
+    pub fn blocks<T: Send>(&self, work: impl Fn(&mut Stream, u64) -> T + Sync) -> Vec<T> {
+        let queue = Mutex::new(Queue { next: 0, stream: Stream::new(self.seed) });
+        let done = Mutex::new((0_u64, Vec::new()));
+        let worker = || {
+            while let Some((block, mut stream)) = self.take(&queue) {
+                let trials = BLOCK.min(self.trials - block * BLOCK);
+                let result = work(&mut stream, trials);
+                let total = {
+                    let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
+                    done.0 += trials;
+                    done.1.push((block, result));
+                    done.0
+                };
+                if let Some(progress) = self.progress {
+                    progress(total);
+                }
+            }
+        };
+        let helpers = self.threads.saturating_sub(1).min(usize::try_from(self.trials / BLOCK).unwrap_or(usize::MAX));
+        std::thread::scope(|scope| {
+            for _ in 0..helpers {
+                scope.spawn(worker);
+            }
+            worker();
+        });
+        let (_, mut results) = done.into_inner().unwrap_or_else(PoisonError::into_inner);
+        results.sort_by_key(|(block, _)| *block);
+        results.into_iter().map(|(_, result)| result).collect()
+    }
+
+    /// The next block and its stream; `None` when there is none left or the run is cancelled.
+    fn take(&self, queue: &Mutex<Queue>) -> Option<(u64, Stream)> {
+        let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
+        let cancelled = self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
+        if cancelled || queue.next * BLOCK >= self.trials {
+            return None;
+        }
+        let taken = (queue.next, queue.stream.clone());
+        queue.next += 1;
+        queue.stream.0.jump();
+        Some(taken)
+    }
+}
+
+struct Queue {
+    next: u64,
+    stream: Stream,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Expected: moments of the uniform and the normal distribution, within five standard errors.
+    #[test]
+    fn moments() {
+        let mut stream = Stream::new(1);
+        let n = 100_000;
+        let uniform: Vec<f64> = (0..n).map(|_| stream.within(3.0)).collect();
+        assert!(uniform.iter().all(|x| (-3.0..3.0).contains(x)));
+        let mean = uniform.iter().sum::<f64>() / f64::from(n);
+        assert!(mean.abs() < 5.0 * (3.0_f64 / f64::from(n)).sqrt(), "{mean}");
+        let normal: Vec<f64> = (0..n).map(|_| stream.normal()).collect();
+        let variance = normal.iter().map(|x| x * x).sum::<f64>() / f64::from(n);
+        assert!((variance - 1.0).abs() < 5.0 * (2.0 / f64::from(n)).sqrt(), "{variance}");
+    }
+
+    #[test]
+    fn blocks_do_not_depend_on_threads() {
+        let sums = |threads| {
+            let run = Run { threads, ..Run::new(3 * BLOCK + 7, 42) };
+            run.blocks(|stream, trials| (trials, (0..trials).map(|_| stream.unit()).sum::<f64>().to_bits()))
+        };
+        let one = sums(1);
+        assert_eq!(one.iter().map(|(trials, _)| trials).sum::<u64>(), 3 * BLOCK + 7);
+        assert_ne!(one[0], one[1]);
+        for threads in [0, 2, 7] {
+            assert_eq!(sums(threads), one);
+        }
+    }
+
+    #[test]
+    fn a_cancelled_run_keeps_what_is_done() {
+        let cancel = AtomicBool::new(false);
+        let progress = |done: u64| cancel.store(done >= 2 * BLOCK, Ordering::Relaxed);
+        let run = Run { threads: 1, cancel: Some(&cancel), progress: Some(&progress), ..Run::new(100 * BLOCK, 1) };
+        assert_eq!(run.blocks(|_, trials| trials), [BLOCK, BLOCK]);
+    }
+}

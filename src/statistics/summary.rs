@@ -1,0 +1,152 @@
+//! What a sample says: largest, mean, deviation, percentile, share.
+
+/// Largest magnitude, mean and standard deviation of a sample, added up value by value.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Summary {
+    count: u64,
+    sum: f64,
+    sum_of_squares: f64,
+    worst: f64,
+}
+
+impl Summary {
+    /// One value more.
+    pub fn add(&mut self, value: f64) {
+        self.count += 1;
+        self.sum += value;
+        self.sum_of_squares += value * value;
+        self.worst = self.worst.max(value.abs());
+    }
+
+    /// This sample with another one.
+    #[must_use]
+    pub fn with(self, other: &Self) -> Self {
+        Self {
+            count: self.count + other.count,
+            sum: self.sum + other.sum,
+            sum_of_squares: self.sum_of_squares + other.sum_of_squares,
+            worst: self.worst.max(other.worst),
+        }
+    }
+
+    /// How many values.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// The largest magnitude; 0 of an empty sample.
+    pub fn worst(&self) -> f64 {
+        self.worst
+    }
+
+    /// The mean; 0 of an empty sample.
+    pub fn mean(&self) -> f64 {
+        self.sum / self.count.max(1) as f64
+    }
+
+    /// The standard deviation about the mean; 0 of fewer than two values.
+    ///
+    /// The values are errors about zero, far from any offset: the difference of sums loses nothing that matters.
+    pub fn standard_deviation(&self) -> f64 {
+        if self.count < 2 {
+            return 0.0;
+        }
+        let about_mean = self.sum_of_squares - self.sum * self.mean();
+        (about_mean / (self.count - 1) as f64).max(0.0).sqrt()
+    }
+}
+
+/// How often every whole number below a limit occurred.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Histogram(Vec<u64>);
+
+impl Histogram {
+    /// Nothing counted, numbers up to `largest`.
+    pub fn up_to(largest: usize) -> Self {
+        Self(vec![0; largest + 1])
+    }
+
+    /// Counts `value`; a value above the limit counts as the limit.
+    pub fn add(&mut self, value: usize) {
+        let last = self.0.len() - 1;
+        if let Some(count) = self.0.get_mut(value.min(last)) {
+            *count += 1;
+        }
+    }
+
+    /// Adds what another one of the same limit counted.
+    pub fn merge(&mut self, other: &Self) {
+        for (count, more) in self.0.iter_mut().zip(&other.0) {
+            *count += more;
+        }
+    }
+
+    /// How many were counted.
+    pub fn count(&self) -> u64 {
+        self.0.iter().sum()
+    }
+
+    /// Their mean; `None` when nothing was counted.
+    pub fn mean(&self) -> Option<f64> {
+        let sum: u64 = self.0.iter().enumerate().map(|(value, count)| value as u64 * count).sum();
+        (self.count() > 0).then(|| sum as f64 / self.count() as f64)
+    }
+
+    /// The smallest number that at least `share` of the sample does not exceed; `None` when nothing was counted.
+    pub fn percentile(&self, share: f64) -> Option<usize> {
+        let due = (share * self.count() as f64).ceil() as u64;
+        let mut below = 0;
+        self.0.iter().position(|count| {
+            below += count;
+            below > 0 && below >= due
+        })
+    }
+
+    /// The largest number counted.
+    pub fn most(&self) -> Option<usize> {
+        self.0.iter().rposition(|count| *count > 0)
+    }
+}
+
+/// The standard error of a share `part` / `whole` of independent trials (binomial); 0 of an empty sample.
+pub fn binomial_standard_error(part: u64, whole: u64) -> f64 {
+    if whole == 0 {
+        return 0.0;
+    }
+    let share = part as f64 / whole as f64;
+    (share * (1.0 - share) / whole as f64).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Expected by hand: 1, 2, 3, 6 have mean 3 and variance (4 + 1 + 0 + 9)/3.
+    #[test]
+    fn summary_of_four_values() {
+        let mut first = Summary::default();
+        let mut second = Summary::default();
+        [1.0, 2.0].into_iter().for_each(|value| first.add(value));
+        [3.0, 6.0].into_iter().for_each(|value| second.add(value));
+        let all = first.with(&second);
+        assert_eq!((all.count(), all.worst(), all.mean()), (4, 6.0, 3.0));
+        assert!((all.standard_deviation() - (14.0_f64 / 3.0).sqrt()).abs() < 1e-15);
+        assert_eq!(Summary::default().standard_deviation(), 0.0);
+    }
+
+    /// Expected by hand.
+    #[test]
+    fn histogram_of_twenty() {
+        let mut histogram = Histogram::up_to(10);
+        (0..19).for_each(|_| histogram.add(3));
+        assert_eq!(histogram.percentile(0.95), Some(3));
+        histogram.add(8);
+        assert_eq!(
+            (histogram.percentile(0.95), histogram.percentile(1.0), histogram.most()),
+            (Some(3), Some(8), Some(8))
+        );
+        assert_eq!(histogram.mean(), Some(65.0 / 20.0));
+        assert_eq!(Histogram::up_to(3).percentile(0.5), None);
+        assert!((binomial_standard_error(50, 100) - 0.05).abs() < 1e-15);
+    }
+}
