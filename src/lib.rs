@@ -53,6 +53,7 @@
 //! | [`gyro`], [`laboratory`] | eq. (2): parameters and currents, types of gyro; the meter and the seat |
 //! | [`statistics`] | least squares, distributions, random streams: no gyro in it |
 //! | [`calibration`] | from currents to parameters, their uncertainty, the fit |
+//! | [`simulation`] | the paper's table and its Fig. 4 |
 //! | [`trust`] | signatures, keys, allowed signers, revocation: bytes and time in, a verdict out |
 //! | [`passport`] | content, document, issue, re-issue, verification |
 //! | [`schema`] | JSON Schemas of the formats |
@@ -86,6 +87,7 @@ pub mod passport;
 pub mod report;
 pub mod schema;
 pub mod signing;
+pub mod simulation;
 pub mod site;
 pub mod stand;
 pub mod statistics;

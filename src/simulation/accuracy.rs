@@ -1,0 +1,229 @@
+//! The paper's table: how far found parameters are from the nominal ones
+//! ([the paper](crate::bibliography::Bibliography::Tang17), "Results of modelling the analytic method").
+//!
+//! Two readings of it are worth having (docs/model.md, "How the paper's table was made"): the gyro drawn within its
+//! tolerance and one gain error common to all currents, which gives the paper's figures at any deviations; and a
+//! nominal gyro with an error of its own in every current, which is what a laboratory meets.
+
+use super::draw::{self, CurrentError, Deviations};
+use crate::calibration::iterative::{self, StopRule};
+use crate::calibration::parameter::Parameter;
+use crate::calibration::{MeterUncertainty, Method, analytic, least_squares};
+use crate::coefficients::{Coefficients, EarthRate, Position, StandGeometry};
+use crate::gyro::{GyroParameters, GyroType};
+use crate::laboratory::Laboratory;
+use crate::statistics::random::{Run, Stream};
+use crate::statistics::summary::Summary;
+use nalgebra::Vector2;
+use serde::Serialize;
+
+/// The latitude of the paper's laboratory.
+pub const PAPER_LATITUDE_DEG: f64 = 55.7658;
+
+/// Whose stands.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Stands {
+    /// Drawn for every trial, every angle uniform within ±`limit_deg`.
+    Drawn {
+        /// The limit.
+        limit_deg: f64,
+    },
+    /// Always this one.
+    Given(Vec<Position>),
+}
+
+/// What is simulated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AccuracyOptions {
+    /// Whose stands.
+    pub stands: Stands,
+    /// Earth rate at the site.
+    pub earth: EarthRate,
+    /// Nominal parameters and tolerance.
+    pub gyro: GyroType,
+    /// Whether every trial's gyro is drawn within the tolerance; found parameters are compared with nominal ones.
+    pub within_tolerance: bool,
+    /// Limit of the relative error of the currents, percent.
+    pub current_percent: f64,
+    /// Which readings share one.
+    pub current_error: CurrentError,
+    /// Which methods.
+    pub methods: Vec<Method>,
+}
+
+impl Default for AccuracyOptions {
+    /// The paper's gyro, nominal, in its laboratory; stands within ±15°; independent errors of ±0.015 %.
+    fn default() -> Self {
+        Self {
+            stands: Stands::Drawn { limit_deg: 15.0 },
+            earth: EarthRate::at_astronomic_latitude(PAPER_LATITUDE_DEG),
+            gyro: GyroType::gvk_6(),
+            within_tolerance: false,
+            current_percent: 0.015,
+            current_error: CurrentError::Independent,
+            methods: vec![Method::Analytic, Method::LeastSquares],
+        }
+    }
+}
+
+/// The table.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Accuracy {
+    /// Trials made: fewer than asked for when cancelled.
+    pub trials: u64,
+    /// Which random numbers.
+    pub seed: u64,
+    /// Limit of the deviations, when stands were drawn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit_deg: Option<f64>,
+    /// A row for each method and parameter.
+    pub rows: Vec<AccuracyRow>,
+}
+
+/// Errors of one parameter found by one method.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AccuracyRow {
+    /// Which method.
+    pub method: &'static str,
+    /// Which parameter.
+    pub parameter: &'static str,
+    /// Unit of the errors: percent of the nominal value for K.
+    pub unit: &'static str,
+    /// The largest error, either way.
+    pub worst: f64,
+    /// Standard deviation of the error about its mean.
+    pub standard_deviation: f64,
+    /// Mean error.
+    pub mean: f64,
+    /// Trials in which the method gave nothing.
+    pub not_solved: u64,
+    /// What the paper's table gives for its gyro.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub paper_bound: Option<f64>,
+}
+
+/// Rows of the table in the paper's order.
+const ROWS: [(Parameter, f64); 8] = [
+    (Parameter::Kx, 0.0645),
+    (Parameter::Ky, 0.0645),
+    (Parameter::Kxy, 0.514),
+    (Parameter::Kyx, 0.514),
+    (Parameter::Omega0x, 0.01),
+    (Parameter::Omega0y, 0.01),
+    (Parameter::OmegaG, 0.01),
+    (Parameter::OmegaK, 0.01),
+];
+
+/// Simulates.
+pub fn accuracy(options: &AccuracyOptions, run: &Run) -> Accuracy {
+    let simulation = Simulation::new(options);
+    let blocks = run.blocks(|stream, trials| simulation.block(stream, trials));
+    let trials = blocks.iter().map(|block| block.trials).sum();
+    let mut rows = Vec::new();
+    for (place, method) in options.methods.iter().enumerate() {
+        for (parameter, bound) in ROWS {
+            let summary =
+                blocks.iter().fold(Summary::default(), |sum, block| sum.with(&block.errors[place][parameter.place()]));
+            rows.push(simulation.row(*method, parameter, bound, &summary, trials));
+        }
+    }
+    let limit_deg = match options.stands {
+        Stands::Drawn { limit_deg } => Some(limit_deg),
+        Stands::Given(_) => None,
+    };
+    Accuracy { trials, seed: run.seed, limit_deg, rows }
+}
+
+/// Errors of one block of trials: for each method, for each parameter.
+struct Block {
+    trials: u64,
+    errors: Vec<[Summary; 8]>,
+}
+
+struct Simulation<'a> {
+    options: &'a AccuracyOptions,
+    nominal: GyroParameters,
+    /// What one of an error's own unit is in units of the parameter: 1 % of K, 1 °/h, 1 °/h/g.
+    units: [f64; 8],
+    given: Option<Coefficients>,
+    meter: MeterUncertainty,
+}
+
+impl<'a> Simulation<'a> {
+    fn new(options: &'a AccuracyOptions) -> Self {
+        let nominal = options.gyro.nominal.to_model();
+        let mut units = [1.0; 8];
+        for (unit, value) in units.iter_mut().zip(nominal.to_vector()).take(4).filter(|(_, value)| *value != 0.0) {
+            *unit = value.abs() / 100.0;
+        }
+        let given = match &options.stands {
+            Stands::Given(positions) => StandGeometry::new(positions).ok().map(|geometry| geometry.at(options.earth)),
+            Stands::Drawn { .. } => None,
+        };
+        let mut meter = MeterUncertainty::from(&Laboratory::paper().meter);
+        // The standard deviation of a uniform distribution.
+        meter.reading = options.current_percent / 100.0 / 3.0_f64.sqrt();
+        Self { options, nominal, units, given, meter }
+    }
+
+    fn block(&self, stream: &mut Stream, trials: u64) -> Block {
+        let mut errors = vec![[Summary::default(); 8]; self.options.methods.len()];
+        for _ in 0..trials {
+            let Some((coefficients, currents_ma)) = self.draw(stream) else { continue };
+            for (method, errors) in self.options.methods.iter().zip(&mut errors) {
+                if let Some(found) = self.solve(*method, &coefficients, &currents_ma) {
+                    let all = errors.iter_mut().zip(found.to_vector()).zip(self.nominal.to_vector()).zip(self.units);
+                    for (((summary, found), nominal), unit) in all {
+                        summary.add((found - nominal) / unit);
+                    }
+                }
+            }
+        }
+        Block { trials, errors }
+    }
+
+    /// A stand and a gyro's currents on it; `None` where the stand is singular or the gyro makes no currents.
+    fn draw(&self, stream: &mut Stream) -> Option<(Coefficients, Vec<Vector2<f64>>)> {
+        let options = self.options;
+        let coefficients = match (&options.stands, &self.given) {
+            (Stands::Drawn { limit_deg }, _) => {
+                let stand = draw::stand(stream, Deviations::Uniform, *limit_deg);
+                StandGeometry::new(&stand).ok().map(|geometry| geometry.at(options.earth))
+            }
+            (Stands::Given(_), given) => given.clone(),
+        };
+        let gyro = if options.within_tolerance { draw::gyro(stream, &options.gyro) } else { self.nominal };
+        let coefficients = coefficients?;
+        let mut currents_ma: Vec<_> =
+            coefficients.positions.iter().map(|at| gyro.currents_ma(at)).collect::<Option<_>>()?;
+        options.current_error.add(stream, options.current_percent, &mut currents_ma);
+        Some((coefficients, currents_ma))
+    }
+
+    fn solve(&self, method: Method, at: &Coefficients, currents_ma: &[Vector2<f64>]) -> Option<GyroParameters> {
+        match method {
+            Method::Analytic => analytic::solve(at, currents_ma).ok().map(|found| found.parameters),
+            Method::Iterative => {
+                iterative::solve(at, currents_ma, &StopRule::default()).ok().map(|found| found.parameters)
+            }
+            Method::LeastSquares => {
+                least_squares::solve(at, currents_ma, &self.meter, false).ok().map(|found| found.parameters)
+            }
+        }
+    }
+
+    fn row(&self, method: Method, parameter: Parameter, bound: f64, errors: &Summary, trials: u64) -> AccuracyRow {
+        let of_the_paper = self.options.gyro.nominal == GyroType::gvk_6().nominal;
+        let relative = parameter.place() < 4 && self.nominal.to_vector()[parameter.place()] != 0.0;
+        AccuracyRow {
+            method: method.key(),
+            parameter: parameter.key(),
+            unit: if relative { "%" } else { parameter.unit() },
+            worst: errors.worst(),
+            standard_deviation: errors.standard_deviation(),
+            mean: errors.mean(),
+            not_solved: trials - errors.count(),
+            paper_bound: of_the_paper.then_some(bound),
+        }
+    }
+}

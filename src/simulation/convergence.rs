@@ -1,0 +1,143 @@
+//! The paper's Fig. 4: how many steps successive approximation takes, against the limit of the deviations.
+
+use super::accuracy::PAPER_LATITUDE_DEG;
+use super::draw::{self, Deviations};
+use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, Plan, StopRule};
+use crate::coefficients::{EarthRate, StandGeometry};
+use crate::gyro::{GyroParameters, GyroType};
+use crate::statistics::random::{Run, Stream};
+use crate::statistics::summary::{Histogram, binomial_standard_error};
+use serde::Serialize;
+
+/// What is simulated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConvergenceOptions {
+    /// Limits of the deviations, degrees; every one with the same random numbers.
+    pub limits_deg: Vec<f64>,
+    /// How angles are drawn: one series of rows each.
+    pub deviations: Vec<Deviations>,
+    /// When to stop.
+    pub stop_rule: StopRule,
+    /// Earth rate at the site.
+    pub earth: EarthRate,
+    /// The gyro.
+    pub gyro: GyroParameters,
+}
+
+impl Default for ConvergenceOptions {
+    /// The paper's gyro, place and stop rule, up to ±30°, uniform and at the corners.
+    fn default() -> Self {
+        Self {
+            limits_deg: vec![0.1, 1.0, 3.0, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0, 25.0, 30.0],
+            deviations: vec![Deviations::Uniform, Deviations::Corners],
+            stop_rule: StopRule::default(),
+            earth: EarthRate::at_astronomic_latitude(PAPER_LATITUDE_DEG),
+            gyro: GyroType::gvk_6().nominal.to_model(),
+        }
+    }
+}
+
+/// Fig. 4 as numbers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Convergence {
+    /// Stands drawn for each row, at most: the last row has fewer when cancelled.
+    pub trials: u64,
+    /// Which random numbers.
+    pub seed: u64,
+    /// A row for each kind of draw and each limit.
+    pub rows: Vec<ConvergenceRow>,
+}
+
+/// Steps taken at one limit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ConvergenceRow {
+    /// Limit of the deviations.
+    pub limit_deg: f64,
+    /// How angles were drawn: "uniform" within ± the limit, or "corners", every angle at + or − the limit.
+    pub deviations: &'static str,
+    /// Mean of those that converged; absent where none did.
+    pub mean: Option<f64>,
+    /// 95th percentile of those that converged.
+    pub percentile_95: Option<usize>,
+    /// Most steps of those that converged.
+    pub most: Option<usize>,
+    /// Share that had not converged after 200 steps.
+    pub not_converged_percent: f64,
+    /// Its standard error (binomial).
+    pub not_converged_u_percent: f64,
+    /// Stands drawn.
+    pub stands: u64,
+}
+
+impl Deviations {
+    /// Its name in results.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Uniform => "uniform",
+            Self::Corners => "corners",
+        }
+    }
+}
+
+/// Simulates. `run.progress` is told of all rows together: the trials of a run times the number of rows.
+pub fn convergence(options: &ConvergenceOptions, run: &Run) -> Convergence {
+    let mut rows = Vec::new();
+    let mut before = 0;
+    for &deviations in &options.deviations {
+        for &limit_deg in &options.limits_deg {
+            let progress = |done: u64| {
+                if let Some(progress) = run.progress {
+                    progress(before + done);
+                }
+            };
+            let part = Run { progress: Some(&progress), ..*run };
+            let blocks = part.blocks(|stream, trials| steps(options, deviations, limit_deg, stream, trials));
+            if let Some(row) = row(deviations, limit_deg, &blocks) {
+                rows.push(row);
+            }
+            before += run.trials;
+        }
+    }
+    Convergence { trials: run.trials, seed: run.seed, rows }
+}
+
+/// Steps of one block of stands; what did not converge is counted as one more than allowed.
+fn steps(
+    options: &ConvergenceOptions,
+    deviations: Deviations,
+    limit_deg: f64,
+    stream: &mut Stream,
+    trials: u64,
+) -> (Histogram, u64) {
+    let mut converged = Histogram::up_to(LARGEST_NUMBER_OF_STEPS as usize);
+    for _ in 0..trials {
+        let stand = draw::stand(stream, deviations, limit_deg);
+        let plan = StandGeometry::new(&stand).ok().and_then(|geometry| {
+            let at = geometry.at(options.earth);
+            let currents = at.positions.iter().map(|position| options.gyro.currents_ma(position));
+            Plan::new(&at, &currents.collect::<Option<Vec<_>>>()?).ok()
+        });
+        if let Some(steps) = plan.and_then(|plan| plan.steps(&options.stop_rule)) {
+            converged.add(steps as usize);
+        }
+    }
+    (converged, trials)
+}
+
+/// `None` when cancelled before the first block.
+fn row(deviations: Deviations, limit_deg: f64, blocks: &[(Histogram, u64)]) -> Option<ConvergenceRow> {
+    let mut converged = Histogram::up_to(LARGEST_NUMBER_OF_STEPS as usize);
+    blocks.iter().for_each(|(block, _)| converged.merge(block));
+    let stands: u64 = blocks.iter().map(|(_, trials)| trials).sum();
+    let missing = stands - converged.count();
+    (stands > 0).then(|| ConvergenceRow {
+        limit_deg,
+        deviations: deviations.key(),
+        mean: converged.mean(),
+        percentile_95: converged.percentile(0.95),
+        most: converged.most(),
+        not_converged_percent: 100.0 * missing as f64 / stands as f64,
+        not_converged_u_percent: 100.0 * binomial_standard_error(missing, stands),
+        stands,
+    })
+}
