@@ -13,6 +13,7 @@ mod output;
 mod reissue;
 mod schema;
 mod show;
+mod simulate;
 mod trust_options;
 mod verify;
 
@@ -35,6 +36,7 @@ enum Verb {
     Reissue(reissue::Options),
     Verify(verify::Options),
     Show(show::Options),
+    Simulate(simulate::Options),
     Schema(schema::Options),
     Completions(completions::Options),
 }
@@ -75,6 +77,7 @@ pub fn main() -> ExitCode {
         Verb::Reissue(options) => reissue::run(&options),
         Verb::Verify(options) => verify::run(&options),
         Verb::Show(options) => show::run(&options),
+        Verb::Simulate(options) => simulate::run(&options),
         Verb::Schema(options) => schema::run(&options),
         Verb::Completions(options) => completions::run(&options),
     };

@@ -3,7 +3,9 @@
 //! * [`verdict`]: the answer of `verify`.
 //! * [`issued`]: what became of an order, and what the factory should know about it.
 //! * [`passport_table`]: a passport in a terminal.
+//! * [`simulation`]: the tables of simulations.
 
 pub mod issued;
 pub mod passport_table;
+pub mod simulation;
 pub mod verdict;

@@ -1,0 +1,235 @@
+//! `simulate`: the paper's table and its Fig. 4.
+
+use super::issue::{read_site, read_stand};
+use super::output::Format;
+use super::{Code, Failure, REFUSED, UNUSABLE, output};
+use clap::{Args, Subcommand, ValueEnum};
+use dtg_passport::calibration::Method;
+use dtg_passport::coefficients::EarthRate;
+use dtg_passport::files::{self, FileError};
+use dtg_passport::gyro::GyroType;
+use dtg_passport::report::simulation as table;
+use dtg_passport::simulation::accuracy::{AccuracyOptions, PAPER_LATITUDE_DEG, Stands, accuracy};
+use dtg_passport::simulation::convergence::{ConvergenceOptions, convergence};
+use dtg_passport::simulation::draw::CurrentError;
+use dtg_passport::simulation::picture::convergence_svg;
+use dtg_passport::stand::{CertifiedPosition, LARGEST_DEVIATION_DEG};
+use dtg_passport::statistics::random::Run;
+use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Simulate calibrations: the paper's table and its Fig. 4
+#[derive(Args)]
+pub struct Options {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Subcommand)]
+enum What {
+    Accuracy(AccuracyArguments),
+    Convergence(ConvergenceArguments),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Sharing {
+    /// An error for every reading
+    Independent,
+    /// One for all readings of x, one for all of y
+    Channel,
+    /// One for all readings
+    Common,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum MethodName {
+    Analytic,
+    Iterative,
+    LeastSquares,
+}
+
+impl From<MethodName> for Method {
+    fn from(name: MethodName) -> Self {
+        match name {
+            MethodName::Analytic => Self::Analytic,
+            MethodName::Iterative => Self::Iterative,
+            MethodName::LeastSquares => Self::LeastSquares,
+        }
+    }
+}
+
+#[derive(Args)]
+struct RunArguments {
+    /// Random stands
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    trials: Option<u64>,
+    /// The same seed gives the same numbers, on any number of threads
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Threads [default: all processors]
+    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u32).range(1..))]
+    threads: Option<u32>,
+    /// Form of the result
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+/// The paper's table: errors of the parameters found, stands and currents drawn
+#[derive(Args)]
+struct AccuracyArguments {
+    /// A stand of which the angles are taken; without it stands are drawn
+    #[arg(long, value_name = "STAND", conflicts_with = "limit_deg")]
+    stand: Option<PathBuf>,
+    /// The site [default: the paper's latitude, 55.7658]
+    #[arg(long, value_name = "SITE")]
+    site: Option<PathBuf>,
+    /// A gyro type [default: the paper's GVK-6]
+    #[arg(long, value_name = "FILE")]
+    gyro: Option<PathBuf>,
+    /// Draw every gyro within its tolerance; errors are from the nominal values
+    #[arg(long)]
+    within_tolerance: bool,
+    /// Stands are drawn uniformly within this of the nominal angles
+    #[arg(long, value_name = "D", default_value_t = 15.0, value_parser = limit)]
+    limit_deg: f64,
+    /// Currents are off by at most this, uniformly
+    #[arg(long, value_name = "P", default_value_t = 0.015, value_parser = percent)]
+    current_percent: f64,
+    /// Which readings share an error
+    #[arg(long, value_enum, default_value = "independent")]
+    current_error: Sharing,
+    /// Methods
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "analytic,least-squares")]
+    method: Vec<MethodName>,
+    #[command(flatten)]
+    run: RunArguments,
+}
+
+/// The paper's Fig. 4: steps of successive approximation against the limit of the deviations
+#[derive(Args)]
+struct ConvergenceArguments {
+    /// Limits of the deviations
+    #[arg(long, value_name = "D,...", value_delimiter = ',', value_parser = limit)]
+    limits_deg: Vec<f64>,
+    #[command(flatten)]
+    run: RunArguments,
+    /// Also draw the figure
+    #[arg(short, value_name = "FILE.svg")]
+    output: Option<PathBuf>,
+    /// Replace an existing figure
+    #[arg(long)]
+    force: bool,
+}
+
+fn limit(text: &str) -> Result<f64, String> {
+    bounded(text, 0.0, LARGEST_DEVIATION_DEG)
+}
+
+fn percent(text: &str) -> Result<f64, String> {
+    bounded(text, 0.0, 10.0)
+}
+
+fn bounded(text: &str, low: f64, high: f64) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|value| (low..=high).contains(value))
+        .ok_or_else(|| format!("a number from {low} to {high}, with a decimal point"))
+}
+
+pub fn run(options: &Options) -> Result<Code, Failure> {
+    match &options.what {
+        What::Accuracy(arguments) => run_accuracy(arguments),
+        What::Convergence(arguments) => run_convergence(arguments),
+    }
+}
+
+fn run_accuracy(arguments: &AccuracyArguments) -> Result<Code, Failure> {
+    let earth = match &arguments.site {
+        Some(path) => read_site(path)?.earth().rate(),
+        None => EarthRate::at_astronomic_latitude(PAPER_LATITUDE_DEG),
+    };
+    let stands = match &arguments.stand {
+        Some(path) => Stands::Given(read_stand(path)?.positions.iter().map(CertifiedPosition::to_model).collect()),
+        None => Stands::Drawn { limit_deg: arguments.limit_deg },
+    };
+    let options = AccuracyOptions {
+        stands,
+        earth,
+        gyro: read_gyro(arguments.gyro.as_deref())?.unwrap_or_else(GyroType::gvk_6),
+        within_tolerance: arguments.within_tolerance,
+        current_percent: arguments.current_percent,
+        current_error: match arguments.current_error {
+            Sharing::Independent => CurrentError::Independent,
+            Sharing::Channel => CurrentError::Channel,
+            Sharing::Common => CurrentError::Common,
+        },
+        methods: arguments.method.iter().copied().map(Method::from).collect(),
+    };
+    const TRIALS: u64 = 10_000;
+    let found = watched(&arguments.run, TRIALS, 1, |run| accuracy(&options, run))?;
+    match arguments.run.format {
+        Format::Json => output::json(&found)?,
+        Format::Text => output::result(&table::accuracy(&found))?,
+    }
+    Ok(0)
+}
+
+fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
+    let mut options = ConvergenceOptions::default();
+    if !arguments.limits_deg.is_empty() {
+        options.limits_deg.clone_from(&arguments.limits_deg);
+    }
+    let rows = (options.limits_deg.len() * options.deviations.len()) as u64;
+    const TRIALS: u64 = 1_000;
+    let found = watched(&arguments.run, TRIALS, rows, |run| convergence(&options, run))?;
+    if let Some(path) = &arguments.output {
+        let svg = convergence_svg(&found).map_err(Failure::unusable)?;
+        files::write_replaceable(path, svg.as_bytes(), arguments.force).map_err(|error| match error {
+            FileError::Exists { .. } => Failure { message: error.to_string(), code: REFUSED },
+            _ => Failure { message: error.to_string(), code: UNUSABLE },
+        })?;
+    }
+    match arguments.run.format {
+        Format::Json => output::json(&found)?,
+        Format::Text => output::result(&table::convergence(&found))?,
+    }
+    Ok(0)
+}
+
+/// Reads a gyro type.
+pub fn read_gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
+    let Some(path) = path else { return Ok(None) };
+    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+    GyroType::from_yaml(&path.display().to_string(), &bytes).map(Some).map_err(Failure::unusable)
+}
+
+/// Runs a simulation with a progress bar on a terminal (none in a pipe); Ctrl-C ends it with what is known.
+fn watched<T>(
+    arguments: &RunArguments,
+    default_trials: u64,
+    rows: u64,
+    simulate: impl FnOnce(&Run) -> T,
+) -> Result<T, Failure> {
+    let trials = arguments.trials.unwrap_or(default_trials);
+    let cancel = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&cancel);
+    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)).map_err(Failure::unusable)?;
+    // indicatif draws on standard error, and only on a terminal.
+    let bar = ProgressBar::new(trials.saturating_mul(rows));
+    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len} trials, {per_sec}, {eta} left");
+    bar.set_style(style.map_err(Failure::unusable)?);
+    let progress = |done: u64| bar.set_position(done);
+    let mut run = Run { cancel: Some(&cancel), progress: Some(&progress), ..Run::new(trials, arguments.seed) };
+    if let Some(threads) = arguments.threads {
+        run.threads = threads as usize;
+    }
+    let result = simulate(&run);
+    bar.finish_and_clear();
+    if cancel.load(Ordering::Relaxed) {
+        output::say("interrupted: the result is that of the trials made until then");
+    }
+    Ok(result)
+}
