@@ -56,6 +56,7 @@
 //! | [`simulation`] | the paper's table and its Fig. 4 |
 //! | [`trust`] | signatures, keys, allowed signers, revocation: bytes and time in, a verdict out |
 //! | [`passport`] | content, document, issue, re-issue, verification |
+//! | [`revocation`] | the signed list of withdrawn passports |
 //! | [`schema`] | JSON Schemas of the formats |
 //! | [`files`], [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports |
 //! | [`report`] | what people read |
@@ -85,6 +86,7 @@ pub mod gyro;
 pub mod laboratory;
 pub mod passport;
 pub mod report;
+pub mod revocation;
 pub mod schema;
 pub mod signing;
 pub mod simulation;

@@ -6,7 +6,7 @@ use crate::gyro::{GyroParameters, Parameters};
 use crate::site::{Earth, Site};
 use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity};
 use crate::text::scalar::Identifier;
-use crate::text::{Field, Node, Path, Problems, record};
+use crate::text::{Path, Problems, record};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use nalgebra::{Matrix2, Vector2};
@@ -309,15 +309,8 @@ impl Content {
         passport.into_iter().chain(certificate).min_by_key(|(day, _)| *day)
     }
 
-    /// Reads the tree of a signed text.
-    pub(crate) fn from_node(node: &Node, problems: &mut Problems) -> Option<Self> {
-        let content = Self::read(node, &Path::Root, problems)?;
-        content.check(problems);
-        Some(content)
-    }
-
     /// Every rule of the content that its own inputs do not already settle.
-    fn check(&self, problems: &mut Problems) {
+    pub(crate) fn check(&self, problems: &mut Problems) {
         let at = Path::Root;
         if self.format != PASSPORT_FORMAT {
             problems.at(&at.key("format"), format!("{:?}", self.format), format!("{PASSPORT_FORMAT:?}"), "");

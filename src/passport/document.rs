@@ -5,7 +5,7 @@
 
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::problem::{Location, Unreadable};
-use crate::text::rule;
+use crate::text::{Field, Node, Path, Problems, rule};
 use crate::trust::{KeyError, PublicKey, Signature, SignatureError, SigningKey};
 
 /// The line that ends the payload.
@@ -118,6 +118,33 @@ impl<'a> SignedText<'a> {
     pub fn signed_payload(&self) -> Result<&'a str, SignatureError> {
         self.signature.verify(self.signature.namespace(), self.payload.as_bytes())?;
         Ok(self.payload)
+    }
+}
+
+/// Parses a payload and requires that its content, written again, gives the same lines, comments and blank lines aside
+/// (step 5). `check` knows the rules of the content.
+///
+/// Call it only on text whose signature holds.
+///
+/// # Errors
+/// Every mistake of the content, or the first line that differs.
+pub fn parse<T: Field>(name: &str, payload: &str, check: impl FnOnce(&T, &mut Problems)) -> Result<T, Unreadable> {
+    let (node, text) = Node::from_yaml(name, payload.as_bytes())?;
+    let mut problems = Problems::new();
+    let content = T::read(&node, &Path::Root, &mut problems);
+    if let Some(content) = &content {
+        check(content, &mut problems);
+    }
+    let Some(content) = content.filter(|_| problems.is_empty()) else {
+        return Err(problems.refuse(name, &text));
+    };
+    let canonical = content.write().map(|node| rule::write(&node, &rule::no_comments)).unwrap_or_default();
+    match rule::differs(payload, &canonical) {
+        None => Ok(content),
+        Some((line, found, expected)) => {
+            let advice = "the text is not as this format is written";
+            Err(Unreadable::whole(name, Some(Location { line, column: 1 }), found, expected, advice))
+        }
     }
 }
 

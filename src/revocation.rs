@@ -1,0 +1,226 @@
+//! The list of withdrawn passports (`dtg-revocation/1`): signed like a passport, in a namespace of its own.
+//!
+//! A revoked key and a revoked passport are different things: the first no longer speaks for anybody, the second was a
+//! mistake of an issuer whose key is still good.
+
+use crate::passport::document::{self, Malformed, SignedText, Signer, SigningFailed};
+use crate::text::problem::Unreadable;
+use crate::text::{Field, Path, Problems, record, rule};
+use crate::trust::{AllowedSigners, NotAuthorised, RevokedKeys, SignatureError};
+use jiff::Timestamp;
+
+/// The format of a list.
+pub const REVOCATION_FORMAT: &str = "dtg-revocation/1";
+
+/// The namespace that lists are signed for.
+pub const REVOCATION_NAMESPACE: &str = "dtg-revocation";
+
+record! {
+    /// A withdrawn passport.
+    pub struct Entry {
+        /// Its id.
+        pub id: String,
+        /// SHA-256 of its file, lower-case hexadecimal.
+        pub sha256: String,
+        /// When it was withdrawn.
+        pub revoked_at: Timestamp,
+        /// Why.
+        pub reason: String,
+    }
+}
+
+record! {
+    /// A list of withdrawn passports. Of several the one with the highest sequence number counts.
+    pub struct RevocationList {
+        /// Always "dtg-revocation/1".
+        pub format: String,
+        /// Counts from 1 and only grows.
+        pub sequence: u32,
+        /// When it was issued; never before an earlier list.
+        pub issued_at: Timestamp,
+        /// Who issued it: a principal of allowed_signers.
+        pub issuer: String,
+        /// Every passport withdrawn so far.
+        pub entries: Vec<Entry>,
+    }
+}
+
+/// Why a list does not count.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ListRefused {
+    /// Its form is not good.
+    #[error("{}", .0.fault)]
+    Malformed(Malformed),
+    /// The text is not the one that was signed.
+    #[error("{name}: {error}")]
+    Altered {
+        /// The file.
+        name: String,
+        /// What is wrong.
+        error: SignatureError,
+    },
+    /// Its content breaks a rule.
+    #[error(transparent)]
+    Content(#[from] Unreadable),
+    /// Its key does not count for its issuer.
+    #[error("{name}: {miss}")]
+    NotAuthorised {
+        /// The file.
+        name: String,
+        /// Why.
+        miss: NotAuthorised,
+    },
+    /// Its key was revoked.
+    #[error("{name}: its signing key was revoked: {why}")]
+    KeyRevoked {
+        /// The file.
+        name: String,
+        /// Why.
+        why: String,
+    },
+    /// It was issued later than now.
+    #[error("{name}: issued at {issued_at}, which is after {now}: is the clock right?")]
+    FromTheFuture {
+        /// The file.
+        name: String,
+        /// When it says it was issued.
+        issued_at: Timestamp,
+        /// The time asked about.
+        now: Timestamp,
+    },
+}
+
+/// Why no new list was made.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoNewList {
+    /// The passport is on the list already.
+    #[error("{id}: was withdrawn already, at {revoked_at}: {reason}")]
+    AlreadyRevoked {
+        /// The passport.
+        id: String,
+        /// When.
+        revoked_at: Timestamp,
+        /// Why.
+        reason: String,
+    },
+    /// The new list would be older than the last.
+    #[error("the new list would be issued at {now}, before the last one, {last}: is the clock right?")]
+    BeforeLast {
+        /// When it would be issued.
+        now: Timestamp,
+        /// When the last one was.
+        last: Timestamp,
+    },
+    /// A text that cannot be signed.
+    #[error("{0:?} is empty or holds a character that no signed text may hold")]
+    BadText(String),
+    /// The signer gave no signature.
+    #[error(transparent)]
+    Signing(#[from] SigningFailed),
+    /// The signer gave a signature that does not hold.
+    #[error("the signature just made does not hold: {0}")]
+    BadSignature(#[from] SignatureError),
+}
+
+impl RevocationList {
+    /// Verifies the bytes of a list as those of a passport are verified, and reads it.
+    ///
+    /// # Errors
+    /// See [`ListRefused`].
+    pub fn verify(
+        name: &str,
+        bytes: &[u8],
+        signers: &AllowedSigners,
+        revoked_keys: &[RevokedKeys],
+        now: Timestamp,
+    ) -> Result<Self, ListRefused> {
+        let text = SignedText::split(name, bytes, REVOCATION_NAMESPACE).map_err(ListRefused::Malformed)?;
+        let name = name.to_owned();
+        let payload = match text.signed_payload() {
+            Ok(payload) => payload,
+            Err(error) => return Err(ListRefused::Altered { name, error }),
+        };
+        let list: Self = document::parse(&name, payload, Self::check)?;
+        if let Err(miss) = signers.authorise(text.key(), &list.issuer, REVOCATION_NAMESPACE, list.issued_at) {
+            return Err(ListRefused::NotAuthorised { name, miss });
+        }
+        if let Some(why) = revoked_keys.iter().find_map(|keys| keys.revokes(text.key())) {
+            return Err(ListRefused::KeyRevoked { name, why });
+        }
+        if list.issued_at > now {
+            return Err(ListRefused::FromTheFuture { name, issued_at: list.issued_at, now });
+        }
+        Ok(list)
+    }
+
+    fn check(&self, problems: &mut Problems) {
+        let at = Path::Root;
+        if self.format != REVOCATION_FORMAT {
+            problems.at(&at.key("format"), format!("{:?}", self.format), format!("{REVOCATION_FORMAT:?}"), "");
+        }
+        if self.sequence == 0 {
+            problems.at(&at.key("sequence"), "0", "a whole number from 1", "");
+        }
+        let entries = at.key("entries");
+        for (index, entry) in self.entries.iter().enumerate() {
+            let at = entries.item(index);
+            let hexadecimal = |c: u8| c.is_ascii_digit() || (b'a'..=b'f').contains(&c);
+            if entry.sha256.len() != 64 || !entry.sha256.bytes().all(hexadecimal) {
+                let expected = "64 lower-case hexadecimal digits";
+                problems.at(&at.key("sha256"), format!("{:?}", entry.sha256), expected, "");
+            }
+        }
+    }
+
+    /// The entry of a passport, by its id or by the SHA-256 of its file.
+    pub fn entry(&self, id: &str, sha256: &str) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.id == id || entry.sha256 == sha256)
+    }
+
+    /// The list that follows `last`: its entries, and these; `None` begins a new series.
+    ///
+    /// # Errors
+    /// See [`NoNewList`].
+    pub fn following(last: Option<&Self>, issuer: &str, now: Timestamp, new: Vec<Entry>) -> Result<Self, NoNewList> {
+        let texts = new.iter().flat_map(|entry| [&entry.id, &entry.reason]).map(String::as_str).chain([issuer]);
+        for text in texts {
+            if text.is_empty() || !text.chars().all(rule::allowed_in_string) {
+                return Err(NoNewList::BadText(text.to_owned()));
+            }
+        }
+        let mut entries = last.map(|list| list.entries.clone()).unwrap_or_default();
+        for entry in new {
+            if let Some(there) = entries.iter().find(|there| there.id == entry.id) {
+                let Entry { id, revoked_at, reason, .. } = there.clone();
+                return Err(NoNewList::AlreadyRevoked { id, revoked_at, reason });
+            }
+            entries.push(entry);
+        }
+        if let Some(last) = last.filter(|last| last.issued_at > now) {
+            return Err(NoNewList::BeforeLast { now, last: last.issued_at });
+        }
+        let sequence = last.map_or(1, |last| last.sequence.saturating_add(1));
+        let (format, issuer) = (REVOCATION_FORMAT.to_owned(), issuer.to_owned());
+        Ok(Self { format, sequence, issued_at: now, issuer, entries })
+    }
+
+    /// The signed file.
+    ///
+    /// # Errors
+    /// [`NoNewList::Signing`], [`NoNewList::BadSignature`].
+    pub fn sign(&self, signer: &dyn Signer) -> Result<String, NoNewList> {
+        let comments = |path: &str| match path {
+            "format" => vec![
+                "Withdrawn passports. Of several lists the one with the highest sequence number counts.".to_owned(),
+                "Signed as it stands: any change makes the signature fail.".to_owned(),
+            ],
+            _ => Vec::new(),
+        };
+        let payload = self.write().map(|node| rule::write(&node, &comments)).unwrap_or_default();
+        let signature = signer.sign(REVOCATION_NAMESPACE, payload.as_bytes())?;
+        signature.verify(REVOCATION_NAMESPACE, payload.as_bytes())?;
+        Ok(document::join(&payload, &signature))
+    }
+}
