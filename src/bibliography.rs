@@ -23,6 +23,8 @@ pub enum Bibliography {
     Karney13,
     /// JCGM 100:2008, Evaluation of measurement data: Guide to the expression of uncertainty in measurement.
     Gum,
+    /// JCGM 106:2012, Evaluation of measurement data: The role of measurement uncertainty in conformity assessment.
+    Jcgm106,
     /// OpenSSH, PROTOCOL.sshsig: the signature format, its armor and its namespaces.
     SshSig,
     /// OpenSSH, PROTOCOL.krl: key revocation lists.

@@ -3,6 +3,7 @@
 //! Source: [the paper](crate::bibliography::Bibliography::Tang17), eq. (2), (5) and its table.
 
 use crate::coefficients::PositionCoefficients;
+use crate::earth::STANDARD_GRAVITY_M_PER_S2;
 use crate::text::{Path, Problems, Unreadable, node, record};
 use nalgebra::{Matrix2, Vector2};
 
@@ -125,6 +126,11 @@ impl GyroType {
             problems.within(&Path::Root.key("tolerance").key(key), Some(value), 0.0, f64::MAX);
         }
         problems.within(&Path::Root.key("gravity_m_per_s2"), self.gravity_m_per_s2, 9.7, 9.9);
+    }
+
+    /// The g that its drifts are stated for.
+    pub fn gravity(&self) -> f64 {
+        self.gravity_m_per_s2.unwrap_or(STANDARD_GRAVITY_M_PER_S2)
     }
 
     /// The paper's gyro, GVK-6, with its nominal values and tolerances (paper, table).

@@ -122,6 +122,18 @@ impl Setup {
         &self.uncertainty
     }
 
+    /// The same without one position; the paper's matrices are gone with it.
+    pub(crate) fn without(&self, place: usize) -> Self {
+        let mut rest = self.clone();
+        rest.coefficients.positions.remove(place);
+        rest.coefficients.matrices = None;
+        rest.turns.remove(place);
+        if place < rest.uncertainty.angles_rad.len() {
+            rest.uncertainty.angles_rad.remove(place);
+        }
+        rest
+    }
+
     pub(crate) fn turns(&self) -> &[Turn] {
         &self.turns
     }

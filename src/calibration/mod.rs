@@ -7,9 +7,14 @@
 //! * [`noise`]: how much noisier it is on a stand than on a perfect one.
 //! * [`procedure`]: all of them side by side, with uncertainties, residuals and chi-square.
 //! * [`scatter`]: whether repeated readings agree.
-//! * [`inputs`]: what is known of stand, site, seat and meter, and how well.
+//! * [`diagnosis`]: what may be wrong where readings do not fit.
+//! * [`verdict`]: against a type's specification and against an earlier calibration.
+//! * [`document`]: a result for machines.
+//! * [`inputs`]: what is known of stand, site, seat and meter, and how well; [`stated`]: as the files state it.
 
 pub mod analytic;
+pub mod diagnosis;
+pub mod document;
 pub mod inputs;
 pub mod iterative;
 pub mod least_squares;
@@ -20,7 +25,9 @@ mod propagation;
 pub mod readings;
 pub mod scatter;
 mod sensitivity;
+pub mod stated;
 mod unknowns;
+pub mod verdict;
 
 pub use inputs::{InputUncertainty, MeterUncertainty, Setup};
 pub use procedure::{Calibration, Method, MethodResult, Options, calibrate};

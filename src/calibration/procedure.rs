@@ -1,6 +1,7 @@
 //! One calibration: every method asked for, its uncertainty, its fit.
 
 use super::analytic::{self, AnalyticMap, NoAnalyticSolution};
+use super::diagnosis::{self, Hint};
 use super::inputs::Setup;
 use super::iterative::{self, NoIterativeSolution, StopRule};
 use super::least_squares::{Fit, NoLeastSquares};
@@ -68,6 +69,8 @@ pub struct Calibration {
     pub scatter: Option<Scatter>,
     /// Whether the fit settled. If not, the readings are far from any gyro's on this stand.
     pub settled: bool,
+    /// What may be wrong, when the readings do not fit.
+    pub hint: Option<Hint>,
 }
 
 /// Why one method gave nothing.
@@ -171,16 +174,25 @@ pub struct Residual {
 /// [`NoLeastSquares`] when the readings do not determine a gyro: then no method's result would mean anything.
 /// What a single method cannot do is in [`Calibration::refused`].
 pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Result<Calibration, NoLeastSquares> {
-    let currents_ma = readings.means_ma();
-    let (fit, scatter) = fit(setup, readings, &currents_ma, false)?;
-    let evaluation = Evaluation::new(setup, &currents_ma, &fit);
-    let mut calibration = Calibration { results: Vec::new(), refused: Vec::new(), scatter, settled: fit.settled };
+    let mut data = Data::new(readings);
+    let mut fit = data.fit(setup, false)?;
+    let scatter = Scatter::of(setup, readings, &fit);
+    if let Some(found) = scatter.filter(|found| found.variance_factor > 1.0) {
+        data.variance_factor = found.variance_factor;
+        fit = data.fit(setup, false)?;
+    }
+    let currents_ma = &data.currents_ma;
+    let evaluation = Evaluation::new(setup, currents_ma, &fit);
+    let hint = diagnosis::hint(setup, &data, &evaluation.chi_square);
+    let settled = fit.settled;
+    let mut calibration = Calibration { results: Vec::new(), refused: Vec::new(), scatter, settled, hint };
     for &method in &options.methods {
         let result = match method {
             Method::Analytic => evaluation.analytic().map_err(MethodRefusal::from),
             Method::Iterative => evaluation.iterative(&options.stop_rule),
-            Method::LeastSquares if options.anisoelasticity => self::fit(setup, readings, &currents_ma, true)
-                .map(|(fit, _)| Evaluation::new(setup, &currents_ma, &fit).least_squares())
+            Method::LeastSquares if options.anisoelasticity => data
+                .fit(setup, true)
+                .map(|fit| Evaluation::new(setup, currents_ma, &fit).least_squares())
                 .map_err(MethodRefusal::from),
             Method::LeastSquares => Ok(evaluation.least_squares()),
         };
@@ -192,24 +204,44 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
     Ok(calibration)
 }
 
-/// The weighted fit; once more with wider readings when repeated ones scatter more than was stated.
-pub(crate) fn fit(
-    setup: &Setup,
-    readings: &Readings,
-    currents_ma: &[Vector2<f64>],
-    anisoelasticity: bool,
-) -> Result<(Fit, Option<Scatter>), NoLeastSquares> {
-    let counts: Vec<usize> = readings.positions().iter().map(|position| position.each_ma.len()).collect();
-    let with = |variance_factor: f64| {
-        Fit::new(setup.coefficients(), currents_ma, anisoelasticity, |place, unknowns, current| {
-            Sensitivity::new(setup, unknowns).own_covariance(place, current, counts[place], variance_factor)
+/// Mean currents as a fit takes them.
+#[derive(Debug, Clone)]
+pub(crate) struct Data {
+    /// Means (J_x, J_y), in the order of the coefficients.
+    pub(crate) currents_ma: Vec<Vector2<f64>>,
+    /// How many readings each is the mean of.
+    counts: Vec<usize>,
+    /// By how much the variance of one reading is enlarged.
+    variance_factor: f64,
+}
+
+impl Data {
+    fn new(readings: &Readings) -> Self {
+        let counts = readings.positions().iter().map(|position| position.each_ma.len()).collect();
+        Self { currents_ma: readings.means_ma(), counts, variance_factor: 1.0 }
+    }
+
+    /// Without one position.
+    pub(crate) fn without(&self, place: usize) -> Self {
+        let mut rest = self.clone();
+        rest.currents_ma.remove(place);
+        rest.counts.remove(place);
+        rest
+    }
+
+    /// Two positions exchanged.
+    pub(crate) fn exchanged(&self, one: usize, other: usize) -> Self {
+        let mut exchanged = self.clone();
+        exchanged.currents_ma.swap(one, other);
+        exchanged.counts.swap(one, other);
+        exchanged
+    }
+
+    /// The weighted fit at `setup`.
+    pub(crate) fn fit(&self, setup: &Setup, anisoelasticity: bool) -> Result<Fit, NoLeastSquares> {
+        Fit::new(setup.coefficients(), &self.currents_ma, anisoelasticity, |place, unknowns, current| {
+            Sensitivity::new(setup, unknowns).own_covariance(place, current, self.counts[place], self.variance_factor)
         })
-    };
-    let fit = with(1.0)?;
-    let scatter = Scatter::of(setup, readings, &fit);
-    match scatter {
-        Some(found) if found.variance_factor > 1.0 => Ok((with(found.variance_factor)?, scatter)),
-        _ => Ok((fit, scatter)),
     }
 }
 

@@ -55,14 +55,22 @@ type Steps = fn(&ConvergenceRow) -> Option<f64>;
 
 fn steps(area: &Area, rows: &[&ConvergenceRow], largest_deg: f64, trials: u64) -> Drawn {
     let mut chart = ChartBuilder::on(area)
-        .caption(format!("Steps of successive approximation, {trials} stands per point"), ("sans-serif", 20))
+        .caption(
+            format!("Steps of successive approximation, {trials} stands per point, uniform within ±D"),
+            ("sans-serif", 20),
+        )
         .margin(12)
+        .margin_right(30)
         .x_label_area_size(20)
         .y_label_area_size(60)
         .build_cartesian_2d(0.0..largest_deg, (1.0..220.0).log_scale())?;
     let axes = &mut chart.configure_mesh();
     axes.light_line_style(WHITE).bold_line_style(BLACK.mix(0.15)).y_desc("steps (first approximation = 1)");
-    axes.label_style(("sans-serif", 14)).y_labels(8).y_label_formatter(&|value| format!("{value:.0}")).draw()?;
+    axes.label_style(("sans-serif", 14))
+        .x_label_formatter(&|value| format!("{value:.0}"))
+        .y_labels(8)
+        .y_label_formatter(&|value| format!("{value:.0}"))
+        .draw()?;
     let series: [(&str, Look, Steps); 3] = [
         ("most", Look::Solid, |row| row.most.map(|most| most as f64)),
         ("95th percentile", Look::Dashed, |row| row.percentile_95.map(|value| value as f64)),
@@ -75,7 +83,7 @@ fn steps(area: &Area, rows: &[&ConvergenceRow], largest_deg: f64, trials: u64) -
     // The paper's limit of applicability.
     let limit = vec![(15.0, 1.0), (15.0, 220.0)];
     chart.draw_series(DashedLineSeries::new(limit, 2, 4, BLACK.stroke_width(1)))?;
-    chart.draw_series([Text::new("paper: 15°", (15.3, 160.0), ("sans-serif", 13))])?;
+    chart.draw_series([Text::new("paper: 15°", (15.2, 1.4), ("sans-serif", 13))])?;
     legend(&mut chart)
 }
 
@@ -83,12 +91,18 @@ fn share(area: &Area, uniform: &[&ConvergenceRow], corners: &[&ConvergenceRow], 
     let most = uniform.iter().chain(corners).map(|row| row.not_converged_percent).fold(1.0, f64::max);
     let mut chart = ChartBuilder::on(area)
         .margin(12)
+        .margin_right(30)
         .x_label_area_size(40)
         .y_label_area_size(60)
         .build_cartesian_2d(0.0..largest_deg, 0.0..most * 1.1)?;
     let axes = &mut chart.configure_mesh();
     axes.light_line_style(WHITE).bold_line_style(BLACK.mix(0.15)).y_desc("not in 200 steps, %");
-    axes.x_desc("limit D of the deviations, degrees").label_style(("sans-serif", 14)).y_labels(5).draw()?;
+    axes.x_desc("limit D of the deviations, degrees")
+        .label_style(("sans-serif", 14))
+        .x_label_formatter(&|value| format!("{value:.0}"))
+        .y_labels(5)
+        .y_label_formatter(&|value| format!("{value:.0}"))
+        .draw()?;
     for (label, look, rows) in
         [("uniform within ±D", Look::Solid, uniform), ("every angle +D or −D", Look::Dashed, corners)]
     {

@@ -1,0 +1,247 @@
+//! A result for machines: the JSON of `calibrate`, which is also what a later calibration compares itself with.
+
+use super::parameter::Parameter;
+use super::procedure::{Calibration, MethodResult};
+use super::verdict::{Found, Verdict};
+use crate::gyro::GyroParameters;
+use crate::text::Unreadable;
+use crate::text::problem::Location;
+use nalgebra::{Matrix2, Vector2};
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Deserializer, Serialize};
+
+/// The result of a calibration, in the order in which it is written.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CalibrationDocument {
+    /// The passport used.
+    pub passport_id: String,
+    /// Whether it was verified.
+    pub passport_verified: bool,
+    /// The g that drifts are stated for.
+    pub gravity_m_per_s2: f64,
+    /// One for each method.
+    pub results: Vec<ResultDocument>,
+    /// What may be wrong, in words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hint: Option<String>,
+    /// Against the gyro's type.
+    #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
+    pub verdict: Option<Verdict>,
+    /// Against an earlier result.
+    #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
+    pub change: Option<Verdict>,
+}
+
+/// What one method gives.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResultDocument {
+    /// Which method.
+    pub method: String,
+    /// K: [[K_x, K_xy], [K_yx, K_y]].
+    pub k_deg_per_h_per_ma: [[f64; 2]; 2],
+    /// ω_0: [x, y].
+    pub omega0_deg_per_h: [f64; 2],
+    /// ω_n: four free numbers of the paper's methods.
+    pub omega_n_deg_per_h_per_g: [[f64; 2]; 2],
+    /// ω_g, per local g.
+    pub omega_g_deg_per_h_per_g: f64,
+    /// ω_k, per local g.
+    pub omega_k_deg_per_h_per_g: f64,
+    /// When fitted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub anisoelasticity_deg_per_h_per_g2: Option<f64>,
+    /// Of successive approximation: steps taken.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub iterations: Option<u32>,
+    /// Steps predicted before the first one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub iterations_predicted: Option<u32>,
+    /// ρ(T).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spectral_radius: Option<f64>,
+    /// What K still lacks, exactly.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub remainder_k_deg_per_h_per_ma: Option<[[f64; 2]; 2]>,
+    /// What ω_n still lacks, exactly.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub remainder_omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]>,
+    /// Standard uncertainties, with the keys of the values.
+    pub standard_uncertainty: UncertaintyDocument,
+    /// Whether the readings fit.
+    pub chi_square: ChiSquareDocument,
+    /// What is left of each equation.
+    pub residuals_deg_per_h: Vec<ResidualDocument>,
+}
+
+/// Standard uncertainties of one method's values.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct UncertaintyDocument {
+    /// Of K's elements.
+    pub k_deg_per_h_per_ma: [[f64; 2]; 2],
+    /// Of ω_0: [x, y].
+    pub omega0_deg_per_h: [f64; 2],
+    /// Of ω_n's elements.
+    pub omega_n_deg_per_h_per_g: [[f64; 2]; 2],
+    /// Of ω_g.
+    pub omega_g_deg_per_h_per_g: f64,
+    /// Of ω_k.
+    pub omega_k_deg_per_h_per_g: f64,
+    /// Of the anisoelastic coefficient, when fitted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub anisoelasticity_deg_per_h_per_g2: Option<f64>,
+}
+
+/// Chi-square.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ChiSquareDocument {
+    /// Its value.
+    pub value: f64,
+    /// Readings less parameters.
+    pub degrees_of_freedom: usize,
+    /// Probability of a larger value when nothing is wrong.
+    pub probability: f64,
+}
+
+/// The residuals of one position.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResidualDocument {
+    /// Frame index.
+    pub i: u32,
+    /// Platform index.
+    pub j: u32,
+    /// Along x.
+    pub x: f64,
+    /// Along y.
+    pub y: f64,
+}
+
+/// A verdict of an earlier result is not read again: it is judged anew.
+fn left_aside<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Verdict>, D::Error> {
+    IgnoredAny::deserialize(deserializer).map(|_| None)
+}
+
+impl CalibrationDocument {
+    /// Of a calibration with the passport `passport_id`.
+    pub fn new(passport_id: &str, passport_verified: bool, gravity_m_per_s2: f64, calibration: &Calibration) -> Self {
+        Self {
+            passport_id: passport_id.to_owned(),
+            passport_verified,
+            gravity_m_per_s2,
+            results: calibration.results.iter().map(ResultDocument::new).collect(),
+            hint: calibration.hint.as_ref().map(ToString::to_string),
+            verdict: None,
+            change: None,
+        }
+    }
+
+    /// Reads an earlier result, file `name`.
+    ///
+    /// # Errors
+    /// [`Unreadable`], with line and column.
+    pub fn from_json(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
+        serde_json::from_slice(bytes).map_err(|error| {
+            let location = (error.line() > 0).then(|| Location { line: error.line(), column: error.column() });
+            let mut found = error.to_string();
+            if let Some(at) = found.find(" at line ") {
+                found.truncate(at);
+            }
+            Unreadable::whole(name, location, found, "the JSON of an earlier calibration", "")
+        })
+    }
+
+    /// The answer of this result: least squares where it is there, else the last method.
+    pub fn answer(&self) -> Option<Found> {
+        let best = self.results.iter().find(|result| result.method == "least-squares").or(self.results.last())?;
+        Some(best.found(self.gravity_m_per_s2))
+    }
+}
+
+fn rows(matrix: &Matrix2<f64>) -> [[f64; 2]; 2] {
+    [[matrix.m11, matrix.m12], [matrix.m21, matrix.m22]]
+}
+
+impl ResultDocument {
+    fn new(result: &MethodResult) -> Self {
+        let parameters = &result.parameters;
+        let iteration = result.iteration.as_ref();
+        let chi_square = &result.chi_square;
+        let residuals = result.residuals.iter().map(|residual| {
+            let (index, value) = (residual.index, residual.residual_deg_per_h);
+            ResidualDocument { i: index.i, j: index.j, x: value.x, y: value.y }
+        });
+        Self {
+            method: result.method.key().to_owned(),
+            k_deg_per_h_per_ma: rows(&parameters.k_deg_per_h_per_ma),
+            omega0_deg_per_h: parameters.omega0_deg_per_h.into(),
+            omega_n_deg_per_h_per_g: rows(&result.omega_n_deg_per_h_per_g),
+            omega_g_deg_per_h_per_g: parameters.omega_g_deg_per_h_per_g,
+            omega_k_deg_per_h_per_g: parameters.omega_k_deg_per_h_per_g,
+            anisoelasticity_deg_per_h_per_g2: result.anisoelasticity_deg_per_h_per_g2,
+            iterations: iteration.map(|iteration| iteration.steps),
+            iterations_predicted: iteration.and_then(|iteration| iteration.predicted_steps),
+            spectral_radius: iteration.map(|iteration| iteration.spectral_radius),
+            remainder_k_deg_per_h_per_ma: iteration.map(|it| rows(&it.remainder_k_deg_per_h_per_ma)),
+            remainder_omega_n_deg_per_h_per_g: iteration.map(|it| rows(&it.remainder_omega_n_deg_per_h_per_g)),
+            standard_uncertainty: UncertaintyDocument::new(result),
+            chi_square: ChiSquareDocument {
+                value: chi_square.value,
+                degrees_of_freedom: chi_square.degrees_of_freedom,
+                probability: chi_square.probability,
+            },
+            residuals_deg_per_h: residuals.collect(),
+        }
+    }
+
+    fn found(&self, gravity_m_per_s2: f64) -> Found {
+        let [[kx, kxy], [kyx, ky]] = self.k_deg_per_h_per_ma;
+        let u = &self.standard_uncertainty;
+        let [[u_kx, u_kxy], [u_kyx, u_ky]] = u.k_deg_per_h_per_ma;
+        let [u_0x, u_0y] = u.omega0_deg_per_h;
+        Found {
+            parameters: GyroParameters {
+                k_deg_per_h_per_ma: Matrix2::new(kx, kxy, kyx, ky),
+                omega0_deg_per_h: Vector2::from(self.omega0_deg_per_h),
+                omega_g_deg_per_h_per_g: self.omega_g_deg_per_h_per_g,
+                omega_k_deg_per_h_per_g: self.omega_k_deg_per_h_per_g,
+            },
+            standard_uncertainty: [
+                u_kx,
+                u_kxy,
+                u_kyx,
+                u_ky,
+                u_0x,
+                u_0y,
+                u.omega_g_deg_per_h_per_g,
+                u.omega_k_deg_per_h_per_g,
+            ],
+            gravity_m_per_s2,
+        }
+    }
+}
+
+impl UncertaintyDocument {
+    fn new(result: &MethodResult) -> Self {
+        let u = |parameter| result.standard_uncertainty(parameter).unwrap_or(0.0);
+        Self {
+            k_deg_per_h_per_ma: [[u(Parameter::Kx), u(Parameter::Kxy)], [u(Parameter::Kyx), u(Parameter::Ky)]],
+            omega0_deg_per_h: [u(Parameter::Omega0x), u(Parameter::Omega0y)],
+            omega_n_deg_per_h_per_g: rows(&result.omega_n_uncertainty_deg_per_h_per_g),
+            omega_g_deg_per_h_per_g: u(Parameter::OmegaG),
+            omega_k_deg_per_h_per_g: u(Parameter::OmegaK),
+            anisoelasticity_deg_per_h_per_g2: result.standard_uncertainty(Parameter::Anisoelasticity),
+        }
+    }
+}
+
+impl MethodResult {
+    /// Values and uncertainties for a verdict.
+    pub fn found(&self, gravity_m_per_s2: f64) -> Found {
+        let standard_uncertainty = Parameter::EIGHT.map(|p| self.standard_uncertainty(p).unwrap_or(0.0));
+        Found { parameters: self.parameters, standard_uncertainty, gravity_m_per_s2 }
+    }
+}

@@ -1,0 +1,111 @@
+//! The uncertainty of the inputs, as certificate, site and laboratory state it.
+
+use super::inputs::{InputUncertainty, MeterUncertainty, Setup};
+use crate::coefficients::SingularPositions;
+use crate::laboratory::{Base, Laboratory};
+use crate::site::{Site, SiteUncertainty, UNKNOWN_DEFLECTION_U_ARCSEC};
+use crate::stand::{Certificate, CertifiedPosition};
+use crate::units::radians_from_arcseconds;
+
+/// What the files state, and what they do not.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stated {
+    /// Standard uncertainties; what is not stated is taken as exact.
+    pub uncertainty: InputUncertainty,
+    /// What is not stated, in words: the uncertainty of a result is without it.
+    pub missing: Vec<&'static str>,
+}
+
+impl Stated {
+    /// From the certificate and its positions, the site, and the laboratory.
+    pub fn new(
+        certificate: &Certificate,
+        positions: &[CertifiedPosition],
+        site: &Site,
+        laboratory: &Laboratory,
+    ) -> Self {
+        let mut missing = Vec::new();
+        let mut angle = |arcsec: Option<f64>, what: &'static str| {
+            if arcsec.is_none() && !missing.contains(&what) {
+                missing.push(what);
+            }
+            radians_from_arcseconds(arcsec.unwrap_or(0.0))
+        };
+        let own = "the certified angles (u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec)";
+        let angles_rad = positions
+            .iter()
+            .map(|at| [at.u_alpha_arcsec, at.u_beta_arcsec, at.u_gamma_arcsec].map(|u| angle(u, own)))
+            .collect();
+        let base = Known::new(site, laboratory);
+        let seat = laboratory.seating_arcsec.as_ref();
+        let seat = [seat.map(|seat| seat.about_x), seat.map(|seat| seat.about_y), seat.map(|seat| seat.about_z)];
+        let uncertainty = InputUncertainty {
+            angles_rad,
+            repeatability_rad: angle(
+                certificate.repeatability_arcsec,
+                "the return to a position (repeatability_arcsec)",
+            ),
+            common_platform_rad: angle(certificate.common_platform_arcsec, "the platform (common_platform_arcsec)"),
+            common_base_rad: angle(certificate.common_base_arcsec, "the stand's base (common_base_arcsec)"),
+            latitude_rad: angle(base.latitude_arcsec, "the latitude"),
+            azimuth_rad: angle(base.azimuth_arcsec, "the base's azimuth"),
+            level_rad: angle(base.level_arcsec, "the base's level"),
+            seating_rad: seat.map(|u| angle(u, "the gyro's seat (seating_arcsec)")),
+            meter: MeterUncertainty::from(&laboratory.meter),
+        };
+        Self { uncertainty, missing }
+    }
+}
+
+impl Setup {
+    /// The stand of a certificate at a site, with what certificate, site and laboratory state; and what they do not.
+    ///
+    /// # Errors
+    /// [`SingularPositions`] when the paper's eight positions are there and n_2 has no inverse.
+    pub fn stated(
+        certificate: &Certificate,
+        positions: &[CertifiedPosition],
+        site: &Site,
+        laboratory: &Laboratory,
+    ) -> Result<(Self, Vec<&'static str>), SingularPositions> {
+        let Stated { uncertainty, missing } = Stated::new(certificate, positions, site, laboratory);
+        let positions: Vec<_> = positions.iter().map(CertifiedPosition::to_model).collect();
+        Ok((Self::new(&positions, site.earth().rate(), uncertainty)?, missing))
+    }
+}
+
+/// The base at its place, all parts of each uncertainty together.
+struct Known {
+    latitude_arcsec: Option<f64>,
+    azimuth_arcsec: Option<f64>,
+    level_arcsec: Option<f64>,
+}
+
+impl Known {
+    fn new(site: &Site, laboratory: &Laboratory) -> Self {
+        let none = SiteUncertainty { latitude_arcsec: None, azimuth_arcsec: None, level_arcsec: None };
+        let of_site = site.uncertainty.as_ref().unwrap_or(&none);
+        let none = Base { azimuth_arcsec: None, level_arcsec: None };
+        let measured = laboratory.base.as_ref().unwrap_or(&none);
+        // A geodetic latitude becomes the astronomic one through ξ.
+        let deflection = match (site.latitude_deg, &site.deflection_arcsec) {
+            (Some(_), Some(deflection)) => deflection.u,
+            (Some(_), None) => Some(UNKNOWN_DEFLECTION_U_ARCSEC),
+            (None, _) => None,
+        };
+        Self {
+            latitude_arcsec: together(of_site.latitude_arcsec, deflection),
+            // From the mark to the base as stated or measured; from the pillar to the mark as computed.
+            azimuth_arcsec: together(measured.azimuth_arcsec.or(of_site.azimuth_arcsec), site.earth().azimuth_u_arcsec),
+            level_arcsec: measured.level_arcsec.or(of_site.level_arcsec),
+        }
+    }
+}
+
+/// Two independent parts, either of which may be unknown.
+fn together(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(libm::hypot(one, other)),
+        (one, other) => one.or(other),
+    }
+}

@@ -1,0 +1,218 @@
+//! A result against the specification of the gyro's type, and against an earlier result.
+//!
+//! Decisions by simple acceptance and by guarded acceptance with a guard band of one expanded uncertainty
+//! ([JCGM 106](crate::bibliography::Bibliography::Jcgm106), 8.2 and 8.3; ILAC-G8), with the specific risk (7.3).
+
+use super::parameter::Parameter;
+use crate::gyro::{GyroParameters, GyroType};
+use crate::statistics::distributions::normal_below;
+use serde::Serialize;
+
+/// Expanded uncertainty is this many standard uncertainties.
+pub const COVERAGE_FACTOR: f64 = 2.0;
+
+/// A decision.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Decision {
+    /// Within tolerance.
+    Pass,
+    /// Not within tolerance.
+    Fail,
+    /// Cannot be decided with this uncertainty.
+    Undecided,
+}
+
+/// A result against a specification.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Verdict {
+    /// Fail when a parameter fails by guarded acceptance, pass when all pass so, else undecided.
+    pub overall: Decision,
+    /// Parameter by parameter.
+    pub parameters: Vec<ParameterVerdict>,
+    /// Said when the scale factors are a thousand times off: currents in microamperes where milliamperes belong.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub remark: Option<&'static str>,
+}
+
+/// One parameter against its tolerance.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ParameterVerdict {
+    /// Which one.
+    pub parameter: &'static str,
+    /// Unit of the three numbers that follow: percent of the nominal value for scale factors.
+    pub unit: &'static str,
+    /// Found less nominal, or found less earlier.
+    pub deviation: f64,
+    /// Largest deviation allowed, either way.
+    pub tolerance: f64,
+    /// Two standard uncertainties of the deviation.
+    pub expanded_uncertainty: f64,
+    /// By simple acceptance: whether the deviation is within the tolerance.
+    pub simple: Decision,
+    /// By guarded acceptance: whether it is within, or outside, by more than the expanded uncertainty.
+    pub guarded: Decision,
+    /// Probability that the simple decision is wrong.
+    pub specific_risk: f64,
+}
+
+/// Values and standard uncertainties of the eight parameters at one place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Found {
+    /// The parameters, drifts per local g.
+    pub parameters: GyroParameters,
+    /// Standard uncertainties in the order of [`Parameter::EIGHT`].
+    pub standard_uncertainty: [f64; 8],
+    /// The local g.
+    pub gravity_m_per_s2: f64,
+}
+
+impl Found {
+    /// With g-sensitive drifts per `gravity_m_per_s2` instead of the local g: the drift per m/s² is the gyro's own.
+    #[must_use]
+    pub fn at_gravity(&self, gravity_m_per_s2: f64) -> Self {
+        let ratio = gravity_m_per_s2 / self.gravity_m_per_s2;
+        let mut values = self.parameters.to_vector();
+        let mut standard_uncertainty = self.standard_uncertainty;
+        for parameter in [Parameter::OmegaG, Parameter::OmegaK] {
+            values[parameter.place()] *= ratio;
+            standard_uncertainty[parameter.place()] *= ratio;
+        }
+        Self { parameters: GyroParameters::from_vector(&values), standard_uncertainty, gravity_m_per_s2 }
+    }
+}
+
+/// The order of verdicts: the paper's.
+const ORDER: [Parameter; 8] = [
+    Parameter::Kx,
+    Parameter::Ky,
+    Parameter::Kxy,
+    Parameter::Kyx,
+    Parameter::Omega0x,
+    Parameter::Omega0y,
+    Parameter::OmegaG,
+    Parameter::OmegaK,
+];
+
+/// A result against the specification of a type.
+pub fn against_type(found: &Found, gyro_type: &GyroType) -> Verdict {
+    let found = found.at_gravity(gyro_type.gravity());
+    let nominal = gyro_type.nominal.to_model();
+    let parameters = ORDER.map(|parameter| {
+        let place = parameter.place();
+        let deviation = found.parameters.to_vector()[place] - nominal.to_vector()[place];
+        judge(parameter, deviation, found.standard_uncertainty[place], gyro_type)
+    });
+    let mut verdict = Verdict::of(parameters.into());
+    verdict.remark = thousandfold(&found.parameters, &nominal);
+    verdict
+}
+
+/// The change since an earlier result, against the tolerance of the type: the paper's tolerance is an instability.
+///
+/// The two results count as independent. Where they share a stand, its part in both uncertainties is the same and does
+/// not change: what is said here is then on the cautious side.
+pub fn against_earlier(found: &Found, earlier: &Found, gyro_type: &GyroType) -> Verdict {
+    let gravity = gyro_type.gravity();
+    let (found, earlier) = (found.at_gravity(gravity), earlier.at_gravity(gravity));
+    let parameters = ORDER.map(|parameter| {
+        let place = parameter.place();
+        let change = found.parameters.to_vector()[place] - earlier.parameters.to_vector()[place];
+        let u = libm::hypot(found.standard_uncertainty[place], earlier.standard_uncertainty[place]);
+        judge(parameter, change, u, gyro_type)
+    });
+    let mut verdict = Verdict::of(parameters.into());
+    verdict.remark = thousandfold(&found.parameters, &earlier.parameters);
+    verdict
+}
+
+/// The change of each parameter since an earlier result, in units of the change's standard uncertainty, in the order of
+/// [`Parameter::EIGHT`]; drifts brought to the same g.
+pub fn change_in_uncertainties(found: &Found, earlier: &Found) -> [f64; 8] {
+    let earlier = earlier.at_gravity(found.gravity_m_per_s2);
+    let (now, before) = (found.parameters.to_vector(), earlier.parameters.to_vector());
+    std::array::from_fn(|place| {
+        (now[place] - before[place])
+            / libm::hypot(found.standard_uncertainty[place], earlier.standard_uncertainty[place])
+    })
+}
+
+impl Verdict {
+    fn of(parameters: Vec<ParameterVerdict>) -> Self {
+        let all = |decision| parameters.iter().all(|parameter| parameter.guarded == decision);
+        let overall = if parameters.iter().any(|parameter| parameter.guarded == Decision::Fail) {
+            Decision::Fail
+        } else if all(Decision::Pass) {
+            Decision::Pass
+        } else {
+            Decision::Undecided
+        };
+        Self { overall, parameters, remark: None }
+    }
+}
+
+/// Judges a deviation with the standard uncertainty `u`, both in the parameter's own unit.
+fn judge(parameter: Parameter, deviation: f64, u: f64, gyro_type: &GyroType) -> ParameterVerdict {
+    let tolerance = &gyro_type.tolerance;
+    let limit = match parameter {
+        Parameter::Kx | Parameter::Ky => tolerance.k_main_percent,
+        Parameter::Kxy | Parameter::Kyx => tolerance.k_cross_percent,
+        Parameter::Omega0x | Parameter::Omega0y => tolerance.omega0_deg_per_h,
+        Parameter::OmegaG => tolerance.omega_g_deg_per_h_per_g,
+        Parameter::OmegaK | Parameter::Anisoelasticity => tolerance.omega_k_deg_per_h_per_g,
+    };
+    let nominal = gyro_type.nominal.to_model().to_vector().get(parameter.place()).copied().unwrap_or(0.0);
+    let is_scale_factor = parameter.place() < 4;
+    // A percentage of a nominal value of 0 is 0.
+    let (unit, limit, scale) = match (is_scale_factor, nominal == 0.0) {
+        (true, false) => ("%", limit, 100.0 / nominal.abs()),
+        (true, true) => (parameter.unit(), 0.0, 1.0),
+        (false, _) => (parameter.unit(), limit, 1.0),
+    };
+    decide(parameter, unit, deviation * scale, u * scale, limit)
+}
+
+fn decide(parameter: Parameter, unit: &'static str, deviation: f64, u: f64, limit: f64) -> ParameterVerdict {
+    let expanded_uncertainty = COVERAGE_FACTOR * u;
+    let within = deviation.abs() <= limit;
+    let guarded = if deviation.abs() + expanded_uncertainty <= limit {
+        Decision::Pass
+    } else if deviation.abs() - expanded_uncertainty > limit {
+        Decision::Fail
+    } else {
+        Decision::Undecided
+    };
+    // Each tail by itself, so that a small risk keeps its digits.
+    let outside = normal_below((-limit - deviation) / u) + normal_below((deviation - limit) / u);
+    let inside = if deviation > 0.0 {
+        normal_below((limit - deviation) / u) - normal_below((-limit - deviation) / u)
+    } else {
+        normal_below((limit + deviation) / u) - normal_below((deviation - limit) / u)
+    };
+    let specific_risk = match (u > 0.0, within) {
+        (false, _) => 0.0,
+        (true, true) => outside,
+        (true, false) => inside,
+    };
+    ParameterVerdict {
+        parameter: parameter.key(),
+        unit,
+        deviation,
+        tolerance: limit,
+        expanded_uncertainty,
+        simple: if within { Decision::Pass } else { Decision::Fail },
+        guarded,
+        specific_risk,
+    }
+}
+
+/// Said when scale factors are about a thousand times too small or too large.
+fn thousandfold(found: &GyroParameters, expected: &GyroParameters) -> Option<&'static str> {
+    let ratio = found.k_deg_per_h_per_ma.norm() / expected.k_deg_per_h_per_ma.norm();
+    if (3e-4..3e-3).contains(&ratio) {
+        return Some("the scale factors are a thousand times too small: are the currents in microamperes?");
+    }
+    (3e2..3e3)
+        .contains(&ratio)
+        .then_some("the scale factors are a thousand times too large: are the currents in amperes?")
+}

@@ -1,0 +1,209 @@
+//! What residuals tell and what they do not; whether uncertainties are honest.
+
+mod support;
+
+use dtg_passport::attitude::Deviation;
+use dtg_passport::calibration::diagnosis::Explanation;
+use dtg_passport::calibration::parameter::Parameter;
+use dtg_passport::calibration::{Calibration, InputUncertainty, Options, Setup, calibrate};
+use dtg_passport::coefficients::{EarthRate, Position};
+use dtg_passport::statistics::random::{Run, Stream};
+use nalgebra::Vector2;
+use support::*;
+
+/// Trials of each kind; docs/reproduction.md has 10,000 of each (`cargo run --release --example reproduction`).
+const TRIALS: u64 = 1_000;
+
+fn least_squares_only() -> Options {
+    Options { methods: vec![dtg_passport::calibration::Method::LeastSquares], ..Options::default() }
+}
+
+fn solve(setup: &Setup, currents_ma: &[Vector2<f64>]) -> Calibration {
+    calibrate(setup, &readings(setup, currents_ma), &least_squares_only()).expect("eight good positions")
+}
+
+fn counted(trials: u64, seed: u64, trial: impl Fn(&mut Stream) -> Outcome + Sync) -> [u64; 4] {
+    let blocks = Run::new(trials, seed).blocks(|stream, trials| {
+        let mut counts = [0; 4];
+        (0..trials).for_each(|_| counts[trial(stream) as usize] += 1);
+        counts
+    });
+    blocks.iter().fold([0; 4], |sum, block| std::array::from_fn(|place| sum[place] + block[place]))
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Outcome {
+    Right,
+    Among,
+    Nothing,
+    Wrong,
+}
+
+fn outcome(calibration: &Calibration, right: impl Fn(&Explanation) -> bool) -> Outcome {
+    match calibration.hint.as_ref().map(|hint| hint.explanations.as_slice()) {
+        None => Outcome::Nothing,
+        Some([one]) if right(one) => Outcome::Right,
+        Some(several) if several.iter().any(right) => Outcome::Among,
+        Some(_) => Outcome::Wrong,
+    }
+}
+
+fn noisy(stream: &mut Stream, currents_ma: &[Vector2<f64>]) -> Vec<Vector2<f64>> {
+    currents_ma.iter().map(|current| current.map(|j| j * (1.0 + stream.within(1.5e-4)))).collect()
+}
+
+/// Two exchanged positions, among stands of 10′.
+#[test]
+fn exchanged_positions_are_named() {
+    let [right, among, nothing, wrong] = counted(TRIALS, 1, |stream| {
+        let setup = setup(&drawn_stand(stream, 10.0 / 60.0), LATITUDE_DEG);
+        let mut currents = noisy(stream, &currents(&setup, &gvk_6()));
+        let one = stream.below(8);
+        let other = (one + 1 + stream.below(7)) % 8;
+        currents.swap(one, other);
+        let index = |place: usize| setup.coefficients().positions[place].index;
+        let (first, second) = (index(one.min(other)), index(one.max(other)));
+        outcome(&solve(&setup, &currents), |found| *found == Explanation::Exchanged(first, second))
+    });
+    println!("exchanged: right {right}, among several {among}, nothing {nothing}, wrong {wrong}");
+    assert!(right * 100 >= TRIALS * 90 && wrong * 100 <= TRIALS, "{right} {among} {nothing} {wrong}");
+}
+
+/// One position turned by 10′ about a random axis.
+#[test]
+fn a_position_that_did_not_repeat_is_named() {
+    let angle = dtg_passport::units::radians_from_arcseconds(600.0);
+    let [right, among, nothing, wrong] = counted(TRIALS, 2, |stream| {
+        let stand = drawn_stand(stream, 10.0 / 60.0);
+        let setup = setup(&stand, LATITUDE_DEG);
+        let place = stream.below(8);
+        let axis = [stream.normal(), stream.normal(), stream.normal()];
+        let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let turn = axis.map(|x| angle * x / length);
+        let mut moved: Vec<Position> = stand.clone();
+        let Deviation { alpha_rad, beta_rad, gamma_rad } = moved[place].deviation;
+        moved[place].deviation =
+            Deviation { alpha_rad: alpha_rad + turn[0], beta_rad: beta_rad + turn[1], gamma_rad: gamma_rad + turn[2] };
+        let exact = currents(&support::setup(&moved, LATITUDE_DEG), &gvk_6());
+        let currents = noisy(stream, &exact);
+        let index = setup.coefficients().positions[place].index;
+        outcome(&solve(&setup, &currents), |found| {
+            matches!(found, Explanation::DidNotRepeat { index: found, angle_arcsec, .. }
+                if *found == index && *angle_arcsec < 700.0)
+        })
+    });
+    println!("did not repeat: right {right}, among several {among}, nothing {nothing}, wrong {wrong}");
+    assert!((right + among) * 100 >= TRIALS * 85 && wrong * 100 <= TRIALS * 2, "{right} {among} {nothing} {wrong}");
+}
+
+/// The currents of one stand with the passport of another.
+#[test]
+fn the_passport_of_another_stand_is_noticed() {
+    let [right, among, nothing, wrong] = counted(TRIALS, 3, |stream| {
+        let setup = setup(&drawn_stand(stream, 10.0 / 60.0), LATITUDE_DEG);
+        let other = support::setup(&drawn_stand(stream, 10.0 / 60.0), LATITUDE_DEG);
+        let currents = noisy(stream, &currents(&other, &gvk_6()));
+        match solve(&setup, &currents).hint {
+            None => Outcome::Nothing,
+            Some(hint) if hint.explanations.is_empty() => Outcome::Right,
+            Some(_) => Outcome::Wrong,
+        }
+    });
+    println!("another stand: right {right}, among several {among}, nothing {nothing}, wrong {wrong}");
+    assert!(right * 100 >= TRIALS * 95, "{right} {among} {nothing} {wrong}");
+}
+
+/// Good calibrations with normal errors: few false alarms, chi-square as it should be, intervals that cover.
+#[test]
+fn good_calibrations_are_left_alone_and_intervals_cover() {
+    let trials = 10_000;
+    let blocks = Run::new(trials, 4).blocks(|stream, trials| {
+        let (mut alarms, mut below, mut covered) = (0_u64, 0_u64, [0_u64; 8]);
+        for _ in 0..trials {
+            let mut uncertainty = InputUncertainty::of_meter(paper_meter());
+            uncertainty.meter.gain = 1e-4;
+            uncertainty.meter.offset_ma = 5e-5;
+            let setup = with_uncertainty(&drawn_stand(stream, 5.0), LATITUDE_DEG, uncertainty);
+            let exact = currents(&setup, &gvk_6());
+            let meter = paper_meter();
+            let (gain, offset) = (1.0 + 1e-4 * stream.normal(), 5e-5 * stream.normal());
+            let currents: Vec<_> = exact
+                .iter()
+                .map(|current| current.map(|j| j * gain + offset + meter.own_variance_ma2(j).sqrt() * stream.normal()))
+                .collect();
+            let found = solve(&setup, &currents);
+            alarms += u64::from(found.hint.is_some());
+            let result = &found.results[0];
+            below += u64::from(result.chi_square.probability < 0.05);
+            for (place, parameter) in Parameter::EIGHT.iter().enumerate() {
+                let error = result.value(*parameter).unwrap() - gvk_6().to_vector()[place];
+                let u = result.standard_uncertainty(*parameter).unwrap();
+                covered[place] += u64::from(error.abs() <= 1.959_964 * u);
+            }
+        }
+        (alarms, below, covered)
+    });
+    let percent = |count: u64| 100.0 * count as f64 / trials as f64;
+    let alarms = percent(blocks.iter().map(|block| block.0).sum());
+    let below = percent(blocks.iter().map(|block| block.1).sum());
+    let covered: [f64; 8] = std::array::from_fn(|place| percent(blocks.iter().map(|block| block.2[place]).sum()));
+    println!(
+        "false alarms {alarms:.2} %, chi-square improbable at 5 % {below:.2} %, 95 % intervals cover {covered:.2?} %"
+    );
+    assert!(alarms <= 1.0, "{alarms}");
+    assert!((below - 5.0).abs() <= 0.7, "{below}");
+    assert!(covered.iter().all(|share| (share - 95.0).abs() <= 0.7), "{covered:?}");
+}
+
+/// Expected: docs/model.md, "What the fit can see": these leave chi-square where it was.
+#[test]
+fn what_residuals_cannot_tell() {
+    let stand = drawn_stand(&mut Stream::new(6), 3.0);
+    let honest = setup(&stand, LATITUDE_DEG);
+    let good = currents(&honest, &gvk_6());
+    let wrong_place = setup(&stand, 50.0);
+    let mut turned = stand.clone();
+    turned.iter_mut().for_each(|position| position.deviation.gamma_rad += 1e-3);
+    let turned = currents(&setup(&turned, LATITUDE_DEG), &gvk_6());
+    let offset: Vec<_> = good.iter().map(|j| j.add_scalar(1e-3)).collect();
+    let gain: Vec<_> = good.iter().map(|j| j * 1.01).collect();
+    let crossed: Vec<_> = good.iter().map(|j| Vector2::new(j.y, j.x)).collect();
+    let sign: Vec<_> = good.iter().map(|j| Vector2::new(-j.x, j.y)).collect();
+    let cases = [
+        ("another latitude", &wrong_place, &good),
+        ("seat", &honest, &turned),
+        ("offset", &honest, &offset),
+        ("gain", &honest, &gain),
+        ("x and y", &honest, &crossed),
+        ("sign", &honest, &sign),
+    ];
+    for (what, setup, currents) in cases {
+        let found = solve(setup, currents);
+        assert!(found.results[0].chi_square.value < 1e-6, "{what}: {:?}", found.results[0].chi_square);
+        assert_eq!(found.hint, None);
+    }
+    // Exactly as model.md says: K′ = sK, ω_0′ = sω_0, ω_n′ = sω_n + (ω_B′ − sω_B)·1, s = ω_Γ′/ω_Γ.
+    let [here, there] = [LATITUDE_DEG, 50.0].map(EarthRate::at_astronomic_latitude);
+    let s = there.horizontal_deg_per_h / here.horizontal_deg_per_h;
+    let found = solve(&wrong_place, &good).results[0].parameters;
+    assert!((found.k_deg_per_h_per_ma - gvk_6().k_deg_per_h_per_ma * s).amax() < 1e-9);
+    let omega_g = s * 10.0 + there.vertical_deg_per_h - s * here.vertical_deg_per_h;
+    assert!((found.omega_g_deg_per_h_per_g - omega_g).abs() < 1e-9);
+}
+
+/// Common errors are in the covariance of the residuals: with a huge one stated and present, the fit is still good.
+#[test]
+fn chi_square_takes_every_stated_input() {
+    let stand = drawn_stand(&mut Stream::new(8), 5.0);
+    let mut turned = stand.clone();
+    // The base turned about its own axes is a turn of every Ã from the right: a platform turn of each position.
+    turned.iter_mut().for_each(|position| position.deviation.alpha_rad += 2e-3);
+    let currents = currents(&setup(&turned, LATITUDE_DEG), &gvk_6());
+    let silent = solve(&setup(&stand, LATITUDE_DEG), &currents);
+    assert!(silent.results[0].chi_square.probability < 1e-3, "{:?}", silent.results[0].chi_square);
+    let mut uncertainty = InputUncertainty::of_meter(paper_meter());
+    uncertainty.seating_rad = [2e-3; 3];
+    let stated = solve(&with_uncertainty(&stand, LATITUDE_DEG, uncertainty), &currents);
+    assert!(stated.results[0].chi_square.probability > 0.05, "{:?}", stated.results[0].chi_square);
+    assert_eq!(stated.hint, None);
+}

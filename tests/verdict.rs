@@ -1,0 +1,136 @@
+//! Verdicts against hand-made figures, the JSON of results, and the inputs that the files state.
+
+mod support;
+
+use dtg_passport::calibration::document::CalibrationDocument;
+use dtg_passport::calibration::stated::Stated;
+use dtg_passport::calibration::verdict::{Decision, Found, against_earlier, against_type, change_in_uncertainties};
+use dtg_passport::calibration::{Options, Setup, calibrate};
+use dtg_passport::gyro::{GyroParameters, GyroType};
+use dtg_passport::laboratory::Laboratory;
+use dtg_passport::site::Site;
+use dtg_passport::stand::Stand;
+use dtg_passport::units::radians_from_arcseconds;
+use support::*;
+
+const G: f64 = 9.80665;
+
+fn found(change: impl Fn(&mut [f64; 8]), u: [f64; 8]) -> Found {
+    let mut values = gvk_6().to_vector();
+    change(&mut values);
+    Found { parameters: GyroParameters::from_vector(&values), standard_uncertainty: u, gravity_m_per_s2: G }
+}
+
+const SMALL: [f64; 8] = [0.005, 0.01, 0.01, 0.005, 0.002, 0.002, 0.002, 0.002];
+
+/// Expected by hand, tolerances 0.05 % of 95 = 0.0475, 0.5 % of 9.5 = 0.0475, 0.01.
+#[test]
+fn decisions() {
+    let verdict = against_type(&found(|_| {}, SMALL), &GyroType::gvk_6());
+    assert_eq!(verdict.overall, Decision::Pass);
+    assert_eq!(verdict.parameters.len(), 8);
+    assert!(verdict.parameters.iter().all(|p| p.simple == Decision::Pass && p.guarded == Decision::Pass));
+    // ω_0x out by 0.008 with U = 0.004: within by simple acceptance, not decided by guarded; one deviation of the
+    // tolerance's edge away, so the risk is Φ(-1) = 0.1587 and a negligible other tail.
+    let verdict = against_type(&found(|v| v[4] += 0.008, SMALL), &GyroType::gvk_6());
+    let omega0 = &verdict.parameters[4];
+    assert_eq!((omega0.parameter, omega0.unit), ("omega_0x", "deg/h"));
+    assert_eq!((omega0.simple, omega0.guarded), (Decision::Pass, Decision::Undecided));
+    assert_eq!(verdict.overall, Decision::Undecided);
+    assert!((omega0.specific_risk - 0.158_655_253_931_457).abs() < 1e-9, "{omega0:?}");
+    assert!((omega0.expanded_uncertainty - 0.004).abs() < 1e-15);
+    // Out by 0.012: simply out, not decided; the same risk from the other side. Out by 0.015: out.
+    let verdict = against_type(&found(|v| v[4] -= 0.012, SMALL), &GyroType::gvk_6());
+    let omega0 = &verdict.parameters[4];
+    assert_eq!((omega0.simple, omega0.guarded), (Decision::Fail, Decision::Undecided));
+    assert!((omega0.specific_risk - 0.158_655_253_931_457).abs() < 1e-9, "{omega0:?}");
+    let verdict = against_type(&found(|v| v[4] += 0.015, SMALL), &GyroType::gvk_6());
+    assert_eq!((verdict.parameters[4].guarded, verdict.overall), (Decision::Fail, Decision::Fail));
+    assert!((verdict.parameters[4].specific_risk - 0.006_209_665_325_776).abs() < 1e-9, "{verdict:?}");
+    // K_x in percent: 0.095 of 95 is 0.1 %.
+    let verdict = against_type(&found(|v| v[0] += 0.095, SMALL), &GyroType::gvk_6());
+    let k_x = &verdict.parameters[0];
+    assert_eq!((k_x.parameter, k_x.unit, k_x.tolerance), ("k_x", "%", 0.05));
+    assert!((k_x.deviation - 0.1).abs() < 1e-12 && k_x.guarded == Decision::Fail);
+    // An exact result leaves no doubt.
+    let exact = against_type(&found(|v| v[4] += 0.011, [0.0; 8]), &GyroType::gvk_6());
+    assert_eq!((exact.parameters[4].guarded, exact.parameters[4].specific_risk), (Decision::Fail, 0.0));
+}
+
+/// Expected: docs/model.md: 10 °/h/g moves by 0.5 % from equator to pole.
+#[test]
+fn drifts_are_brought_to_the_types_gravity() {
+    let mut at_pole = found(|v| v[6] *= 9.8321849379 / G, SMALL);
+    at_pole.gravity_m_per_s2 = 9.8321849379;
+    let verdict = against_type(&at_pole, &GyroType::gvk_6());
+    assert!(verdict.parameters[6].deviation.abs() < 1e-12);
+    assert!((verdict.parameters[7].deviation - 10.0 * (G / 9.8321849379 - 1.0)).abs() < 1e-12);
+    assert_eq!(verdict.parameters[7].guarded, Decision::Fail);
+}
+
+#[test]
+fn microamperes_and_earlier_results() {
+    let thousand = found(|v| v[..4].iter_mut().for_each(|k| *k /= 1000.0), SMALL);
+    assert!(against_type(&thousand, &GyroType::gvk_6()).remark.unwrap().contains("microamperes"));
+    let earlier = found(|_| {}, SMALL);
+    let now = found(|v| v[5] += 0.02, SMALL);
+    let verdict = against_earlier(&now, &earlier, &GyroType::gvk_6());
+    assert_eq!((verdict.parameters[5].guarded, verdict.overall), (Decision::Fail, Decision::Fail));
+    assert!((verdict.parameters[5].expanded_uncertainty - 2.0 * 0.002 * 2.0_f64.sqrt()).abs() < 1e-12);
+    assert!((change_in_uncertainties(&now, &earlier)[5] - 0.02 / (0.002 * 2.0_f64.sqrt())).abs() < 1e-9);
+}
+
+#[test]
+fn json_is_read_back() {
+    let setup = setup(&eight([[1e-3; 3]; 8]), LATITUDE_DEG);
+    let currents = currents(&setup, &gvk_6());
+    let found = calibrate(&setup, &readings(&setup, &currents), &Options::default()).unwrap();
+    let mut document = CalibrationDocument::new("SPS-2/0017/moscow/1", true, 9.8156, &found);
+    let answer = found.results.last().unwrap().found(9.8156);
+    document.verdict = Some(against_type(&answer, &GyroType::gvk_6()));
+    let json = serde_json::to_string_pretty(&document).unwrap();
+    for key in ["\"spectral_radius\"", "\"iterations\": 2", "\"least-squares\"", "\"guarded\": \"", "\"probability\""] {
+        assert!(json.contains(key), "{key} in {json}");
+    }
+    assert!(!json.contains("anisoelasticity"), "absent when not fitted");
+    let back = CalibrationDocument::from_json("result.json", json.as_bytes()).unwrap();
+    assert_eq!(back.answer().unwrap(), answer);
+    assert_eq!(back.results, document.results);
+    let error = CalibrationDocument::from_json("result.json", b"{\n \"passport\": 1}").unwrap_err().to_string();
+    assert!(error.contains("result.json:2:") && error.contains("unknown field `passport`"), "{error}");
+}
+
+const STAND: &str = r#"format: "dtg-stand/1"
+stand: {model: "SPS-2", serial: "0017"}
+certificate: {number: "1", issued: "2026-11-02", laboratory: "x", repeatability_arcsec: 1.5, common_platform_arcsec: 0.8}
+positions:
+  - {i: 1, j: 1, theta_deg: 0, phi_deg: 0, alpha_arcsec: 12.4, beta_arcsec: -31.0, gamma_arcsec: 7.7, u_alpha_arcsec: 1.2, u_beta_arcsec: 1.3, u_gamma_arcsec: 2.0}
+"#;
+
+const SITE: &str = r#"format: "dtg-site/1"
+id: "moscow"
+latitude_deg: 55.7658
+uncertainty: {latitude_arcsec: 1.0, azimuth_arcsec: 30.0, level_arcsec: 5.0}
+"#;
+
+/// What the files state is used, what they do not is named, what the laboratory measured replaces the site's.
+#[test]
+fn inputs_as_stated() {
+    let stand = Stand::from_yaml("stand.yaml", STAND.as_bytes()).unwrap();
+    let site = Site::from_yaml("moscow.yaml", SITE.as_bytes()).unwrap();
+    let mut laboratory = Laboratory::paper();
+    let stated = Stated::new(&stand.certificate, &stand.positions, &site, &laboratory);
+    let arcsec = radians_from_arcseconds;
+    assert_eq!(stated.uncertainty.angles_rad, [[1.2, 1.3, 2.0].map(arcsec)]);
+    assert_eq!(stated.uncertainty.repeatability_rad, arcsec(1.5));
+    // Deflection unknown: 10″ beside the 1″ that the site states.
+    assert!((stated.uncertainty.latitude_rad / arcsec(101.0_f64.sqrt()) - 1.0).abs() < 1e-12);
+    assert_eq!(stated.uncertainty.azimuth_rad, arcsec(30.0));
+    assert_eq!(stated.missing, ["the stand's base (common_base_arcsec)", "the gyro's seat (seating_arcsec)"]);
+    laboratory.base = Some(dtg_passport::laboratory::Base { azimuth_arcsec: Some(10.0), level_arcsec: None });
+    let stated = Stated::new(&stand.certificate, &stand.positions, &site, &laboratory);
+    assert_eq!(stated.uncertainty.azimuth_rad, arcsec(10.0));
+    assert_eq!(stated.uncertainty.level_rad, arcsec(5.0));
+    let (setup, missing) = Setup::stated(&stand.certificate, &stand.positions, &site, &laboratory).unwrap();
+    assert_eq!((setup.coefficients().positions.len(), missing.len()), (1, 2));
+}
