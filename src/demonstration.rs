@@ -1,16 +1,23 @@
-//! The whole story on a built-in example: a key, a stand, two sites, passports, verification, a re-issue, an altered
-//! byte, a wrong place. Nothing but this program is needed.
+//! The whole story on a built-in example: a key, a stand, two sites, passports, verification, a wrong place, a re-issue,
+//! a calibration, an altered byte. Nothing but this program is needed.
 
+use crate::calibration::least_squares::NoLeastSquares;
+use crate::calibration::parameter::Parameter;
+use crate::calibration::{self, Options, Readings, Setup};
+use crate::coefficients::{PositionIndex, SingularPositions};
 use crate::earth::Place;
 use crate::files::{self, Access, FileError};
 use crate::folder::{Folder, FolderRefused, Issued, Seal};
 use crate::gyro::GyroType;
+use crate::laboratory::Laboratory;
 use crate::passport::issue::Issue;
 use crate::passport::reissue::{Order, ReissueRefused, successor};
 use crate::passport::verification::{CheckName, Question, Trust, Verification, verify};
 use crate::signing::{BadIdentity, allowed_signers_line};
+use crate::simulation::draw::CurrentError;
 use crate::site::Site;
 use crate::stand::Stand;
+use crate::statistics::random::Stream;
 use crate::text::scalar::day;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable};
 use crate::trust::{AllowedSigners, KeyError, SigningKey};
@@ -47,6 +54,15 @@ pub enum Stopped {
     /// The identity is a pattern.
     #[error(transparent)]
     Identity(#[from] BadIdentity),
+    /// A passport that was just issued is not accepted.
+    #[error("a passport that was just issued is not accepted")]
+    Refused,
+    /// The stand's positions determine no gyro.
+    #[error(transparent)]
+    Singular(#[from] SingularPositions),
+    /// Nor do its currents.
+    #[error(transparent)]
+    Calibration(#[from] NoLeastSquares),
     /// Nobody reads.
     #[error("the output was closed")]
     Closed,
@@ -73,6 +89,20 @@ pub fn run(folder: &Path, now: Timestamp, tell: &mut dyn FnMut(&str) -> bool) ->
     Ok(stage.as_expected)
 }
 
+/// A CSV file of the currents of the paper's gyro, each reading off by the paper's meter; always the same.
+fn simulated_currents(setup: &Setup) -> String {
+    const SEED: u64 = 1;
+    let gyro = GyroType::gvk_6().nominal.to_model();
+    let positions = &setup.coefficients().positions;
+    let mut currents: Vec<_> = positions.iter().filter_map(|position| gyro.currents_ma(position)).collect();
+    CurrentError::Independent.add(&mut Stream::new(SEED), 0.015, &mut currents);
+    let rows = positions.iter().zip(&currents).map(|(position, current)| {
+        let (PositionIndex { i, j }, x, y) = (position.index, current.x, current.y);
+        format!("{i},{j},{x:.7},{y:.7}\n")
+    });
+    std::iter::once("i,j,jx_ma,jy_ma\n".to_owned()).chain(rows).collect()
+}
+
 struct Stage<'a> {
     folder: &'a Path,
     now: Timestamp,
@@ -92,6 +122,7 @@ impl Stage<'_> {
         let here = self.issue(stand, &moscow, &key)?;
         self.laboratory(&here, &moscow, &beijing, &trust)?;
         let there = self.moved(&here, &beijing, &key, &trust)?;
+        self.calibrated(&there, &trust)?;
         self.altered(&there, &trust)?;
         self.line("")?;
         self.line(&format!("Look at the files in {}; verify them yourself:", self.folder.display()))?;
@@ -184,10 +215,46 @@ impl Stage<'_> {
         Ok(issued)
     }
 
+    /// Currents of a gyro of the paper's type with errors of the paper's meter, as a CSV file, and the gyro found.
+    fn calibrated(&mut self, there: &Issued, trust: &Trust) -> Result<(), Stopped> {
+        self.line("")?;
+        self.line("A GYRO")?;
+        self.line(
+            "7. in Beijing is put on the stand, and its currents are read in the eight positions (simulated here):",
+        )?;
+        let bytes = files::read(&there.path, LARGEST_DOCUMENT_BYTES)?;
+        let answer = verify(&there.id, &bytes, trust, &Question::at(self.now));
+        let Some(passport) = answer.passport() else { return Err(Stopped::Refused) };
+        let content = passport.content();
+        let laboratory = Laboratory::paper();
+        let (setup, _) = Setup::stated(&content.certificate, &content.positions, &content.site, &laboratory)?;
+        let path = self.path("currents.csv");
+        files::write_new(&path, simulated_currents(&setup).as_bytes(), Access::Shared)?;
+        self.line(&format!("   {}", path.display()))?;
+        let csv = files::read(&path, LARGEST_DOCUMENT_BYTES)?;
+        let readings = Readings::from_csv("currents.csv", &csv, setup.coefficients(), laboratory.meter.range_ma)?;
+        let calibration = calibration::calibrate(&setup, &readings, &Options::default())?;
+        let Some(found) = calibration.results.last() else { return Err(Stopped::Refused) };
+        self.line("8. From these and the passport follow its scale factors and drifts (true: 95, 9.5, 20, 10):")?;
+        for parameters in Parameter::EIGHT.chunks(4) {
+            let words: Vec<String> = parameters
+                .iter()
+                .filter_map(|p| {
+                    Some(format!("{} {:.4} ± {:.4}", p.symbol(), found.value(*p)?, found.standard_uncertainty(*p)?))
+                })
+                .collect();
+            self.line(&format!("   {}", words.join(", ")))?;
+        }
+        let probability = found.chi_square.probability;
+        self.line(&format!("   The sixteen readings fit: probability of a worse fit {probability:.2}."))?;
+        self.as_expected &= calibration.hint.is_none();
+        Ok(())
+    }
+
     fn altered(&mut self, there: &Issued, trust: &Trust) -> Result<(), Stopped> {
         self.line("")?;
         self.line("A FORGER")?;
-        self.line("7. changes one digit of it:")?;
+        self.line("9. changes one digit of it:")?;
         let text = String::from_utf8_lossy(&files::read(&there.path, LARGEST_DOCUMENT_BYTES)?).into_owned();
         let forged = text.replacen("alpha_arcsec: 4310.0", "alpha_arcsec: 4311.0", 1);
         files::write_new(&self.path("forged.yaml"), forged.as_bytes(), Access::Shared)?;

@@ -74,6 +74,14 @@ impl Setup {
     }
 }
 
+/// Words, when the laboratory's temperature is outside the range for which the deviations are certified.
+pub fn temperature_remark(certificate: &Certificate, laboratory: &Laboratory) -> Option<String> {
+    let here = laboratory.temperature_c?;
+    let [low, high] = certificate.temperature_range_c?;
+    (!(low..=high).contains(&here))
+        .then(|| format!("the laboratory is at {here} deg C; the deviations are certified for {low} to {high} deg C"))
+}
+
 /// The base at its place, all parts of each uncertainty together.
 struct Known {
     latitude_arcsec: Option<f64>,

@@ -4,6 +4,7 @@
 //! or the document is good. 1: a document or a result is refused. 2: wrong usage, or a file that cannot be read as what
 //! it should be. Of several files every one is reported, and the highest code counts.
 
+mod calibrate;
 mod completions;
 mod demo;
 mod issue;
@@ -36,6 +37,7 @@ enum Verb {
     Reissue(reissue::Options),
     Verify(verify::Options),
     Show(show::Options),
+    Calibrate(calibrate::Options),
     Simulate(simulate::Options),
     Schema(schema::Options),
     Completions(completions::Options),
@@ -77,6 +79,7 @@ pub fn main() -> ExitCode {
         Verb::Reissue(options) => reissue::run(&options),
         Verb::Verify(options) => verify::run(&options),
         Verb::Show(options) => show::run(&options),
+        Verb::Calibrate(options) => calibrate::run(&options),
         Verb::Simulate(options) => simulate::run(&options),
         Verb::Schema(options) => schema::run(&options),
         Verb::Completions(options) => completions::run(&options),

@@ -5,15 +5,25 @@ use super::trust_options::{self, Asked};
 use super::{Code, Failure, REFUSED, output};
 use clap::{ArgGroup, Args};
 use dtg_passport::files;
-use dtg_passport::passport::verify;
+use dtg_passport::passport::{Content, read, verify};
 use dtg_passport::report::{passport_table, verdict};
 use dtg_passport::text::{Field, LARGEST_DOCUMENT_BYTES};
 use std::path::PathBuf;
 
 /// Show a passport as tables, or the whole of it as JSON for tools that read no YAML
 #[derive(Args)]
-#[command(group(ArgGroup::new("whom").required(true).args(["trust", "no_verify"])))]
 pub struct Options {
+    #[command(flatten)]
+    passport: PassportOptions,
+    /// Form of the result
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+/// A passport that is used: verified, or, said loudly, not.
+#[derive(Args)]
+#[command(group(ArgGroup::new("whom").required(true).args(["trust", "no_verify"])))]
+pub struct PassportOptions {
     /// The passport
     #[arg(value_name = "PASSPORT")]
     passport: PathBuf,
@@ -28,32 +38,41 @@ pub struct Options {
     /// Verify nothing, and say so loudly
     #[arg(long)]
     no_verify: bool,
-    /// Form of the result
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+}
+
+/// What was read, and whether it was verified.
+pub struct Read {
+    pub content: Content,
+    pub verified: bool,
+}
+
+impl PassportOptions {
+    /// Reads the passport; one that fails a check is refused with its verdict.
+    pub fn read(&self) -> Result<Read, Failure> {
+        let bytes = files::read(&self.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+        let name = self.passport.display().to_string();
+        let Some(signers) = &self.trust else {
+            output::say("NOT VERIFIED (--no-verify): anybody may have written these numbers");
+            let content = read::unverified(&name, &bytes).map_err(Failure::unusable)?;
+            return Ok(Read { content, verified: false });
+        };
+        let trust = trust_options::load(signers, &self.revoked)?;
+        let verification = verify(&name, &bytes, &trust, &self.asked.question());
+        match verification.passport() {
+            Some(passport) => Ok(Read { content: passport.content().clone(), verified: true }),
+            None => {
+                let verdict = verdict::Verdict::of(&name, &verification);
+                Err(Failure { message: verdict::text(&[verdict]), code: REFUSED })
+            }
+        }
+    }
 }
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
-    let bytes = files::read(&options.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-    let name = options.passport.display().to_string();
-    let content = match &options.trust {
-        Some(signers) => {
-            let trust = trust_options::load(signers, &options.revoked)?;
-            let verification = verify(&name, &bytes, &trust, &options.asked.question());
-            let Some(passport) = verification.passport() else {
-                let verdict = verdict::Verdict::of(&name, &verification);
-                return Err(Failure { message: verdict::text(&[verdict]), code: REFUSED });
-            };
-            passport.content().clone()
-        }
-        None => {
-            output::say("NOT VERIFIED (--no-verify): anybody may have written these numbers");
-            dtg_passport::passport::read::unverified(&name, &bytes).map_err(Failure::unusable)?
-        }
-    };
+    let Read { content, verified } = options.passport.read()?;
     match options.format {
         Format::Json => output::json(&content.write())?,
-        Format::Text => output::result(&passport_table::text(&content, options.trust.is_some()))?,
+        Format::Text => output::result(&passport_table::text(&content, verified))?,
     }
     Ok(0)
 }

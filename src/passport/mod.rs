@@ -8,7 +8,6 @@
 //! * [`recomputed`]: every number again from the signed inputs.
 //! * [`verification`]: the six steps, and "may I use this passport, on this stand, here, now?".
 //! * [`reissue`]: a new passport from an old one.
-//! * [`setup`]: a passport and a laboratory, as a calibration takes them.
 
 pub mod annotations;
 pub mod content;
@@ -17,7 +16,6 @@ pub mod issue;
 pub mod read;
 pub mod recomputed;
 pub mod reissue;
-pub mod setup;
 pub mod verification;
 
 pub use content::Content;

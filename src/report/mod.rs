@@ -1,10 +1,14 @@
 //! What people read: verdicts, tables, words about a result.
 //!
 //! * [`verdict`]: the answer of `verify`.
+//! * [`calibration`]: the result of a calibration.
+//! * [`columns`]: text in columns.
 //! * [`issued`]: what became of an order, and what the factory should know about it.
 //! * [`passport_table`]: a passport in a terminal.
 //! * [`simulation`]: the tables of simulations.
 
+pub mod calibration;
+pub mod columns;
 pub mod issued;
 pub mod passport_table;
 pub mod simulation;

@@ -2,11 +2,9 @@
 
 use crate::passport::Content;
 use crate::passport::content::Rows;
+use crate::report::columns;
 use crate::text::rule;
 use std::fmt::{Display, Write};
-
-/// The width of a terminal that nothing is wider than, but for a word or a row that cannot be broken.
-const COLUMNS: usize = 100;
 
 /// The width of the names at the left.
 const NAME_COLUMNS: usize = 26;
@@ -39,23 +37,9 @@ fn heading(out: &mut String, words: &str) {
     let _ = writeln!(out, "\n{words}");
 }
 
-/// A name and its value; a long value goes on under its beginning, within [`COLUMNS`].
+/// A name and its value; a long value goes on under its beginning.
 fn line(out: &mut String, name: &str, value: impl Display) {
-    let indent = 2 + NAME_COLUMNS;
-    let mut column = indent;
-    let _ = write!(out, "  {name:<NAME_COLUMNS$}");
-    for (index, word) in value.to_string().split(' ').enumerate() {
-        let width = word.chars().count() + 1;
-        if index > 0 && column + width > COLUMNS {
-            let _ = write!(out, "\n{:indent$}", "");
-            column = indent;
-        } else if index > 0 {
-            out.push(' ');
-        }
-        out.push_str(word);
-        column += width;
-    }
-    out.push('\n');
+    columns::named(out, name, NAME_COLUMNS, &value.to_string());
 }
 
 fn option(out: &mut String, name: &str, value: Option<impl Display>) {
@@ -116,7 +100,7 @@ fn positions(out: &mut String, content: &Content) {
             maybe(at.u_gamma_arcsec),
         ]
     });
-    table(out, &names, &rows.collect::<Vec<_>>());
+    columns::table(out, &names, &rows.collect::<Vec<_>>());
 }
 
 fn site(out: &mut String, content: &Content) {
@@ -160,7 +144,7 @@ fn matrices(out: &mut String, content: &Content) {
         row("omega_31", "deg/h", &m.omega1_deg_per_h),
         row("omega_32", "deg/h", &m.omega2_deg_per_h),
     ];
-    table(out, &["", "unit", "11", "12", "21", "22"], &rows);
+    columns::table(out, &["", "unit", "11", "12", "21", "22"], &rows);
 }
 
 fn vectors(out: &mut String, content: &Content) {
@@ -172,7 +156,7 @@ fn vectors(out: &mut String, content: &Content) {
         row.extend([nx, ny, at.specific_force_z_g, wx, wy].map(|value| format!("{value:.9}")));
         row
     });
-    table(out, &["i", "j", "n_x", "n_y", "n_z", "omega_x", "omega_y"], &rows.collect::<Vec<_>>());
+    columns::table(out, &["i", "j", "n_x", "n_y", "n_z", "omega_x", "omega_y"], &rows.collect::<Vec<_>>());
 }
 
 fn self_check(out: &mut String, content: &Content) {
@@ -182,28 +166,11 @@ fn self_check(out: &mut String, content: &Content) {
         .currents
         .iter()
         .map(|at| vec![at.i.to_string(), at.j.to_string(), format!("{:.9}", at.jx_ma), format!("{:.9}", at.jy_ma)]);
-    table(out, &["i", "j", "J_x", "J_y"], &rows.collect::<Vec<_>>());
+    columns::table(out, &["i", "j", "J_x", "J_y"], &rows.collect::<Vec<_>>());
     let [[kx, kxy], [kyx, ky]] = check.k_deg_per_h_per_ma;
     line(out, "K, deg/h/mA", format!("[[{kx}, {kxy}], [{kyx}, {ky}]]"));
     let [x, y] = check.omega0_deg_per_h;
     line(out, "omega_0, deg/h", format!("[{x}, {y}]"));
     line(out, "omega_g, deg/h/g", check.omega_g_deg_per_h_per_g);
     line(out, "omega_k, deg/h/g", check.omega_k_deg_per_h_per_g);
-}
-
-/// Columns as wide as their widest cell, numbers to the right.
-fn table(out: &mut String, names: &[&str], rows: &[Vec<String>]) {
-    let width = |column: usize| {
-        let cells = rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count());
-        cells.chain([names[column].chars().count()]).max().unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..names.len()).map(width).collect();
-    let mut write = |cells: &mut dyn Iterator<Item = &str>| {
-        let padded: Vec<String> = cells.zip(&widths).map(|(cell, &width)| format!("{cell:>width$}")).collect();
-        let _ = writeln!(out, "  {}", padded.join("  "));
-    };
-    write(&mut names.iter().copied());
-    for row in rows {
-        write(&mut row.iter().map(String::as_str));
-    }
 }

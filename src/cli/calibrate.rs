@@ -1,0 +1,114 @@
+//! `calibrate`: the gyro's parameters from a passport and currents.
+
+use super::output::Format;
+use super::show::{PassportOptions, Read};
+use super::simulate::{MethodName, read_gyro};
+use super::{Code, Failure, REFUSED, output};
+use clap::Args;
+use dtg_passport::calibration::document::CalibrationDocument;
+use dtg_passport::calibration::iterative::StopRule;
+use dtg_passport::calibration::stated::temperature_remark;
+use dtg_passport::calibration::verdict::{Decision, against_earlier, against_type};
+use dtg_passport::calibration::{self, Method, Options as CalibrationOptions, Readings, Setup};
+use dtg_passport::files;
+use dtg_passport::laboratory::Laboratory;
+use dtg_passport::report::calibration as report;
+use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
+use std::path::PathBuf;
+
+/// Find the gyro's parameters, their uncertainty, the fit, and the verdict against its type
+#[derive(Args)]
+pub struct Options {
+    #[command(flatten)]
+    passport: PassportOptions,
+    /// Currents: CSV with the header i,j,jx_ma,jy_ma; several rows for a position are repeated readings
+    #[arg(value_name = "CURRENTS.csv")]
+    currents: PathBuf,
+    /// Methods; least squares is the answer
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "analytic,iterative,least-squares")]
+    method: Vec<MethodName>,
+    /// Type of the gyro (dtg-gyro/1): gives a verdict
+    #[arg(long, value_name = "FILE")]
+    gyro: Option<PathBuf>,
+    /// Laboratory (dtg-laboratory/1) [default: the paper's meter, 0.015 %]
+    #[arg(long, value_name = "FILE")]
+    laboratory: Option<PathBuf>,
+    /// An earlier result of this gyro (--format json): what has changed
+    #[arg(long, value_name = "RESULT.json")]
+    previous: Option<PathBuf>,
+    /// Iteration stops when the main scale factors move by at most this, percent
+    #[arg(long, value_name = "P", default_value_t = 0.1)]
+    delta1_percent: f64,
+    /// And the g-sensitive drifts by at most this
+    #[arg(long, value_name = "D", default_value_t = 0.001)]
+    delta2_deg_per_h: f64,
+    /// Also fit the anisoelastic coefficient by least squares; the eight positions cannot show it
+    #[arg(long)]
+    anisoelasticity: bool,
+    /// Form of the result
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+pub fn run(options: &Options) -> Result<Code, Failure> {
+    let Read { content, verified } = options.passport.read()?;
+    let laboratory = laboratory(options)?;
+    let gyro_type = read_gyro(options.gyro.as_deref())?;
+    let earlier = earlier(options)?;
+    let stated = Setup::stated(&content.certificate, &content.positions, &content.site, &laboratory);
+    let (setup, missing) = stated.map_err(Failure::refused)?;
+    let bytes = files::read(&options.currents, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+    let name = options.currents.display().to_string();
+    let readings = Readings::from_csv(&name, &bytes, setup.coefficients(), laboratory.meter.range_ma);
+    let readings = readings.map_err(Failure::unusable)?;
+    let asked = CalibrationOptions {
+        methods: options.method.iter().copied().map(Method::from).collect(),
+        stop_rule: StopRule { delta1_percent: options.delta1_percent, delta2_deg_per_h: options.delta2_deg_per_h },
+        anisoelasticity: options.anisoelasticity,
+    };
+    let calibration = calibration::calibrate(&setup, &readings, &asked).map_err(Failure::refused)?;
+    if let Some(remark) = temperature_remark(&content.certificate, &laboratory) {
+        output::say(&format!("WARNING: {remark}"));
+    }
+    let gravity = content.earth.gravity_m_per_s2;
+    let mut document = CalibrationDocument::new(&content.passport.id, verified, gravity, &calibration);
+    let Some(found) = document.answer() else {
+        let words: Vec<String> =
+            calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key())).collect();
+        return Err(Failure { message: words.join("\n"), code: REFUSED });
+    };
+    document.verdict = gyro_type.as_ref().map(|gyro_type| against_type(&found, gyro_type));
+    let judged_change = earlier.as_ref().zip(gyro_type.as_ref());
+    document.change = judged_change.map(|(earlier, gyro_type)| against_earlier(&found, earlier, gyro_type));
+    match options.format {
+        Format::Json => output::json(&document)?,
+        Format::Text => output::result(&report::text(
+            &calibration,
+            &report::Context {
+                passport_id: &content.passport.id,
+                passport_verified: verified,
+                gravity_m_per_s2: gravity,
+                missing: &missing,
+                verdict: gyro_type.as_ref().map(|gyro_type| gyro_type.r#type.as_str()).zip(document.verdict.as_ref()),
+                change: earlier.as_ref().map(|earlier| (earlier, document.change.as_ref())),
+            },
+        ))?,
+    }
+    let failed = document.verdict.is_some_and(|verdict| verdict.overall == Decision::Fail);
+    Ok(if failed { REFUSED } else { 0 })
+}
+
+fn laboratory(options: &Options) -> Result<Laboratory, Failure> {
+    let Some(path) = &options.laboratory else { return Ok(Laboratory::paper()) };
+    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+    Laboratory::from_yaml(&path.display().to_string(), &bytes).map_err(Failure::unusable)
+}
+
+fn earlier(options: &Options) -> Result<Option<calibration::verdict::Found>, Failure> {
+    let Some(path) = &options.previous else { return Ok(None) };
+    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+    let name = path.display().to_string();
+    let document = CalibrationDocument::from_json(&name, &bytes).map_err(Failure::unusable)?;
+    let found = document.answer().ok_or_else(|| Failure::unusable(format!("{name}: holds no result")))?;
+    Ok(Some(found))
+}

@@ -1,0 +1,215 @@
+//! The result of a calibration in a terminal of 100 columns.
+
+use crate::calibration::diagnosis::CANNOT_TELL;
+use crate::calibration::parameter::Parameter;
+use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, Found, Verdict, change_in_uncertainties};
+use crate::calibration::{Calibration, Method, MethodResult};
+use crate::report::columns;
+use std::fmt::Write;
+
+/// What is said of a calibration besides its numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Context<'a> {
+    /// The passport's id.
+    pub passport_id: &'a str,
+    /// Whether it was verified.
+    pub passport_verified: bool,
+    /// The g that drifts are per.
+    pub gravity_m_per_s2: f64,
+    /// Uncertainties that nobody stated.
+    pub missing: &'a [&'static str],
+    /// Against the gyro's type, by its name.
+    pub verdict: Option<(&'a str, &'a Verdict)>,
+    /// An earlier result, and the change since then against the same tolerance.
+    pub change: Option<(&'a Found, Option<&'a Verdict>)>,
+}
+
+/// The whole result: parameters, fit, verdict, and what the fit cannot see.
+pub fn text(calibration: &Calibration, context: &Context) -> String {
+    let mut out = String::new();
+    let state = if context.passport_verified { "verified" } else { "NOT VERIFIED" };
+    let _ = writeln!(out, "Calibrated with passport {} ({state})", context.passport_id);
+    let _ = writeln!(
+        out,
+        "Drifts per g are per local g, {} m/s2. u: standard uncertainty (k = 1).",
+        context.gravity_m_per_s2
+    );
+    if calibration.hint.is_some() || !calibration.settled {
+        let words = "WARNING: these readings do not fit this stand. Until that is explained (below), the parameters mean nothing.";
+        columns::paragraph(&mut out, "", words);
+    }
+    parameters(&mut out, calibration);
+    methods(&mut out, calibration);
+    fit(&mut out, calibration, context.missing);
+    if let Some((name, verdict)) = context.verdict {
+        let _ = writeln!(out, "\nAgainst the type {name}, with expanded uncertainty U = {COVERAGE_FACTOR} u:");
+        verdict_table(&mut out, verdict, "deviation");
+    }
+    if let Some((earlier, verdict)) = context.change {
+        change(&mut out, calibration, context.gravity_m_per_s2, earlier, verdict);
+    }
+    let _ = writeln!(out);
+    columns::paragraph(&mut out, "", CANNOT_TELL);
+    out
+}
+
+/// The answer: least squares where asked for, else the last method.
+fn answer(calibration: &Calibration) -> Option<&MethodResult> {
+    let results = &calibration.results;
+    results.iter().find(|result| result.method == Method::LeastSquares).or(results.last())
+}
+
+fn parameters(out: &mut String, calibration: &Calibration) {
+    let Some(answer) = answer(calibration) else { return };
+    let others: Vec<&MethodResult> =
+        calibration.results.iter().filter(|result| result.method != answer.method).collect();
+    let mut names = vec!["".to_owned(), "unit".to_owned(), answer.method.key().to_owned(), "u".to_owned()];
+    for other in &others {
+        names.extend([other.method.key().to_owned(), "off by".to_owned()]);
+    }
+    let rows: Vec<Vec<String>> = Parameter::NINE
+        .into_iter()
+        .filter_map(|parameter| {
+            let (value, u) = (answer.value(parameter)?, answer.standard_uncertainty(parameter)?);
+            let digits = columns::decimals(u);
+            let mut row = vec![parameter.symbol().to_owned(), parameter.unit().to_owned()];
+            row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
+            for other in &others {
+                row.push(other.value(parameter).map_or_else(String::new, |value| format!("{value:.digits$}")));
+                let off = other.difference_in_uncertainties.and_then(|all| all.get(parameter.place()).copied());
+                row.push(off.map_or_else(String::new, |off| format!("{off:+.1}")));
+            }
+            Some(row)
+        })
+        .collect();
+    let _ = writeln!(out);
+    columns::table(out, &names.iter().map(String::as_str).collect::<Vec<_>>(), &rows);
+    if !others.is_empty() {
+        let words =
+            "off by: the difference from the first column in units of that difference's own standard uncertainty.";
+        columns::paragraph(out, "  ", words);
+    }
+}
+
+fn methods(out: &mut String, calibration: &Calibration) {
+    for result in &calibration.results {
+        let Some(iteration) = &result.iteration else { continue };
+        let predicted = iteration.predicted_steps.map_or_else(|| "none".to_owned(), |steps| steps.to_string());
+        let rest = iteration.remainder_k_deg_per_h_per_ma.abs().max();
+        let rest_n = iteration.remainder_omega_n_deg_per_h_per_g.abs().max();
+        let words = format!(
+            "iterative: spectral radius {:.4}, {predicted} steps predicted, {} taken; what is still missing, exactly: at most \
+             {rest:.1e} deg/h/mA in K, {rest_n:.1e} deg/h/g in omega_n.",
+            iteration.spectral_radius, iteration.steps
+        );
+        columns::paragraph(out, "  ", &words);
+    }
+    for (method, refusal) in &calibration.refused {
+        columns::paragraph(out, "  ", &format!("{}: no result: {refusal}", method.key()));
+    }
+}
+
+fn fit(out: &mut String, calibration: &Calibration, missing: &[&str]) {
+    let Some(answer) = answer(calibration) else { return };
+    let chi_square = &answer.chi_square;
+    let _ = writeln!(
+        out,
+        "\nFit: chi-square {:.2} with {} degrees of freedom; a larger one has probability {}",
+        chi_square.value,
+        chi_square.degrees_of_freedom,
+        columns::probability(chi_square.probability)
+    );
+    let rows: Vec<Vec<String>> = answer
+        .residuals
+        .iter()
+        .map(|residual| {
+            let (value, normalised) = (residual.residual_deg_per_h, residual.normalised);
+            let mut row = vec![residual.index.i.to_string(), residual.index.j.to_string()];
+            row.extend([value.x, value.y].map(|x| format!("{x:+.5}")));
+            row.extend([normalised.x, normalised.y].map(|x| format!("{x:+.1}")));
+            row
+        })
+        .collect();
+    columns::table(out, &["i", "j", "x, deg/h", "y, deg/h", "x / u", "y / u"], &rows);
+    if let Some(scatter) = &calibration.scatter {
+        let words = format!(
+            "Repeated readings scatter with chi-square {:.2} of {} degrees of freedom (probability of more: {}); {}.",
+            scatter.chi_square,
+            scatter.degrees_of_freedom,
+            columns::probability(scatter.probability),
+            if scatter.variance_factor > 1.0 {
+                format!("more than stated: their variance was enlarged {:.1} times", scatter.variance_factor)
+            } else {
+                "as stated".to_owned()
+            }
+        );
+        columns::paragraph(out, "  ", &words);
+    }
+    if !calibration.settled {
+        columns::paragraph(
+            out,
+            "  ",
+            "WARNING: the fit did not settle: these readings are far from any gyro's on this stand.",
+        );
+    }
+    if let Some(hint) = &calibration.hint {
+        columns::paragraph(out, "", &format!("WARNING: {hint}."));
+    }
+    if !missing.is_empty() {
+        let words = format!("Not stated by anybody, and so missing from every u: {}.", missing.join("; "));
+        columns::paragraph(out, "", &words);
+    }
+}
+
+fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
+    let decision = |decision: Decision| match decision {
+        Decision::Pass => "pass",
+        Decision::Fail => "FAIL",
+        Decision::Undecided => "undecided",
+    };
+    let rows: Vec<Vec<String>> = verdict
+        .parameters
+        .iter()
+        .map(|row| {
+            let digits = columns::decimals(row.expanded_uncertainty / COVERAGE_FACTOR);
+            vec![
+                row.parameter.to_owned(),
+                row.unit.to_owned(),
+                format!("{:+.digits$}", row.deviation),
+                format!("{:.digits$}", row.expanded_uncertainty),
+                format!("{}", row.tolerance),
+                decision(row.simple).to_owned(),
+                columns::probability(row.specific_risk),
+                decision(row.guarded).to_owned(),
+            ]
+        })
+        .collect();
+    columns::table(out, &["", "unit", deviation, "U", "tolerance", "simple", "risk", "guarded"], &rows);
+    let _ = writeln!(out, "  Overall, by guarded acceptance: {}", decision(verdict.overall).to_uppercase());
+    if verdict.overall == Decision::Undecided {
+        columns::paragraph(out, "  ", "undecided: it cannot be decided with this uncertainty.");
+    }
+    if let Some(remark) = verdict.remark {
+        columns::paragraph(out, "  ", &format!("WARNING: {remark}."));
+    }
+}
+
+fn change(out: &mut String, calibration: &Calibration, gravity: f64, earlier: &Found, verdict: Option<&Verdict>) {
+    let Some(answer) = answer(calibration) else { return };
+    let change = change_in_uncertainties(&answer.found(gravity), earlier);
+    let words: Vec<String> = Parameter::EIGHT
+        .iter()
+        .zip(change)
+        .map(|(parameter, change)| format!("{} {change:+.1}", parameter.symbol()))
+        .collect();
+    let _ = writeln!(
+        out,
+        "\nChange since the earlier result, in units of its standard uncertainty (drifts at the same g):"
+    );
+    columns::paragraph(out, "  ", &(words.join(", ") + "."));
+    if let Some(verdict) = verdict {
+        let _ =
+            writeln!(out, "The same change against the type's tolerance, which the paper states as an instability:");
+        verdict_table(out, verdict, "change");
+    }
+}

@@ -1,0 +1,94 @@
+//! Text in columns, 100 wide.
+
+use std::fmt::Write;
+
+/// The width of a terminal that nothing is wider than, but for a word or a row that cannot be broken.
+pub const COLUMNS: usize = 100;
+
+/// A paragraph, every line behind `indent`.
+pub fn paragraph(out: &mut String, indent: &str, words: &str) {
+    out.push_str(indent);
+    wrapped(out, indent.chars().count(), words);
+}
+
+/// A name padded to `name_columns`, and its value, which goes on under its own beginning.
+pub fn named(out: &mut String, name: &str, name_columns: usize, value: &str) {
+    let _ = write!(out, "  {name:<name_columns$}");
+    wrapped(out, 2 + name_columns, value);
+}
+
+/// Words from column `indent` on, broken at blanks.
+fn wrapped(out: &mut String, indent: usize, words: &str) {
+    let mut column = indent;
+    for (index, word) in words.split(' ').enumerate() {
+        let width = word.chars().count();
+        if index > 0 && column + 1 + width > COLUMNS {
+            let _ = write!(out, "\n{:indent$}", "");
+            column = indent;
+        } else if index > 0 {
+            out.push(' ');
+            column += 1;
+        }
+        out.push_str(word);
+        column += width;
+    }
+    out.push('\n');
+}
+
+/// Columns as wide as their widest cell, numbers to the right.
+pub fn table(out: &mut String, names: &[&str], rows: &[Vec<String>]) {
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count());
+        cells.chain([names[column].chars().count()]).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..names.len()).map(width).collect();
+    let mut write = |cells: &mut dyn Iterator<Item = &str>| {
+        let padded: Vec<String> = cells.zip(&widths).map(|(cell, &width)| format!("{cell:>width$}")).collect();
+        let _ = writeln!(out, "  {}", padded.join("  "));
+    };
+    write(&mut names.iter().copied());
+    for row in rows {
+        write(&mut row.iter().map(String::as_str));
+    }
+}
+
+/// Decimals that show a standard uncertainty with two significant digits (GUM, 7.2.6), at most 12.
+pub fn decimals(u: f64) -> usize {
+    if !(u.is_finite() && u > 0.0) {
+        return 6;
+    }
+    // The exponent of the value as printed with two digits: 0.0996 rounds to 0.10.
+    let printed = format!("{u:.1e}");
+    let exponent = printed.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()).unwrap_or(0);
+    usize::try_from(1 - exponent).unwrap_or(0).min(12)
+}
+
+/// A probability: two digits, or that it is less than any that matters.
+pub fn probability(p: f64) -> String {
+    if p < 1e-6 {
+        "< 1e-6".to_owned()
+    } else if p < 0.01 {
+        format!("{p:.1e}")
+    } else {
+        format!("{p:.2}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_uncertainty_has_two_digits() {
+        for (u, decimals_due) in [(0.0123, 3), (0.0996, 2), (1.5, 1), (15.0, 0), (150.0, 0), (2.0e-5, 6)] {
+            assert_eq!(decimals(u), decimals_due, "{u}");
+        }
+    }
+
+    #[test]
+    fn nothing_is_wider_than_a_terminal() {
+        let mut out = String::new();
+        paragraph(&mut out, "  ", &"word ".repeat(100));
+        assert!(out.lines().all(|line| line.chars().count() <= COLUMNS && line.starts_with("  ")));
+    }
+}
