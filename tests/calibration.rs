@@ -244,3 +244,28 @@ fn repeated_readings() {
     assert!((scatter.variance_factor / factor - 1.0).abs() < 1e-2 && scatter.probability < 1e-3, "{scatter:?}");
     assert!((u(&noisy) / u(&quiet) - factor.sqrt()).abs() < 0.1);
 }
+
+/// Expected: docs/model.md: standard deviations of the analytic method at 5° and at 15° are 0.01474 and 0.01527 % of K_x;
+/// on a perfect stand the growth is 1.
+#[test]
+fn noise_grows_with_the_deviations() {
+    use dtg_passport::calibration::prediction::{noise_growth, predicted};
+    let earth = EarthRate::at_astronomic_latitude(LATITUDE_DEG);
+    let growth = |positions: &[Position]| {
+        noise_growth(positions, earth, &gvk_6(), paper_meter(), Method::Analytic).expect("eight good positions")
+    };
+    assert!(growth(&eight([[0.0; 3]; 8])).iter().all(|growth| (growth - 1.0).abs() < 1e-12));
+    let mut stream = dtg_passport::statistics::random::Stream::new(7);
+    for (limit_deg, expected) in [(5.0, 0.01474), (15.0, 0.01527)] {
+        let stands: Vec<_> = (0..2000).map(|_| drawn_stand(&mut stream, limit_deg)).collect();
+        let squares = stands.iter().map(|stand| {
+            let result = predicted(&setup(stand, LATITUDE_DEG), &gvk_6(), Method::Analytic).expect("a result");
+            let percent = result.standard_uncertainty(Parameter::Kx).expect("K_x") / 0.95;
+            percent * percent
+        });
+        // The meter's 0.0087 % is 0.015 %/√3 = 0.00866 % rounded up.
+        let mean = (squares.sum::<f64>() / 2000.0).sqrt() * (0.015 / 3.0_f64.sqrt() / 0.0087);
+        assert!((mean / expected - 1.0).abs() < 0.02, "{limit_deg}: {mean}");
+        assert!(stands.iter().all(|stand| growth(stand).iter().all(|growth| (0.5..4.0).contains(growth))));
+    }
+}

@@ -112,6 +112,20 @@ impl Setup {
         Ok(Self { coefficients, turns: positions.iter().map(Turn::of).collect(), earth, uncertainty })
     }
 
+    /// With the coefficients as a passport prints them, in place of those computed from the angles.
+    ///
+    /// `None` when they are of other positions or in another order.
+    pub fn with_coefficients(mut self, coefficients: Coefficients) -> Option<Self> {
+        let same = |own: &Coefficients| {
+            own.positions.iter().map(|at| at.index).eq(coefficients.positions.iter().map(|at| at.index))
+        };
+        if !same(&self.coefficients) {
+            return None;
+        }
+        self.coefficients = coefficients;
+        Some(self)
+    }
+
     /// What the mathematics takes.
     pub fn coefficients(&self) -> &Coefficients {
         &self.coefficients

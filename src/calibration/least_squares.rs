@@ -15,8 +15,10 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 /// Beyond this condition number positions do not determine all parameters: noise would grow that many times.
 ///
-/// Columns are compared in units of the largest current, 1 °/h, 1 g. On the paper's eight positions the condition is
-/// below 20 for deviations up to 15°, and an anisoelastic coefficient needs one of several thousand at 10′.
+/// Columns are compared in units of the largest current, 1 °/h and 1 g. On the paper's eight positions and with its
+/// gyro the condition is 12 without deviations, below 15 up to ±15° and below 50 up to ±45°; it grows towards the poles,
+/// to 74 at a latitude of 85°. With the anisoelastic coefficient it is infinite without deviations, above 500 at ±10′
+/// and below 100 from about ±15° on.
 pub const LARGEST_CONDITION: f64 = 300.0;
 
 /// Steps until a solution must have settled; it takes three or four.
@@ -90,6 +92,22 @@ pub fn solve(
     Ok(fit.solution())
 }
 
+/// The condition number of the equations, their columns in units of the largest current, 1 °/h and 1 g; infinite where
+/// they do not determine a parameter.
+pub fn condition_number(coefficients: &Coefficients, currents_ma: &[Vector2<f64>], anisoelasticity: bool) -> f64 {
+    let columns = if anisoelasticity { Parameter::NINE.len() } else { Parameter::EIGHT.len() };
+    let largest = largest_current(currents_ma);
+    let scaled: Vec<_> = currents_ma.iter().map(|current| current / largest).collect();
+    let design = design(&coefficients.positions, &scaled, columns);
+    condition(&design, LARGEST_CONDITION).map_or(f64::INFINITY, |found| found.number)
+}
+
+/// The unit of the columns of K: the largest current, or 1 mA where all are 0.
+fn largest_current(currents_ma: &[Vector2<f64>]) -> f64 {
+    let largest = currents_ma.iter().fold(0.0, |a: f64, current| a.max(current.amax()));
+    if largest == 0.0 { 1.0 } else { largest }
+}
+
 /// A solution with what its covariance needs.
 #[derive(Debug, Clone)]
 pub(crate) struct Fit {
@@ -154,11 +172,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
             let (found, expected) = (self.currents_ma.len(), positions.len());
             return Err(NoLeastSquares::WrongNumberOfCurrents { found, expected });
         }
-        let largest = self.currents_ma.iter().fold(0.0, |a: f64, current| a.max(current.amax()));
-        if !largest.is_finite() {
-            return Err(NoLeastSquares::NotUsable);
-        }
-        let unit = if largest > 0.0 { largest } else { 1.0 };
+        let unit = largest_current(self.currents_ma);
         let scaled: Vec<_> = self.currents_ma.iter().map(|current| current / unit).collect();
         let design = design(positions, &scaled, self.columns());
         let model = Factorised::new(design.clone()).ok().filter(|model| model.condition_bound() <= LARGEST_CONDITION);

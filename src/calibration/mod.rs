@@ -10,7 +10,31 @@
 //! * [`diagnosis`]: what may be wrong where readings do not fit.
 //! * [`verdict`]: against a type's specification and against an earlier calibration.
 //! * [`document`]: a result for machines.
+//! * [`prediction`]: what a calibration on this stand will be worth, before there is a reading.
 //! * [`inputs`]: what is known of stand, site, seat and meter, and how well; [`stated`]: as the files state it.
+//!
+//! The laboratory's call, once the setup is known:
+//!
+//! ```
+//! use dtg_passport::calibration::{InputUncertainty, Options, Readings, Setup, calibrate};
+//! use dtg_passport::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
+//! use dtg_passport::attitude::Deviation;
+//! use dtg_passport::laboratory::Laboratory;
+//!
+//! # let none = Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 };
+//! # let stand = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| Position { index, theta_deg, phi_deg, deviation: none });
+//! let laboratory = Laboratory::paper();
+//! let uncertainty = InputUncertainty::of_meter((&laboratory.meter).into());
+//! let setup = Setup::new(&stand, EarthRate::at_astronomic_latitude(55.7658), uncertainty)?;
+//! # let csv = "i,j,jx_ma,jy_ma\n1,1,-0.2010,-0.1014\n1,2,-0.1014,-0.2010\n1,3,-0.1809,-0.2814\n1,4,-0.2814,-0.1809\n\
+//! #            2,1,-0.0883,-0.1761\n2,2,-0.1596,-0.2997\n2,3,-0.2937,-0.2067\n2,4,-0.2224,-0.0831\n";
+//!
+//! let readings = Readings::from_csv("currents.csv", csv.as_bytes(), setup.coefficients(), laboratory.meter.range_ma)?;
+//! let calibration = calibrate(&setup, &readings, &Options::default())?;
+//! let answer = &calibration.results[2];
+//! # assert!((answer.parameters.k_deg_per_h_per_ma.m11 / 95.0 - 1.0).abs() < 0.01, "{answer:?}");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod analytic;
 pub mod diagnosis;
@@ -20,6 +44,7 @@ pub mod iterative;
 pub mod least_squares;
 pub mod noise;
 pub mod parameter;
+pub mod prediction;
 pub mod procedure;
 mod propagation;
 pub mod readings;
