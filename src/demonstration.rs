@@ -146,7 +146,7 @@ impl Stage<'_> {
         self.line("THE FACTORY")?;
         self.line("1. makes a signing key and gives every laboratory its public half, once:")?;
         self.line(&format!("   {}", self.path("allowed_signers").display()))?;
-        Ok((key, Trust { signers: AllowedSigners::parse("allowed_signers", signers.as_bytes())?, revoked: Vec::new() }))
+        Ok((key, Trust::of(AllowedSigners::parse("allowed_signers", signers.as_bytes())?)))
     }
 
     fn issue(&mut self, stand: &Stand, moscow: &Site, key: &SigningKey) -> Result<Issued, Stopped> {

@@ -1,10 +1,11 @@
 //! Passports in a folder: where each stands, what is there already, new ones written whole and never over another.
 
+use crate::document::sha256_hex;
+use crate::document::{SignedText, Signer};
 use crate::files::{self, Access, FileError};
 use crate::passport::content::Content;
-use crate::passport::document::{SignedText, Signer};
 use crate::passport::issue::{self, Draft, Issue, IssueRefused, Remarks};
-use crate::passport::reissue::{Successor, sha256_hex};
+use crate::passport::reissue::Successor;
 use crate::passport::verification::{Question, Trust, verify};
 use crate::passport::{NAMESPACE, read};
 use crate::site::Site;
@@ -95,6 +96,16 @@ impl Folder {
         folder.join(format!("{site}-{revision}.yaml"))
     }
 
+    /// Where the passport with this id stands; `None` when that is no id.
+    pub fn path_of_id(&self, id: &str) -> Option<PathBuf> {
+        let parts: Vec<&str> = id.split('/').collect();
+        let [model, serial, site, revision] = parts.as_slice() else { return None };
+        let names = [model, serial, site].map(|name| Identifier::new(name).ok());
+        let [Some(model), Some(serial), Some(site)] = names else { return None };
+        let revision: u32 = revision.parse().ok()?;
+        Some(self.root.join(model.as_str()).join(serial.as_str()).join(format!("{site}-{revision}.yaml")))
+    }
+
     /// Issues revision 1 of a stand for a site.
     ///
     /// An equal passport (its time, program and signature aside) is left as it is; another one of that name is never
@@ -133,6 +144,51 @@ impl Folder {
             revision = revision.saturating_add(1);
         }
     }
+}
+
+/// What a folder holds that a register reads.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Found {
+    /// Files named as passports are, `<site id>-<revision>.yaml`, sorted.
+    pub passports: Vec<PathBuf>,
+    /// Files named `revocation-<sequence>.yaml`, sorted.
+    pub revocation_lists: Vec<PathBuf>,
+    /// Links: they may lead out of the folder, and were not followed.
+    pub links: Vec<PathBuf>,
+}
+
+/// Finds the passports and revocation lists under `root`, at any depth; links are not followed.
+///
+/// # Errors
+/// [`FileError::Read`] for a folder that cannot be read.
+pub fn find(root: &Path) -> Result<Found, FileError> {
+    let mut found = Found::default();
+    let mut folders = vec![root.to_owned()];
+    while let Some(folder) = folders.pop() {
+        let failed = |error| FileError::Read { path: folder.clone(), error };
+        for entry in std::fs::read_dir(&folder).map_err(failed)? {
+            let entry = entry.map_err(failed)?;
+            let kind = entry.file_type().map_err(failed)?;
+            let path = entry.path();
+            match numbered(&path) {
+                _ if kind.is_dir() => folders.push(path),
+                None => {}
+                Some(_) if kind.is_symlink() => found.links.push(path),
+                Some("revocation") => found.revocation_lists.push(path),
+                Some(_) => found.passports.push(path),
+            }
+        }
+    }
+    found.passports.sort();
+    found.revocation_lists.sort();
+    found.links.sort();
+    Ok(found)
+}
+
+/// What stands before the number in `<name>-<number>.yaml`.
+fn numbered(path: &Path) -> Option<&str> {
+    let (name, number) = path.file_name()?.to_str()?.strip_suffix(".yaml")?.rsplit_once('-')?;
+    (!number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())).then_some(name)
 }
 
 fn write(path: PathBuf, draft: &Draft, seal: Seal) -> Result<Issued, FolderRefused> {

@@ -27,7 +27,7 @@
 //!
 //! // The laboratory: whom it trusts, and what it asks.
 //! let line = allowed_signers_line("factory@example.org", &key.public_key())?;
-//! let trust = Trust { signers: AllowedSigners::parse("allowed_signers", line.as_bytes())?, revoked: vec![] };
+//! let trust = Trust::of(AllowedSigners::parse("allowed_signers", line.as_bytes())?);
 //! let question = Question { serial: Some("0017".into()), ..Question::at("2026-12-01T00:00:00Z".parse()?) };
 //! let answer = verify("moscow-bmstu-1.yaml", passport.as_bytes(), &trust, &question);
 //! let passport = answer.passport().ok_or("a check failed: see answer.checks()")?;
@@ -55,8 +55,10 @@
 //! | [`calibration`] | from currents to parameters, their uncertainty, the fit |
 //! | [`simulation`] | the paper's table and its Fig. 4 |
 //! | [`trust`] | signatures, keys, allowed signers, revocation: bytes and time in, a verdict out |
-//! | [`passport`] | content, document, issue, re-issue, verification |
+//! | [`document`] | a signed text: split, checked, parsed, joined |
 //! | [`revocation`] | the signed list of withdrawn passports |
+//! | [`passport`] | content, issue, re-issue, verification |
+//! | [`register`] | what is in force among many |
 //! | [`schema`] | JSON Schemas of the formats |
 //! | [`files`], [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports |
 //! | [`report`] | what people read |
@@ -79,12 +81,14 @@ pub mod bibliography;
 pub mod calibration;
 pub mod coefficients;
 pub mod demonstration;
+pub mod document;
 pub mod earth;
 pub mod files;
 pub mod folder;
 pub mod gyro;
 pub mod laboratory;
 pub mod passport;
+pub mod register;
 pub mod report;
 pub mod revocation;
 pub mod schema;

@@ -3,7 +3,7 @@
 //! A revoked key and a revoked passport are different things: the first no longer speaks for anybody, the second was a
 //! mistake of an issuer whose key is still good.
 
-use crate::passport::document::{self, Malformed, SignedText, Signer, SigningFailed};
+use crate::document::{self, Malformed, SignedText, Signer, SigningFailed};
 use crate::text::problem::Unreadable;
 use crate::text::{Field, Path, Problems, record, rule};
 use crate::trust::{AllowedSigners, NotAuthorised, RevokedKeys, SignatureError};
@@ -11,6 +11,12 @@ use jiff::Timestamp;
 
 /// The format of a list.
 pub const REVOCATION_FORMAT: &str = "dtg-revocation/1";
+
+/// Whether a file says that it is such a list.
+pub fn claims_to_be_a_list(bytes: &[u8]) -> bool {
+    let claim = b"format: \"dtg-revocation/";
+    bytes.windows(claim.len()).any(|window| window == claim)
+}
 
 /// The namespace that lists are signed for.
 pub const REVOCATION_NAMESPACE: &str = "dtg-revocation";
@@ -222,5 +228,110 @@ impl RevocationList {
         let signature = signer.sign(REVOCATION_NAMESPACE, payload.as_bytes())?;
         signature.verify(REVOCATION_NAMESPACE, payload.as_bytes())?;
         Ok(document::join(&payload, &signature))
+    }
+}
+
+/// Verified lists in the order of their sequence numbers, and what is wrong with the series.
+///
+/// A gap, two lists of one number, an entry that was lost again, or a time that steps back means that somebody shows old
+/// lists for new ones: an alarm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// The list with the highest number: the one that counts.
+    pub newest: Option<RevocationList>,
+    /// What is wrong, in words.
+    pub alarms: Vec<String>,
+}
+
+impl Series {
+    /// Puts lists in order.
+    pub fn of(mut lists: Vec<RevocationList>) -> Self {
+        lists.sort_by_key(|list| (list.sequence, list.issued_at));
+        lists.dedup();
+        let mut alarms = Vec::new();
+        if let Some(first) = lists.first().filter(|first| first.sequence != 1) {
+            alarms.push(format!(
+                "the series of revocation lists begins with {}: lists 1 to {} are missing",
+                first.sequence,
+                first.sequence - 1
+            ));
+        }
+        for pair in lists.windows(2) {
+            let [earlier, later] = pair else { continue };
+            let (from, to) = (earlier.sequence, later.sequence);
+            if from == to {
+                alarms.push(format!("two different revocation lists have the number {from}: a fork"));
+            } else if to > from + 1 {
+                alarms.push(format!("after revocation list {from} comes {to}: a gap"));
+            }
+            if later.issued_at < earlier.issued_at {
+                alarms.push(format!("revocation list {to} is older than list {from}: a step back in time"));
+            }
+            if !earlier.entries.iter().all(|entry| later.entries.contains(entry)) {
+                alarms.push(format!("revocation list {to} has lost an entry of list {from}"));
+            }
+        }
+        Self { newest: lists.pop(), alarms }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trust::SigningKey;
+
+    fn list(sequence: u32, second: i64, ids: &[&str]) -> RevocationList {
+        let at = Timestamp::from_second(second).unwrap();
+        let entry = |id: &&str| Entry {
+            id: (*id).to_owned(),
+            sha256: "0".repeat(64),
+            revoked_at: at.min(Timestamp::from_second(100).unwrap()),
+            reason: "wrong site".to_owned(),
+        };
+        let entries = ids.iter().map(entry).collect();
+        RevocationList { format: REVOCATION_FORMAT.to_owned(), sequence, issued_at: at, issuer: "f".into(), entries }
+    }
+
+    #[test]
+    fn a_series_that_only_grows_is_good() {
+        let series = Series::of(vec![list(2, 300, &["a", "b"]), list(1, 200, &["a"]), list(1, 200, &["a"])]);
+        assert_eq!(series.newest.unwrap().sequence, 2);
+        assert!(series.alarms.is_empty());
+    }
+
+    #[test]
+    fn gaps_forks_and_steps_back_are_alarms() {
+        let cases = [
+            (vec![list(2, 200, &["a"])], "begins with 2"),
+            (vec![list(1, 200, &["a"]), list(3, 300, &["a"])], "a gap"),
+            (vec![list(1, 200, &["a"]), list(1, 200, &["b"])], "a fork"),
+            (vec![list(1, 300, &["a"]), list(2, 200, &["a"])], "a step back"),
+            (vec![list(1, 200, &["a"]), list(2, 300, &["b"])], "lost an entry"),
+        ];
+        for (lists, words) in cases {
+            let alarms = Series::of(lists).alarms.join("; ");
+            assert!(alarms.contains(words), "{alarms}");
+        }
+    }
+
+    #[test]
+    fn a_signed_list_is_read_again_and_an_altered_one_is_not() {
+        let key = SigningKey::generate().unwrap();
+        let text = list(1, 200, &["SPS-2/0017/moscow-bmstu/1"]).sign(&key).unwrap();
+        let line = format!("f {}", key.public_key().to_openssh());
+        let signers = AllowedSigners::parse("signers", line.as_bytes()).unwrap();
+        let now = Timestamp::from_second(1_000).unwrap();
+        let read = RevocationList::verify("list", text.as_bytes(), &signers, &[], now).unwrap();
+        assert_eq!(read, list(1, 200, &["SPS-2/0017/moscow-bmstu/1"]));
+        let altered = text.replace("wrong site", "wrong sight");
+        let refused = RevocationList::verify("list", altered.as_bytes(), &signers, &[], now).unwrap_err();
+        assert!(matches!(refused, ListRefused::Altered { .. }), "{refused}");
+        let past = Timestamp::from_second(100).unwrap();
+        let refused = RevocationList::verify("list", text.as_bytes(), &signers, &[], past).unwrap_err();
+        assert!(matches!(refused, ListRefused::FromTheFuture { .. }), "{refused}");
+        let passports_only = format!("f namespaces=\"dtg-passport\" {}", key.public_key().to_openssh());
+        let signers = AllowedSigners::parse("signers", passports_only.as_bytes()).unwrap();
+        let refused = RevocationList::verify("list", text.as_bytes(), &signers, &[], now).unwrap_err();
+        assert!(matches!(refused, ListRefused::NotAuthorised { .. }), "{refused}");
     }
 }

@@ -1,8 +1,8 @@
 //! How a factory signs: a key file, plain or encrypted, or `ssh-keygen` with an agent or a FIDO token.
 
+use crate::document::{Signer, SigningFailed};
 use crate::files::{self, FileError};
 use crate::passport::NAMESPACE;
-use crate::passport::document::{Signer, SigningFailed};
 use crate::trust::{KeyError, PublicKey, Signature, SigningKey};
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -30,7 +30,7 @@ fn site(id: &str) -> Site {
 
 fn trust() -> Trust {
     let signers = AllowedSigners::parse("allowed_signers", &read("tests/keys/allowed_signers")).unwrap();
-    Trust { signers, revoked: Vec::new() }
+    Trust::of(signers)
 }
 
 #[test]

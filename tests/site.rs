@@ -73,7 +73,7 @@ fn ask(site: &Site, place: Place) -> Verification {
     let order = issue::Issue::first("factory", "2026-11-09T09:00:00Z".parse().unwrap(), GyroType::gvk_6().nominal);
     let passport = issue::draft(&stand, site, &order).unwrap().sign(&key).unwrap();
     let line = allowed_signers_line("factory", &key.public_key()).unwrap();
-    let trust = Trust { signers: AllowedSigners::parse("signers", line.as_bytes()).unwrap(), revoked: Vec::new() };
+    let trust = Trust::of(AllowedSigners::parse("signers", line.as_bytes()).unwrap());
     let question = Question { place: Some(place), ..Question::at("2026-12-01T00:00:00Z".parse().unwrap()) };
     let answer = verify("passport", passport.as_bytes(), &trust, &question);
     assert_eq!(answer.code(CheckName::Recomputed), Some(Code::Ok), "{:?}", answer.checks());

@@ -48,9 +48,10 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let mut code = 0;
     let (stands, sites) = read_inputs(options, &mut code);
     let signer = options.key.signer()?;
-    let trust = options.trust.as_deref().map(|path| trust_options::load(path, &[])).transpose()?;
+    let now = trust_options::now();
+    let trust = options.trust.as_deref().map(|path| trust_options::load(path, &[], now)).transpose()?;
     let seal = Seal { signer: signer.as_ref(), trust: trust.as_ref() };
-    let issued_at = options.issued_at.unwrap_or_else(trust_options::now);
+    let issued_at = options.issued_at.unwrap_or(now);
     let order = Issue {
         valid_until: options.valid_until,
         ..Issue::first(&options.key.identity, issued_at, GyroType::gvk_6().nominal)

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use clap::Args;
-use dtg_passport::passport::document::Signer;
+use dtg_passport::document::Signer;
 use dtg_passport::signing;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};

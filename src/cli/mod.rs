@@ -11,7 +11,9 @@ mod issue;
 mod key_options;
 mod keygen;
 mod output;
+mod register;
 mod reissue;
+mod revoke;
 mod schema;
 mod show;
 mod simulate;
@@ -38,6 +40,8 @@ enum Verb {
     Verify(verify::Options),
     Show(show::Options),
     Calibrate(calibrate::Options),
+    Register(register::Options),
+    Revoke(revoke::Options),
     Simulate(simulate::Options),
     Schema(schema::Options),
     Completions(completions::Options),
@@ -80,6 +84,8 @@ pub fn main() -> ExitCode {
         Verb::Verify(options) => verify::run(&options),
         Verb::Show(options) => show::run(&options),
         Verb::Calibrate(options) => calibrate::run(&options),
+        Verb::Register(options) => register::run(&options),
+        Verb::Revoke(options) => revoke::run(&options),
         Verb::Simulate(options) => simulate::run(&options),
         Verb::Schema(options) => schema::run(&options),
         Verb::Completions(options) => completions::run(&options),

@@ -30,7 +30,7 @@ pub struct PassportOptions {
     /// The keys that may sign: OpenSSH's allowed_signers
     #[arg(long, value_name = "SIGNERS")]
     trust: Option<PathBuf>,
-    /// Keys that no longer count: a KRL of OpenSSH or a list of public keys (repeatable)
+    /// What no longer counts: a KRL, a list of public keys, or a list of withdrawn passports (repeatable)
     #[arg(long, value_name = "FILE", requires = "trust")]
     revoked: Vec<PathBuf>,
     #[command(flatten)]
@@ -56,8 +56,9 @@ impl PassportOptions {
             let content = read::unverified(&name, &bytes).map_err(Failure::unusable)?;
             return Ok(Read { content, verified: false });
         };
-        let trust = trust_options::load(signers, &self.revoked)?;
-        let verification = verify(&name, &bytes, &trust, &self.asked.question());
+        let question = self.asked.question();
+        let trust = trust_options::load(signers, &self.revoked, question.time)?;
+        let verification = verify(&name, &bytes, &trust, &question);
         match verification.passport() {
             Some(passport) => Ok(Read { content: passport.content().clone(), verified: true }),
             None => {

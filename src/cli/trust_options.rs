@@ -5,6 +5,7 @@ use clap::Args;
 use dtg_passport::earth::Place;
 use dtg_passport::files;
 use dtg_passport::passport::{Question, Trust};
+use dtg_passport::revocation::{RevocationList, Series, claims_to_be_a_list};
 use dtg_passport::text::scalar::day;
 use dtg_passport::trust::{AllowedSigners, LARGEST_TRUST_FILE_BYTES, RevokedKeys};
 use jiff::Timestamp;
@@ -16,7 +17,7 @@ pub struct TrustFiles {
     /// The keys that may sign: OpenSSH's allowed_signers
     #[arg(long, value_name = "SIGNERS")]
     trust: PathBuf,
-    /// Keys that no longer count: a KRL of OpenSSH or a list of public keys (repeatable)
+    /// What no longer counts: a KRL, a list of public keys, or a list of withdrawn passports (repeatable)
     #[arg(long, value_name = "FILE")]
     revoked: Vec<PathBuf>,
 }
@@ -47,7 +48,8 @@ pub struct TrustOptions {
 
 impl TrustOptions {
     pub fn load(&self) -> Result<(Trust, Question), Failure> {
-        Ok((load(&self.files.trust, &self.files.revoked)?, self.asked.question()))
+        let question = self.asked.question();
+        Ok((load(&self.files.trust, &self.files.revoked, question.time)?, question))
     }
 }
 
@@ -62,16 +64,26 @@ impl Asked {
     }
 }
 
-/// Reads the trust files.
-pub fn load(signers: &Path, revoked: &[PathBuf]) -> Result<Trust, Failure> {
+/// Reads the trust files. Lists of withdrawn passports are verified at `time`; the newest of them counts.
+pub fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Result<Trust, Failure> {
     let read = |path: &Path| files::read(path, LARGEST_TRUST_FILE_BYTES).map_err(Failure::unusable);
     let name = |path: &Path| path.display().to_string();
-    let signers = AllowedSigners::parse(&name(signers), &read(signers)?).map_err(Failure::unusable)?;
-    let revoked = revoked
-        .iter()
-        .map(|path| RevokedKeys::parse(&name(path), &read(path)?).map_err(Failure::unusable))
-        .collect::<Result<_, _>>()?;
-    Ok(Trust { signers, revoked })
+    let mut trust = Trust::of(AllowedSigners::parse(&name(signers), &read(signers)?).map_err(Failure::unusable)?);
+    let mut lists = Vec::new();
+    for path in revoked {
+        let bytes = read(path)?;
+        if claims_to_be_a_list(&bytes) {
+            lists.push((name(path), bytes));
+        } else {
+            trust.revoked.push(RevokedKeys::parse(&name(path), &bytes).map_err(Failure::unusable)?);
+        }
+    }
+    let verified = lists.iter().map(|(name, bytes)| {
+        RevocationList::verify(name, bytes, &trust.signers, &trust.revoked, time).map_err(Failure::unusable)
+    });
+    let series = Series::of(verified.collect::<Result<_, _>>()?);
+    trust.withdrawn = series.newest;
+    Ok(trust)
 }
 
 /// A time as the options take it.

@@ -18,6 +18,9 @@ pub struct Options {
     passports: Vec<PathBuf>,
     #[command(flatten)]
     trust: TrustOptions,
+    /// Folder of passports: refuse one that another there supersedes
+    #[arg(long, value_name = "DIR")]
+    register: Option<PathBuf>,
     /// Form of the result
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -25,6 +28,8 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
+    let register = options.register.as_deref();
+    let register = register.map(|folder| super::register::read(folder, trust.clone(), &question, None)).transpose()?;
     let mut code = 0;
     let mut verdicts = Vec::new();
     for path in &options.passports {
@@ -33,6 +38,10 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
             Ok(bytes) => {
                 let name = path.display().to_string();
                 let verification = verify(&name, &bytes, &trust, &question);
+                let verification = match &register {
+                    Some(register) => register.asked(verification, &bytes),
+                    None => verification,
+                };
                 code = code.max(if verification.valid() { 0 } else { REFUSED });
                 verdicts.push(verdict::Verdict::of(&name, &verification));
             }

@@ -2,10 +2,10 @@
 
 use super::annotations::{absences, payload};
 use super::content::{self, Content, Header, PASSPORT_FORMAT, Predecessor, passport_id};
-use super::document::{Signer, SigningFailed, join};
 use super::{NAMESPACE, read};
 use crate::calibration::noise::{self, NoiseGrowth};
 use crate::coefficients::SingularPositions;
+use crate::document::{Signer, SigningFailed, join};
 use crate::gyro::Parameters;
 use crate::site::Site;
 use crate::stand::Stand;

@@ -2,7 +2,6 @@
 //!
 //! * [`content`]: the records, and the numbers that follow from stand and site.
 //! * [`annotations`]: the comments that stand between them.
-//! * [`document`]: text and signature, joined and split.
 //! * [`read`]: signed text to content, canonical form required.
 //! * [`issue`]: a stand and a site to a signed passport.
 //! * [`recomputed`]: every number again from the signed inputs.
@@ -11,7 +10,6 @@
 
 pub mod annotations;
 pub mod content;
-pub mod document;
 pub mod issue;
 pub mod read;
 pub mod recomputed;

@@ -2,7 +2,7 @@
 
 use super::NAMESPACE;
 use super::content::Content;
-use super::document::{self, SignedText};
+use crate::document::{self, SignedText};
 use crate::text::Unreadable;
 
 /// Parses the payload of a passport: see [`document::parse`].

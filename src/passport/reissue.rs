@@ -3,13 +3,13 @@
 use super::content::{Content, Predecessor};
 use super::issue::{self, Draft, Issue, IssueRefused};
 use super::verification::{CheckName, Code, Verification};
+use crate::document::sha256_hex;
 use crate::gyro::{GyroType, Parameters};
 use crate::site::Site;
 use crate::stand::{STAND_FORMAT, Stand};
 use crate::text::{Field, Node, rule};
 use jiff::Timestamp;
 use jiff::civil::Date;
-use sha2::{Digest, Sha256};
 
 /// What is to be issued anew, and by whom.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,11 +90,6 @@ pub struct Successor {
     same_site: bool,
     old_revision: u32,
     issue: Issue,
-}
-
-/// SHA-256 of a file, lower-case hexadecimal.
-pub fn sha256_hex(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Decides what follows from the old passport: everything, when every check passed; its id and hash alone, when its key

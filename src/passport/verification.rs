@@ -4,10 +4,12 @@
 //! steps come in an order that parses nothing before the signature holds.
 
 use super::content::{Content, PASSPORT_FORMAT};
-use super::document::{Malformed, SignedText};
 use super::{NAMESPACE, read, recomputed};
 use crate::coefficients::Coefficients;
+use crate::document::sha256_hex;
+use crate::document::{Malformed, SignedText};
 use crate::earth::{self, Place};
+use crate::revocation::{Entry, RevocationList};
 use crate::site::LATITUDE_MARGIN_ARCSEC;
 use crate::text::scalar::day;
 use crate::trust::{AllowedSigners, NotAuthorised, PublicKey, RevokedKeys};
@@ -21,6 +23,15 @@ pub struct Trust {
     pub signers: AllowedSigners,
     /// Keys that no longer count, whatever they signed and when.
     pub revoked: Vec<RevokedKeys>,
+    /// The newest list of withdrawn passports, itself verified.
+    pub withdrawn: Option<RevocationList>,
+}
+
+impl Trust {
+    /// These signers, nothing revoked and nothing withdrawn.
+    pub fn of(signers: AllowedSigners) -> Self {
+        Self { signers, revoked: Vec::new(), withdrawn: None }
+    }
 }
 
 /// What is asked.
@@ -66,6 +77,8 @@ pub enum CheckName {
     Stand,
     /// The place is within the radius of validity.
     Place,
+    /// No successor supersedes it in the folder asked about.
+    Register,
 }
 
 impl CheckName {
@@ -82,6 +95,7 @@ impl CheckName {
             Self::Issuer => "issuer",
             Self::Stand => "stand",
             Self::Place => "place",
+            Self::Register => "register",
         }
     }
 }
@@ -111,6 +125,8 @@ pub enum Code {
     KeyExpired,
     /// The key was revoked.
     KeyRevoked,
+    /// The passport was withdrawn.
+    PassportRevoked,
     /// A number does not follow from the signed inputs.
     WrongNumber,
     /// Issued later than the time asked about.
@@ -123,6 +139,8 @@ pub enum Code {
     WrongStand,
     /// For another place.
     WrongPlace,
+    /// A successor counts in its place.
+    Superseded,
 }
 
 impl Code {
@@ -140,12 +158,14 @@ impl Code {
             Self::KeyNotYetValid => "key_not_yet_valid",
             Self::KeyExpired => "key_expired",
             Self::KeyRevoked => "key_revoked",
+            Self::PassportRevoked => "passport_revoked",
             Self::WrongNumber => "wrong_number",
             Self::NotYetValid => "not_yet_valid",
             Self::Expired => "expired",
             Self::WrongIssuer => "wrong_issuer",
             Self::WrongStand => "wrong_stand",
             Self::WrongPlace => "wrong_place",
+            Self::Superseded => "superseded",
         }
     }
 }
@@ -225,6 +245,17 @@ impl Verification {
         self.content.as_ref().map(|content| content.passport.id.as_str())
     }
 
+    /// The content, once the signature holds and the content is good: whoever signed it, and whatever else failed.
+    pub fn content(&self) -> Option<&Content> {
+        self.content.as_deref()
+    }
+
+    /// Adds a check that needs more than the passport's own bytes.
+    pub(crate) fn with(mut self, check: Check) -> Self {
+        self.checks.push(check);
+        self
+    }
+
     /// The key that the signature names, once the signature's form is good.
     pub fn key(&self) -> Option<&PublicKey> {
         self.key.as_ref()
@@ -257,7 +288,7 @@ pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> V
         verification.key = Some(text.key().clone());
         if let Some(payload) = run.signature(&text) {
             verification.content = run.schema(name, payload).map(Box::new);
-            run.revocation(text.key(), trust);
+            run.revocation(bytes, text.key(), verification.content.as_deref(), trust);
             if let Some(content) = &verification.content {
                 run.signer(text.key(), content, trust);
                 run.recomputed(content);
@@ -327,17 +358,23 @@ impl Run {
         }
     }
 
-    fn revocation(&mut self, key: &PublicKey, trust: &Trust) {
-        match trust.revoked.iter().find_map(|list| list.revokes(key)) {
-            Some(why) => {
-                let detail = format!("the signing key {} was revoked: {why}", key.fingerprint());
-                self.note(CheckName::Revocation, Code::KeyRevoked, detail);
-            }
-            None if trust.revoked.is_empty() => {
-                self.note(CheckName::Revocation, Code::Ok, "no revocation list was given (--revoked)");
-            }
-            None => self.note(CheckName::Revocation, Code::Ok, "the signing key is not revoked"),
+    fn revocation(&mut self, bytes: &[u8], key: &PublicKey, content: Option<&Content>, trust: &Trust) {
+        if let Some(why) = trust.revoked.iter().find_map(|list| list.revokes(key)) {
+            let detail = format!("the signing key {} was revoked: {why}", key.fingerprint());
+            return self.note(CheckName::Revocation, Code::KeyRevoked, detail);
         }
+        let id = content.map_or("", |content| &content.passport.id);
+        let entry = trust.withdrawn.as_ref().and_then(|list| list.entry(id, &sha256_hex(bytes)));
+        if let Some(Entry { id, revoked_at, reason, .. }) = entry {
+            let detail = format!("{id} was withdrawn at {revoked_at}: {reason}");
+            return self.note(CheckName::Revocation, Code::PassportRevoked, detail);
+        }
+        let detail = match (&trust.withdrawn, trust.revoked.is_empty()) {
+            (Some(list), _) => format!("not revoked; list {} of {} names it not", list.sequence, list.issued_at),
+            (None, false) => "the signing key is not revoked; no list of withdrawn passports was given".to_owned(),
+            (None, true) => "no revocation list was given (--revoked)".to_owned(),
+        };
+        self.note(CheckName::Revocation, Code::Ok, detail);
     }
 
     fn signer(&mut self, key: &PublicKey, content: &Content, trust: &Trust) {

@@ -5,11 +5,13 @@
 //! * [`columns`]: text in columns.
 //! * [`issued`]: what became of an order, and what the factory should know about it.
 //! * [`passport_table`]: a passport in a terminal.
+//! * [`register`]: what is in force in a folder.
 //! * [`simulation`]: the tables of simulations.
 
 pub mod calibration;
 pub mod columns;
 pub mod issued;
 pub mod passport_table;
+pub mod register;
 pub mod simulation;
 pub mod verdict;

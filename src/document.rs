@@ -7,6 +7,7 @@ use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::problem::{Location, Unreadable};
 use crate::text::{Field, Node, Path, Problems, rule};
 use crate::trust::{KeyError, PublicKey, Signature, SignatureError, SigningKey};
+use sha2::{Digest, Sha256};
 
 /// The line that ends the payload.
 const SIGNATURE_LINE: &str = "signature: |\n";
@@ -146,6 +147,11 @@ pub fn parse<T: Field>(name: &str, payload: &str, check: impl FnOnce(&T, &mut Pr
             Err(Unreadable::whole(name, Some(Location { line, column: 1 }), found, expected, advice))
         }
     }
+}
+
+/// SHA-256 of a file, lower-case hexadecimal.
+pub fn sha256_hex(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Where the payload ends: at the first line `signature: |`.

@@ -1,0 +1,89 @@
+//! `revoke`: withdraws passports.
+
+use super::key_options::KeyOptions;
+use super::trust_options::{TrustOptions, now};
+use super::{Code, Failure, output};
+use clap::Args;
+use dtg_passport::document::sha256_hex;
+use dtg_passport::files::{self, Access};
+use dtg_passport::folder::{self, Folder};
+use dtg_passport::passport::verify;
+use dtg_passport::revocation::{Entry, RevocationList, Series};
+use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
+use std::path::{Path, PathBuf};
+
+/// Withdraw passports: adds them to the signed list in a folder
+#[derive(Args)]
+pub struct Options {
+    /// Ids (model/serial/site/revision), looked up in --passports, or files
+    #[arg(required = true, value_name = "PASSPORT-ID")]
+    ids: Vec<String>,
+    /// Why
+    #[arg(long, value_name = "TEXT")]
+    reason: String,
+    /// Folder of the lists: the newest there is continued
+    #[arg(long, value_name = "FOLDER")]
+    list: PathBuf,
+    /// Folder of the passports
+    #[arg(long, value_name = "DIR", default_value = "passports")]
+    passports: PathBuf,
+    #[command(flatten)]
+    key: KeyOptions,
+    #[command(flatten)]
+    trust: TrustOptions,
+}
+
+pub fn run(options: &Options) -> Result<Code, Failure> {
+    let (trust, question) = options.trust.load()?;
+    let mut lists = Vec::new();
+    let found = if options.list.exists() {
+        folder::find(&options.list).map_err(Failure::unusable)?
+    } else {
+        folder::Found::default()
+    };
+    for path in &found.revocation_lists {
+        let bytes = read(path)?;
+        let name = path.display().to_string();
+        let list = RevocationList::verify(&name, &bytes, &trust.signers, &trust.revoked, question.time);
+        lists.push(list.map_err(Failure::refused)?);
+    }
+    let series = Series::of(lists);
+    if !series.alarms.is_empty() {
+        return Err(Failure::refused(series.alarms.join("\n")));
+    }
+    let mut entries = Vec::new();
+    for id in &options.ids {
+        let path = file_of(id, &options.passports);
+        let bytes = read(&path)?;
+        let verification = verify(&path.display().to_string(), &bytes, &trust, &question);
+        let Some(content) = verification.unauthorised_content() else {
+            let failed = verification.checks().iter().find(|check| check.passed() == Some(false));
+            let words = failed.map_or_else(String::new, |check| check.detail.clone());
+            return Err(Failure::refused(format!(
+                "{}: is no passport that could be withdrawn: {words}",
+                path.display()
+            )));
+        };
+        let (id, sha256) = (content.passport.id.clone(), sha256_hex(&bytes));
+        entries.push(Entry { id, sha256, revoked_at: now(), reason: options.reason.clone() });
+    }
+    let list = RevocationList::following(series.newest.as_ref(), &options.key.identity, now(), entries);
+    let list = list.map_err(Failure::refused)?;
+    let text = list.sign(options.key.signer()?.as_ref()).map_err(Failure::refused)?;
+    let path = options.list.join(format!("revocation-{}.yaml", list.sequence));
+    files::write_new(&path, text.as_bytes(), Access::Shared).map_err(Failure::unusable)?;
+    output::result(&format!("revoked    {} passports in all  {}\n", list.entries.len(), path.display()))?;
+    Ok(0)
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)
+}
+
+/// A file as given, or the file of an id.
+fn file_of(id: &str, passports: &Path) -> PathBuf {
+    match Folder::new(passports).path_of_id(id) {
+        Some(path) if path.exists() => path,
+        _ => PathBuf::from(id),
+    }
+}

@@ -1,0 +1,59 @@
+//! A register in a terminal and as CSV.
+
+use crate::register::{Register, State};
+use crate::report::columns;
+use std::fmt::Write;
+
+impl State {
+    /// Its name in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::InForce => "in force",
+            Self::Expiring => "expiring",
+            Self::Superseded => "superseded",
+            Self::Moved => "moved",
+            Self::Expired => "expired",
+            Self::NotYetValid => "not yet valid",
+            Self::Revoked => "revoked",
+            Self::Broken => "BROKEN",
+        }
+    }
+}
+
+/// A line for each passport, the alarms, and how many are in each state.
+pub fn text(register: &Register) -> String {
+    let mut out = String::new();
+    for line in &register.passports {
+        let id = line.id.as_deref().unwrap_or("(nothing of it may be believed)");
+        let _ = writeln!(out, "{:<13}  {id}  {}", line.state.words(), line.file);
+        columns::paragraph(&mut out, "               ", &line.why);
+    }
+    for alarm in &register.alarms {
+        let files = if alarm.files.is_empty() { String::new() } else { format!(": {}", alarm.files.join(", ")) };
+        columns::paragraph(&mut out, "", &format!("ALARM ({}): {}{files}", alarm.kind, alarm.words));
+    }
+    let counts: Vec<String> =
+        register.counts().into_iter().map(|(state, count)| format!("{count} {}", state.words())).collect();
+    let summary = if counts.is_empty() { "no passports".to_owned() } else { counts.join(", ") };
+    let _ = writeln!(out, "{summary}; alarms: {}", register.alarms.len());
+    out
+}
+
+/// The passports as CSV with the header `state,id,stand,site,issuer,valid_until,sha256,file,why`.
+pub fn csv(register: &Register) -> String {
+    let mut out = String::from("state,id,stand,site,issuer,valid_until,sha256,file,why\n");
+    for line in &register.passports {
+        let valid_until = line.valid_until.map(|day| day.to_string());
+        let texts = [line.id.as_deref(), line.stand.as_deref(), line.site.as_deref(), line.issuer.as_deref()];
+        let cells = [Some(line.state.key())].into_iter().chain(texts);
+        let cells = cells.chain([valid_until.as_deref(), Some(&line.sha256), Some(&line.file), Some(&line.why)]);
+        let cells: Vec<String> = cells.map(|cell| quoted(cell.unwrap_or(""))).collect();
+        let _ = writeln!(out, "{}", cells.join(","));
+    }
+    out
+}
+
+/// A cell as RFC 4180 has it.
+fn quoted(cell: &str) -> String {
+    if cell.contains([',', '"', '\n']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.to_owned() }
+}
