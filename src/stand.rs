@@ -6,6 +6,7 @@ use crate::text::scalar::Identifier;
 use crate::text::{Path, Problems, Unreadable, node, record};
 use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
 use jiff::civil::Date;
+use std::collections::BTreeSet;
 
 /// The format of a stand file.
 pub const STAND_FORMAT: &str = "dtg-stand/1";
@@ -188,10 +189,11 @@ pub(crate) fn check(certificate: &Certificate, positions: &[CertifiedPosition], 
     if positions.is_empty() {
         problems.at(&at, "an empty list", "at least one position", "");
     }
+    let mut seen = BTreeSet::new();
     for (index, position) in positions.iter().enumerate() {
         let at = at.item(index);
         check_position(position, &at, problems);
-        if positions[..index].iter().any(|earlier| earlier.index() == position.index()) {
+        if !seen.insert(position.index()) {
             let advice = "keep one of the two";
             problems.at(&at, format!("position {} a second time", position.index()), "every position once", advice);
         }

@@ -4,6 +4,7 @@ use super::problem::{Location, Problems, Step, Target, Unreadable};
 use super::{LARGEST_DOCUMENT_BYTES, Path};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::ser::{Serialize, SerializeMap, Serializer};
+use std::cell::Cell;
 use std::fmt;
 
 /// A value of a document.
@@ -35,8 +36,12 @@ impl Node {
         if text.lines().all(|line| line.trim_start().is_empty() || line.trim_start().starts_with('#')) {
             return Err(Unreadable::whole(name, None, "nothing but blanks and comments", "a YAML document", ""));
         }
-        let node = serde_yaml::Deserializer::from_str(text);
-        match Whole.deserialize(node) {
+        if let Some(at) = too_deep(text) {
+            let expected = format!("at most {DEEPEST} brackets in each other");
+            return Err(Unreadable::whole(name, Some(at), "more brackets in each other", expected, ""));
+        }
+        let budget = Budget::of(text);
+        match Whole(&budget).deserialize(serde_yaml::Deserializer::from_str(text)) {
             Ok(node) => Ok((node, text.to_owned())),
             Err(error) => Err(unreadable_yaml(name, &error)),
         }
@@ -152,17 +157,69 @@ impl Serialize for Node {
     }
 }
 
-/// Builds the tree.
-struct Whole;
+/// The most brackets in each other that any document may have; a position's matrix in a list needs four.
+const DEEPEST: usize = 64;
 
-impl<'de> DeserializeSeed<'de> for Whole {
+/// Where brackets stand in more than [`DEEPEST`] others, strings and comments aside.
+///
+/// The parser looks at every open bracket at every token: a million of them would keep it busy for minutes. A string
+/// is taken to end with its line, as every string of a signed text does; one that does not may hide brackets here,
+/// which costs time and nothing else.
+fn too_deep(text: &str) -> Option<Location> {
+    let mut depth = 0_usize;
+    for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with('#')) {
+        let (mut in_string, mut escaped) = (false, false);
+        for (column, c) in line.chars().enumerate() {
+            match c {
+                _ if escaped => escaped = false,
+                '\\' => escaped = in_string,
+                '"' => in_string = !in_string,
+                '[' | '{' if !in_string => depth += 1,
+                ']' | '}' if !in_string => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            if depth > DEEPEST {
+                return Some(Location { line: index + 1, column: column + 1 });
+            }
+        }
+    }
+    None
+}
+
+/// What may still be built: aliases make much out of little.
+struct Budget(Cell<usize>);
+
+impl Budget {
+    /// Every value and every byte of a string takes room in the text, unless an alias repeats it: without aliases no
+    /// document needs as much.
+    fn of(text: &str) -> Self {
+        Self(Cell::new(4 * text.len() + 64))
+    }
+
+    fn unlimited() -> Self {
+        Self(Cell::new(usize::MAX))
+    }
+
+    fn spend<E: de::Error>(&self, cost: usize) -> Result<(), E> {
+        let left = self.0.get().checked_sub(cost).ok_or_else(|| E::custom("aliases that repeat too much"))?;
+        self.0.set(left);
+        Ok(())
+    }
+}
+
+/// Builds the tree.
+#[derive(Clone, Copy)]
+struct Whole<'a>(&'a Budget);
+
+impl<'de> DeserializeSeed<'de> for Whole<'_> {
     type Value = Node;
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Node, D::Error> {
+        self.0.spend(1)?;
         deserializer.deserialize_any(self)
     }
 }
 
-impl<'de> Visitor<'de> for Whole {
+impl<'de> Visitor<'de> for Whole<'_> {
     type Value = Node;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -184,25 +241,26 @@ impl<'de> Visitor<'de> for Whole {
         Ok(Node::Number(value))
     }
     fn visit_str<E: de::Error>(self, value: &str) -> Result<Node, E> {
+        self.0.spend(value.len())?;
         Ok(Node::Text(value.to_owned()))
     }
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Node, A::Error> {
         let mut items = Vec::new();
-        while let Some(item) = list.next_element_seed(Whole)? {
+        while let Some(item) = list.next_element_seed(self)? {
             items.push(item);
         }
         Ok(Node::List(items))
     }
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Node, A::Error> {
         let mut entries = Vec::new();
-        while let Some(key) = map.next_key_seed(Whole)? {
+        while let Some(key) = map.next_key_seed(self)? {
             let key = match key {
                 Node::Text(key) => key,
                 // `alpha_arcsec: 12,4` inside braces is a key 4 without a value: kept, and refused by name.
                 Node::Integer(key) => key.to_string(),
                 other => return Err(de::Error::custom(format!("{} as a key", other.describe()))),
             };
-            entries.push((key, map.next_value_seed(Whole)?));
+            entries.push((key, map.next_value_seed(self)?));
         }
         Ok(Node::Map(entries))
     }
@@ -265,7 +323,8 @@ impl<'de> Visitor<'de> for Probe<'_> {
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
         match (self.steps.split_first(), self.entry) {
             (Some((Step::Key(target), rest)), _) => {
-                while let Some(key) = map.next_key_seed(Whole)? {
+                let budget = Budget::unlimited();
+                while let Some(key) = map.next_key_seed(Whole(&budget))? {
                     if key == Node::Text(target.clone()) {
                         map.next_value_seed(Probe { steps: rest, entry: self.entry })?;
                     } else {

@@ -112,10 +112,18 @@ impl Display for Problem {
     }
 }
 
+/// The most mistakes of a document that are reported, each with its place.
+pub const MOST_PROBLEMS: usize = 50;
+
+/// How much is read again to find those places, once the text for each: of a text so large that it comes to more, fewer
+/// mistakes are reported. A hostile text of a hundred thousand mistakes must not keep its reader busy for hours.
+const READ_AGAIN_BYTES: usize = 1 << 22;
+
 /// Mistakes collected while a document is read; [`Problems::refuse`] finds their lines and columns.
 #[derive(Debug, Default)]
 pub struct Problems {
     found: Vec<(Option<Target>, Problem)>,
+    more: bool,
 }
 
 impl Problems {
@@ -129,10 +137,14 @@ impl Problems {
         self.found.is_empty()
     }
 
+    /// Whether no further mistake will be reported: [`MOST_PROBLEMS`] are noted, and that there are more.
+    pub fn is_full(&self) -> bool {
+        self.more
+    }
+
     /// Notes that the value at `at` is `found` where `expected` was due.
     pub fn at(&mut self, at: &Path, found: impl Into<String>, expected: impl Into<String>, advice: impl Into<String>) {
-        let target = Target { steps: at.steps(), entry: None };
-        self.push(at.to_string(), Some(target), found.into(), expected.into(), advice.into());
+        self.push(at, None, found.into(), expected.into(), advice.into());
     }
 
     /// Notes a mistake in the n-th key (from 0) of the mapping at `at`.
@@ -144,8 +156,7 @@ impl Problems {
         expected: impl Into<String>,
         advice: impl Into<String>,
     ) {
-        let target = Target { steps: at.steps(), entry: Some(entry) };
-        self.push(at.to_string(), Some(target), found.into(), expected.into(), advice.into());
+        self.push(at, Some(entry), found.into(), expected.into(), advice.into());
     }
 
     /// Notes a number that is there and not within `low..=high`.
@@ -160,22 +171,35 @@ impl Problems {
         }
     }
 
-    fn push(&mut self, field: String, target: Option<Target>, found: String, expected: String, advice: String) {
-        self.found.push((target, Problem { location: None, field, found, expected, advice }));
+    fn push(&mut self, at: &Path, entry: Option<usize>, found: String, expected: String, advice: String) {
+        if self.found.len() == MOST_PROBLEMS {
+            self.more = true;
+            return;
+        }
+        let target = Target { steps: at.steps(), entry };
+        self.found.push((Some(target), Problem { location: None, field: at.to_string(), found, expected, advice }));
     }
 
     /// The refusal of the document `name` whose text is `text`, every mistake with its line and column,
     /// in the order of the text.
     pub fn refuse(self, name: &str, text: &str) -> Unreadable {
+        let affordable = (READ_AGAIN_BYTES / text.len().max(1)).max(1);
+        let more = self.more || self.found.len() > affordable;
         let mut problems: Vec<Problem> = self
             .found
             .into_iter()
+            .take(affordable)
             .map(|(target, problem)| Problem {
                 location: target.and_then(|target| super::node::locate(text, &target)),
                 ..problem
             })
             .collect();
         problems.sort_by_key(|problem| problem.location.map(|at| (at.line, at.column)));
+        if more {
+            let (found, expected) = ("further mistakes".to_owned(), "none".to_owned());
+            let advice = "correct these first".to_owned();
+            problems.push(Problem { location: None, field: String::new(), found, expected, advice });
+        }
         Unreadable { name: name.to_owned(), problems }
     }
 }

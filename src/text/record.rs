@@ -1,6 +1,7 @@
 //! From a [`Node`] to a Rust struct and back, from one declaration: what `record!` declares is the format.
 
 use super::{Node, Path, Problems};
+use std::collections::HashSet;
 
 /// A type that a field of a document can have.
 pub trait Field: Sized {
@@ -73,8 +74,12 @@ pub fn entries<'n>(node: &'n Node, at: &Path, problems: &mut Problems, known: &[
         problems.at(at, node.describe(), format!("a mapping with the keys {}", known.join(", ")), "");
         return None;
     };
+    let mut seen = HashSet::new();
     for (index, (key, value)) in entries.iter().enumerate() {
-        if entries[..index].iter().any(|(earlier, _)| earlier == key) {
+        if problems.is_full() {
+            break;
+        }
+        if !seen.insert(key) {
             let advice = "keep one of the two: which one counts would depend on the reader";
             problems.at_entry(at, index, format!("the key {key:?} a second time"), "every key once", advice);
         } else if !known.contains(&key.as_str()) {
