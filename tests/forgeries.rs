@@ -490,6 +490,15 @@ fn numbers_that_do_not_follow() {
         written(&content, &bench.key)
     };
     assert!(matrices.is_some() && self_check.is_some());
+    // A position beside the eight whose index is large must not lend its size to the limit of the currents.
+    let mut nine = made::stand(made::ARC_MINUTES);
+    let mut extra = nine.positions[0].clone();
+    (extra.i, extra.j) = (u32::MAX, u32::MAX);
+    nine.positions.push(extra);
+    let nine = made::content(&nine, &made::site(made::SITE));
+    assert!(verify("nine", written(&nine, &bench.key).as_bytes(), &trust(&bench.key), &question()).valid());
+    let mut loosened = nine.clone();
+    loosened.self_check.as_mut().unwrap().currents[3].jx_ma += 1e-3;
     let refused = cases(
         &bench,
         (CheckName::Recomputed, Code::WrongNumber),
@@ -510,6 +519,13 @@ fn numbers_that_do_not_follow() {
             wrong("a gyro without K", &|content| {
                 content.self_check.as_mut().unwrap().k_deg_per_h_per_ma = [[0.0, 0.0], [0.0, 0.0]];
             }),
+            // The currents would be infinite, and an infinite limit would let any pass.
+            wrong("a gyro whose currents are infinite", &|content| {
+                let check = content.self_check.as_mut().unwrap();
+                check.k_deg_per_h_per_ma = [[1e-9, 0.0], [0.0, 1e-9]];
+                check.omega0_deg_per_h = [1.7e308, 1.7e308];
+            }),
+            ("a wrong current beside a large index", written(&loosened, &bench.key)),
             wrong("the earth of another place", &|content| {
                 content.earth = made::site(&made::SITE.replace("55.7658\nlong", "55.7659\nlong")).earth();
             }),
@@ -520,6 +536,17 @@ fn numbers_that_do_not_follow() {
         ],
     );
     refuse_all(&refused);
+    // Consistent, and of no use: no software finds such parameters again.
+    let mut absurd = bench.content.clone();
+    let coefficients = absurd.coefficients();
+    let check = absurd.self_check.as_mut().unwrap();
+    check.omega0_deg_per_h = [1e9, 1e9];
+    let gyro = check.parameters().to_model();
+    for (current, at) in check.currents.iter_mut().zip(&coefficients.positions) {
+        [current.jx_ma, current.jy_ma] = gyro.currents_ma(at).unwrap().into();
+    }
+    let absurd = [("a gyro that its currents do not give back", written(&absurd, &bench.key))];
+    refuse_all(&cases(&bench, (CheckName::Recomputed, Code::WrongNumber), absurd));
 }
 
 /// Numbers that nothing in a passport can contradict: they are inputs, and no computed number depends on them. Whoever

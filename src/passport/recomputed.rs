@@ -1,6 +1,7 @@
 //! Every number of a passport that follows from its inputs, computed again and compared.
 
-use super::content::{Content, PositionVectors, derive};
+use super::content::{Content, PositionCurrents, PositionVectors, SelfCheck, derive};
+use super::issue::SELF_CHECK_LIMIT;
 use crate::earth::{AZIMUTH_QUANTUM_DEG, LENGTH_QUANTUM_M};
 use crate::text::{Field, Node};
 
@@ -33,7 +34,7 @@ impl std::fmt::Display for WrongNumber {
 /// # Errors
 /// The wrong numbers, or in words why there is nothing to compare with.
 pub fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
-    let gyro = content.self_check.as_ref().map(super::content::SelfCheck::parameters);
+    let gyro = content.self_check.as_ref().map(SelfCheck::parameters);
     let gyro = gyro.unwrap_or_else(|| crate::gyro::GyroType::gvk_6().nominal);
     let Ok(derived) = derive(&content.positions, &content.site, &gyro) else {
         let field = "matrices.n2_inverse".to_owned();
@@ -43,11 +44,27 @@ pub fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
     for (key, stated, computed) in [
         ("earth", content.earth.write(), derived.earth.write()),
         ("matrices", content.matrices.write(), derived.matrices.write()),
-        ("self_check", content.self_check.write(), derived.self_check.write()),
+        ("self_check", parameters(&content.self_check), parameters(&derived.self_check)),
     ] {
         compare_entries(key, &stated, &computed, &mut wrong);
     }
-    compare_vectors(&content.vectors, &derived.vectors, &mut wrong);
+    let currents = |check: &Option<SelfCheck>| check.as_ref().map_or_else(Vec::new, |check| check.currents.clone());
+    compare_sets(
+        "self_check.currents",
+        &currents(&content.self_check),
+        &currents(&derived.self_check),
+        &CURRENTS,
+        &mut wrong,
+    );
+    compare_sets("vectors", &content.vectors, &derived.vectors, &VECTORS, &mut wrong);
+    // Consistent numbers are not enough: of an absurd gyro no software finds the parameters again.
+    if let Some(self_check) = &content.self_check {
+        let error = self_check.error(&content.coefficients());
+        if error.is_nan() || error > SELF_CHECK_LIMIT {
+            let field = "self_check (calibrated again, relative error)".to_owned();
+            wrong.push(WrongNumber { field, stated: 0.0, computed: error });
+        }
+    }
     if wrong.is_empty() { Ok(()) } else { Err(wrong) }
 }
 
@@ -104,19 +121,31 @@ fn collect(node: &Node, path: &str, numbers: &mut Vec<(String, f64)>) {
     }
 }
 
-/// Specific forces are one set of vectors, Earth rates another.
-fn compare_vectors(stated: &[PositionVectors], computed: &[PositionVectors], wrong: &mut Vec<WrongNumber>) {
-    type Set = (&'static str, fn(&PositionVectors) -> Vec<f64>);
-    let sets: [Set; 4] = [
-        ("i, j", |at| vec![f64::from(at.i), f64::from(at.j)]),
-        ("specific_force_g", |at| at.specific_force_g.to_vec()),
-        ("specific_force_z_g", |at| vec![at.specific_force_z_g]),
-        ("omega_deg_per_h", |at| at.omega_deg_per_h.to_vec()),
-    ];
+/// The parameters of a self-check; its currents are compared as a set of vectors.
+fn parameters(self_check: &Option<SelfCheck>) -> Option<Node> {
+    self_check.as_ref().and_then(|check| check.parameters().write())
+}
+
+/// Numbers of a position that are compared together, against the largest of them in any position.
+type Set<T> = (&'static str, fn(&T) -> Vec<f64>);
+
+/// Specific forces are one set of vectors, Earth rates another; indices, which may be large, are a set of their own.
+const VECTORS: [Set<PositionVectors>; 4] = [
+    ("i, j", |at| vec![f64::from(at.i), f64::from(at.j)]),
+    ("specific_force_g", |at| at.specific_force_g.to_vec()),
+    ("specific_force_z_g", |at| vec![at.specific_force_z_g]),
+    ("omega_deg_per_h", |at| at.omega_deg_per_h.to_vec()),
+];
+
+/// The currents of the self-check.
+const CURRENTS: [Set<PositionCurrents>; 2] =
+    [("i, j", |at| vec![f64::from(at.i), f64::from(at.j)]), ("jx_ma, jy_ma", |at| vec![at.jx_ma, at.jy_ma])];
+
+fn compare_sets<T>(path: &str, stated: &[T], computed: &[T], sets: &[Set<T>], wrong: &mut Vec<WrongNumber>) {
     for (key, of) in sets {
-        let numbers = |vectors: &[PositionVectors]| -> Vec<(String, f64)> {
-            let each = vectors.iter().enumerate();
-            each.flat_map(|(index, at)| of(at).into_iter().map(move |x| (format!("vectors[{index}].{key}"), x)))
+        let numbers = |positions: &[T]| -> Vec<(String, f64)> {
+            let each = positions.iter().enumerate();
+            each.flat_map(|(index, at)| of(at).into_iter().map(move |x| (format!("{path}[{index}].{key}"), x)))
                 .collect()
         };
         compare_numbers(&numbers(stated), &numbers(computed), 0.0, wrong);
@@ -130,8 +159,8 @@ fn compare_numbers(stated: &[(String, f64)], computed: &[(String, f64)], quantum
     for index in 0..stated.len().max(computed.len()) {
         let number = |numbers: &[(String, f64)]| numbers.get(index).map_or(f64::NAN, |(_, value)| *value);
         let (s, c) = (number(stated), number(computed));
-        // A NaN differs from everything, itself included.
-        let agrees = (s - c).abs() <= limit;
+        // A NaN differs from everything, itself included; an infinity, whose share is infinite, would agree with all.
+        let agrees = c.is_finite() && (s - c).abs() <= limit;
         if !agrees {
             let field = stated.get(index).or(computed.get(index)).map(|(field, _)| field.clone()).unwrap_or_default();
             wrong.push(WrongNumber { field, stated: s, computed: c });
