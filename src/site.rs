@@ -15,6 +15,13 @@ pub const UNKNOWN_DEFLECTION_U_ARCSEC: f64 = 10.0;
 /// The change of ω_Γ or ω_B that sets the radius of validity, where a site names none.
 pub const DEFAULT_VALID_WITHIN_DEG_PER_H: f64 = 0.001;
 
+/// The largest uncertainty of a deflection: a degree, with which nothing is known. Larger ones could make the azimuth's
+/// infinite, which is no number of any document.
+const LARGEST_DEFLECTION_U_ARCSEC: f64 = 3600.0;
+
+/// And of a coordinate of pillar or mark: a thousand kilometres.
+const LARGEST_POSITION_U_M: f64 = 1e6;
+
 /// How far a geodetic latitude may be from the astronomic one where no deflection is known.
 pub const LATITUDE_MARGIN_ARCSEC: f64 = 30.0;
 
@@ -180,7 +187,7 @@ impl Site {
             let at = at.key("deflection_arcsec");
             problems.within(&at.key("xi"), Some(deflection.xi), -150.0, 150.0);
             problems.within(&at.key("eta"), Some(deflection.eta), -150.0, 150.0);
-            problems.within(&at.key("u"), deflection.u, 0.0, f64::MAX);
+            problems.within(&at.key("u"), deflection.u, 0.0, LARGEST_DEFLECTION_U_ARCSEC);
         }
         if let Some(mark) = &self.azimuth_mark {
             mark.check(&at.key("azimuth_mark"), problems);
@@ -207,8 +214,15 @@ impl Site {
             }
             _ => {
                 let latitude = self.astronomic_deg();
+                let key = if self.latitude_deg.is_some() { "latitude_deg" } else { "astronomic_latitude_deg" };
+                let geodetic = self.geodetic_deg();
+                // Beyond the pole there is no place, no distance to it and no radius about it.
+                if geodetic.abs() > 90.0 && self.latitude_deg.is_none() {
+                    let found = format!("the geodetic latitude {geodetic}, by the deflection");
+                    let advice = "is the sign of deflection_arcsec.xi right?";
+                    problems.at(&at.key(key), found, "a latitude from -90 to 90 degrees", advice);
+                }
                 if latitude.abs() >= 90.0 {
-                    let key = if self.latitude_deg.is_some() { "latitude_deg" } else { "astronomic_latitude_deg" };
                     let found = format!("the astronomic latitude {latitude}");
                     let advice = "at a pole the Earth's horizontal rate is zero, and K cannot be found there";
                     problems.at(&at.key(key), found, "a latitude between -90 and 90 degrees", advice);
@@ -293,7 +307,7 @@ impl AzimuthMark {
         problems.within(&at.key("longitude_deg"), Some(self.longitude_deg), -180.0, 180.0);
         problems.within(&at.key("pillar_latitude_deg"), Some(self.pillar_latitude_deg), -90.0, 90.0);
         problems.within(&at.key("pillar_longitude_deg"), Some(self.pillar_longitude_deg), -180.0, 180.0);
-        problems.within(&at.key("position_u_m"), self.position_u_m, 0.0, f64::MAX);
+        problems.within(&at.key("position_u_m"), self.position_u_m, 0.0, LARGEST_POSITION_U_M);
         let inside = |latitude: f64, longitude: f64| latitude.abs() <= 90.0 && longitude.abs() <= 180.0;
         let known = inside(self.latitude_deg, self.longitude_deg)
             && inside(self.pillar_latitude_deg, self.pillar_longitude_deg);

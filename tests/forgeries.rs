@@ -9,7 +9,7 @@ mod tools;
 use base64ct::{Base64, Encoding as _};
 use dtg_passport::earth::{Place, place_at};
 use dtg_passport::passport::annotations::payload;
-use dtg_passport::passport::content::{Content, Predecessor};
+use dtg_passport::passport::content::{Content, Predecessor, derive};
 use dtg_passport::passport::document::join;
 use dtg_passport::passport::verification::{CheckName, Code};
 use dtg_passport::passport::{NAMESPACE, Question, Trust, read, verify};
@@ -467,9 +467,38 @@ fn texts_that_are_not_canonical() {
             ),
             ("both latitudes", bench.rewritten(|content| content.site.astronomic_latitude_deg = Some(55.0))),
             ("no latitude", bench.rewritten(|content| content.site.latitude_deg = None)),
+            // Beyond the pole every radius is infinite, and with it the limit of what may be stated in its place.
+            (
+                "a deflection over the pole",
+                bench.rewritten(|content| {
+                    content.site.latitude_deg = None;
+                    content.site.astronomic_latitude_deg = Some(89.99);
+                    content.site.deflection_arcsec.as_mut().unwrap().xi = -150.0;
+                    recompute(content);
+                    content.earth.valid_radius_m = 1e9;
+                }),
+            ),
+            (
+                "an uncertainty that makes others infinite",
+                bench.rewritten(|content| {
+                    content.site.azimuth_mark.as_mut().unwrap().position_u_m = Some(1.7e308);
+                    recompute(content);
+                    content.earth.azimuth_u_arcsec = Some(0.1);
+                }),
+            ),
         ],
     );
     refuse_all(&refused);
+}
+
+/// Everything that follows from the inputs, as they are now.
+fn recompute(content: &mut Content) {
+    let gyro = content.self_check.as_ref().unwrap().parameters();
+    let derived = derive(&content.positions, &content.site, &gyro).unwrap();
+    content.earth = derived.earth;
+    content.matrices = derived.matrices;
+    content.vectors = derived.vectors;
+    content.self_check = derived.self_check;
 }
 
 /// A rightly trusted key, a text in the right form, and numbers that do not follow from the inputs.
