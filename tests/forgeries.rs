@@ -420,6 +420,7 @@ fn texts_that_are_not_canonical() {
             ("a leap second", with("08:00:00Z\"", "07:59:60Z\"")),
             ("a day that does not exist", with("valid_until: \"2028-11-01\"", "valid_until: \"2028-02-30\"")),
             ("a day of one digit", with("valid_until: \"2028-11-01\"", "valid_until: \"2028-11-1\"")),
+            ("issued before its certificate", with("2027-03-01T08", "2026-11-01T08")),
             ("nothing but comments", signed("# a passport\n", &bench.key)),
             ("a list", signed("- {i: 1}\n", &bench.key)),
             ("a text", signed("\"passport\"\n", &bench.key)),
@@ -449,6 +450,13 @@ fn texts_that_are_not_canonical() {
                 "reissued_from without supersedes",
                 bench.rewritten(|content| {
                     content.passport.reissued_from = Some(predecessor(&"0".repeat(64)));
+                }),
+            ),
+            (
+                "a predecessor's sha256 of no such form",
+                bench.rewritten(|content| {
+                    content.passport.supersedes = Some(true);
+                    content.passport.reissued_from = Some(predecessor(&"A".repeat(64)));
                 }),
             ),
             ("a position twice", bench.rewritten(|content| content.positions.insert(0, content.positions[0].clone()))),

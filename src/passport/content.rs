@@ -5,7 +5,7 @@ use crate::coefficients::{Coefficients, Matrices, PositionCoefficients, Position
 use crate::gyro::{GyroParameters, Parameters};
 use crate::site::{Earth, Site};
 use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity};
-use crate::text::scalar::Identifier;
+use crate::text::scalar::{Identifier, day};
 use crate::text::{Path, Problems, record};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -324,6 +324,18 @@ impl Content {
         }
         if self.passport.revision == 0 {
             problems.at(&header.key("revision"), "0", "a whole number from 1", "");
+        }
+        let (issued_at, certified) = (self.passport.issued_at, self.certificate.issued);
+        if issued_at < day(certified).0 {
+            let expected = format!("a time not before the certificate's day of issue, {certified}");
+            problems.at(&header.key("issued_at"), format!("{issued_at}"), expected, "");
+        }
+        if let Some(from) = &self.passport.reissued_from {
+            let hexadecimal = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
+            if from.sha256.len() != 64 || !from.sha256.bytes().all(hexadecimal) {
+                let at = header.key("reissued_from");
+                problems.at(&at.key("sha256"), format!("{:?}", from.sha256), "64 lower-case hexadecimal digits", "");
+            }
         }
         if self.passport.reissued_from.is_some() != self.passport.supersedes.is_some() {
             problems.at(&header, "one of reissued_from and supersedes", "both or neither", "");
