@@ -839,6 +839,7 @@ fn good_passports_where_they_do_not_count() {
     for question in [
         Question::at(issued_plus(0)),
         time("2028-11-01T23:59:59Z"),
+        time("2028-11-01T23:59:59.999Z"),
         away(180.0, radius - 1.0),
         serial("0017"),
         issuer(ISSUER),
@@ -863,6 +864,9 @@ fn good_passports_where_they_do_not_count() {
         expired(None, Some("2028-11-01"), "2028-11-01T23:59:59Z"),
         expired(Some("2027-04-01"), None, "2027-04-01T23:59:59Z"),
     ]);
+    // "For ever" is beyond what instants reach, and must not be read as long ago.
+    let for_ever = bench.rewritten(|content| content.passport.valid_until = Some("9999-12-31".parse().unwrap()));
+    assert!(verify("good", for_ever.as_bytes(), &trust(&bench.key), &question()).valid());
 }
 
 /// Runs `ssh-keygen` in a folder and gives whether it was content, and what it printed.

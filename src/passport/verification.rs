@@ -419,7 +419,8 @@ impl Run {
             _ if issued_at > time => {
                 (Code::NotYetValid, format!("issued at {issued_at}, which is after {time}: is the clock right?"))
             }
-            Some((last, which)) if time > day(last).1 => {
+            // The whole of the last second belongs to the last day.
+            Some((last, which)) if time.as_second() > day(last).1.as_second() => {
                 let remedy = match which {
                     "certificate" => "the stand must be certified again",
                     _ => "ask the issuer for a new passport",

@@ -111,8 +111,12 @@ impl Field for Timestamp {
 }
 
 /// The first and the last second of a UTC day, both included.
+///
+/// The calendar is a little longer than the instants that can be told apart: "9999-12-31", a last day for what never
+/// ends, is their end.
 pub fn day(date: Date) -> (Timestamp, Timestamp) {
-    let start = TimeZone::UTC.to_timestamp(date.at(0, 0, 0, 0)).unwrap_or(Timestamp::MIN);
+    let beyond = if date.year() > 0 { Timestamp::MAX } else { Timestamp::MIN };
+    let start = TimeZone::UTC.to_timestamp(date.at(0, 0, 0, 0)).unwrap_or(beyond);
     let end = start.as_second().saturating_add(86_399);
     (start, Timestamp::from_second(end).unwrap_or(Timestamp::MAX))
 }
@@ -138,5 +142,8 @@ mod tests {
         let (start, end) = day("2026-11-02".parse().unwrap());
         assert_eq!(start.to_string(), "2026-11-02T00:00:00Z");
         assert_eq!(end.to_string(), "2026-11-02T23:59:59Z");
+        assert_eq!(day("9999-12-31".parse().unwrap()), (Timestamp::MAX, Timestamp::MAX));
+        assert_eq!(day("9999-12-30".parse().unwrap()).1, Timestamp::MAX);
+        assert!(day(Date::MIN).1 < day("0001-01-01".parse().unwrap()).0);
     }
 }
