@@ -154,6 +154,11 @@ pub fn sha256_hex(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
+/// Whether a text has the form that [`sha256_hex`] gives.
+pub fn is_sha256_hex(text: &str) -> bool {
+    text.len() == 64 && text.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte))
+}
+
 /// Where the payload ends: at the first line `signature: |`.
 fn signature_line(bytes: &[u8]) -> Option<usize> {
     let line = SIGNATURE_LINE.as_bytes();

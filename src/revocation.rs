@@ -172,8 +172,7 @@ impl RevocationList {
         let entries = at.key("entries");
         for (index, entry) in self.entries.iter().enumerate() {
             let at = entries.item(index);
-            let hexadecimal = |c: u8| c.is_ascii_digit() || (b'a'..=b'f').contains(&c);
-            if entry.sha256.len() != 64 || !entry.sha256.bytes().all(hexadecimal) {
+            if !document::is_sha256_hex(&entry.sha256) {
                 let expected = "64 lower-case hexadecimal digits";
                 problems.at(&at.key("sha256"), format!("{:?}", entry.sha256), expected, "");
             }

@@ -7,10 +7,10 @@ mod made;
 mod tools;
 
 use base64ct::{Base64, Encoding as _};
+use dtg_passport::document::join;
 use dtg_passport::earth::{Place, place_at};
 use dtg_passport::passport::annotations::payload;
 use dtg_passport::passport::content::{Content, Predecessor, derive};
-use dtg_passport::passport::document::join;
 use dtg_passport::passport::verification::{CheckName, Code};
 use dtg_passport::passport::{NAMESPACE, Question, Trust, read, verify};
 use dtg_passport::trust::{Signature, SigningKey};
@@ -955,7 +955,7 @@ fn signatures_of_stock_openssh() {
     let trust_of = |kind: &str| {
         let signers = format!("{ISSUER} {}", line(kind));
         let signers = dtg_passport::trust::AllowedSigners::parse("s", signers.as_bytes()).unwrap();
-        Trust { signers, revoked: Vec::new() }
+        Trust::of(signers)
     };
     let theirs = sign("ed25519", &[]);
     let answer = verify("ed25519", theirs.as_bytes(), &trust_of("ed25519"), &question());

@@ -2,6 +2,7 @@
 
 use crate::calibration::analytic;
 use crate::coefficients::{Coefficients, Matrices, PositionCoefficients, PositionIndex, SingularPositions};
+use crate::document::is_sha256_hex;
 use crate::gyro::{GyroParameters, Parameters};
 use crate::site::{Earth, Site};
 use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity};
@@ -330,12 +331,9 @@ impl Content {
             let expected = format!("a time not before the certificate's day of issue, {certified}");
             problems.at(&header.key("issued_at"), format!("{issued_at}"), expected, "");
         }
-        if let Some(from) = &self.passport.reissued_from {
-            let hexadecimal = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
-            if from.sha256.len() != 64 || !from.sha256.bytes().all(hexadecimal) {
-                let at = header.key("reissued_from");
-                problems.at(&at.key("sha256"), format!("{:?}", from.sha256), "64 lower-case hexadecimal digits", "");
-            }
+        if let Some(from) = self.passport.reissued_from.as_ref().filter(|from| !is_sha256_hex(&from.sha256)) {
+            let at = header.key("reissued_from");
+            problems.at(&at.key("sha256"), format!("{:?}", from.sha256), "64 lower-case hexadecimal digits", "");
         }
         if self.passport.reissued_from.is_some() != self.passport.supersedes.is_some() {
             problems.at(&header, "one of reissued_from and supersedes", "both or neither", "");

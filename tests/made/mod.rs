@@ -3,10 +3,10 @@
 // Every file of tests is a program of its own, and none uses all of this.
 #![allow(dead_code)]
 
+use dtg_passport::document::join;
 use dtg_passport::gyro::GyroType;
 use dtg_passport::passport::annotations::payload;
 use dtg_passport::passport::content::Content;
-use dtg_passport::passport::document::join;
 use dtg_passport::passport::issue::{Issue, draft};
 use dtg_passport::passport::{NAMESPACE, Question, Trust};
 use dtg_passport::site::Site;
@@ -79,7 +79,7 @@ pub fn written(content: &Content, key: &SigningKey) -> String {
 /// `key` is trusted by a line of allowed signers with these principals and options.
 pub fn trust_as(principals_and_options: &str, key: &SigningKey) -> Trust {
     let line = format!("{principals_and_options} {}\n", key.public_key().to_openssh());
-    Trust { signers: AllowedSigners::parse("allowed_signers", line.as_bytes()).unwrap(), revoked: Vec::new() }
+    Trust::of(AllowedSigners::parse("allowed_signers", line.as_bytes()).unwrap())
 }
 
 /// `key` is trusted as the issuer of passports, and nothing else.
