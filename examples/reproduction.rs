@@ -1,19 +1,25 @@
 //! Every figure of docs/reproduction.md at full size: `cargo run --release --example reproduction`.
 //!
-//! The command line gives the first two parts as well (`dtg-passport simulate accuracy`, `simulate convergence`); the
-//! others have no command of their own.
+//! The command line gives the tables of accuracy and Fig. 4 as well (`dtg-passport simulate accuracy`, `simulate
+//! convergence`); the rest has no command of its own.
 
 use dtg_passport::calibration::Method;
-use dtg_passport::simulation::accuracy::{AccuracyOptions, Stands, accuracy};
+use dtg_passport::calibration::iterative::{self, StopRule};
+use dtg_passport::coefficients::{EarthRate, Position, StandGeometry};
+use dtg_passport::gyro::GyroType;
+use dtg_passport::simulation::accuracy::{AccuracyOptions, PAPER_LATITUDE_DEG, Stands, accuracy};
 use dtg_passport::simulation::convergence::{ConvergenceOptions, convergence};
-use dtg_passport::simulation::draw::CurrentError;
+use dtg_passport::simulation::draw::{self, CurrentError, Deviations};
 use dtg_passport::statistics::random::Run;
 use std::time::Instant;
 
 fn main() {
     paper_table();
+    independent_within_tolerance();
     independent();
+    exact();
     fig_4();
+    step_is_no_bound();
 }
 
 fn paper_table() {
@@ -41,6 +47,73 @@ fn paper_table() {
             );
         }
     }
+}
+
+fn independent_within_tolerance() {
+    println!("The table with independent errors instead, 15 deg, 10,000 draws");
+    let options = AccuracyOptions { within_tolerance: true, methods: vec![Method::Analytic], ..Default::default() };
+    for row in accuracy(&options, &Run::new(10_000, 1)).rows {
+        println!("  {:<9} {:.4} {}", row.parameter, row.worst, row.unit);
+    }
+}
+
+/// No errors in the currents: what rounding alone leaves, relative to each parameter.
+fn exact() {
+    println!("Exact currents: largest relative error of any parameter, 100,000 stands");
+    for limit_deg in [0.5, 5.0, 15.0, 30.0, 45.0] {
+        let options = AccuracyOptions {
+            stands: Stands::Drawn { limit_deg },
+            current_percent: 0.0,
+            methods: vec![Method::Analytic, Method::LeastSquares],
+            ..AccuracyOptions::default()
+        };
+        let found = accuracy(&options, &Run::new(100_000, 1));
+        let largest = |method: Method| {
+            let rows = found.rows.iter().filter(|row| row.method == method.key());
+            // Percent for scale factors; drifts are 20 deg/h and 10 deg/h/g.
+            let relative = rows.map(|row| match row.unit {
+                "%" => row.worst / 100.0,
+                "deg/h" => row.worst / 20.0,
+                _ => row.worst / 10.0,
+            });
+            relative.fold(0.0, f64::max)
+        };
+        println!(
+            "  {limit_deg:>4} deg: analytic {:.1e}, least squares {:.1e}",
+            largest(Method::Analytic),
+            largest(Method::LeastSquares)
+        );
+    }
+}
+
+/// How often what is missing after the last step exceeds step * rho / (1 - rho), as if T were normal.
+fn step_is_no_bound() {
+    println!("What is missing against step * rho/(1 - rho), 100,000 stands");
+    for limit_deg in [5.0, 10.0, 15.0] {
+        let blocks = Run::new(100_000, 1).blocks(|stream, trials| {
+            let (mut beyond, mut largest) = (0_u64, 0.0_f64);
+            for _ in 0..trials {
+                let Some(ratio) = missing_over_bound(&draw::stand(stream, Deviations::Uniform, limit_deg)) else {
+                    continue;
+                };
+                beyond += u64::from(ratio > 1.0);
+                largest = largest.max(ratio);
+            }
+            (beyond, largest)
+        });
+        let beyond: u64 = blocks.iter().map(|block| block.0).sum();
+        let largest = blocks.iter().map(|block| block.1).fold(0.0, f64::max);
+        println!("  {limit_deg} deg: exceeded in {:.2} %, up to {largest:.1} times", beyond as f64 / 1000.0);
+    }
+}
+
+fn missing_over_bound(stand: &[Position]) -> Option<f64> {
+    let at = StandGeometry::new(stand).ok()?.at(EarthRate::at_astronomic_latitude(PAPER_LATITUDE_DEG));
+    let gyro = GyroType::gvk_6().nominal.to_model();
+    let currents: Vec<_> = at.positions.iter().map(|at| gyro.currents_ma(at)).collect::<Option<_>>()?;
+    let found = iterative::solve(&at, &currents, &StopRule::default()).ok()?;
+    let rho = found.spectral_radius;
+    Some(found.remainder_k_deg_per_h_per_ma.norm() / (found.last_change_k_deg_per_h_per_ma.norm() * rho / (1.0 - rho)))
 }
 
 fn independent() {

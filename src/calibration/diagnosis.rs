@@ -1,8 +1,9 @@
 //! What may be wrong where the readings do not fit, as far as residuals can tell.
 
 use super::inputs::Setup;
+use super::least_squares::Fit;
 use super::procedure::{ChiSquare, Data};
-use super::propagation::Propagation;
+use super::propagation;
 use super::sensitivity::Sensitivity;
 use crate::coefficients::PositionIndex;
 use crate::units::arcseconds_from_radians;
@@ -22,6 +23,9 @@ const WORSE: f64 = 10.0;
 
 /// Chi-square that an explanation with two free numbers must gain over one without, to be preferred.
 const PRICE_OF_TWO_NUMBERS: f64 = 4.0;
+
+/// Positions looked into, one by one and two by two; a stand may have a thousand.
+const MOST_SUSPECTS: usize = 24;
 
 /// What residuals can never tell, and what can.
 pub const CANNOT_TELL: &str = "A good fit proves less than it seems. These leave no residuals at all, and change the \
@@ -97,21 +101,36 @@ pub(crate) fn hint(setup: &Setup, data: &Data, chi_square: &ChiSquare) -> Option
     if chi_square.degrees_of_freedom == 0 || chi_square.probability >= ALARM {
         return None;
     }
-    let mut possible: Vec<(f64, Explanation)> = exchanges(setup, data);
-    possible.extend(single_positions(setup, data));
+    let fit = data.fit(setup, false).ok()?;
+    let suspects = suspects(setup, data, &fit);
+    let mut possible: Vec<(f64, Explanation)> = exchanges(setup, data, &suspects);
+    possible.extend(single_positions(setup, data, &suspects));
     possible.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     let best = possible.first().map_or(0.0, |(score, _)| *score);
     possible.retain(|(score, _)| *score <= best + WORSE);
     let explanations = possible.into_iter().map(|(_, explanation)| explanation).collect();
-    Some(Hint { explanations, size_arcsec: size_arcsec(setup, data, chi_square) })
+    Some(Hint { explanations, size_arcsec: size_arcsec(setup, &fit, chi_square) })
+}
+
+/// The positions to look into, in their order: of many, those with the largest misclosures.
+fn suspects(setup: &Setup, data: &Data, fit: &Fit) -> Vec<usize> {
+    let positions = &setup.coefficients().positions;
+    let misclosure = |place: usize| {
+        (fit.whitening[place] * fit.unknowns.misclosure(&positions[place], &data.currents_ma[place])).norm()
+    };
+    let mut places: Vec<usize> = (0..positions.len()).collect();
+    places.sort_by(|&one, &other| misclosure(other).total_cmp(&misclosure(one)));
+    places.truncate(MOST_SUSPECTS);
+    places.sort_unstable();
+    places
 }
 
 /// Every exchange of two positions that makes the readings fit, with its score.
-fn exchanges(setup: &Setup, data: &Data) -> Vec<(f64, Explanation)> {
+fn exchanges(setup: &Setup, data: &Data, suspects: &[usize]) -> Vec<(f64, Explanation)> {
     let positions = &setup.coefficients().positions;
     let mut possible = Vec::new();
-    for one in 0..positions.len() {
-        for other in one + 1..positions.len() {
+    for (rank, &one) in suspects.iter().enumerate() {
+        for &other in &suspects[rank + 1..] {
             let found = chi_square(setup, &data.exchanged(one, other));
             if let Some(found) = found.filter(|found| found.probability > POSSIBLE) {
                 let explanation = Explanation::Exchanged(positions[one].index, positions[other].index);
@@ -123,13 +142,11 @@ fn exchanges(setup: &Setup, data: &Data) -> Vec<(f64, Explanation)> {
 }
 
 /// Every position without which the others fit, with its score.
-fn single_positions(setup: &Setup, data: &Data) -> Vec<(f64, Explanation)> {
-    let places = 0..setup.coefficients().positions.len();
-    let possible = places.filter_map(|place| {
+fn single_positions(setup: &Setup, data: &Data, suspects: &[usize]) -> Vec<(f64, Explanation)> {
+    let possible = suspects.iter().filter_map(|&place| {
         let (rest, others) = (setup.without(place), data.without(place));
         let fit = others.fit(&rest, false).ok()?;
-        let propagation = Propagation::new(&rest, &fit);
-        let found = ChiSquare::new(propagation.chi_square(&rest, &others.currents_ma));
+        let found = ChiSquare::new(propagation::chi_square(&rest, &fit, &others.currents_ma));
         if found.degrees_of_freedom == 0 || found.probability <= POSSIBLE {
             return None;
         }
@@ -159,13 +176,12 @@ fn turns(sensitivity: &Sensitivity, place: usize) -> Matrix2x3<f64> {
 
 fn chi_square(setup: &Setup, data: &Data) -> Option<ChiSquare> {
     let fit = data.fit(setup, false).ok().filter(|fit| fit.settled)?;
-    let found = ChiSquare::new(Propagation::new(setup, &fit).chi_square(setup, &data.currents_ma));
+    let found = ChiSquare::new(propagation::chi_square(setup, &fit, &data.currents_ma));
     found.value.is_finite().then_some(found)
 }
 
 /// The uncertainty that every angle of every position would need for chi-square to be as expected, roughly.
-fn size_arcsec(setup: &Setup, data: &Data, chi_square: &ChiSquare) -> f64 {
-    let Ok(fit) = data.fit(setup, false) else { return f64::NAN };
+fn size_arcsec(setup: &Setup, fit: &Fit, chi_square: &ChiSquare) -> f64 {
     let sensitivity = Sensitivity::new(setup, &fit.unknowns);
     let per_radian: f64 = fit
         .whitening

@@ -76,6 +76,8 @@ pub struct IterativeSolution {
     pub steps: u32,
     /// ρ(T).
     pub spectral_radius: f64,
+    /// K_λ − K_{λ−1}, the last step of K, °/h/mA.
+    pub last_change_k_deg_per_h_per_ma: Matrix2<f64>,
     /// What K still lacks: (K_λ − K_{λ−1}) T (1 − T)⁻¹, exactly, °/h/mA.
     pub remainder_k_deg_per_h_per_ma: Matrix2<f64>,
     /// What ω_n still lacks, °/h/g.
@@ -234,6 +236,7 @@ pub fn solve(
         omega_n_deg_per_h_per_g: omega_n,
         steps,
         spectral_radius,
+        last_change_k_deg_per_h_per_ma: change,
         remainder_k_deg_per_h_per_ma: remainder,
         remainder_omega_n_deg_per_h_per_g: -remainder * plan.j2_per_n2,
     })

@@ -6,7 +6,7 @@ use super::inputs::Setup;
 use super::iterative::{self, NoIterativeSolution, StopRule};
 use super::least_squares::{Fit, NoLeastSquares};
 use super::parameter::Parameter;
-use super::propagation::{Propagation, covariance, standard_deviations};
+use super::propagation::{Propagation, chi_square, covariance, standard_deviations};
 use super::readings::Readings;
 use super::scatter::Scatter;
 use super::sensitivity::Sensitivity;
@@ -260,7 +260,7 @@ struct Evaluation<'a> {
 impl<'a> Evaluation<'a> {
     fn new(setup: &'a Setup, currents_ma: &'a [Vector2<f64>], fit: &'a Fit) -> Self {
         let propagation = Propagation::new(setup, fit);
-        let chi_square = ChiSquare::new(propagation.chi_square(setup, currents_ma));
+        let chi_square = ChiSquare::new(chi_square(setup, fit, currents_ma));
         Self { setup, currents_ma, fit, propagation, chi_square }
     }
 

@@ -83,45 +83,35 @@ impl<'a> Propagation<'a> {
         }
         standard_deviations(&residual)
     }
+}
 
-    /// Chi-square of the misclosures of a solution with its degrees of freedom.
-    ///
-    /// It is r' C⁻ r with the residuals r of a method, their covariance C and any generalised inverse. What parameters
-    /// take up drops out of it, so it is the same for every method that fits exact readings exactly; it is computed
-    /// from z = Q₂'W e, whose covariance 1 + B B' has full rank.
-    pub(crate) fn chi_square(&self, setup: &Setup, currents_ma: &[Vector2<f64>]) -> (f64, usize) {
-        let rest = self.unexplained(setup, currents_ma);
-        (self.weighted_square(&rest), rest.len())
+/// Chi-square of the readings `currents_ma` at a fit, and its degrees of freedom.
+///
+/// It is r' C⁻ r with the residuals r of a method, their covariance C from all inputs, and any generalised inverse.
+/// What parameters take up drops out of it, so it is the same for every method that fits exact readings exactly; it is
+/// computed from z = Q₂'W e, whose covariance 1 + B B' has full rank (B = Q₂'W times what all positions share).
+pub(crate) fn chi_square(setup: &Setup, fit: &Fit, currents_ma: &[Vector2<f64>]) -> (f64, usize) {
+    let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma);
+    let count = shared.ncols();
+    // The misclosures stand behind what is shared, so that one rotation does for both.
+    let mut rotated = shared.resize_horizontally(count + 1, 0.0);
+    let positions = &setup.coefficients().positions;
+    for (place, ((at, current), whiten)) in positions.iter().zip(currents_ma).zip(&fit.whitening).enumerate() {
+        let misclosure = fit.unknowns.misclosure(at, current);
+        rotated[(2 * place, count)] = misclosure.x;
+        rotated[(2 * place + 1, count)] = misclosure.y;
+        whiten_rows(&mut rotated, place, whiten);
     }
-
-    /// z = Q₂'W e of the fit, for readings `currents_ma`.
-    pub(crate) fn unexplained(&self, setup: &Setup, currents_ma: &[Vector2<f64>]) -> DVector<f64> {
-        let mut misclosures = DMatrix::zeros(self.fit.model.rows(), 1);
-        let each = setup.coefficients().positions.iter().zip(currents_ma).zip(&self.fit.whitening);
-        for (place, ((at, current), whiten)) in each.enumerate() {
-            let misclosure = whiten * self.fit.unknowns.misclosure(at, current);
-            misclosures.fixed_view_mut::<2, 1>(2 * place, 0).copy_from(&misclosure);
-        }
-        self.fit.model.rotate(&mut misclosures);
-        misclosures.column(0).rows(self.fit.model.columns(), self.degrees_of_freedom()).into_owned()
-    }
-
-    /// Rows that no parameter explains.
-    fn degrees_of_freedom(&self) -> usize {
-        self.fit.model.rows() - self.fit.model.columns()
-    }
-
-    /// z' (1 + B B')⁻¹ z, by Woodbury: z'z − (B'z)' (1 + B'B)⁻¹ (B'z).
-    pub(crate) fn weighted_square(&self, rest: &DVector<f64>) -> f64 {
-        let (rows, columns) = (self.fit.model.rows(), self.fit.model.columns());
-        let shared = self.rotated.ncols() - rows;
-        let b = self.rotated.view((columns, rows), (rest.len(), shared));
-        let projected = DVector::from_iterator(shared, b.column_iter().map(|column| column.dot(rest)));
-        let inner =
-            DMatrix::from_fn(shared, shared, |i, j| b.column(i).dot(&b.column(j)) + if i == j { 1.0 } else { 0.0 });
-        let taken = inner.cholesky().map_or(0.0, |cholesky| projected.dot(&cholesky.solve(&projected)));
-        rest.norm_squared() - taken
-    }
+    fit.model.rotate(&mut rotated);
+    let degrees_of_freedom = fit.model.rows() - fit.model.columns();
+    let rest = rotated.rows(fit.model.columns(), degrees_of_freedom);
+    // Woodbury: z' (1 + B B')⁻¹ z = z'z − (B'z)' (1 + B'B)⁻¹ (B'z).
+    let z = rest.column(count);
+    let projected = DVector::from_fn(count, |i, _| rest.column(i).dot(&z));
+    let inner =
+        DMatrix::from_fn(count, count, |i, j| rest.column(i).dot(&rest.column(j)) + if i == j { 1.0 } else { 0.0 });
+    let taken = inner.cholesky().map_or(0.0, |cholesky| projected.dot(&cholesky.solve(&projected)));
+    (z.norm_squared() - taken, degrees_of_freedom)
 }
 
 /// Covariance S S' of a spread S (parameters × causes).
