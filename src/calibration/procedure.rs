@@ -219,7 +219,7 @@ pub(crate) struct Data {
 }
 
 impl Data {
-    fn new(readings: &Readings) -> Self {
+    pub(crate) fn new(readings: &Readings) -> Self {
         let counts = readings.positions().iter().map(|position| position.each_ma.len()).collect();
         Self { currents_ma: readings.means_ma(), counts, variance_factor: 1.0 }
     }

@@ -137,3 +137,62 @@ pub(crate) fn standard_deviations(spread: &DMatrix<f64>) -> Vec<f64> {
     }
     squares.into_iter().map(f64::sqrt).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::calibration::inputs::{InputUncertainty, MeterUncertainty};
+    use crate::calibration::unknowns::Unknowns;
+    use crate::calibration::{analytic, procedure::Data, readings::Readings};
+    use crate::coefficients::EarthRate;
+    use crate::gyro::GyroType;
+    use crate::simulation::draw::{self, CurrentError, Deviations};
+    use crate::statistics::random::Stream;
+
+    /// The claim of [`chi_square`]: r' C⁻ r by the pseudo-inverse of the residuals' covariance, for two methods.
+    #[test]
+    fn chi_square_is_that_of_the_residuals_of_any_method() {
+        let mut stream = Stream::new(1);
+        let uncertainty = InputUncertainty {
+            angles_rad: vec![[1e-5, 2e-5, 3e-5]; 8],
+            common_platform_rad: 2e-5,
+            latitude_rad: 3e-5,
+            level_rad: 2e-5,
+            azimuth_rad: 5e-5,
+            seating_rad: [3e-5; 3],
+            ..InputUncertainty::of_meter(MeterUncertainty {
+                reading: 1e-4,
+                floor_ma: 1e-6,
+                gain: 1e-4,
+                offset_ma: 1e-5,
+            })
+        };
+        let stand = draw::stand(&mut stream, Deviations::Uniform, 8.0);
+        let setup = Setup::new(&stand, EarthRate::at_astronomic_latitude(40.0), uncertainty).unwrap();
+        let gyro = GyroType::gvk_6().nominal.to_model();
+        let positions = &setup.coefficients().positions;
+        let mut currents: Vec<_> = positions.iter().map(|at| gyro.currents_ma(at).unwrap()).collect();
+        CurrentError::Independent.add(&mut stream, 0.02, &mut currents);
+        let each: Vec<_> = positions.iter().map(|at| at.index).zip(currents.clone()).collect();
+        let data = Data::new(&Readings::new(setup.coefficients(), &each).unwrap());
+        let fit = data.fit(&setup, false).unwrap();
+        let (expected, degrees_of_freedom) = chi_square(&setup, &fit, &currents);
+        assert_eq!(degrees_of_freedom, 8);
+        let propagation = Propagation::new(&setup, &fit);
+        let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma).unwrap();
+        let closed = analytic::solve(setup.coefficients(), &currents).unwrap().parameters;
+        let closed = Unknowns { parameters: closed, anisoelasticity_deg_per_h_per_g2: 0.0 };
+        let methods = [(fit.unknowns, propagation.least_squares()), (closed, propagation.analytic(&map).0)];
+        for (unknowns, spread) in methods {
+            let rows = positions.iter().zip(&currents).flat_map(|(at, j)| {
+                let misclosure = unknowns.misclosure(at, j);
+                [misclosure.x, misclosure.y]
+            });
+            let residuals = DVector::from_iterator(16, rows);
+            let left = &propagation.causes - &propagation.design * &spread;
+            let inverse = (&left * left.transpose()).pseudo_inverse(1e-14).unwrap();
+            let found = residuals.dot(&(inverse * &residuals));
+            assert!((found / expected - 1.0).abs() < 1e-3, "{found} {expected}");
+        }
+    }
+}
