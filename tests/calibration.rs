@@ -238,6 +238,17 @@ fn repeated_readings() {
     assert_eq!(quiet.scatter.unwrap().degrees_of_freedom, 48);
     assert!((u(&quiet) / u(&once) - 0.5).abs() < 1e-6);
     let noisy = repeated(1e-3);
+    // By hand: -1, 0, 1, 0 have standard deviation sqrt(2/3).
+    let setup_readings: Vec<_> = setup
+        .coefficients()
+        .positions
+        .iter()
+        .zip(&currents)
+        .flat_map(|(at, current)| [-1.0, 0.0, 1.0, 0.0].map(|sign| (at.index, current * (1.0 + sign * 1e-3))))
+        .collect();
+    let first = Readings::new(setup.coefficients(), &setup_readings).unwrap().positions()[0].clone();
+    let expected = currents[0].abs() * 1e-3 * (2.0_f64 / 3.0).sqrt();
+    assert!((first.standard_deviation_ma().unwrap() - expected).amax() < 1e-12);
     let scatter = noisy.scatter.unwrap();
     // By hand: each current scatters with variance (2/3)·(1e-3)² where (0.87e-4)² is stated.
     let factor = 2.0 / 3.0 * (1e-3_f64 / 0.87e-4).powi(2);

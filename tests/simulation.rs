@@ -1,8 +1,9 @@
 //! The paper's table and Fig. 4 against the independent figures of docs/model.md. Full size: it takes seconds.
 
+use dtg_passport::attitude::Deviation;
 use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::{MeterUncertainty, Method, analytic, least_squares};
-use dtg_passport::coefficients::{EarthRate, StandGeometry};
+use dtg_passport::coefficients::{EIGHT_POSITIONS, EarthRate, Position, StandGeometry};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::simulation::accuracy::{
     Accuracy, AccuracyOptions, AccuracyRow, PAPER_LATITUDE_DEG, Stands, accuracy,
@@ -12,6 +13,7 @@ use dtg_passport::simulation::draw::{self, CurrentError, Deviations};
 use dtg_passport::simulation::picture::convergence_svg;
 use dtg_passport::statistics::random::Run;
 use dtg_passport::statistics::summary::Summary;
+use nalgebra::{Matrix2, Vector2};
 
 fn drawn(limit_deg: f64, methods: &[Method]) -> AccuracyOptions {
     AccuracyOptions { stands: Stands::Drawn { limit_deg }, methods: methods.to_vec(), ..AccuracyOptions::default() }
@@ -225,4 +227,39 @@ fn unweighted_least_squares() {
             assert!((found - expected).abs() < 0.03, "{limit_deg}: {found} {expected}");
         }
     }
+}
+
+/// A given stand stays as it is. Expected by hand, without deviations: K = 2 ω_Γ P J_1⁻¹ (P exchanges x and y), so
+/// δK = -K δJ_1 J_1⁻¹ = -K δJ_1 P K/(2 ω_Γ), with δJ of standard deviation |J|·0.015 %/√3.
+#[test]
+fn a_given_stand() {
+    let none = Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 };
+    let stand =
+        EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| Position { index, theta_deg, phi_deg, deviation: none });
+    let options = AccuracyOptions {
+        stands: Stands::Given(stand.to_vec()),
+        methods: vec![Method::Analytic],
+        ..AccuracyOptions::default()
+    };
+    let table = accuracy(&options, &Run::new(20_000, 5));
+    let found = row(&table, Method::Analytic, "k_x").standard_deviation;
+    // Currents of the four upright positions: K⁻¹ of (0, ω_Γ) - 20, (ω_Γ, 0) - 20, and with -ω_Γ.
+    let (w_h, inverse) = (8.461_757_742, Matrix2::new(95.0, 9.5, 9.5, 95.0).try_inverse().unwrap());
+    let current = |x: f64, y: f64| inverse * Vector2::new(x * w_h - 20.0, y * w_h - 20.0);
+    let pairs = [[current(0.0, 1.0), current(0.0, -1.0)], [current(1.0, 0.0), current(-1.0, 0.0)]];
+    let mut variance = 0.0;
+    for (column, pair) in pairs.iter().enumerate() {
+        for axis in 0..2 {
+            // δK_x = Σ K_1a (δJ_1)_ac (P K)_c1/(2 ω_Γ).
+            let weight = [95.0, 9.5][axis] * [9.5, 95.0][column] / (2.0 * w_h);
+            variance += pair.iter().map(|j| (weight * j[axis] * 1.5e-4).powi(2) / 3.0).sum::<f64>();
+        }
+    }
+    let expected = variance.sqrt() / 0.95;
+    assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
+    assert!(!serde_json::to_string(&table).unwrap().contains("limit_deg"));
+    // n_2 is singular where both frame positions are alike: nothing is solved, nothing panics.
+    let flat = stand.map(|position| Position { theta_deg: 0.0, ..position });
+    let options = AccuracyOptions { stands: Stands::Given(flat.to_vec()), ..options };
+    assert!(accuracy(&options, &Run::new(100, 5)).rows.iter().all(|row| row.not_solved == 100 && row.worst == 0.0));
 }

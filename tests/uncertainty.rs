@@ -90,7 +90,7 @@ fn uncertainties_cover_what_they_state() {
     let blocks = Run::new(trials, 22).blocks(|stream, trials| {
         let mut errors = [[Summary::default(); 8]; 2];
         let (mut improbable, mut scattered) = (0_u64, 0_u64);
-        let mut residuals = Summary::default();
+        let (mut residuals, mut differences) = (Summary::default(), Summary::default());
         for _ in 0..trials {
             let readings = Readings::new(setup.coefficients(), &read(stream, &certified, &u)).unwrap();
             let found = calibrate(&setup, &readings, &options).unwrap();
@@ -102,10 +102,11 @@ fn uncertainties_cover_what_they_state() {
                 }
                 result.residuals.iter().for_each(|at| at.normalised.iter().for_each(|value| residuals.add(*value)));
             }
+            found.results[0].from_least_squares.unwrap().iter().for_each(|value| differences.add(*value));
             improbable += u64::from(found.results[0].chi_square.probability < 0.05);
             scattered += u64::from(found.scatter.unwrap().probability < 0.05);
         }
-        (errors, improbable, scattered, residuals)
+        (errors, improbable, scattered, residuals, differences)
     });
     for (method, name) in ["analytic", "least squares"].iter().enumerate() {
         for parameter in Parameter::EIGHT {
@@ -123,4 +124,6 @@ fn uncertainties_cover_what_they_state() {
     assert!((improbable - 5.0).abs() < 0.7 && (scattered - 5.0).abs() < 0.7, "{improbable} {scattered}");
     let residuals = blocks.iter().fold(Summary::default(), |sum, block| sum.with(&block.3));
     assert!((residuals.standard_deviation() - 1.0).abs() < 0.02, "{residuals:?}");
+    let differences = blocks.iter().fold(Summary::default(), |sum, block| sum.with(&block.4));
+    assert!((differences.standard_deviation() - 1.0).abs() < 0.02, "{differences:?}");
 }

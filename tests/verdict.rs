@@ -85,7 +85,7 @@ fn json_is_read_back() {
     let setup = setup(&eight([[1e-3; 3]; 8]), LATITUDE_DEG);
     let currents = currents(&setup, &gvk_6());
     let found = calibrate(&setup, &readings(&setup, &currents), &Options::default()).unwrap();
-    let mut document = CalibrationDocument::new("SPS-2/0017/moscow/1", true, 9.8156, &found);
+    let mut document = CalibrationDocument::new("SPS-2/0017/moscow/1", true, 9.8156, &found, &["the latitude"]);
     let answer = found.results.last().unwrap().found(9.8156);
     document.verdict = Some(against_type(&answer, &GyroType::gvk_6()));
     let json = serde_json::to_string_pretty(&document).unwrap();

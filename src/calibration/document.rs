@@ -22,6 +22,12 @@ pub struct CalibrationDocument {
     pub gravity_m_per_s2: f64,
     /// One for each method.
     pub results: Vec<ResultDocument>,
+    /// What certificate, site and laboratory do not state: the uncertainties are without it.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub not_stated: Vec<String>,
+    /// Whether repeated readings agree, when there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scatter: Option<ScatterDocument>,
     /// What may be wrong, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hint: Option<String>,
@@ -69,6 +75,9 @@ pub struct ResultDocument {
     pub remainder_omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]>,
     /// Standard uncertainties, with the keys of the values.
     pub standard_uncertainty: UncertaintyDocument,
+    /// Differences to least squares in units of their standard uncertainty: K_x, K_xy, K_yx, K_y, ω_0x, ω_0y, ω_g, ω_k.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from_least_squares: Option<[f64; 8]>,
     /// Whether the readings fit.
     pub chi_square: ChiSquareDocument,
     /// What is left of each equation.
@@ -106,6 +115,20 @@ pub struct ChiSquareDocument {
     pub probability: f64,
 }
 
+/// Scatter of repeated readings.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScatterDocument {
+    /// Sum of squares in units of the stated variance.
+    pub chi_square: f64,
+    /// Two for each reading beyond a position's first.
+    pub degrees_of_freedom: usize,
+    /// Probability of more when what is stated holds.
+    pub probability: f64,
+    /// By how much the variance of one reading was enlarged.
+    pub variance_factor: f64,
+}
+
 /// The residuals of one position.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -126,13 +149,28 @@ fn left_aside<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Verdi
 }
 
 impl CalibrationDocument {
-    /// Of a calibration with the passport `passport_id`.
-    pub fn new(passport_id: &str, passport_verified: bool, gravity_m_per_s2: f64, calibration: &Calibration) -> Self {
+    /// Of a calibration with the passport `passport_id`; `not_stated` is what [`Setup::stated`] did not find.
+    ///
+    /// [`Setup::stated`]: super::inputs::Setup::stated
+    pub fn new(
+        passport_id: &str,
+        passport_verified: bool,
+        gravity_m_per_s2: f64,
+        calibration: &Calibration,
+        not_stated: &[&str],
+    ) -> Self {
         Self {
             passport_id: passport_id.to_owned(),
             passport_verified,
             gravity_m_per_s2,
             results: calibration.results.iter().map(ResultDocument::new).collect(),
+            not_stated: not_stated.iter().map(|&what| what.to_owned()).collect(),
+            scatter: calibration.scatter.as_ref().map(|scatter| ScatterDocument {
+                chi_square: scatter.chi_square,
+                degrees_of_freedom: scatter.degrees_of_freedom,
+                probability: scatter.probability,
+                variance_factor: scatter.variance_factor,
+            }),
             hint: calibration.hint.as_ref().map(ToString::to_string),
             verdict: None,
             change: None,
@@ -188,6 +226,7 @@ impl ResultDocument {
             remainder_k_deg_per_h_per_ma: iteration.map(|it| rows(&it.remainder_k_deg_per_h_per_ma)),
             remainder_omega_n_deg_per_h_per_g: iteration.map(|it| rows(&it.remainder_omega_n_deg_per_h_per_g)),
             standard_uncertainty: UncertaintyDocument::new(result),
+            from_least_squares: result.from_least_squares,
             chi_square: ChiSquareDocument {
                 value: chi_square.value,
                 degrees_of_freedom: chi_square.degrees_of_freedom,

@@ -104,6 +104,9 @@ pub struct MethodResult {
     pub covariance: DMatrix<f64>,
     /// Standard uncertainties of the elements of ω_n, 2×2.
     pub omega_n_uncertainty_deg_per_h_per_g: Matrix2<f64>,
+    /// How far each parameter is from that of least squares, in the order of [`Parameter::EIGHT`] and in units of the
+    /// difference's own standard uncertainty (both methods see the same errors); absent for least squares itself.
+    pub from_least_squares: Option<[f64; 8]>,
     /// Whether the readings fit.
     pub chi_square: ChiSquare,
     /// What is left of each equation, in the order of the coefficients.
@@ -248,6 +251,11 @@ impl Data {
     }
 }
 
+/// A value in units of its standard uncertainty; 0 where rounding is all that it can be.
+fn in_units(value: f64, u: f64) -> f64 {
+    if u > 1e-12 { value / u } else { 0.0 }
+}
+
 /// All that methods share.
 struct Evaluation<'a> {
     setup: &'a Setup,
@@ -278,6 +286,7 @@ impl<'a> Evaluation<'a> {
             residuals: self.residuals(&self.fit.unknowns, &spread),
             covariance,
             omega_n_uncertainty_deg_per_h_per_g: Matrix2::new(u_g, u_k, u_k, u_g),
+            from_least_squares: None,
             chi_square: self.chi_square,
             difference_in_uncertainties: None,
         }
@@ -335,9 +344,17 @@ impl<'a> Evaluation<'a> {
             residuals: self.residuals(&unknowns, &spread),
             covariance: covariance(&spread),
             omega_n_uncertainty_deg_per_h_per_g: Matrix2::from_row_slice(&u),
+            from_least_squares: Some(self.difference_to_least_squares(&parameters, &spread)),
             chi_square: self.chi_square,
             difference_in_uncertainties: Some(self.difference(&parameters, &spread)),
         })
+    }
+
+    /// Differences to least squares over their standard uncertainty.
+    fn difference_to_least_squares(&self, parameters: &GyroParameters, spread: &DMatrix<f64>) -> [f64; 8] {
+        let u = standard_deviations(&(spread - self.propagation.least_squares()));
+        let (found, answer) = (parameters.to_vector(), self.fit.unknowns.parameters.to_vector());
+        std::array::from_fn(|place| in_units(found[place] - answer[place], u[place]))
     }
 
     fn residuals(&self, unknowns: &Unknowns, spread: &DMatrix<f64>) -> Vec<Residual> {
@@ -345,11 +362,10 @@ impl<'a> Evaluation<'a> {
         let each = self.setup.coefficients().positions.iter().zip(self.currents_ma).zip(u.chunks_exact(2));
         each.map(|((at, current), u)| {
             let residual = unknowns.misclosure(at, current);
-            let normalised = |value: f64, u: f64| if u > 1e-12 { value / u } else { 0.0 };
             Residual {
                 index: at.index,
                 residual_deg_per_h: residual,
-                normalised: Vector2::new(normalised(residual.x, u[0]), normalised(residual.y, u[1])),
+                normalised: Vector2::new(in_units(residual.x, u[0]), in_units(residual.y, u[1])),
             }
         })
         .collect()

@@ -20,6 +20,15 @@ pub struct PositionReadings {
     pub mean_ma: Vector2<f64>,
 }
 
+impl PositionReadings {
+    /// Standard deviations of one reading of J_x and J_y about the mean, mA; `None` of a single reading.
+    pub fn standard_deviation_ma(&self) -> Option<Vector2<f64>> {
+        let count = self.each_ma.len();
+        let squares = self.each_ma.iter().map(|reading| (reading - self.mean_ma).map(|x| x * x)).sum::<Vector2<f64>>();
+        (count > 1).then(|| (squares / (count - 1) as f64).map(f64::sqrt))
+    }
+}
+
 /// Readings of every position, in the order of the coefficients.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Readings {

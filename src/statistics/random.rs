@@ -101,9 +101,9 @@ impl Run<'_> {
                 }
             }
         };
-        let helpers = self.threads.saturating_sub(1).min(usize::try_from(self.trials / BLOCK).unwrap_or(usize::MAX));
+        let others = self.threads.saturating_sub(1).min(usize::try_from(self.trials / BLOCK).unwrap_or(usize::MAX));
         std::thread::scope(|scope| {
-            for _ in 0..helpers {
+            for _ in 0..others {
                 scope.spawn(worker);
             }
             worker();
