@@ -68,3 +68,13 @@ fn a_meter_without_uncertainty() {
     let error = Readings::new(setup.coefficients(), &[(index, Vector2::new(f64::NAN, 0.0))]).unwrap_err();
     assert!(error.to_string().contains("not a finite number"));
 }
+
+/// Readings of four positions at a stand of eight.
+#[test]
+fn readings_of_other_positions() {
+    let whole = setup(&eight([[1e-3; 3]; 8]), LATITUDE_DEG);
+    let half = setup(&eight([[1e-3; 3]; 8])[..4], LATITUDE_DEG);
+    let readings = readings(&half, &currents(&half, &gvk_6()));
+    let error = calibrate(&whole, &readings, &Options::default()).unwrap_err();
+    assert!(error.to_string().contains("not of the positions"), "{error}");
+}

@@ -47,6 +47,9 @@ pub enum NoLeastSquares {
         /// Positions of the stand.
         expected: usize,
     },
+    /// Readings that were made for other positions, or in another order.
+    #[error("the readings are not of the positions that the coefficients are of")]
+    OtherPositions,
     /// The equations do not determine all parameters.
     #[error("{}", inseparable(.groups, *.condition))]
     Inseparable {

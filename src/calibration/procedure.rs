@@ -180,6 +180,10 @@ pub struct Residual {
 /// [`NoLeastSquares`] when the readings do not determine a gyro: then no method's result would mean anything.
 /// What a single method cannot do is in [`Calibration::refused`].
 pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Result<Calibration, NoLeastSquares> {
+    let indices = readings.positions().iter().map(|position| position.index);
+    if !indices.eq(setup.coefficients().positions.iter().map(|at| at.index)) {
+        return Err(NoLeastSquares::OtherPositions);
+    }
     let mut data = Data::new(readings);
     let mut fit = data.fit(setup, false)?;
     let scatter = Scatter::of(setup, readings, &fit);
