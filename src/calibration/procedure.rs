@@ -111,9 +111,6 @@ pub struct MethodResult {
     pub chi_square: ChiSquare,
     /// What is left of each equation, in the order of the coefficients.
     pub residuals: Vec<Residual>,
-    /// For the paper's methods: the difference from least squares in units of that difference's standard uncertainty,
-    /// in the order of [`Parameter::EIGHT`]. Both come from the same readings, so it is smaller than either's.
-    pub difference_in_uncertainties: Option<[f64; 8]>,
 }
 
 impl MethodResult {
@@ -292,15 +289,7 @@ impl<'a> Evaluation<'a> {
             omega_n_uncertainty_deg_per_h_per_g: Matrix2::new(u_g, u_k, u_k, u_g),
             from_least_squares: None,
             chi_square: self.chi_square,
-            difference_in_uncertainties: None,
         }
-    }
-
-    /// How far `parameters`, with their `spread`, are from least squares, in units of the difference's uncertainty.
-    fn difference(&self, parameters: &GyroParameters, spread: &DMatrix<f64>) -> [f64; 8] {
-        let of_both = spread.rows(0, 8) - self.propagation.least_squares().rows(0, 8);
-        let (found, answer) = (parameters.to_vector(), self.fit.solution().parameters.to_vector());
-        std::array::from_fn(|place| (found[place] - answer[place]) / of_both.row(place).norm())
     }
 
     fn analytic(&self) -> Result<MethodResult, NoAnalyticSolution> {
@@ -350,7 +339,6 @@ impl<'a> Evaluation<'a> {
             omega_n_uncertainty_deg_per_h_per_g: Matrix2::from_row_slice(&u),
             from_least_squares: Some(self.difference_to_least_squares(&parameters, &spread)),
             chi_square: self.chi_square,
-            difference_in_uncertainties: Some(self.difference(&parameters, &spread)),
         })
     }
 

@@ -71,7 +71,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         output::say(&format!("WARNING: {remark}"));
     }
     let gravity = content.earth.gravity_m_per_s2;
-    let mut document = CalibrationDocument::new(&content.passport.id, verified, gravity, &calibration);
+    let mut document = CalibrationDocument::new(&content.passport.id, verified, gravity, &calibration, &missing);
     let Some(found) = document.answer() else {
         let words: Vec<String> =
             calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key())).collect();

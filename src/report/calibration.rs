@@ -76,7 +76,7 @@ fn parameters(out: &mut String, calibration: &Calibration) {
             row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
             for other in &others {
                 row.push(other.value(parameter).map_or_else(String::new, |value| format!("{value:.digits$}")));
-                let off = other.difference_in_uncertainties.and_then(|all| all.get(parameter.place()).copied());
+                let off = other.from_least_squares.and_then(|all| all.get(parameter.place()).copied());
                 row.push(off.map_or_else(String::new, |off| format!("{off:+.1}")));
             }
             Some(row)
