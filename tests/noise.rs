@@ -2,10 +2,11 @@
 
 mod tools;
 
-use dtg_passport::calibration::noise;
+use dtg_passport::calibration::prediction::noise_growth;
 use dtg_passport::gyro::GyroType;
+use dtg_passport::laboratory::Laboratory;
 use dtg_passport::site::Site;
-use dtg_passport::stand::Stand;
+use dtg_passport::stand::{CertifiedPosition, Stand};
 use std::fs;
 
 /// Reads a stand and a latitude; prints the worst ratio of the standard uncertainties of K, ω_0, ω_g, ω_k.
@@ -25,8 +26,10 @@ def uncertainties(perfect):
         n, w = A[:2, 2], (A @ earth)[:2]
         J = np.linalg.solve(K, w - w0 - np.array([[10, -10], [10, 10]]) @ n)
         rows += [[J[0], J[1], 0, 0, 1, 0, n[0], -n[1]], [0, 0, J[0], J[1], 0, 1, n[1], n[0]]]
-        c.append(K @ K.T)
-    X, W = np.array(rows), np.linalg.inv(np.kron(np.eye(len(c)), K @ K.T))
+        c.append(np.linalg.inv(K @ np.diag((8.7e-5 * J) ** 2 + 1e-12) @ K.T))
+    X, W = np.array(rows), np.zeros((2 * len(c), 2 * len(c)))
+    for i, weight in enumerate(c):
+        W[2 * i:2 * i + 2, 2 * i:2 * i + 2] = weight
     return np.sqrt(np.diag(np.linalg.inv(X.T @ W @ X)))
 r = uncertainties(False) / uncertainties(True)
 print(max(r[:4]), max(r[4:6]), r[6], r[7])
@@ -38,7 +41,9 @@ fn the_ratio_is_that_of_numpy() {
     let earth = Site::from_yaml("beijing-nim.yaml", &site).unwrap().earth();
     for path in ["passports/SPS-1/0203/stand.yaml", "passports/SPS-2/0017/stand.yaml"] {
         let stand = Stand::from_yaml(path, &fs::read(tools::project(path)).unwrap()).unwrap();
-        let found = noise::growth(&stand.positions, earth.rate(), &GyroType::gvk_6().nominal).unwrap();
+        let positions: Vec<_> = stand.positions.iter().map(CertifiedPosition::to_model).collect();
+        let (gyro, meter) = (GyroType::gvk_6().nominal.to_model(), (&Laboratory::paper().meter).into());
+        let found = noise_growth(&positions, earth.rate(), &gyro, meter).unwrap();
         let mut python = tools::python();
         python.args(["-c", PROGRAM]).arg(tools::project(path)).arg(earth.latitude_deg.to_string());
         let expected: Vec<f64> =

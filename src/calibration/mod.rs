@@ -4,7 +4,6 @@
 //! * [`analytic`]: the paper's closed solution, eq. (13)-(16) and (8).
 //! * [`iterative`]: the paper's successive approximation, eq. (17)-(19).
 //! * [`least_squares`]: all readings of any positions, weighted.
-//! * [`noise`]: how much noisier it is on a stand than on a perfect one.
 //! * [`procedure`]: all of them side by side, with uncertainties, residuals and chi-square.
 //! * [`scatter`]: whether repeated readings agree.
 //! * [`diagnosis`]: what may be wrong where readings do not fit.
@@ -42,7 +41,6 @@ pub mod document;
 pub mod inputs;
 pub mod iterative;
 pub mod least_squares;
-pub mod noise;
 pub mod parameter;
 pub mod prediction;
 pub mod procedure;

@@ -20,26 +20,45 @@ pub fn predicted(setup: &Setup, gyro: &GyroParameters, method: Method) -> Option
     calibrate(setup, &readings, &options).ok()?.results.pop()
 }
 
-/// How much noisier each parameter (in the order of [`Parameter::EIGHT`]) is on a stand than on the same stand without
-/// deviations, for errors of the currents alone.
+/// Ratios of standard uncertainties, this stand's to a perfect one's with the same positions at the same site.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoiseGrowth {
+    /// The worst of K_x, K_xy, K_yx, K_y.
+    pub k: f64,
+    /// The worse of ω_0x, ω_0y.
+    pub omega0: f64,
+    /// ω_g.
+    pub omega_g: f64,
+    /// ω_k.
+    pub omega_k: f64,
+}
+
+impl NoiseGrowth {
+    /// The worst of all.
+    pub fn worst(&self) -> f64 {
+        self.k.max(self.omega0).max(self.omega_g).max(self.omega_k)
+    }
+}
+
+/// How much noisier a calibration by least squares is on a stand than on the same stand without deviations, for the own
+/// errors of a meter's readings alone.
 ///
-/// `None` where the method gives nothing on one of the two.
+/// `None` where least squares gives nothing on one of the two.
 pub fn noise_growth(
     positions: &[Position],
     earth: EarthRate,
     gyro: &GyroParameters,
     meter: MeterUncertainty,
-    method: Method,
-) -> Option<[f64; 8]> {
-    let perfect: Vec<Position> = positions
-        .iter()
-        .map(|at| Position { deviation: Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 }, ..*at })
-        .collect();
+) -> Option<NoiseGrowth> {
+    let none = Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 };
+    let perfect: Vec<Position> = positions.iter().map(|at| Position { deviation: none, ..*at }).collect();
     let u = |positions: &[Position]| {
         let setup = Setup::new(positions, earth, InputUncertainty::of_meter(meter)).ok()?;
-        let result = predicted(&setup, gyro, method)?;
+        let result = predicted(&setup, gyro, Method::LeastSquares)?;
         Some(Parameter::EIGHT.map(|parameter| result.standard_uncertainty(parameter).unwrap_or(f64::NAN)))
     };
     let (real, perfect) = (u(positions)?, u(&perfect)?);
-    Some(std::array::from_fn(|place| real[place] / perfect[place]))
+    let [kx, kxy, kyx, ky, omega0x, omega0y, omega_g, omega_k] =
+        std::array::from_fn(|place| real[place] / perfect[place]);
+    Some(NoiseGrowth { k: kx.max(kxy).max(kyx).max(ky), omega0: f64::max(omega0x, omega0y), omega_g, omega_k })
 }

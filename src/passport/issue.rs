@@ -3,12 +3,13 @@
 use super::annotations::{absences, payload};
 use super::content::{self, Content, Header, PASSPORT_FORMAT, Predecessor, passport_id};
 use super::{NAMESPACE, read};
-use crate::calibration::noise::{self, NoiseGrowth};
+use crate::calibration::prediction::{NoiseGrowth, noise_growth};
 use crate::coefficients::SingularPositions;
 use crate::document::{Signer, SigningFailed, join};
 use crate::gyro::Parameters;
+use crate::laboratory::Laboratory;
 use crate::site::Site;
-use crate::stand::Stand;
+use crate::stand::{CertifiedPosition, Stand};
 use crate::text::scalar::day;
 use crate::text::{Unreadable, rule};
 use crate::trust::SignatureError;
@@ -197,7 +198,9 @@ impl Draft {
     /// one, what is not known, and where K grows uncertain.
     pub fn remarks(&self) -> Remarks {
         let content = &self.content;
-        let noise = noise::growth(&content.positions, content.earth.rate(), &self.noise_gyro());
+        let positions: Vec<_> = content.positions.iter().map(CertifiedPosition::to_model).collect();
+        let meter = (&Laboratory::paper().meter).into();
+        let noise = noise_growth(&positions, content.earth.rate(), &self.noise_gyro().to_model(), meter);
         Remarks { noise, uncertainty_growth: content.site.uncertainty_growth(), absences: absences(content) }
     }
 

@@ -1,6 +1,6 @@
 //! What became of an order, and what the factory should know before it hands the passport over.
 
-use crate::calibration::noise::NoiseGrowth;
+use crate::calibration::prediction::NoiseGrowth;
 use crate::folder::Issued;
 use crate::passport::issue::{NOISE_WARNING, Remarks};
 use serde::Serialize;
@@ -73,7 +73,10 @@ impl Report {
 pub fn warnings(remarks: &Remarks) -> Vec<String> {
     let mut words = Vec::new();
     match &remarks.noise {
-        None => words.push("WARNING: these positions do not determine all parameters of a gyro".to_owned()),
+        None => words.push(
+            "WARNING: from these positions at this site least squares cannot determine all parameters of a gyro"
+                .to_owned(),
+        ),
         Some(growth) if growth.worst() > NOISE_WARNING => words.push(format!(
             "WARNING: a calibration on this stand is up to {:.2} times as noisy as on a perfect one",
             growth.worst()
