@@ -216,13 +216,16 @@ impl Site {
                 let latitude = self.astronomic_deg();
                 let key = if self.latitude_deg.is_some() { "latitude_deg" } else { "astronomic_latitude_deg" };
                 let geodetic = self.geodetic_deg();
+                let given = self.latitude_deg.or(self.astronomic_latitude_deg);
+                // What is no latitude at all has been refused above.
+                let is_latitude = given.is_some_and(|given| given.abs() <= 90.0);
                 // Beyond the pole there is no place, no distance to it and no radius about it.
-                if geodetic.abs() > 90.0 && self.latitude_deg.is_none() {
+                if is_latitude && geodetic.abs() > 90.0 {
                     let found = format!("the geodetic latitude {geodetic}, by the deflection");
                     let advice = "is the sign of deflection_arcsec.xi right?";
                     problems.at(&at.key(key), found, "a latitude from -90 to 90 degrees", advice);
                 }
-                if latitude.abs() >= 90.0 {
+                if is_latitude && latitude.abs() >= 90.0 {
                     let found = format!("the astronomic latitude {latitude}");
                     let advice = "at a pole the Earth's horizontal rate is zero, and K cannot be found there";
                     problems.at(&at.key(key), found, "a latitude between -90 and 90 degrees", advice);

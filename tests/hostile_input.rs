@@ -33,6 +33,9 @@ fn payloads() -> Vec<(&'static str, String)> {
         ("open brackets", format!("a: {}\n", "[".repeat(FULL - 10))),
         ("nested brackets", format!("a: {}{}\n", "[".repeat(half), "]".repeat(half))),
         ("nested braces", format!("a: {}{}\n", "{a: ".repeat(half / 4), "}".repeat(half / 4))),
+        // In a plain word a quote begins no string, and hides nothing from a parser.
+        ("brackets behind a quote in a word", format!("a: [x\"{}\"\n", "[".repeat(FULL - 10))),
+        ("braces behind a quote in a word", format!("a: [x\"{}\"\n", "{a: ".repeat(FULL / 4 - 10))),
         ("brackets on lines of their own", format!("a:\n{}", "  [\n".repeat(FULL / 4 - 4))),
         ("a list of numbers", list("0,")),
         ("a list of lists", list("[],")),

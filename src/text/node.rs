@@ -36,10 +36,8 @@ impl Node {
         if text.lines().all(|line| line.trim_start().is_empty() || line.trim_start().starts_with('#')) {
             return Err(Unreadable::whole(name, None, "nothing but blanks and comments", "a YAML document", ""));
         }
-        if let Some(at) = too_deep(text) {
-            let expected = format!("at most {DEEPEST} brackets in each other");
-            return Err(Unreadable::whole(name, Some(at), "more brackets in each other", expected, ""));
-        }
+        refuse_control_characters(name, text)?;
+        refuse_deep(name, text)?;
         let budget = Budget::of(text);
         match Whole(&budget).deserialize(serde_yaml::Deserializer::from_str(text)) {
             Ok(node) => Ok((node, text.to_owned())),
@@ -79,10 +77,10 @@ pub fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable
         return refuse(None, "an empty file", "a document", "was it copied to the end?");
     }
     if bytes.len() > LARGEST_DOCUMENT_BYTES {
-        let found = format!("{} bytes", bytes.len());
-        return refuse(None, &found, &format!("at most {LARGEST_DOCUMENT_BYTES} bytes"), "is this the right file?");
+        let found = format!("more than {LARGEST_DOCUMENT_BYTES} bytes");
+        return refuse(None, &found, "a document of this project", "is this the right file?");
     }
-    if bytes.starts_with(&[0xFE, 0xFF]) || bytes.starts_with(&[0xFF, 0xFE]) {
+    if is_utf16(bytes) {
         return refuse(None, "UTF-16", "UTF-8", "save the file as UTF-8 without a byte order mark");
     }
     if bytes.starts_with(&[0xEF, 0xBB, 0xBF]) {
@@ -110,6 +108,22 @@ pub fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable
     Ok(text)
 }
 
+/// Whether the bytes are UTF-16, with a byte order mark or without one: no text begins with a NUL or has one behind its
+/// first character.
+pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
+    matches!(bytes, [0xFE, 0xFF, ..] | [0xFF, 0xFE, ..] | [0, 1..=255, ..] | [1..=255, 0, ..])
+}
+
+/// The YAML reader refuses them too, but gives a position that no editor shows.
+fn refuse_control_characters(name: &str, text: &str) -> Result<(), Unreadable> {
+    let Some((index, c)) = text.char_indices().find(|(_, c)| c.is_control() && !"\n\t".contains(*c)) else {
+        return Ok(());
+    };
+    let at = Some(location_of(&text.as_bytes()[..index]));
+    let found = format!("the control character U+{:04X}", u32::from(c));
+    Err(Unreadable::whole(name, at, found, "text", "remove it"))
+}
+
 /// The place just after `before`, which must be valid UTF-8.
 pub(crate) fn location_of(before: &[u8]) -> Location {
     let line_start = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |at| at + 1);
@@ -125,7 +139,20 @@ fn unreadable_yaml(name: &str, error: &serde_yaml::Error) -> Unreadable {
     if let Some(at) = words.find(" at line ") {
         words.truncate(at);
     }
-    Unreadable::whole(name, location, format!("no valid YAML ({words})"), "a YAML mapping", "")
+    // What the reader could read but does not, in words that name what is in the file.
+    let (found, advice) = match words.as_str() {
+        "recursion limit exceeded" => ("values too deep inside one another", "is this the right file?"),
+        "repetition limit exceeded" => {
+            ("aliases (`*name`) that multiply their content", "write out what they stand for")
+        }
+        tag if tag.contains("invalid type: enum") => ("a tag (`!name`)", "remove it"),
+        several if several.contains("more than one document") => ("several documents (`---`)", "keep one of them"),
+        _ => {
+            let advice = "is there a quote, a bracket or an indentation amiss in this line or just before it?";
+            return Unreadable::whole(name, location, format!("no valid YAML ({words})"), "a YAML mapping", advice);
+        }
+    };
+    Unreadable::whole(name, location, found, "a plain YAML mapping", advice)
 }
 
 /// Finds the line and column of a mistake by reading the text again up to it.
@@ -160,16 +187,24 @@ impl Serialize for Node {
 /// The most brackets in each other that any document may have; a position's matrix in a list needs four.
 const DEEPEST: usize = 64;
 
-/// Where brackets stand in more than [`DEEPEST`] others, strings and comments aside.
+/// The most opening brackets, those in strings too: a passport of the largest size has half of them.
+const MOST_BRACKETS: usize = 25_000;
+
+/// Refuses brackets in more than [`DEEPEST`] others, strings and comments aside, and more than [`MOST_BRACKETS`] in all.
 ///
 /// The parser looks at every open bracket at every token: a million of them would keep it busy for minutes. A string
-/// is taken to end with its line, as every string of a signed text does; one that does not may hide brackets here,
-/// which costs time and nothing else.
-fn too_deep(text: &str) -> Option<Location> {
-    let mut depth = 0_usize;
+/// is taken to end with its line, as every string of a signed text does, and any quote to begin one. A quote inside a
+/// plain word begins none and so hides the brackets behind it: for these there is the second limit.
+fn refuse_deep(name: &str, text: &str) -> Result<(), Unreadable> {
+    let refuse = |line: usize, column: usize, found: String| {
+        let at = Some(Location { line: line + 1, column: column + 1 });
+        Err(Unreadable::whole(name, at, found, "a document of this project", "is this the right file?"))
+    };
+    let (mut depth, mut opened) = (0_usize, 0_usize);
     for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with('#')) {
         let (mut in_string, mut escaped) = (false, false);
         for (column, c) in line.chars().enumerate() {
+            opened += usize::from("[{".contains(c));
             match c {
                 _ if escaped => escaped = false,
                 '\\' => escaped = in_string,
@@ -179,11 +214,14 @@ fn too_deep(text: &str) -> Option<Location> {
                 _ => {}
             }
             if depth > DEEPEST {
-                return Some(Location { line: index + 1, column: column + 1 });
+                return refuse(index, column, format!("more than {DEEPEST} brackets one inside another"));
+            }
+            if opened > MOST_BRACKETS {
+                return refuse(index, column, format!("more than {MOST_BRACKETS} brackets"));
             }
         }
     }
-    None
+    Ok(())
 }
 
 /// What may still be built: aliases make much out of little.
@@ -355,10 +393,20 @@ pub fn read_document<T: super::Field>(
 ) -> Result<T, Unreadable> {
     let (node, text) = Node::from_yaml(name, bytes)?;
     let mut problems = Problems::new();
-    if let Some(found) = node.get("format").filter(|found| **found != Node::Text(format.to_owned())) {
-        let advice = "is this the right file?";
-        problems.at(&Path::Root.key("format"), found.describe(), format!("{format:?}"), advice);
-        return Err(problems.refuse(name, &text));
+    let expected = format!("{format:?}");
+    match (&node, node.get("format")) {
+        (_, Some(Node::Text(found))) if found == format => {}
+        (_, Some(found)) => {
+            let advice = "is this the right file?";
+            problems.at(&Path::Root.key("format"), found.describe(), expected, advice);
+            return Err(problems.refuse(name, &text));
+        }
+        (Node::Map(_), None) => {
+            let advice = "say so in the first line, or is this another file?";
+            problems.missing(&Path::Root, "format", expected, advice);
+            return Err(problems.refuse(name, &text));
+        }
+        _ => {}
     }
     let value = T::read(&node, &Path::Root, &mut problems);
     if let Some(value) = &value {

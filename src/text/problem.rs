@@ -159,6 +159,12 @@ impl Problems {
         self.push(at, Some(entry), found.into(), expected.into(), advice.into());
     }
 
+    /// Notes that the mapping at `at` lacks `key`; its place is the mapping's.
+    pub fn missing(&mut self, at: &Path, key: &str, expected: impl Into<String>, advice: impl Into<String>) {
+        let target = Target { steps: at.steps(), entry: None };
+        self.note(target, at.key(key).to_string(), "no such key".to_owned(), expected.into(), advice.into());
+    }
+
     /// Notes a number that is there and not within `low..=high`.
     pub fn within(&mut self, at: &Path, value: Option<f64>, low: f64, high: f64) {
         let Some(value) = value else { return };
@@ -172,16 +178,24 @@ impl Problems {
     }
 
     fn push(&mut self, at: &Path, entry: Option<usize>, found: String, expected: String, advice: String) {
+        // Walking on in a document that is wrong throughout is to cost no more than a comparison.
         if self.found.len() == MOST_PROBLEMS {
             self.more = true;
             return;
         }
-        let target = Target { steps: at.steps(), entry };
-        self.found.push((Some(target), Problem { location: None, field: at.to_string(), found, expected, advice }));
+        self.note(Target { steps: at.steps(), entry }, at.to_string(), found, expected, advice);
     }
 
-    /// The refusal of the document `name` whose text is `text`, every mistake with its line and column,
-    /// in the order of the text.
+    fn note(&mut self, target: Target, field: String, found: String, expected: String, advice: String) {
+        if self.found.len() == MOST_PROBLEMS {
+            self.more = true;
+            return;
+        }
+        self.found.push((Some(target), Problem { location: None, field, found, expected, advice }));
+    }
+
+    /// The refusal of the document `name` whose text is `text`: the first mistakes with their lines and columns, in the
+    /// order of the text, and that there are more when there are.
     pub fn refuse(self, name: &str, text: &str) -> Unreadable {
         let affordable = (READ_AGAIN_BYTES / text.len().max(1)).max(1);
         let more = self.more || self.found.len() > affordable;
@@ -206,7 +220,8 @@ impl Problems {
 
 /// A document that cannot be read as what it should be: its name and every mistake found.
 ///
-/// Displayed as one line a mistake, `name:line:column: field: found …, expected …; what to do`.
+/// Displayed as one line a mistake, `name:line:column: field: found …, expected …; what to do`. Of very many mistakes the
+/// first ones are shown, and the number of the others: then it is mostly another file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unreadable {
     name: String,
@@ -242,7 +257,7 @@ impl Unreadable {
         &self.name
     }
 
-    /// Every mistake, in the order of the text.
+    /// Every mistake, in the order of the text as far as their places are known.
     pub fn problems(&self) -> &[Problem] {
         &self.problems
     }
@@ -250,7 +265,9 @@ impl Unreadable {
 
 impl Display for Unreadable {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        for (index, problem) in self.problems.iter().enumerate() {
+        // What is read as a document has no more; a list of keys that is no such list has one in every line.
+        const SHOWN: usize = MOST_PROBLEMS + 1;
+        for (index, problem) in self.problems.iter().take(SHOWN).enumerate() {
             if index > 0 {
                 writeln!(f)?;
             }
@@ -258,6 +275,10 @@ impl Display for Unreadable {
                 Some(at) => write!(f, "{}:{}:{}: {problem}", self.name, at.line, at.column)?,
                 None => write!(f, "{}: {problem}", self.name)?,
             }
+        }
+        let more = self.problems.len().saturating_sub(SHOWN);
+        if more > 0 {
+            write!(f, "\n{}: and {more} more mistakes: is this the right file?", self.name)?;
         }
         Ok(())
     }

@@ -13,6 +13,11 @@ pub trait Field: Sized {
         None
     }
 
+    /// What is expected under `key`, in the words of a message.
+    fn expected(_key: &str) -> String {
+        "a mapping".to_owned()
+    }
+
     /// What is written; `None` when the key is left out.
     fn write(&self) -> Option<Node>;
 }
@@ -119,19 +124,14 @@ pub fn read_field<T: Field>(entries: &[(String, Node)], key: &str, at: &Path, pr
     match entries.iter().find(|(name, _)| name == key) {
         Some((_, node)) => T::read(node, &at.key(key), problems),
         None => T::absent().or_else(|| {
-            problems.at(
-                at,
-                format!("no key {key}"),
-                format!("{key}: {}", expected_number_or(key, "a value")),
-                "add it",
-            );
+            problems.missing(at, key, T::expected(key), "add it");
             None
         }),
     }
 }
 
 /// What a number under `key` means: the unit is in the key.
-fn expected_number_or(key: &str, otherwise: &str) -> String {
+fn expected_number(key: &str) -> String {
     const UNITS: [(&str, &str); 12] = [
         ("_deg_per_h_per_g2", "in degrees per hour per g squared"),
         ("_deg_per_h_per_g", "in degrees per hour per g"),
@@ -149,7 +149,7 @@ fn expected_number_or(key: &str, otherwise: &str) -> String {
     UNITS
         .iter()
         .find(|(suffix, _)| key.ends_with(suffix))
-        .map_or_else(|| otherwise.to_owned(), |(_, unit)| format!("a number {unit}"))
+        .map_or_else(|| "a number".to_owned(), |(_, unit)| format!("a number {unit}"))
 }
 
 impl Field for f64 {
@@ -159,16 +159,22 @@ impl Field for f64 {
             Node::Number(value) if value.is_finite() => Some(*value + 0.0),
             Node::Integer(value) => Some(*value as f64),
             other => {
-                problems.at(at, other.describe(), expected_number_or(at.last_key(), "a number"), number_advice(other));
+                problems.at(at, other.describe(), expected_number(at.last_key()), number_advice(other));
                 None
             }
         }
+    }
+
+    fn expected(key: &str) -> String {
+        expected_number(key)
     }
 
     fn write(&self) -> Option<Node> {
         Some(Node::Number(*self))
     }
 }
+
+const NOT_FINITE: &str = "not-a-number and infinity are not measured values";
 
 fn number_advice(node: &Node) -> &'static str {
     match node {
@@ -177,7 +183,8 @@ fn number_advice(node: &Node) -> &'static str {
         }
         Node::Text(text) if text.parse::<f64>().is_ok_and(f64::is_finite) => "write the number without quotes",
         Node::Text(text) if !text.is_ascii() => "write the number with ASCII digits, point and minus",
-        Node::Number(_) => "not-a-number and infinity are not measured values",
+        Node::Text(text) if text.parse::<f64>().is_ok() => NOT_FINITE,
+        Node::Number(_) => NOT_FINITE,
         _ => "",
     }
 }
@@ -187,10 +194,14 @@ impl Field for u32 {
         match node {
             Node::Integer(value) if u32::try_from(*value).is_ok() => u32::try_from(*value).ok(),
             other => {
-                problems.at(at, other.describe(), "a whole number", "");
+                problems.at(at, other.describe(), Self::expected(""), "");
                 None
             }
         }
+    }
+
+    fn expected(_: &str) -> String {
+        "a whole number".to_owned()
     }
 
     fn write(&self) -> Option<Node> {
@@ -203,10 +214,14 @@ impl Field for bool {
         match node {
             Node::Bool(value) => Some(*value),
             other => {
-                problems.at(at, other.describe(), "true or false", "");
+                problems.at(at, other.describe(), Self::expected(""), "");
                 None
             }
         }
+    }
+
+    fn expected(_: &str) -> String {
+        "true or false".to_owned()
     }
 
     fn write(&self) -> Option<Node> {
@@ -217,7 +232,7 @@ impl Field for bool {
 impl Field for String {
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
         let Node::Text(text) = node else {
-            problems.at(at, node.describe(), "a text", "put it in double quotes");
+            problems.at(at, node.describe(), Self::expected(""), "put it in double quotes");
             return None;
         };
         if text.is_empty() {
@@ -232,6 +247,10 @@ impl Field for String {
             return None;
         }
         Some(text.clone())
+    }
+
+    fn expected(_: &str) -> String {
+        "a text".to_owned()
     }
 
     fn write(&self) -> Option<Node> {
@@ -256,12 +275,16 @@ impl<T: Field> Field for Option<T> {
 impl<T: Field> Field for Vec<T> {
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
         let Node::List(items) = node else {
-            problems.at(at, node.describe(), "a list", "");
+            problems.at(at, node.describe(), Self::expected(""), "");
             return None;
         };
         let read: Vec<Option<T>> =
             items.iter().enumerate().map(|(index, item)| T::read(item, &at.item(index), problems)).collect();
         read.into_iter().collect()
+    }
+
+    fn expected(_: &str) -> String {
+        "a list".to_owned()
     }
 
     fn write(&self) -> Option<Node> {
@@ -274,10 +297,14 @@ impl<T: Field, const N: usize> Field for [T; N] {
         match node {
             Node::List(items) if items.len() == N => Vec::read(node, at, problems)?.try_into().ok(),
             other => {
-                problems.at(at, other.describe(), format!("a list of {N}"), "");
+                problems.at(at, other.describe(), Self::expected(""), "");
                 None
             }
         }
+    }
+
+    fn expected(_: &str) -> String {
+        format!("a list of {N}")
     }
 
     fn write(&self) -> Option<Node> {

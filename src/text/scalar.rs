@@ -53,7 +53,6 @@ impl fmt::Display for Identifier {
 
 impl Field for Identifier {
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
-        const EXPECTED: &str = "1 to 64 of the ASCII letters, digits, '.', '_', '-', a letter or digit first, no '..'";
         const ADVICE: &str = "it becomes a folder or file name; free text goes into name";
         let found = match node {
             Node::Text(text) => match Self::new(text) {
@@ -61,13 +60,18 @@ impl Field for Identifier {
                 Err(found) => found,
             },
             Node::Integer(_) | Node::Number(_) => {
-                problems.at(at, format!("the number {}", node.describe()), EXPECTED, "put it in double quotes");
+                let found = format!("the number {}", node.describe());
+                problems.at(at, found, Self::expected(""), "put it in double quotes");
                 return None;
             }
             other => other.describe(),
         };
-        problems.at(at, found, EXPECTED, ADVICE);
+        problems.at(at, found, Self::expected(""), ADVICE);
         None
+    }
+
+    fn expected(_: &str) -> String {
+        "1 to 64 of the ASCII letters, digits, '.', '_', '-', a letter or digit first, no '..'".to_owned()
     }
 
     fn write(&self) -> Option<Node> {
@@ -83,8 +87,12 @@ impl Field for Date {
         {
             return Some(date);
         }
-        problems.at(at, node.describe(), "a date as \"2026-11-02\"", "year, month, day, in double quotes");
+        problems.at(at, node.describe(), Self::expected(""), "year, month, day, in double quotes");
         None
+    }
+
+    fn expected(_: &str) -> String {
+        "a date as \"2026-11-02\"".to_owned()
     }
 
     fn write(&self) -> Option<Node> {
@@ -101,8 +109,12 @@ impl Field for Timestamp {
         {
             return Some(time);
         }
-        problems.at(at, node.describe(), "a time as \"2026-11-02T09:30:00Z\"", "RFC 3339, UTC, whole seconds");
+        problems.at(at, node.describe(), Self::expected(""), "RFC 3339, UTC, whole seconds");
         None
+    }
+
+    fn expected(_: &str) -> String {
+        "a time as \"2026-11-02T09:30:00Z\"".to_owned()
     }
 
     fn write(&self) -> Option<Node> {
