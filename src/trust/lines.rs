@@ -2,6 +2,7 @@
 
 use super::LARGEST_TRUST_FILE_BYTES;
 use crate::text::Unreadable;
+use crate::text::node::is_utf16;
 use crate::text::problem::{Location, Problem};
 
 /// A line that is neither empty nor a comment.
@@ -44,8 +45,8 @@ impl Line<'_> {
 /// The lines of a trust file that say something; line ends are LF or CRLF.
 ///
 /// # Errors
-/// When the file is larger than [`LARGEST_TRUST_FILE_BYTES`], not UTF-8, or begins with a byte order mark, which
-/// OpenSSH would take for a part of the first line.
+/// When the file is larger than [`LARGEST_TRUST_FILE_BYTES`], not UTF-8, a private key, or begins with a byte order mark,
+/// which OpenSSH would take for a part of the first line.
 pub(super) fn of<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Line<'a>>, Unreadable> {
     let start = Some(Location { line: 1, column: 1 });
     if bytes.len() > LARGEST_TRUST_FILE_BYTES {
@@ -55,7 +56,7 @@ pub(super) fn of<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Line<'a>>, Unrea
     }
     let mark = match bytes {
         [0xEF, 0xBB, 0xBF, ..] => Some("a byte order mark (BOM)"),
-        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => Some("UTF-16"),
+        _ if is_utf16(bytes) => Some("UTF-16"),
         _ => None,
     };
     if let Some(found) = mark {
@@ -69,6 +70,11 @@ pub(super) fn of<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Line<'a>>, Unrea
         let found = format!("the byte 0x{:02X}", bytes[error.valid_up_to()]);
         Unreadable::whole(name, Some(Location { line, column }), found, "UTF-8", "save it as plain UTF-8")
     })?;
+    if text.contains("PRIVATE KEY-----") {
+        // Its lines must not come back in messages, which end in logs.
+        let advice = "give the line of the .pub file, and keep the private key to yourself";
+        return Err(Unreadable::whole(name, None, "a private key", "public keys", advice));
+    }
     let lines = text
         .split('\n')
         .enumerate()
@@ -92,8 +98,17 @@ mod tests {
         let refusal = |bytes: &[u8]| of("f", bytes).unwrap_err().to_string();
         assert!(refusal(b"\xEF\xBB\xBFa").starts_with("f:1:1: found a byte order mark"));
         assert!(refusal(b"\xFF\xFEa\0").contains("found UTF-16"));
+        assert!(refusal(b"a\0\n\0").contains("found UTF-16"));
         assert!(refusal("# жж\nж".as_bytes().split_last().unwrap().1).starts_with("f:2:1: found the byte 0xD0"));
         assert!(refusal(&vec![b' '; LARGEST_TRUST_FILE_BYTES + 1]).contains("16777217 bytes"));
+    }
+
+    #[test]
+    fn a_private_key_does_not_come_back_in_the_message() {
+        let key = crate::trust::SigningKey::generate().unwrap().to_openssh("c", None).unwrap();
+        let refusal = of("f", key.as_bytes()).unwrap_err().to_string();
+        assert!(refusal.starts_with("f: found a private key, expected public keys"), "{refusal}");
+        assert!(key.lines().all(|line| !refusal.contains(line)), "{refusal}");
     }
 
     #[test]

@@ -39,6 +39,11 @@ pub(super) fn read(line: &Line) -> Result<SignerLine, Vec<Problem>> {
     }
     let mut problems = Vec::new();
     let start = blanks(line.text, 0);
+    let first = word(line.text, start);
+    if AnyKey::is_type(first) {
+        let advice = "write before the key who signs with it, as `keygen` prints the line";
+        return Err(vec![line.problem(start, "principals", format!("the key type {first}"), "a name", advice)]);
+    }
     let (principals, at) = principals(line, start).map_err(|problem| vec![problem])?;
     check_patterns(line, start, "principals", &principals, &mut problems);
     let (options, at) = if AnyKey::is_type(word(line.text, at)) {
