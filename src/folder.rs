@@ -5,13 +5,14 @@ use crate::document::{SignedText, Signer};
 use crate::files::{self, Access, FileError};
 use crate::passport::content::Content;
 use crate::passport::issue::{self, Draft, Issue, IssueRefused, Remarks};
-use crate::passport::reissue::Successor;
+use crate::passport::reissue::{Successor, changes};
 use crate::passport::verification::{Question, Trust, verify};
 use crate::passport::{NAMESPACE, read};
 use crate::site::Site;
 use crate::stand::{Identity, Stand};
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::scalar::Identifier;
+use jiff::civil::Date;
 use std::path::{Path, PathBuf};
 
 /// A folder of passports: `<model>/<serial>/<site id>-<revision>.yaml`.
@@ -49,15 +50,30 @@ pub struct Issued {
 #[non_exhaustive]
 pub enum FolderRefused {
     /// A passport with other content has the name.
-    #[error("{}: exists with other content; a changed stand or site is re-issued: `reissue {}`", path.display(), path.display())]
+    #[error(
+        "{}: exists with other content ({changed}); what has changed is re-issued: `reissue {}`",
+        path.display(),
+        path.display()
+    )]
     OtherContent {
         /// The file that is there.
         path: PathBuf,
+        /// What differs from it, in words.
+        changed: String,
     },
     /// The old passport has another successor already.
-    #[error("{}: is already a successor of the same passport for this site, with other content", path.display())]
+    #[error(
+        "{}: is already a successor of the same passport for this site, with other content; re-issue that one",
+        path.display()
+    )]
     OtherSuccessor {
         /// The successor that is there.
+        path: PathBuf,
+    },
+    /// The next revision is there, made from another passport.
+    #[error("{}: is already the next revision for this site, made from another passport; re-issue that one", path.display())]
+    LaterRevision {
+        /// The revision that is there.
         path: PathBuf,
     },
     /// What has the name is no passport.
@@ -118,7 +134,10 @@ impl Folder {
         let path = self.path_of(&stand.stand, &site.id, order.revision);
         match existing(&path)? {
             Some(there) if same(&there.content, draft.content()) => Ok(there.left(&draft)),
-            Some(there) => Err(FolderRefused::OtherContent { path: there.path }),
+            Some(there) => {
+                let changed = there.differences(stand, site, draft.content());
+                Err(FolderRefused::OtherContent { path: there.path, changed })
+            }
             None => write(path, &draft, seal),
         }
     }
@@ -137,9 +156,12 @@ impl Folder {
             if same(&there.content, draft.content()) {
                 return Ok(there.left(&draft));
             }
-            // At the old site only one successor can follow; at another the next revision does.
-            if of_the_same || successor.same_site() {
+            if of_the_same {
                 return Err(FolderRefused::OtherSuccessor { path: there.path });
+            }
+            // At the old site only one revision can be the next; at another the one after it is free.
+            if successor.same_site() {
+                return Err(FolderRefused::LaterRevision { path: there.path });
             }
             revision = revision.saturating_add(1);
         }
@@ -224,6 +246,20 @@ impl Existing {
     fn left(self, draft: &Draft) -> Issued {
         let id = self.content.passport.id.clone();
         Issued { id, path: self.path, sha256: self.sha256, new: false, remarks: draft.remarks() }
+    }
+
+    /// What differs from it, in words; its revision was issued, `new` would be too.
+    fn differences(&self, stand: &Stand, site: &Site, new: &Content) -> String {
+        let there = &self.content.passport;
+        let mut words = changes(&self.content, stand, site, &new.passport.issuer);
+        if let Some(predecessor) = &there.reissued_from {
+            words = format!("re-issued from {}; {words}", predecessor.id);
+        }
+        if there.valid_until != new.passport.valid_until {
+            let day = |day: Option<Date>| day.map_or_else(|| "none".to_owned(), |day| day.to_string());
+            words = format!("last day {} -> {}; {words}", day(there.valid_until), day(new.passport.valid_until));
+        }
+        words
     }
 
     fn predecessor_sha256(&self) -> Option<&str> {

@@ -307,7 +307,8 @@ impl Content {
     pub fn last_day(&self) -> Option<(Date, &'static str)> {
         let passport = self.passport.valid_until.map(|day| (day, "passport"));
         let certificate = self.certificate.valid_until.map(|day| (day, "certificate"));
-        passport.into_iter().chain(certificate).min_by_key(|(day, _)| *day)
+        // Of equal ones the certificate's is named: it is the one that no new passport helps against.
+        certificate.into_iter().chain(passport).min_by_key(|(day, _)| *day)
     }
 
     /// Every rule of the content that its own inputs do not already settle.

@@ -11,13 +11,16 @@ use crate::laboratory::Laboratory;
 use crate::site::Site;
 use crate::stand::{CertifiedPosition, Stand};
 use crate::text::scalar::day;
-use crate::text::{Unreadable, rule};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, rule};
 use crate::trust::SignatureError;
 use jiff::Timestamp;
 use jiff::civil::Date;
 
 /// The self-check, calibrated again, may be off by this much of each parameter.
 pub const SELF_CHECK_LIMIT: f64 = 1e-9;
+
+/// A signature in its armor takes a quarter of this many bytes; one by a token, which names its application, less than all.
+const LONGEST_SIGNATURE: usize = 2000;
 
 /// From this much more noise on than on a perfect stand the factory is warned.
 pub const NOISE_WARNING: f64 = 2.0;
@@ -63,12 +66,17 @@ pub enum IssueRefused {
         certified: Date,
     },
     /// The passport would have ended before it began.
-    #[error("issued_at {issued_at} is after the last day of validity, {last}: the stand must be certified again")]
+    #[error(
+        "issued_at {issued_at} is after the {document}'s last day, {last}: {}",
+        if *document == "certificate" { "the stand must be certified again" } else { "give a later one" }
+    )]
     AlreadyExpired {
         /// When the passport would be issued.
         issued_at: Timestamp,
-        /// Its last day.
+        /// The earlier one of the two last days.
         last: Date,
+        /// Whose last day that is: "certificate" or "passport".
+        document: &'static str,
     },
     /// The issuer's name cannot stand in a passport.
     #[error("the identity {0:?} holds a character that no signed text may hold, or is empty")]
@@ -76,11 +84,23 @@ pub enum IssueRefused {
     /// The self-check does not give its own parameters back.
     #[error(
         "the self-check, calibrated again, is off by {error:.1e} of a parameter (limit {SELF_CHECK_LIMIT:e}): \
-         on this stand at this site the eight positions do not determine the gyro"
+         on this stand at this site the eight positions do not determine the gyro \
+         (1/cos(latitude), by which the uncertainty of K grows, is {growth:.4})"
     )]
     SelfCheckFails {
         /// How far the worst parameter is off, relative to its size.
         error: f64,
+        /// 1/cos Φ, which is large near the poles.
+        growth: f64,
+    },
+    /// The passport would be larger than any verifier reads.
+    #[error(
+        "the passport would have {bytes} bytes, at most {LARGEST_DOCUMENT_BYTES} are read: \
+         the stand has too many positions"
+    )]
+    TooLarge {
+        /// Its size, the signature aside.
+        bytes: usize,
     },
     /// The text, read again, is not what was written: a defect of this program.
     #[error("the text read back differs from what was written; nothing was signed. {0}")]
@@ -132,11 +152,14 @@ pub fn draft(stand: &Stand, site: &Site, issue: &Issue) -> Result<Draft, IssueRe
     };
     check_dates(&content)?;
     let payload = payload(&content);
+    if payload.len() + LONGEST_SIGNATURE > LARGEST_DOCUMENT_BYTES {
+        return Err(IssueRefused::TooLarge { bytes: payload.len() });
+    }
     let read_back = read_back(&payload, &content)?;
     if let Some(self_check) = &read_back.self_check {
         let error = self_check.error(&read_back.coefficients());
         if error.is_nan() || error > SELF_CHECK_LIMIT {
-            return Err(IssueRefused::SelfCheckFails { error });
+            return Err(IssueRefused::SelfCheckFails { error, growth: site.uncertainty_growth() });
         }
     }
     Ok(Draft { content, payload })
@@ -156,7 +179,9 @@ fn check_dates(content: &Content) -> Result<(), IssueRefused> {
         return Err(IssueRefused::BeforeCertificate { issued_at, certified });
     }
     match content.last_day() {
-        Some((last, _)) if issued_at > day(last).1 => Err(IssueRefused::AlreadyExpired { issued_at, last }),
+        Some((last, document)) if issued_at > day(last).1 => {
+            Err(IssueRefused::AlreadyExpired { issued_at, last, document })
+        }
         _ => Ok(()),
     }
 }

@@ -130,7 +130,7 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         id: old.passport.id.clone(),
         sha256: sha256_hex(old_bytes),
         reason: order.reason.clone(),
-        changed: match usable {
+        changed: match &usable {
             Usable::Whole => changes(old, &stand, &site, &order.issuer),
             Usable::NameOnly { .. } => {
                 "not compared: made from the factory's files, the earlier passport only named".into()
@@ -143,7 +143,11 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         valid_until: order.valid_until.or(old_last_day),
         revision: 0,
         predecessor: Some((predecessor, same_site || order.moved)),
-        self_check_gyro: self_check_gyro(old),
+        // Of a passport that may only be named nothing is taken over, whoever may have signed it.
+        self_check_gyro: match &usable {
+            Usable::Whole => self_check_gyro(old),
+            Usable::NameOnly { .. } => GyroType::gvk_6().nominal,
+        },
     };
     Ok(Successor { stand, site, same_site, old_revision: old.passport.revision, issue })
 }
@@ -222,7 +226,7 @@ impl Successor {
 }
 
 /// What differs from the old passport, in words.
-fn changes(old: &Content, stand: &Stand, site: &Site, issuer: &str) -> String {
+pub(crate) fn changes(old: &Content, stand: &Stand, site: &Site, issuer: &str) -> String {
     const MOST: usize = 12;
     let mut changes = Vec::new();
     let compare = |key: &str, old: Option<Node>, new: Option<Node>, changes: &mut Vec<String>| {
