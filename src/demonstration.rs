@@ -64,7 +64,7 @@ pub enum Stopped {
     #[error(transparent)]
     Calibration(#[from] NoLeastSquares),
     /// Nobody reads.
-    #[error("the output was closed")]
+    #[error("standard output cannot be written")]
     Closed,
 }
 

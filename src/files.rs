@@ -48,10 +48,12 @@ pub enum FileError {
     },
 }
 
-fn reason(error: &io::Error) -> String {
+/// What the system says, in words for those who do not know its error numbers.
+pub fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "no such file or folder".to_owned(),
         io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        io::ErrorKind::NotADirectory => "what should be a folder on the way to it is a file".to_owned(),
         io::ErrorKind::StorageFull => "no space left".to_owned(),
         _ => error.to_string(),
     }
@@ -62,16 +64,25 @@ fn reason(error: &io::Error) -> String {
 /// # Errors
 /// [`FileError::Read`], [`FileError::Folder`], [`FileError::TooLarge`].
 pub fn read(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
+    let bytes = read_first(path, limit + 1)?;
+    if bytes.len() > limit {
+        return Err(FileError::TooLarge { path: path.to_owned(), limit });
+    }
+    Ok(bytes)
+}
+
+/// The first `limit` bytes of a file, or all of it when it is shorter.
+///
+/// # Errors
+/// [`FileError::Read`], [`FileError::Folder`].
+pub fn read_first(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
     let failed = |error| FileError::Read { path: path.to_owned(), error };
     let file = File::open(path).map_err(failed)?;
     if file.metadata().map_err(failed)?.is_dir() {
         return Err(FileError::Folder { path: path.to_owned() });
     }
     let mut bytes = Vec::new();
-    file.take(limit as u64 + 1).read_to_end(&mut bytes).map_err(failed)?;
-    if bytes.len() > limit {
-        return Err(FileError::TooLarge { path: path.to_owned(), limit });
-    }
+    file.take(limit as u64).read_to_end(&mut bytes).map_err(failed)?;
     Ok(bytes)
 }
 
@@ -115,7 +126,10 @@ fn write(
 ) -> Result<(), FileError> {
     let failed = |error| FileError::Write { path: path.to_owned(), error };
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    fs::create_dir_all(folder).map_err(failed)?;
+    fs::create_dir_all(folder).map_err(|error| match error.kind() {
+        io::ErrorKind::AlreadyExists => failed(io::ErrorKind::NotADirectory.into()),
+        _ => failed(error),
+    })?;
     let mut temporary = builder(access).tempfile_in(folder).map_err(failed)?;
     temporary.write_all(bytes).and_then(|()| temporary.as_file().sync_all()).map_err(failed)?;
     persist(temporary).map_err(|refused| match refused.error.kind() {

@@ -34,7 +34,7 @@ pub struct Options {
     #[arg(long, value_name = "TIME", value_parser = trust_options::time)]
     issued_at: Option<Timestamp>,
     /// Last day of the passport [default: the certificate's]
-    #[arg(long, value_name = "DATE")]
+    #[arg(long, value_name = "DATE", value_parser = trust_options::date)]
     valid_until: Option<Date>,
     /// Write only what would verify by this allowed_signers
     #[arg(long, value_name = "SIGNERS")]

@@ -28,15 +28,14 @@ pub struct Options {
 pub fn run(options: &Options) -> Result<Code, Failure> {
     let stem = options.key.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let identity = options.identity.clone().or(stem).unwrap_or_default();
+    let public_path = with_pub(&options.key);
+    // Before anybody is asked for a passphrase that would then not be needed.
+    refuse_existing(&options.key)?;
+    refuse_existing(&public_path)?;
     let key = SigningKey::generate().map_err(Failure::unusable)?;
     let line = allowed_signers_line(&identity, &key.public_key()).map_err(Failure::unusable)?;
     let passphrase = new_passphrase(options)?;
     let private = key.to_openssh(&identity, passphrase.as_ref().map(|p| p.as_str())).map_err(Failure::unusable)?;
-    let public_path = with_pub(&options.key);
-    if public_path.exists() {
-        let exists = files::FileError::Exists { path: public_path, replaceable: false };
-        return Err(Failure::refused(exists));
-    }
     write(&options.key, private.as_bytes(), Access::Private)?;
     let public = format!("{} {identity}\n", key.public_key().to_openssh());
     write(&public_path, public.as_bytes(), Access::Shared)?;
@@ -47,6 +46,13 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     ));
     output::result(&(line + "\n"))?;
     Ok(0)
+}
+
+fn refuse_existing(path: &Path) -> Result<(), Failure> {
+    if path.symlink_metadata().is_ok() {
+        return Err(Failure::refused(files::FileError::Exists { path: path.to_owned(), replaceable: false }));
+    }
+    Ok(())
 }
 
 fn write(path: &Path, bytes: &[u8], access: Access) -> Result<(), Failure> {

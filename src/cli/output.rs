@@ -2,7 +2,7 @@
 
 use super::{Code, Failure, REFUSED, UNUSABLE};
 use clap::ValueEnum;
-use dtg_passport::files::FileError;
+use dtg_passport::files::{self, FileError};
 use dtg_passport::folder::FolderRefused;
 use dtg_passport::passport::issue::IssueRefused;
 use std::io::{self, Write};
@@ -22,7 +22,7 @@ pub fn result(text: &str) -> Result<(), Failure> {
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         // Whoever reads has read enough.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        Err(error) => Err(Failure::unusable(format!("standard output: {error}"))),
+        Err(error) => Err(Failure::unusable(format!("standard output: {}", files::reason(&error)))),
         Ok(()) => Ok(()),
     }
 }
@@ -35,7 +35,7 @@ pub fn json(value: &impl serde::Serialize) -> Result<(), Failure> {
 
 /// Writes words about a result. Nothing is to be done when even standard error is closed.
 pub fn say(words: &str) {
-    let _ = writeln!(io::stderr().lock(), "dtg-passport: {}", words.replace('\n', "\n              "));
+    let _ = writeln!(io::stderr().lock(), "dtg-passport: {}", words.trim_end().replace('\n', "\n              "));
 }
 
 /// The exit code of a refusal by the folder: what the file system or the signer refuses is no verdict on a document.

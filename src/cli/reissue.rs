@@ -8,7 +8,7 @@ use super::{Code, Failure, REFUSED, UNUSABLE, output};
 use clap::Args;
 use dtg_passport::files;
 use dtg_passport::folder::{Folder, Seal};
-use dtg_passport::passport::reissue::{Order, successor};
+use dtg_passport::passport::reissue::{Order, ReissueRefused, successor};
 use dtg_passport::passport::verify;
 use dtg_passport::report::issued;
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
@@ -45,7 +45,7 @@ pub struct Options {
     #[arg(long, value_name = "TIME", value_parser = trust_options::time)]
     issued_at: Option<Timestamp>,
     /// Last day of the passport [default: the old passport's, or a new stand's certificate's]
-    #[arg(long, value_name = "DATE")]
+    #[arg(long, value_name = "DATE", value_parser = trust_options::date)]
     valid_until: Option<Date>,
     /// Form of the result
     #[arg(long, value_enum, default_value = "text")]
@@ -72,7 +72,9 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         let name = path.display().to_string();
         let mut refuse = |refused_code: Code, reason: String| {
             code = code.max(refused_code);
-            output::say(&format!("{name}: {reason}"));
+            // A file that cannot be read is named by the reason itself.
+            let named = reason.starts_with(&format!("{name}: "));
+            output::say(&if named { reason.clone() } else { format!("{name}: {reason}") });
             reports.push(issued::Report::refused(name.clone(), reason));
         };
         let bytes = match files::read(path, LARGEST_DOCUMENT_BYTES) {
@@ -84,6 +86,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         };
         let verification = verify(&name, &bytes, &trust, &question);
         match successor(&bytes, &verification, &order) {
+            Err(refused @ ReissueRefused::BadReason) => refuse(UNUSABLE, refused.to_string()),
             Err(refused) => refuse(REFUSED, refused.to_string()),
             Ok(successor) => match folder.reissue(&successor, seal) {
                 Err(refused) => refuse(code_of(&refused), refused.to_string()),

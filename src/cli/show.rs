@@ -36,7 +36,7 @@ pub struct PassportOptions {
     #[command(flatten)]
     asked: Asked,
     /// Verify nothing, and say so loudly
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["issuer", "serial", "at", "time"])]
     no_verify: bool,
 }
 

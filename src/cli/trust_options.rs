@@ -88,7 +88,7 @@ pub fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Result<Trus
 
 /// A time as the options take it.
 pub fn time(text: &str) -> Result<Timestamp, String> {
-    if let Ok(date) = text.parse::<Date>() {
+    if let Ok(date) = date(text) {
         return Ok(day(date).0);
     }
     match text.parse::<Timestamp>() {
@@ -96,6 +96,12 @@ pub fn time(text: &str) -> Result<Timestamp, String> {
         Ok(_) => Err("whole seconds, as in 2026-11-02T09:30:00Z".to_owned()),
         Err(_) => Err("a time as 2026-11-02T09:30:00Z, or a UTC day as 2026-11-02".to_owned()),
     }
+}
+
+/// A day as the options take it. A day with a time and no zone is none: whose day would that be?
+pub fn date(text: &str) -> Result<Date, String> {
+    let date = text.parse::<Date>().ok().filter(|date| date.to_string() == text);
+    date.ok_or_else(|| "a UTC day as 2026-11-02".to_owned())
 }
 
 fn place(text: &str) -> Result<Place, String> {

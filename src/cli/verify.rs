@@ -4,7 +4,7 @@ use super::output::Format;
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, REFUSED, UNUSABLE, output};
 use clap::Args;
-use dtg_passport::files::{self, FileError};
+use dtg_passport::files;
 use dtg_passport::passport::verify;
 use dtg_passport::report::verdict;
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
@@ -33,8 +33,8 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let mut code = 0;
     let mut verdicts = Vec::new();
     for path in &options.passports {
-        // One byte more than a passport can have is enough to see that it is none.
-        match files::read(path, LARGEST_DOCUMENT_BYTES) {
+        // One byte more than a passport can have is enough to see that it is none: a verdict like any other.
+        match files::read_first(path, LARGEST_DOCUMENT_BYTES + 1) {
             Ok(bytes) => {
                 let name = path.display().to_string();
                 let verification = verify(&name, &bytes, &trust, &question);
@@ -47,7 +47,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
             }
             Err(error) => {
                 output::say(&error.to_string());
-                code = code.max(if matches!(error, FileError::TooLarge { .. }) { REFUSED } else { UNUSABLE });
+                code = code.max(UNUSABLE);
             }
         }
     }
