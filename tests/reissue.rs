@@ -17,7 +17,7 @@ fn time(text: &str) -> Timestamp {
 
 fn trust(key: &SigningKey) -> Trust {
     let line = allowed_signers_line("factory", &key.public_key()).unwrap();
-    Trust { signers: AllowedSigners::parse("allowed_signers", line.as_bytes()).unwrap(), revoked: Vec::new() }
+    Trust::of(AllowedSigners::parse("allowed_signers", line.as_bytes()).unwrap())
 }
 
 #[test]
