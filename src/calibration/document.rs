@@ -188,7 +188,9 @@ impl CalibrationDocument {
             if let Some(at) = found.find(" at line ") {
                 found.truncate(at);
             }
-            Unreadable::whole(name, location, found, "the JSON of an earlier calibration", "")
+            let found = format!("no such JSON ({found})");
+            let advice = "`calibrate --format json` writes it";
+            Unreadable::whole(name, location, found, "the JSON of an earlier calibration", advice)
         })
     }
 
