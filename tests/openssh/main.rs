@@ -6,6 +6,7 @@
 mod agent;
 mod allowed_signers;
 mod keys;
+mod program;
 mod revocation;
 mod signatures;
 mod token;

@@ -119,7 +119,7 @@ fn an_application_that_ends_early_is_refused_by_both() {
 }
 
 /// The provider library, built once into the target folder.
-fn provider() -> &'static Path {
+pub(crate) fn provider() -> &'static Path {
     static PROVIDER: OnceLock<PathBuf> = OnceLock::new();
     PROVIDER.get_or_init(|| {
         let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/tools/sk_software_token.c");
