@@ -219,7 +219,7 @@ fn watched<T>(
     ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)).map_err(Failure::unusable)?;
     // indicatif draws on standard error, and only on a terminal.
     let bar = ProgressBar::new(trials.saturating_mul(rows));
-    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len} trials, {per_sec}, {eta} left");
+    let style = ProgressStyle::with_template("{wide_bar} {human_pos} of {human_len} trials, {eta} left");
     bar.set_style(style.map_err(Failure::unusable)?);
     let progress = |done: u64| bar.set_position(done);
     let mut run = Run { cancel: Some(&cancel), progress: Some(&progress), ..Run::new(trials, arguments.seed) };

@@ -41,9 +41,10 @@ pub fn convergence(found: &Convergence) -> String {
     let _ = writeln!(out, "  {limit:>10}  {angles:<8}  {mean:>7}  {percentile:>10}  {most:>5}  {not:>16}");
     for row in &found.rows {
         let or_dash = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
+        let fewer = if row.stands < found.trials { format!("  ({} stands)", row.stands) } else { String::new() };
         let _ = writeln!(
             out,
-            "  {:>10}  {:<8}  {:>7}  {:>10}  {:>5}  {:>16}",
+            "  {:>10}  {:<8}  {:>7}  {:>10}  {:>5}  {:>16}{fewer}",
             row.limit_deg,
             row.deviations,
             or_dash(row.mean.map(|mean| format!("{mean:.2}"))),
