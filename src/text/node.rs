@@ -141,8 +141,10 @@ fn unreadable_yaml(name: &str, error: &serde_yaml::Error) -> Unreadable {
     }
     // What the reader could read but does not, in words that name what is in the file.
     let (found, advice) = match words.as_str() {
-        "recursion limit exceeded" => ("values too deep inside one another", "is this the right file?"),
-        "repetition limit exceeded" => {
+        deep if deep.ends_with("recursion limit exceeded") => {
+            ("values too deep inside one another", "is this the right file?")
+        }
+        aliases if aliases.ends_with(REPEATED) || aliases.ends_with("repetition limit exceeded") => {
             ("aliases (`*name`) that multiply their content", "write out what they stand for")
         }
         tag if tag.contains("invalid type: enum") => ("a tag (`!name`)", "remove it"),
@@ -187,7 +189,7 @@ impl Serialize for Node {
 /// The most brackets in each other that any document may have; a position's matrix in a list needs four.
 const DEEPEST: usize = 64;
 
-/// The most opening brackets, those in strings too: a passport of the largest size has half of them.
+/// The most opening brackets, those in strings too: a passport of the largest size has some 18,000.
 const MOST_BRACKETS: usize = 25_000;
 
 /// Refuses brackets in more than [`DEEPEST`] others, strings and comments aside, and more than [`MOST_BRACKETS`] in all.
@@ -224,6 +226,9 @@ fn refuse_deep(name: &str, text: &str) -> Result<(), Unreadable> {
     Ok(())
 }
 
+/// What is said when that is too much.
+const REPEATED: &str = "aliases that repeat too much";
+
 /// What may still be built: aliases make much out of little.
 struct Budget(Cell<usize>);
 
@@ -239,7 +244,7 @@ impl Budget {
     }
 
     fn spend<E: de::Error>(&self, cost: usize) -> Result<(), E> {
-        let left = self.0.get().checked_sub(cost).ok_or_else(|| E::custom("aliases that repeat too much"))?;
+        let left = self.0.get().checked_sub(cost).ok_or_else(|| E::custom(REPEATED))?;
         self.0.set(left);
         Ok(())
     }
@@ -394,21 +399,13 @@ pub fn read_document<T: super::Field>(
     let (node, text) = Node::from_yaml(name, bytes)?;
     let mut problems = Problems::new();
     let expected = format!("{format:?}");
-    match (&node, node.get("format")) {
-        (_, Some(Node::Text(found))) if found == format => {}
-        (_, Some(found)) => {
-            let advice = "is this the right file?";
-            problems.at(&Path::Root.key("format"), found.describe(), expected, advice);
-            return Err(problems.refuse(name, &text));
-        }
-        (Node::Map(_), None) => {
-            let advice = "say so in the first line, or is this another file?";
-            problems.missing(&Path::Root, "format", expected, advice);
-            return Err(problems.refuse(name, &text));
-        }
-        _ => {}
+    if let Some(found) = node.get("format").filter(|found| **found != Node::Text(format.to_owned())) {
+        let advice = "is this the right file?";
+        problems.at(&Path::Root.key("format"), found.describe(), expected, advice);
+        return Err(problems.refuse(name, &text));
     }
     let value = T::read(&node, &Path::Root, &mut problems);
+    problems.expect_missing("format", &expected, "say so in the first line, or is this another file?");
     if let Some(value) = &value {
         check(value, &mut problems);
     }

@@ -119,6 +119,13 @@ pub const MOST_PROBLEMS: usize = 50;
 /// mistakes are reported. A hostile text of a hundred thousand mistakes must not keep its reader busy for hours.
 const READ_AGAIN_BYTES: usize = 1 << 22;
 
+/// What is found where a key is missing.
+const MISSING: &str = "no such key";
+
+/// What stands for the mistakes that are not reported one by one.
+const FURTHER: &str = "further mistakes";
+const CORRECT_FIRST: &str = "correct these first";
+
 /// Mistakes collected while a document is read; [`Problems::refuse`] finds their lines and columns.
 #[derive(Debug, Default)]
 pub struct Problems {
@@ -162,7 +169,16 @@ impl Problems {
     /// Notes that the mapping at `at` lacks `key`; its place is the mapping's.
     pub fn missing(&mut self, at: &Path, key: &str, expected: impl Into<String>, advice: impl Into<String>) {
         let target = Target { steps: at.steps(), entry: None };
-        self.note(target, at.key(key).to_string(), "no such key".to_owned(), expected.into(), advice.into());
+        self.note(target, at.key(key).to_string(), MISSING.to_owned(), expected.into(), advice.into());
+    }
+
+    /// Says of the key `field`, where it was found missing, what belongs there and what to do.
+    pub(crate) fn expect_missing(&mut self, field: &str, expected: &str, advice: &str) {
+        let missing = self.found.iter_mut().find(|(_, problem)| problem.field == field && problem.found == MISSING);
+        if let Some((_, problem)) = missing {
+            problem.expected = expected.to_owned();
+            problem.advice = advice.to_owned();
+        }
     }
 
     /// Notes a number that is there and not within `low..=high`.
@@ -210,8 +226,7 @@ impl Problems {
             .collect();
         problems.sort_by_key(|problem| problem.location.map(|at| (at.line, at.column)));
         if more {
-            let (found, expected) = ("further mistakes".to_owned(), "none".to_owned());
-            let advice = "correct these first".to_owned();
+            let (found, expected, advice) = (FURTHER.to_owned(), "none".to_owned(), CORRECT_FIRST.to_owned());
             problems.push(Problem { location: None, field: String::new(), found, expected, advice });
         }
         Unreadable { name: name.to_owned(), problems }
@@ -221,7 +236,7 @@ impl Problems {
 /// A document that cannot be read as what it should be: its name and every mistake found.
 ///
 /// Displayed as one line a mistake, `name:line:column: field: found …, expected …; what to do`. Of very many mistakes the
-/// first ones are shown, and the number of the others: then it is mostly another file.
+/// first ones are shown, and that there are more: then it is mostly another file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unreadable {
     name: String,
@@ -265,8 +280,7 @@ impl Unreadable {
 
 impl Display for Unreadable {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        // What is read as a document has no more; a list of keys that is no such list has one in every line.
-        const SHOWN: usize = MOST_PROBLEMS + 1;
+        const SHOWN: usize = 20;
         for (index, problem) in self.problems.iter().take(SHOWN).enumerate() {
             if index > 0 {
                 writeln!(f)?;
@@ -276,9 +290,8 @@ impl Display for Unreadable {
                 None => write!(f, "{}: {problem}", self.name)?,
             }
         }
-        let more = self.problems.len().saturating_sub(SHOWN);
-        if more > 0 {
-            write!(f, "\n{}: and {more} more mistakes: is this the right file?", self.name)?;
+        if self.problems.len() > SHOWN {
+            write!(f, "\n{}: found {FURTHER}, expected none; {CORRECT_FIRST}", self.name)?;
         }
         Ok(())
     }
