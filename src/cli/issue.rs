@@ -109,7 +109,8 @@ pub fn read_site(path: &Path) -> Result<Site, Failure> {
 
 /// Says what the factory should know, and gives the report.
 pub fn report(issued: &Issued) -> issued::Report {
-    for warning in issued::warnings(&issued.remarks) {
+    // An equal passport that is there already was remarked upon when it was issued.
+    for warning in issued::warnings(&issued.remarks).into_iter().filter(|_| issued.new) {
         output::say(&format!("{}: {warning}", issued.id));
     }
     issued::Report::of(issued)

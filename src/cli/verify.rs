@@ -5,6 +5,7 @@ use super::trust_options::TrustOptions;
 use super::{Code, Failure, REFUSED, UNUSABLE, output};
 use clap::Args;
 use dtg_passport::files;
+use dtg_passport::passport::verification::unreadable;
 use dtg_passport::passport::verify;
 use dtg_passport::report::verdict;
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
@@ -33,10 +34,10 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let mut code = 0;
     let mut verdicts = Vec::new();
     for path in &options.passports {
+        let name = path.display().to_string();
         // One byte more than a passport can have is enough to see that it is none: a verdict like any other.
         match files::read_first(path, LARGEST_DOCUMENT_BYTES + 1) {
             Ok(bytes) => {
-                let name = path.display().to_string();
                 let verification = verify(&name, &bytes, &trust, &question);
                 let verification = match &register {
                     Some(register) => register.asked(verification, &bytes),
@@ -48,6 +49,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
             Err(error) => {
                 output::say(&error.to_string());
                 code = code.max(UNUSABLE);
+                verdicts.push(verdict::Verdict::of(&name, &unreadable(&error.to_string(), &question)));
             }
         }
     }

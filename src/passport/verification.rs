@@ -107,6 +107,8 @@ pub enum Code {
     Ok,
     /// An earlier check failed, and this one needs it.
     NotRun,
+    /// The file could not be opened or read.
+    Unreadable,
     /// The text rule, the split or the armor is broken.
     Malformed,
     /// The text is not the one that was signed.
@@ -149,6 +151,7 @@ impl Code {
         match self {
             Self::Ok => "ok",
             Self::NotRun => "not_run",
+            Self::Unreadable => "unreadable",
             Self::Malformed => "malformed",
             Self::Altered => "altered",
             Self::WrongNamespace => "wrong_namespace",
@@ -301,6 +304,15 @@ pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> V
     run.checks.sort_by_key(|check| check.name);
     verification.checks = run.checks;
     verification
+}
+
+/// The answer about a file that could not be read: nothing was run. `why` is what the system says.
+pub fn unreadable(why: &str, question: &Question) -> Verification {
+    let mut run = Run { checks: Vec::new() };
+    run.note(CheckName::Grammar, Code::Unreadable, why);
+    run.note_what_was_not_run(question);
+    run.checks.sort_by_key(|check| check.name);
+    Verification { checks: run.checks, key: None, content: None }
 }
 
 /// The checks made so far.
