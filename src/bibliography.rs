@@ -23,6 +23,12 @@ pub enum Bibliography {
     Karney13,
     /// JCGM 100:2008, Evaluation of measurement data: Guide to the expression of uncertainty in measurement.
     Gum,
+    /// JCGM 101:2008, Evaluation of measurement data: Supplement 1 to the Guide: Propagation of distributions using a
+    /// Monte Carlo method.
+    Jcgm101,
+    /// JCGM 102:2011, Evaluation of measurement data: Supplement 2 to the Guide: Extension to any number of output
+    /// quantities.
+    Jcgm102,
     /// JCGM 106:2012, Evaluation of measurement data: The role of measurement uncertainty in conformity assessment.
     Jcgm106,
     /// OpenSSH, PROTOCOL.sshsig: the signature format, its armor and its namespaces.

@@ -53,6 +53,7 @@
 //! | [`gyro`], [`laboratory`] | eq. (2): parameters and currents, types of gyro; the meter and the seat |
 //! | [`statistics`] | least squares, distributions, random streams: no gyro in it |
 //! | [`calibration`] | from currents to parameters, their uncertainty, the fit |
+//! | [`uncertainty`] | where the uncertainty comes from: the budget |
 //! | [`simulation`] | the paper's table and its Fig. 4 |
 //! | [`trust`] | signatures, keys, allowed signers, revocation: bytes and time in, a verdict out |
 //! | [`document`] | a signed text: split, checked, parsed, joined |
@@ -99,4 +100,5 @@ pub mod stand;
 pub mod statistics;
 pub mod text;
 pub mod trust;
+pub mod uncertainty;
 pub mod units;

@@ -37,6 +37,11 @@ pub struct CalibrationDocument {
     /// Against an earlier result.
     #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
     pub change: Option<Verdict>,
+    /// Keys of a result that come from elsewhere: read, and left aside.
+    #[serde(skip_serializing, default, deserialize_with = "left_aside_whole")]
+    budget: (),
+    #[serde(skip_serializing, default, deserialize_with = "left_aside_whole")]
+    monte_carlo: (),
 }
 
 /// What one method gives.
@@ -148,6 +153,10 @@ fn left_aside<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Verdi
     IgnoredAny::deserialize(deserializer).map(|_| None)
 }
 
+fn left_aside_whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
+    IgnoredAny::deserialize(deserializer).map(|_| ())
+}
+
 impl CalibrationDocument {
     /// Of a calibration with the passport `passport_id`; `not_stated` is what [`Setup::stated`] did not find.
     ///
@@ -174,6 +183,8 @@ impl CalibrationDocument {
             hint: calibration.hint.as_ref().map(ToString::to_string),
             verdict: None,
             change: None,
+            budget: (),
+            monte_carlo: (),
         }
     }
 

@@ -13,16 +13,24 @@ pub struct InputUncertainty {
     /// Of the certified α, β, γ of every position, its own part; in the order of the coefficients. Positions beyond
     /// its end are exact.
     pub angles_rad: Vec<[f64; 3]>,
+    /// Degrees of freedom of the three uncertainties of every position; positions beyond its end have infinitely many.
+    pub angles_degrees_of_freedom: Vec<f64>,
     /// Of one return to a position, per axis of the platform; every reading returns once.
     pub repeatability_rad: f64,
+    /// Degrees of freedom of that one estimate.
+    pub repeatability_degrees_of_freedom: f64,
     /// Shared by all positions, per axis of the platform (turns E·A from the left).
     pub common_platform_rad: f64,
     /// Shared by all positions, per axis of the base (turns it from the right).
     pub common_base_rad: f64,
-    /// Of the astronomic latitude.
+    /// Of the latitude as stated.
     pub latitude_rad: f64,
-    /// Of the base's azimuth.
+    /// Of ξ, through which a geodetic latitude becomes the astronomic one.
+    pub deflection_rad: f64,
+    /// Of the base's azimuth: from the mark, or whatever gives north, to the base.
     pub azimuth_rad: f64,
+    /// Of the azimuth from the pillar to the mark.
+    pub mark_rad: f64,
     /// Of the base's level, about east and about north.
     pub level_rad: f64,
     /// Of the gyro's seat, about x, y and z of the case.
@@ -68,11 +76,15 @@ impl InputUncertainty {
     pub fn of_meter(meter: MeterUncertainty) -> Self {
         Self {
             angles_rad: Vec::new(),
+            angles_degrees_of_freedom: Vec::new(),
             repeatability_rad: 0.0,
+            repeatability_degrees_of_freedom: f64::INFINITY,
             common_platform_rad: 0.0,
             common_base_rad: 0.0,
             latitude_rad: 0.0,
+            deflection_rad: 0.0,
             azimuth_rad: 0.0,
+            mark_rad: 0.0,
             level_rad: 0.0,
             seating_rad: [0.0; 3],
             meter,
@@ -144,6 +156,9 @@ impl Setup {
         rest.turns.remove(place);
         if place < rest.uncertainty.angles_rad.len() {
             rest.uncertainty.angles_rad.remove(place);
+        }
+        if place < rest.uncertainty.angles_degrees_of_freedom.len() {
+            rest.uncertainty.angles_degrees_of_freedom.remove(place);
         }
         rest
     }

@@ -10,6 +10,7 @@
 //! * [`verdict`]: against a type's specification and against an earlier calibration.
 //! * [`document`]: a result for machines.
 //! * [`prediction`]: what a calibration on this stand will be worth, before there is a reading.
+//! * [`causes`]: everything that is uncertain, by name; what budgets are made of.
 //! * [`inputs`]: what is known of stand, site, seat and meter, and how well; [`stated`]: as the files state it.
 //!
 //! The laboratory's call, once the setup is known:
@@ -36,6 +37,7 @@
 //! ```
 
 pub mod analytic;
+pub mod causes;
 pub mod diagnosis;
 pub mod document;
 pub mod inputs;
@@ -44,12 +46,12 @@ pub mod least_squares;
 pub mod parameter;
 pub mod prediction;
 pub mod procedure;
-mod propagation;
+pub(crate) mod propagation;
 pub mod readings;
 pub mod scatter;
-mod sensitivity;
+pub(crate) mod sensitivity;
 pub mod stated;
-mod unknowns;
+pub(crate) mod unknowns;
 pub mod verdict;
 
 pub use inputs::{InputUncertainty, MeterUncertainty, Setup};

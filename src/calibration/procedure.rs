@@ -1,6 +1,7 @@
 //! One calibration: every method asked for, its uncertainty, its fit.
 
 use super::analytic::{self, AnalyticMap, NoAnalyticSolution};
+use super::causes::Repeats;
 use super::diagnosis::{self, Hint};
 use super::inputs::Setup;
 use super::iterative::{self, NoIterativeSolution, StopRule};
@@ -71,6 +72,13 @@ pub struct Calibration {
     pub settled: bool,
     /// What may be wrong, when the readings do not fit.
     pub hint: Option<Hint>,
+}
+
+impl Calibration {
+    /// The answer: least squares where asked for, else the last method; `None` when no method gave anything.
+    pub fn answer(&self) -> Option<&MethodResult> {
+        self.results.iter().find(|result| result.method == Method::LeastSquares).or(self.results.last())
+    }
 }
 
 /// Why one method gave nothing.
@@ -209,6 +217,47 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
         }
     }
     Ok(calibration)
+}
+
+/// A calibration's answer to small changes of everything that enters it.
+#[derive(Debug, Clone)]
+pub(crate) struct Linearised {
+    /// The best fit, which is where derivatives are taken.
+    pub(crate) fit: Fit,
+    /// How often every position was read.
+    pub(crate) repeats: Repeats,
+    /// L: parameters × misclosures (two a position). L F is the spread of the parameters.
+    pub(crate) response: DMatrix<f64>,
+}
+
+/// What budgets and Monte Carlo start from: the fit of [`calibrate`], and the response of `method` there.
+pub(crate) fn linearise(
+    setup: &Setup,
+    readings: &Readings,
+    method: Method,
+    anisoelasticity: bool,
+) -> Result<Linearised, MethodRefusal> {
+    let mut data = Data::new(readings);
+    let anisoelasticity = anisoelasticity && method == Method::LeastSquares;
+    let plain = data.fit(setup, false)?;
+    let scatter = Scatter::of(setup, readings, &plain).filter(|found| found.variance_factor > 1.0);
+    data.variance_factor = scatter.map_or(1.0, |found| found.variance_factor);
+    let fit = data.fit(setup, anisoelasticity)?;
+    let propagation = Propagation::new(setup, &fit);
+    let response = match method {
+        Method::LeastSquares => propagation.response_of_least_squares(),
+        Method::Analytic | Method::Iterative => {
+            let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma);
+            let map = map.ok_or(match setup.coefficients().matrices {
+                Some(_) => NoAnalyticSolution::SingularCurrents,
+                None => NoAnalyticSolution::EightPositionsMissing,
+            })?;
+            propagation.response_of_analytic(&map)
+        }
+    };
+    let degrees_of_freedom = scatter.map_or(f64::INFINITY, |found| found.degrees_of_freedom as f64);
+    let repeats = Repeats { counts: data.counts, variance_factor: data.variance_factor, degrees_of_freedom };
+    Ok(Linearised { repeats, response, fit })
 }
 
 /// Mean currents as a fit takes them.

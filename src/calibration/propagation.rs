@@ -73,6 +73,37 @@ impl<'a> Propagation<'a> {
         (spread, omega_n)
     }
 
+    /// L of least squares: parameters × misclosures.
+    pub(crate) fn response_of_least_squares(&self) -> DMatrix<f64> {
+        let (rows, columns) = (self.fit.model.rows(), self.fit.model.columns());
+        let mut rotated = DMatrix::identity(rows, rows);
+        for (place, whiten) in self.fit.whitening.iter().enumerate() {
+            whiten_rows(&mut rotated, place, whiten);
+        }
+        self.fit.model.rotate(&mut rotated);
+        let r_inverse = self.fit.model.r_inverse();
+        let mut response = DMatrix::zeros(columns, rows);
+        for (row, rotated) in rotated.column_iter().enumerate() {
+            for inner in 0..columns {
+                response.column_mut(row).axpy(rotated[inner], &r_inverse.column(inner), 1.0);
+            }
+        }
+        response
+    }
+
+    /// L of the closed solution: its eight parameters × misclosures.
+    pub(crate) fn response_of_analytic(&self, map: &AnalyticMap) -> DMatrix<f64> {
+        let rows = self.causes.nrows();
+        let mut response = DMatrix::zeros(8, rows);
+        let mut misclosures = vec![Vector2::zeros(); rows / 2];
+        for row in 0..rows {
+            misclosures[row / 2][row % 2] = 1.0;
+            response.column_mut(row).copy_from_slice(&map.apply(&misclosures).parameters.to_vector());
+            misclosures[row / 2][row % 2] = 0.0;
+        }
+        response
+    }
+
     /// Standard deviations of the residuals of a method with the given L F, in the order of the rows.
     pub(crate) fn of_residuals(&self, spread: &DMatrix<f64>) -> Vec<f64> {
         let mut residual = self.causes.clone();

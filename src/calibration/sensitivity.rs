@@ -23,6 +23,11 @@ impl<'a> Sensitivity<'a> {
         Self { setup, unknowns, earth: setup.earth_rate_in_base() }
     }
 
+    /// K of the solution, 2×2.
+    pub(crate) fn k_deg_per_h_per_ma(&self) -> &Matrix2<f64> {
+        &self.unknowns.parameters.k_deg_per_h_per_ma
+    }
+
     /// Of position `place`, to changes of the Earth rate and of the vertical in case coordinates.
     fn of_vectors(&self, place: usize, earth_rate: &Vector3<f64>, vertical: &Vector3<f64>) -> Change {
         let at = &self.setup.coefficients().positions[place];
@@ -103,10 +108,11 @@ impl<'a> Sensitivity<'a> {
         for (axis, seat) in axes.into_iter().zip(u.seating_rad) {
             columns.push((libm::hypot(u.common_platform_rad, seat), Shared::Case(axis)));
         }
-        for (axis, own) in axes.into_iter().zip([u.level_rad, u.level_rad, u.azimuth_rad]) {
+        let azimuth_rad = libm::hypot(u.azimuth_rad, u.mark_rad);
+        for (axis, own) in axes.into_iter().zip([u.level_rad, u.level_rad, azimuth_rad]) {
             columns.push((libm::hypot(u.common_base_rad, own), Shared::Base(axis)));
         }
-        columns.push((u.latitude_rad, Shared::Latitude));
+        columns.push((libm::hypot(u.latitude_rad, u.deflection_rad), Shared::Latitude));
         columns.push((u.meter.gain, Shared::Gain));
         columns.push((u.meter.offset_ma, Shared::Offset));
         columns.retain(|(u, _)| *u > 0.0);
@@ -122,7 +128,8 @@ impl<'a> Sensitivity<'a> {
         matrix
     }
 
-    fn to_shared(&self, place: usize, current_ma: &Vector2<f64>, input: &Shared) -> Change {
+    /// Of position `place`, to an input that all share, per unit of it.
+    pub(crate) fn to_shared(&self, place: usize, current_ma: &Vector2<f64>, input: &Shared) -> Change {
         let k = &self.unknowns.parameters.k_deg_per_h_per_ma;
         match input {
             Shared::Case(axis) => self.to_case_turn(place, axis),
@@ -135,8 +142,10 @@ impl<'a> Sensitivity<'a> {
 }
 
 /// An input that all positions share.
-enum Shared {
+pub(crate) enum Shared {
+    /// The case turned about an axis of the case.
     Case(Vector3<f64>),
+    /// The base turned about an axis of the base.
     Base(Vector3<f64>),
     Latitude,
     Gain,

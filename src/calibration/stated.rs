@@ -39,16 +39,27 @@ impl Stated {
         let base = Known::new(site, laboratory);
         let seat = laboratory.seating_arcsec.as_ref();
         let seat = [seat.map(|seat| seat.about_x), seat.map(|seat| seat.about_y), seat.map(|seat| seat.about_z)];
+        let mut part = |one: Option<f64>, other: Option<f64>, what: &'static str| {
+            angle(one.or(other), what);
+            [one, other].map(|u| radians_from_arcseconds(u.unwrap_or(0.0)))
+        };
+        let [latitude_rad, deflection_rad] = part(base.latitude_arcsec, base.deflection_arcsec, "the latitude");
+        let [azimuth_rad, mark_rad] = part(base.azimuth_arcsec, base.mark_arcsec, "the base's azimuth");
+        let degrees_of_freedom = |stated: Option<f64>| stated.unwrap_or(f64::INFINITY);
         let uncertainty = InputUncertainty {
             angles_rad,
+            angles_degrees_of_freedom: positions.iter().map(|at| degrees_of_freedom(at.degrees_of_freedom)).collect(),
+            repeatability_degrees_of_freedom: degrees_of_freedom(certificate.repeatability_degrees_of_freedom),
             repeatability_rad: angle(
                 certificate.repeatability_arcsec,
                 "the return to a position (repeatability_arcsec)",
             ),
             common_platform_rad: angle(certificate.common_platform_arcsec, "the platform (common_platform_arcsec)"),
             common_base_rad: angle(certificate.common_base_arcsec, "the stand's base (common_base_arcsec)"),
-            latitude_rad: angle(base.latitude_arcsec, "the latitude"),
-            azimuth_rad: angle(base.azimuth_arcsec, "the base's azimuth"),
+            latitude_rad,
+            deflection_rad,
+            azimuth_rad,
+            mark_rad,
             level_rad: angle(base.level_arcsec, "the base's level"),
             seating_rad: seat.map(|u| angle(u, "the gyro's seat (seating_arcsec)")),
             meter: MeterUncertainty::from(&laboratory.meter),
@@ -82,10 +93,12 @@ pub fn temperature_remark(certificate: &Certificate, laboratory: &Laboratory) ->
         .then(|| format!("the laboratory is at {here} deg C; the deviations are certified for {low} to {high} deg C"))
 }
 
-/// The base at its place, all parts of each uncertainty together.
+/// The base at its place. Parts that are independent are kept apart.
 struct Known {
     latitude_arcsec: Option<f64>,
+    deflection_arcsec: Option<f64>,
     azimuth_arcsec: Option<f64>,
+    mark_arcsec: Option<f64>,
     level_arcsec: Option<f64>,
 }
 
@@ -102,18 +115,12 @@ impl Known {
             (None, _) => None,
         };
         Self {
-            latitude_arcsec: together(of_site.latitude_arcsec, deflection),
+            latitude_arcsec: of_site.latitude_arcsec,
+            deflection_arcsec: deflection,
             // From the mark to the base as stated or measured; from the pillar to the mark as computed.
-            azimuth_arcsec: together(measured.azimuth_arcsec.or(of_site.azimuth_arcsec), site.earth().azimuth_u_arcsec),
+            azimuth_arcsec: measured.azimuth_arcsec.or(of_site.azimuth_arcsec),
+            mark_arcsec: site.earth().azimuth_u_arcsec,
             level_arcsec: measured.level_arcsec.or(of_site.level_arcsec),
         }
-    }
-}
-
-/// Two independent parts, either of which may be unknown.
-fn together(one: Option<f64>, other: Option<f64>) -> Option<f64> {
-    match (one, other) {
-        (Some(one), Some(other)) => Some(libm::hypot(one, other)),
-        (one, other) => one.or(other),
     }
 }

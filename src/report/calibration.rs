@@ -3,7 +3,7 @@
 use crate::calibration::diagnosis::CANNOT_TELL;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, Found, Verdict, change_in_uncertainties};
-use crate::calibration::{Calibration, Method, MethodResult};
+use crate::calibration::{Calibration, MethodResult};
 use crate::report::columns;
 use std::fmt::Write;
 
@@ -53,14 +53,8 @@ pub fn text(calibration: &Calibration, context: &Context) -> String {
     out
 }
 
-/// The answer: least squares where asked for, else the last method.
-fn answer(calibration: &Calibration) -> Option<&MethodResult> {
-    let results = &calibration.results;
-    results.iter().find(|result| result.method == Method::LeastSquares).or(results.last())
-}
-
 fn parameters(out: &mut String, calibration: &Calibration) {
-    let Some(answer) = answer(calibration) else { return };
+    let Some(answer) = calibration.answer() else { return };
     let others: Vec<&MethodResult> =
         calibration.results.iter().filter(|result| result.method != answer.method).collect();
     let mut names = vec!["".to_owned(), "unit".to_owned(), answer.method.key().to_owned(), "u".to_owned()];
@@ -110,7 +104,7 @@ fn methods(out: &mut String, calibration: &Calibration) {
 }
 
 fn fit(out: &mut String, calibration: &Calibration, missing: &[&str]) {
-    let Some(answer) = answer(calibration) else { return };
+    let Some(answer) = calibration.answer() else { return };
     let chi_square = &answer.chi_square;
     let _ = writeln!(
         out,
@@ -195,7 +189,7 @@ fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
 }
 
 fn change(out: &mut String, calibration: &Calibration, gravity: f64, earlier: &Found, verdict: Option<&Verdict>) {
-    let Some(answer) = answer(calibration) else { return };
+    let Some(answer) = calibration.answer() else { return };
     let change = change_in_uncertainties(&answer.found(gravity), earlier);
     let words: Vec<String> = Parameter::EIGHT
         .iter()

@@ -1,5 +1,6 @@
 //! What people read: verdicts, tables, words about a result.
 //!
+//! * [`budget`]: where the uncertainty comes from.
 //! * [`verdict`]: the answer of `verify`.
 //! * [`calibration`]: the result of a calibration.
 //! * [`columns`]: text in columns.
@@ -8,6 +9,7 @@
 //! * [`register`]: what is in force in a folder.
 //! * [`simulation`]: the tables of simulations.
 
+pub mod budget;
 pub mod calibration;
 pub mod columns;
 pub mod issued;

@@ -1,0 +1,226 @@
+//! Everything that makes a calibration uncertain, one by one and by name: what budgets are made of.
+//!
+//! The covariance of the misclosures is F F' with one column of F for each independent cause of one standard
+//! uncertainty. A fit needs them only summed (each position's own part as one 2×2 block); here no two causes share
+//! a column.
+
+use super::inputs::Setup;
+use super::sensitivity::{Sensitivity, Shared};
+use super::unknowns::Unknowns;
+use crate::coefficients::PositionIndex;
+use nalgebra::{DMatrix, Vector2, Vector3};
+
+/// An input quantity that is uncertain. Axes count from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Cause {
+    /// A certified angle of a position: 0, 1, 2 are α, β, γ.
+    Angle(PositionIndex, usize),
+    /// The return to a position, about axis x, y or z of the case.
+    Return(PositionIndex, usize),
+    /// A reading's share of itself, J_x or J_y.
+    Reading(PositionIndex, usize),
+    /// A reading's part that does not depend on its size, J_x or J_y.
+    Floor(PositionIndex, usize),
+    /// The platform, about its axis x, y or z.
+    Platform(usize),
+    /// The gyro's seat, about axis x, y or z of the case.
+    Seat(usize),
+    /// The stand's base, about east, north or up.
+    Base(usize),
+    /// The level of the base at the laboratory, about east or north.
+    Level(usize),
+    /// The azimuth of the base at the laboratory.
+    Azimuth,
+    /// The azimuth from the pillar to the mark.
+    Mark,
+    /// The latitude as stated.
+    Latitude,
+    /// The deflection of the vertical, ξ.
+    Deflection,
+    /// The meter's gain, shared by all readings.
+    Gain,
+    /// The meter's offset, shared by all readings.
+    Offset,
+}
+
+const XYZ: [&str; 3] = ["x", "y", "z"];
+const EAST_NORTH_UP: [&str; 3] = ["east", "north", "up"];
+
+impl Cause {
+    /// Its name, of its position too.
+    pub fn name(self) -> String {
+        match self {
+            Self::Angle(index, angle) => format!("certified {} of {index}", ["alpha", "beta", "gamma"][angle]),
+            Self::Return(index, axis) => format!("return to {index} about {}", XYZ[axis]),
+            Self::Reading(index, axis) => format!("reading of J_{} in {index}", XYZ[axis]),
+            Self::Floor(index, axis) => format!("floor of J_{} in {index}", XYZ[axis]),
+            _ => self.kind(),
+        }
+    }
+
+    /// What it has in common with others of its kind: the name of a line of a budget.
+    pub fn kind(self) -> String {
+        match self {
+            Self::Angle(..) => "certified angles".to_owned(),
+            Self::Return(..) => "returns to the positions".to_owned(),
+            Self::Reading(..) => "meter, each reading".to_owned(),
+            Self::Floor(..) => "meter, floor".to_owned(),
+            Self::Platform(axis) => format!("platform about {}", XYZ[axis]),
+            Self::Seat(axis) => format!("seat about {}", XYZ[axis]),
+            Self::Base(axis) => format!("stand's base about {}", EAST_NORTH_UP[axis]),
+            Self::Level(axis) => format!("level about {}", EAST_NORTH_UP[axis]),
+            Self::Azimuth => "azimuth of the base".to_owned(),
+            Self::Mark => "azimuth of the mark".to_owned(),
+            Self::Latitude => "latitude".to_owned(),
+            Self::Deflection => "deflection of the vertical".to_owned(),
+            Self::Gain => "meter, gain".to_owned(),
+            Self::Offset => "meter, offset".to_owned(),
+        }
+    }
+
+    /// Who states it, and under which key.
+    pub fn source(self) -> &'static str {
+        match self {
+            Self::Angle(..) => "certificate: u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec",
+            Self::Return(..) => "certificate: repeatability_arcsec",
+            Self::Platform(_) => "certificate: common_platform_arcsec",
+            Self::Base(_) => "certificate: common_base_arcsec",
+            Self::Reading(..) => "laboratory: meter.reading_percent",
+            Self::Floor(..) => "laboratory: meter.floor_ma",
+            Self::Gain => "laboratory: meter.gain_percent",
+            Self::Offset => "laboratory: meter.offset_ma",
+            Self::Seat(_) => "laboratory: seating_arcsec",
+            Self::Level(_) => "laboratory or site: level_arcsec",
+            Self::Azimuth => "laboratory or site: azimuth_arcsec",
+            Self::Mark => "passport: earth.azimuth_u_arcsec",
+            Self::Latitude => "site: uncertainty.latitude_arcsec",
+            Self::Deflection => "site: deflection_arcsec.u (10 where unknown)",
+        }
+    }
+
+    /// The unit in which its uncertainty is shown: arcsec, %, or mA.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Reading(..) | Self::Gain => "%",
+            Self::Floor(..) | Self::Offset => "mA",
+            _ => "arcsec",
+        }
+    }
+
+    /// An uncertainty as it is kept (rad, a share, mA), in [`Self::unit`].
+    pub fn shown(self, uncertainty: f64) -> f64 {
+        match self.unit() {
+            "%" => 100.0 * uncertainty,
+            "mA" => uncertainty,
+            _ => crate::units::arcseconds_from_radians(uncertainty),
+        }
+    }
+}
+
+/// A cause, how uncertain it is, and how well that is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Input {
+    /// Which.
+    pub cause: Cause,
+    /// Standard uncertainty of the mean of all readings: rad, a share of the reading, or mA.
+    pub standard_uncertainty: f64,
+    /// Of that uncertainty; infinite where it is taken as known.
+    pub degrees_of_freedom: f64,
+}
+
+/// How often every position was read, and what that says of one reading.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Repeats {
+    /// Readings of each position.
+    pub(crate) counts: Vec<usize>,
+    /// By how much the variance of one reading is enlarged.
+    pub(crate) variance_factor: f64,
+    /// Degrees of freedom of an enlarged variance; infinite where it is as stated.
+    pub(crate) degrees_of_freedom: f64,
+}
+
+/// All inputs with a positive uncertainty, and F: a column for each (two rows a position, °/h), being the change of
+/// the misclosures that one standard uncertainty makes.
+pub(crate) fn inputs(
+    setup: &Setup,
+    unknowns: &Unknowns,
+    currents_ma: &[Vector2<f64>],
+    repeats: &Repeats,
+) -> (Vec<Input>, DMatrix<f64>) {
+    let mut list = Vec::new();
+    let sensitivity = Sensitivity::new(setup, unknowns);
+    for (place, current_ma) in currents_ma.iter().enumerate() {
+        own(&sensitivity, setup, (place, current_ma), repeats, &mut list);
+    }
+    shared(&sensitivity, setup, currents_ma, &mut list);
+    list.retain(|(input, _)| input.standard_uncertainty > 0.0);
+    let mut columns = DMatrix::zeros(2 * currents_ma.len(), list.len());
+    for (column, (input, changes)) in list.iter().enumerate() {
+        for (place, change) in changes {
+            columns[(2 * place, column)] = change.x * input.standard_uncertainty;
+            columns[(2 * place + 1, column)] = change.y * input.standard_uncertainty;
+        }
+    }
+    (list.into_iter().map(|(input, _)| input).collect(), columns)
+}
+
+/// An input, and the changes of misclosures per unit of it with their places.
+type Effect = (Input, Vec<(usize, Vector2<f64>)>);
+
+const AXES: [fn() -> Vector3<f64>; 3] = [Vector3::x, Vector3::y, Vector3::z];
+
+fn own(
+    sensitivity: &Sensitivity,
+    setup: &Setup,
+    (place, current_ma): (usize, &Vector2<f64>),
+    repeats: &Repeats,
+    list: &mut Vec<Effect>,
+) {
+    let uncertainty = setup.uncertainty();
+    let index = setup.coefficients().positions[place].index;
+    let mut add = |cause, standard_uncertainty, degrees_of_freedom, change| {
+        list.push((Input { cause, standard_uncertainty, degrees_of_freedom }, vec![(place, change)]));
+    };
+    let angles = uncertainty.angles_rad.get(place).copied().unwrap_or_default();
+    let known = uncertainty.angles_degrees_of_freedom.get(place).copied().unwrap_or(f64::INFINITY);
+    for (angle, u) in angles.into_iter().enumerate() {
+        let change = sensitivity.to_case_turn(place, &setup.turns()[place].axes[angle]);
+        add(Cause::Angle(index, angle), u, known, change);
+    }
+    let of_mean = (repeats.variance_factor / repeats.counts[place].max(1) as f64).sqrt();
+    let enlarged = repeats.degrees_of_freedom;
+    for (axis, vector) in AXES.iter().enumerate() {
+        let known = uncertainty.repeatability_degrees_of_freedom.min(enlarged);
+        let u = uncertainty.repeatability_rad * of_mean;
+        add(Cause::Return(index, axis), u, known, sensitivity.to_case_turn(place, &vector()));
+    }
+    let k = sensitivity.k_deg_per_h_per_ma();
+    let meter = &uncertainty.meter;
+    for axis in 0..2 {
+        let change = -k.column(axis).into_owned();
+        add(Cause::Reading(index, axis), meter.reading * of_mean, enlarged, change * current_ma[axis]);
+        add(Cause::Floor(index, axis), meter.floor_ma * of_mean, enlarged, change);
+    }
+}
+
+fn shared(sensitivity: &Sensitivity, setup: &Setup, currents_ma: &[Vector2<f64>], list: &mut Vec<Effect>) {
+    let u = setup.uncertainty();
+    let mut add = |cause, standard_uncertainty, input: Shared| {
+        let each = currents_ma.iter().enumerate();
+        let changes = each.map(|(place, current)| (place, sensitivity.to_shared(place, current, &input))).collect();
+        list.push((Input { cause, standard_uncertainty, degrees_of_freedom: f64::INFINITY }, changes));
+    };
+    for (axis, vector) in AXES.iter().enumerate() {
+        add(Cause::Platform(axis), u.common_platform_rad, Shared::Case(vector()));
+        add(Cause::Seat(axis), u.seating_rad[axis], Shared::Case(vector()));
+        add(Cause::Base(axis), u.common_base_rad, Shared::Base(vector()));
+    }
+    add(Cause::Level(0), u.level_rad, Shared::Base(Vector3::x()));
+    add(Cause::Level(1), u.level_rad, Shared::Base(Vector3::y()));
+    add(Cause::Azimuth, u.azimuth_rad, Shared::Base(Vector3::z()));
+    add(Cause::Mark, u.mark_rad, Shared::Base(Vector3::z()));
+    add(Cause::Latitude, u.latitude_rad, Shared::Latitude);
+    add(Cause::Deflection, u.deflection_rad, Shared::Latitude);
+    add(Cause::Gain, u.meter.gain, Shared::Gain);
+    add(Cause::Offset, u.meter.offset_ma, Shared::Offset);
+}

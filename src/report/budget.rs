@@ -1,0 +1,67 @@
+//! An uncertainty budget in a terminal of 100 columns.
+
+use crate::report::columns;
+use crate::uncertainty::Budget;
+use crate::uncertainty::budget::{COVERAGE, Contribution, ParameterBudget};
+use std::fmt::Write;
+
+/// Contributions below this share of the variance are one line together.
+const SHARE_SHOWN: f64 = 1e-4;
+
+/// The budget of every parameter, the largest contribution first, after `sentence`.
+pub fn text(budget: &Budget, sentence: Option<&str>) -> String {
+    let mut out = String::new();
+    let _ = writeln!(out, "\nUncertainty budget ({}), first order", budget.method.key());
+    if let Some(sentence) = sentence {
+        columns::paragraph(&mut out, "", &format!("{sentence}."));
+    }
+    for line in &budget.parameters {
+        parameter(&mut out, line);
+    }
+    out
+}
+
+fn parameter(out: &mut String, line: &ParameterBudget) {
+    let u = line.standard_uncertainty;
+    let digits = columns::decimals(u);
+    let freedom = match line.effective_degrees_of_freedom {
+        known if known.is_infinite() => "infinitely many".to_owned(),
+        known if known > 1e4 => "over 10,000".to_owned(),
+        known => format!("{known:.1}"),
+    };
+    let _ = writeln!(
+        out,
+        "\n{} = {:.digits$} {}, u = {u:.digits$}; degrees of freedom {freedom}; U = {:.2} u = {:.digits$} ({:.0} %)",
+        line.parameter.symbol(),
+        line.value,
+        line.parameter.unit(),
+        line.coverage_factor,
+        line.expanded_uncertainty(),
+        100.0 * COVERAGE,
+    );
+    let shown: Vec<&Contribution> = line.contributions.iter().filter(|part| part.share >= SHARE_SHOWN).collect();
+    let mut rows: Vec<Vec<String>> = shown.iter().map(|part| row(part)).collect();
+    let rest = &line.contributions[shown.len()..];
+    if !rest.is_empty() {
+        let sum: f64 = rest.iter().map(|part| part.contribution * part.contribution).sum();
+        let name = format!("{} others", rest.len());
+        rows.push(vec![name, String::new(), String::new(), format!("{:.1e}", sum.sqrt()), "< 0.1".to_owned()]);
+    }
+    columns::table(out, &["input", "its u", "inputs", "contribution", "share, %"], &rows);
+}
+
+fn row(part: &Contribution) -> Vec<String> {
+    let [low, high] = part.standard_uncertainty.map(|u| part.cause.shown(u));
+    let size = if low < 0.99 * high { format!("{low:.2} to {high:.2}") } else { short(high) };
+    vec![
+        part.cause.kind(),
+        format!("{size} {}", part.cause.unit()),
+        part.inputs.to_string(),
+        format!("{:.1e}", part.contribution),
+        format!("{:.2}", 100.0 * part.share),
+    ]
+}
+
+fn short(value: f64) -> String {
+    if value < 1e-3 { format!("{value:.1e}") } else { format!("{:.*}", columns::decimals(value).max(1), value) }
+}

@@ -1,0 +1,181 @@
+//! The uncertainty budget: what every named input contributes to every parameter, to first order.
+//!
+//! Sources: [JCGM 100](crate::bibliography::Bibliography::Gum), 5.1.2 (u² = Σ (c_i u_i)²), G.4.1 (Welch-Satterthwaite)
+//! and G.3.3 (coverage factor); [JCGM 102](crate::bibliography::Bibliography::Jcgm102), 6.2.1 (covariance of several
+//! results).
+
+use crate::calibration::causes::{self, Cause, Input};
+use crate::calibration::parameter::Parameter;
+use crate::calibration::procedure::{MethodRefusal, linearise};
+use crate::calibration::{Method, Readings, Setup};
+use crate::statistics::student::student_quantile;
+use nalgebra::DMatrix;
+
+/// The coverage probability of expanded uncertainties.
+pub const COVERAGE: f64 = 0.95;
+
+/// The uncertainty of one method's parameters and where it comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Budget {
+    /// Which method.
+    pub method: Method,
+    /// The inputs that are uncertain.
+    pub inputs: Vec<Input>,
+    /// Change of each parameter (rows, in the order of [`Parameter::NINE`]) that one standard uncertainty of each input
+    /// (columns) makes.
+    pub spread: DMatrix<f64>,
+    /// For every parameter, in the order of the rows.
+    pub parameters: Vec<ParameterBudget>,
+}
+
+/// One parameter's uncertainty.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParameterBudget {
+    /// Which parameter.
+    pub parameter: Parameter,
+    /// Its value by the fit.
+    pub value: f64,
+    /// Its standard uncertainty.
+    pub standard_uncertainty: f64,
+    /// By Welch and Satterthwaite; infinite when every input's uncertainty is known.
+    pub effective_degrees_of_freedom: f64,
+    /// For a coverage probability of [`COVERAGE`], from Student's t with those degrees of freedom.
+    pub coverage_factor: f64,
+    /// The lines of the budget, the largest first.
+    pub contributions: Vec<Contribution>,
+}
+
+impl ParameterBudget {
+    /// Half the width of the interval that covers the parameter with probability [`COVERAGE`].
+    pub fn expanded_uncertainty(&self) -> f64 {
+        self.coverage_factor * self.standard_uncertainty
+    }
+}
+
+/// A line of a budget: all inputs of one kind, which are independent of each other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contribution {
+    /// One of them; all have its kind, its source, and its unit.
+    pub cause: Cause,
+    /// How many.
+    pub inputs: usize,
+    /// The smallest and the largest of their standard uncertainties: rad, a share of the reading, or mA.
+    pub standard_uncertainty: [f64; 2],
+    /// What they contribute to the parameter's standard uncertainty, in its unit.
+    pub contribution: f64,
+    /// Their share of the parameter's variance.
+    pub share: f64,
+}
+
+impl Budget {
+    /// The budget of `method` for a calibration of `readings` at `setup`.
+    ///
+    /// The sum of squares of the contributions is the variance that
+    /// [`calibrate`](crate::calibration::calibrate) states.
+    ///
+    /// # Errors
+    /// The method gives nothing for these readings.
+    pub fn new(
+        setup: &Setup,
+        readings: &Readings,
+        method: Method,
+        anisoelasticity: bool,
+    ) -> Result<Self, MethodRefusal> {
+        let linear = linearise(setup, readings, method, anisoelasticity)?;
+        let (inputs, columns) = causes::inputs(setup, &linear.fit.unknowns, &linear.fit.currents_ma, &linear.repeats);
+        let spread = product(&linear.response, &columns);
+        let unknowns = &linear.fit.unknowns;
+        let mut values = unknowns.parameters.to_vector().to_vec();
+        values.push(unknowns.anisoelasticity_deg_per_h_per_g2);
+        let each = Parameter::NINE.into_iter().zip(values).take(spread.nrows());
+        let parameters = each.map(|(parameter, value)| of_parameter(parameter, value, &inputs, &spread)).collect();
+        Ok(Self { method, inputs, spread, parameters })
+    }
+
+    /// Covariance of the parameters, in the order of [`Parameter::NINE`]; 8×8 or 9×9.
+    pub fn covariance(&self) -> DMatrix<f64> {
+        crate::calibration::propagation::covariance(&self.spread)
+    }
+}
+
+/// A B, added up in a fixed order, so that results do not depend on the processor.
+pub(crate) fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut product = DMatrix::zeros(a.nrows(), b.ncols());
+    for (column, right) in b.column_iter().enumerate() {
+        for (inner, value) in right.iter().enumerate() {
+            if *value != 0.0 {
+                product.column_mut(column).axpy(*value, &a.column(inner), 1.0);
+            }
+        }
+    }
+    product
+}
+
+fn of_parameter(parameter: Parameter, value: f64, inputs: &[Input], spread: &DMatrix<f64>) -> ParameterBudget {
+    let row = parameter.place();
+    let changes: Vec<f64> = (0..inputs.len()).map(|column| spread[(row, column)]).collect();
+    let variance: f64 = changes.iter().map(|change| change * change).sum();
+    let mut contributions: Vec<Contribution> = Vec::new();
+    for (input, change) in inputs.iter().zip(&changes) {
+        let kind = input.cause.kind();
+        let u = input.standard_uncertainty;
+        match contributions.iter_mut().find(|line| line.cause.kind() == kind) {
+            Some(line) => {
+                line.inputs += 1;
+                line.standard_uncertainty = [line.standard_uncertainty[0].min(u), line.standard_uncertainty[1].max(u)];
+                // Squares until all are there.
+                line.contribution += change * change;
+            }
+            None => {
+                let (cause, contribution) = (input.cause, change * change);
+                let line = Contribution { cause, inputs: 1, standard_uncertainty: [u, u], contribution, share: 0.0 };
+                contributions.push(line);
+            }
+        }
+    }
+    for line in &mut contributions {
+        line.share = if variance > 0.0 { line.contribution / variance } else { 0.0 };
+        line.contribution = line.contribution.sqrt();
+    }
+    contributions.sort_by(|a, b| b.contribution.total_cmp(&a.contribution));
+    let effective_degrees_of_freedom = effective_degrees_of_freedom(inputs, &changes);
+    ParameterBudget {
+        parameter,
+        value,
+        standard_uncertainty: variance.sqrt(),
+        effective_degrees_of_freedom,
+        coverage_factor: student_quantile(0.5 + COVERAGE / 2.0, effective_degrees_of_freedom),
+        contributions,
+    }
+}
+
+/// ν_eff = u⁴/Σ (u_i⁴/ν_i) (JCGM 100, G.4.1), not rounded.
+///
+/// All returns to positions share one estimate of their scatter, and so do all readings whose variance was enlarged by
+/// the scatter found: such inputs are one term.
+fn effective_degrees_of_freedom(inputs: &[Input], changes: &[f64]) -> f64 {
+    // Estimates: whether of the returns, degrees of freedom, and the variance that rests on it.
+    let mut shared: Vec<(bool, f64, f64)> = Vec::new();
+    let (mut variance, mut sum) = (0.0, 0.0);
+    for (input, change) in inputs.iter().zip(changes) {
+        let square = change * change;
+        variance += square;
+        if input.degrees_of_freedom.is_infinite() {
+            continue;
+        }
+        let of_all = match input.cause {
+            Cause::Return(..) => true,
+            Cause::Reading(..) | Cause::Floor(..) => false,
+            _ => {
+                sum += square * square / input.degrees_of_freedom;
+                continue;
+            }
+        };
+        match shared.iter_mut().find(|(kind, known, _)| *kind == of_all && *known == input.degrees_of_freedom) {
+            Some((.., total)) => *total += square,
+            None => shared.push((of_all, input.degrees_of_freedom, square)),
+        }
+    }
+    sum += shared.iter().map(|(_, known, total)| total * total / known).sum::<f64>();
+    if sum > 0.0 { variance * variance / sum } else { f64::INFINITY }
+}

@@ -1,0 +1,9 @@
+//! Uncertainty against independent programs and against itself: budgets, passport accuracy, Monte Carlo.
+
+#[path = "../support/mod.rs"]
+mod support;
+#[path = "../tools/mod.rs"]
+mod tools;
+
+mod budget;
+mod cases;
