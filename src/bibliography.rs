@@ -31,6 +31,23 @@ pub enum Bibliography {
     Jcgm102,
     /// JCGM 106:2012, Evaluation of measurement data: The role of measurement uncertainty in conformity assessment.
     Jcgm106,
+    /// M. S. Bartlett, "Properties of sufficiency and statistical tests", Proceedings of the Royal Society A 160, 1937,
+    /// 268-282, <https://doi.org/10.1098/rspa.1937.0109>.
+    Bartlett37,
+    /// F. E. Grubbs, "Procedures for detecting outlying observations in samples", Technometrics 11, 1969, 1-21,
+    /// <https://doi.org/10.1080/00401706.1969.10490657>.
+    Grubbs69,
+    /// W. Stefansky, "Rejecting outliers in factorial designs", Technometrics 14, 1972, 469-479,
+    /// <https://doi.org/10.1080/00401706.1972.10488930>: the maximum normed residual.
+    Stefansky72,
+    /// ISO 5725-2:1994, Accuracy (trueness and precision) of measurement methods and results, part 2, 7.3: what is out at
+    /// 1 % is an outlier, what is out at 5 % alone a straggler.
+    Iso5725,
+    /// S. R. Searle, G. Casella and C. E. McCulloch, Variance Components, Wiley, 1992: estimation by equating sums of
+    /// squares to their expectations (chapter 5).
+    Searle92,
+    /// NIST/SEMATECH e-Handbook of Statistical Methods, <https://doi.org/10.18434/M32189>.
+    NistHandbook,
     /// OpenSSH, PROTOCOL.sshsig: the signature format, its armor and its namespaces.
     SshSig,
     /// OpenSSH, PROTOCOL.krl: key revocation lists.

@@ -54,6 +54,7 @@
 //! | [`statistics`] | least squares, distributions, random streams: no gyro in it |
 //! | [`calibration`] | from currents to parameters, their uncertainty, the fit |
 //! | [`uncertainty`] | where the uncertainty comes from: the budget |
+//! | [`certification`] | readings of the angles to a stand, and whether it is still the same one |
 //! | [`simulation`] | the paper's table and its Fig. 4 |
 //! | [`trust`] | signatures, keys, allowed signers, revocation: bytes and time in, a verdict out |
 //! | [`document`] | a signed text: split, checked, parsed, joined |
@@ -80,6 +81,7 @@
 pub mod attitude;
 pub mod bibliography;
 pub mod calibration;
+pub mod certification;
 pub mod coefficients;
 pub mod demonstration;
 pub mod document;

@@ -174,7 +174,7 @@ impl Setup {
 }
 
 impl Turn {
-    fn of(position: &Position) -> Self {
+    pub(crate) fn of(position: &Position) -> Self {
         let deviation = attitude::deviation(&position.deviation);
         let (sin_gamma, cos_gamma) = libm::sincos(position.deviation.gamma_rad);
         Self {

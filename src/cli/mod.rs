@@ -5,6 +5,7 @@
 //! it should be. Of several files every one is reported, and the highest code counts.
 
 mod calibrate;
+mod certify;
 mod completions;
 mod demo;
 mod issue;
@@ -35,6 +36,7 @@ struct Cli {
 enum Verb {
     Demo(demo::Options),
     Keygen(keygen::Options),
+    Certify(certify::Options),
     Issue(issue::Options),
     Reissue(reissue::Options),
     Verify(verify::Options),
@@ -79,6 +81,7 @@ pub fn main() -> ExitCode {
     let result = match cli.verb {
         Verb::Demo(options) => demo::run(&options),
         Verb::Keygen(options) => keygen::run(&options),
+        Verb::Certify(options) => certify::run(&options),
         Verb::Issue(options) => issue::run(&options),
         Verb::Reissue(options) => reissue::run(&options),
         Verb::Verify(options) => verify::run(&options),

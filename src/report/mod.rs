@@ -3,6 +3,7 @@
 //! * [`budget`]: where the uncertainty comes from.
 //! * [`verdict`]: the answer of `verify`.
 //! * [`calibration`]: the result of a calibration.
+//! * [`certification`]: a certified stand, and a check run.
 //! * [`columns`]: text in columns.
 //! * [`issued`]: what became of an order, and what the factory should know about it.
 //! * [`passport_table`]: a passport in a terminal.
@@ -11,6 +12,7 @@
 
 pub mod budget;
 pub mod calibration;
+pub mod certification;
 pub mod columns;
 pub mod issued;
 pub mod passport_table;

@@ -8,7 +8,7 @@ use crate::calibration::causes::{self, Cause, Input};
 use crate::calibration::parameter::Parameter;
 use crate::calibration::procedure::{MethodRefusal, linearise};
 use crate::calibration::{Method, Readings, Setup};
-use crate::statistics::student::student_quantile;
+use crate::statistics::beta::student_factor;
 use nalgebra::DMatrix;
 
 /// The coverage probability of expanded uncertainties.
@@ -144,7 +144,7 @@ fn of_parameter(parameter: Parameter, value: f64, inputs: &[Input], spread: &DMa
         value,
         standard_uncertainty: variance.sqrt(),
         effective_degrees_of_freedom,
-        coverage_factor: student_quantile(0.5 + COVERAGE / 2.0, effective_degrees_of_freedom),
+        coverage_factor: student_factor(1.0 - COVERAGE, effective_degrees_of_freedom),
         contributions,
     }
 }

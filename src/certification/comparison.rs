@@ -1,0 +1,375 @@
+//! A later check run against the certificate: is it still the same stand?
+//!
+//! The paper's one condition is that positions repeat. So the differences between check and certificate are taken apart
+//! into a turn that all positions share (of the platform, of the base: a datum, a level, a seat has changed) and what is
+//! left of each position. Positions that do not repeat are found one by one, the worst first, and left out of what the
+//! others share; so one bad position does not make all look bad.
+
+use super::components::{RunModel, Variance, case_turn, turns_at};
+use super::suspects::{OUTLIER, STRAGGLER};
+use super::{AngleReadings, Certification, Header};
+use crate::calibration::inputs::Turn;
+use crate::coefficients::PositionIndex;
+use crate::stand::{CertifiedPosition, Stand};
+use crate::statistics::beta::f_larger;
+use crate::statistics::least_squares::Factorised;
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+
+/// Why there is no comparison.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NotCompared {
+    /// The certificate of another stand.
+    #[error("the certificate is of {certificate}, the readings of {readings}")]
+    OtherStand {
+        /// Model and serial of the certificate.
+        certificate: String,
+        /// Those of the header.
+        readings: String,
+    },
+    /// Positions that one of the two does not have.
+    #[error("certificate and readings do not have the same positions, or not the same nominal angles: {0}")]
+    OtherPositions(PositionIndex),
+    /// No uncertainty to compare with.
+    #[error(
+        "the certificate states no repeatability, and one run does not show it: nothing says how far apart two \
+         measurements of the same stand may be"
+    )]
+    NoRepeatability,
+    /// Too few positions to tell a common turn from single positions.
+    #[error("too few positions: a turn that all share cannot be told from single positions")]
+    TooFewPositions,
+}
+
+/// A test value: F, or chi-square over its degrees of freedom when the uncertainties are known exactly.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Test {
+    /// Chi-square: the sum of squares in units of their uncertainty.
+    pub chi_square: f64,
+    /// Its degrees of freedom.
+    pub degrees_of_freedom: usize,
+    /// The probability of a larger one for the same stand; by F, for the uncertainties have degrees of freedom themselves.
+    pub probability: f64,
+}
+
+/// One position of a comparison.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ComparedPosition {
+    /// Which.
+    pub index: PositionIndex,
+    /// Its turn since the certificate about x, y, z of the case, less what the others share, arcsec.
+    pub turn_arcsec: [f64; 3],
+    /// Standard uncertainties of that, arcsec.
+    pub u_arcsec: [f64; 3],
+    /// All three at once, against the turn that the other positions share.
+    pub test: Test,
+    /// Whether it repeats.
+    pub repeats: bool,
+}
+
+/// What all positions share.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CommonTurn {
+    /// Of the platform, about x, y, z of the case, arcsec.
+    pub platform_arcsec: [f64; 3],
+    /// Of the base, about east, north, up, arcsec; what cannot be told from the platform is there.
+    pub base_arcsec: [f64; 3],
+    /// Whether it is more than what was stated; `None` when that is not known.
+    pub test: Option<Test>,
+}
+
+/// A check run against a certificate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// The certificate's number.
+    pub certificate: String,
+    /// Runs of the check.
+    pub runs: usize,
+    /// Positions with one another, a common turn aside, all of them.
+    pub all: Test,
+    /// Each position.
+    pub positions: Vec<ComparedPosition>,
+    /// What all share that repeat.
+    pub common: CommonTurn,
+    /// Whether it is still the same stand.
+    pub same_stand: bool,
+    /// The verdict and its reasons, a sentence each.
+    pub words: Vec<String>,
+}
+
+/// The differences, weighted: each row over its own standard uncertainty.
+struct Differences {
+    turns_arcsec: DVector<f64>,
+    u_arcsec: DVector<f64>,
+    degrees_of_freedom: f64,
+    design: DMatrix<f64>,
+    base_axes: DMatrix<f64>,
+}
+
+/// Compares `readings` of the stand of `header` with its certificate; `again` is what the readings alone would certify,
+/// when they are of two runs or more.
+///
+/// # Errors
+/// See [`NotCompared`].
+pub fn compare(
+    certificate: &Stand,
+    header: &Header,
+    readings: &AngleReadings,
+    again: Option<&Certification>,
+) -> Result<Comparison, NotCompared> {
+    check_same(certificate, header)?;
+    let scatter = repeatability(certificate, again).ok_or(NotCompared::NoRepeatability)?;
+    let differences = Differences::new(certificate, readings, scatter)?;
+    let places: Vec<usize> = (0..certificate.positions.len()).collect();
+    let all = differences.rest(&places).ok_or(NotCompared::TooFewPositions)?;
+    let repeating = differences.repeating(&places);
+    let positions: Vec<_> = places
+        .iter()
+        .filter_map(|&place| {
+            let of_position = differences.of_position(place, &repeating);
+            // When too few repeat to say where the others put a position, all say it.
+            let (turn, u, test) = of_position.or_else(|| differences.of_position(place, &places))?;
+            let repeats = repeating.contains(&place);
+            let index = certificate.positions[place].index();
+            Some(ComparedPosition { index, turn_arcsec: turn, u_arcsec: u, test, repeats })
+        })
+        .collect();
+    let common = differences.common(&repeating, certificate, again).ok_or(NotCompared::TooFewPositions)?;
+    let moved = common.test.is_some_and(|test| test.probability < OUTLIER);
+    let same_stand = repeating.len() == places.len() && all.probability >= OUTLIER && !moved;
+    let mut found = Comparison {
+        certificate: certificate.certificate.number.clone(),
+        runs: readings.runs().len(),
+        all,
+        positions,
+        common,
+        same_stand,
+        words: Vec::new(),
+    };
+    found.words = words(&found, moved);
+    if certificate.positions.iter().any(|at| certified_u_arcsec(at).is_none()) {
+        let missing = "the certificate states no uncertainty of some angles (u_alpha_arcsec and so on): taken as exact, \
+                       which makes differences look larger than they are";
+        found.words.push(missing.to_owned());
+    }
+    Ok(found)
+}
+
+fn check_same(certificate: &Stand, header: &Header) -> Result<(), NotCompared> {
+    let name = |stand: &crate::stand::Identity| format!("{} {}", stand.model, stand.serial);
+    let (of_certificate, of_readings) = (name(&certificate.stand), name(&header.stand));
+    if of_certificate != of_readings {
+        return Err(NotCompared::OtherStand { certificate: of_certificate, readings: of_readings });
+    }
+    let nominal: Vec<super::NominalPosition> = certificate.positions.iter().map(super::NominalPosition::from).collect();
+    let alone = |a: &[super::NominalPosition], b: &[super::NominalPosition]| {
+        a.iter().find(|at| !b.contains(at)).map(|at| at.index())
+    };
+    match alone(&nominal, &header.positions).or_else(|| alone(&header.positions, &nominal)) {
+        Some(index) => Err(NotCompared::OtherPositions(index)),
+        None => Ok(()),
+    }
+}
+
+/// Scatter of one return: the certificate's, else the check's own.
+fn repeatability(certificate: &Stand, again: Option<&Certification>) -> Option<Variance> {
+    let stated = certificate.certificate.repeatability_arcsec.filter(|u| *u > 0.0);
+    let degrees_of_freedom = certificate.certificate.repeatability_degrees_of_freedom.unwrap_or(f64::INFINITY);
+    let stated = stated.map(|u| Variance { value: u * u, degrees_of_freedom });
+    stated.or_else(|| again.map(|again| again.components.pooled_arcsec2))
+}
+
+/// The certified standard uncertainties of a position; `None` when one is not stated.
+fn certified_u_arcsec(position: &CertifiedPosition) -> Option<Vector3<f64>> {
+    Some(Vector3::new(position.u_alpha_arcsec?, position.u_beta_arcsec?, position.u_gamma_arcsec?))
+}
+
+impl Differences {
+    fn new(certificate: &Stand, readings: &AngleReadings, scatter: Variance) -> Result<Self, NotCompared> {
+        let positions: Vec<_> = certificate.positions.iter().map(CertifiedPosition::to_model).collect();
+        let certified: Vec<_> = certificate
+            .positions
+            .iter()
+            .map(|at| Vector3::new(at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec))
+            .collect();
+        let turns = turns_at(&positions, &certified);
+        let model = RunModel::new(&turns).ok_or(NotCompared::TooFewPositions)?;
+        let rows = 3 * turns.len();
+        let (mut turned, mut u) = (DVector::zeros(rows), DVector::zeros(rows));
+        let of_check = scatter.value / readings.runs().len() as f64;
+        let mut freedom = f64::INFINITY;
+        for (place, turn) in turns.iter().enumerate() {
+            let change = readings.means_arcsec()[place] - certified[place];
+            turned.fixed_rows_mut::<3>(3 * place).copy_from(&case_turn(turn, &change));
+            let position = &certificate.positions[place];
+            let own = own_variance(turn, &certified_u_arcsec(position).unwrap_or_default());
+            let both = own.map(|variance| variance + of_check);
+            u.fixed_rows_mut::<3>(3 * place).copy_from(&both.map(f64::sqrt));
+            // Welch and Satterthwaite: GUM (JCGM 100), eq. (G.2b), of the axis that has the fewest.
+            let of_certificate = position.degrees_of_freedom.unwrap_or(f64::INFINITY);
+            for axis in 0..3 {
+                let parts = own[axis] * own[axis] / of_certificate + of_check * of_check / scatter.degrees_of_freedom;
+                freedom = freedom.min(both[axis] * both[axis] / parts);
+            }
+        }
+        Ok(Self {
+            turns_arcsec: turned,
+            u_arcsec: u,
+            degrees_of_freedom: freedom,
+            design: model.design,
+            base_axes: model.base_axes,
+        })
+    }
+
+    /// Weighted least squares of what the positions `places` share: its estimate and its R⁻¹.
+    fn shared(&self, places: &[usize]) -> Option<(DVector<f64>, DMatrix<f64>, f64)> {
+        let rows: Vec<usize> = places.iter().flat_map(|place| (3 * place)..(3 * place + 3)).collect();
+        let weighted = DMatrix::from_fn(rows.len(), self.design.ncols(), |row, column| {
+            self.design[(rows[row], column)] / self.u_arcsec[rows[row]]
+        });
+        let mut right =
+            DMatrix::from_fn(rows.len(), 1, |row, _| self.turns_arcsec[rows[row]] / self.u_arcsec[rows[row]]);
+        let model = Factorised::new(weighted).ok()?;
+        if model.condition_bound() > 1e6 {
+            return None;
+        }
+        model.rotate(&mut right);
+        let (shared, _) = model.solve_rotated(&right);
+        let rest = right.column(0).rows(model.columns(), rows.len() - model.columns()).norm_squared();
+        Some((shared, model.r_inverse().clone(), rest))
+    }
+
+    /// Chi-square of positions with one another.
+    fn rest(&self, places: &[usize]) -> Option<Test> {
+        let degrees_of_freedom = (3 * places.len()).checked_sub(self.design.ncols()).filter(|rest| *rest > 0)?;
+        let (_, _, chi_square) = self.shared(places)?;
+        Some(self.test(chi_square, degrees_of_freedom))
+    }
+
+    fn test(&self, chi_square: f64, degrees_of_freedom: usize) -> Test {
+        let ratio = chi_square / degrees_of_freedom as f64;
+        Test {
+            chi_square,
+            degrees_of_freedom,
+            probability: f_larger(ratio, degrees_of_freedom, self.degrees_of_freedom),
+        }
+    }
+
+    /// Turn of a position against what the `others` share (itself aside), its uncertainty, and all three at once.
+    fn of_position(&self, place: usize, others: &[usize]) -> Option<([f64; 3], [f64; 3], Test)> {
+        let others: Vec<usize> = others.iter().copied().filter(|other| *other != place).collect();
+        let (shared, r_inverse, _) = self.shared(&others)?;
+        let design = self.design.rows(3 * place, 3);
+        let turn: Vector3<f64> = self.turns_arcsec.fixed_rows::<3>(3 * place) - design * shared;
+        let spread = design * r_inverse;
+        let own = self.u_arcsec.fixed_rows::<3>(3 * place).map(|u| u * u);
+        let covariance = Matrix3::from_diagonal(&own) + &spread * spread.transpose();
+        let chi_square = turn.dot(&covariance.cholesky()?.solve(&turn));
+        let u = covariance.diagonal().map(f64::sqrt);
+        Some((turn.into(), u.into(), self.test(chi_square, 3)))
+    }
+
+    /// The positions that repeat: the worst is taken out, again and again, while it does not agree with the rest.
+    fn repeating(&self, places: &[usize]) -> Vec<usize> {
+        let mut left = places.to_vec();
+        while let Some(worst) = self.worst(&left, places.len()) {
+            left.retain(|place| *place != worst);
+            // When fewer than half agree, nobody can say which ones are right.
+            if 2 * left.len() < places.len() {
+                return Vec::new();
+            }
+        }
+        left
+    }
+
+    fn worst(&self, left: &[usize], positions: usize) -> Option<usize> {
+        let tests = left.iter().filter_map(|&place| Some((place, self.of_position(place, left)?.2)));
+        let worst = tests.max_by(|(_, a), (_, b)| a.chi_square.total_cmp(&b.chi_square));
+        // Bonferroni: the worst of so many.
+        worst.filter(|(_, test)| test.probability * (positions as f64) < OUTLIER).map(|(place, _)| place)
+    }
+
+    /// What the `repeating` positions share (all, when none repeat), and whether that was to be expected.
+    fn common(&self, repeating: &[usize], certificate: &Stand, again: Option<&Certification>) -> Option<CommonTurn> {
+        let every: Vec<usize> = (0..certificate.positions.len()).collect();
+        let (shared, r_inverse, _) = self.shared(if repeating.is_empty() { &every } else { repeating })?;
+        let base = &self.base_axes * shared.rows(3, shared.len() - 3);
+        let test = self.common_test(&shared, &r_inverse, certificate, again);
+        Some(CommonTurn {
+            platform_arcsec: [shared[0], shared[1], shared[2]],
+            base_arcsec: [base[0], base[1], base[2]],
+            test,
+        })
+    }
+
+    /// A check of one run does not know what its own set-up adds; then there is no test.
+    fn common_test(
+        &self,
+        shared: &DVector<f64>,
+        r_inverse: &DMatrix<f64>,
+        certificate: &Stand,
+        again: Option<&Certification>,
+    ) -> Option<Test> {
+        let components = &again?.components;
+        let runs = again?.runs.len() as f64;
+        let platform = certificate.certificate.common_platform_arcsec?;
+        let base = match &components.base {
+            Some(base) => {
+                let stated = certificate.certificate.common_base_arcsec?;
+                stated * stated + base.between_runs_arcsec2 / runs
+            }
+            None => 0.0,
+        };
+        let mut covariance = r_inverse * r_inverse.transpose();
+        for at in 0..shared.len() {
+            let of_platform = platform * platform + components.platform.between_runs_arcsec2 / runs;
+            covariance[(at, at)] += if at < 3 { of_platform } else { base };
+        }
+        let chi_square = shared.dot(&covariance.cholesky()?.solve(shared));
+        let freedom = components.platform.degrees_of_freedom.min(3.0 * (runs - 1.0)).min(self.degrees_of_freedom);
+        let probability = f_larger(chi_square / shared.len() as f64, shared.len(), freedom);
+        Some(Test { chi_square, degrees_of_freedom: shared.len(), probability })
+    }
+}
+
+/// Variances of the turn along x, y, z of the case that the uncertainties of α, β, γ make.
+fn own_variance(turn: &Turn, u_arcsec: &Vector3<f64>) -> Vector3<f64> {
+    (0..3).fold(Vector3::zeros(), |sum, angle| {
+        let part = turn.axes[angle] * u_arcsec[angle];
+        sum + part.component_mul(&part)
+    })
+}
+
+fn words(found: &Comparison, moved: bool) -> Vec<String> {
+    let mut said = Vec::new();
+    let out: Vec<&ComparedPosition> = found.positions.iter().filter(|at| !at.repeats).collect();
+    if !out.is_empty() && out.len() == found.positions.len() {
+        said.push(
+            "no half of the positions agree with one another: this is another stand, or another certificate".to_owned(),
+        );
+    } else {
+        for at in &out {
+            let [x, y, z] = at.turn_arcsec;
+            let index = at.index;
+            said.push(format!("position {index} does not repeat: {x:+.2}, {y:+.2}, {z:+.2} arcsec about x, y, z from where the others put it"));
+        }
+        if out.is_empty() && found.all.probability < OUTLIER {
+            said.push("the positions do not repeat: none stands out, all are farther off than stated".to_owned());
+        } else if out.is_empty() && found.all.probability < STRAGGLER {
+            said.push("the positions are a little farther off than chance explains: measure another run".to_owned());
+        }
+    }
+    if moved {
+        said.push(
+            "all positions have turned together: a datum has changed (gyro seat, level, azimuth), not single positions"
+                .to_owned(),
+        );
+    } else if found.common.test.is_none() {
+        said.push(
+            "whether the stand has turned as a whole is not judged: it takes two runs of the check, whose set-up then shows \
+             itself, and a certificate that states common_platform_arcsec and common_base_arcsec"
+                .to_owned(),
+        );
+    }
+    said
+}

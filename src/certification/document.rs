@@ -1,0 +1,70 @@
+//! The certified stand file as text: canonical, with comments on how its numbers came about.
+
+use super::Certification;
+use crate::stand::Stand;
+use crate::text::{Field, Node, Unreadable, rule};
+
+impl Certification {
+    /// The stand file (`dtg-stand/1`), read back and compared before it is given.
+    ///
+    /// # Errors
+    /// What its reader refuses: means beyond what can be certified.
+    pub fn to_yaml(&self, name: &str) -> Result<String, Unreadable> {
+        let node = self.stand.write().unwrap_or(Node::Null);
+        let text = rule::write(&node, &|path| self.comments(path));
+        let read = Stand::from_yaml(name, text.as_bytes())?;
+        if read != self.stand {
+            return Err(Unreadable::whole(name, None, "other content than was written", "the same", "report this"));
+        }
+        Ok(text)
+    }
+
+    fn comments(&self, path: &str) -> Vec<String> {
+        match path {
+            "format" => vec!["A stand as certified from repeated readings. Standard uncertainties (k = 1).".to_owned()],
+            "certificate.repeatability_arcsec" => self.of_the_components(),
+            "positions" => self.of_the_positions(),
+            _ => Vec::new(),
+        }
+    }
+
+    fn of_the_components(&self) -> Vec<String> {
+        let components = &self.components;
+        let own = components.own_arcsec2.map(|variance| format!("{:.3}", variance.value.sqrt()));
+        let mut said = vec![
+            format!(
+                "From {} runs: what one return scatters by; {} arcsec about x, y, z.",
+                self.runs.len(),
+                own.join(", ")
+            ),
+            "What a run shares over all positions is kept apart; common_* are of the mean of the runs.".to_owned(),
+        ];
+        let platform = Some(&components.platform);
+        for (what, common) in [("platform", platform), ("base", components.base.as_ref())] {
+            said.push(match common {
+                Some(common) if common.between_runs_arcsec2 > 0.0 => format!(
+                    "The {what} turns by {:.3} arcsec per axis from run to run, {:.1} degrees of freedom.",
+                    common.between_runs_arcsec2.sqrt(),
+                    common.degrees_of_freedom
+                ),
+                Some(common) => format!(
+                    "The {what} does not turn from run to run beyond scatter: at most {:.3} arcsec per axis at 95 %.",
+                    common.upper_limit_arcsec2.sqrt()
+                ),
+                None => format!("A turn of the {what} cannot be told from one of the platform, which holds both."),
+            });
+        }
+        said
+    }
+
+    fn of_the_positions(&self) -> Vec<String> {
+        let scatter = if self.own_scatter {
+            "each position's own scatter (Bartlett's test: they differ)"
+        } else {
+            "the scatter of all positions together, axis by axis"
+        };
+        let mut said = vec![format!("Means of {} runs. u_*: {scatter}, over the root of the runs.", self.runs.len())];
+        said.extend(self.warnings.iter().map(|warning| format!("Warning: {warning}.")));
+        said
+    }
+}

@@ -1,0 +1,111 @@
+//! The header of a certification: a stand file whose positions have no angles yet.
+
+use crate::coefficients::PositionIndex;
+use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity, STAND_FORMAT, Stand};
+use crate::text::{Path, Problems, Unreadable, node, record};
+
+record! {
+    /// One position to be certified: its nominal angles alone.
+    pub struct NominalPosition {
+        /// Frame index, from 1.
+        pub i: u32,
+        /// Platform index, from 1.
+        pub j: u32,
+        /// Frame angle θ about ξ.
+        pub theta_deg: f64,
+        /// Platform angle φ about the spin axis.
+        pub phi_deg: f64,
+    }
+}
+
+impl NominalPosition {
+    /// Which position it is.
+    pub fn index(&self) -> PositionIndex {
+        PositionIndex { i: self.i, j: self.j }
+    }
+
+    /// The position with the deviations `angles_arcsec` (α, β, γ) and no uncertainty.
+    pub(crate) fn with_angles(&self, angles_arcsec: [f64; 3]) -> CertifiedPosition {
+        let [alpha_arcsec, beta_arcsec, gamma_arcsec] = angles_arcsec;
+        CertifiedPosition {
+            i: self.i,
+            j: self.j,
+            theta_deg: self.theta_deg,
+            phi_deg: self.phi_deg,
+            alpha_arcsec,
+            beta_arcsec,
+            gamma_arcsec,
+            u_alpha_arcsec: None,
+            u_beta_arcsec: None,
+            u_gamma_arcsec: None,
+            degrees_of_freedom: None,
+        }
+    }
+}
+
+impl From<&CertifiedPosition> for NominalPosition {
+    fn from(position: &CertifiedPosition) -> Self {
+        Self { i: position.i, j: position.j, theta_deg: position.theta_deg, phi_deg: position.phi_deg }
+    }
+}
+
+record! {
+    /// A stand file (`dtg-stand/1`) before the measurement: which stand, its certificate, its positions without angles.
+    pub struct Header {
+        /// Always "dtg-stand/1".
+        pub format: String,
+        /// Which stand.
+        pub stand: Identity,
+        /// Its certificate, without what the measurement will say.
+        pub certificate: Certificate,
+        /// The surfaces that realise its axes.
+        pub datum: Option<Datum>,
+        /// Its positions, sorted by (i, j) once read.
+        pub positions: Vec<NominalPosition>,
+    }
+}
+
+impl Header {
+    /// Reads a header; `name` is its name in messages.
+    ///
+    /// # Errors
+    /// Every mistake with its line, column and field: those of a stand file, and numbers that certification finds itself.
+    pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
+        let mut header = node::read_document(name, bytes, STAND_FORMAT, |header: &Self, problems| {
+            let positions: Vec<_> = header.positions.iter().map(|at| at.with_angles([0.0; 3])).collect();
+            stand::check(&header.certificate, &positions, problems);
+            check_not_measured(&header.certificate, problems);
+        })?;
+        header.positions.sort_by_key(NominalPosition::index);
+        Ok(header)
+    }
+}
+
+impl From<&Stand> for Header {
+    /// What a certificate was made from, to measure the same positions again.
+    fn from(stand: &Stand) -> Self {
+        Self {
+            format: stand.format.clone(),
+            stand: stand.stand.clone(),
+            certificate: stand.certificate.clone(),
+            datum: stand.datum.clone(),
+            positions: stand.positions.iter().map(NominalPosition::from).collect(),
+        }
+    }
+}
+
+/// What the readings will say must not stand in the header: it would be lost, or be taken for measured.
+fn check_not_measured(certificate: &Certificate, problems: &mut Problems) {
+    let at = Path::Root.key("certificate");
+    for (key, value) in [
+        ("repeatability_arcsec", certificate.repeatability_arcsec),
+        ("repeatability_degrees_of_freedom", certificate.repeatability_degrees_of_freedom),
+        ("common_platform_arcsec", certificate.common_platform_arcsec),
+        ("common_base_arcsec", certificate.common_base_arcsec),
+    ] {
+        if let Some(value) = value {
+            let advice = "leave it out: the readings give it";
+            problems.at(&at.key(key), format!("{value}"), "a header without measured numbers", advice);
+        }
+    }
+}

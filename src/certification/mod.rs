@@ -1,0 +1,241 @@
+//! From repeated readings of the angles to a certified stand, and whether it is still the same stand later.
+//!
+//! * [`header`]: the stand file before the measurement.
+//! * [`readings`]: the angles read, every position in every run.
+//! * [`components`]: what scatters, and what all positions of a run share.
+//! * [`suspects`]: a position that is worse (Bartlett), a reading that is out (Grubbs).
+//! * [`comparison`]: a later check run against the certificate.
+//! * [`document`]: the stand file as text, with how its numbers came about.
+//!
+//! The model and what each number means: docs/certification.md.
+
+pub mod comparison;
+pub mod components;
+pub mod document;
+pub mod header;
+pub mod readings;
+pub mod suspects;
+
+pub use header::{Header, NominalPosition};
+pub use readings::AngleReadings;
+
+use crate::calibration::inputs::Turn;
+use crate::stand::{CertifiedPosition, Stand};
+use components::{Common, Components, Variance, case_turn, turns_at};
+use nalgebra::{DVector, Matrix3, Vector3};
+use suspects::Suspects;
+
+/// From this many runs on nothing is said about their number.
+pub const ENOUGH_RUNS: usize = 4;
+
+/// Why there is no certificate.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NotCertified {
+    /// One run shows no scatter.
+    #[error(
+        "one run: it cannot show how well positions repeat, so no uncertainty can be stated; measure at least two runs, \
+         better five, the platform moved away and back between them"
+    )]
+    OneRun,
+    /// Readings of other positions than the header has.
+    #[error("readings of {readings} positions for a stand file with {header}")]
+    OtherPositions {
+        /// Positions that were read.
+        readings: usize,
+        /// Positions of the header.
+        header: usize,
+    },
+    /// What is common to a run cannot be told from a position's own scatter.
+    #[error(
+        "too few positions: what all positions of a run share cannot be told from their own scatter; at least three are \
+         needed, two of which differ in theta or phi"
+    )]
+    TooFewPositions,
+    /// An angle that is the same in all runs.
+    #[error(
+        "{0} is the same in every run of every position: was it measured each time? Record more digits than it scatters by, \
+         and never the same run twice"
+    )]
+    Constant(&'static str),
+    /// Nothing scatters once the runs' common turns are taken out.
+    #[error("the readings do not scatter: are the runs copies of one another, shifted?")]
+    NoScatter,
+}
+
+/// A certified stand and where its numbers come from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Certification {
+    /// What the stand file says.
+    pub stand: Stand,
+    /// The runs' numbers.
+    pub runs: Vec<u32>,
+    /// How many rows read a return again; they were averaged.
+    pub repeated_rows: usize,
+    /// The variance components.
+    pub components: Components,
+    /// Positions that are worse, readings that are out.
+    pub suspects: Suspects,
+    /// Whether every position states its own scatter, because Bartlett's test finds that they differ.
+    pub own_scatter: bool,
+    /// What who signs the certificate should know, a sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// Certifies the stand of `header` from `readings`, whose positions are in the header's order.
+///
+/// # Errors
+/// See [`NotCertified`].
+pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certification, NotCertified> {
+    let (found, due) = (readings.each_arcsec().len(), header.positions.len());
+    if found != due {
+        return Err(NotCertified::OtherPositions { readings: found, header: due });
+    }
+    let runs = readings.runs();
+    if runs.len() < 2 {
+        return Err(NotCertified::OneRun);
+    }
+    if let Some(angle) = constant(readings) {
+        return Err(NotCertified::Constant(angle));
+    }
+    let turns = turns_of(header, readings);
+    let components = components::estimate(&turns, runs, &differences(&turns, readings))?;
+    let suspects = Suspects::of(header, runs, &components);
+    let own_scatter = suspects.worse.is_some();
+    let mut stand = Stand {
+        format: header.format.clone(),
+        stand: header.stand.clone(),
+        certificate: header.certificate.clone(),
+        datum: header.datum.clone(),
+        positions: Vec::new(),
+    };
+    let number = runs.len() as f64;
+    let each = header.positions.iter().zip(readings.means_arcsec()).zip(&turns).enumerate();
+    stand.positions = each
+        .map(|(place, ((nominal, mean), turn))| {
+            let own = own_scatter.then(|| components.of_positions[place]);
+            certified(nominal, &mean, turn, &components.own_arcsec2.map(|v| divided(v, number)), own)
+        })
+        .collect();
+    let certificate = &mut stand.certificate;
+    certificate.repeatability_arcsec = Some(rounded(components.pooled_arcsec2.value.sqrt()));
+    certificate.repeatability_degrees_of_freedom = Some(freedom(components.pooled_arcsec2.degrees_of_freedom));
+    let of_mean = |common: &Common| rounded((common.between_runs_arcsec2 / number).sqrt());
+    certificate.common_platform_arcsec = Some(of_mean(&components.platform));
+    certificate.common_base_arcsec = components.base.as_ref().map(of_mean);
+    let mut warnings = suspects.warnings();
+    warnings.extend(remarks(&components, runs.len(), &stand.positions));
+    let (runs, repeated_rows) = (runs.to_vec(), readings.repeated_rows());
+    Ok(Certification { stand, runs, repeated_rows, components, suspects, own_scatter, warnings })
+}
+
+/// An angle that never changes from run to run.
+fn constant(readings: &AngleReadings) -> Option<&'static str> {
+    let same =
+        |axis: usize| readings.each_arcsec().iter().all(|runs| runs.iter().all(|run| run[axis] == runs[0][axis]));
+    ["alpha", "beta", "gamma"].into_iter().enumerate().find(|(axis, _)| same(*axis)).map(|(_, angle)| angle)
+}
+
+/// How every position turns, at the mean of its readings.
+pub(crate) fn turns_of(header: &Header, readings: &AngleReadings) -> Vec<Turn> {
+    let positions: Vec<_> = header.positions.iter().map(|at| at.with_angles([0.0; 3]).to_model()).collect();
+    turns_at(&positions, &readings.means_arcsec())
+}
+
+/// The turns of every position from their means, a vector a run, arcsec along the axes of the case.
+fn differences(turns: &[Turn], readings: &AngleReadings) -> Vec<DVector<f64>> {
+    let means = readings.means_arcsec();
+    let of_run = |run: usize| {
+        let mut differences = DVector::zeros(3 * turns.len());
+        for (place, turn) in turns.iter().enumerate() {
+            let change = readings.each_arcsec()[place][run] - means[place];
+            differences.fixed_rows_mut::<3>(3 * place).copy_from(&case_turn(turn, &change));
+        }
+        differences
+    };
+    (0..readings.runs().len()).map(of_run).collect()
+}
+
+fn divided(variance: Variance, number: f64) -> Variance {
+    Variance { value: variance.value / number, ..variance }
+}
+
+/// A position with the means `mean` (α, β, γ) whose turns have the variances `own`, per axis of the case.
+fn certified(
+    nominal: &NominalPosition,
+    mean: &Vector3<f64>,
+    turn: &Turn,
+    own: &[Variance; 3],
+    scatter: Option<Variance>,
+) -> CertifiedPosition {
+    // The angles are what the axes of α, β, γ must turn by; between ±45° these are never in one plane.
+    let to_angles = Matrix3::from_columns(&turn.axes).try_inverse().unwrap_or_else(Matrix3::identity);
+    let share = scatter.map_or(1.0, |scatter| scatter.value);
+    let u = |angle: usize| {
+        let variance =
+            (0..3).map(|axis| to_angles[(angle, axis)] * to_angles[(angle, axis)] * own[axis].value).sum::<f64>();
+        (variance * share).sqrt()
+    };
+    let pooled = own.iter().map(|variance| variance.degrees_of_freedom).fold(f64::INFINITY, f64::min);
+    let mut position = nominal.with_angles([0, 1, 2].map(|angle| to_digits_of(mean[angle], u(angle))));
+    position.u_alpha_arcsec = Some(rounded(u(0)));
+    position.u_beta_arcsec = Some(rounded(u(1)));
+    position.u_gamma_arcsec = Some(rounded(u(2)));
+    position.degrees_of_freedom = Some(freedom(scatter.map_or(pooled, |scatter| scatter.degrees_of_freedom)));
+    position
+}
+
+/// Decimals with which an uncertainty shows four significant digits; so many are written, for what is computed from
+/// the file shall not feel its rounding (GUM, 7.2.6).
+fn decimals(u: f64) -> i32 {
+    let exponent = if u > 0.0 { libm::floor(libm::log10(u)) as i32 } else { 0 };
+    (3 - exponent).clamp(0, 9)
+}
+
+fn to_digits_of(value: f64, u: f64) -> f64 {
+    let scale = 10_f64.powi(decimals(u));
+    // Adding zero turns -0.0 into 0.0.
+    (value * scale).round() / scale + 0.0
+}
+
+fn rounded(u: f64) -> f64 {
+    to_digits_of(u, u)
+}
+
+/// Degrees of freedom as they are written: a tenth matters to nobody.
+fn freedom(value: f64) -> f64 {
+    (value * 10.0).round().max(1.0) / 10.0
+}
+
+fn remarks(components: &Components, runs: usize, positions: &[CertifiedPosition]) -> Vec<String> {
+    let mut said = Vec::new();
+    if runs < ENOUGH_RUNS {
+        let freedom = 3 * (runs - 1);
+        // GUM (JCGM 100), E.4.3: the relative standard deviation of s is about 1/√(2ν).
+        let doubt = 100.0 / (2.0 * freedom as f64).sqrt();
+        said.push(format!(
+            "{runs} runs are few: what all positions of a run share has {freedom} degrees of freedom, and its uncertainty is \
+             itself uncertain by {doubt:.0} %; five runs or more are better"
+        ));
+    }
+    match components.base_axes {
+        3 => {}
+        0 => said.push(
+            "in these positions a turn of the base cannot be told from one of the platform: common_base_arcsec is absent, \
+             and common_platform_arcsec holds both"
+                .to_owned(),
+        ),
+        axes => said.push(format!(
+            "in these positions only {axes} of the base's three axes can be told from the platform; \
+             common_platform_arcsec holds what both share"
+        )),
+    }
+    let largest = positions
+        .iter()
+        .flat_map(|at| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec])
+        .fold(0.0, |a, b| f64::max(a, b.abs()));
+    if largest < 0.5 {
+        said.push(format!("no angle is larger than {largest:.2} arcsec: are these degrees where arcseconds belong?"));
+    }
+    said
+}

@@ -1,0 +1,206 @@
+//! The angles read in every position and run: CSV `i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec`.
+
+use super::header::NominalPosition;
+use crate::coefficients::PositionIndex;
+use crate::stand::LARGEST_DEVIATION_DEG;
+use crate::text::Unreadable;
+use crate::text::problem::Problem;
+use crate::text::table::{Row, Table};
+use crate::units::ARCSECONDS_PER_DEGREE;
+use nalgebra::Vector3;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The columns of the file.
+pub const COLUMNS: [&str; 6] = ["i", "j", "run", "alpha_arcsec", "beta_arcsec", "gamma_arcsec"];
+
+/// Farther than this from the other runs a reading is a slip, not scatter: a stand that repeats to 10′ alone is none.
+pub const LARGEST_SCATTER_ARCSEC: f64 = 600.0;
+
+/// Readings of every position in every run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AngleReadings {
+    runs: Vec<u32>,
+    each_arcsec: Vec<Vec<Vector3<f64>>>,
+    repeated_rows: usize,
+}
+
+/// Readings that do not hold every position in every run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("every position must have one reading in every run")]
+pub struct NotBalanced;
+
+/// Where a reading stands: its position and its run.
+type Place = (PositionIndex, u32);
+
+impl AngleReadings {
+    /// `each_arcsec[position][run]` holds (α, β, γ) of a position in a run; `runs` are the runs' numbers.
+    ///
+    /// # Errors
+    /// [`NotBalanced`] when a position has another number of readings than there are runs, or there is none.
+    pub fn new(runs: Vec<u32>, each_arcsec: Vec<Vec<Vector3<f64>>>) -> Result<Self, NotBalanced> {
+        let balanced = !runs.is_empty() && !each_arcsec.is_empty();
+        if balanced && each_arcsec.iter().all(|position| position.len() == runs.len()) {
+            Ok(Self { runs, each_arcsec, repeated_rows: 0 })
+        } else {
+            Err(NotBalanced)
+        }
+    }
+
+    /// Reads the CSV file `name` for `positions`; rows of the same position and run are one return read several times,
+    /// and are averaged.
+    ///
+    /// # Errors
+    /// [`Unreadable`] with every mistake at its line and column: form, numbers, positions unknown or missing from a run,
+    /// angles beyond 45°, angles that are no scatter (another unit, another position).
+    pub fn from_csv(name: &str, bytes: &[u8], positions: &[NominalPosition]) -> Result<Self, Unreadable> {
+        let table = Table::read(name, bytes, &COLUMNS)?;
+        let mut problems = Vec::new();
+        let mut rows: Vec<(Place, Vector3<f64>, &Row)> = Vec::new();
+        for row in &table.rows {
+            let index = position(&table, row, positions, &mut problems);
+            let run = table.index(row, 2, &mut problems);
+            let angles = [3, 4, 5].map(|column| angle(&table, row, column, &mut problems));
+            if let (Some(index), Some(run), [Some(x), Some(y), Some(z)]) = (index, run, angles) {
+                rows.push(((index, run), Vector3::new(x, y, z), row));
+            }
+        }
+        if problems.is_empty() {
+            problems = incomplete(positions, &rows);
+        }
+        if problems.is_empty() {
+            problems = slips(&table, &rows);
+        }
+        if problems.is_empty() { Ok(Self::averaged(positions, &rows)) } else { Err(table.refuse(problems)) }
+    }
+
+    fn averaged(positions: &[NominalPosition], rows: &[(Place, Vector3<f64>, &Row)]) -> Self {
+        let mut sums: BTreeMap<Place, (Vector3<f64>, f64)> = BTreeMap::new();
+        for (place, angles, _) in rows {
+            let (sum, count) = sums.entry(*place).or_insert((Vector3::zeros(), 0.0));
+            *sum += angles;
+            *count += 1.0;
+        }
+        let runs: BTreeSet<u32> = rows.iter().map(|((_, run), ..)| *run).collect();
+        let mean = |at: &NominalPosition, run: &u32| sums.get(&(at.index(), *run)).map(|(sum, count)| sum / *count);
+        let of_position = |at: &NominalPosition| runs.iter().filter_map(|run| mean(at, run)).collect();
+        let each_arcsec: Vec<Vec<_>> = positions.iter().map(of_position).collect();
+        Self { runs: runs.into_iter().collect(), each_arcsec, repeated_rows: rows.len() - sums.len() }
+    }
+
+    /// The runs' numbers, ascending.
+    pub fn runs(&self) -> &[u32] {
+        &self.runs
+    }
+
+    /// (α, β, γ) in arcseconds: `[position][run]`, positions in the order they were asked for.
+    pub fn each_arcsec(&self) -> &[Vec<Vector3<f64>>] {
+        &self.each_arcsec
+    }
+
+    /// How many rows read a return again that had been read already.
+    pub fn repeated_rows(&self) -> usize {
+        self.repeated_rows
+    }
+
+    /// Means over the runs, arcseconds.
+    pub fn means_arcsec(&self) -> Vec<Vector3<f64>> {
+        let runs = self.runs.len() as f64;
+        self.each_arcsec.iter().map(|position| position.iter().sum::<Vector3<f64>>() / runs).collect()
+    }
+}
+
+fn position(
+    table: &Table,
+    row: &Row,
+    positions: &[NominalPosition],
+    problems: &mut Vec<Problem>,
+) -> Option<PositionIndex> {
+    let i = table.index(row, 0, problems);
+    let j = table.index(row, 1, problems);
+    let index = PositionIndex { i: i?, j: j? };
+    if positions.iter().any(|at| at.index() == index) {
+        return Some(index);
+    }
+    let advice = "are these the readings of this stand?";
+    let found = format!("position {index}");
+    problems.push(table.problem(&row.cells[0], 0, found, "a position that the stand file has", advice));
+    None
+}
+
+fn angle(table: &Table, row: &Row, column: usize, problems: &mut Vec<Problem>) -> Option<f64> {
+    let value = table.number(row, column, problems)?;
+    let largest = LARGEST_DEVIATION_DEG * ARCSECONDS_PER_DEGREE;
+    if value.abs() <= largest {
+        return Some(value);
+    }
+    let advice = "deviations are from the nominal position; is the unit arcseconds?";
+    let expected = format!("at most {LARGEST_DEVIATION_DEG} degrees ({largest} arcseconds) either way");
+    problems.push(table.problem(&row.cells[column], column, format!("{value}"), &expected, advice));
+    None
+}
+
+/// Positions without any reading, and positions missing from a run.
+fn incomplete(positions: &[NominalPosition], rows: &[(Place, Vector3<f64>, &Row)]) -> Vec<Problem> {
+    let runs: BTreeSet<u32> = rows.iter().map(|((_, run), ..)| *run).collect();
+    let there: BTreeSet<Place> = rows.iter().map(|(place, ..)| *place).collect();
+    let mut problems = Vec::new();
+    for at in positions {
+        let missing: Vec<u32> = runs.iter().copied().filter(|run| !there.contains(&(at.index(), *run))).collect();
+        if missing.len() == runs.len() {
+            let advice = "are these the readings of this stand?";
+            problems.push(whole_file(
+                format!("no reading of position {}", at.index()),
+                "a reading of every position",
+                advice,
+            ));
+            continue;
+        }
+        let advice = "what is common to a run can be told from a position's own scatter in whole runs alone: \
+                      measure it, or leave out the whole run";
+        for run in missing {
+            let found = format!("no reading of position {} in run {run}", at.index());
+            problems.push(whole_file(found, "every position in every run", advice));
+        }
+    }
+    problems
+}
+
+/// Readings that are no scatter: too far from the other runs, or of another unit.
+fn slips(table: &Table, rows: &[(Place, Vector3<f64>, &Row)]) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    for ((index, run), angles, row) in rows {
+        for axis in 0..3 {
+            let others = rows.iter().filter(|((at, other), ..)| at == index && other != run);
+            let mut others: Vec<f64> = others.map(|(_, angles, _)| angles[axis]).collect();
+            others.sort_by(f64::total_cmp);
+            let Some(&usual) = others.get(others.len() / 2) else { continue };
+            let spread = others.last().unwrap_or(&usual) - others.first().unwrap_or(&usual);
+            let Some(advice) = slip(angles[axis], usual, spread) else { continue };
+            let column = 3 + axis;
+            let expected = format!("about {usual} as in the other runs of position {index}");
+            problems.push(table.problem(&row.cells[column], column, format!("{}", angles[axis]), &expected, advice));
+        }
+    }
+    problems
+}
+
+/// What is wrong with `value` where the other runs have about `usual` within `spread`, all arcseconds.
+fn slip(value: f64, usual: f64, spread: f64) -> Option<&'static str> {
+    let factor_of_degree = |ratio: f64| (ARCSECONDS_PER_DEGREE / 2.0..=ARCSECONDS_PER_DEGREE * 2.0).contains(&ratio);
+    // A reading near zero by chance is no slip: the usual one must stand clear of zero.
+    let clear = |angle: f64| angle.abs() > f64::max(1.0, 3.0 * spread);
+    if clear(usual) && factor_of_degree((usual / value).abs()) {
+        Some("it is 3,600 times too small: degrees where arcseconds belong")
+    } else if (value - usual).abs() <= LARGEST_SCATTER_ARCSEC {
+        None
+    } else if factor_of_degree((value / usual).abs()) {
+        Some("it is 3,600 times too large: was it turned into arcseconds twice, or are the other runs in degrees?")
+    } else {
+        Some("is a digit or the sign wrong, or was another position read?")
+    }
+}
+
+fn whole_file(found: String, expected: &str, advice: &str) -> Problem {
+    let (expected, advice) = (expected.to_owned(), advice.to_owned());
+    Problem { location: None, field: String::new(), found, expected, advice }
+}

@@ -1,0 +1,77 @@
+//! `certify`: repeated readings of the angles to a stand file, and a later check run against it.
+
+use super::issue::read_stand;
+use super::output::Format;
+use super::{Code, Failure, REFUSED, UNUSABLE, output};
+use clap::Args;
+use dtg_passport::certification::comparison::compare;
+use dtg_passport::certification::{AngleReadings, Header, certify};
+use dtg_passport::files::{self, FileError};
+use dtg_passport::report::certification as report;
+use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
+use std::path::PathBuf;
+
+/// Certify a stand from repeated readings of its angles, or check that it is still the same
+#[derive(Args)]
+pub struct Options {
+    /// Angles: CSV with the header i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec; every position in every run
+    #[arg(value_name = "READINGS.csv")]
+    readings: PathBuf,
+    /// A stand file (dtg-stand/1) whose positions have no angles yet [default: that of --against]
+    #[arg(long, value_name = "HEADER.yaml", required_unless_present = "against")]
+    stand: Option<PathBuf>,
+    /// Where the certified stand file goes
+    #[arg(short, value_name = "stand.yaml", required_unless_present = "against")]
+    output: Option<PathBuf>,
+    /// Replace an existing stand file
+    #[arg(long)]
+    force: bool,
+    /// A certified stand: do these readings show the same one? One run is enough
+    #[arg(long, value_name = "stand.yaml")]
+    against: Option<PathBuf>,
+    /// Form of the result
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+pub fn run(options: &Options) -> Result<Code, Failure> {
+    let against = options.against.as_deref().map(read_stand).transpose()?;
+    let header = match (&options.stand, &against) {
+        (Some(path), _) => {
+            let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+            Header::from_yaml(&path.display().to_string(), &bytes).map_err(Failure::unusable)?
+        }
+        (None, Some(stand)) => Header::from(stand),
+        (None, None) => return Err(Failure::unusable("--stand or --against is needed")),
+    };
+    let bytes = files::read(&options.readings, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+    let name = options.readings.display().to_string();
+    let readings = AngleReadings::from_csv(&name, &bytes, &header.positions).map_err(Failure::unusable)?;
+    let certified = certify(&header, &readings);
+    let comparison = against.as_ref().map(|stand| compare(stand, &header, &readings, certified.as_ref().ok()));
+    let comparison = comparison.transpose().map_err(Failure::refused)?;
+    // A check of one run needs no certificate of its own; whoever asks for a file is told why there is none.
+    let (certified, refused) = match certified {
+        Ok(certified) => (Some(certified), None),
+        Err(refused) if options.output.is_none() => (None, Some(refused)),
+        Err(refused) => return Err(Failure::refused(format!("{name}: {refused}"))),
+    };
+    if let (Some(path), Some(certified)) = (&options.output, &certified) {
+        let text = certified.to_yaml(&path.display().to_string()).map_err(Failure::refused)?;
+        files::write_replaceable(path, text.as_bytes(), options.force).map_err(|error| Failure {
+            code: if matches!(error, FileError::Exists { .. }) { REFUSED } else { UNUSABLE },
+            message: error.to_string(),
+        })?;
+        output::say(&format!("wrote {}", path.display()));
+    }
+    match options.format {
+        Format::Json => output::json(&report::to_json(certified.as_ref(), refused.as_ref(), comparison.as_ref()))?,
+        Format::Text => {
+            let shown = certified.as_ref().filter(|_| options.output.is_some()).map(report::certification);
+            let compared = comparison.as_ref().map(report::comparison);
+            let texts: Vec<String> = shown.into_iter().chain(compared).collect();
+            output::result(&texts.join("\n"))?;
+        }
+    }
+    Ok(if comparison.is_some_and(|comparison| !comparison.same_stand) { REFUSED } else { 0 })
+}

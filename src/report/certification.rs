@@ -1,0 +1,235 @@
+//! The result of a certification, and of a check run, in a terminal and as JSON.
+
+use crate::certification::comparison::{Comparison, Test};
+use crate::certification::components::{Common, Variance};
+use crate::certification::suspects::AXES;
+use crate::certification::{Certification, NotCertified};
+use crate::report::columns;
+use crate::statistics::outlier::Bartlett;
+use crate::text::{Field, Node};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// Everything as JSON: `{certification, not_certified, comparison}`, what does not apply being null.
+pub fn to_json(
+    certification: Option<&Certification>,
+    not_certified: Option<&NotCertified>,
+    comparison: Option<&Comparison>,
+) -> Value {
+    json!({
+        "certification": certification.map(certification_json),
+        "not_certified": not_certified.map(ToString::to_string),
+        "comparison": comparison.map(comparison_json),
+    })
+}
+
+fn certification_json(found: &Certification) -> Value {
+    let components = &found.components;
+    let variance =
+        |v: &Variance| json!({"standard_deviation": v.value.sqrt(), "degrees_of_freedom": v.degrees_of_freedom});
+    let common = |c: &Common| {
+        json!({
+            "between_runs_arcsec": c.between_runs_arcsec2.sqrt(),
+            "degrees_of_freedom": c.degrees_of_freedom,
+            "upper_limit_arcsec": c.upper_limit_arcsec2.sqrt(),
+        })
+    };
+    let bartlett = |test: &Bartlett| json!({"statistic": test.statistic, "degrees_of_freedom": test.degrees_of_freedom, "probability": test.probability});
+    let out = found.suspects.outliers.iter().map(|out| {
+        json!({
+            "i": out.index.i, "j": out.index.j, "run": out.run, "axis": AXES[out.axis],
+            "residual_arcsec": out.residual_arcsec, "probability": out.probability,
+        })
+    });
+    let turns = components.run_turns.iter();
+    let turns =
+        turns.map(|t| json!({"run": t.run, "platform_arcsec": t.platform_arcsec, "base_arcsec": t.base_arcsec}));
+    json!({
+        "stand": found.stand.write().unwrap_or(Node::Null),
+        "runs": found.runs,
+        "repeated_rows": found.repeated_rows,
+        "own_arcsec": components.own_arcsec2.iter().map(variance).collect::<Vec<_>>(),
+        "platform": common(&components.platform),
+        "base": components.base.as_ref().map(common),
+        "base_axes": components.base_axes,
+        "run_turns": turns.collect::<Vec<_>>(),
+        "bartlett": {
+            "positions": found.suspects.positions.as_ref().map(bartlett),
+            "axes": found.suspects.axes.as_ref().map(bartlett),
+        },
+        "worse_position": found.suspects.worse.map(|at| json!({"i": at.index.i, "j": at.index.j, "ratio": at.ratio})),
+        "outliers": out.collect::<Vec<_>>(),
+        "warnings": found.warnings,
+    })
+}
+
+fn test_json(test: &Test) -> Value {
+    json!({
+        "chi_square": test.chi_square, "degrees_of_freedom": test.degrees_of_freedom, "probability": test.probability,
+    })
+}
+
+fn comparison_json(found: &Comparison) -> Value {
+    let positions = found.positions.iter().map(|at| {
+        json!({
+            "i": at.index.i, "j": at.index.j, "turn_arcsec": at.turn_arcsec, "u_arcsec": at.u_arcsec,
+            "test": test_json(&at.test), "repeats": at.repeats,
+        })
+    });
+    json!({
+        "certificate": found.certificate,
+        "runs": found.runs,
+        "same_stand": found.same_stand,
+        "all": test_json(&found.all),
+        "positions": positions.collect::<Vec<_>>(),
+        "common": {
+            "platform_arcsec": found.common.platform_arcsec,
+            "base_arcsec": found.common.base_arcsec,
+            "test": found.common.test.as_ref().map(test_json),
+        },
+        "words": found.words,
+    })
+}
+
+/// A certification for people.
+pub fn certification(found: &Certification) -> String {
+    let mut out = String::new();
+    let (stand, runs) = (&found.stand, found.runs.len());
+    let _ = writeln!(
+        out,
+        "Certified {} {}: {} positions, {runs} runs. u: standard uncertainty (k = 1) of the mean, own part.",
+        stand.stand.model,
+        stand.stand.serial,
+        stand.positions.len()
+    );
+    if found.repeated_rows > 0 {
+        let _ = writeln!(out, "{} rows read a return again; such rows were averaged.", found.repeated_rows);
+    }
+    let names = ["i", "j", "alpha, arcsec", "u", "beta, arcsec", "u", "gamma, arcsec", "u", "deg. of freedom"];
+    let rows: Vec<Vec<String>> = stand
+        .positions
+        .iter()
+        .map(|at| {
+            let mut row = vec![at.i.to_string(), at.j.to_string()];
+            for (value, u) in [
+                (at.alpha_arcsec, at.u_alpha_arcsec),
+                (at.beta_arcsec, at.u_beta_arcsec),
+                (at.gamma_arcsec, at.u_gamma_arcsec),
+            ] {
+                let u = u.unwrap_or(0.0);
+                let digits = columns::decimals(u);
+                row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
+            }
+            row.push(format!("{:.1}", at.degrees_of_freedom.unwrap_or(f64::INFINITY)));
+            row
+        })
+        .collect();
+    let _ = writeln!(out);
+    columns::table(&mut out, &names, &rows);
+    components(&mut out, found);
+    tests(&mut out, found);
+    for warning in &found.warnings {
+        columns::paragraph(&mut out, "", &format!("WARNING: {warning}."));
+    }
+    out
+}
+
+fn components(out: &mut String, found: &Certification) {
+    let components = &found.components;
+    let own = components.own_arcsec2.map(|variance| format!("{:.2}", variance.value.sqrt()));
+    let _ = writeln!(
+        out,
+        "\nOne return scatters by {:.2} arcsec per axis ({:.1} degrees of freedom); about x, y, z: {}",
+        components.pooled_arcsec2.value.sqrt(),
+        components.pooled_arcsec2.degrees_of_freedom,
+        own.join(", ")
+    );
+    let root = (found.runs.len() as f64).sqrt();
+    for (what, common) in [("platform", Some(&components.platform)), ("base", components.base.as_ref())] {
+        let Some(common) = common else { continue };
+        let seen = common.between_runs_arcsec2.sqrt();
+        let words = format!(
+            "All positions share, of the {what}: {seen:.2} arcsec per axis from run to run (at most {:.2} at 95 %), \
+             {:.2} in the mean",
+            common.upper_limit_arcsec2.sqrt(),
+            seen / root
+        );
+        columns::paragraph(out, "", &words);
+    }
+    let rows: Vec<Vec<String>> = components
+        .run_turns
+        .iter()
+        .map(|turn| {
+            let numbers = turn.platform_arcsec.iter().chain(&turn.base_arcsec).map(|value| format!("{value:+.2}"));
+            std::iter::once(turn.run.to_string()).chain(numbers).collect()
+        })
+        .collect();
+    columns::table(out, &["run", "platform x", "y", "z", "base east", "north", "up"], &rows);
+}
+
+fn tests(out: &mut String, found: &Certification) {
+    let _ = writeln!(out);
+    for (what, test) in [("positions", &found.suspects.positions), ("axes", &found.suspects.axes)] {
+        let Some(test) = test else { continue };
+        let _ = writeln!(
+            out,
+            "Bartlett's test that all {what} scatter alike: {:.2} with {} degrees of freedom, probability {}",
+            test.statistic,
+            test.degrees_of_freedom,
+            columns::probability(test.probability)
+        );
+    }
+    let readings = found.runs.len() * found.components.kept.len();
+    let named = found.suspects.outliers.len();
+    let _ = writeln!(out, "Grubbs' test of {readings} angles: {named} out at 5 %");
+}
+
+/// A check run for people.
+pub fn comparison(found: &Comparison) -> String {
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        "Check against certificate {}, {} {}: {}",
+        found.certificate,
+        found.runs,
+        if found.runs == 1 { "run" } else { "runs" },
+        if found.same_stand { "THE SAME STAND" } else { "NOT AS CERTIFIED" }
+    );
+    for words in &found.words {
+        columns::paragraph(&mut out, "  ", &format!("{words}."));
+    }
+    let line = |test: &Test| {
+        format!(
+            "chi-square {:.2} with {} degrees of freedom, probability {}",
+            test.chi_square,
+            test.degrees_of_freedom,
+            columns::probability(test.probability)
+        )
+    };
+    let _ = writeln!(out, "\nPositions with one another: {}", line(&found.all));
+    let rows: Vec<Vec<String>> = found
+        .positions
+        .iter()
+        .map(|at| {
+            let mut row = vec![at.index.i.to_string(), at.index.j.to_string()];
+            for (turn, u) in at.turn_arcsec.iter().zip(&at.u_arcsec) {
+                row.extend([format!("{turn:+.2}"), format!("{u:.2}")]);
+            }
+            row.push(format!("{:.2}", at.test.chi_square));
+            row.push(columns::probability(at.test.probability));
+            row.push(if at.repeats { "repeats" } else { "DOES NOT" }.to_owned());
+            row
+        })
+        .collect();
+    let names = ["i", "j", "x, arcsec", "u", "y, arcsec", "u", "z, arcsec", "u", "chi-square", "probability", ""];
+    columns::table(&mut out, &names, &rows);
+    let turned = |turn: &[f64; 3]| turn.map(|value| format!("{value:+.2}")).join(", ");
+    let judged = found.common.test.as_ref().map_or_else(|| "not judged".to_owned(), line);
+    let words = format!(
+        "All together: platform {} about x, y, z, base {} about east, north, up, arcsec; {judged}",
+        turned(&found.common.platform_arcsec),
+        turned(&found.common.base_arcsec)
+    );
+    columns::paragraph(&mut out, "", &words);
+    out
+}
