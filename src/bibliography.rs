@@ -29,6 +29,8 @@ pub enum Bibliography {
     /// JCGM 102:2011, Evaluation of measurement data: Supplement 2 to the Guide: Extension to any number of output
     /// quantities.
     Jcgm102,
+    /// NIST Statistical Reference Datasets, linear regression, <https://www.itl.nist.gov/div898/strd/>.
+    NistStrd,
     /// JCGM 106:2012, Evaluation of measurement data: The role of measurement uncertainty in conformity assessment.
     Jcgm106,
     /// M. S. Bartlett, "Properties of sufficiency and statistical tests", Proceedings of the Royal Society A 160, 1937,

@@ -56,6 +56,7 @@
 //! | [`uncertainty`] | where the uncertainty comes from: the budget |
 //! | [`certification`] | readings of the angles to a stand, and whether it is still the same one |
 //! | [`simulation`] | the paper's table and its Fig. 4 |
+//! | [`selftest`] | the reference cases of the mathematics, found again on the user's own machine |
 //! | [`trust`] | signatures, keys, allowed signers, revocation: bytes and time in, a verdict out |
 //! | [`document`] | a signed text: split, checked, parsed, joined |
 //! | [`revocation`] | the signed list of withdrawn passports |
@@ -95,6 +96,7 @@ pub mod register;
 pub mod report;
 pub mod revocation;
 pub mod schema;
+pub mod selftest;
 pub mod signing;
 pub mod simulation;
 pub mod site;

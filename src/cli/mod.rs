@@ -16,6 +16,7 @@ mod register;
 mod reissue;
 mod revoke;
 mod schema;
+mod selftest;
 mod show;
 mod simulate;
 mod trust_options;
@@ -45,6 +46,7 @@ enum Verb {
     Register(register::Options),
     Revoke(revoke::Options),
     Simulate(simulate::Options),
+    Selftest(selftest::Options),
     Schema(schema::Options),
     Completions(completions::Options),
 }
@@ -90,6 +92,7 @@ pub fn main() -> ExitCode {
         Verb::Register(options) => register::run(&options),
         Verb::Revoke(options) => revoke::run(&options),
         Verb::Simulate(options) => simulate::run(&options),
+        Verb::Selftest(options) => selftest::run(&options),
         Verb::Schema(options) => schema::run(&options),
         Verb::Completions(options) => completions::run(&options),
     };

@@ -8,6 +8,7 @@
 //! * [`issued`]: what became of an order, and what the factory should know about it.
 //! * [`passport_table`]: a passport in a terminal.
 //! * [`register`]: what is in force in a folder.
+//! * [`selftest`]: the reference cases.
 //! * [`simulation`]: the tables of simulations.
 
 pub mod budget;
@@ -17,5 +18,6 @@ pub mod columns;
 pub mod issued;
 pub mod passport_table;
 pub mod register;
+pub mod selftest;
 pub mod simulation;
 pub mod verdict;

@@ -3,6 +3,7 @@
 //! * [`least_squares`]: a weighted linear model through QR, its rank and condition through the SVD.
 //! * [`distributions`]: chi-square and normal probabilities; [`beta`]: Student's t and Fisher's F.
 //! * [`outlier`]: Bartlett's test for a group that scatters more, Grubbs' for a value that is out.
+//! * [`propagation`]: the law of propagation of uncertainty for any model with its gradient.
 //! * [`random`]: streams of random numbers that do not depend on the number of threads or on the platform.
 //! * [`summary`]: largest, mean, deviation, percentile, and what a share of a sample is worth.
 
@@ -10,5 +11,6 @@ pub mod beta;
 pub mod distributions;
 pub mod least_squares;
 pub mod outlier;
+pub mod propagation;
 pub mod random;
 pub mod summary;

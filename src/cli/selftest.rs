@@ -1,0 +1,25 @@
+//! `selftest`: the reference cases of the mathematics.
+
+use super::output::Format;
+use super::{Code, Failure, REFUSED, output};
+use clap::Args;
+use dtg_passport::report::selftest as report;
+use dtg_passport::selftest;
+
+/// Compare the mathematics with published reference cases, on this machine
+#[derive(Args)]
+pub struct Options {
+    /// Form of the result
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+pub fn run(options: &Options) -> Result<Code, Failure> {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let cases = selftest::run(threads);
+    match options.format {
+        Format::Json => output::json(&report::to_json(&cases))?,
+        Format::Text => output::result(&report::text(&cases))?,
+    }
+    Ok(if cases.iter().all(selftest::Case::passed) { 0 } else { REFUSED })
+}

@@ -1,0 +1,59 @@
+//! The reference cases in a terminal and as JSON.
+
+use crate::report::columns;
+use crate::selftest::Case;
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// `{passed, failed, cases: [{example, quantity, source, expected, tolerance, found, digits, passed}]}`.
+pub fn to_json(cases: &[Case]) -> Value {
+    let each = cases.iter().map(|case| {
+        json!({
+            "example": case.example, "quantity": case.quantity, "source": case.source, "expected": case.expected,
+            "tolerance": case.tolerance, "found": case.found, "digits": case.digits, "passed": case.passed(),
+        })
+    });
+    let passed = cases.iter().filter(|case| case.passed()).count();
+    json!({ "passed": passed, "failed": cases.len() - passed, "cases": each.collect::<Vec<_>>() })
+}
+
+/// A table for each example.
+pub fn text(cases: &[Case]) -> String {
+    let mut out = String::new();
+    for group in cases.chunk_by(|one, other| one.example == other.example) {
+        let Some(first) = group.first() else { continue };
+        let _ = writeln!(out, "{}", first.example);
+        let digits = group.iter().any(|case| case.digits.is_some());
+        let last = if digits { "digits" } else { "tolerance" };
+        let rows: Vec<Vec<String>> = group.iter().map(|case| row(case, digits)).collect();
+        columns::table(&mut out, &["", "expected", "found", last, ""], &rows);
+        let mut sources: Vec<&str> = group.iter().map(|case| case.source).collect();
+        sources.dedup();
+        columns::paragraph(&mut out, "  ", &format!("Source: {}.", sources.join("; ")));
+        out.push('\n');
+    }
+    let failed = cases.iter().filter(|case| !case.passed()).count();
+    let _ = match failed {
+        0 => writeln!(out, "All {} cases as published.", cases.len()),
+        failed => writeln!(out, "FAILED: {failed} of {} cases.", cases.len()),
+    };
+    out
+}
+
+fn row(case: &Case, digits: bool) -> Vec<String> {
+    let number = |value: f64| {
+        if digits {
+            return format!("{value:.14e}");
+        }
+        if case.expected == 0.0 {
+            return format!("{value:.1e}");
+        }
+        // One digit beyond what the tolerance touches.
+        format!("{value:.*}", columns::decimals(case.tolerance))
+    };
+    // As it is printed: its digits say how far it can be trusted.
+    let expected = if digits { number(case.expected) } else { format!("{}", case.expected) };
+    let last = case.digits.map_or_else(|| format!("{:.1e}", case.tolerance), |digits| format!("{digits:.1}"));
+    let verdict = if case.passed() { "ok" } else { "FAILED" };
+    vec![case.quantity.clone(), expected, number(case.found), last, verdict.to_owned()]
+}

@@ -1,0 +1,179 @@
+//! JCGM 100:2008 (GUM), annex H: H.1, H.2, H.3.
+
+use super::Case;
+use crate::statistics::least_squares::Factorised;
+use crate::statistics::propagation::{Linearised, Propagated, effective_degrees_of_freedom, of_means, propagate};
+use nalgebra::{DMatrix, DVector};
+
+/// The three examples.
+pub fn cases() -> Vec<Case> {
+    let mut cases = end_gauge();
+    cases.extend(impedance());
+    cases.extend(thermometer());
+    cases
+}
+
+/// A number printed with `decimals` decimals: half a unit of the last may be rounding.
+fn printed(
+    example: &'static str,
+    source: &'static str,
+    quantity: &str,
+    expected: f64,
+    decimals: i32,
+    found: f64,
+) -> Case {
+    let tolerance = 0.5 * 10_f64.powi(-decimals);
+    Case { example, quantity: quantity.to_owned(), source, expected, tolerance, found, digits: None }
+}
+
+/// H.1: the length of an end gauge at 20 °C, l = l_S + d − l_S (δα θ + α_S δθ), in nanometres.
+fn end_gauge() -> Vec<Case> {
+    const EXAMPLE: &str = "GUM H.1 end gauge";
+    /// l_S, d in nm; α_S, δα in 1/°C; θ, δθ in °C: JCGM 100:2008, H.1.3.
+    const ESTIMATES: [f64; 6] = [50_000_623.0, 215.0, 11.5e-6, 0.0, -0.1, 0.0];
+    // d: the mean of five readings, 13 nm/sqrt 5 from 25 comparisons; random and systematic effects of the comparator.
+    let of_difference: [(f64, f64); 3] = [(5.8, 24.0), (3.9, 5.0), (6.7, 8.0)];
+    let u_d = of_difference.iter().map(|(u, _)| u * u).sum::<f64>().sqrt();
+    let nu_d = effective_degrees_of_freedom(&of_difference);
+    let root_of_three = 3_f64.sqrt();
+    // θ varies as an arc sine about its mean; α_S and δα are rectangular.
+    let inputs: [(f64, f64); 6] = [
+        (25.0, 18.0),
+        (u_d, nu_d),
+        (2e-6 / root_of_three, f64::INFINITY),
+        (1e-6 / root_of_three, 50.0),
+        (0.41, f64::INFINITY),
+        (0.05 / root_of_three, 2.0),
+    ];
+    let model = |x: &DVector<f64>| {
+        let [l, d, alpha, d_alpha, theta, d_theta] = [x[0], x[1], x[2], x[3], x[4], x[5]];
+        let gradient =
+            [1.0 - (d_alpha * theta + alpha * d_theta), 1.0, -l * d_theta, -l * theta, -l * d_alpha, -l * alpha];
+        Linearised {
+            values: DVector::from_element(1, l + d - l * (d_alpha * theta + alpha * d_theta)),
+            gradient: DMatrix::from_row_slice(1, 6, &gradient),
+        }
+    };
+    let variances = DVector::from_iterator(6, inputs.iter().map(|(u, _)| u * u));
+    let estimates = DVector::from_row_slice(&ESTIMATES);
+    let found = propagate(model, &estimates, &DMatrix::from_diagonal(&variances));
+    let gradient = model(&estimates).gradient;
+    let contributions: Vec<(f64, f64)> = inputs.iter().zip(gradient.iter()).map(|((u, nu), c)| (u * c, *nu)).collect();
+    let case =
+        |source, quantity, expected, decimals, found| printed(EXAMPLE, source, quantity, expected, decimals, found);
+    let mut degrees = case(
+        "JCGM 100:2008, H.1.6 (from rounded contributions)",
+        "effective degrees of freedom",
+        16.7,
+        1,
+        effective_degrees_of_freedom(&contributions),
+    );
+    // The guide enters ν(d) as 25.6 and the contributions with two or three digits: another half unit.
+    degrees.tolerance = 0.1;
+    vec![
+        case("JCGM 100:2008, H.1.5", "length, nm", 50_000_838.0, 0, found.values[0]),
+        case("JCGM 100:2008, H.1.4 (printed 32), unrounded", "u(length), nm", 31.66, 2, found.standard_uncertainty(0)),
+        case("JCGM 100:2008, H.1.3.2", "u(difference), nm", 9.7, 1, u_d),
+        degrees,
+    ]
+}
+
+/// H.2: resistance, reactance and impedance from five simultaneous readings of voltage, current and phase.
+fn impedance() -> Vec<Case> {
+    const EXAMPLE: &str = "GUM H.2 impedance";
+    const RESULTS: &str = "JCGM 100:2008, table H.3";
+    const MEANS: &str = "JCGM 100:2008, table H.2";
+    /// V in volts, I in amperes, φ in radians: table H.2.
+    #[rustfmt::skip]
+    const READINGS: [f64; 15] = [
+        5.007, 19.663e-3, 1.0456,
+        4.994, 19.639e-3, 1.0438,
+        5.005, 19.640e-3, 1.0468,
+        4.990, 19.685e-3, 1.0428,
+        4.999, 19.678e-3, 1.0433,
+    ];
+    let means = of_means(&DMatrix::from_row_slice(5, 3, &READINGS));
+    let model = |x: &DVector<f64>| {
+        let (v, i) = (x[0], x[1]);
+        let (sin, cos) = libm::sincos(x[2]);
+        let z = v / i;
+        #[rustfmt::skip]
+        let gradient = [
+            cos / i, -z * cos / i, -z * sin,
+            sin / i, -z * sin / i, z * cos,
+            1.0 / i, -z / i, 0.0,
+        ];
+        Linearised {
+            values: DVector::from_row_slice(&[z * cos, z * sin, z]),
+            gradient: DMatrix::from_row_slice(3, 3, &gradient),
+        }
+    };
+    let found = propagate(model, &means.values, &means.covariance);
+    let case =
+        |source, quantity, expected, decimals, found| printed(EXAMPLE, source, quantity, expected, decimals, found);
+    let (u, r) = (|at| found.standard_uncertainty(at), |one, other| found.correlation(one, other));
+    vec![
+        case(MEANS, "u(V), V", 0.0032, 4, means.standard_uncertainty(0)),
+        case(MEANS, "u(I), mA", 0.0095, 4, 1e3 * means.standard_uncertainty(1)),
+        case(MEANS, "u(phi), rad", 0.00075, 5, means.standard_uncertainty(2)),
+        case(MEANS, "r(V, I)", -0.36, 2, means.correlation(0, 1)),
+        case(MEANS, "r(V, phi)", 0.86, 2, means.correlation(0, 2)),
+        case(MEANS, "r(I, phi)", -0.65, 2, means.correlation(1, 2)),
+        case(RESULTS, "R, ohm", 127.732, 3, found.values[0]),
+        case(RESULTS, "X, ohm", 219.847, 3, found.values[1]),
+        case(RESULTS, "Z, ohm", 254.260, 3, found.values[2]),
+        case(RESULTS, "u(R), ohm", 0.071, 3, u(0)),
+        // Printed as 0.295; from the readings of table H.2 it is 0.2956.
+        Case { tolerance: 0.001, ..case(RESULTS, "u(X), ohm", 0.295, 3, u(1)) },
+        case(RESULTS, "u(Z), ohm", 0.236, 3, u(2)),
+        case(RESULTS, "r(R, X)", -0.588, 3, r(0, 1)),
+        case(RESULTS, "r(R, Z)", -0.485, 3, r(0, 2)),
+        case(RESULTS, "r(X, Z)", 0.993, 3, r(1, 2)),
+    ]
+}
+
+/// H.3: a thermometer's correction as a straight line b = y₁ + y₂ (t − 20 °C), by least squares.
+fn thermometer() -> Vec<Case> {
+    const EXAMPLE: &str = "GUM H.3 thermometer";
+    const LINE: &str = "JCGM 100:2008, H.3.3";
+    const AT_30: &str = "JCGM 100:2008, H.3.4";
+    /// Reading and correction, °C: table H.6.
+    const READINGS: [(f64, f64); 11] = [
+        (21.521, -0.171),
+        (22.012, -0.169),
+        (22.512, -0.166),
+        (23.003, -0.159),
+        (23.507, -0.164),
+        (23.999, -0.165),
+        (24.513, -0.156),
+        (25.002, -0.157),
+        (25.503, -0.159),
+        (26.010, -0.161),
+        (26.511, -0.160),
+    ];
+    let design = DMatrix::from_fn(11, 2, |row, column| if column == 0 { 1.0 } else { READINGS[row].0 - 20.0 });
+    let mut right = DMatrix::from_fn(11, 1, |row, _| READINGS[row].1);
+    let Ok(model) = Factorised::new(design) else { return Vec::new() };
+    model.rotate(&mut right);
+    let (line, _) = model.solve_rotated(&right);
+    let variance = right.rows(2, 9).norm_squared() / 9.0;
+    let covariance = model.r_inverse() * model.r_inverse().transpose() * variance;
+    let line = Propagated { values: line, covariance };
+    let at_30 = |y: &DVector<f64>| Linearised {
+        values: DVector::from_element(1, y[0] + 10.0 * y[1]),
+        gradient: DMatrix::from_row_slice(1, 2, &[1.0, 10.0]),
+    };
+    let correction = propagate(at_30, &line.values, &line.covariance);
+    let case =
+        |source, quantity, expected, decimals, found| printed(EXAMPLE, source, quantity, expected, decimals, found);
+    vec![
+        case(LINE, "intercept, C", -0.1712, 4, line.values[0]),
+        case(LINE, "u(intercept), C", 0.0029, 4, line.standard_uncertainty(0)),
+        case(LINE, "slope", 0.00218, 5, line.values[1]),
+        case(LINE, "u(slope)", 0.00067, 5, line.standard_uncertainty(1)),
+        case(LINE, "r(intercept, slope)", -0.930, 3, line.correlation(0, 1)),
+        case(LINE, "s of the fit, C", 0.0035, 4, variance.sqrt()),
+        case(AT_30, "correction at 30 C, C", -0.1494, 4, correction.values[0]),
+        case(AT_30, "u(correction), C", 0.0041, 4, correction.standard_uncertainty(0)),
+    ]
+}

@@ -1,0 +1,124 @@
+//! The paper's model and its analytic method against reference values of 60-digit arithmetic (tests/vectors/model.json).
+
+use super::Case;
+use crate::attitude::Deviation;
+use crate::calibration::analytic;
+use crate::coefficients::{Coefficients, EIGHT_POSITIONS, EarthRate, Position, StandGeometry};
+use crate::units::radians_from_arcseconds;
+use nalgebra::{Matrix2, Vector2};
+use serde_json::Value;
+
+const REFERENCE: &str = include_str!("../../tests/vectors/model.json");
+
+/// Largest error of a coefficient, of the largest of its matrix or set: what a passport is verified to.
+const COEFFICIENT_LIMIT: f64 = 1e-12;
+
+/// Largest relative error of a parameter of the gyro.
+const PARAMETER_LIMIT: f64 = 1e-9;
+
+/// Two cases for each of the reference's.
+pub fn cases() -> Vec<Case> {
+    let reference: Value = serde_json::from_str(REFERENCE).unwrap_or(Value::Null);
+    let each = reference["cases"].as_array().map_or(&[][..], Vec::as_slice);
+    let mut cases: Vec<Case> = each.iter().enumerate().flat_map(|(number, case)| compared(number + 1, case)).collect();
+    if cases.is_empty() {
+        cases.push(case("reference values, unreadable".to_owned(), COEFFICIENT_LIMIT, f64::NAN));
+    }
+    cases
+}
+
+fn case(quantity: String, tolerance: f64, found: f64) -> Case {
+    Case {
+        example: "the paper's model",
+        quantity,
+        source: "60-digit arithmetic of eq. (3)-(16), tests/vectors/model.json",
+        expected: 0.0,
+        tolerance,
+        found,
+        digits: None,
+    }
+}
+
+fn compared(number: usize, reference: &Value) -> [Case; 2] {
+    let found = coefficients(reference);
+    let worst = found.as_ref().and_then(|found| coefficient_error(found, reference));
+    let parameter = found.as_ref().and_then(|found| parameter_error(found, reference));
+    [
+        case(format!("largest error of a coefficient, stand {number}"), COEFFICIENT_LIMIT, worst.unwrap_or(f64::NAN)),
+        case(format!("largest error of a parameter, stand {number}"), PARAMETER_LIMIT, parameter.unwrap_or(f64::NAN)),
+    ]
+}
+
+/// Every number in `value`, in order. What 60 digits leave of a zero is a zero.
+fn numbers(value: &Value) -> Vec<f64> {
+    const ZERO: f64 = 1e-30;
+    match value {
+        Value::Array(items) => items.iter().flat_map(numbers).collect(),
+        number => number.as_f64().map(|x| if x.abs() < ZERO { 0.0 } else { x }).into_iter().collect(),
+    }
+}
+
+fn coefficients(reference: &Value) -> Option<Coefficients> {
+    let deviations = numbers(&reference["deviations_arcsec"]);
+    let each = EIGHT_POSITIONS.iter().zip(deviations.chunks_exact(3));
+    let positions: Vec<Position> = each
+        .map(|((index, theta_deg, phi_deg), angles)| {
+            let [alpha_rad, beta_rad, gamma_rad] = [0, 1, 2].map(|at| radians_from_arcseconds(angles[at]));
+            let deviation = Deviation { alpha_rad, beta_rad, gamma_rad };
+            Position { index: *index, theta_deg: *theta_deg, phi_deg: *phi_deg, deviation }
+        })
+        .collect();
+    let earth = EarthRate::at_astronomic_latitude(reference["latitude_deg"].as_f64()?);
+    Some(StandGeometry::new(&positions).ok()?.at(earth))
+}
+
+fn rows(matrix: &Matrix2<f64>) -> Vec<f64> {
+    matrix.transpose().iter().copied().collect()
+}
+
+/// The largest error, of the largest element of its matrix or set.
+fn coefficient_error(found: &Coefficients, reference: &Value) -> Option<f64> {
+    let matrices = found.matrices.as_ref()?;
+    let vectors = |of: fn(&crate::coefficients::PositionCoefficients) -> Vector2<f64>| -> Vec<f64> {
+        found.positions.iter().map(of).flat_map(|vector| [vector.x, vector.y]).collect()
+    };
+    let pairs = [
+        ("n", vectors(|at| at.specific_force_g)),
+        ("omega_deg_per_h", vectors(|at| at.earth_rate_deg_per_h)),
+        ("delta", rows(&matrices.delta)),
+        ("b_deg_per_h", rows(&matrices.b_deg_per_h)),
+        ("c_deg_per_h_per_g", rows(&matrices.c_deg_per_h_per_g)),
+        ("n1", rows(&matrices.n1)),
+        ("n2", rows(&matrices.n2)),
+        ("n2_inverse", rows(&matrices.n2_inverse)),
+        ("omega1_deg_per_h", rows(&matrices.omega1_deg_per_h)),
+        ("omega2_deg_per_h", rows(&matrices.omega2_deg_per_h)),
+    ];
+    let errors = pairs.iter().map(|(key, found)| {
+        let expected = numbers(&reference[key]);
+        if expected.len() != found.len() {
+            return f64::INFINITY;
+        }
+        let largest = expected.iter().fold(0.0, |a, b| f64::max(a, b.abs()));
+        let worst = found.iter().zip(&expected).fold(0.0, |a, (x, y)| f64::max(a, (x - y).abs()));
+        if largest == 0.0 { worst } else { worst / largest }
+    });
+    Some(errors.fold(0.0, f64::max))
+}
+
+/// The largest relative error of the gyro's parameters found from the reference's currents by eq. (13)-(16), (8).
+fn parameter_error(found: &Coefficients, reference: &Value) -> Option<f64> {
+    let gyro = &reference["gyro"];
+    let currents = numbers(&gyro["currents_ma"]);
+    let currents: Vec<Vector2<f64>> = currents.chunks_exact(2).map(|pair| Vector2::new(pair[0], pair[1])).collect();
+    let solved = analytic::solve(found, &currents).ok()?.parameters;
+    let mut parameters = rows(&solved.k_deg_per_h_per_ma);
+    parameters.extend(solved.omega0_deg_per_h.iter());
+    parameters.extend([solved.omega_g_deg_per_h_per_g, solved.omega_k_deg_per_h_per_g]);
+    let keys = ["k_deg_per_h_per_ma", "omega0_deg_per_h", "omega_g_deg_per_h_per_g", "omega_k_deg_per_h_per_g"];
+    let expected: Vec<f64> = keys.iter().flat_map(|key| numbers(&gyro[key])).collect();
+    if expected.len() != parameters.len() {
+        return None;
+    }
+    Some(parameters.iter().zip(&expected).fold(0.0, |worst, (x, y)| f64::max(worst, (x / y - 1.0).abs())))
+}
