@@ -167,11 +167,16 @@ fn incomplete(positions: &[NominalPosition], rows: &[(Place, Vector3<f64>, &Row)
 
 /// Readings that are no scatter: too far from the other runs, or of another unit.
 fn slips(table: &Table, rows: &[(Place, Vector3<f64>, &Row)]) -> Vec<Problem> {
+    let mut of_position: BTreeMap<PositionIndex, Vec<(u32, Vector3<f64>)>> = BTreeMap::new();
+    for ((index, run), angles, _) in rows {
+        of_position.entry(*index).or_default().push((*run, *angles));
+    }
     let mut problems = Vec::new();
     for ((index, run), angles, row) in rows {
+        let own = of_position.get(index).map_or(&[][..], Vec::as_slice);
         for axis in 0..3 {
-            let others = rows.iter().filter(|((at, other), ..)| at == index && other != run);
-            let mut others: Vec<f64> = others.map(|(_, angles, _)| angles[axis]).collect();
+            let others = own.iter().filter(|(other, _)| other != run);
+            let mut others: Vec<f64> = others.map(|(_, angles)| angles[axis]).collect();
             others.sort_by(f64::total_cmp);
             let Some(&usual) = others.get(others.len() / 2) else { continue };
             let spread = others.last().unwrap_or(&usual) - others.first().unwrap_or(&usual);

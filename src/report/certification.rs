@@ -103,7 +103,7 @@ pub fn certification(found: &Certification) -> String {
         stand.positions.len()
     );
     if found.repeated_rows > 0 {
-        let _ = writeln!(out, "{} rows read a return again; such rows were averaged.", found.repeated_rows);
+        let _ = writeln!(out, "Rows that read a return again, and were averaged with it: {}.", found.repeated_rows);
     }
     let names = ["i", "j", "alpha, arcsec", "u", "beta, arcsec", "u", "gamma, arcsec", "u", "deg. of freedom"];
     let rows: Vec<Vec<String>> = stand
