@@ -123,8 +123,9 @@ fn inputs_as_stated() {
     let arcsec = radians_from_arcseconds;
     assert_eq!(stated.uncertainty.angles_rad, [[1.2, 1.3, 2.0].map(arcsec)]);
     assert_eq!(stated.uncertainty.repeatability_rad, arcsec(1.5));
-    // Deflection unknown: 10″ beside the 1″ that the site states.
-    assert!((stated.uncertainty.latitude_rad / arcsec(101.0_f64.sqrt()) - 1.0).abs() < 1e-12);
+    // Deflection unknown: 10″ beside the 1″ that the site states, each an input of its own.
+    assert_eq!(stated.uncertainty.latitude_rad, arcsec(1.0));
+    assert_eq!(stated.uncertainty.deflection_rad, arcsec(10.0));
     assert_eq!(stated.uncertainty.azimuth_rad, arcsec(30.0));
     assert_eq!(stated.missing, ["the stand's base (common_base_arcsec)", "the gyro's seat (seating_arcsec)"]);
     laboratory.base = Some(dtg_passport::laboratory::Base { azimuth_arcsec: Some(10.0), level_arcsec: None });
