@@ -106,13 +106,14 @@ impl GyroType {
     /// # Errors
     /// Every mistake with its line, column and field: see [`Unreadable`].
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        node::read_document(name, bytes, GYRO_FORMAT, Self::check)
+        node::read_document(name, bytes, GYRO_FORMAT, |gyro: &Self, problems| gyro.check(&Path::Root, problems))
     }
 
-    fn check(&self, problems: &mut Problems) {
-        let at = Path::Root.key("nominal");
+    /// The rules of a type's content.
+    pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
         if self.nominal.to_model().k_deg_per_h_per_ma.try_inverse().is_none() {
-            let at = at.key("k_deg_per_h_per_ma");
+            let nominal = at.key("nominal");
+            let at = nominal.key("k_deg_per_h_per_ma");
             problems.at(&at, "a matrix without an inverse", "scale factors of two axes", "");
         }
         let tolerance = &self.tolerance;
@@ -123,9 +124,9 @@ impl GyroType {
             ("omega_g_deg_per_h_per_g", tolerance.omega_g_deg_per_h_per_g),
             ("omega_k_deg_per_h_per_g", tolerance.omega_k_deg_per_h_per_g),
         ] {
-            problems.within(&Path::Root.key("tolerance").key(key), Some(value), 0.0, f64::MAX);
+            problems.within(&at.key("tolerance").key(key), Some(value), 0.0, f64::MAX);
         }
-        problems.within(&Path::Root.key("gravity_m_per_s2"), self.gravity_m_per_s2, 9.7, 9.9);
+        problems.within(&at.key("gravity_m_per_s2"), self.gravity_m_per_s2, 9.7, 9.9);
     }
 
     /// The g that its drifts are stated for.

@@ -26,6 +26,7 @@ fn of_a_passport_that_may_only_be_named_nothing_but_its_id_and_hash_is_taken_ove
     let site = Site::from_yaml("here.yaml", include_bytes!("cmd/files/sites/here.yaml")).unwrap();
     let theirs = Parameters { omega_g_deg_per_h_per_g: 12.5, ..GyroType::gvk_6().nominal };
     let issue = Issue {
+        accuracy: None,
         issuer: "factory".to_owned(),
         issued_at: time("2026-11-03T00:00:00Z"),
         valid_until: Some("2027-11-02".parse().unwrap()),

@@ -17,7 +17,7 @@ use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
 use dtg_passport::uncertainty::document::{BudgetDocument, WholeDocument};
 use dtg_passport::uncertainty::picture::budget_svg;
 use dtg_passport::uncertainty::{Budget, remedy};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Find the gyro's parameters, their uncertainty, the fit, and the verdict against its type
 #[derive(Args)]
@@ -64,7 +64,7 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
     let Read { content, verified } = options.passport.read()?;
-    let laboratory = laboratory(options)?;
+    let laboratory = read_laboratory(options.laboratory.as_deref())?;
     let gyro_type = read_gyro(options.gyro.as_deref())?;
     let earlier = earlier(options)?;
     let stated = Setup::stated(&content.certificate, &content.positions, &content.site, &laboratory);
@@ -140,8 +140,9 @@ fn budget_of(
     Ok(budget)
 }
 
-fn laboratory(options: &Options) -> Result<Laboratory, Failure> {
-    let Some(path) = &options.laboratory else { return Ok(Laboratory::paper()) };
+/// Reads a laboratory file; the paper's meter without one.
+pub fn read_laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
+    let Some(path) = path else { return Ok(Laboratory::paper()) };
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
     Laboratory::from_yaml(&path.display().to_string(), &bytes).map_err(Failure::unusable)
 }

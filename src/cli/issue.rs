@@ -1,12 +1,15 @@
 //! `issue`: one passport for every stand at every site.
 
+use super::calibrate::read_laboratory;
 use super::key_options::KeyOptions;
 use super::output::{Format, code_of};
+use super::simulate::read_gyro;
 use super::{Code, Failure, UNUSABLE, output, trust_options};
 use clap::Args;
 use dtg_passport::files;
 use dtg_passport::folder::{Folder, Issued, Seal};
 use dtg_passport::gyro::GyroType;
+use dtg_passport::passport::accuracy::Stated;
 use dtg_passport::passport::issue::Issue;
 use dtg_passport::report::issued;
 use dtg_passport::site::Site;
@@ -36,6 +39,15 @@ pub struct Options {
     /// Last day of the passport [default: the certificate's]
     #[arg(long, value_name = "DATE", value_parser = trust_options::date)]
     valid_until: Option<Date>,
+    /// State in the passport what the stand is good for
+    #[arg(long)]
+    accuracy: bool,
+    /// For this type of gyro (dtg-gyro/1) [default: the paper's GVK-6]
+    #[arg(long, value_name = "FILE", requires = "accuracy")]
+    gyro: Option<PathBuf>,
+    /// In this laboratory (dtg-laboratory/1) [default: the paper's meter, 0.015 %]
+    #[arg(long, value_name = "FILE", requires = "accuracy")]
+    laboratory: Option<PathBuf>,
     /// Write only what would verify by this allowed_signers
     #[arg(long, value_name = "SIGNERS")]
     trust: Option<PathBuf>,
@@ -54,6 +66,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let issued_at = options.issued_at.unwrap_or(now);
     let order = Issue {
         valid_until: options.valid_until,
+        accuracy: options.accuracy.then(|| stated(options)).transpose()?,
         ..Issue::first(&options.key.identity, issued_at, GyroType::gvk_6().nominal)
     };
     let folder = Folder::new(&options.out);
@@ -73,6 +86,13 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     }
     print(&reports, options.format)?;
     Ok(code)
+}
+
+/// For whom the passports state what the stand is good for.
+fn stated(options: &Options) -> Result<Stated, Failure> {
+    let gyro = read_gyro(options.gyro.as_deref())?.unwrap_or_else(GyroType::gvk_6);
+    let laboratory = read_laboratory(options.laboratory.as_deref())?;
+    Ok(Stated { gyro: gyro.into(), laboratory: laboratory.into() })
 }
 
 /// Reads all inputs first, so that every mistake is reported before anything is signed.

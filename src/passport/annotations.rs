@@ -116,6 +116,10 @@ fn comments(content: &Content, path: &str) -> Vec<String> {
         "self_check" => {
             &["From these currents correct laboratory software finds the parameters below, to 1e-9 of each."]
         }
+        "accuracy" => &[
+            "What this stand at this site is good for: a gyro of this type, calibrated once in all positions with this",
+            "meter by weighted least squares. Standard uncertainties (k = 1), first order, drifts per local g.",
+        ],
         _ => &[],
     };
     let mut lines: Vec<String> = fixed.iter().map(|line| (*line).to_owned()).collect();

@@ -1,5 +1,6 @@
 //! What a passport says (`dtg-passport/1`), and how its numbers follow from the stand and the site.
 
+use super::accuracy::Accuracy;
 use crate::calibration::analytic;
 use crate::coefficients::{Coefficients, Matrices, PositionCoefficients, PositionIndex, SingularPositions};
 use crate::document::is_sha256_hex;
@@ -147,6 +148,8 @@ record! {
         pub vectors: Vec<PositionVectors>,
         /// A test of laboratory software; absent without the paper's eight positions.
         pub self_check: Option<SelfCheck>,
+        /// What the stand is good for; only when asked for.
+        pub accuracy: Option<Accuracy>,
     }
 }
 
@@ -319,6 +322,9 @@ impl Content {
         }
         stand::check(&self.certificate, &self.positions, problems);
         self.site.check(&at.key("site"), problems);
+        if let Some(accuracy) = &self.accuracy {
+            accuracy.check(&at.key("accuracy"), problems);
+        }
         let header = at.key("passport");
         if self.passport.id != self.id_of_parts() {
             let expected = format!("{:?}, as stand, site and revision say", self.id_of_parts());

@@ -1,5 +1,6 @@
 //! From a certified stand and a site to a signed passport.
 
+use super::accuracy::{NoAccuracy, Stated};
 use super::annotations::{absences, payload};
 use super::content::{self, Content, Header, PASSPORT_FORMAT, Predecessor, passport_id};
 use super::{NAMESPACE, read};
@@ -40,13 +41,15 @@ pub struct Issue {
     pub predecessor: Option<(Predecessor, bool)>,
     /// The gyro of the self-check.
     pub self_check_gyro: Parameters,
+    /// For whom the passport states what the stand is good for; nothing when `None`.
+    pub accuracy: Option<Stated>,
 }
 
 impl Issue {
     /// Revision 1, to the certificate's last day.
     pub fn first(issuer: &str, issued_at: Timestamp, self_check_gyro: Parameters) -> Self {
         let issuer = issuer.to_owned();
-        Self { issuer, issued_at, valid_until: None, revision: 1, predecessor: None, self_check_gyro }
+        Self { issuer, issued_at, valid_until: None, revision: 1, predecessor: None, self_check_gyro, accuracy: None }
     }
 }
 
@@ -78,6 +81,9 @@ pub enum IssueRefused {
         /// Whose last day that is: "certificate" or "passport".
         document: &'static str,
     },
+    /// What the stand is good for cannot be stated.
+    #[error("no accuracy can be stated: {0}")]
+    Accuracy(#[from] NoAccuracy),
     /// The issuer's name cannot stand in a passport.
     #[error("the identity {0:?} holds a character that no signed text may hold, or is empty")]
     BadIdentity(String),
@@ -149,6 +155,11 @@ pub fn draft(stand: &Stand, site: &Site, issue: &Issue) -> Result<Draft, IssueRe
         matrices: derived.matrices,
         vectors: derived.vectors,
         self_check: derived.self_check,
+        accuracy: issue
+            .accuracy
+            .as_ref()
+            .map(|stated| stated.accuracy(&stand.certificate, &stand.positions, site))
+            .transpose()?,
     };
     check_dates(&content)?;
     let payload = payload(&content);

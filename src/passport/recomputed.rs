@@ -1,5 +1,6 @@
 //! Every number of a passport that follows from its inputs, computed again and compared.
 
+use super::accuracy::Stated;
 use super::content::{Content, PositionCurrents, PositionVectors, SelfCheck, derive};
 use super::issue::SELF_CHECK_LIMIT;
 use crate::earth::{AZIMUTH_QUANTUM_DEG, LENGTH_QUANTUM_M};
@@ -27,7 +28,7 @@ impl std::fmt::Display for WrongNumber {
     }
 }
 
-/// Compares earth, matrices, vectors and self-check with what the signed inputs give; the worst number first.
+/// Compares earth, matrices, vectors, self-check and accuracy with what the signed inputs give; the worst number first.
 ///
 /// The self-check is computed for the gyro that it states itself.
 ///
@@ -65,7 +66,27 @@ pub fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
             wrong.push(WrongNumber { field, stated: 0.0, computed: error });
         }
     }
+    compare_accuracy(content, &mut wrong);
     if wrong.is_empty() { Ok(()) } else { Err(wrong) }
+}
+
+/// Compares what the stand is said to be good for, each number by itself.
+fn compare_accuracy(content: &Content, wrong: &mut Vec<WrongNumber>) {
+    let Some(accuracy) = &content.accuracy else { return };
+    let computed = Stated::of(accuracy).accuracy(&content.certificate, &content.positions, &content.site);
+    let numbers = |node: Option<Node>| {
+        let mut numbers = Vec::new();
+        if let Some(node) = node {
+            collect(&node, "accuracy.standard_uncertainty", &mut numbers);
+        }
+        numbers
+    };
+    let stated = numbers(accuracy.standard_uncertainty.write());
+    let computed = numbers(computed.ok().and_then(|found| found.standard_uncertainty.write()));
+    for (index, number) in stated.iter().enumerate() {
+        let computed = computed.get(index).map_or(&[][..], std::slice::from_ref);
+        compare_numbers(std::slice::from_ref(number), computed, 0.0, wrong);
+    }
 }
 
 /// Compares the values of two mappings key by key, each value against its own largest element.

@@ -1,5 +1,6 @@
 //! A new passport from an old one: another site, a corrected stand, a corrected site, another key.
 
+use super::accuracy::Stated;
 use super::content::{Content, Predecessor};
 use super::issue::{self, Draft, Issue, IssueRefused};
 use super::verification::{CheckName, Code, Verification};
@@ -147,6 +148,10 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         self_check_gyro: match &usable {
             Usable::Whole => self_check_gyro(old),
             Usable::NameOnly { .. } => GyroType::gvk_6().nominal,
+        },
+        accuracy: match &usable {
+            Usable::Whole => old.accuracy.as_ref().map(Stated::of),
+            Usable::NameOnly { .. } => None,
         },
     };
     Ok(Successor { stand, site, same_site, old_revision: old.passport.revision, issue })

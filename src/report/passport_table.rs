@@ -30,6 +30,7 @@ pub fn text(content: &Content, verified: bool) -> String {
     matrices(&mut out, content);
     vectors(&mut out, content);
     self_check(&mut out, content);
+    accuracy(&mut out, content);
     out
 }
 
@@ -157,6 +158,43 @@ fn vectors(out: &mut String, content: &Content) {
         row
     });
     columns::table(out, &["i", "j", "n_x", "n_y", "n_z", "omega_x", "omega_y"], &rows.collect::<Vec<_>>());
+}
+
+fn accuracy(out: &mut String, content: &Content) {
+    let Some(accuracy) = &content.accuracy else { return };
+    let (gyro, laboratory) = (&accuracy.gyro, &accuracy.laboratory);
+    heading(out, "What the stand is good for: standard uncertainties (k = 1) of one calibration by least squares");
+    line(out, "gyro type", &gyro.r#type);
+    option(out, "laboratory", laboratory.name.as_ref());
+    let meter = &laboratory.meter;
+    let words = format!(
+        "{} % of reading, {} % gain, {} mA offset, {} mA floor",
+        meter.reading_percent, meter.gain_percent, meter.offset_ma, meter.floor_ma
+    );
+    line(out, "meter", words);
+    let seat = laboratory.seating_arcsec.as_ref();
+    option(out, "seat, arcsec", seat.map(|seat| format!("{}, {}, {}", seat.about_x, seat.about_y, seat.about_z)));
+    let u = &accuracy.standard_uncertainty;
+    let (k, nominal) = (&u.k_deg_per_h_per_ma, &gyro.nominal.k_deg_per_h_per_ma);
+    let rows = [("K_x", 0, 0), ("K_xy", 0, 1), ("K_yx", 1, 0), ("K_y", 1, 1)].map(|(name, row, column)| {
+        let percent = 100.0 * k[row][column] / nominal[row][column].abs();
+        let percent = if percent.is_finite() { format!("{percent:.4}") } else { String::new() };
+        let limit = if row == column { gyro.tolerance.k_main_percent } else { gyro.tolerance.k_cross_percent };
+        vec![name.to_owned(), format!("{:.6} deg/h/mA", k[row][column]), percent, format!("{limit} %")]
+    });
+    let tolerance = &gyro.tolerance;
+    let [x, y] = u.omega0_deg_per_h;
+    let drifts = [
+        ("omega_0x", x, "deg/h", tolerance.omega0_deg_per_h),
+        ("omega_0y", y, "deg/h", tolerance.omega0_deg_per_h),
+        ("omega_g", u.omega_g_deg_per_h_per_g, "deg/h/g", tolerance.omega_g_deg_per_h_per_g),
+        ("omega_k", u.omega_k_deg_per_h_per_g, "deg/h/g", tolerance.omega_k_deg_per_h_per_g),
+    ];
+    let drifts = drifts.map(|(name, u, unit, limit)| {
+        vec![name.to_owned(), format!("{u:.6} {unit}"), String::new(), format!("{limit} {unit}")]
+    });
+    let rows: Vec<Vec<String>> = rows.into_iter().chain(drifts).collect();
+    columns::table(out, &["", "u", "u, %", "tolerance"], &rows);
 }
 
 fn self_check(out: &mut String, content: &Content) {

@@ -56,6 +56,7 @@ pub fn site(text: &str) -> Site {
 /// What a right passport of `stand` at `site` says.
 pub fn content(stand: &Stand, site: &Site) -> Content {
     let order = Issue {
+        accuracy: None,
         issuer: ISSUER.to_owned(),
         issued_at: at(ISSUED_AT),
         valid_until: None,

@@ -5,5 +5,6 @@ mod support;
 #[path = "../tools/mod.rs"]
 mod tools;
 
+mod accuracy;
 mod budget;
 mod cases;

@@ -1,0 +1,165 @@
+//! What a stand at a site is good for: the uncertainty of a stated type of gyro calibrated there with a stated meter.
+//!
+//! First order ([JCGM 100](crate::bibliography::Bibliography::Gum), 5.1.2 and 5.2.2), one reading for each position,
+//! weighted least squares: what `calibrate` will state for such a gyro, known before delivery.
+
+use crate::calibration::least_squares::NoLeastSquares;
+use crate::calibration::parameter::Parameter;
+use crate::calibration::readings::NoReadings;
+use crate::calibration::{Method, Options, Readings, Setup, calibrate};
+use crate::coefficients::SingularPositions;
+use crate::gyro::{GYRO_FORMAT, GyroParameters, GyroType, Parameters, Tolerance};
+use crate::laboratory::{Base, LABORATORY_FORMAT, Laboratory, Meter, Seating};
+use crate::site::Site;
+use crate::stand::{Certificate, CertifiedPosition};
+use crate::text::{Path, Problems, record};
+
+record! {
+    /// A type of gyro as it came in, its `format` apart.
+    pub struct StatedGyro {
+        /// The type's name.
+        pub r#type: String,
+        /// Nominal parameters.
+        pub nominal: Parameters,
+        /// Tolerance about them.
+        pub tolerance: Tolerance,
+        /// The g that the type's drifts are stated for; 9.80665 when absent.
+        pub gravity_m_per_s2: Option<f64>,
+    }
+}
+
+record! {
+    /// A laboratory as it came in, its `format` apart.
+    pub struct StatedLaboratory {
+        /// Its name.
+        pub name: Option<String>,
+        /// Its meter.
+        pub meter: Meter,
+        /// How well the gyro sits.
+        pub seating_arcsec: Option<Seating>,
+        /// How well the base stands.
+        pub base: Option<Base>,
+        /// Temperature during the calibration.
+        pub temperature_c: Option<f64>,
+    }
+}
+
+record! {
+    /// What a calibration of that gyro in that laboratory will be worth.
+    pub struct Accuracy {
+        /// The type of gyro.
+        pub gyro: StatedGyro,
+        /// The laboratory.
+        pub laboratory: StatedLaboratory,
+        /// Standard uncertainties of the parameters, drifts per local g.
+        pub standard_uncertainty: Parameters,
+    }
+}
+
+impl From<GyroType> for StatedGyro {
+    fn from(gyro: GyroType) -> Self {
+        let GyroType { r#type, nominal, tolerance, gravity_m_per_s2, .. } = gyro;
+        Self { r#type, nominal, tolerance, gravity_m_per_s2 }
+    }
+}
+
+impl StatedGyro {
+    fn to_type(&self) -> GyroType {
+        let Self { r#type, nominal, tolerance, gravity_m_per_s2 } = self.clone();
+        GyroType { format: GYRO_FORMAT.to_owned(), r#type, nominal, tolerance, gravity_m_per_s2 }
+    }
+}
+
+impl From<Laboratory> for StatedLaboratory {
+    fn from(laboratory: Laboratory) -> Self {
+        let Laboratory { name, meter, seating_arcsec, base, temperature_c, .. } = laboratory;
+        Self { name, meter, seating_arcsec, base, temperature_c }
+    }
+}
+
+impl StatedLaboratory {
+    fn to_laboratory(&self) -> Laboratory {
+        let Self { name, meter, seating_arcsec, base, temperature_c } = self.clone();
+        Laboratory { format: LABORATORY_FORMAT.to_owned(), name, meter, seating_arcsec, base, temperature_c }
+    }
+}
+
+/// For whom an accuracy is stated.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stated {
+    /// The type of gyro.
+    pub gyro: StatedGyro,
+    /// The laboratory.
+    pub laboratory: StatedLaboratory,
+}
+
+/// Why no accuracy can be stated.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NoAccuracy {
+    /// n_2 has no inverse.
+    #[error(transparent)]
+    Singular(#[from] SingularPositions),
+    /// The positions do not determine the gyro.
+    #[error(transparent)]
+    LeastSquares(#[from] NoLeastSquares),
+    /// The gyro's currents are not finite.
+    #[error(transparent)]
+    Currents(#[from] NoReadings),
+    /// K has no inverse.
+    #[error("the nominal K of this type has no inverse")]
+    SingularGyro,
+}
+
+impl Stated {
+    /// The same as a passport states it.
+    pub(crate) fn of(accuracy: &Accuracy) -> Self {
+        Self { gyro: accuracy.gyro.clone(), laboratory: accuracy.laboratory.clone() }
+    }
+
+    /// Computes the standard uncertainties on a certified stand at a site.
+    ///
+    /// # Errors
+    /// See [`NoAccuracy`].
+    pub fn accuracy(
+        &self,
+        certificate: &Certificate,
+        positions: &[CertifiedPosition],
+        site: &Site,
+    ) -> Result<Accuracy, NoAccuracy> {
+        let laboratory = self.laboratory.to_laboratory();
+        let (setup, _) = Setup::stated(certificate, positions, site, &laboratory)?;
+        let gyro = at_gravity(&self.gyro.to_type(), site.earth().gravity_m_per_s2);
+        let each = setup.coefficients().positions.iter().map(|at| Some((at.index, gyro.currents_ma(at)?)));
+        let currents: Vec<_> = each.collect::<Option<_>>().ok_or(NoAccuracy::SingularGyro)?;
+        let readings = Readings::new(setup.coefficients(), &currents)?;
+        let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
+        let calibration = calibrate(&setup, &readings, &options)?;
+        let u = |parameter| calibration.answer().and_then(|found| found.standard_uncertainty(parameter)).unwrap_or(0.0);
+        let standard_uncertainty = Parameters {
+            k_deg_per_h_per_ma: [[u(Parameter::Kx), u(Parameter::Kxy)], [u(Parameter::Kyx), u(Parameter::Ky)]],
+            omega0_deg_per_h: [u(Parameter::Omega0x), u(Parameter::Omega0y)],
+            omega_g_deg_per_h_per_g: u(Parameter::OmegaG),
+            omega_k_deg_per_h_per_g: u(Parameter::OmegaK),
+        };
+        Ok(Accuracy { gyro: self.gyro.clone(), laboratory: self.laboratory.clone(), standard_uncertainty })
+    }
+}
+
+/// The nominal gyro with its drifts per local g.
+fn at_gravity(gyro: &GyroType, gravity_m_per_s2: f64) -> GyroParameters {
+    let ratio = gravity_m_per_s2 / gyro.gravity();
+    let nominal = gyro.nominal.to_model();
+    GyroParameters {
+        omega_g_deg_per_h_per_g: nominal.omega_g_deg_per_h_per_g * ratio,
+        omega_k_deg_per_h_per_g: nominal.omega_k_deg_per_h_per_g * ratio,
+        ..nominal
+    }
+}
+
+impl Accuracy {
+    /// The rules of its inputs, which are those of the files that they came from.
+    pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
+        self.gyro.to_type().check(&at.key("gyro"), problems);
+        self.laboratory.to_laboratory().check(&at.key("laboratory"), problems);
+    }
+}
