@@ -84,7 +84,7 @@ fn its_numbers_are_of_the_size_that_inputs_cost() {
     let passport = content(Some(paper()));
     let accuracy = passport.accuracy.as_ref().unwrap();
     let k_xy = 100.0 * accuracy.standard_uncertainty.k_deg_per_h_per_ma[0][1] / 9.5;
-    let expected = 0.145_f64.hypot(0.1339 * 0.79);
+    let expected = libm::hypot(0.145, 0.1339 * 0.79);
     assert!((k_xy / expected - 1.0).abs() < 0.05, "{k_xy} {expected}");
     let shown = passport_table::text(&passport, true);
     assert!(shown.contains("What the stand is good for") && shown.contains("GVK-6"), "{shown}");
