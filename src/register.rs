@@ -3,8 +3,9 @@
 //! It is a function of verified passports, trust and a time; [`crate::folder`] finds the files.
 
 use crate::document::sha256_hex;
+use crate::passport::checks::{Check, CheckName, Code};
 use crate::passport::content::Content;
-use crate::passport::verification::{Check, CheckName, Code, Question, Trust, Verification, verify};
+use crate::passport::verification::{Question, Trust, Verification, verify};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;

@@ -2,7 +2,7 @@
 
 use dtg_passport::earth::{Place, place_at};
 use dtg_passport::gyro::GyroType;
-use dtg_passport::passport::verification::{CheckName, Code};
+use dtg_passport::passport::checks::{CheckName, Code};
 use dtg_passport::passport::{Question, Trust, Verification, issue, verify};
 use dtg_passport::signing::allowed_signers_line;
 use dtg_passport::site::Site;

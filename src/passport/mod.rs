@@ -6,11 +6,13 @@
 //! * [`read`]: signed text to content, canonical form required.
 //! * [`issue`]: a stand and a site to a signed passport.
 //! * [`recomputed`]: every number again from the signed inputs.
+//! * [`checks`]: names and verdicts of the checks.
 //! * [`verification`]: the six steps, and "may I use this passport, on this stand, here, now?".
 //! * [`reissue`]: a new passport from an old one.
 
 pub mod accuracy;
 pub mod annotations;
+pub mod checks;
 pub mod content;
 pub mod issue;
 pub mod read;
@@ -18,6 +20,7 @@ pub mod recomputed;
 pub mod reissue;
 pub mod verification;
 
+pub use checks::{Check, CheckName, Code};
 pub use content::Content;
 pub use verification::{Question, Trust, Verification, verify};
 

@@ -1,9 +1,10 @@
 //! A new passport from an old one: another site, a corrected stand, a corrected site, another key.
 
 use super::accuracy::Stated;
+use super::checks::{CheckName, Code};
 use super::content::{Content, Predecessor};
 use super::issue::{self, Draft, Issue, IssueRefused};
-use super::verification::{CheckName, Code, Verification};
+use super::verification::Verification;
 use crate::document::sha256_hex;
 use crate::gyro::{GyroType, Parameters};
 use crate::site::Site;
