@@ -72,6 +72,7 @@ fn stand(out: &mut String, content: &Content) {
     option(out, "temperature, deg C", certificate.temperature_c);
     option(out, "from, to, deg C", certificate.temperature_range_c.map(|[low, high]| format!("{low}, {high}")));
     option(out, "repeatability, arcsec", certificate.repeatability_arcsec);
+    option(out, "its degrees of freedom", certificate.repeatability_degrees_of_freedom);
     option(out, "common platform, arcsec", certificate.common_platform_arcsec);
     option(out, "common base, arcsec", certificate.common_base_arcsec);
     if let Some(datum) = &content.datum {
@@ -84,11 +85,15 @@ fn stand(out: &mut String, content: &Content) {
 
 fn positions(out: &mut String, content: &Content) {
     heading(out, "Positions: nominal angles in degrees; deviations and their standard uncertainties in arcseconds");
-    let names = ["i", "j", "theta", "phi", "alpha", "u", "beta", "u", "gamma", "u"];
+    let mut names = vec!["i", "j", "theta", "phi", "alpha", "u", "beta", "u", "gamma", "u"];
+    let with_freedom = content.positions.iter().any(|at| at.degrees_of_freedom.is_some());
+    if with_freedom {
+        names.push("deg. of freedom");
+    }
     let number = |value: f64| rule::number(value);
     let maybe = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), number);
     let rows = content.positions.iter().map(|at| {
-        vec![
+        let mut row = vec![
             at.i.to_string(),
             at.j.to_string(),
             number(at.theta_deg),
@@ -99,9 +104,18 @@ fn positions(out: &mut String, content: &Content) {
             maybe(at.u_beta_arcsec),
             number(at.gamma_arcsec),
             maybe(at.u_gamma_arcsec),
-        ]
+        ];
+        if with_freedom {
+            row.push(maybe(at.degrees_of_freedom));
+        }
+        row
     });
     columns::table(out, &names, &rows.collect::<Vec<_>>());
+}
+
+/// A standard uncertainty behind its value, where there is one.
+fn with_u(u: Option<f64>) -> String {
+    u.map_or_else(String::new, |u| format!(", u {u}"))
 }
 
 fn site(out: &mut String, content: &Content) {
@@ -109,9 +123,28 @@ fn site(out: &mut String, content: &Content) {
     heading(out, "Site");
     line(out, "id", &site.id);
     option(out, "name", site.name.as_ref());
-    option(out, "latitude, deg", site.latitude_deg.or(site.astronomic_latitude_deg));
+    option(out, "latitude, deg", site.latitude_deg);
+    option(out, "astronomic lat., deg", site.astronomic_latitude_deg);
     option(out, "longitude, deg", site.longitude_deg);
     option(out, "height, m", site.height_m);
+    if let Some(deflection) = &site.deflection_arcsec {
+        let (xi, eta) = (deflection.xi, deflection.eta);
+        line(out, "deflection, arcsec", format!("xi {xi}, eta {eta}{}", with_u(deflection.u)));
+    }
+    let gravity = site.gravity_m_per_s2.map(|gravity| format!("{gravity}{}", with_u(site.gravity_u_m_per_s2)));
+    option(out, "measured gravity, m/s2", gravity);
+    if let Some(mark) = &site.azimuth_mark {
+        let name = mark.name.as_deref().unwrap_or("no name");
+        line(out, "azimuth mark", format!("{name}: {}, {}", mark.latitude_deg, mark.longitude_deg));
+        let pillar = format!("{}, {}", mark.pillar_latitude_deg, mark.pillar_longitude_deg);
+        line(out, "its pillar", pillar);
+        option(out, "u of both, m", mark.position_u_m);
+    }
+    if let Some(base) = &site.uncertainty {
+        option(out, "u of latitude, arcsec", base.latitude_arcsec);
+        option(out, "u of azimuth, arcsec", base.azimuth_arcsec);
+        option(out, "u of level, arcsec", base.level_arcsec);
+    }
     option(out, "source", site.source.as_ref());
     heading(out, "Earth at the site");
     line(out, "astronomic latitude, deg", earth.latitude_deg);
