@@ -10,7 +10,7 @@ use dtg_passport::calibration::iterative::StopRule;
 use dtg_passport::calibration::stated::temperature_remark;
 use dtg_passport::calibration::verdict::{Decision, against_earlier, against_type};
 use dtg_passport::calibration::{self, Calibration, Method, Options as CalibrationOptions, Readings, Setup};
-use dtg_passport::files::{self, FileError};
+use dtg_passport::files;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::report::{budget as budget_report, calibration as report};
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
@@ -40,10 +40,10 @@ pub struct Options {
     #[arg(long, value_name = "RESULT.json")]
     previous: Option<PathBuf>,
     /// Iteration stops when the main scale factors move by at most this, percent
-    #[arg(long, value_name = "P", default_value_t = 0.1)]
+    #[arg(long, value_name = "P", default_value_t = 0.1, value_parser = limit, allow_hyphen_values = true)]
     delta1_percent: f64,
     /// And the g-sensitive drifts by at most this
-    #[arg(long, value_name = "D", default_value_t = 0.001)]
+    #[arg(long, value_name = "D", default_value_t = 0.001, value_parser = limit, allow_hyphen_values = true)]
     delta2_deg_per_h: f64,
     /// Also fit the anisoelastic coefficient by least squares; the eight positions cannot show it
     #[arg(long)]
@@ -60,6 +60,12 @@ pub struct Options {
     /// Form of the result
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
+}
+
+/// What a step may move by when the iteration stops.
+fn limit(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value| (0.0..f64::INFINITY).contains(value));
+    value.ok_or_else(|| "a number of 0 or more, with a decimal point".to_owned())
 }
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
@@ -132,10 +138,7 @@ fn budget_of(
     let budget = Budget::new(setup, readings, answer, options.anisoelasticity).map_err(Failure::refused)?;
     if let Some(path) = &options.budget_svg {
         let svg = budget_svg(&budget).map_err(Failure::unusable)?;
-        files::write_replaceable(path, svg.as_bytes(), options.force).map_err(|error| match error {
-            FileError::Exists { .. } => Failure::refused(error),
-            _ => Failure::unusable(error),
-        })?;
+        output::file(path, &svg, options.force)?;
     }
     Ok(budget)
 }

@@ -2,11 +2,11 @@
 
 use super::issue::read_stand;
 use super::output::Format;
-use super::{Code, Failure, REFUSED, UNUSABLE, output};
+use super::{Code, Failure, REFUSED, output};
 use clap::Args;
 use dtg_passport::certification::comparison::compare;
 use dtg_passport::certification::{AngleReadings, Header, certify};
-use dtg_passport::files::{self, FileError};
+use dtg_passport::files;
 use dtg_passport::report::certification as report;
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
 use std::path::PathBuf;
@@ -58,10 +58,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     };
     if let (Some(path), Some(certified)) = (&options.output, &certified) {
         let text = certified.to_yaml(&path.display().to_string()).map_err(Failure::refused)?;
-        files::write_replaceable(path, text.as_bytes(), options.force).map_err(|error| Failure {
-            code: if matches!(error, FileError::Exists { .. }) { REFUSED } else { UNUSABLE },
-            message: error.to_string(),
-        })?;
+        output::file(path, &text, options.force)?;
         output::say(&format!("wrote {}", path.display()));
     }
     match options.format {

@@ -56,10 +56,7 @@ fn refuse_existing(path: &Path) -> Result<(), Failure> {
 }
 
 fn write(path: &Path, bytes: &[u8], access: Access) -> Result<(), Failure> {
-    files::write_new(path, bytes, access).map_err(|error| match error {
-        files::FileError::Exists { .. } => Failure::refused(error),
-        _ => Failure::unusable(error),
-    })
+    files::write_new(path, bytes, access).map_err(Failure::file)
 }
 
 fn with_pub(path: &Path) -> PathBuf {

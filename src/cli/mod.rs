@@ -23,6 +23,7 @@ mod trust_options;
 mod verify;
 
 use clap::{Parser, Subcommand};
+use dtg_passport::files::FileError;
 use std::process::ExitCode;
 
 /// Signed passports that let a cheap test stand calibrate a dynamically tuned gyro as well as an expensive one.
@@ -70,6 +71,14 @@ struct Failure {
 impl Failure {
     fn refused(error: impl std::fmt::Display) -> Self {
         Self { message: error.to_string(), code: REFUSED }
+    }
+
+    /// What was not written: to leave what is there is a refusal, all else is not.
+    fn file(error: FileError) -> Self {
+        match error {
+            FileError::Exists { .. } => Self::refused(error),
+            _ => Self::unusable(error),
+        }
     }
 
     fn unusable(error: impl std::fmt::Display) -> Self {

@@ -6,6 +6,7 @@ use dtg_passport::files::{self, FileError};
 use dtg_passport::folder::FolderRefused;
 use dtg_passport::passport::issue::IssueRefused;
 use std::io::{self, Write};
+use std::path::Path;
 
 /// The form of a result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -31,6 +32,11 @@ pub fn result(text: &str) -> Result<(), Failure> {
 pub fn json(value: &impl serde::Serialize) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(value).map_err(Failure::unusable)?;
     result(&(text + "\n"))
+}
+
+/// Writes a result's file. One that exists is replaced on request alone.
+pub fn file(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
+    files::write_replaceable(path, text.as_bytes(), force).map_err(Failure::file)
 }
 
 /// Writes words about a result. Nothing is to be done when even standard error is closed.

@@ -2,11 +2,11 @@
 
 use super::issue::{read_site, read_stand};
 use super::output::Format;
-use super::{Code, Failure, REFUSED, UNUSABLE, output};
+use super::{Code, Failure, output};
 use clap::{Args, Subcommand, ValueEnum};
 use dtg_passport::calibration::Method;
 use dtg_passport::coefficients::EarthRate;
-use dtg_passport::files::{self, FileError};
+use dtg_passport::files;
 use dtg_passport::gyro::GyroType;
 use dtg_passport::report::simulation as table;
 use dtg_passport::simulation::accuracy::{AccuracyOptions, PAPER_LATITUDE_DEG, Stands, accuracy};
@@ -187,10 +187,7 @@ fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
     let found = watched(&arguments.run, TRIALS, rows, |run| convergence(&options, run))?;
     if let Some(path) = &arguments.output {
         let svg = convergence_svg(&found).map_err(Failure::unusable)?;
-        files::write_replaceable(path, svg.as_bytes(), arguments.force).map_err(|error| match error {
-            FileError::Exists { .. } => Failure { message: error.to_string(), code: REFUSED },
-            _ => Failure { message: error.to_string(), code: UNUSABLE },
-        })?;
+        output::file(path, &svg, arguments.force)?;
     }
     match arguments.run.format {
         Format::Json => output::json(&found)?,

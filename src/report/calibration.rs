@@ -1,6 +1,7 @@
 //! The result of a calibration in a terminal of 100 columns.
 
 use crate::calibration::diagnosis::CANNOT_TELL;
+use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, Found, Verdict, change_in_uncertainties};
 use crate::calibration::{Calibration, MethodResult};
@@ -88,7 +89,10 @@ fn parameters(out: &mut String, calibration: &Calibration) {
 fn methods(out: &mut String, calibration: &Calibration) {
     for result in &calibration.results {
         let Some(iteration) = &result.iteration else { continue };
-        let predicted = iteration.predicted_steps.map_or_else(|| "none".to_owned(), |steps| steps.to_string());
+        let predicted = match iteration.predicted_steps {
+            Some(steps) if steps <= LARGEST_NUMBER_OF_STEPS => steps.to_string(),
+            _ => format!("over {LARGEST_NUMBER_OF_STEPS}"),
+        };
         let rest = iteration.remainder_k_deg_per_h_per_ma.abs().max();
         let rest_n = iteration.remainder_omega_n_deg_per_h_per_g.abs().max();
         let words = format!(
