@@ -71,8 +71,8 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let list = list.map_err(Failure::refused)?;
     let text = list.sign(options.key.signer()?.as_ref()).map_err(Failure::refused)?;
     let path = options.list.join(format!("revocation-{}.yaml", list.sequence));
-    files::write_new(&path, text.as_bytes(), Access::Shared).map_err(Failure::unusable)?;
-    output::result(&format!("revoked    {} passports in all  {}\n", list.entries.len(), path.display()))?;
+    files::write_new(&path, text.as_bytes(), Access::Shared).map_err(Failure::file)?;
+    output::result(&format!("revoked    passports in all: {}  {}\n", list.entries.len(), path.display()))?;
     Ok(0)
 }
 
@@ -80,10 +80,10 @@ fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)
 }
 
-/// A file as given, or the file of an id.
+/// A file as given, or the file of an id, which is missed there when neither exists.
 fn file_of(id: &str, passports: &Path) -> PathBuf {
     match Folder::new(passports).path_of_id(id) {
-        Some(path) if path.exists() => path,
+        Some(path) if path.exists() || !Path::new(id).exists() => path,
         _ => PathBuf::from(id),
     }
 }
