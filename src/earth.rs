@@ -186,7 +186,7 @@ pub fn normal_gravity_m_per_s2(geodetic_latitude_deg: f64, height_m: f64) -> f64
     on_ellipsoid * (1.0 - 2.0 * (1.0 + F + M - 2.0 * F * sin2) * h + 3.0 * h * h)
 }
 
-/// The place `metres` away from `from` in the direction of `azimuth_deg`, for tests and pictures.
+/// The place `metres` away from `from` in the direction of `azimuth_deg`, for tests.
 pub fn place_at(from: Place, azimuth_deg: f64, metres: f64) -> Place {
     let (latitude_deg, longitude_deg): (f64, f64) =
         Geodesic::wgs84().direct(from.latitude_deg, from.longitude_deg, azimuth_deg, metres);
@@ -203,7 +203,7 @@ mod tests {
         for (latitude, gravity) in [(0.0, 9.7803253359), (45.0, 9.8061977694), (90.0, 9.8321849379)] {
             assert!((normal_gravity_m_per_s2(latitude, 0.0) - gravity).abs() < 6e-11, "{latitude}");
         }
-        // The free-air gradient at 45° is 0.3086 mGal/m (Heiskanen and Moritz, section 2-123).
+        // The free-air gradient at 45° is 0.3086 mGal/m (Heiskanen and Moritz, eq. 2-123).
         let gradient = (normal_gravity_m_per_s2(45.0, 0.0) - normal_gravity_m_per_s2(45.0, 1.0)) * 1e5;
         assert!((gradient - 0.3086).abs() < 2e-4, "{gradient}");
     }

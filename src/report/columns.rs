@@ -44,7 +44,7 @@ pub fn table(out: &mut String, names: &[&str], rows: &[Vec<String>]) {
     let widths: Vec<usize> = (0..names.len()).map(width).collect();
     let mut write = |cells: &mut dyn Iterator<Item = &str>| {
         let padded: Vec<String> = cells.zip(&widths).map(|(cell, &width)| format!("{cell:>width$}")).collect();
-        let _ = writeln!(out, "  {}", padded.join("  "));
+        let _ = writeln!(out, "{}", format!("  {}", padded.join("  ")).trim_end());
     };
     write(&mut names.iter().copied());
     for row in rows {
