@@ -101,16 +101,6 @@ impl StandGeometry {
         Ok(Self { positions, eight })
     }
 
-    /// Whether all of the paper's eight positions are there.
-    pub fn has_the_eight(&self) -> bool {
-        self.eight.is_some()
-    }
-
-    /// Ã of every position, 3×3, base to case.
-    pub fn attitudes(&self) -> impl Iterator<Item = (PositionIndex, &Matrix3<f64>)> {
-        self.positions.iter().map(|(index, attitude)| (*index, attitude))
-    }
-
     /// The coefficients at a site with the Earth rate `earth` (paper, eq. (5), (12), (13), (15)).
     ///
     /// B = ω_Γ (A_1 − A_2 Δ) and C = ω_B·1 + ω_Γ A_2 n_2⁻¹, which are the paper's B and C with the part that is free

@@ -1,5 +1,6 @@
 //! A result for machines: the JSON of `calibrate`, which is also what a later calibration compares itself with.
 
+use super::iterative::LARGEST_NUMBER_OF_STEPS;
 use super::parameter::Parameter;
 use super::procedure::{Calibration, MethodResult};
 use super::verdict::{Found, Verdict};
@@ -66,7 +67,7 @@ pub struct ResultDocument {
     /// Of successive approximation: steps taken.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub iterations: Option<u32>,
-    /// Steps predicted before the first one.
+    /// Steps predicted before the first one; absent when that is more than are allowed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub iterations_predicted: Option<u32>,
     /// ρ(T).
@@ -234,7 +235,9 @@ impl ResultDocument {
             omega_k_deg_per_h_per_g: parameters.omega_k_deg_per_h_per_g,
             anisoelasticity_deg_per_h_per_g2: result.anisoelasticity_deg_per_h_per_g2,
             iterations: iteration.map(|iteration| iteration.steps),
-            iterations_predicted: iteration.and_then(|iteration| iteration.predicted_steps),
+            iterations_predicted: iteration
+                .and_then(|iteration| iteration.predicted_steps)
+                .filter(|steps| *steps <= LARGEST_NUMBER_OF_STEPS),
             spectral_radius: iteration.map(|iteration| iteration.spectral_radius),
             remainder_k_deg_per_h_per_ma: iteration.map(|it| rows(&it.remainder_k_deg_per_h_per_ma)),
             remainder_omega_n_deg_per_h_per_g: iteration.map(|it| rows(&it.remainder_omega_n_deg_per_h_per_g)),

@@ -81,6 +81,15 @@ impl Calibration {
     }
 }
 
+impl Calibration {
+    /// Why no parameters are to be given, in words: the fit did not settle, so they would mean nothing.
+    pub fn meaningless(&self) -> Option<String> {
+        let why = "the readings are far from those of any gyro on this stand, so no parameters are given";
+        let hint = self.hint.as_ref().map_or_else(String::new, |hint| format!("; {hint}"));
+        (!self.settled).then(|| format!("{why}{hint}"))
+    }
+}
+
 /// Why one method gave nothing.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MethodRefusal {

@@ -207,7 +207,7 @@ fn decide(parameter: Parameter, unit: &'static str, deviation: f64, u: f64, limi
 }
 
 /// Said when scale factors are about a thousand times too small or too large.
-fn thousandfold(found: &GyroParameters, expected: &GyroParameters) -> Option<&'static str> {
+pub fn thousandfold(found: &GyroParameters, expected: &GyroParameters) -> Option<&'static str> {
     let ratio = found.k_deg_per_h_per_ma.norm() / expected.k_deg_per_h_per_ma.norm();
     if (3e-4..3e-3).contains(&ratio) {
         return Some("the scale factors are a thousand times too small: are the currents in microamperes?");

@@ -8,7 +8,7 @@ use clap::Args;
 use dtg_passport::calibration::document::CalibrationDocument;
 use dtg_passport::calibration::iterative::StopRule;
 use dtg_passport::calibration::stated::temperature_remark;
-use dtg_passport::calibration::verdict::{Decision, against_earlier, against_type};
+use dtg_passport::calibration::verdict::{Decision, against_earlier, against_type, thousandfold};
 use dtg_passport::calibration::{self, Calibration, Method, Options as CalibrationOptions, Readings, Setup};
 use dtg_passport::files;
 use dtg_passport::laboratory::Laboratory;
@@ -85,6 +85,9 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         anisoelasticity: options.anisoelasticity,
     };
     let calibration = calibration::calibrate(&setup, &readings, &asked).map_err(Failure::refused)?;
+    if let Some(words) = calibration.meaningless() {
+        return Err(Failure::refused(words));
+    }
     if let Some(remark) = temperature_remark(&content.certificate, &laboratory) {
         output::say(&format!("WARNING: {remark}"));
     }
@@ -95,6 +98,11 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
             calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key())).collect();
         return Err(Failure { message: words.join("\n"), code: REFUSED });
     };
+    // Without a type the gyro of the self-check tells at least a thousandfold error.
+    let usual = content.self_check.as_ref().filter(|_| gyro_type.is_none());
+    if let Some(remark) = usual.and_then(|check| thousandfold(&found.parameters, &check.parameters().to_model())) {
+        output::say(&format!("WARNING: {remark}"));
+    }
     document.verdict = gyro_type.as_ref().map(|gyro_type| against_type(&found, gyro_type));
     let judged_change = earlier.as_ref().zip(gyro_type.as_ref());
     document.change = judged_change.map(|(earlier, gyro_type)| against_earlier(&found, earlier, gyro_type));

@@ -7,7 +7,7 @@ use clap::Args;
 use dtg_passport::document::sha256_hex;
 use dtg_passport::files::{self, Access};
 use dtg_passport::folder::{self, Folder};
-use dtg_passport::passport::verify;
+use dtg_passport::passport::{CheckName, Code as Verdict, verify};
 use dtg_passport::revocation::{Entry, RevocationList, Series};
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
 use std::path::{Path, PathBuf};
@@ -56,7 +56,10 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         let path = file_of(id, &options.passports);
         let bytes = read(&path)?;
         let verification = verify(&path.display().to_string(), &bytes, &trust, &question);
-        let Some(content) = verification.unauthorised_content() else {
+        // A passport with wrong numbers, or past its time, can be withdrawn; one of another signer cannot: its id may be
+        // that of a good passport.
+        let signed = verification.code(CheckName::Signer) == Some(Verdict::Ok);
+        let Some(content) = verification.content().filter(|_| signed) else {
             let failed = verification.checks().iter().find(|check| check.passed() == Some(false));
             let words = failed.map_or_else(String::new, |check| check.detail.clone());
             return Err(Failure::refused(format!(
