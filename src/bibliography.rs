@@ -50,6 +50,15 @@ pub enum Bibliography {
     Searle92,
     /// NIST/SEMATECH e-Handbook of Statistical Methods, <https://doi.org/10.18434/M32189>.
     NistHandbook,
+    /// D. Blackman and S. Vigna, "Scrambled linear pseudorandom number generators", ACM Transactions on Mathematical
+    /// Software 47, 2021, article 36, <https://doi.org/10.1145/3460772>: xoshiro256++.
+    Xoshiro,
+    /// G. E. P. Box and M. E. Muller, "A note on the generation of random normal deviates", Annals of Mathematical
+    /// Statistics 29, 1958, 610-611.
+    BoxMuller58,
+    /// G. Marsaglia and W. W. Tsang, "A simple method for generating gamma variables", ACM Transactions on Mathematical
+    /// Software 26, 2000, 363-372, <https://doi.org/10.1145/358407.358414>.
+    MarsagliaTsang00,
     /// OpenSSH, PROTOCOL.sshsig: the signature format, its armor and its namespaces.
     SshSig,
     /// OpenSSH, PROTOCOL.krl: key revocation lists.

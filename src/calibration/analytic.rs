@@ -131,7 +131,7 @@ pub(crate) fn current_differences(
 }
 
 /// Where the paper's eight positions stand among all, when all are there.
-fn places_of_the_eight(coefficients: &Coefficients) -> Option<[usize; 8]> {
+pub(crate) fn places_of_the_eight(coefficients: &Coefficients) -> Option<[usize; 8]> {
     let mut places = [0; 8];
     for (place, (index, _, _)) in places.iter_mut().zip(EIGHT_POSITIONS) {
         *place = coefficients.positions.iter().position(|at| at.index == index)?;

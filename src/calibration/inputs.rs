@@ -1,6 +1,6 @@
 //! What a calibration takes for known: coefficients, and how uncertain everything that stands behind them is.
 
-use crate::attitude;
+use crate::attitude::{self, Deviation};
 use crate::coefficients::{Coefficients, EarthRate, Position, SingularPositions, StandGeometry};
 use crate::laboratory::Meter;
 use nalgebra::{Matrix3, Vector3};
@@ -106,6 +106,10 @@ pub struct Setup {
 pub(crate) struct Turn {
     /// Ã, 3×3, base to case.
     pub(crate) attitude: Matrix3<f64>,
+    /// A, 3×3.
+    pub(crate) nominal: Matrix3<f64>,
+    /// Certified α, β, γ.
+    pub(crate) certified: Deviation,
     /// The axes, in case coordinates, that α, β and γ turn about: E = Rz(γ)·Ry(β)·Rx(α).
     pub(crate) axes: [Vector3<f64>; 3],
 }
@@ -177,8 +181,11 @@ impl Turn {
     pub(crate) fn of(position: &Position) -> Self {
         let deviation = attitude::deviation(&position.deviation);
         let (sin_gamma, cos_gamma) = libm::sincos(position.deviation.gamma_rad);
+        let nominal = attitude::nominal(position.theta_deg, position.phi_deg);
         Self {
-            attitude: deviation * attitude::nominal(position.theta_deg, position.phi_deg),
+            attitude: deviation * nominal,
+            nominal,
+            certified: position.deviation,
             // α turns before β and γ: its axis is E's first column. β's is turned by γ alone, γ's stays.
             axes: [deviation.column(0).into_owned(), Vector3::new(sin_gamma, cos_gamma, 0.0), Vector3::z()],
         }

@@ -3,20 +3,18 @@
 use super::output::Format;
 use super::show::{PassportOptions, Read};
 use super::simulate::{MethodName, read_gyro};
-use super::{Code, Failure, REFUSED, output};
+use super::{Code, Failure, REFUSED, output, uncertainty};
 use clap::Args;
 use dtg_passport::calibration::document::CalibrationDocument;
 use dtg_passport::calibration::iterative::StopRule;
 use dtg_passport::calibration::stated::temperature_remark;
 use dtg_passport::calibration::verdict::{Decision, against_earlier, against_type, thousandfold};
-use dtg_passport::calibration::{self, Calibration, Method, Options as CalibrationOptions, Readings, Setup};
+use dtg_passport::calibration::{self, Method, Options as CalibrationOptions, Readings, Setup};
 use dtg_passport::files;
 use dtg_passport::laboratory::Laboratory;
-use dtg_passport::report::{budget as budget_report, calibration as report};
+use dtg_passport::report::calibration as report;
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
-use dtg_passport::uncertainty::document::{BudgetDocument, WholeDocument};
-use dtg_passport::uncertainty::picture::budget_svg;
-use dtg_passport::uncertainty::{Budget, remedy};
+use dtg_passport::uncertainty::document::WholeDocument;
 use std::path::{Path, PathBuf};
 
 /// Find the gyro's parameters, their uncertainty, the fit, and the verdict against its type
@@ -48,15 +46,8 @@ pub struct Options {
     /// Also fit the anisoelastic coefficient by least squares; the eight positions cannot show it
     #[arg(long)]
     anisoelasticity: bool,
-    /// Where the uncertainty comes from: what every input contributes to every parameter
-    #[arg(long)]
-    budget: bool,
-    /// The budget as a picture
-    #[arg(long, value_name = "FILE.svg", requires = "budget")]
-    budget_svg: Option<PathBuf>,
-    /// Replace an existing picture
-    #[arg(long)]
-    force: bool,
+    #[command(flatten)]
+    uncertainty: uncertainty::UncertaintyOptions,
     /// Form of the result
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -106,14 +97,14 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     document.verdict = gyro_type.as_ref().map(|gyro_type| against_type(&found, gyro_type));
     let judged_change = earlier.as_ref().zip(gyro_type.as_ref());
     document.change = judged_change.map(|(earlier, gyro_type)| against_earlier(&found, earlier, gyro_type));
-    let budget = options.budget.then(|| budget_of(options, &setup, &readings, &calibration)).transpose()?;
     let tolerance = gyro_type.as_ref().map(|gyro_type| &gyro_type.tolerance);
-    let sentence = budget.as_ref().and_then(|budget| remedy::sentence(budget, tolerance));
+    let asked = (options.anisoelasticity, tolerance);
+    let uncertainty = options.uncertainty.find(&setup, &readings, &calibration, asked)?;
     match options.format {
-        Format::Json => output::json(&WholeDocument {
-            calibration: &document,
-            budget: budget.as_ref().map(|budget| BudgetDocument::new(budget, sentence.clone())),
-        })?,
+        Format::Json => {
+            let (budget, monte_carlo) = uncertainty.documents();
+            output::json(&WholeDocument { calibration: &document, budget, monte_carlo })?;
+        }
         Format::Text => output::result(
             &(report::text(
                 &calibration,
@@ -128,27 +119,11 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
                         .zip(document.verdict.as_ref()),
                     change: earlier.as_ref().map(|earlier| (earlier, document.change.as_ref())),
                 },
-            ) + &budget.map_or_else(String::new, |budget| budget_report::text(&budget, sentence.as_deref()))),
+            ) + &uncertainty.text()),
         )?,
     }
     let failed = document.verdict.is_some_and(|verdict| verdict.overall == Decision::Fail);
     Ok(if failed { REFUSED } else { 0 })
-}
-
-/// The budget of the answer, and its picture where asked for.
-fn budget_of(
-    options: &Options,
-    setup: &Setup,
-    readings: &Readings,
-    calibration: &Calibration,
-) -> Result<Budget, Failure> {
-    let answer = calibration.answer().map_or(Method::LeastSquares, |answer| answer.method);
-    let budget = Budget::new(setup, readings, answer, options.anisoelasticity).map_err(Failure::refused)?;
-    if let Some(path) = &options.budget_svg {
-        let svg = budget_svg(&budget).map_err(Failure::unusable)?;
-        output::file(path, &svg, options.force)?;
-    }
-    Ok(budget)
 }
 
 /// Reads a laboratory file; the paper's meter without one.

@@ -20,6 +20,7 @@ mod selftest;
 mod show;
 mod simulate;
 mod trust_options;
+mod uncertainty;
 mod verify;
 
 use clap::{Parser, Subcommand};

@@ -5,6 +5,7 @@
 //! * [`calibration`]: the result of a calibration.
 //! * [`certification`]: a certified stand, and a check run.
 //! * [`columns`]: text in columns.
+//! * [`monte_carlo`]: intervals, and whether first order is valid.
 //! * [`issued`]: what became of an order, and what the factory should know about it.
 //! * [`passport_table`]: a passport in a terminal.
 //! * [`register`]: what is in force in a folder.
@@ -16,6 +17,7 @@ pub mod calibration;
 pub mod certification;
 pub mod columns;
 pub mod issued;
+pub mod monte_carlo;
 pub mod passport_table;
 pub mod register;
 pub mod selftest;

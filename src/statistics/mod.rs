@@ -5,10 +5,13 @@
 //! * [`outlier`]: Bartlett's test for a group that scatters more, Grubbs' for a value that is out.
 //! * [`propagation`]: the law of propagation of uncertainty for any model with its gradient.
 //! * [`random`]: streams of random numbers that do not depend on the number of threads or on the platform.
+//! * [`lanes`]: random numbers many at a time; [`elementary`]: what they need of sine, cosine and logarithm.
 //! * [`summary`]: largest, mean, deviation, percentile, and what a share of a sample is worth.
 
 pub mod beta;
 pub mod distributions;
+pub mod elementary;
+pub mod lanes;
 pub mod least_squares;
 pub mod outlier;
 pub mod propagation;

@@ -1,6 +1,7 @@
-//! A budget for machines: the key `budget` of `calibrate --format json`.
+//! Budgets and Monte Carlo for machines: the keys `budget` and `monte_carlo` of `calibrate --format json`.
 
 use super::budget::{Budget, COVERAGE};
+use super::monte_carlo::MonteCarlo;
 use crate::calibration::document::CalibrationDocument;
 use serde::Serialize;
 
@@ -13,6 +14,9 @@ pub struct WholeDocument<'a> {
     /// Its budget.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub budget: Option<BudgetDocument>,
+    /// Its Monte Carlo.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub monte_carlo: Option<MonteCarloDocument>,
 }
 
 /// A budget.
@@ -136,6 +140,80 @@ impl ContributionDocument {
             input_standard_uncertainty: line.cause.shown(line.standard_uncertainty[1]),
             contribution: line.contribution,
             share: line.share,
+        }
+    }
+}
+
+/// A Monte Carlo: the key `monte_carlo` of `calibrate --format json`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MonteCarloDocument {
+    /// Of which method.
+    pub method: &'static str,
+    /// The same seed gives the same numbers.
+    pub seed: u64,
+    /// Trials made.
+    pub trials: u64,
+    /// Trials without finite parameters, left out.
+    pub failed: u64,
+    /// Whether every stated digit is stable.
+    pub stable: bool,
+    /// For each parameter.
+    pub parameters: Vec<DistributionDocument>,
+    /// Covariance of the parameters, in their order.
+    pub covariance: Vec<Vec<f64>>,
+}
+
+/// The distribution of one parameter.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DistributionDocument {
+    /// Its key.
+    pub parameter: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Mean of the trials.
+    pub mean: f64,
+    /// Their standard deviation.
+    pub standard_uncertainty: f64,
+    /// Probability of the intervals.
+    pub coverage_probability: f64,
+    /// As much below it as above.
+    pub symmetric_interval: [f64; 2],
+    /// The shortest.
+    pub shortest_interval: [f64; 2],
+    /// y - U and y + U by first order.
+    pub first_order_interval: [f64; 2],
+    /// How far the ends of the symmetric and the first-order interval are apart.
+    pub differences: [f64; 2],
+    /// What they may be apart.
+    pub tolerance: f64,
+    /// JCGM 101, clause 8.
+    pub first_order_valid: bool,
+}
+
+impl MonteCarloDocument {
+    /// Of a Monte Carlo.
+    pub fn new(found: &MonteCarlo) -> Self {
+        let parameters = found.parameters.iter().map(|line| DistributionDocument {
+            parameter: line.parameter.key(),
+            unit: line.parameter.unit(),
+            mean: line.mean,
+            standard_uncertainty: line.standard_uncertainty,
+            coverage_probability: COVERAGE,
+            symmetric_interval: line.symmetric,
+            shortest_interval: line.shortest,
+            first_order_interval: line.first_order.interval,
+            differences: line.first_order.differences,
+            tolerance: line.first_order.tolerance,
+            first_order_valid: line.first_order.valid,
+        });
+        Self {
+            method: found.method.key(),
+            seed: found.seed,
+            trials: found.trials,
+            failed: found.failed,
+            stable: found.stable,
+            parameters: parameters.collect(),
+            covariance: found.covariance.row_iter().map(|row| row.iter().copied().collect()).collect(),
         }
     }
 }

@@ -160,3 +160,27 @@ fn the_picture_has_every_parameter_and_no_colour() {
     }
     assert_eq!(svg, budget_svg(&budget).unwrap());
 }
+
+/// Expected: suncal's Monte Carlo, within five standard errors of a standard deviation, u/√(2n); and its first order,
+/// whose derivatives are finite differences.
+#[test]
+fn uncertainties_are_those_of_suncal() {
+    let samples = 40_000.0_f64;
+    let mut worst: f64 = 0.0;
+    for (number, case) in three().iter().enumerate() {
+        let mut described = described(case);
+        described["samples"] = json!(samples);
+        described["first_order"] = json!(number == 1);
+        let theirs = asked("suncal_budget.py", &described);
+        let budget = Budget::new(&case.setup, &case.readings, Method::Analytic, false).unwrap();
+        for (place, line) in budget.parameters.iter().enumerate() {
+            let ratio = theirs["monte_carlo"][place].as_f64().unwrap() / line.standard_uncertainty - 1.0;
+            worst = worst.max(ratio.abs() * (2.0 * samples).sqrt());
+            if let Some(first) = theirs["first_order"][place].as_f64() {
+                assert!((first / line.standard_uncertainty - 1.0).abs() < 1e-4, "{}: {first}", line.parameter.key());
+            }
+        }
+    }
+    println!("largest difference from suncal: {worst:.1} standard errors of its Monte Carlo");
+    assert!(worst < 5.0, "{worst}");
+}

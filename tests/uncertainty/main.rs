@@ -8,3 +8,5 @@ mod tools;
 mod accuracy;
 mod budget;
 mod cases;
+mod coverage;
+mod monte_carlo;

@@ -1,0 +1,130 @@
+//! The options of `calibrate` that ask where its uncertainty comes from.
+
+use super::{Failure, output};
+use clap::Args;
+use dtg_passport::calibration::{Calibration, Method, Readings, Setup};
+use dtg_passport::gyro::Tolerance;
+use dtg_passport::report::{budget as budget_report, monte_carlo as monte_carlo_report};
+use dtg_passport::uncertainty::document::{BudgetDocument, MonteCarloDocument};
+use dtg_passport::uncertainty::engine::{Engine, ReadingShape};
+use dtg_passport::uncertainty::monte_carlo::Trials;
+use dtg_passport::uncertainty::picture::budget_svg;
+use dtg_passport::uncertainty::{Budget, MonteCarlo, monte_carlo, remedy};
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// From this on it is said beforehand how long the trials will take.
+const LONG: Duration = Duration::from_secs(10);
+
+#[derive(Args)]
+pub struct UncertaintyOptions {
+    /// Where the uncertainty comes from: what every input contributes to every parameter
+    #[arg(long)]
+    budget: bool,
+    /// The budget as a picture
+    #[arg(long, value_name = "FILE.svg", requires = "budget")]
+    budget_svg: Option<PathBuf>,
+    /// Replace an existing picture
+    #[arg(long)]
+    force: bool,
+    /// Monte Carlo (JCGM 101): intervals, and whether first order is valid; until every stated digit is stable
+    #[arg(long)]
+    monte_carlo: bool,
+    /// So many trials instead, rounded up to blocks of 16384
+    #[arg(long, value_name = "N", requires = "monte_carlo", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000_000))]
+    trials: Option<u64>,
+    /// The same seed gives the same numbers, on any number of threads
+    #[arg(long, value_name = "S", default_value_t = 1, requires = "monte_carlo")]
+    seed: u64,
+    /// Threads [default: all processors]
+    #[arg(long, value_name = "T", requires = "monte_carlo", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    threads: Option<u32>,
+}
+
+/// What was asked for.
+pub struct Found {
+    budget: Option<(Budget, Option<String>)>,
+    monte_carlo: Option<MonteCarlo>,
+}
+
+impl Found {
+    /// For people; empty when nothing was asked for.
+    pub fn text(&self) -> String {
+        let budget = self.budget.as_ref().map(|(budget, words)| budget_report::text(budget, words.as_deref()));
+        let trials = self.monte_carlo.as_ref().map(monte_carlo_report::text);
+        budget.unwrap_or_default() + &trials.unwrap_or_default()
+    }
+
+    /// For programs.
+    pub fn documents(&self) -> (Option<BudgetDocument>, Option<MonteCarloDocument>) {
+        let budget = self.budget.as_ref().map(|(budget, words)| BudgetDocument::new(budget, words.clone()));
+        (budget, self.monte_carlo.as_ref().map(MonteCarloDocument::new))
+    }
+}
+
+impl UncertaintyOptions {
+    /// Whether anything is asked for.
+    pub fn find(
+        &self,
+        setup: &Setup,
+        readings: &Readings,
+        calibration: &Calibration,
+        (anisoelasticity, tolerance): (bool, Option<&Tolerance>),
+    ) -> Result<Found, Failure> {
+        if !self.budget && !self.monte_carlo {
+            return Ok(Found { budget: None, monte_carlo: None });
+        }
+        let method = calibration.answer().map_or(Method::LeastSquares, |answer| answer.method);
+        if self.monte_carlo && anisoelasticity {
+            return Err(Failure::unusable(
+                "--monte-carlo does not fit the anisoelastic coefficient: leave one of the two out",
+            ));
+        }
+        let budget = Budget::new(setup, readings, method, anisoelasticity).map_err(Failure::refused)?;
+        if let Some(path) = &self.budget_svg {
+            let svg = budget_svg(&budget).map_err(Failure::unusable)?;
+            output::file(path, &svg, self.force)?;
+        }
+        let trials = self.monte_carlo.then(|| self.trials(setup, readings, &budget)).transpose()?;
+        let sentence = remedy::sentence(&budget, tolerance);
+        Ok(Found { budget: self.budget.then_some((budget, sentence)), monte_carlo: trials })
+    }
+
+    /// Runs the trials with a progress bar on a terminal; Ctrl-C ends them with what is known.
+    fn trials(&self, setup: &Setup, readings: &Readings, budget: &Budget) -> Result<MonteCarlo, Failure> {
+        let engine = Engine::new(setup, readings, budget.method, ReadingShape::Normal).map_err(Failure::refused)?;
+        let cancel = Arc::new(AtomicBool::new(false));
+        let flag = Arc::clone(&cancel);
+        ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)).map_err(Failure::unusable)?;
+        let bar = ProgressBar::new(self.trials.unwrap_or(0));
+        let style = ProgressStyle::with_template("{wide_bar} {human_pos} of {human_len} trials, {eta} left");
+        bar.set_style(style.map_err(Failure::unusable)?);
+        let (start, told) = (Instant::now(), AtomicBool::new(false));
+        let progress = |done: u64, due: u64| {
+            bar.set_length(due);
+            bar.set_position(done);
+            let whole = start.elapsed().mul_f64(due as f64 / done.max(1) as f64);
+            if whole > LONG && !told.swap(true, Ordering::Relaxed) {
+                output::say(&format!("{due} trials will take about {}", HumanDuration(whole)));
+            }
+        };
+        let mut run = Trials {
+            trials: self.trials,
+            cancel: Some(&cancel),
+            progress: Some(&progress),
+            ..Trials::adaptive(self.seed)
+        };
+        if let Some(threads) = self.threads {
+            run.threads = threads as usize;
+        }
+        let found = monte_carlo(&engine, budget, &run);
+        bar.finish_and_clear();
+        if cancel.load(Ordering::Relaxed) {
+            output::say("interrupted: the result is that of the trials made until then");
+        }
+        Ok(found)
+    }
+}

@@ -1,0 +1,49 @@
+//! What a Monte Carlo says, in a terminal of 100 columns.
+
+use crate::report::columns;
+use crate::uncertainty::MonteCarlo;
+use crate::uncertainty::budget::COVERAGE;
+use std::fmt::Write;
+
+/// Uncertainties, intervals, and for every parameter whether first order is valid.
+pub fn text(found: &MonteCarlo) -> String {
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        "\nMonte Carlo ({}), {} trials, seed {}; {:.0} % intervals",
+        found.method.key(),
+        found.trials,
+        found.seed,
+        100.0 * COVERAGE
+    );
+    let rows: Vec<Vec<String>> = found.parameters.iter().map(row).collect();
+    columns::table(&mut out, &["", "mean", "u", "symmetric", "shortest", "apart", "allowed", "first order"], &rows);
+    let words = "apart: how far the ends of the first-order interval are from those of the symmetric one (the worse of \
+                 the two); allowed: half a unit of the second digit of u (JCGM 101, clause 8).";
+    columns::paragraph(&mut out, "  ", words);
+    if !found.stable {
+        let words = "WARNING: not every stated digit is stable yet: more trials (JCGM 101, 7.9) would move some.";
+        columns::paragraph(&mut out, "  ", words);
+    }
+    if found.failed > 0 {
+        let words = format!("WARNING: {} trials gave no finite parameters and are left out.", found.failed);
+        columns::paragraph(&mut out, "  ", &words);
+    }
+    out
+}
+
+fn row(line: &crate::uncertainty::monte_carlo::Distribution) -> Vec<String> {
+    let digits = columns::decimals(line.standard_uncertainty);
+    let interval = |[low, high]: [f64; 2]| format!("{low:.digits$} to {high:.digits$}");
+    let first = &line.first_order;
+    vec![
+        line.parameter.symbol().to_owned(),
+        format!("{:.digits$}", line.mean),
+        format!("{:.digits$}", line.standard_uncertainty),
+        interval(line.symmetric),
+        interval(line.shortest),
+        format!("{:.1e}", first.differences[0].max(first.differences[1])),
+        format!("{:.0e}", first.tolerance),
+        (if first.valid { "valid" } else { "NOT VALID" }).to_owned(),
+    ]
+}

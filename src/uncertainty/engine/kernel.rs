@@ -1,0 +1,298 @@
+//! From standard deviates to what every position sees: specific force, Earth rate, currents.
+//!
+//! Rotations act as rotations: Ã = T · E(α + δα, β + δβ, γ + δγ) · A · R, where R turns the base, and T the case (the sum
+//! of the small vectors of platform, seat and return). Small turns by a vector δ are exact: v + s₁ v×δ + s₂ (v×δ)×δ with
+//! s₁ = sin|δ|/|δ| and s₂ = (1 − cos|δ|)/δ².
+
+use super::plan::{Drawn, Plan, Slot};
+use crate::calibration::Setup;
+use crate::statistics::elementary::{SMALL_RAD, small_cos_less_one, small_sin};
+use crate::statistics::lanes::{Column, WIDTH};
+use nalgebra::{Matrix3, Vector2, Vector3};
+
+/// What one position sees in every trial of a chunk.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct At {
+    /// Specific force along x and y, g.
+    pub n: [Column; 2],
+    /// Earth rate along x and y, °/h.
+    pub omega: [Column; 2],
+    /// Currents, mA.
+    pub current: [Column; 2],
+}
+
+impl Default for At {
+    fn default() -> Self {
+        Self { n: [[0.0; WIDTH]; 2], omega: [[0.0; WIDTH]; 2], current: [[0.0; WIDTH]; 2] }
+    }
+}
+
+/// An input: its column, and its standard uncertainty.
+type Scaled = (Slot, f64);
+
+/// One position.
+#[derive(Debug, Clone)]
+struct Place {
+    /// Sine and cosine of the certified α, β, γ.
+    sin_cos: [(f64, f64); 3],
+    certified_rad: [f64; 3],
+    /// Vertical and Earth rate after A: E's input where the base does not turn.
+    vertical: Vector3<f64>,
+    earth: Vector3<f64>,
+    nominal: Matrix3<f64>,
+    angles: [Scaled; 3],
+    returns: [Scaled; 3],
+    means_ma: Vector2<f64>,
+    currents: [Scaled; 2],
+}
+
+/// All positions.
+#[derive(Debug, Clone)]
+pub struct Kernel {
+    places: Vec<Place>,
+    case: [Scaled; 3],
+    base: [Scaled; 3],
+    latitude: Scaled,
+    gain: Scaled,
+    offset: Scaled,
+    earth: Vector3<f64>,
+    /// Whether any case, any base is turned.
+    case_turns: bool,
+    base_turns: bool,
+    /// Whether a small angle may be beyond [`SMALL_RAD`].
+    may_be_large: bool,
+}
+
+/// No normal deviate is beyond this.
+const LARGEST_NORMAL: f64 = 8.5;
+
+impl Kernel {
+    pub(crate) fn new(setup: &Setup, means_ma: &[Vector2<f64>], plan: &Plan) -> Self {
+        let earth = setup.earth_rate_in_base();
+        let each = setup.turns().iter().zip(setup.coefficients().positions.iter()).zip(means_ma).enumerate();
+        let places: Vec<Place> = each
+            .map(|(place, ((turn, _), means_ma))| {
+                let certified = turn.certified;
+                let angles_rad = [certified.alpha_rad, certified.beta_rad, certified.gamma_rad];
+                Place {
+                    sin_cos: angles_rad.map(libm::sincos),
+                    certified_rad: angles_rad,
+                    vertical: turn.nominal.column(2).into_owned(),
+                    earth: turn.nominal * earth,
+                    nominal: turn.nominal,
+                    angles: [0, 1, 2].map(|angle| plan.slot(Drawn::Angle(place, angle))),
+                    returns: [0, 1, 2].map(|axis| plan.slot(Drawn::Return(place, axis))),
+                    means_ma: *means_ma,
+                    currents: [0, 1].map(|axis| plan.slot(Drawn::Current(place, axis))),
+                }
+            })
+            .collect();
+        let case = [0, 1, 2].map(|axis| plan.slot(Drawn::Case(axis)));
+        let base = [0, 1, 2].map(|axis| plan.slot(Drawn::Base(axis)));
+        let latitude = plan.slot(Drawn::Latitude);
+        let drawn = |inputs: &[Scaled]| inputs.iter().any(|(slot, _)| *slot > 0);
+        let case_turns = drawn(&case) || places.iter().any(|place| drawn(&place.returns));
+        let base_turns = drawn(&base) || drawn(&[latitude]);
+        // A turn's vector is at most the sum of its parts; each part is √3 of its largest component or less.
+        let largest =
+            places.iter().flat_map(|place| place.angles.iter().chain(&place.returns)).chain(&case).chain(&base);
+        let largest = largest.chain([&latitude]).fold(0.0, |largest: f64, (_, u)| largest.max(*u));
+        let may_be_large = plan.has_long_tails() || 4.0 * LARGEST_NORMAL * largest > SMALL_RAD;
+        let (gain, offset) = (plan.slot(Drawn::Gain), plan.slot(Drawn::Offset));
+        Self { places, case, base, latitude, gain, offset, earth, case_turns, base_turns, may_be_large }
+    }
+
+    pub(crate) fn positions(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Everything of a chunk.
+    #[inline(always)]
+    pub(crate) fn run(&self, deviates: &[Column], positions: &mut [At]) {
+        let exact = self.may_be_large && self.has_large(deviates);
+        match (exact, self.case_turns, self.base_turns) {
+            (false, false, false) => self.run_as::<false, false, false>(deviates, positions),
+            (false, true, false) => self.run_as::<false, true, false>(deviates, positions),
+            (false, false, true) => self.run_as::<false, false, true>(deviates, positions),
+            (false, true, true) => self.run_as::<false, true, true>(deviates, positions),
+            (true, ..) => self.run_exactly(deviates, positions),
+        }
+    }
+
+    /// Whether an angle of the chunk is beyond what polynomials are good for.
+    #[cold]
+    #[inline(never)]
+    fn has_large(&self, deviates: &[Column]) -> bool {
+        let angles = self.places.iter().flat_map(|place| place.angles.iter().chain(&place.returns));
+        let all = angles.chain(&self.case).chain(&self.base).chain([&self.latitude]);
+        let largest = all.fold(0.0, |largest: f64, (slot, u)| {
+            deviates[*slot].iter().fold(largest, |largest, deviate| largest.max((deviate * u).abs()))
+        });
+        4.0 * largest > SMALL_RAD
+    }
+
+    /// The same with libm's sine and cosine.
+    #[cold]
+    #[inline(never)]
+    fn run_exactly(&self, deviates: &[Column], positions: &mut [At]) {
+        self.run_as::<true, true, true>(deviates, positions);
+    }
+
+    #[inline(always)]
+    fn run_as<const EXACT: bool, const CASE: bool, const BASE: bool>(&self, deviates: &[Column], positions: &mut [At]) {
+        let base = if BASE { self.base_vectors::<EXACT>(deviates) } else { [[[0.0; WIDTH]; 3]; 2] };
+        for (place, at) in self.places.iter().zip(positions) {
+            place.vectors::<EXACT, CASE, BASE>(&self.case, &base, deviates, at);
+            self.currents(place, deviates, at);
+        }
+    }
+
+    /// Vertical and Earth rate in the axes of the base as it really stands.
+    #[inline(always)]
+    fn base_vectors<const EXACT: bool>(&self, deviates: &[Column]) -> [[Column; 3]; 2] {
+        let [x, y, z] = self.base.map(|(slot, u)| (&deviates[slot], u));
+        let latitude = (&deviates[self.latitude.0], self.latitude.1);
+        let mut vectors = [[[0.0; WIDTH]; 3]; 2];
+        for trial in 0..WIDTH {
+            let turn = [x.1 * x.0[trial], y.1 * y.0[trial], z.1 * z.0[trial]];
+            let (s1, s2) = turn_factors::<EXACT>(&turn);
+            let (sin, less) = sin_cos_less_one::<EXACT>(latitude.1 * latitude.0[trial]);
+            let (north, up) = (self.earth.y, self.earth.z);
+            // ω_Γ falls and ω_B rises with the latitude.
+            let earth = [0.0, north + (north * less - up * sin), up + (up * less + north * sin)];
+            let vertical = turned(&[0.0, 0.0, 1.0], &turn, s1, s2);
+            let earth = turned(&earth, &turn, s1, s2);
+            for axis in 0..3 {
+                vectors[0][axis][trial] = vertical[axis];
+                vectors[1][axis][trial] = earth[axis];
+            }
+        }
+        vectors
+    }
+
+    #[inline(always)]
+    fn currents(&self, place: &Place, deviates: &[Column], at: &mut At) {
+        let (gain, offset) = (&deviates[self.gain.0], &deviates[self.offset.0]);
+        for axis in 0..2 {
+            let (slot, u) = place.currents[axis];
+            let (own, mean) = (&deviates[slot], place.means_ma[axis]);
+            let mut current = [0.0; WIDTH];
+            for trial in 0..WIDTH {
+                let read = mean + u * own[trial];
+                current[trial] = read + (read * (self.gain.1 * gain[trial]) + self.offset.1 * offset[trial]);
+            }
+            at.current[axis] = current;
+        }
+    }
+}
+
+impl Place {
+    #[inline(always)]
+    fn vectors<const EXACT: bool, const CASE: bool, const BASE: bool>(
+        &self,
+        case: &[Scaled; 3],
+        base: &[[Column; 3]; 2],
+        deviates: &[Column],
+        at: &mut At,
+    ) {
+        let angle = |place: usize| (&deviates[self.angles[place].0], self.angles[place].1);
+        let ((alpha, u_alpha), (beta, u_beta), (gamma, u_gamma)) = (angle(0), angle(1), angle(2));
+        let shared = case.map(|(slot, u)| (&deviates[slot], u));
+        let own = self.returns.map(|(slot, u)| (&deviates[slot], u));
+        let (mut n, mut omega) = ([[0.0; WIDTH]; 2], [[0.0; WIDTH]; 2]);
+        for trial in 0..WIDTH {
+            let a = self.changed::<EXACT>(0, u_alpha * alpha[trial]);
+            let b = self.changed::<EXACT>(1, u_beta * beta[trial]);
+            let g = self.changed::<EXACT>(2, u_gamma * gamma[trial]);
+            let (vertical, earth) = if BASE {
+                let of = |vector: &[Column; 3]| [vector[0][trial], vector[1][trial], vector[2][trial]];
+                (times(&self.nominal, &of(&base[0])), times(&self.nominal, &of(&base[1])))
+            } else {
+                (self.vertical.into(), self.earth.into())
+            };
+            let mut seen = [deviated(&vertical, a, b, g), deviated(&earth, a, b, g)];
+            if CASE {
+                let part = |axis: usize| shared[axis].1 * shared[axis].0[trial] + own[axis].1 * own[axis].0[trial];
+                let turn = [part(0), part(1), part(2)];
+                let (s1, s2) = turn_factors::<EXACT>(&turn);
+                seen = [turned(&seen[0], &turn, s1, s2), turned(&seen[1], &turn, s1, s2)];
+            }
+            n[0][trial] = seen[0][0];
+            n[1][trial] = seen[0][1];
+            omega[0][trial] = seen[1][0];
+            omega[1][trial] = seen[1][1];
+        }
+        at.n = n;
+        at.omega = omega;
+    }
+
+    /// (sin, cos) of a certified angle changed by a small one: s + (c sin δ + s (cos δ − 1)).
+    #[inline(always)]
+    fn changed<const EXACT: bool>(&self, angle: usize, change_rad: f64) -> (f64, f64) {
+        if EXACT {
+            return libm::sincos(self.certified_rad[angle] + change_rad);
+        }
+        let (sin, cos) = self.sin_cos[angle];
+        let (small, less) = (small_sin(change_rad), small_cos_less_one(change_rad));
+        (sin + (cos * small + sin * less), cos + (cos * less - sin * small))
+    }
+}
+
+/// E v = Rz(γ) Ry(β) Rx(α) v (paper, above eq. (4)), one axis after the other.
+#[inline(always)]
+fn deviated(v: &[f64; 3], (sa, ca): (f64, f64), (sb, cb): (f64, f64), (sg, cg): (f64, f64)) -> [f64; 3] {
+    let (y1, z1) = (ca * v[1] + sa * v[2], ca * v[2] - sa * v[1]);
+    let (x2, z2) = (cb * v[0] - sb * z1, sb * v[0] + cb * z1);
+    [cg * x2 + sg * y1, cg * y1 - sg * x2, z2]
+}
+
+#[inline(always)]
+fn times(m: &Matrix3<f64>, v: &[f64; 3]) -> [f64; 3] {
+    [
+        m.m11 * v[0] + m.m12 * v[1] + m.m13 * v[2],
+        m.m21 * v[0] + m.m22 * v[1] + m.m23 * v[2],
+        m.m31 * v[0] + m.m32 * v[1] + m.m33 * v[2],
+    ]
+}
+
+#[inline(always)]
+fn cross(v: &[f64; 3], d: &[f64; 3]) -> [f64; 3] {
+    [v[1] * d[2] - v[2] * d[1], v[2] * d[0] - v[0] * d[2], v[0] * d[1] - v[1] * d[0]]
+}
+
+/// Coordinates of v after a turn by the vector δ.
+#[inline(always)]
+fn turned(v: &[f64; 3], turn: &[f64; 3], s1: f64, s2: f64) -> [f64; 3] {
+    let once = cross(v, turn);
+    let twice = cross(&once, turn);
+    [
+        v[0] + (s1 * once[0] + s2 * twice[0]),
+        v[1] + (s1 * once[1] + s2 * twice[1]),
+        v[2] + (s1 * once[2] + s2 * twice[2]),
+    ]
+}
+
+/// sin|δ|/|δ| and (1 − cos|δ|)/δ².
+#[inline(always)]
+fn turn_factors<const EXACT: bool>(turn: &[f64; 3]) -> (f64, f64) {
+    let square = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2];
+    if EXACT && square > SMALL_RAD * SMALL_RAD {
+        let angle = square.sqrt();
+        let (sin, cos) = libm::sincos(angle);
+        return (sin / angle, (1.0 - cos) / square);
+    }
+    // After these terms |δ| ≤ 0.02 leaves 8e-20 of s1 and 1e-17 of s2.
+    let s1 = 1.0 + square * (-1.0 / 6.0 + square * (1.0 / 120.0 + square * (-1.0 / 5040.0)));
+    let s2 = 0.5 + square * (-1.0 / 24.0 + square * (1.0 / 720.0));
+    (s1, s2)
+}
+
+/// sin x and cos x − 1.
+#[inline(always)]
+fn sin_cos_less_one<const EXACT: bool>(x: f64) -> (f64, f64) {
+    if EXACT && x.abs() > SMALL_RAD {
+        let (sin, cos) = libm::sincos(x);
+        return (sin, cos - 1.0);
+    }
+    (small_sin(x), small_cos_less_one(x))
+}

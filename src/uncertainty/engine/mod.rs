@@ -1,0 +1,190 @@
+//! The fast engine of Monte Carlo: trials side by side, lanes rather than branches.
+//!
+//! A chunk is [`WIDTH`] trials. Its steps, each a loop over the chunk that the compiler turns into wide instructions:
+//!
+//! 1. [`plan`]: which inputs are drawn, and how; standard deviates, one column each.
+//! 2. [`kernel`]: attitudes, specific force, Earth rate and currents of every position.
+//! 3. [`closed`]: the paper's coefficients and its closed solution; or [`refit`]: weighted least squares.
+//!
+//! The instructions are as wide as the processor allows, chosen when the program runs. The arithmetic is the same
+//! everywhere, product by product: nothing is fused or reordered, so the same seed gives the same bytes. What a passport
+//! contains never comes from here.
+
+#![allow(clippy::needless_range_loop, reason = "a loop over trials that indexes several columns is what becomes wide")]
+
+pub mod closed;
+pub mod kernel;
+pub mod plan;
+pub mod refit;
+
+use crate::calibration::procedure::{Linearised, MethodRefusal, linearise};
+use crate::calibration::{Method, Readings, Setup};
+use crate::statistics::lanes::{Column, Lanes, WIDTH};
+use closed::Closed;
+use kernel::Kernel;
+use plan::Plan;
+use refit::Refit;
+
+/// Chunks of a block: 16,384 trials. JCGM 101, 7.9.4 asks for 10,000 at least.
+const CHUNKS_PER_BLOCK: u64 = 512;
+
+/// Trials of a block.
+pub const BLOCK: u64 = CHUNKS_PER_BLOCK * WIDTH as u64;
+
+/// How a current's own error is distributed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReadingShape {
+    /// Normal with the stated standard uncertainty.
+    Normal,
+    /// Uniform with the stated standard uncertainty: limits √3 times as far (JCGM 101, 6.4.2).
+    Uniform,
+}
+
+/// How parameters are found in every trial.
+#[derive(Debug, Clone)]
+enum Solver {
+    Closed(Closed),
+    Refit(Box<Refit>),
+}
+
+/// A calibration, ready for millions of trials.
+#[derive(Debug, Clone)]
+pub struct Engine {
+    plan: Plan,
+    kernel: Kernel,
+    solver: Solver,
+}
+
+/// The eight parameters of every trial of a chunk, in the order of [`crate::calibration::parameter::Parameter::EIGHT`].
+pub type Solutions = [Column; 8];
+
+/// The columns that a chunk works on, kept from chunk to chunk.
+#[derive(Debug, Clone)]
+pub struct Workspace {
+    deviates: Vec<Column>,
+    positions: Vec<kernel::At>,
+    solutions: Solutions,
+}
+
+impl Engine {
+    /// For `method` on a calibration of `readings` at `setup`.
+    ///
+    /// # Errors
+    /// The method gives nothing for these readings.
+    pub fn new(setup: &Setup, readings: &Readings, method: Method, shape: ReadingShape) -> Result<Self, MethodRefusal> {
+        let Linearised { fit, repeats, .. } = linearise(setup, readings, method, false)?;
+        let means_ma = readings.means_ma();
+        let solver = match method {
+            Method::LeastSquares => Solver::Refit(Box::new(Refit::new(&fit))),
+            Method::Analytic | Method::Iterative => Solver::Closed(Closed::new(setup)?),
+        };
+        let plan = Plan::new(setup, &means_ma, &repeats, shape);
+        let kernel = Kernel::new(setup, &means_ma, &plan);
+        Ok(Self { plan, kernel, solver })
+    }
+
+    /// Columns for chunks.
+    pub fn workspace(&self) -> Workspace {
+        Workspace {
+            deviates: vec![[0.0; WIDTH]; self.plan.columns()],
+            positions: vec![kernel::At::default(); self.kernel.positions()],
+            solutions: [[0.0; WIDTH]; 8],
+        }
+    }
+
+    /// Draws the standard deviates of a block, chunk by chunk, and does nothing with them but add some up: what random
+    /// numbers alone cost.
+    pub fn draw_alone(&self, lanes: &mut Lanes, work: &mut Workspace) -> f64 {
+        pulp::Arch::new().dispatch(Drawing { engine: self, lanes, work })
+    }
+
+    /// A block of trials; `each` gets the parameters of every chunk.
+    pub fn block(&self, lanes: &mut Lanes, work: &mut Workspace, each: impl FnMut(&Solutions)) {
+        pulp::Arch::new().dispatch(Block { engine: self, lanes, work, each });
+    }
+
+    /// The parameters for given standard deviates, one row a trial (at most [`WIDTH`]), in the order of
+    /// [`Plan::inputs`]. For tests against the exact path.
+    pub fn solutions_for(&self, trials: &[Vec<f64>]) -> Vec<[f64; 8]> {
+        let mut work = self.workspace();
+        for (trial, deviates) in trials.iter().take(WIDTH).enumerate() {
+            for (column, deviate) in work.deviates.iter_mut().skip(1).zip(deviates) {
+                column[trial] = *deviate;
+            }
+        }
+        pulp::Arch::new().dispatch(Chunk { engine: self, work: &mut work });
+        let count = trials.len().min(WIDTH);
+        (0..count).map(|trial| std::array::from_fn(|place| work.solutions[place][trial])).collect()
+    }
+
+    /// Which inputs are drawn, and how.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    #[inline(always)]
+    fn solve(&self, work: &mut Workspace) {
+        self.kernel.run(&work.deviates, &mut work.positions);
+        match &self.solver {
+            Solver::Closed(closed) => closed.solve(&work.positions, &mut work.solutions),
+            Solver::Refit(refit) => refit.solve(&work.positions, &mut work.solutions),
+        }
+    }
+}
+
+/// What runs with instructions as wide as the processor has them: everything that these call is inlined into them.
+struct Drawing<'a> {
+    engine: &'a Engine,
+    lanes: &'a mut Lanes,
+    work: &'a mut Workspace,
+}
+
+impl pulp::WithSimd for Drawing<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> f64 {
+        let mut sum = 0.0;
+        for _ in 0..CHUNKS_PER_BLOCK {
+            self.engine.plan.draw(self.lanes, &mut self.work.deviates);
+            for column in &self.work.deviates {
+                sum += column[0];
+            }
+        }
+        sum
+    }
+}
+
+struct Block<'a, F> {
+    engine: &'a Engine,
+    lanes: &'a mut Lanes,
+    work: &'a mut Workspace,
+    each: F,
+}
+
+impl<F: FnMut(&Solutions)> pulp::WithSimd for Block<'_, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(mut self, _: S) {
+        for _ in 0..CHUNKS_PER_BLOCK {
+            self.engine.plan.draw(self.lanes, &mut self.work.deviates);
+            self.engine.solve(self.work);
+            (self.each)(&self.work.solutions);
+        }
+    }
+}
+
+struct Chunk<'a> {
+    engine: &'a Engine,
+    work: &'a mut Workspace,
+}
+
+impl pulp::WithSimd for Chunk<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        self.engine.solve(self.work);
+    }
+}

@@ -1,0 +1,346 @@
+//! Monte Carlo of a calibration: trials until the stated digits are stable, coverage intervals, and whether first order
+//! is valid here.
+//!
+//! Source: [JCGM 101](crate::bibliography::Bibliography::Jcgm101), 7.9 (adaptive procedure), 7.7 (coverage intervals), 8
+//! (validation of first order). The same seed gives the same bytes on any number of threads; memory does not grow with
+//! the number of trials.
+
+use super::budget::{Budget, COVERAGE, ParameterBudget};
+use super::engine::{BLOCK, Engine};
+use super::tally::{BlockSummary, Histograms, Scale, Tally};
+use crate::calibration::Method;
+use crate::calibration::parameter::Parameter;
+use crate::statistics::lanes::Lanes;
+use nalgebra::DMatrix;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Significant digits of a standard uncertainty that must be right (JCGM 101, 7.9.2).
+const DIGITS: i32 = 2;
+
+/// Share of that tolerance within which Monte Carlo itself must be stable, to judge first order by it (JCGM 101, 8.2).
+const SHARE_OF_TOLERANCE: f64 = 0.2;
+
+/// Blocks at first, and in a wave at most: after each wave the digits are looked at.
+const FIRST_BLOCKS: u64 = 10;
+const MOST_BLOCKS_IN_A_WAVE: u64 = 512;
+
+/// Trials after which an adaptive run gives up.
+pub const MOST_TRIALS: u64 = 200_000_000;
+
+/// How a Monte Carlo is run.
+#[derive(Clone, Copy)]
+pub struct Trials<'a> {
+    /// How many, rounded up to whole blocks of [`BLOCK`]; `None` until the digits are stable.
+    pub trials: Option<u64>,
+    /// Which random numbers.
+    pub seed: u64,
+    /// Threads; 0 and 1 are the same.
+    pub threads: usize,
+    /// Once true, the run ends after the blocks that have begun.
+    pub cancel: Option<&'a AtomicBool>,
+    /// Told after every wave how many trials are done, and how many will be as far as that is known.
+    pub progress: Option<&'a (dyn Fn(u64, u64) + Sync)>,
+}
+
+impl std::fmt::Debug for Trials<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let Self { trials, seed, threads, .. } = self;
+        write!(f, "Trials {{ trials: {trials:?}, seed: {seed}, threads: {threads} }}")
+    }
+}
+
+impl Trials<'_> {
+    /// Until the digits are stable, on all the machine's processors.
+    pub fn adaptive(seed: u64) -> Self {
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        Self { trials: None, seed, threads, cancel: None, progress: None }
+    }
+}
+
+/// What the trials say.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MonteCarlo {
+    /// Of which method.
+    pub method: Method,
+    /// Which random numbers.
+    pub seed: u64,
+    /// Trials made.
+    pub trials: u64,
+    /// Trials that gave no finite parameters; they are left out.
+    pub failed: u64,
+    /// Whether every stated digit is stable (JCGM 101, 7.9.4).
+    pub stable: bool,
+    /// In the order of [`Parameter::EIGHT`].
+    pub parameters: Vec<Distribution>,
+    /// Covariance of the parameters, 8×8.
+    pub covariance: DMatrix<f64>,
+}
+
+/// The distribution of one parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Distribution {
+    /// Which parameter.
+    pub parameter: Parameter,
+    /// Mean of the trials.
+    pub mean: f64,
+    /// Their standard deviation.
+    pub standard_uncertainty: f64,
+    /// The interval of probability [`COVERAGE`] with as much below it as above.
+    pub symmetric: [f64; 2],
+    /// The shortest interval of that probability.
+    pub shortest: [f64; 2],
+    /// Twice the standard deviation of mean, standard uncertainty and the ends of the symmetric interval themselves.
+    pub numerical: [f64; 4],
+    /// How first order compares.
+    pub first_order: FirstOrder,
+}
+
+/// First order against Monte Carlo (JCGM 101, clause 8).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FirstOrder {
+    /// Standard uncertainty by first order.
+    pub standard_uncertainty: f64,
+    /// y − U and y + U.
+    pub interval: [f64; 2],
+    /// How far the two intervals' lower, and upper, ends are apart.
+    pub differences: [f64; 2],
+    /// What they may be apart: half a unit of the last of two digits of the standard uncertainty.
+    pub tolerance: f64,
+    /// Whether both are within it.
+    pub valid: bool,
+}
+
+/// Runs the trials of `engine`; `budget` is the first order to be judged.
+pub fn monte_carlo(engine: &Engine, budget: &Budget, run: &Trials) -> MonteCarlo {
+    let scale = pilot(engine, run.seed);
+    let mut series = Series::new(scale, run.seed);
+    let asked = run.trials.map(|trials| trials.div_ceil(BLOCK).max(1));
+    let mut due = asked.unwrap_or(FIRST_BLOCKS);
+    let mut stable = false;
+    let cancelled = || run.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
+    while series.blocks < due && !cancelled() {
+        let wave = (due - series.blocks).min(MOST_BLOCKS_IN_A_WAVE);
+        series.wave(engine, wave, run);
+        let ratio = series.instability(budget);
+        stable = ratio <= 1.0;
+        if asked.is_none() && !stable {
+            // Twice the standard deviation falls with the root of the trials; a tenth more, and never over four times.
+            let enough = (series.blocks as f64 * ratio * ratio * 1.1).ceil();
+            let next = enough.clamp(series.blocks as f64 + 2.0, 4.0 * series.blocks as f64) as u64;
+            due = next.min(MOST_TRIALS / BLOCK);
+        }
+        if let Some(progress) = run.progress {
+            progress(series.blocks * BLOCK, due * BLOCK);
+        }
+    }
+    series.result(budget, run.seed, stable)
+}
+
+/// The scale of every parameter, from the first block.
+fn pilot(engine: &Engine, seed: u64) -> Scale {
+    let mut samples: [Vec<f64>; 8] = Default::default();
+    let mut work = engine.workspace();
+    engine.block(&mut Lanes::new(seed), &mut work, |solutions| {
+        for (sample, column) in samples.iter_mut().zip(solutions) {
+            sample.extend_from_slice(column);
+        }
+    });
+    Scale::of_pilot(samples)
+}
+
+/// Everything that blocks leave behind, of a fixed size.
+struct Series {
+    scale: Scale,
+    lanes: Lanes,
+    blocks: u64,
+    count: u64,
+    failed: u64,
+    sums: [f64; 8],
+    products: [f64; 36],
+    histograms: Histograms,
+    /// For mean, standard deviation and the two quantiles of each parameter: mean of the blocks' own values and sum of
+    /// squares about it.
+    of_blocks: [[(f64, f64); 4]; 8],
+}
+
+/// Place of the square of a parameter among the products.
+const fn square(place: usize) -> usize {
+    place * (place + 1) / 2 + place
+}
+
+impl Series {
+    fn new(scale: Scale, seed: u64) -> Self {
+        Self {
+            scale,
+            lanes: Lanes::new(seed),
+            blocks: 0,
+            count: 0,
+            failed: 0,
+            sums: [0.0; 8],
+            products: [0.0; 36],
+            histograms: Histograms::default(),
+            of_blocks: [[(0.0, 0.0); 4]; 8],
+        }
+    }
+
+    /// Runs `blocks` blocks on the threads of `run`, and adds them up in their order.
+    fn wave(&mut self, engine: &Engine, blocks: u64, run: &Trials) {
+        let queue = Mutex::new((0, self.lanes.clone()));
+        let done: Mutex<(Vec<(u64, BlockSummary)>, Histograms)> = Mutex::default();
+        let worker = || {
+            let mut tally = Tally::new(self.scale);
+            let mut work = engine.workspace();
+            let mut summaries = Vec::new();
+            loop {
+                let (block, mut lanes) = {
+                    let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
+                    let cancelled = run.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));
+                    if queue.0 == blocks || cancelled {
+                        break;
+                    }
+                    let taken = queue.clone();
+                    queue.0 += 1;
+                    queue.1.jump();
+                    taken
+                };
+                engine.block(&mut lanes, &mut work, |solutions| tally.add(solutions));
+                summaries.push((block, tally.end_of_block()));
+            }
+            let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
+            done.0.append(&mut summaries);
+            done.1.merge(tally.histograms());
+        };
+        let helpers = run.threads.saturating_sub(1).min(usize::try_from(blocks - 1).unwrap_or(usize::MAX));
+        std::thread::scope(|scope| {
+            for _ in 0..helpers {
+                scope.spawn(worker);
+            }
+            worker();
+        });
+        self.lanes = queue.into_inner().unwrap_or_else(PoisonError::into_inner).1;
+        let (mut summaries, histograms) = done.into_inner().unwrap_or_else(PoisonError::into_inner);
+        summaries.sort_unstable_by_key(|(block, _)| *block);
+        summaries.iter().for_each(|(_, summary)| self.add(summary));
+        self.histograms.merge(&histograms);
+    }
+
+    fn add(&mut self, summary: &BlockSummary) {
+        self.blocks += 1;
+        self.count += summary.count - summary.failed;
+        self.failed += summary.failed;
+        let good = (summary.count - summary.failed).max(2) as f64;
+        for place in 0..8 {
+            self.sums[place] += summary.sums[place];
+            let mean = summary.sums[place] / good;
+            let variance = (summary.products[square(place)] - good * mean * mean) / (good - 1.0);
+            let [low, high] = summary.quantiles[place];
+            let values = [mean, variance.max(0.0).sqrt(), low, high];
+            for ((mean, squares), value) in self.of_blocks[place].iter_mut().zip(values) {
+                // Welford's update.
+                let before = value - *mean;
+                *mean += before / self.blocks as f64;
+                *squares += before * (value - *mean);
+            }
+        }
+        for (sum, product) in self.products.iter_mut().zip(&summary.products) {
+            *sum += product;
+        }
+    }
+
+    /// Twice the standard deviations of the mean over blocks of the four values of a parameter, in its unit.
+    fn numerical(&self, place: usize) -> [f64; 4] {
+        let blocks = self.blocks as f64;
+        if self.blocks < 2 {
+            return [f64::INFINITY; 4];
+        }
+        self.of_blocks[place]
+            .map(|(_, squares)| 2.0 * (squares / (blocks * (blocks - 1.0))).sqrt() * self.scale.unit[place])
+    }
+
+    /// The worst of all those over what they may be; at most 1 when every digit is stable.
+    fn instability(&self, budget: &Budget) -> f64 {
+        let of = |(place, line): (usize, &ParameterBudget)| {
+            let u = self.standard_deviation(place);
+            let limit = SHARE_OF_TOLERANCE * tolerance(if u > 0.0 { u } else { line.standard_uncertainty });
+            self.numerical(place).into_iter().fold(0.0, |worst: f64, value| worst.max(value / limit))
+        };
+        budget.parameters.iter().take(8).enumerate().map(of).fold(0.0, f64::max)
+    }
+
+    fn standard_deviation(&self, place: usize) -> f64 {
+        self.covariance(place, place).max(0.0).sqrt()
+    }
+
+    fn covariance(&self, one: usize, other: usize) -> f64 {
+        let (row, column) = (one.max(other), one.min(other));
+        let count = self.count.max(2) as f64;
+        let product = self.products[row * (row + 1) / 2 + column];
+        let about_mean = product - self.sums[row] * self.sums[column] / count;
+        about_mean / (count - 1.0) * self.scale.unit[row] * self.scale.unit[column]
+    }
+
+    fn result(&self, budget: &Budget, seed: u64, stable: bool) -> MonteCarlo {
+        let distribution = |(place, line): (usize, &ParameterBudget)| {
+            let (centre, unit) = (self.scale.centre[place], self.scale.unit[place]);
+            let value = |scaled: f64| centre + unit * scaled;
+            let bins = self.histograms.of(place);
+            let symmetric = [0.5 - COVERAGE / 2.0, 0.5 + COVERAGE / 2.0].map(|share| value(bins.quantile(share)));
+            let standard_uncertainty = self.standard_deviation(place);
+            Distribution {
+                parameter: line.parameter,
+                mean: value(self.sums[place] / self.count.max(1) as f64),
+                standard_uncertainty,
+                symmetric,
+                shortest: bins.shortest(COVERAGE).map(value),
+                numerical: self.numerical(place),
+                first_order: FirstOrder::new(line, symmetric),
+            }
+        };
+        MonteCarlo {
+            method: budget.method,
+            seed,
+            trials: self.count + self.failed,
+            failed: self.failed,
+            stable,
+            parameters: budget.parameters.iter().take(8).enumerate().map(distribution).collect(),
+            covariance: DMatrix::from_fn(8, 8, |row, column| self.covariance(row, column)),
+        }
+    }
+}
+
+impl FirstOrder {
+    fn new(line: &ParameterBudget, symmetric: [f64; 2]) -> Self {
+        let half = line.expanded_uncertainty();
+        let interval = [line.value - half, line.value + half];
+        let differences = [(interval[0] - symmetric[0]).abs(), (interval[1] - symmetric[1]).abs()];
+        let tolerance = tolerance(line.standard_uncertainty);
+        let valid = differences.iter().all(|difference| *difference <= tolerance);
+        Self { standard_uncertainty: line.standard_uncertainty, interval, differences, tolerance, valid }
+    }
+}
+
+/// δ = ½ · 10ˡ for u = c · 10ˡ with c of two digits (JCGM 101, 7.9.2).
+pub fn tolerance(u: f64) -> f64 {
+    if !(u.is_finite() && u > 0.0) {
+        return f64::INFINITY;
+    }
+    // The exponent of the value as printed: 0.0996 is 0.10.
+    let printed = format!("{u:.1e}");
+    let exponent = printed.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()).unwrap_or(0);
+    0.5 * libm::pow(10.0, f64::from(exponent - (DIGITS - 1)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Expected: the examples of JCGM 101, 7.9.2: u = 0.25 mg gives δ = 0.005 mg; u = 2 K with one digit would give 0.5.
+    #[test]
+    fn numerical_tolerances_of_the_guide() {
+        for (u, due) in [(0.25, 0.005), (0.0996, 0.005), (1.5e-4, 5e-6), (12.0, 0.5), (99.6, 5.0)] {
+            assert!((tolerance(u) / due - 1.0).abs() < 1e-12, "{u}: {}", tolerance(u));
+        }
+        assert_eq!(tolerance(0.0), f64::INFINITY);
+    }
+}
