@@ -5,7 +5,7 @@
 //! * [`document`]: the same for machines.
 //! * [`engine`]: trials of a Monte Carlo, many side by side.
 //! * [`entries`]: covariance of the numbers of a passport.
-//! * [`monte_carlo`]: the same without first order, and whether first order is valid; [`tally`]: what trials leave behind.
+//! * [`mod@monte_carlo`]: the same without first order, and whether first order is valid; [`tally`]: what trials leave behind.
 //! * [`picture`]: the contributions as bars (SVG).
 
 pub mod budget;
