@@ -19,7 +19,8 @@ pub enum Format {
 
 /// Writes a result.
 pub fn result(text: &str) -> Result<(), Failure> {
-    let mut stdout = io::stdout().lock();
+    // Emphasis goes to a terminal alone, and never where NO_COLOR is set.
+    let mut stdout = anstream::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         // Whoever reads has read enough.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
@@ -41,7 +42,7 @@ pub fn file(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
 
 /// Writes words about a result. Nothing is to be done when even standard error is closed.
 pub fn say(words: &str) {
-    let _ = writeln!(io::stderr().lock(), "dtg-passport: {}", words.trim_end().replace('\n', "\n              "));
+    let _ = writeln!(anstream::stderr().lock(), "dtg-passport: {}", words.trim_end().replace('\n', "\n              "));
 }
 
 /// The exit code of a refusal by the folder: what the file system or the signer refuses is no verdict on a document.

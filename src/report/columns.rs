@@ -1,5 +1,6 @@
 //! Text in columns, 100 wide.
 
+use super::style;
 use std::fmt::Write;
 
 /// The width of a terminal that nothing is wider than, but for a word or a row that cannot be broken.
@@ -42,13 +43,13 @@ pub fn table(out: &mut String, names: &[&str], rows: &[Vec<String>]) {
         cells.chain([names[column].chars().count()]).max().unwrap_or(0)
     };
     let widths: Vec<usize> = (0..names.len()).map(width).collect();
-    let mut write = |cells: &mut dyn Iterator<Item = &str>| {
+    let line = |cells: &mut dyn Iterator<Item = &str>| {
         let padded: Vec<String> = cells.zip(&widths).map(|(cell, &width)| format!("{cell:>width$}")).collect();
-        let _ = writeln!(out, "{}", format!("  {}", padded.join("  ")).trim_end());
+        format!("  {}", padded.join("  ")).trim_end().to_owned()
     };
-    write(&mut names.iter().copied());
+    let _ = writeln!(out, "{}", style::faint(&line(&mut names.iter().copied())));
     for row in rows {
-        write(&mut row.iter().map(String::as_str));
+        let _ = writeln!(out, "{}", line(&mut row.iter().map(String::as_str)));
     }
 }
 

@@ -5,21 +5,25 @@
 //! * [`calibration`]: the result of a calibration.
 //! * [`certification`]: a certified stand, and a check run.
 //! * [`columns`]: text in columns.
+//! * [`deviations`]: the certified deviations, drawn in block characters.
 //! * [`monte_carlo`]: intervals, and whether first order is valid.
 //! * [`issued`]: what became of an order, and what the factory should know about it.
 //! * [`passport_table`]: a passport in a terminal.
 //! * [`register`]: what is in force in a folder.
 //! * [`selftest`]: the reference cases.
 //! * [`simulation`]: the tables of simulations.
+//! * [`style`]: emphasis in a terminal.
 
 pub mod budget;
 pub mod calibration;
 pub mod certification;
 pub mod columns;
+pub mod deviations;
 pub mod issued;
 pub mod monte_carlo;
 pub mod passport_table;
 pub mod register;
 pub mod selftest;
 pub mod simulation;
+pub mod style;
 pub mod verdict;

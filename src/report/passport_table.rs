@@ -2,7 +2,7 @@
 
 use crate::passport::Content;
 use crate::passport::content::Rows;
-use crate::report::columns;
+use crate::report::{columns, deviations, style};
 use crate::text::rule;
 use std::fmt::{Display, Write};
 
@@ -13,8 +13,8 @@ const NAME_COLUMNS: usize = 26;
 pub fn text(content: &Content, verified: bool) -> String {
     let mut out = String::new();
     let header = &content.passport;
-    let state = if verified { "verified" } else { "NOT VERIFIED" };
-    let _ = writeln!(out, "Passport {}  ({state})", header.id);
+    let state = if verified { style::good("verified") } else { style::bad("NOT VERIFIED") };
+    let _ = writeln!(out, "{}  ({state})", style::heading(&format!("Passport {}", header.id)));
     line(&mut out, "issued", format!("{} by {}", header.issued_at, header.issuer));
     option(&mut out, "with", header.issued_with.as_ref());
     option(&mut out, "valid until", header.valid_until.as_ref());
@@ -35,7 +35,7 @@ pub fn text(content: &Content, verified: bool) -> String {
 }
 
 fn heading(out: &mut String, words: &str) {
-    let _ = writeln!(out, "\n{words}");
+    let _ = writeln!(out, "\n{}", style::heading(words));
 }
 
 /// A name and its value; a long value goes on under its beginning.
@@ -111,6 +111,8 @@ fn positions(out: &mut String, content: &Content) {
         row
     });
     columns::table(out, &names, &rows.collect::<Vec<_>>());
+    out.push('\n');
+    deviations::picture(out, &content.positions);
 }
 
 /// A standard uncertainty behind its value, where there is one.

@@ -1,5 +1,6 @@
 //! The answer of `verify`, as text and as the JSON that programs rely on.
 
+use super::style;
 use crate::passport::Verification;
 use serde::Serialize;
 use std::fmt::Write;
@@ -48,18 +49,18 @@ impl Verdict {
 pub fn text(verdicts: &[Verdict]) -> String {
     let mut text = String::new();
     for verdict in verdicts {
-        let answer = if verdict.valid { "VALID" } else { "REFUSED" };
+        let answer = if verdict.valid { style::good("VALID") } else { style::bad("REFUSED") };
         let id = verdict.id.as_deref().unwrap_or("(nothing of it may be believed)");
         let _ = writeln!(text, "{answer}  {id}  {}", verdict.file);
         for check in &verdict.checks {
             let mark = match check.passed {
-                Some(true) => "ok",
-                Some(false) => "FAILED",
-                None => "-",
+                Some(true) => style::good("ok    "),
+                Some(false) => style::bad("FAILED"),
+                None => "-     ".to_owned(),
             };
             let _ = writeln!(
                 text,
-                "  {mark:<6}  {:<10}  {}",
+                "  {mark}  {:<10}  {}",
                 check.name,
                 check.detail.replace('\n', "\n                      ")
             );

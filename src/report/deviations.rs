@@ -1,0 +1,53 @@
+//! The certified deviations, drawn in block characters: which position is off, which way, and by how much beside the rest.
+
+use super::style;
+use crate::stand::CertifiedPosition;
+use std::fmt::Write;
+
+/// Characters of a bar at each side of the axis; each is two halves.
+const SIDE: usize = 14;
+
+/// A line for every position, a bar for each of α, β, γ; all to one scale.
+pub fn picture(out: &mut String, positions: &[CertifiedPosition]) {
+    let angles = |at: &CertifiedPosition| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec];
+    let largest = positions.iter().flat_map(angles).fold(0.0, |largest: f64, angle| largest.max(angle.abs()));
+    if largest == 0.0 {
+        return;
+    }
+    let names = ["alpha", "beta", "gamma"].map(|name| format!("{name:^width$}", width = 2 * SIDE + 1));
+    let _ = writeln!(out, "{}", style::faint(format!("  i  j  {}", names.join("  ")).trim_end()));
+    for at in positions {
+        let bars = angles(at).map(|angle| bar(angle / largest));
+        let _ = writeln!(out, "{}", format!("{:>3}{:>3}  {}", at.i, at.j, bars.join("  ")).trim_end());
+    }
+    let _ = writeln!(out, "  the longest bar is {largest} arcsec; those to the left are negative");
+}
+
+/// A bar of -1 to 1 about its axis.
+fn bar(part: f64) -> String {
+    let halves = (part.abs() * (2 * SIDE) as f64).round() as usize;
+    let whole = "█".repeat(halves / 2);
+    let half = |character| if halves % 2 == 1 { character } else { "" };
+    let (left, right) = match part < 0.0 {
+        true => (format!("{}{whole}", half("▐")), String::new()),
+        false => (String::new(), format!("{whole}{}", half("▌"))),
+    };
+    format!("{left:>SIDE$}│{right:<SIDE$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bar_is_as_long_as_its_part() {
+        let blank = " ".repeat(SIDE);
+        assert_eq!(bar(0.0), format!("{blank}│{blank}"));
+        assert_eq!(bar(1.0), format!("{blank}│{}", "█".repeat(SIDE)));
+        assert_eq!(bar(-1.0), format!("{}│{blank}", "█".repeat(SIDE)));
+        // 0.35 of 28 halves is 9.8, five blocks; 0.32 is 8.96, four and a half.
+        assert_eq!(bar(-0.35).trim(), "█████│");
+        assert_eq!(bar(0.32).trim(), "│████▌");
+        assert_eq!(bar(-0.32).trim(), "▐████│");
+    }
+}
