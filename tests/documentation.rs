@@ -94,6 +94,18 @@ fn run(command: &str, folder: &Path) -> String {
     String::from_utf8(shell.output().unwrap().stdout).unwrap()
 }
 
+/// The tables of keys are those that the program writes.
+#[test]
+fn every_key_is_in_the_reference() {
+    let page = fs::read_to_string(tools::project("docs/keys.md")).unwrap();
+    let command = page.split('`').nth(1).unwrap();
+    let tables = &page[page.find("## ").unwrap()..];
+    assert!(
+        run(command, &fresh_folder("keys-of-the-program")) == tables,
+        "docs/keys.md: write it anew with `{command}`"
+    );
+}
+
 /// Every link to a file of the project leads to one.
 #[test]
 fn links_lead_somewhere() {

@@ -11,14 +11,26 @@ enum Kind {
     Gyro,
     Laboratory,
     Passport,
+    Revocation,
 }
 
-/// Print the JSON Schema of a format; of several, an object of them by name
+/// Print the JSON Schema of a format (of several, an object of them by name), or tables of its keys
 #[derive(Args)]
 pub struct Options {
     /// Formats
     #[arg(required = true, value_enum, value_delimiter = ',', value_name = "FORMAT")]
     formats: Vec<Kind>,
+    /// For editors, or for people
+    #[arg(long, value_enum, default_value = "json")]
+    format: Form,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Form {
+    /// JSON Schema
+    Json,
+    /// Tables of keys in Markdown
+    Markdown,
 }
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
@@ -28,7 +40,12 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         Kind::Gyro => ("gyro", schema::gyro()),
         Kind::Laboratory => ("laboratory", schema::laboratory()),
         Kind::Passport => ("passport", schema::passport()),
+        Kind::Revocation => ("revocation", schema::revocation()),
     };
+    if options.format == Form::Markdown {
+        let schemas: Vec<_> = options.formats.iter().map(|kind| of(kind).1).collect();
+        return output::result(&schema::tables(&schemas)).map(|()| 0);
+    }
     match options.formats.as_slice() {
         [one] => output::json(&of(one).1)?,
         several => {

@@ -1,0 +1,96 @@
+//! JSON Schemas of the formats, made from the records that read and write them, and the tables of keys made from those.
+
+mod reference;
+
+pub use reference::tables;
+
+use crate::gyro::{GYRO_FORMAT, GyroType};
+use crate::laboratory::{LABORATORY_FORMAT, Laboratory};
+use crate::passport::Content;
+use crate::passport::content::PASSPORT_FORMAT;
+use crate::revocation::{REVOCATION_FORMAT, RevocationList};
+use crate::site::{SITE_FORMAT, SiteFile};
+use crate::stand::{STAND_FORMAT, Stand};
+use schemars::{JsonSchema, Schema, schema_for};
+use serde_json::{Value, json};
+
+/// Of a stand file.
+pub fn stand() -> Schema {
+    with_format(schema_for!(Stand), STAND_FORMAT)
+}
+
+/// Of a site file.
+pub fn site() -> Schema {
+    with_format(schema_for!(SiteFile), SITE_FORMAT)
+}
+
+/// Of a gyro type.
+pub fn gyro() -> Schema {
+    with_format(schema_for!(GyroType), GYRO_FORMAT)
+}
+
+/// Of a laboratory.
+pub fn laboratory() -> Schema {
+    with_format(schema_for!(Laboratory), LABORATORY_FORMAT)
+}
+
+/// Of a passport, its signature included. A text that fits the schema need not be a passport: see `verify`.
+pub fn passport() -> Schema {
+    #[derive(JsonSchema)]
+    #[allow(dead_code)]
+    #[schemars(rename = "Passport", deny_unknown_fields)]
+    struct Signed {
+        #[schemars(flatten)]
+        content: Content,
+        /// OpenSSH's armored signature over every byte before this key.
+        signature: String,
+    }
+    with_format(schema_for!(Signed), PASSPORT_FORMAT)
+}
+
+/// Of a list of withdrawn passports, its signature included.
+pub fn revocation() -> Schema {
+    #[derive(JsonSchema)]
+    #[allow(dead_code)]
+    #[schemars(rename = "RevocationList", deny_unknown_fields)]
+    struct Signed {
+        #[schemars(flatten)]
+        list: RevocationList,
+        /// OpenSSH's armored signature over every byte before this key.
+        signature: String,
+    }
+    with_format(schema_for!(Signed), REVOCATION_FORMAT)
+}
+
+/// The value that `format` must have; and a key that is absent is left out, never null.
+fn with_format(mut schema: Schema, format: &str) -> Schema {
+    if let Some(Value::Object(property)) = schema.pointer_mut("/properties/format") {
+        property.insert("const".to_owned(), json!(format));
+    }
+    schema.ensure_object().values_mut().for_each(without_null);
+    schema
+}
+
+fn without_null(value: &mut Value) {
+    match value {
+        Value::Object(object) => {
+            if let Some(Value::Array(types)) = object.get_mut("type") {
+                types.retain(|kind| kind != "null");
+                if let [one] = types.as_slice() {
+                    object["type"] = one.clone();
+                }
+            }
+            if let Some(Value::Array(choices)) = object.get_mut("anyOf") {
+                choices.retain(|choice| *choice != json!({"type": "null"}));
+                if let [Value::Object(one)] = choices.as_slice() {
+                    let one = one.clone();
+                    object.shift_remove("anyOf");
+                    object.extend(one);
+                }
+            }
+            object.values_mut().for_each(without_null);
+        }
+        Value::Array(items) => items.iter_mut().for_each(without_null),
+        _ => {}
+    }
+}

@@ -1,0 +1,124 @@
+//! Tables of keys for people, made from the schemas: they cannot say anything else than what is read.
+
+use schemars::Schema;
+use serde_json::{Map, Value};
+use std::collections::HashMap;
+use std::fmt::Write;
+
+/// The keys of every format as Markdown, a section for each; parts that formats share stand in the first.
+pub fn tables(schemas: &[Schema]) -> String {
+    let mut seen = HashMap::new();
+    schemas.iter().map(|schema| Section { schema, seen: &mut seen }.write()).collect::<Vec<_>>().join("\n")
+}
+
+/// One format's section.
+struct Section<'a> {
+    schema: &'a Schema,
+    /// Where a shared part was described: its name, and that section's title.
+    seen: &'a mut HashMap<String, String>,
+}
+
+/// A line of the table: the whole key, what its value is, whether it is required, what it means.
+struct Row {
+    key: String,
+    value: String,
+    required: bool,
+    meaning: String,
+}
+
+impl Section<'_> {
+    fn write(mut self) -> String {
+        let root = self.schema.as_object().cloned().unwrap_or_default();
+        let format = self.schema.pointer("/properties/format/const").and_then(Value::as_str).unwrap_or_default();
+        let mut out = format!("## `{format}`\n\n");
+        let _ = writeln!(out, "{}\n", text(&root, "description"));
+        let _ = writeln!(out, "| key | value | required | meaning |\n|---|---|---|---|");
+        let mut rows = Vec::new();
+        self.rows(&root, "", format, &mut rows);
+        for Row { key, value, required, meaning } in rows {
+            let required = if required { "yes" } else { "" };
+            let _ = writeln!(out, "| `{key}` | {value} | {required} | {} |", meaning.replace('|', "\\|"));
+        }
+        out
+    }
+
+    /// The keys of a mapping, those of the mappings in it after their own line.
+    fn rows(&mut self, mapping: &Map<String, Value>, prefix: &str, format: &str, rows: &mut Vec<Row>) {
+        let required: Vec<&str> =
+            mapping.get("required").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str).collect();
+        for (name, property) in mapping.get("properties").and_then(Value::as_object).into_iter().flatten() {
+            let Some(property) = property.as_object() else { continue };
+            let key = format!("{prefix}{name}");
+            let (part, below) = match items(property) {
+                Some(items) if reference(items).is_some() => (reference(items), "[]."),
+                _ => (reference(property), "."),
+            };
+            let part = part.and_then(|name| Some((name, self.definition(name)?))).filter(|(_, part)| is_mapping(part));
+            let known = part.as_ref().and_then(|(name, _)| self.seen.get(*name).filter(|there| *there != format));
+            let mut meaning = text(property, "description");
+            if let Some(there) = known {
+                meaning = format!("{meaning} As in `{there}`.");
+            }
+            let row = Row { value: self.value(property), required: required.contains(&name.as_str()), key, meaning };
+            let inside = format!("{}{below}", row.key);
+            let described = known.is_some();
+            rows.push(row);
+            if let Some((name, part)) = part.filter(|_| !described) {
+                self.seen.insert(name.to_owned(), format.to_owned());
+                self.rows(&part, &inside, format, rows);
+            }
+        }
+    }
+
+    fn definition(&self, name: &str) -> Option<Map<String, Value>> {
+        self.schema.pointer(&format!("/$defs/{name}"))?.as_object().cloned()
+    }
+
+    /// What a value is, in words.
+    fn value(&self, property: &Map<String, Value>) -> String {
+        if let Some(constant) = property.get("const") {
+            return format!("`{constant}`");
+        }
+        if let Some(part) = reference(property).and_then(|name| self.definition(name)) {
+            return self.value(&part);
+        }
+        match property.get("type").and_then(Value::as_str) {
+            Some("object") => "mapping".to_owned(),
+            Some("array") => self.list(property),
+            Some("integer") => "whole number".to_owned(),
+            Some("boolean") => "true or false".to_owned(),
+            Some("string") => match property.get("format").and_then(Value::as_str) {
+                Some("date") => "day".to_owned(),
+                Some("date-time") => "time".to_owned(),
+                _ => "text".to_owned(),
+            },
+            Some(other) => other.to_owned(),
+            None => String::new(),
+        }
+    }
+
+    fn list(&self, property: &Map<String, Value>) -> String {
+        let of = items(property).map_or_else(String::new, |items| self.value(items));
+        match property.get("minItems").and_then(Value::as_u64) {
+            Some(length) if property.get("maxItems") == property.get("minItems") => format!("list of {length}: {of}"),
+            _ => format!("list: {of}"),
+        }
+    }
+}
+
+fn is_mapping(part: &Map<String, Value>) -> bool {
+    part.get("properties").is_some()
+}
+
+fn items(property: &Map<String, Value>) -> Option<&Map<String, Value>> {
+    property.get("items")?.as_object()
+}
+
+/// The name of the definition that a property refers to.
+fn reference(property: &Map<String, Value>) -> Option<&str> {
+    property.get("$ref")?.as_str()?.strip_prefix("#/$defs/")
+}
+
+fn text(object: &Map<String, Value>, key: &str) -> String {
+    object.get(key).and_then(Value::as_str).unwrap_or_default().replace('\n', " ")
+}
