@@ -16,6 +16,7 @@ pub mod closed;
 pub mod kernel;
 pub mod plan;
 pub mod refit;
+mod student;
 
 use crate::calibration::procedure::{Linearised, MethodRefusal, linearise};
 use crate::calibration::{Method, Readings, Setup};
