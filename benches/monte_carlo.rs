@@ -187,8 +187,10 @@ fn main() {
             }
         }
     }
-    let [two, drawing, one, refit_two, refit_one, whole_two, whole_one, whole_refit] = times.map(median);
-    let [numpy, numpy_refit] = peers.map(median);
+    let [two, drawing, one, refit_two, refit_one, whole_two, whole_one, whole_refit] = times.clone().map(median);
+    // Ratios of neighbours in time, then their medians: what disturbs one mostly disturbs the other.
+    let ratio = |above: &[f64], below: &[f64]| median(above.iter().zip(below).map(|(a, b)| a / b).collect());
+    let [numpy, numpy_refit] = peers.clone().map(median);
     println!("medians of {ROUNDS} rounds, ns per trial (wall clock)");
     println!(
         "closed solution, 2 threads {two:.1}, 1 thread {one:.1}; its random numbers alone, 2 threads {drawing:.1}"
@@ -200,14 +202,14 @@ fn main() {
     println!("NumPy, 1 core: closed {numpy:.1}, refit {numpy_refit:.1}");
     println!(
         "closed: NumPy / 2 threads = {:.1} (asked for: 10); with histograms {:.1}",
-        numpy / two,
-        numpy / whole_two
+        ratio(&peers[0], &times[0]),
+        ratio(&peers[0], &times[5])
     );
-    println!("closed: 2 threads / drawing alone = {:.2} (at most 2.0)", two / drawing);
-    println!("refit: NumPy / 2 threads = {:.1} (asked for: 10)", numpy_refit / refit_two);
+    println!("closed: 2 threads / drawing alone = {:.2} (at most 2.0)", ratio(&times[0], &times[1]));
+    println!("refit: NumPy / 2 threads = {:.1} (asked for: 10)", ratio(&peers[1], &times[3]));
     println!(
         "closed: 1 thread / 2 threads = {:.2} (asked for: 1.8); with histograms {:.2}",
-        one / two,
-        whole_one / whole_two
+        ratio(&times[2], &times[0]),
+        ratio(&times[6], &times[5])
     );
 }
