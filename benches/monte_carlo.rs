@@ -2,7 +2,11 @@
 //!
 //! The paper's gyro on a stand with general angles; 24 normal angles (5″) and 16 uniform currents (±0.015 %) drawn; the
 //! passport's coefficients and a method in every trial. NumPy runs on one core, from `target/test-tools` where the tests
-//! have installed it, otherwise as `python3`. Rounds alternate, so that all share the machine's mood; medians count.
+//! have installed it, otherwise as `python3`.
+//!
+//! Short slices of every kind of work alternate, and medians count. Two columns: wall-clock time of the slices during
+//! which the machine had next to nothing else to do; and, of all slices, the processor's time per thread, which counts
+//! where others work on the machine too (but knows nothing of threads that wait for each other). Linux only.
 
 use dtg_passport::attitude;
 use dtg_passport::calibration::{InputUncertainty, MeterUncertainty, Method, Readings, Setup};
@@ -14,7 +18,7 @@ use dtg_passport::statistics::lanes::Lanes;
 use dtg_passport::statistics::random::Stream;
 use dtg_passport::uncertainty::engine::{BLOCK, Engine, ReadingShape};
 use dtg_passport::uncertainty::monte_carlo::Trials;
-use dtg_passport::uncertainty::{Budget, MonteCarlo, monte_carlo};
+use dtg_passport::uncertainty::{Budget, monte_carlo};
 use dtg_passport::units::radians_from_arcseconds;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
@@ -23,7 +27,13 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
+/// Rounds, each with NumPy once; slices of every kind in a round, each a quarter of a second or so.
 const ROUNDS: usize = 7;
+const SLICES: usize = 4;
+
+/// Others may have this share of the machine in a slice that counts as undisturbed.
+const OTHERS: f64 = 0.03;
+
 const U_ANGLE_ARCSEC: f64 = 5.0;
 const READING_LIMIT: f64 = 0.015e-2;
 
@@ -50,22 +60,55 @@ fn case() -> Option<Case> {
     Some(Case { positions, earth, setup, readings })
 }
 
-/// Blocks on `threads` threads: nanoseconds per trial of wall-clock time.
-fn blocks(threads: u64, each: u64, work: impl Fn(&mut Lanes, u64) + Sync) -> f64 {
-    let start = Instant::now();
-    std::thread::scope(|scope| {
-        for thread in 0..threads {
-            let work = &work;
-            scope.spawn(move || {
-                let mut lanes = Lanes::new(thread);
-                work(&mut lanes, each);
-            });
-        }
-    });
-    start.elapsed().as_secs_f64() * 1e9 / (threads * each * BLOCK) as f64
+/// Time of a slice of work, nanoseconds per trial.
+#[derive(Clone, Copy)]
+struct Slice {
+    wall: f64,
+    /// Of the processors, shared out among the threads.
+    processor: f64,
+    undisturbed: bool,
 }
 
-fn trials_alone(engine: &Engine, threads: u64, each: u64) -> f64 {
+/// Seconds of processor time: of this process, and of all processes.
+fn processor_seconds() -> (f64, f64) {
+    const TICKS_PER_SECOND: f64 = 100.0;
+    let numbers = |path: &str, skip: usize, places: &[usize]| -> f64 {
+        let text = std::fs::read_to_string(path).unwrap_or_default();
+        // The program's name, in brackets, may hold blanks.
+        let text = text.lines().next().unwrap_or_default().rsplit(')').next().unwrap_or_default().to_owned();
+        let fields: Vec<f64> = text.split_whitespace().skip(skip).map(|word| word.parse().unwrap_or(0.0)).collect();
+        places.iter().filter_map(|&place| fields.get(place)).sum::<f64>() / TICKS_PER_SECOND
+    };
+    // utime and stime; user, nice, system, irq, softirq and steal of all processors.
+    (numbers("/proc/self/stat", 0, &[11, 12]), numbers("/proc/stat", 1, &[0, 1, 2, 5, 6, 7]))
+}
+
+/// Times `work`, which makes the number of trials that it returns.
+fn timed(threads: u64, work: impl FnOnce() -> u64) -> Slice {
+    let processors = std::thread::available_parallelism().map_or(1, usize::from) as f64;
+    let (start, (own, all)) = (Instant::now(), processor_seconds());
+    let trials = work() as f64;
+    let wall = start.elapsed().as_secs_f64();
+    let now = processor_seconds();
+    let (own, all) = (now.0 - own, now.1 - all);
+    let (wall_ns, processor_ns) = (wall * 1e9 / trials, own * 1e9 / trials / threads as f64);
+    Slice { wall: wall_ns, processor: processor_ns, undisturbed: all - own <= OTHERS * wall * processors }
+}
+
+/// Blocks on `threads` threads.
+fn blocks(threads: u64, each: u64, work: impl Fn(&mut Lanes, u64) + Sync) -> Slice {
+    timed(threads, || {
+        std::thread::scope(|scope| {
+            for thread in 0..threads {
+                let work = &work;
+                scope.spawn(move || work(&mut Lanes::new(thread), each));
+            }
+        });
+        threads * each * BLOCK
+    })
+}
+
+fn trials_alone(engine: &Engine, threads: u64, each: u64) -> Slice {
     blocks(threads, each, |lanes, count| {
         let mut work = engine.workspace();
         // The sums that NumPy takes too.
@@ -82,7 +125,7 @@ fn trials_alone(engine: &Engine, threads: u64, each: u64) -> f64 {
     })
 }
 
-fn drawing_alone(engine: &Engine, threads: u64, each: u64) -> f64 {
+fn drawing_alone(engine: &Engine, threads: u64, each: u64) -> Slice {
     blocks(threads, each, |lanes, count| {
         let mut work = engine.workspace();
         for _ in 0..count {
@@ -91,16 +134,16 @@ fn drawing_alone(engine: &Engine, threads: u64, each: u64) -> f64 {
     })
 }
 
-/// The whole procedure with its histograms, covariances and stability: nanoseconds per trial, and what it found.
-fn whole(engine: &Engine, budget: &Budget, threads: usize, trials: u64) -> (f64, MonteCarlo) {
-    let start = Instant::now();
-    let found = monte_carlo(engine, budget, &Trials { trials: Some(trials), threads, ..Trials::adaptive(1) });
-    (start.elapsed().as_secs_f64() * 1e9 / found.trials as f64, found)
+/// The whole procedure with its histograms, covariances and test of stability.
+fn whole(engine: &Engine, budget: &Budget, threads: usize, trials: u64) -> Slice {
+    let run = Trials { trials: Some(trials), threads, ..Trials::adaptive(1) };
+    timed(threads as u64, || black_box(monte_carlo(engine, budget, &run)).trials)
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied()
 }
 
 /// Trials per second of NumPy, and its standard deviations.
@@ -157,57 +200,75 @@ fn main() {
     let (Ok(closed), Ok(refit)) = (engine(Method::Analytic), engine(Method::LeastSquares)) else { return };
     let (Ok(of_closed), Ok(of_refit)) = (budget(Method::Analytic), budget(Method::LeastSquares)) else { return };
     if let Some(trials) = std::env::args().skip_while(|word| word != "--memory").nth(1) {
-        let trials = trials.parse().unwrap_or(100_000);
-        let (ns, found) = whole(&closed, &of_closed, 2, trials);
-        println!(
-            "{} trials: {:.1} s, {:.1} MB",
-            found.trials,
-            ns * found.trials as f64 / 1e9,
-            resident_mb().unwrap_or(0.0)
-        );
+        let run = Trials { trials: trials.parse().ok(), threads: 2, ..Trials::adaptive(1) };
+        let (start, found) = (Instant::now(), monte_carlo(&closed, &of_closed, &run));
+        let (seconds, mb) = (start.elapsed().as_secs_f64(), resident_mb().unwrap_or(f64::NAN));
+        println!("{} trials: {seconds:.1} s, {mb:.1} MB", found.trials);
         return;
     }
-    let mut times: [Vec<f64>; 8] = Default::default();
-    let mut peers: [Vec<f64>; 2] = Default::default();
+    let mut times: [Vec<Slice>; 7] = Default::default();
+    let mut peers: [Vec<Slice>; 2] = Default::default();
     for _ in 0..ROUNDS {
-        let measured = [
-            trials_alone(&closed, 2, 60),
-            drawing_alone(&closed, 2, 60),
-            trials_alone(&closed, 1, 60),
-            trials_alone(&refit, 2, 20),
-            trials_alone(&refit, 1, 20),
-            whole(&closed, &of_closed, 2, 4_000_000).0,
-            whole(&closed, &of_closed, 1, 2_000_000).0,
-            whole(&refit, &of_refit, 2, 1_000_000).0,
-        ];
-        times.iter_mut().zip(measured).for_each(|(all, time)| all.push(time));
-        if let Some(found) = numpy(&case, &of_closed) {
-            for (all, name) in peers.iter_mut().zip(["analytic", "least_squares"]) {
-                all.push(1e9 / found[name]["trials_per_s"].as_f64().unwrap_or(f64::NAN));
-            }
+        for _ in 0..SLICES {
+            let measured = [
+                trials_alone(&closed, 2, 160),
+                drawing_alone(&closed, 2, 240),
+                trials_alone(&closed, 1, 120),
+                whole(&closed, &of_closed, 2, 5_000_000),
+                whole(&closed, &of_closed, 1, 2_500_000),
+                trials_alone(&refit, 2, 80),
+                whole(&refit, &of_refit, 2, 2_000_000),
+            ];
+            times.iter_mut().zip(measured).for_each(|(all, slice)| all.push(slice));
+        }
+        let Some(found) = numpy(&case, &of_closed) else {
+            println!("no NumPy: see tests/run");
+            return;
+        };
+        for (all, name) in peers.iter_mut().zip(["analytic", "least_squares"]) {
+            let ns = |key: &str| found[name][key].as_f64().unwrap_or(f64::NAN);
+            let (wall, processor) = (ns("wall_ns"), ns("processor_ns"));
+            // On one core it is undisturbed when it had that core all the time.
+            let slice = Slice { wall, processor, undisturbed: processor > (1.0 - OTHERS) * wall };
+            // Once for every slice of its round.
+            all.extend([slice; SLICES]);
         }
     }
-    let [two, drawing, one, refit_two, refit_one, whole_two, whole_one, whole_refit] = times.map(median);
-    let [numpy, numpy_refit] = peers.map(median);
-    println!("medians of {ROUNDS} rounds, ns per trial (wall clock)");
-    println!(
-        "closed solution, 2 threads {two:.1}, 1 thread {one:.1}; its random numbers alone, 2 threads {drawing:.1}"
-    );
-    println!("least-squares refit, 2 threads {refit_two:.1}, 1 thread {refit_one:.1}");
-    println!(
-        "with histograms and covariance: closed, 2 threads {whole_two:.1}, 1 thread {whole_one:.1}; refit {whole_refit:.1}"
-    );
-    println!("NumPy, 1 core: closed {numpy:.1}, refit {numpy_refit:.1}");
-    println!(
-        "closed: NumPy / 2 threads = {:.1} (asked for: 10); with histograms {:.1}",
-        numpy / two,
-        numpy / whole_two
-    );
-    println!("closed: 2 threads / drawing alone = {:.2} (at most 2.0)", two / drawing);
-    println!("refit: NumPy / 2 threads = {:.1} (asked for: 10)", numpy_refit / refit_two);
-    println!(
-        "closed: 1 thread / 2 threads = {:.2} (asked for: 1.8); with histograms {:.2}",
-        one / two,
-        whole_one / whole_two
-    );
+    print(&times, &peers);
+}
+
+fn print(times: &[Vec<Slice>; 7], peers: &[Vec<Slice>; 2]) {
+    let [two, drawing, one, whole_two, whole_one, refit_two, whole_refit] = times;
+    let [numpy, numpy_refit] = peers;
+    let alone = |all: &[Slice]| median(all.iter().filter(|slice| slice.undisturbed).map(|slice| slice.wall));
+    let shown = |value: Option<f64>, decimals: usize| value.map_or("-".to_owned(), |ns| format!("{ns:.decimals$}"));
+    println!("{:<52}{:>12}{:>8}{:>16}", "ns per trial, medians", "undisturbed", "slices", "processor time");
+    for (name, all) in [
+        ("closed solution, 2 threads", two),
+        ("closed solution, 1 thread", one),
+        ("its random numbers alone, 2 threads", drawing),
+        ("with histograms and covariance, 2 threads", whole_two),
+        ("with histograms and covariance, 1 thread", whole_one),
+        ("least-squares refit, 2 threads", refit_two),
+        ("refit with histograms and covariance, 2 threads", whole_refit),
+        ("NumPy, closed solution, 1 core", numpy),
+        ("NumPy, least-squares refit, 1 core", numpy_refit),
+    ] {
+        let count = all.iter().filter(|slice| slice.undisturbed).count();
+        let processor = median(all.iter().map(|slice| slice.processor));
+        println!("  {name:<50}{:>12}{count:>8}{:>16}", shown(alone(all), 1), shown(processor, 1));
+    }
+    println!("{:<52}{:>12}{:>8}{:>16}", "ratios", "undisturbed", "", "processor time");
+    for (name, above, below, asked) in [
+        ("closed: NumPy / 2 threads", numpy, two, ">= 10"),
+        ("with histograms: NumPy / 2 threads", numpy, whole_two, ""),
+        ("closed, 2 threads / its random numbers alone", two, drawing, "<= 2.0"),
+        ("refit: NumPy / 2 threads", numpy_refit, refit_two, ">= 10"),
+        ("closed: 1 thread / 2 threads", one, two, ">= 1.8"),
+        ("with histograms: 1 thread / 2 threads", whole_one, whole_two, ">= 1.8"),
+    ] {
+        let undisturbed = alone(above).zip(alone(below)).map(|(above, below)| above / below);
+        let processor = median(above.iter().zip(below).map(|(a, b)| a.processor / b.processor));
+        println!("  {name:<50}{:>12}{asked:>8}{:>16}", shown(undisturbed, 2), shown(processor, 2));
+    }
 }

@@ -1,40 +1,13 @@
 """A calibration in suncal: its own Monte Carlo and its own first order, of the closed solution in plain NumPy.
 
-Reads the same case as gtc_budget.py, and writes standard uncertainties of the eight parameters by both.
+Reads a list of cases like that of gtc_budget.py, and writes standard uncertainties of the eight parameters by both for
+each.
 """
 import json
 import sys
 
 import numpy as np
 import suncal
-
-case = json.load(sys.stdin)
-SAMPLES = int(case["samples"])
-u = case["u"]
-names, spreads = [], []
-
-
-def quantity(name, spread):
-    if spread > 0:
-        names.append(name)
-        spreads.append(spread)
-
-
-for p, at in enumerate(case["positions"]):
-    for axis in range(3):
-        quantity(f"angle_{p}_{axis}", at["u"][axis])
-        quantity(f"back_{p}_{axis}", u["return"])
-    for axis in range(2):
-        quantity(f"reading_{p}_{axis}", u["reading"])
-        quantity(f"floor_{p}_{axis}", u["floor"])
-for axis in range(3):
-    quantity(f"platform_{axis}", u["platform"])
-    quantity(f"seat_{axis}", u["seat"][axis])
-    quantity(f"base_{axis}", u["base"])
-    quantity(f"level_{axis}", u["azimuth"] if axis == 2 else u["level"])
-for name in ("latitude", "deflection", "gain", "offset"):
-    quantity(name, u[name])
-
 
 def turned(v, d):
     return [v[0] + v[1] * d[2] - v[2] * d[1], v[1] + v[2] * d[0] - v[0] * d[2], v[2] + v[0] * d[1] - v[1] * d[0]]
@@ -57,7 +30,27 @@ def pair(x, a, b, c, d):
     return [[x[a][i] - x[b][i], x[c][i] - x[d][i]] for i in (0, 1)]
 
 
-def gyro(**errors):
+def inputs(case):
+    """Names of all uncertain inputs with their standard uncertainties."""
+    u = case["u"]
+    found = {}
+    for p, at in enumerate(case["positions"]):
+        for axis in range(3):
+            found[f"angle_{p}_{axis}"] = at["u"][axis]
+            found[f"back_{p}_{axis}"] = u["return"]
+        for axis in range(2):
+            found[f"reading_{p}_{axis}"] = u["reading"]
+            found[f"floor_{p}_{axis}"] = u["floor"]
+    for axis in range(3):
+        found[f"platform_{axis}"] = u["platform"]
+        found[f"seat_{axis}"] = u["seat"][axis]
+        found[f"base_{axis}"] = u["base"]
+        found[f"level_{axis}"] = u["azimuth"] if axis == 2 else u["level"]
+    found.update({name: u[name] for name in ("latitude", "deflection", "gain", "offset")})
+    return {name: spread for name, spread in found.items() if spread > 0}
+
+
+def gyro(case, errors):
     def small(name):
         return [errors.get(f"{name}_{axis}", 0.0) for axis in range(3)]
 
@@ -100,17 +93,21 @@ def gyro(**errors):
     return (*k[0], *k[1], *o, (wn[0][0] + wn[1][1]) / 2, (wn[1][0] - wn[0][1]) / 2)
 
 
-outputs = ["k_x", "k_xy", "k_yx", "k_y", "omega_0x", "omega_0y", "omega_g", "omega_k"]
-model = suncal.ModelCallable(gyro, names=outputs, argnames=names)
-for name, spread in zip(names, spreads):
-    model.var(name).measure(0.0).typeb(std=spread)
-np.random.seed(1)
-trials = model.monte_carlo(samples=SAMPLES)
-first = model.calculate_gum() if case["first_order"] else None
-json.dump(
-    {
-        "monte_carlo": [float(trials.uncertainty[name]) for name in outputs],
-        "first_order": [float(first.uncertainty[name]) for name in outputs] if first else None,
-    },
-    sys.stdout,
-)
+OUTPUTS = ["k_x", "k_xy", "k_yx", "k_y", "omega_0x", "omega_0y", "omega_g", "omega_k"]
+
+
+def uncertainties(case):
+    spreads = inputs(case)
+    model = suncal.ModelCallable(lambda **errors: gyro(case, errors), names=OUTPUTS, argnames=list(spreads))
+    for name, spread in spreads.items():
+        model.var(name).measure(0.0).typeb(std=spread)
+    np.random.seed(1)
+    trials = model.monte_carlo(samples=int(case["samples"]))
+    first = model.calculate_gum() if case["first_order"] else None
+    return {
+        "monte_carlo": [float(trials.uncertainty[name]) for name in OUTPUTS],
+        "first_order": [float(first.uncertainty[name]) for name in OUTPUTS] if first else None,
+    }
+
+
+json.dump([uncertainties(case) for case in json.load(sys.stdin)], sys.stdout)

@@ -16,6 +16,7 @@ pub mod closed;
 pub mod kernel;
 pub mod plan;
 pub mod refit;
+mod student;
 
 use crate::calibration::procedure::{Linearised, MethodRefusal, linearise};
 use crate::calibration::{Method, Readings, Setup};
@@ -186,5 +187,51 @@ impl pulp::WithSimd for Chunk<'_> {
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _: S) {
         self.engine.solve(self.work);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::calibration::{InputUncertainty, MeterUncertainty};
+    use crate::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
+    use crate::gyro::GyroType;
+    use crate::laboratory::Laboratory;
+
+    /// Everything uncertain on a perfect stand; few degrees of freedom where `known` says so.
+    fn engine(method: Method, known: f64) -> Engine {
+        let none = crate::attitude::Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 };
+        let positions =
+            EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| Position { index, theta_deg, phi_deg, deviation: none });
+        let uncertainty = InputUncertainty {
+            angles_rad: vec![[1e-5, 2e-5, 3e-5]; 8],
+            angles_degrees_of_freedom: vec![known; 8],
+            repeatability_rad: 1e-5,
+            level_rad: 1e-5,
+            ..InputUncertainty::of_meter(MeterUncertainty::from(&Laboratory::paper().meter))
+        };
+        let setup = Setup::new(&positions, EarthRate::at_astronomic_latitude(50.0), uncertainty).unwrap();
+        let gyro = GyroType::gvk_6().nominal.to_model();
+        let each = setup.coefficients().positions.iter().map(|at| (at.index, gyro.currents_ma(at).unwrap()));
+        let readings = Readings::new(setup.coefficients(), &each.collect::<Vec<_>>()).unwrap();
+        Engine::new(&setup, &readings, method, ReadingShape::Normal).unwrap()
+    }
+
+    /// The widest instructions of this machine and none at all give the same bits.
+    #[test]
+    fn results_do_not_depend_on_the_width_of_instructions() {
+        use pulp::WithSimd;
+        for method in [Method::Analytic, Method::LeastSquares] {
+            for known in [f64::INFINITY, 4.0, 4.5] {
+                let engine = engine(method, known);
+                let (mut wide, mut narrow) = (Vec::new(), Vec::new());
+                engine
+                    .block(&mut Lanes::new(5), &mut engine.workspace(), |found| wide.push(found[0].map(f64::to_bits)));
+                let (mut lanes, mut work) = (Lanes::new(5), engine.workspace());
+                let each = |found: &Solutions| narrow.push(found[0].map(f64::to_bits));
+                Block { engine: &engine, lanes: &mut lanes, work: &mut work, each }.with_simd(pulp::Scalar);
+                assert!(wide == narrow);
+            }
+        }
     }
 }

@@ -3,7 +3,7 @@
 //! Source: [JCGM 101](crate::bibliography::Bibliography::Jcgm101), 6.4: normal where a standard uncertainty is all that
 //! is known (6.4.7), uniform between limits (6.4.2), scaled t where it was estimated with few degrees of freedom (6.4.9).
 
-use super::ReadingShape;
+use super::{ReadingShape, student};
 use crate::calibration::Setup;
 use crate::calibration::causes::Repeats;
 use crate::statistics::lanes::{Column, Lanes, WIDTH};
@@ -146,23 +146,8 @@ impl Plan {
             let mut spare = [0.0; WIDTH];
             lanes.normals(&mut deviates[last], &mut spare);
         }
-        if !self.estimated.is_empty() {
-            self.scale(lanes, deviates);
-        }
-    }
-
-    /// t = z/√(χ²/ν), one χ² for all that rests on the same estimate.
-    #[cold]
-    #[inline(never)]
-    fn scale(&self, lanes: &mut Lanes, deviates: &mut [Column]) {
-        let mut source = Source { lanes, normals: [[0.0; WIDTH]; 2], uniform: [0.0; WIDTH], left: [0; 2] };
         for (degrees_of_freedom, slots) in &self.estimated {
-            for trial in 0..WIDTH {
-                let factor = (degrees_of_freedom / source.chi_square(*degrees_of_freedom)).sqrt();
-                for slot in slots {
-                    deviates[*slot][trial] *= factor;
-                }
-            }
+            student::scale(lanes, deviates, *degrees_of_freedom, slots);
         }
     }
 }
@@ -189,55 +174,4 @@ fn estimated(inputs: &[DrawnInput]) -> Vec<(f64, Vec<Slot>)> {
         }
     }
     groups
-}
-
-/// Single random numbers from columns.
-struct Source<'a> {
-    lanes: &'a mut Lanes,
-    normals: [Column; 2],
-    uniform: Column,
-    /// Numbers left of normals and of uniforms.
-    left: [usize; 2],
-}
-
-impl Source<'_> {
-    fn normal(&mut self) -> f64 {
-        if self.left[0] == 0 {
-            let [one, other] = &mut self.normals;
-            self.lanes.normals(one, other);
-            self.left[0] = 2 * WIDTH;
-        }
-        self.left[0] -= 1;
-        self.normals[self.left[0] / WIDTH][self.left[0] % WIDTH]
-    }
-
-    /// In (0, 1].
-    fn unit(&mut self) -> f64 {
-        if self.left[1] == 0 {
-            self.lanes.uniform(&mut self.uniform);
-            self.left[1] = WIDTH;
-        }
-        self.left[1] -= 1;
-        0.5 - 0.5 * self.uniform[self.left[1]]
-    }
-
-    /// Chi-square, by the method of [Marsaglia and Tsang](crate::bibliography::Bibliography::MarsagliaTsang00) for the
-    /// gamma distribution.
-    fn chi_square(&mut self, degrees_of_freedom: f64) -> f64 {
-        let shape = 0.5 * degrees_of_freedom;
-        // A shape below 1 through the next one, times a power of a uniform number.
-        let small = shape < 1.0;
-        let d = (if small { shape + 1.0 } else { shape }) - 1.0 / 3.0;
-        let c = 1.0 / (9.0 * d).sqrt();
-        loop {
-            let x = self.normal();
-            let base = 1.0 + c * x;
-            let v = base * base * base;
-            let unit = self.unit();
-            if v > 0.0 && libm::log(unit) < 0.5 * x * x + d - d * v + d * libm::log(v) {
-                let boost = if small { libm::pow(self.unit(), 1.0 / shape) } else { 1.0 };
-                return 2.0 * d * v * boost;
-            }
-        }
-    }
 }

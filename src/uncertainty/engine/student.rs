@@ -1,0 +1,142 @@
+//! Student's t from normal deviates: what rests on an estimate with few degrees of freedom ([JCGM 101,
+//! 6.4.9](crate::bibliography::Bibliography::Jcgm101)).
+
+use super::plan::Slot;
+use crate::statistics::elementary::ln;
+use crate::statistics::lanes::{Column, Lanes, WIDTH};
+
+/// Up to here a whole number of degrees of freedom is drawn without branches: the product of so many uniform numbers, none
+/// below 2⁻⁵², is far from the smallest number of binary64.
+const MOST_WITHOUT_BRANCHES: f64 = 38.0;
+
+/// Makes t = z/√(χ²/ν) of the columns `slots`, one χ² a trial for all of them.
+#[inline(always)]
+pub(crate) fn scale(lanes: &mut Lanes, deviates: &mut [Column], degrees_of_freedom: f64, slots: &[Slot]) {
+    let mut factor = if degrees_of_freedom <= MOST_WITHOUT_BRANCHES && degrees_of_freedom.fract() == 0.0 {
+        whole(lanes, degrees_of_freedom)
+    } else {
+        any(lanes, degrees_of_freedom)
+    };
+    for value in &mut factor {
+        *value = (degrees_of_freedom / *value).sqrt();
+    }
+    for slot in slots {
+        for trial in 0..WIDTH {
+            deviates[*slot][trial] *= factor[trial];
+        }
+    }
+}
+
+/// χ² with 2 m degrees of freedom is −2 ln of the product of m uniform numbers; one more is the square of a normal one.
+#[inline(always)]
+fn whole(lanes: &mut Lanes, degrees_of_freedom: f64) -> Column {
+    let pairs = (0.5 * degrees_of_freedom) as u32;
+    let mut product = [1.0; WIDTH];
+    let mut uniform = [0.0; WIDTH];
+    for _ in 0..pairs {
+        lanes.uniform(&mut uniform);
+        for trial in 0..WIDTH {
+            // In (0, 1].
+            product[trial] *= 0.5 - 0.5 * uniform[trial];
+        }
+    }
+    let mut chi_square = [0.0; WIDTH];
+    if f64::from(2 * pairs) < degrees_of_freedom {
+        let (mut normal, mut spare) = ([0.0; WIDTH], [0.0; WIDTH]);
+        lanes.normals(&mut normal, &mut spare);
+        for trial in 0..WIDTH {
+            chi_square[trial] = normal[trial] * normal[trial];
+        }
+    }
+    for trial in 0..WIDTH {
+        chi_square[trial] -= 2.0 * ln(product[trial]);
+    }
+    chi_square
+}
+
+/// χ² with any degrees of freedom, by the method of
+/// [Marsaglia and Tsang](crate::bibliography::Bibliography::MarsagliaTsang00) for the gamma distribution.
+#[cold]
+#[inline(never)]
+fn any(lanes: &mut Lanes, degrees_of_freedom: f64) -> Column {
+    let mut source = Source { lanes, normals: [[0.0; WIDTH]; 2], uniform: [0.0; WIDTH], left: [0; 2] };
+    std::array::from_fn(|_| source.chi_square(degrees_of_freedom))
+}
+
+/// Single random numbers from columns.
+struct Source<'a> {
+    lanes: &'a mut Lanes,
+    normals: [Column; 2],
+    uniform: Column,
+    /// Numbers left of normals and of uniforms.
+    left: [usize; 2],
+}
+
+impl Source<'_> {
+    fn normal(&mut self) -> f64 {
+        if self.left[0] == 0 {
+            let [one, other] = &mut self.normals;
+            self.lanes.normals(one, other);
+            self.left[0] = 2 * WIDTH;
+        }
+        self.left[0] -= 1;
+        self.normals[self.left[0] / WIDTH][self.left[0] % WIDTH]
+    }
+
+    /// In (0, 1].
+    fn unit(&mut self) -> f64 {
+        if self.left[1] == 0 {
+            self.lanes.uniform(&mut self.uniform);
+            self.left[1] = WIDTH;
+        }
+        self.left[1] -= 1;
+        0.5 - 0.5 * self.uniform[self.left[1]]
+    }
+
+    fn chi_square(&mut self, degrees_of_freedom: f64) -> f64 {
+        let shape = 0.5 * degrees_of_freedom;
+        // A shape below 1 through the next one, times a power of a uniform number.
+        let small = shape < 1.0;
+        let d = (if small { shape + 1.0 } else { shape }) - 1.0 / 3.0;
+        let c = 1.0 / (9.0 * d).sqrt();
+        loop {
+            let x = self.normal();
+            let base = 1.0 + c * x;
+            let v = base * base * base;
+            let unit = self.unit();
+            if v > 0.0 && libm::log(unit) < 0.5 * x * x + d - d * v + d * libm::log(v) {
+                let boost = if small { libm::pow(self.unit(), 1.0 / shape) } else { 1.0 };
+                return 2.0 * d * v * boost;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Expected: chi-square has mean ν, variance 2 ν and third central moment 8 ν; five standard errors of the first two.
+    #[test]
+    fn chi_squares() {
+        let mut lanes = Lanes::new(9);
+        for degrees_of_freedom in [1.0, 2.0, 5.0, 38.0, 0.7, 4.5, 60.0] {
+            let n = 3000 * WIDTH;
+            let mut values = Vec::with_capacity(n);
+            for _ in 0..3000 {
+                let column = if degrees_of_freedom <= MOST_WITHOUT_BRANCHES && f64::fract(degrees_of_freedom) == 0.0 {
+                    whole(&mut lanes, degrees_of_freedom)
+                } else {
+                    any(&mut lanes, degrees_of_freedom)
+                };
+                values.extend(column);
+            }
+            let n = n as f64;
+            let mean = values.iter().sum::<f64>() / n;
+            let variance = values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / n;
+            assert!((mean - degrees_of_freedom).abs() < 5.0 * (2.0 * degrees_of_freedom / n).sqrt(), "{mean}");
+            let scatter = ((48.0 * degrees_of_freedom + 8.0 * degrees_of_freedom * degrees_of_freedom) / n).sqrt();
+            assert!((variance - 2.0 * degrees_of_freedom).abs() < 5.0 * scatter, "{degrees_of_freedom}: {variance}");
+        }
+    }
+}
