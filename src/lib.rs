@@ -106,3 +106,8 @@ pub mod text;
 pub mod trust;
 pub mod uncertainty;
 pub mod units;
+
+/// The guide's Rust is compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/integrator.md")]
+mod integrator_guide {}
