@@ -44,18 +44,44 @@ impl Text {
 
     /// The same with every `{name}` replaced by its value.
     pub fn filled(&self, language: Language, values: &[(&str, &str)]) -> String {
-        let mut rest = self.of(language);
-        let mut filled = String::new();
-        // One pass, so that a value which holds braces is never read as a name.
-        while let Some((before, after)) = rest.split_once('{') {
-            let (name, after) = after.split_once('}').unwrap_or((after, ""));
-            let value = values.iter().find(|(key, _)| *key == name).map_or("", |(_, value)| value);
-            filled.push_str(before);
-            filled.push_str(value);
-            rest = after;
-        }
-        filled + rest
+        let piece = |piece| match piece {
+            Piece::Words(words) => words,
+            Piece::Name(name) => values.iter().find(|(key, _)| *key == name).map_or("", |(_, value)| value),
+        };
+        pieces(self.of(language)).into_iter().map(piece).collect()
     }
+
+    /// The same with values that are elements of the page.
+    pub fn marked_up(&self, language: Language, values: &[(&str, Markup)]) -> Markup {
+        let value = |name: &str| values.iter().find(|(key, _)| *key == name).map(|(_, value)| value);
+        html! {
+            @for piece in pieces(self.of(language)) {
+                @match piece {
+                    Piece::Words(words) => (words),
+                    Piece::Name(name) => @if let Some(value) = value(name) { (value) },
+                }
+            }
+        }
+    }
+}
+
+/// A part of a text.
+enum Piece<'a> {
+    Words(&'a str),
+    /// The name of a value that stands here.
+    Name(&'a str),
+}
+
+/// The parts of a text. A value that holds braces is never read as a name: it is put in afterwards.
+fn pieces(mut rest: &str) -> Vec<Piece<'_>> {
+    let mut pieces = Vec::new();
+    while let Some((before, after)) = rest.split_once('{') {
+        let (name, after) = after.split_once('}').unwrap_or((after, ""));
+        pieces.extend([Piece::Words(before), Piece::Name(name)]);
+        rest = after;
+    }
+    pieces.push(Piece::Words(rest));
+    pieces
 }
 
 /// A table of texts: a constant for each, and all of them by name for whoever checks them.

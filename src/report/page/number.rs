@@ -80,6 +80,24 @@ impl Number {
     pub fn markup(&self, languages: &Languages) -> Markup {
         html! { data value=(rule::number(self.value)) { (self.text(languages.first())) } }
     }
+
+    /// The same, with room for so many decimals: the marks of a column stand one below the other.
+    pub fn aligned(&self, languages: &Languages, decimals: usize) -> Markup {
+        let own = self.decimals();
+        // What the column's longest number has more: decimals, blanks between their groups, the mark itself.
+        let zeros = |decimals: usize| localised(&format!("{:.decimals$}", 0.0), languages.first());
+        let missing: String = zeros(decimals.max(own)).chars().skip(zeros(own).chars().count()).collect();
+        html! {
+            (self.markup(languages))
+            @if !missing.is_empty() { span.pad aria-hidden="true" { (missing) } }
+        }
+    }
+}
+
+/// A column of numbers, their decimal marks one below the other.
+pub fn column(languages: &Languages, numbers: &[Option<Number>]) -> Vec<Option<Markup>> {
+    let decimals = numbers.iter().flatten().map(Number::decimals).max().unwrap_or(0);
+    numbers.iter().map(|number| number.as_ref().map(|number| number.aligned(languages, decimals))).collect()
 }
 
 /// The place (power of ten) of the second significant digit of `u`, after rounding: 0.0996 is 0.10.
