@@ -140,10 +140,7 @@ pub fn examine(file: &str, bytes: &[u8], trust: &Trust, question: &Question, wit
         Some((Code::KeyRevoked | Code::PassportRevoked, check)) => (State::Revoked, check.detail.clone()),
         Some((_, check)) => (State::Broken, format!("{}: {}", check.name.as_str(), check.detail)),
     };
-    let holds = |name| verification.code(name) == Some(Code::Ok);
-    use CheckName::{Grammar, Recomputed, Schema, Signature, Signer};
-    let counts = [Grammar, Signature, Schema, Signer, Recomputed].into_iter().all(holds)
-        && verification.code(CheckName::Revocation) != Some(Code::KeyRevoked);
+    let counts = verification.authentic().is_some();
     let predecessor = content.and_then(|content| {
         let from = content.passport.reissued_from.as_ref()?;
         Some(Predecessor { sha256: from.sha256.clone(), superseded: content.passport.supersedes == Some(true) })

@@ -14,6 +14,7 @@ mod keygen;
 mod output;
 mod register;
 mod reissue;
+mod render;
 mod revoke;
 mod schema;
 mod selftest;
@@ -44,6 +45,7 @@ enum Verb {
     Reissue(reissue::Options),
     Verify(verify::Options),
     Show(show::Options),
+    Render(render::Options),
     Calibrate(calibrate::Options),
     Register(register::Options),
     Revoke(revoke::Options),
@@ -98,6 +100,7 @@ pub fn main() -> ExitCode {
         Verb::Reissue(options) => reissue::run(&options),
         Verb::Verify(options) => verify::run(&options),
         Verb::Show(options) => show::run(&options),
+        Verb::Render(options) => render::run(&options),
         Verb::Calibrate(options) => calibrate::run(&options),
         Verb::Register(options) => register::run(&options),
         Verb::Revoke(options) => revoke::run(&options),

@@ -13,83 +13,142 @@ pub fn payload(content: &Content) -> String {
     rule::write(&node, &|path| comments(content, path))
 }
 
-/// What this passport cannot state because it was not given, and what that costs; each one sentence in ASCII.
-pub fn absences(content: &Content) -> Vec<String> {
-    let mut said = of_the_certificate(content);
-    said.extend(of_the_site(content));
-    said
+/// What a passport cannot state because it was not given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Absence {
+    /// Of some deviation the uncertainty.
+    Uncertainty,
+    /// The repeatability of a return.
+    Repeatability,
+    /// The part common to all positions, of platform or base.
+    CommonPart,
+    /// Traceability.
+    Traceability,
+    /// Temperature, during the measurement and for use.
+    Temperature,
+    /// The certificate's last day.
+    LastDay,
+    /// The surfaces that realise the axes.
+    Datum,
+    /// One of the paper's eight positions.
+    EightPositions,
+    /// The deflection of the vertical, with what it costs in the rates at most.
+    Deflection {
+        /// What `UNKNOWN_DEFLECTION_U_ARCSEC` costs.
+        cost_deg_per_h: f64,
+    },
+    /// The longitude.
+    Longitude,
+    /// The geodetic latitude.
+    GeodeticLatitude,
+    /// The height.
+    Height,
+    /// Uncertainties of the base as set up.
+    BaseUncertainty,
+    /// The azimuth mark.
+    AzimuthMark,
 }
 
-fn of_the_certificate(content: &Content) -> Vec<String> {
-    let mut said = Vec::new();
+impl Absence {
+    /// What is absent and what that costs; one sentence in ASCII.
+    fn sentence(self) -> String {
+        let fixed = match self {
+            Self::Uncertainty => {
+                "No uncertainty of the deviations is certified (u_alpha_arcsec and so on): none can be stated."
+            }
+            Self::Repeatability => "No repeatability is certified: what a return to a position adds is unknown.",
+            Self::CommonPart => {
+                "The part common to all positions is not certified for platform and base: it is unknown."
+            }
+            Self::Traceability => "No traceability is stated: the deviations are numbers, not traceable measurements.",
+            Self::Temperature => "No temperature is certified: whether the deviations hold at another one is unknown.",
+            Self::LastDay => {
+                "The certificate names no last day: who uses the stand decides when to have it certified again."
+            }
+            Self::Datum => {
+                "No datum is stated: which surfaces to level, to turn north and to seat the gyro on is unknown."
+            }
+            Self::EightPositions => {
+                "Not all of the eight positions are certified: no matrices, no self-check, least squares alone."
+            }
+            Self::Deflection { cost_deg_per_h } => {
+                return format!(
+                    "The deflection of the vertical is unknown: taken as 0 with u = {UNKNOWN_DEFLECTION_U_ARCSEC} \
+                     arcsec, up to {cost_deg_per_h:.1e} deg/h in the rates."
+                );
+            }
+            Self::Longitude => "The longitude is unknown: of the place only the latitude can be checked.",
+            Self::GeodeticLatitude => {
+                return format!(
+                    "The geodetic latitude is unknown: the check of place allows {LATITUDE_MARGIN_ARCSEC} arcsec for it."
+                );
+            }
+            Self::Height => {
+                "The height is unknown: normal gravity is that at 0 m, 3.1e-6 m/s2 too large for each metre."
+            }
+            Self::BaseUncertainty => {
+                "No uncertainty of latitude, azimuth and level of the base is stated for this site."
+            }
+            Self::AzimuthMark => "No azimuth mark is given: north must come from elsewhere.",
+        };
+        fixed.to_owned()
+    }
+}
+
+/// What this passport cannot state because it was not given, and what that costs; each one sentence in ASCII.
+pub fn absences(content: &Content) -> Vec<String> {
+    sentences(absent(content))
+}
+
+/// What this passport cannot state because it was not given.
+pub fn absent(content: &Content) -> Vec<Absence> {
+    let mut absent = of_the_certificate(content);
+    absent.extend(of_the_site(content));
+    absent
+}
+
+fn sentences(absences: Vec<Absence>) -> Vec<String> {
+    absences.into_iter().map(Absence::sentence).collect()
+}
+
+fn of_the_certificate(content: &Content) -> Vec<Absence> {
     let certificate = &content.certificate;
     let uncertain = content.positions.iter().any(|position| {
         position.u_alpha_arcsec.is_none() || position.u_beta_arcsec.is_none() || position.u_gamma_arcsec.is_none()
     });
-    if uncertain {
-        said.push(
-            "No uncertainty of the deviations is certified (u_alpha_arcsec and so on): none can be stated.".into(),
-        );
-    }
-    if certificate.repeatability_arcsec.is_none() {
-        said.push("No repeatability is certified: what a return to a position adds is unknown.".into());
-    }
-    if certificate.common_platform_arcsec.is_none() || certificate.common_base_arcsec.is_none() {
-        said.push("The part common to all positions is not certified for platform and base: it is unknown.".into());
-    }
-    if certificate.traceability.is_none() {
-        said.push("No traceability is stated: the deviations are numbers, not traceable measurements.".into());
-    }
-    if certificate.temperature_c.is_none() && certificate.temperature_range_c.is_none() {
-        said.push("No temperature is certified: whether the deviations hold at another one is unknown.".into());
-    }
-    if certificate.valid_until.is_none() {
-        said.push(
-            "The certificate names no last day: who uses the stand decides when to have it certified again.".into(),
-        );
-    }
-    if content.datum.is_none() {
-        said.push(
-            "No datum is stated: which surfaces to level, to turn north and to seat the gyro on is unknown.".into(),
-        );
-    }
-    if content.matrices.is_none() {
-        said.push(
-            "Not all of the eight positions are certified: no matrices, no self-check, least squares alone.".into(),
-        );
-    }
-    said
+    let common = certificate.common_platform_arcsec.is_none() || certificate.common_base_arcsec.is_none();
+    let temperature = certificate.temperature_c.is_none() && certificate.temperature_range_c.is_none();
+    let absences = [
+        (uncertain, Absence::Uncertainty),
+        (certificate.repeatability_arcsec.is_none(), Absence::Repeatability),
+        (common, Absence::CommonPart),
+        (certificate.traceability.is_none(), Absence::Traceability),
+        (temperature, Absence::Temperature),
+        (certificate.valid_until.is_none(), Absence::LastDay),
+        (content.datum.is_none(), Absence::Datum),
+        (content.matrices.is_none(), Absence::EightPositions),
+    ];
+    those_that_are(absences)
 }
 
-fn of_the_site(content: &Content) -> Vec<String> {
-    let mut said = Vec::new();
+fn of_the_site(content: &Content) -> Vec<Absence> {
     let site = &content.site;
-    if site.deflection_arcsec.is_none() && site.astronomic_latitude_deg.is_none() {
-        let u_deg = UNKNOWN_DEFLECTION_U_ARCSEC / units::ARCSECONDS_PER_DEGREE;
-        let cost = earth::rotation_deg_per_h() * units::radians_from_degrees(u_deg);
-        said.push(format!(
-            "The deflection of the vertical is unknown: taken as 0 with u = {UNKNOWN_DEFLECTION_U_ARCSEC} arcsec, \
-             up to {cost:.1e} deg/h in the rates."
-        ));
-    }
-    if site.longitude_deg.is_none() {
-        said.push("The longitude is unknown: of the place only the latitude can be checked.".into());
-    }
-    if site.geodetic_is_uncertain() {
-        said.push(format!(
-            "The geodetic latitude is unknown: the check of place allows {LATITUDE_MARGIN_ARCSEC} arcsec for it."
-        ));
-    }
-    if site.gravity_m_per_s2.is_none() && site.height_m.is_none() {
-        said.push("The height is unknown: normal gravity is that at 0 m, 3.1e-6 m/s2 too large for each metre.".into());
-    }
-    if site.uncertainty.is_none() {
-        said.push("No uncertainty of latitude, azimuth and level of the base is stated for this site.".into());
-    }
-    if site.azimuth_mark.is_none() {
-        said.push("No azimuth mark is given: north must come from elsewhere.".into());
-    }
-    said
+    let u_deg = UNKNOWN_DEFLECTION_U_ARCSEC / units::ARCSECONDS_PER_DEGREE;
+    let cost_deg_per_h = earth::rotation_deg_per_h() * units::radians_from_degrees(u_deg);
+    let no_deflection = site.deflection_arcsec.is_none() && site.astronomic_latitude_deg.is_none();
+    let absences = [
+        (no_deflection, Absence::Deflection { cost_deg_per_h }),
+        (site.longitude_deg.is_none(), Absence::Longitude),
+        (site.geodetic_is_uncertain(), Absence::GeodeticLatitude),
+        (site.gravity_m_per_s2.is_none() && site.height_m.is_none(), Absence::Height),
+        (site.uncertainty.is_none(), Absence::BaseUncertainty),
+        (site.azimuth_mark.is_none(), Absence::AzimuthMark),
+    ];
+    those_that_are(absences)
+}
+
+fn those_that_are(absences: impl IntoIterator<Item = (bool, Absence)>) -> Vec<Absence> {
+    absences.into_iter().filter_map(|(is, absence)| is.then_some(absence)).collect()
 }
 
 fn comments(content: &Content, path: &str) -> Vec<String> {
@@ -124,8 +183,8 @@ fn comments(content: &Content, path: &str) -> Vec<String> {
     };
     let mut lines: Vec<String> = fixed.iter().map(|line| (*line).to_owned()).collect();
     match path {
-        "certificate" => lines.extend(of_the_certificate(content)),
-        "site" => lines.extend(of_the_site(content)),
+        "certificate" => lines.extend(sentences(of_the_certificate(content))),
+        "site" => lines.extend(sentences(of_the_site(content))),
         "earth" => lines.extend(of_the_earth(content)),
         _ => {}
     }

@@ -133,6 +133,17 @@ impl Verification {
         self.content.as_deref().filter(|_| holds)
     }
 
+    /// The content and the key that signed it, when it is the issuer's own word: text, signature, numbers and signer
+    /// hold, the key is not revoked, and the issuer is the one asked for. Whether it may be used, here and now, the other
+    /// checks say.
+    pub fn authentic(&self) -> Option<(&Content, &PublicKey)> {
+        let content = self.unauthorised_content()?;
+        let issuer = self.code(CheckName::Issuer).is_none_or(|code| code == Code::Ok);
+        let key = self.code(CheckName::Revocation) != Some(Code::KeyRevoked);
+        let signer = self.code(CheckName::Signer) == Some(Code::Ok);
+        (issuer && key && signer).then_some(content).zip(self.key())
+    }
+
     /// The passport, when every check passed; otherwise the checks say what failed.
     pub fn passport(&self) -> Option<VerifiedPassport> {
         let (content, key) = self.content.clone().zip(self.key.clone()).filter(|_| self.valid())?;
@@ -350,27 +361,52 @@ impl Run {
     }
 }
 
-/// Whether `place` is within the radius of validity: by geodesic distance, or by latitude alone where the site has no
-/// longitude.
+/// How far a place is from a passport's site.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearness {
+    /// The geodesic distance; along the meridian where the site has no longitude.
+    pub distance_m: f64,
+    /// How far the passport is valid, with what is allowed for an unknown deflection of the vertical.
+    pub radius_m: f64,
+    /// That allowance.
+    pub allowance_m: f64,
+}
+
+impl Nearness {
+    /// How far `place` is from the site of `content`.
+    pub fn of(content: &Content, place: Place) -> Self {
+        let site = &content.site;
+        let latitude_deg = site.geodetic_deg();
+        let known = Place { latitude_deg, longitude_deg: site.longitude_deg.unwrap_or(place.longitude_deg) };
+        let allowance_m = if site.geodetic_is_uncertain() {
+            radians_from_arcseconds(LATITUDE_MARGIN_ARCSEC) * earth::MEAN_RADIUS_M
+        } else {
+            0.0
+        };
+        let radius_m = content.earth.valid_radius_m + allowance_m;
+        Self { distance_m: earth::distance_m(known, place), radius_m, allowance_m }
+    }
+
+    /// Whether the place is within the radius of validity.
+    pub fn within(self) -> bool {
+        self.distance_m <= self.radius_m
+    }
+}
+
 fn place_verdict(content: &Content, place: Place) -> (Code, String) {
     let site = &content.site;
-    let latitude_deg = site.geodetic_deg();
-    let known = Place { latitude_deg, longitude_deg: site.longitude_deg.unwrap_or(place.longitude_deg) };
-    let distance = earth::distance_m(known, place);
-    let margin = if site.geodetic_is_uncertain() {
-        radians_from_arcseconds(LATITUDE_MARGIN_ARCSEC) * earth::MEAN_RADIUS_M
-    } else {
-        0.0
-    };
-    let radius = content.earth.valid_radius_m + margin;
+    let nearness = Nearness::of(content, place);
+    let Nearness { distance_m, radius_m, allowance_m } = nearness;
     let how = if site.longitude_deg.is_some() { "" } else { " in latitude (the site's longitude is unknown)" };
-    let allowance = if margin > 0.0 {
-        format!(", {margin:.0} m of it for the unknown deflection of the vertical ({LATITUDE_MARGIN_ARCSEC} arcsec)")
+    let allowance = if allowance_m > 0.0 {
+        format!(
+            ", {allowance_m:.0} m of it for the unknown deflection of the vertical ({LATITUDE_MARGIN_ARCSEC} arcsec)"
+        )
     } else {
         String::new()
     };
-    let words = format!("{distance:.0} m from {}{how}, valid within {radius:.0} m{allowance}", site.id);
-    if distance <= radius {
+    let words = format!("{distance_m:.0} m from {}{how}, valid within {radius_m:.0} m{allowance}", site.id);
+    if nearness.within() {
         (Code::Ok, words)
     } else {
         (Code::WrongPlace, format!("{words}: ask the factory to re-issue the passport for this place"))

@@ -8,6 +8,7 @@
 //! * [`deviations`]: the certified deviations, drawn in block characters.
 //! * [`monte_carlo`]: intervals, and whether first order is valid.
 //! * [`issued`]: what became of an order, and what the factory should know about it.
+//! * [`page`]: pages for print and screen, in several languages.
 //! * [`passport_table`]: a passport in a terminal.
 //! * [`register`]: what is in force in a folder.
 //! * [`selftest`]: the reference cases.
@@ -21,6 +22,7 @@ pub mod columns;
 pub mod deviations;
 pub mod issued;
 pub mod monte_carlo;
+pub mod page;
 pub mod passport_table;
 pub mod register;
 pub mod selftest;

@@ -1,0 +1,69 @@
+//! `render`: the printable passport, of a verified passport alone.
+
+use super::trust_options::TrustOptions;
+use super::{Code, Failure, REFUSED, output};
+use clap::{Args, ValueEnum};
+use dtg_passport::files;
+use dtg_passport::report::page::{Language, Languages, PassportPage};
+use dtg_passport::report::verdict;
+use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
+use std::path::PathBuf;
+
+/// Write the printable passport: one HTML file for paper, screen and telephone
+#[derive(Args)]
+pub struct Options {
+    /// The passport
+    #[arg(value_name = "PASSPORT")]
+    passport: PathBuf,
+    /// Where the page goes
+    #[arg(short, value_name = "FILE.html")]
+    output: PathBuf,
+    #[command(flatten)]
+    trust: TrustOptions,
+    /// Folder of passports: say so when another one there supersedes it
+    #[arg(long, value_name = "DIR")]
+    register: Option<PathBuf>,
+    /// Languages, the first of which writes the numbers: en, ru, or en,ru for both side by side
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
+    lang: Vec<Written>,
+    /// Replace an existing page
+    #[arg(long)]
+    force: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Written {
+    /// English
+    En,
+    /// Russian
+    Ru,
+}
+
+impl From<Written> for Language {
+    fn from(written: Written) -> Self {
+        match written {
+            Written::En => Self::English,
+            Written::Ru => Self::Russian,
+        }
+    }
+}
+
+pub fn run(options: &Options) -> Result<Code, Failure> {
+    let (trust, question) = options.trust.load()?;
+    let register = options.register.as_deref();
+    let register = register.map(|folder| super::register::read(folder, trust.clone(), &question, None)).transpose()?;
+    let bytes = files::read(&options.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+    let name = options.passport.display().to_string();
+    let page = PassportPage::verified(&name, &bytes, &trust, &question, register.as_ref()).map_err(|refused| {
+        let words = verdict::text(&[verdict::Verdict::of(&name, &refused)]);
+        Failure { message: format!("no page was written\n{words}"), code: REFUSED }
+    })?;
+    let mut languages = options.lang.iter().copied().map(Language::from);
+    let first = languages.next().unwrap_or(Language::English);
+    output::file(&options.output, &page.html(&Languages::new(first, languages)), options.force)?;
+    output::say(&format!("wrote {}", options.output.display()));
+    if !page.verification().valid() {
+        output::say(verdict::text(&[verdict::Verdict::of(&name, page.verification())]).as_str());
+    }
+    Ok(0)
+}

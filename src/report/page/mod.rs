@@ -1,0 +1,21 @@
+//! Pages for print, screen and telephone: one HTML file each, no script, nothing from outside.
+//!
+//! * [`language`]: the languages of a page, and a text in each of them.
+//! * [`texts`]: the table of texts.
+//! * [`number`]: numbers as people read them.
+//! * [`parts`]: tables, figures, forms.
+//! * [`code`]: codes to scan.
+//! * [`shell`]: the document around them, its style and its running heads.
+//! * [`passport`]: the printable passport.
+
+pub mod code;
+pub mod language;
+pub mod number;
+pub mod parts;
+pub mod passport;
+pub mod shell;
+pub mod texts;
+
+pub use language::{Language, Languages, Text};
+pub use number::Number;
+pub use passport::PassportPage;

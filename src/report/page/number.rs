@@ -1,0 +1,231 @@
+//! Numbers as people read them: rounded once from the full binary64, with the decimal mark of the language.
+//!
+//! [JCGM 100](crate::bibliography::Bibliography::Gum), 7.2.6: an uncertainty with two significant digits, its value to the
+//! same place. Groups of three digits are parted by a thin blank that does not break (SI Brochure, 5.4.4).
+
+use super::language::{Language, Languages};
+use crate::text::rule;
+use maud::{Markup, html};
+
+/// A blank that does not break, half as wide: between groups of digits.
+pub const THIN_BLANK: char = '\u{202F}';
+
+/// A blank that does not break: between a number and its unit.
+pub const BLANK: char = '\u{00A0}';
+
+/// A number of a document and the digits of it that are printed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Number {
+    value: f64,
+    /// With a decimal point and an ASCII minus.
+    digits: String,
+}
+
+impl Number {
+    /// With so many decimals.
+    pub fn fixed(value: f64, decimals: usize) -> Self {
+        Self { value, digits: without_minus_zero(format!("{value:.decimals$}")) }
+    }
+
+    /// With so many significant digits.
+    pub fn significant(value: f64, digits: i32) -> Self {
+        Self::to_place(value, rounded_exponent(value, digits) - digits + 1)
+    }
+
+    /// The shortest decimal that gives the value back.
+    pub fn exact(value: f64) -> Self {
+        let magnitude = value.abs();
+        let plain = magnitude == 0.0 || (1e-6..1e16).contains(&magnitude);
+        let digits = if plain { format!("{value}") } else { format!("{value:e}") };
+        Self { value, digits: without_minus_zero(digits) }
+    }
+
+    /// A standard uncertainty: two significant digits, or a plain 0.
+    pub fn uncertainty(u: f64) -> Self {
+        Self::to_place(u, place(u))
+    }
+
+    /// A value with the standard uncertainty `u`: to the place of the second digit of `u`; as it stands when `u` is 0.
+    pub fn measured(value: f64, u: f64) -> Self {
+        if u > 0.0 { Self::to_place(value, place(u)) } else { Self::exact(value) }
+    }
+
+    /// Rounded to a multiple of 10 to the power `place`.
+    fn to_place(value: f64, place: i32) -> Self {
+        if place <= 0 {
+            return Self::fixed(value, place.unsigned_abs() as usize);
+        }
+        let digits = match usize::try_from(exponent(value) - place) {
+            Ok(digits) => scaled(&format!("{value:.digits$e}")),
+            // Smaller than a unit of the place: half of one and less is 0.
+            Err(_) if value.abs() > 0.5 * libm::pow(10.0, f64::from(place)) => {
+                format!("{}1{:0>2$}", if value < 0.0 { "-" } else { "" }, "", place as usize)
+            }
+            Err(_) => "0".to_owned(),
+        };
+        Self { value, digits: without_minus_zero(digits) }
+    }
+
+    /// The digits with the marks of `language`.
+    pub fn text(&self, language: Language) -> String {
+        localised(&self.digits, language)
+    }
+
+    /// How many decimals are printed.
+    pub fn decimals(&self) -> usize {
+        self.digits.split_once('.').map_or(0, |(_, decimals)| decimals.len())
+    }
+
+    /// As an element that carries the value itself for programs, written as signed documents write it.
+    pub fn markup(&self, languages: &Languages) -> Markup {
+        html! { data value=(rule::number(self.value)) { (self.text(languages.first())) } }
+    }
+
+    /// The same, with room for so many decimals: the marks of a column stand one below the other.
+    pub fn aligned(&self, languages: &Languages, decimals: usize) -> Markup {
+        let own = self.decimals();
+        // What the column's longest number has more: decimals, blanks between their groups, the mark itself.
+        let zeros = |decimals: usize| localised(&format!("{:.decimals$}", 0.0), languages.first());
+        let missing: String = zeros(decimals.max(own)).chars().skip(zeros(own).chars().count()).collect();
+        html! {
+            (self.markup(languages))
+            @if !missing.is_empty() { span.pad aria-hidden="true" { (missing) } }
+        }
+    }
+}
+
+/// A column of numbers, their decimal marks one below the other.
+pub fn column(languages: &Languages, numbers: &[Option<Number>]) -> Vec<Option<Markup>> {
+    let decimals = numbers.iter().flatten().map(Number::decimals).max().unwrap_or(0);
+    numbers.iter().map(|number| number.as_ref().map(|number| number.aligned(languages, decimals))).collect()
+}
+
+/// The place (power of ten) of the second significant digit of `u`, after rounding: 0.0996 is 0.10.
+fn place(u: f64) -> i32 {
+    if u > 0.0 && u.is_finite() { rounded_exponent(u, 2) - 1 } else { 0 }
+}
+
+/// The power of ten of the first significant digit.
+fn exponent(value: f64) -> i32 {
+    exponent_of(&format!("{value:e}"))
+}
+
+/// The same, once the value is rounded to so many significant digits.
+fn rounded_exponent(value: f64, digits: i32) -> i32 {
+    let decimals = usize::try_from(digits - 1).unwrap_or(0);
+    exponent_of(&format!("{value:.decimals$e}"))
+}
+
+fn exponent_of(scientific: &str) -> i32 {
+    scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
+}
+
+/// `1.23e5` as `123000`: scientific notation with fewer decimals than its exponent.
+fn scaled(scientific: &str) -> String {
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((scientific, "0"));
+    let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let zeros = exponent.parse::<usize>().unwrap_or(0).saturating_sub(decimals.len());
+    format!("{whole}{decimals}{:0>zeros$}", "")
+}
+
+fn without_minus_zero(digits: String) -> String {
+    match digits.strip_prefix('-') {
+        Some(rest) if rest.chars().all(|c| "0.".contains(c)) => rest.to_owned(),
+        _ => digits,
+    }
+}
+
+/// A decimal number written with point and ASCII minus, in the manner of `language`.
+pub fn localised(ascii: &str, language: Language) -> String {
+    let (sign, unsigned) = match ascii.strip_prefix('-') {
+        Some(rest) => ("\u{2212}", rest),
+        None => ("", ascii),
+    };
+    let (mantissa, exponent) = unsigned.split_once('e').map_or((unsigned, None), |(m, e)| (m, Some(e)));
+    let (whole, decimals) = mantissa.split_once('.').map_or((mantissa, None), |(w, d)| (w, Some(d)));
+    let mut out = sign.to_owned();
+    grouped(&mut out, whole, whole.len() % 3);
+    if let Some(decimals) = decimals {
+        out.push(match language {
+            Language::English => '.',
+            Language::Russian => ',',
+        });
+        grouped(&mut out, decimals, 0);
+    }
+    if let Some(exponent) = exponent {
+        out += &format!("{THIN_BLANK}\u{00B7}{THIN_BLANK}10");
+        out.extend(exponent.chars().filter_map(superscript));
+    }
+    out
+}
+
+/// Groups of three after the first `head` digits; four digits alone stand together.
+fn grouped(out: &mut String, digits: &str, head: usize) {
+    for (index, digit) in digits.chars().enumerate() {
+        if digits.len() > 4 && index > 0 && index % 3 == head {
+            out.push(THIN_BLANK);
+        }
+        out.push(digit);
+    }
+}
+
+fn superscript(c: char) -> Option<char> {
+    Some(match c {
+        '-' => '\u{207B}',
+        '1' => '\u{00B9}',
+        '2' => '\u{00B2}',
+        '3' => '\u{00B3}',
+        '0' | '4'..='9' => char::from_u32(0x2070 + c.to_digit(10)?)?,
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn english(number: &Number) -> String {
+        number.text(Language::English).replace(THIN_BLANK, "_")
+    }
+
+    /// By hand after JCGM 100, 7.2.6; 0.0996 rounds to 0.10 and takes its value to hundredths.
+    #[test]
+    fn an_uncertainty_has_two_digits_and_its_value_the_same_place() {
+        let cases = [
+            (12.4, 1.2, "12.4", "1.2"),
+            (-31.0, 2.0, "\u{2212}31.0", "2.0"),
+            (9.815_722_055, 5e-4, "9.815_72", "0.000_50"),
+            (1.2345, 0.0996, "1.23", "0.10"),
+            (1.2345, 0.0994, "1.234", "0.099"),
+            (4310.0, 120.0, "4310", "120"),
+            (4315.0, 123.4, "4320", "120"),
+            (96_543.0, 12_300.0, "97_000", "12_000"),
+            (-3.0, 1200.0, "0", "1200"),
+            (-51.0, 1200.0, "\u{2212}100", "1200"),
+            (-0.0004, 0.12, "0.00", "0.12"),
+            (7.25, 0.0, "7.25", "0"),
+        ];
+        for (value, u, printed, printed_u) in cases {
+            assert_eq!(english(&Number::measured(value, u)), printed, "{value} with {u}");
+            assert_eq!(english(&Number::uncertainty(u)), printed_u, "{u}");
+        }
+    }
+
+    /// 0.15 is 0.1499999999999999944…: rounded from its decimal 0.15 it would be 0.2.
+    #[test]
+    fn rounding_is_from_the_binary_value() {
+        assert_eq!(english(&Number::fixed(0.15, 1)), "0.1");
+        assert_eq!(english(&Number::fixed(2.675, 2)), "2.67");
+        assert_eq!(english(&Number::significant(0.000_123_456, 3)), "0.000_123");
+    }
+
+    #[test]
+    fn marks_are_those_of_the_language() {
+        let russian = |value| Number::exact(value).text(Language::Russian).replace(THIN_BLANK, "_");
+        assert_eq!(russian(-15.041_066_876_065_45), "\u{2212}15,041_066_876_065_45");
+        assert_eq!(russian(5_766_742.0), "5_766_742");
+        assert_eq!(russian(1234.5), "1234,5");
+        assert_eq!(russian(2.5e-7), "2,5_·_10⁻⁷");
+        assert_eq!(russian(-0.0), "0");
+    }
+}

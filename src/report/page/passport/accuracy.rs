@@ -1,0 +1,136 @@
+//! What the stand is good for, and what the passport does not state.
+
+use super::PassportPage;
+use super::figures::{Slot, figure};
+use super::numbers::{numbers_of, parameters};
+use crate::passport::accuracy::{Accuracy, StatedLaboratory};
+use crate::passport::annotations::{Absence, absent};
+use crate::report::page::language::{Languages, Text};
+use crate::report::page::number::Number;
+use crate::report::page::parts::{field, fields, given, heading, quantity, section as part, symbol, wide_field};
+use crate::report::page::texts::{absences, passport as texts, units};
+use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
+use maud::{Markup, html};
+
+/// How much normal gravity falls with each metre, in m/s² (free air), as the signed comments say it.
+const GRAVITY_SLOPE_M_PER_S2_PER_M: f64 = 3.1e-6;
+
+pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
+    let content = &page.content;
+    let body = html! {
+        @match &content.accuracy {
+            Some(accuracy) => {
+                (stated_for(accuracy, languages))
+                (uncertainties(accuracy, languages))
+                (figure(Slot::Budget, content, languages))
+            }
+            None => (languages.paragraph(texts::ACCURACY_NONE)),
+        }
+        (heading(languages, texts::ABSENCES))
+        (not_stated(page, languages))
+    };
+    part(languages, "accuracy", "4", texts::ACCURACY, &body)
+}
+
+fn stated_for(accuracy: &Accuracy, languages: &Languages) -> Markup {
+    let (gyro, laboratory) = (&accuracy.gyro, &accuracy.laboratory);
+    let gravity = gyro.gravity_m_per_s2.map(|g| quantity(languages, &Number::exact(g), units::M_PER_S2));
+    let arcsec = |u: f64| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
+    let seat = laboratory.seating_arcsec.as_ref();
+    let seat =
+        seat.map(|seat| html! { (arcsec(seat.about_x)) ", " (arcsec(seat.about_y)) ", " (arcsec(seat.about_z)) });
+    let base = laboratory.base.as_ref();
+    let temperature = laboratory.temperature_c;
+    fields([
+        field(languages, texts::GYRO_TYPE, Some(given(&gyro.r#type))),
+        field(languages, texts::GYRO_GRAVITY, gravity),
+        field(languages, texts::CALIBRATING_LABORATORY, laboratory.name.as_deref().map(given)),
+        field(
+            languages,
+            texts::LABORATORY_TEMPERATURE,
+            temperature.map(|t| quantity(languages, &Number::exact(t), units::CELSIUS)),
+        ),
+        field(languages, texts::SEATING, seat),
+        field(languages, texts::BASE_AZIMUTH_U, base.and_then(|base| base.azimuth_arcsec).map(arcsec)),
+        field(languages, texts::BASE_LEVEL_U, base.and_then(|base| base.level_arcsec).map(arcsec)),
+        wide_field(languages, texts::METER, Some(meter(laboratory, languages))),
+    ])
+}
+
+fn meter(laboratory: &StatedLaboratory, languages: &Languages) -> Markup {
+    let meter = &laboratory.meter;
+    let values = [
+        ("reading", meter.reading_percent),
+        ("gain", meter.gain_percent),
+        ("offset", meter.offset_ma),
+        ("floor", meter.floor_ma),
+        ("range", meter.range_ma),
+    ];
+    let values = values.map(|(name, value)| (name, Number::exact(value).markup(languages)));
+    html! {
+        @for (index, language) in languages.iter().enumerate() {
+            @if index > 0 { br; }
+            span lang=(language.tag()) { (texts::METER_WORDS.marked_up(language, &values)) }
+        }
+    }
+}
+
+fn uncertainties(accuracy: &Accuracy, languages: &Languages) -> Markup {
+    let tolerance = &accuracy.gyro.tolerance;
+    let (main, cross) = (tolerance.k_main_percent, tolerance.k_cross_percent);
+    let limits = [
+        (main, units::PERCENT),
+        (main, units::PERCENT),
+        (cross, units::PERCENT),
+        (cross, units::PERCENT),
+        (tolerance.omega0_deg_per_h, units::DEG_PER_H),
+        (tolerance.omega0_deg_per_h, units::DEG_PER_H),
+        (tolerance.omega_g_deg_per_h_per_g, units::DEG_PER_H_PER_G),
+        (tolerance.omega_k_deg_per_h_per_g, units::DEG_PER_H_PER_G),
+    ];
+    let nominal = numbers_of(&accuracy.gyro.nominal).map(|value| Number::exact(value).markup(languages));
+    let us = numbers_of(&accuracy.standard_uncertainty).map(|u| Number::uncertainty(u).markup(languages));
+    let limits = limits.map(|(limit, unit)| quantity(languages, &Number::exact(limit), unit));
+    let rows = vec![
+        (languages.label(texts::NOMINAL), nominal),
+        (symbol("u", ""), us),
+        (languages.label(texts::TOLERANCE), limits),
+    ];
+    let caption = Some(languages.label(texts::ACCURACY_CAPTION));
+    parameters(languages, caption, rows).markup(&languages.plain(texts::ACCURACY_CAPTION))
+}
+
+fn not_stated(page: &PassportPage, languages: &Languages) -> Markup {
+    let absent = absent(&page.content);
+    if absent.is_empty() {
+        return languages.paragraph(texts::ABSENCES_NONE);
+    }
+    html! { ul.absences { @for absence in absent { li { (sentence(absence, languages)) } } } }
+}
+
+fn sentence(absence: Absence, languages: &Languages) -> Markup {
+    let number = |name, number: Number| vec![(name, number.markup(languages))];
+    let (text, values): (Text, Vec<(&str, Markup)>) = match absence {
+        Absence::Uncertainty => (absences::UNCERTAINTY, vec![]),
+        Absence::Repeatability => (absences::REPEATABILITY, vec![]),
+        Absence::CommonPart => (absences::COMMON_PART, vec![]),
+        Absence::Traceability => (absences::TRACEABILITY, vec![]),
+        Absence::Temperature => (absences::TEMPERATURE, vec![]),
+        Absence::LastDay => (absences::LAST_DAY, vec![]),
+        Absence::Datum => (absences::DATUM, vec![]),
+        Absence::EightPositions => (absences::EIGHT_POSITIONS, vec![]),
+        Absence::Deflection { cost_deg_per_h } => {
+            let mut values = number("u", Number::exact(UNKNOWN_DEFLECTION_U_ARCSEC));
+            values.extend(number("cost", Number::uncertainty(cost_deg_per_h)));
+            (absences::DEFLECTION, values)
+        }
+        Absence::Longitude => (absences::LONGITUDE, vec![]),
+        Absence::GeodeticLatitude => {
+            (absences::GEODETIC_LATITUDE, number("margin", Number::exact(LATITUDE_MARGIN_ARCSEC)))
+        }
+        Absence::Height => (absences::HEIGHT, number("slope", Number::exact(GRAVITY_SLOPE_M_PER_S2_PER_M))),
+        Absence::BaseUncertainty => (absences::BASE_UNCERTAINTY, vec![]),
+        Absence::AzimuthMark => (absences::AZIMUTH_MARK, vec![]),
+    };
+    languages.paragraph_with(|language| text.marked_up(language, &values))
+}

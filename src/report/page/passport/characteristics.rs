@@ -1,0 +1,213 @@
+//! Characteristics: the certified deviations with their uncertainties, the datum surfaces, the place of delivery.
+
+use super::PassportPage;
+use super::figures::{Slot, figure};
+use crate::earth;
+use crate::report::page::language::Languages;
+use crate::report::page::number::{Number, column};
+use crate::report::page::parts::{
+    Table, blank, field, fields, given, heading, quantity, section as part, symbol, symbol_and_unit, wide_field,
+};
+use crate::report::page::texts::{passport as texts, units};
+use crate::site::{Earth, Site};
+use crate::stand::{Certificate, CertifiedPosition};
+use crate::units::ARCSECONDS_PER_DEGREE;
+use maud::{Markup, html};
+
+pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
+    let content = &page.content;
+    let body = html! {
+        (heading(languages, texts::DEVIATIONS))
+        (positions(&content.positions, languages))
+        (languages.paragraph(texts::DEVIATIONS_NOTE))
+        (figure(Slot::Positions, content, languages))
+        (figure(Slot::Deviations, content, languages))
+        (heading(languages, texts::COMMON))
+        (common(&content.certificate, languages))
+        (heading(languages, texts::DATUM))
+        (datum(page, languages))
+        (heading(languages, texts::SITE))
+        (place(&content.site, languages))
+        (heading(languages, texts::EARTH))
+        (the_earth(&content.site, &content.earth, languages))
+        (figure(Slot::Radius, content, languages))
+    };
+    part(languages, "characteristics", "2", texts::CHARACTERISTICS, &body)
+}
+
+fn positions(positions: &[CertifiedPosition], languages: &Languages) -> Markup {
+    type Angle = (fn(&CertifiedPosition) -> f64, fn(&CertifiedPosition) -> Option<f64>);
+    let angles: [Angle; 3] = [
+        (|at| at.alpha_arcsec, |at| at.u_alpha_arcsec),
+        (|at| at.beta_arcsec, |at| at.u_beta_arcsec),
+        (|at| at.gamma_arcsec, |at| at.u_gamma_arcsec),
+    ];
+    let value = |at: &CertifiedPosition, (value, u): Angle| match u(at) {
+        Some(u) => Number::measured(value(at), u),
+        None => Number::exact(value(at)),
+    };
+    let mut columns: Vec<Vec<Option<Markup>>> = vec![
+        column(languages, &positions.iter().map(|at| Some(Number::exact(at.theta_deg))).collect::<Vec<_>>()),
+        column(languages, &positions.iter().map(|at| Some(Number::exact(at.phi_deg))).collect::<Vec<_>>()),
+    ];
+    for angle in angles {
+        let values: Vec<_> = positions.iter().map(|at| Some(value(at, angle))).collect();
+        let us: Vec<_> = positions.iter().map(|at| (angle.1)(at).map(Number::uncertainty)).collect();
+        columns.push(column(languages, &values));
+        columns.push(column(languages, &us));
+    }
+    let freedom: Vec<_> = positions.iter().map(|at| at.degrees_of_freedom.map(Number::exact)).collect();
+    columns.push(column(languages, &freedom));
+    let rows = positions.iter().enumerate().map(|(row, at)| {
+        let cells = columns.iter().map(|column| match column.get(row).cloned().flatten() {
+            Some(number) => number,
+            None => html! { "–" },
+        });
+        [html! { (at.i) }, html! { (at.j) }].into_iter().chain(cells).collect()
+    });
+    let table = Table {
+        caption: Some(languages.label(texts::DEVIATIONS_CAPTION)),
+        headings: headings(languages),
+        rows: rows.collect(),
+        row_headings: 2,
+        class: "numbers",
+        ..Table::default()
+    };
+    table.markup(&languages.plain(texts::DEVIATIONS_CAPTION))
+}
+
+fn headings(languages: &Languages) -> Vec<Markup> {
+    let with = |symbol: Markup, unit| symbol_and_unit(languages, &symbol, unit);
+    let mut headings = vec![symbol("i", ""), symbol("j", "")];
+    headings.extend(["θ", "φ"].map(|name| with(symbol(name, ""), units::DEGREES)));
+    for name in ["α", "β", "γ"] {
+        headings.push(with(symbol(name, ""), units::ARCSEC));
+        headings.push(with(html! { i { "u" } "(" i { (name) } ")" }, units::ARCSEC));
+    }
+    headings.push(symbol("ν", ""));
+    headings
+}
+
+fn common(certificate: &Certificate, languages: &Languages) -> Markup {
+    let arcsec = |u| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
+    let freedom = certificate.repeatability_degrees_of_freedom;
+    fields([
+        field(languages, texts::REPEATABILITY, certificate.repeatability_arcsec.map(arcsec)),
+        field(languages, texts::REPEATABILITY_DOF, freedom.map(|number| Number::exact(number).markup(languages))),
+        field(languages, texts::COMMON_PLATFORM, certificate.common_platform_arcsec.map(arcsec)),
+        field(languages, texts::COMMON_BASE, certificate.common_base_arcsec.map(arcsec)),
+    ])
+}
+
+fn datum(page: &PassportPage, languages: &Languages) -> Markup {
+    let datum = page.content.datum.as_ref();
+    let surface = |name: Option<&String>| name.map(|name| given(name));
+    fields([
+        field(languages, texts::DATUM_LEVEL, surface(datum.and_then(|datum| datum.level.as_ref()))),
+        field(languages, texts::DATUM_AZIMUTH, surface(datum.and_then(|datum| datum.azimuth.as_ref()))),
+        field(languages, texts::DATUM_SEAT, surface(datum.and_then(|datum| datum.gyro_seat.as_ref()))),
+    ])
+}
+
+fn place(site: &Site, languages: &Languages) -> Markup {
+    let degrees = |value: f64| quantity(languages, &Number::exact(value), units::DEGREES);
+    let arcsec = |value: f64| quantity(languages, &Number::exact(value), units::ARCSEC);
+    let u = |u: f64| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
+    let base = site.uncertainty.as_ref();
+    let measured = |value: f64, u: f64| quantity(languages, &Number::measured(value, u), units::ARCSEC);
+    let deflection = site.deflection_arcsec.as_ref().map(|deflection| match deflection.u {
+        Some(known) => html! {
+            (symbol("ξ", "")) " " (measured(deflection.xi, known)) ", " (symbol("η", "")) " "
+            (measured(deflection.eta, known)) ", " (symbol("u", "")) " " (u(known))
+        },
+        None => html! {
+            (symbol("ξ", "")) " " (arcsec(deflection.xi)) ", " (symbol("η", "")) " " (arcsec(deflection.eta))
+        },
+    });
+    // One of the two latitudes is given, never both.
+    let latitude = match site.astronomic_latitude_deg {
+        Some(astronomic) => field(languages, texts::ASTRONOMIC_LATITUDE, Some(degrees(astronomic))),
+        None => field(languages, texts::LATITUDE, site.latitude_deg.map(degrees)),
+    };
+    html! {
+        (fields([
+            field(languages, texts::SITE_ID, Some(given(site.id.as_str()))),
+            latitude,
+            field(languages, texts::LONGITUDE, site.longitude_deg.map(degrees)),
+            field(languages, texts::HEIGHT,
+                site.height_m.map(|height| quantity(languages, &Number::exact(height), units::METRES))),
+            field(languages, texts::DEFLECTION, deflection),
+            field(languages, texts::GRAVITY_MEASURED, gravity_measured(site, languages)),
+            field(languages, texts::LATITUDE_U, base.and_then(|base| base.latitude_arcsec).map(u)),
+            field(languages, texts::AZIMUTH_U, base.and_then(|base| base.azimuth_arcsec).map(u)),
+            field(languages, texts::LEVEL_U, base.and_then(|base| base.level_arcsec).map(u)),
+            wide_field(languages, texts::SITE_NAME, site.name.as_deref().map(given)),
+            wide_field(languages, texts::SOURCE, site.source.as_deref().map(given)),
+        ]))
+        (mark(site, languages))
+    }
+}
+
+fn gravity_measured(site: &Site, languages: &Languages) -> Option<Markup> {
+    let value = site.gravity_m_per_s2?;
+    Some(gravity(value, site.gravity_u_m_per_s2, languages))
+}
+
+/// g with its uncertainty, where one is known.
+fn gravity(value: f64, u: Option<f64>, languages: &Languages) -> Markup {
+    let Some(u) = u else { return quantity(languages, &Number::exact(value), units::M_PER_S2) };
+    html! {
+        (quantity(languages, &Number::measured(value, u), units::M_PER_S2)) ", " (symbol("u", "")) " "
+        (quantity(languages, &Number::uncertainty(u), units::M_PER_S2))
+    }
+}
+
+fn mark(site: &Site, languages: &Languages) -> Markup {
+    let Some(mark) = &site.azimuth_mark else { return html! {} };
+    let pair = |latitude: f64, longitude: f64| {
+        html! {
+            (quantity(languages, &Number::exact(latitude), units::DEGREES)) ", "
+            (quantity(languages, &Number::exact(longitude), units::DEGREES))
+        }
+    };
+    let metres = |u: f64| quantity(languages, &Number::uncertainty(u), units::METRES);
+    fields([
+        field(languages, texts::MARK, mark.name.as_deref().map(given)),
+        field(languages, texts::MARK_POSITION, Some(pair(mark.latitude_deg, mark.longitude_deg))),
+        field(languages, texts::PILLAR_POSITION, Some(pair(mark.pillar_latitude_deg, mark.pillar_longitude_deg))),
+        field(languages, texts::POSITION_U, mark.position_u_m.map(metres)),
+    ])
+}
+
+fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
+    let rate = |value: f64| quantity(languages, &Number::fixed(value, 9), units::DEG_PER_H);
+    let u = match site.gravity_m_per_s2 {
+        Some(_) => site.gravity_u_m_per_s2,
+        None => Some(earth::NORMAL_GRAVITY_U_M_PER_S2),
+    };
+    let within = quantity(languages, &Number::exact(earth.valid_within_deg_per_h), units::DEG_PER_H);
+    let azimuth = earth.azimuth_deg.map(|azimuth| match earth.azimuth_u_arcsec {
+        Some(u) => html! {
+            (quantity(languages, &Number::measured(azimuth, u / ARCSECONDS_PER_DEGREE), units::DEGREES)) ", "
+            (symbol("u", "")) " " (quantity(languages, &Number::uncertainty(u), units::ARCSEC))
+        },
+        None => html! {
+            (quantity(languages, &Number::exact(azimuth), units::DEGREES)) ", " (symbol("u", "")) " " (blank(languages))
+        },
+    });
+    let latitude = quantity(languages, &Number::exact(earth.latitude_deg), units::DEGREES);
+    fields([
+        field(languages, texts::EARTH_RATE, Some(rate(earth.rate_deg_per_h))),
+        field(languages, texts::EARTH_LATITUDE, Some(latitude)),
+        field(languages, texts::HORIZONTAL, Some(rate(earth.horizontal_deg_per_h))),
+        field(languages, texts::VERTICAL, Some(rate(earth.vertical_deg_per_h))),
+        field(languages, texts::GRAVITY, Some(gravity(earth.gravity_m_per_s2, u, languages))),
+        field(
+            languages,
+            texts::RADIUS,
+            Some(quantity(languages, &Number::fixed(earth.valid_radius_m, 0), units::METRES)),
+        ),
+        field(languages, texts::RADIUS_WITHIN, Some(within)),
+        field(languages, texts::AZIMUTH, azimuth),
+    ])
+}

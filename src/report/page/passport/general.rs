@@ -1,0 +1,79 @@
+//! General data: the stand and its certificate (ISO/IEC 17025:2017, 7.8.2.1 and 7.8.4.1).
+
+use super::PassportPage;
+use crate::report::page::language::Languages;
+use crate::report::page::number::Number;
+use crate::report::page::parts::{date, field, fields, given, heading, quantity, section as part, wide_field};
+use crate::report::page::texts::{passport as texts, record, units};
+use maud::{Markup, html};
+
+pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
+    let body = html! {
+        (stand(page, languages))
+        (certificate(page, languages))
+        (left_to_the_laboratory(languages))
+        div.statement { (languages.paragraph(texts::THIS_ITEM_ONLY)) }
+    };
+    part(languages, "general", "1", texts::GENERAL, &body)
+}
+
+fn stand(page: &PassportPage, languages: &Languages) -> Markup {
+    let stand = &page.content.stand;
+    html! {
+        (heading(languages, texts::STAND))
+        (fields([
+            field(languages, texts::MODEL, Some(given(stand.model.as_str()))),
+            field(languages, texts::SERIAL, Some(given(stand.serial.as_str()))),
+            field(languages, texts::NAME, stand.name.as_deref().map(given)),
+            field(languages, texts::CONFIGURATION, stand.configuration.as_deref().map(given)),
+            field(languages, texts::MANUFACTURER, stand.manufacturer.as_deref().map(given)),
+            field(languages, record::MANUFACTURED, None),
+            field(languages, texts::CUSTOMER, stand.customer.as_deref().map(given)),
+            field(languages, record::CUSTOMER_CONTACT, None),
+        ]))
+    }
+}
+
+fn certificate(page: &PassportPage, languages: &Languages) -> Markup {
+    let certificate = &page.content.certificate;
+    let day = |day| date(languages, day);
+    let celsius = |value| quantity(languages, &Number::exact(value), units::CELSIUS);
+    let range = certificate.temperature_range_c.map(|[low, high]| {
+        let values = [("low", Number::exact(low).markup(languages)), ("high", celsius(high))];
+        texts::FROM_TO.marked_up(languages.first(), &values)
+    });
+    html! {
+        (heading(languages, texts::CERTIFICATE))
+        (fields([
+            field(languages, texts::CERTIFICATE_NUMBER, Some(given(&certificate.number))),
+            field(languages, texts::CERTIFICATE_ISSUED, Some(day(certificate.issued))),
+            field(languages, texts::PERFORMED, certificate.performed.map(day)),
+            field(languages, texts::RECEIVED, certificate.received.map(day)),
+            field(languages, texts::CERTIFICATE_VALID_UNTIL, certificate.valid_until.map(day)),
+            field(languages, texts::VALID_UNTIL_BASIS, certificate.valid_until_basis.as_deref().map(given)),
+            field(languages, texts::LABORATORY, Some(given(&certificate.laboratory))),
+            field(languages, texts::ADDRESS, certificate.address.as_deref().map(given)),
+            field(languages, texts::AUTHORISED_BY, certificate.authorized_by.as_deref().map(given)),
+            field(languages, texts::ACCREDITATION, certificate.accreditation.as_deref().map(given)),
+            field(languages, texts::TEMPERATURE, certificate.temperature_c.map(celsius)),
+            field(languages, texts::TEMPERATURE_RANGE, range),
+            wide_field(languages, texts::METHOD, certificate.method.as_deref().map(given)),
+            wide_field(languages, texts::TRACEABILITY, certificate.traceability.as_deref().map(given)),
+        ]))
+    }
+}
+
+fn left_to_the_laboratory(languages: &Languages) -> Markup {
+    let empty = [
+        record::PLACE_OF_MEASUREMENT,
+        record::CONDITION,
+        record::METHOD_CHANGES,
+        record::EXTERNAL,
+        record::ADJUSTMENT,
+        record::SIGNATURE,
+    ];
+    html! {
+        (heading(languages, record::LEFT_TO_THE_LABORATORY))
+        (fields(empty.map(|name| field(languages, name, None))))
+    }
+}

@@ -1,0 +1,150 @@
+//! What a calibration computes with: matrices, vectors, the self-check.
+
+use super::PassportPage;
+use super::figures::{Slot, figure};
+use crate::gyro::Parameters;
+use crate::passport::Content;
+use crate::passport::content::{MatrixRows, Rows, SelfCheck};
+use crate::report::page::language::{Languages, Text};
+use crate::report::page::number::{Number, column};
+use crate::report::page::parts::{Table, heading, section as part, symbol, symbol_and_unit};
+use crate::report::page::texts::{passport as texts, units};
+use maud::{Markup, html};
+
+/// Decimals of numbers that carry no uncertainty: 1e-9 °/h and 1e-9 g are far below what any reading shows.
+const DECIMALS: usize = 9;
+
+pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
+    let content = &page.content;
+    let body = html! {
+        @match &content.matrices {
+            Some(m) => {
+                (heading(languages, texts::MATRICES))
+                (matrices(m, languages))
+                (languages.paragraph(texts::FORMULAS))
+                (formulas(languages))
+            }
+            None => (languages.paragraph(texts::NO_MATRICES)),
+        }
+        (heading(languages, texts::VECTORS))
+        (vectors(content, languages))
+        (figure(Slot::EarthRate, content, languages))
+        @if let Some(check) = &content.self_check {
+            (heading(languages, texts::SELF_CHECK))
+            (languages.paragraph(texts::SELF_CHECK_NOTE))
+            (self_check(check, languages))
+        }
+        (languages.paragraph(texts::DIGITS_NOTE))
+    };
+    part(languages, "numbers", "3", texts::NUMBERS, &body)
+}
+
+fn numbers(languages: &Languages, values: &[Option<f64>]) -> Vec<Markup> {
+    let numbers: Vec<_> = values.iter().map(|value| value.map(|value| Number::fixed(value, DECIMALS))).collect();
+    column(languages, &numbers).into_iter().map(|cell| cell.unwrap_or_else(|| html! { "–" })).collect()
+}
+
+fn matrices(m: &MatrixRows, languages: &Languages) -> Markup {
+    let row = |name: Markup, unit: Text, [[a, b], [c, d]]: &Rows| {
+        let cells = numbers(languages, &[Some(*a), Some(*b), Some(*c), Some(*d)]);
+        [name, languages.inline(unit)].into_iter().chain(cells).collect()
+    };
+    let inverse = html! { (symbol("n", "2")) sup { "−1" } };
+    let rows = vec![
+        row(symbol("Δ", ""), units::ONE, &m.delta),
+        row(symbol("B", ""), units::DEG_PER_H, &m.b_deg_per_h),
+        row(symbol("C", ""), units::DEG_PER_H_PER_G, &m.c_deg_per_h_per_g),
+        row(symbol("n", "1"), units::ONE, &m.n1),
+        row(symbol("n", "2"), units::ONE, &m.n2),
+        row(inverse, units::ONE, &m.n2_inverse),
+        row(symbol("ω", "31"), units::DEG_PER_H, &m.omega1_deg_per_h),
+        row(symbol("ω", "32"), units::DEG_PER_H, &m.omega2_deg_per_h),
+    ];
+    let mut headings = vec![languages.label(texts::MATRIX), languages.label(texts::UNIT)];
+    headings.extend(["11", "12", "21", "22"].map(|place| html! { (place) }));
+    let caption = Some(languages.label(texts::MATRICES_CAPTION));
+    let table = Table { caption, headings, rows, row_headings: 1, class: "numbers with-unit", ..Table::default() };
+    table.markup(&languages.plain(texts::MATRICES_CAPTION))
+}
+
+/// The paper's equations, alike in every language but for one word.
+fn formulas(languages: &Languages) -> Markup {
+    let (k, b, delta) = (symbol("K", ""), symbol("B", ""), symbol("Δ", ""));
+    let (j1, j2) = (symbol("J", "1"), symbol("J", "2"));
+    let wn = symbol("ω", "n");
+    let inverse = html! { sup { "−1" } };
+    html! {
+        ul.formulas {
+            li { (k) " = " (b) " (" (j1) " − " (j2) " " (delta) ")" (inverse) span.equation { "(13)" } }
+            li { (wn) " = " (symbol("C", "")) " − " (k) " " (j2) " " (symbol("n", "2")) (inverse) span.equation { "(15)" } }
+            li { (symbol("ω", "g")) " = ½ (" (symbol("ω", "n11")) " + " (symbol("ω", "n22")) "), "
+                (symbol("ω", "k")) " = ½ (" (symbol("ω", "n21")) " − " (symbol("ω", "n12")) ")" span.equation { "(16)" } }
+            li { (symbol("ω", "0")) " = " (languages.inline(texts::MEAN)) " " (symbol("ω", "3ij")) " − " (k) " "
+                (symbol("J", "ij")) " − " (wn) " " (symbol("n", "ij")) span.equation { "(8)" } }
+        }
+    }
+}
+
+fn vectors(content: &Content, languages: &Languages) -> Markup {
+    let currents = content.self_check.as_ref().map(|check| &check.currents);
+    let rows = content.vectors.iter().map(|at| {
+        let [nx, ny] = at.specific_force_g;
+        let [wx, wy] = at.omega_deg_per_h;
+        let mut values = vec![Some(nx), Some(ny), Some(at.specific_force_z_g), Some(wx), Some(wy)];
+        if let Some(currents) = currents {
+            let found = currents.iter().find(|current| (current.i, current.j) == (at.i, at.j));
+            values.extend([found.map(|current| current.jx_ma), found.map(|current| current.jy_ma)]);
+        }
+        let index = [html! { (at.i) }, html! { (at.j) }];
+        index.into_iter().chain(numbers(languages, &values)).collect()
+    });
+    let unit = |symbol: Markup, unit| symbol_and_unit(languages, &symbol, unit);
+    let mut headings = vec![symbol("i", ""), symbol("j", "")];
+    headings.extend(["x", "y", "z"].map(|axis| html! { (symbol("n", axis)) ", " i { "g" } }));
+    headings.extend(["x", "y"].map(|axis| unit(symbol("ω", axis), units::DEG_PER_H)));
+    if currents.is_some() {
+        headings.extend(["x", "y"].map(|axis| unit(symbol("J", axis), units::MILLIAMPERES)));
+    }
+    let caption = Some(languages.label(texts::VECTORS_CAPTION));
+    let table =
+        Table { caption, headings, rows: rows.collect(), row_headings: 2, class: "numbers", ..Table::default() };
+    table.markup(&languages.plain(texts::VECTORS_CAPTION))
+}
+
+fn self_check(check: &SelfCheck, languages: &Languages) -> Markup {
+    let values = numbers_of(&check.parameters()).map(|value| Number::exact(value).markup(languages));
+    let rows = vec![(languages.label(texts::VALUE), values)];
+    parameters(languages, None, rows).markup(&languages.plain(texts::SELF_CHECK))
+}
+
+/// A table of the eight parameters of a gyro, in the paper's groups, a row for each thing said of them. Cells stand in the
+/// order of [`numbers_of`].
+pub fn parameters(languages: &Languages, caption: Option<Markup>, rows: Vec<(Markup, [Markup; 8])>) -> Table {
+    let groups = [texts::SCALE_FACTORS_MAIN, texts::SCALE_FACTORS_CROSS, texts::DRIFT_CONSTANT, texts::DRIFT_G];
+    let columns = [
+        ("K", "x", units::DEG_PER_H_PER_MA),
+        ("K", "y", units::DEG_PER_H_PER_MA),
+        ("K", "xy", units::DEG_PER_H_PER_MA),
+        ("K", "yx", units::DEG_PER_H_PER_MA),
+        ("ω", "0x", units::DEG_PER_H),
+        ("ω", "0y", units::DEG_PER_H),
+        ("ω", "g", units::DEG_PER_H_PER_G),
+        ("ω", "k", units::DEG_PER_H_PER_G),
+    ];
+    let columns = columns.map(|(letter, subscript, unit)| symbol_and_unit(languages, &symbol(letter, subscript), unit));
+    Table {
+        caption,
+        groups: groups.map(|name| (2, languages.label(name))).into(),
+        headings: std::iter::once(html! {}).chain(columns).collect(),
+        rows: rows.into_iter().map(|(name, cells)| std::iter::once(name).chain(cells).collect()).collect(),
+        row_headings: 1,
+        class: "numbers parameters",
+    }
+}
+
+/// The numbers of the eight parameters: K_x, K_y, K_xy, K_yx, ω_0x, ω_0y, ω_g, ω_k.
+pub fn numbers_of(parameters: &Parameters) -> [f64; 8] {
+    let [[kx, kxy], [kyx, ky]] = parameters.k_deg_per_h_per_ma;
+    let [w0x, w0y] = parameters.omega0_deg_per_h;
+    [kx, ky, kxy, kyx, w0x, w0y, parameters.omega_g_deg_per_h_per_g, parameters.omega_k_deg_per_h_per_g]
+}

@@ -1,0 +1,85 @@
+//! The stand's record: the parts of an instrument's passport after GOST R 2.610-2019 that are filled in with a pen. What
+//! the file does not know stays empty.
+
+use super::PassportPage;
+use crate::report::page::language::{Languages, Text};
+use crate::report::page::parts::{Table, blank, field, fields, given, heading, section as part};
+use crate::report::page::texts::record as texts;
+use maud::{Markup, html};
+
+pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
+    let form = |heading, headings: &[Text], rows| table(languages, heading, headings, rows);
+    let words = |heading_text, names: &[Text]| {
+        html! {
+            div.part {
+                (heading(languages, heading_text))
+                (fields(names.iter().map(|name| field(languages, *name, None))))
+            }
+        }
+    };
+    let body = html! {
+        (completeness(page, languages))
+        (words(texts::WARRANTY, &[
+            texts::SERVICE_LIFE, texts::STORAGE_LIFE, texts::WARRANTY_PERIOD, texts::WARRANTY_TERMS,
+        ]))
+        (form(texts::PRESERVATION, &[texts::DATE, texts::WORK, texts::PERIOD, texts::WHO], empty(1, 4)))
+        div.pair {
+            (certificate(page, languages, texts::PACKING, texts::PACKING_WORDS))
+            (certificate(page, languages, texts::ACCEPTANCE, texts::ACCEPTANCE_WORDS))
+        }
+        div.statement { (languages.paragraph(texts::VALID_WHEN_SIGNED)) }
+        (words(texts::STORAGE, &[texts::STORAGE_CONDITIONS, texts::TRANSPORT_CONDITIONS]))
+        (form(
+            texts::MOVEMENT,
+            &[texts::INSTALLED, texts::WHERE, texts::REMOVED, texts::WHY_REMOVED, texts::WHO],
+            empty(2, 5),
+        ))
+        (form(texts::REPAIRS, &[texts::DATE, texts::REPAIR, texts::CERTIFIED_AGAIN, texts::WHO], empty(2, 4)))
+        div.statement { (languages.paragraph(texts::AFTER_A_MOVE)) }
+        (form(texts::NOTES, &[texts::DATE, texts::NOTE, texts::WHO], empty(2, 3)))
+        div.pair {
+            div.part { (heading(languages, texts::DISPOSAL)) (lines(languages)) }
+            div.part { (heading(languages, texts::SPECIAL)) (lines(languages)) }
+        }
+    };
+    part(languages, "record", "5", texts::RECORD, &body)
+}
+
+fn empty(rows: usize, columns: usize) -> Vec<Vec<Markup>> {
+    vec![vec![html! {}; columns]; rows]
+}
+
+fn lines(languages: &Languages) -> Markup {
+    html! { p.lines { (blank(languages)) } }
+}
+
+fn table(languages: &Languages, name: Text, headings: &[Text], rows: Vec<Vec<Markup>>) -> Markup {
+    let headings = headings.iter().map(|text| languages.label(*text)).collect();
+    let table = Table { headings, rows, class: "form", ..Table::default() };
+    html! { div.part { (heading(languages, name)) (table.markup(&languages.plain(name))) } }
+}
+
+fn completeness(page: &PassportPage, languages: &Languages) -> Markup {
+    let stand = &page.content.stand;
+    let name = stand.name.as_deref().map_or_else(|| languages.label(texts::TEST_STAND), given);
+    let rows = vec![
+        vec![given(stand.model.as_str()), name, html! {}, given(stand.serial.as_str()), html! {}],
+        vec![given(&page.content.passport.id), languages.label(texts::THIS_PASSPORT), html! {}, html! {}, html! {}],
+        vec![html! {}; 5],
+    ];
+    let headings = [texts::DESIGNATION, texts::ITEM, texts::QUANTITY, texts::SERIAL, texts::NOTE];
+    table(languages, texts::COMPLETENESS, &headings, rows)
+}
+
+fn certificate(page: &PassportPage, languages: &Languages, name: Text, words: Text) -> Markup {
+    let stand = &page.content.stand;
+    let values = [("model", given(stand.model.as_str())), ("serial", given(stand.serial.as_str()))];
+    let names = [texts::ORGANISATION, texts::WHO, texts::DATE, texts::STAMP];
+    html! {
+        div.part {
+            (heading(languages, name))
+            (languages.paragraph_with(|language| words.marked_up(language, &values)))
+            (fields(names.map(|name| field(languages, name, None))))
+        }
+    }
+}

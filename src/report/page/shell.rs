@@ -1,0 +1,74 @@
+//! What every page has: the document around its parts, the style, the running heads in print.
+
+use super::language::Languages;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use std::fmt::Write;
+
+const STYLE: &str = include_str!("style.css");
+
+/// Words in the margins of every printed sheet. Page numbers stand at the lower right.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Margins {
+    /// Upper left: which document.
+    pub top_left: String,
+    /// Upper right: what must not be overlooked on any sheet.
+    pub top_right: String,
+    /// Lower left: the file that the sheets belong to.
+    pub bottom_left: String,
+}
+
+/// A whole page: one file, no script, nothing from outside.
+pub fn document(languages: &Languages, title: &str, margins: &Margins, body: &Markup) -> String {
+    // The browser itself is told to load nothing: whatever a text should smuggle in stays without effect.
+    let policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
+    let page = html! {
+        (DOCTYPE)
+        html lang=(languages.first().tag()) {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(policy);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta name="generator" content=(concat!("dtg-passport ", env!("CARGO_PKG_VERSION")));
+                title { (title) }
+                style { (PreEscaped(STYLE)) (PreEscaped(margins.css())) }
+            }
+            body { (body) }
+        }
+    };
+    page.into_string() + "\n"
+}
+
+impl Margins {
+    fn css(&self) -> String {
+        let (left, right, below) = (quoted(&self.top_left), quoted(&self.top_right), quoted(&self.bottom_left));
+        format!(
+            "@page {{ @top-left {{ content: {left}; }} @top-right {{ content: {right}; }} \
+             @bottom-left {{ content: {below}; }} }}\n"
+        )
+    }
+}
+
+/// A string of CSS: whatever could end it, or the style element, is written as its number (CSS Syntax, 4.3.7).
+fn quoted(text: &str) -> String {
+    let mut quoted = "\"".to_owned();
+    for c in text.chars() {
+        if c.is_control() || "\"\\<>&".contains(c) {
+            let _ = write!(quoted, "\\{:x} ", u32::from(c));
+        } else {
+            quoted.push(c);
+        }
+    }
+    quoted + "\""
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_ends_a_string_of_css() {
+        assert_eq!(quoted("SPS-2/0017"), "\"SPS-2/0017\"");
+        assert_eq!(quoted("\"</style>\\\n"), "\"\\22 \\3c /style\\3e \\5c \\a \"");
+    }
+}

@@ -1,0 +1,59 @@
+//! The table of texts: what pages say, in every language, side by side. `{name}` stands for a value.
+//!
+//! * [`units`], [`words`]: what every page needs.
+//! * [`checks`]: the checks of a verification and their verdicts.
+//! * [`passport`]: the printable passport: what the signed file says.
+//! * [`record`]: the same: what is filled in with a pen.
+//! * [`absences`]: what a passport does not state, and what that costs.
+
+use super::language::Text;
+use super::language::texts;
+
+pub mod absences;
+pub mod checks;
+pub mod passport;
+pub mod record;
+
+/// Every table by its name.
+pub const TABLES: [(&str, &[(&str, Text)]); 6] = [
+    ("units", units::ALL),
+    ("words", words::ALL),
+    ("checks", checks::ALL),
+    ("passport", passport::ALL),
+    ("record", record::ALL),
+    ("absences", absences::ALL),
+];
+
+/// Units. Angles are written alike in both languages.
+pub mod units {
+    use super::texts;
+
+    texts! {
+        ARCSEC { en: "″", ru: "″" }
+        DEGREES { en: "°", ru: "°" }
+        METRES { en: "m", ru: "м" }
+        MILLIAMPERES { en: "mA", ru: "мА" }
+        DEG_PER_H { en: "°/h", ru: "°/ч" }
+        DEG_PER_H_PER_G { en: "°/h/g", ru: "°/ч/g" }
+        DEG_PER_H_PER_MA { en: "°/h/mA", ru: "°/ч/мА" }
+        M_PER_S2 { en: "m/s²", ru: "м/с²" }
+        CELSIUS { en: "°C", ru: "°C" }
+        PERCENT { en: "%", ru: "%" }
+        ONE { en: "1", ru: "1" }
+    }
+}
+
+/// Words that stand on any page.
+pub mod words {
+    use super::texts;
+
+    texts! {
+        EMPTY { en: "empty field, to be filled in with a pen", ru: "пустое поле, заполняется от руки" }
+        YES { en: "yes", ru: "да" }
+        NO { en: "no", ru: "нет" }
+        NORTH { en: "north", ru: "север" }
+        SOUTH { en: "south", ru: "юг" }
+        EAST { en: "east", ru: "восток" }
+        WEST { en: "west", ru: "запад" }
+    }
+}
