@@ -2,29 +2,19 @@
 
 use assert_cmd::Command;
 use dtg_passport::report::selftest::{text, to_json};
-use dtg_passport::selftest::{self, Case};
-use std::time::{Duration, Instant};
+use dtg_passport::selftest::Case;
 
 #[test]
 fn every_case_is_as_published() {
-    let begun = Instant::now();
     let output = Command::cargo_bin("dtg-passport").unwrap().args(["selftest", "--format", "json"]).output().unwrap();
-    let taken = begun.elapsed();
     let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let failed: Vec<_> = found["cases"].as_array().unwrap().iter().filter(|case| case["passed"] == false).collect();
     assert!(output.status.success() && failed.is_empty(), "{failed:#?}");
-    println!("{} cases in {taken:?}", found["passed"]);
-    assert!(taken < Duration::from_secs(10), "{taken:?}");
     for example in ["H.1", "H.2", "H.3", "9.2.2", "9.2.3", "9.2.4", "9.3", "Norris", "Longley", "model"] {
         assert!(
             found["cases"].as_array().unwrap().iter().any(|case| case["example"].as_str().unwrap().contains(example))
         );
     }
-}
-
-#[test]
-fn the_drawing_does_not_depend_on_threads() {
-    assert_eq!(selftest::monte_carlo::cases(1), selftest::monte_carlo::cases(3));
 }
 
 /// A number that is off, and one that is none, fail.

@@ -15,8 +15,7 @@ pub struct Options {
 }
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let cases = selftest::run(threads);
+    let cases = selftest::run();
     match options.format {
         Format::Json => output::json(&report::to_json(&cases))?,
         Format::Text => output::result(&report::text(&cases))?,

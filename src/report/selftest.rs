@@ -27,9 +27,7 @@ pub fn text(cases: &[Case]) -> String {
         let last = if digits { "digits" } else { "tolerance" };
         let rows: Vec<Vec<String>> = group.iter().map(|case| row(case, digits)).collect();
         columns::table(&mut out, &["", "expected", "found", last, ""], &rows);
-        let mut sources: Vec<&str> = group.iter().map(|case| case.source).collect();
-        sources.dedup();
-        columns::paragraph(&mut out, "  ", &format!("Source: {}.", sources.join("; ")));
+        columns::paragraph(&mut out, "  ", &format!("Source: {}.", sources(group)));
         out.push('\n');
     }
     let failed = cases.iter().filter(|case| !case.passed()).count();
@@ -38,6 +36,19 @@ pub fn text(cases: &[Case]) -> String {
         failed => writeln!(out, "FAILED: {failed} of {} cases.", cases.len()),
     };
     out
+}
+
+/// Every source once; of several places in one document the document is named once.
+fn sources(group: &[Case]) -> String {
+    let mut all: Vec<&str> = group.iter().map(|case| case.source).collect();
+    all.dedup();
+    let document = |source: &&str| source.split_once(", ").map(|(document, _)| document.to_owned());
+    let documents = all.chunk_by(|one, other| document(one).is_some() && document(one) == document(other));
+    let words = documents.map(|same| {
+        let rest = same.iter().skip(1).filter_map(|source| source.split_once(", "));
+        same.iter().take(1).copied().chain(rest.map(|(_, place)| place)).collect::<Vec<_>>().join(", ")
+    });
+    words.collect::<Vec<_>>().join("; ")
 }
 
 fn row(case: &Case, digits: bool) -> Vec<String> {

@@ -1,9 +1,14 @@
 //! JCGM 100:2008 (GUM), annex H: H.1, H.2, H.3.
+//!
+//! Inputs and results compared with the guide as MSL's GTC 1.5.1 quotes it in its examples and tests; what the guide gives
+//! with fewer digits, or rounded on the way, GTC computes without rounding.
 
 use super::Case;
 use crate::statistics::least_squares::Factorised;
 use crate::statistics::propagation::{Linearised, Propagated, effective_degrees_of_freedom, of_means, propagate};
 use nalgebra::{DMatrix, DVector};
+
+const BY_GTC: &str = "GTC 1.5.1 (Measurement Standards Laboratory of New Zealand) with the same inputs";
 
 /// The three examples.
 pub fn cases() -> Vec<Case> {
@@ -61,20 +66,17 @@ fn end_gauge() -> Vec<Case> {
     let contributions: Vec<(f64, f64)> = inputs.iter().zip(gradient.iter()).map(|((u, nu), c)| (u * c, *nu)).collect();
     let case =
         |source, quantity, expected, decimals, found| printed(EXAMPLE, source, quantity, expected, decimals, found);
-    let mut degrees = case(
-        "JCGM 100:2008, H.1.6 (from rounded contributions)",
-        "effective degrees of freedom",
-        16.7,
-        1,
-        effective_degrees_of_freedom(&contributions),
-    );
-    // The guide enters ν(d) as 25.6 and the contributions with two or three digits: another half unit.
-    degrees.tolerance = 0.1;
+    // H.1.6 enters contributions and ν(d) with the digits that it prints, u(l) itself with all.
+    const PRINTED: [(f64, f64); 4] = [(25.0, 18.0), (9.7, 25.6), (2.9, 50.0), (16.6, 2.0)];
+    let u = found.standard_uncertainty(0);
+    let as_printed = u * u * u * u / PRINTED.iter().map(|(u, nu)| u * u * u * u / nu).sum::<f64>();
+    let unrounded = effective_degrees_of_freedom(&contributions);
     vec![
         case("JCGM 100:2008, H.1.5", "length, nm", 50_000_838.0, 0, found.values[0]),
-        case("JCGM 100:2008, H.1.4 (printed 32), unrounded", "u(length), nm", 31.66, 2, found.standard_uncertainty(0)),
         case("JCGM 100:2008, H.1.3.2", "u(difference), nm", 9.7, 1, u_d),
-        degrees,
+        case("JCGM 100:2008, H.1.6", "effective degrees of freedom, terms as printed", 16.7, 1, as_printed),
+        case(BY_GTC, "u(length), nm, printed as 32", 31.66388, 5, u),
+        case(BY_GTC, "effective degrees of freedom, unrounded", 16.75186, 5, unrounded),
     ]
 }
 
@@ -123,7 +125,7 @@ fn impedance() -> Vec<Case> {
         case(RESULTS, "X, ohm", 219.847, 3, found.values[1]),
         case(RESULTS, "Z, ohm", 254.260, 3, found.values[2]),
         case(RESULTS, "u(R), ohm", 0.071, 3, u(0)),
-        // Printed as 0.295; from the readings of table H.2 it is 0.2956.
+        // Printed as 0.295: the guide rounds on the way. From the readings of table H.2 it is 0.2956, and GTC's too.
         Case { tolerance: 0.001, ..case(RESULTS, "u(X), ohm", 0.295, 3, u(1)) },
         case(RESULTS, "u(Z), ohm", 0.236, 3, u(2)),
         case(RESULTS, "r(R, X)", -0.588, 3, r(0, 1)),

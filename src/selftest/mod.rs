@@ -36,10 +36,10 @@ impl Case {
     }
 }
 
-/// All cases. `threads` share the drawing; its result does not depend on their number.
-pub fn run(threads: usize) -> Vec<Case> {
+/// All cases.
+pub fn run() -> Vec<Case> {
     let mut cases = gum::cases();
-    cases.extend(monte_carlo::cases(threads));
+    cases.extend(monte_carlo::cases());
     cases.extend(regression::cases());
     cases.extend(model::cases());
     cases

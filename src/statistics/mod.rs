@@ -6,9 +6,11 @@
 //! * [`propagation`]: the law of propagation of uncertainty for any model with its gradient.
 //! * [`random`]: streams of random numbers that do not depend on the number of threads or on the platform.
 //! * [`lanes`]: random numbers many at a time; [`elementary`]: what they need of sine, cosine and logarithm.
+//! * [`bins`]: quantiles and coverage intervals of a sample of any size.
 //! * [`summary`]: largest, mean, deviation, percentile, and what a share of a sample is worth.
 
 pub mod beta;
+pub mod bins;
 pub mod distributions;
 pub mod elementary;
 pub mod lanes;

@@ -227,9 +227,9 @@ impl Series {
 
     fn add(&mut self, summary: &BlockSummary) {
         self.blocks += 1;
-        self.count += summary.count - summary.failed;
+        self.count += summary.count;
         self.failed += summary.failed;
-        let good = (summary.count - summary.failed).max(2) as f64;
+        let good = summary.count.max(2) as f64;
         for place in 0..8 {
             self.sums[place] += summary.sums[place];
             let mean = summary.sums[place] / good;

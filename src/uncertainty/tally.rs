@@ -1,20 +1,13 @@
 //! What millions of trials leave behind: sums, products and histograms of a fixed size, whatever the number of trials.
 //!
-//! Values are counted in [`BINS`] bins over ±[`REACH`] standard deviations of a pilot run. A quantile is interpolated in
-//! its bin: it is off by less than a bin, 0.0049 standard deviations, and by w² |f′|/(8 f) where the density f is smooth
-//! over a bin of width w: for a normal distribution 6e-6 standard deviations at 2.5 % and 97.5 %. Means, variances and
-//! covariances do not come from bins.
+//! Values are counted in [bins](crate::statistics::bins) in units of the standard deviations of a pilot run. Means,
+//! variances and covariances do not come from bins.
 
 #![allow(clippy::needless_range_loop, reason = "a loop over trials that indexes several columns is what becomes wide")]
 
 use super::engine::Solutions;
+use crate::statistics::bins::{BINS, Bins, bin};
 use crate::statistics::lanes::{Column, WIDTH};
-
-/// Bins of a histogram.
-pub const BINS: usize = 4096;
-
-/// How far a histogram reaches either way, in standard deviations of the pilot run.
-pub const REACH: f64 = 10.0;
 
 /// Parameters counted.
 const PARAMETERS: usize = 8;
@@ -85,67 +78,7 @@ impl Histograms {
 
     /// The bins of a parameter.
     pub fn of(&self, place: usize) -> Bins<'_, u64> {
-        Bins(&self.counts[place * BINS..(place + 1) * BINS])
-    }
-}
-
-/// Bins of one parameter.
-#[derive(Debug, Clone, Copy)]
-pub struct Bins<'a, T>(&'a [T]);
-
-/// The value at a place counted in bins from the lower end.
-fn value_at(bins: f64) -> f64 {
-    bins * (2.0 * REACH / BINS as f64) - REACH
-}
-
-impl<T: Copy + Into<u64>> Bins<'_, T> {
-    fn total(&self) -> u64 {
-        self.0.iter().map(|count| (*count).into()).sum()
-    }
-
-    /// The value that `share` of the sample does not exceed, in units of the scale about its centre; 0 of nothing.
-    pub fn quantile(&self, share: f64) -> f64 {
-        let due = share * self.total() as f64;
-        self.at_count(due)
-    }
-
-    fn at_count(&self, due: f64) -> f64 {
-        let mut below = 0.0;
-        for (bin, count) in self.0.iter().enumerate() {
-            let count = (*count).into() as f64;
-            if count > 0.0 && below + count >= due {
-                return value_at(bin as f64 + (due - below) / count);
-            }
-            below += count;
-        }
-        0.0
-    }
-
-    /// The shortest interval that holds `share` of the sample (JCGM 101, 5.3.4 and 7.7.3), in units of the scale.
-    pub fn shortest(&self, share: f64) -> [f64; 2] {
-        let total = self.total() as f64;
-        let (mut best, mut width) = ([self.quantile(0.0), self.quantile(1.0)], f64::INFINITY);
-        let mut below = 0.0;
-        // The upper end moves up with the lower one.
-        let (mut upper, mut below_upper) = (0, 0.0);
-        for (bin, count) in self.0.iter().enumerate() {
-            let due = below + share * total;
-            if due > total {
-                break;
-            }
-            while upper < self.0.len() && below_upper + (self.0[upper].into() as f64) < due {
-                below_upper += self.0[upper].into() as f64;
-                upper += 1;
-            }
-            let in_bin = self.0.get(upper).map_or(1.0, |count| (*count).into() as f64);
-            let high = value_at(upper as f64 + (due - below_upper) / in_bin.max(1.0));
-            let low = value_at(bin as f64);
-            if high - low < width {
-                (best, width) = ([low, high], high - low);
-            }
-            below += (*count).into() as f64;
-        }
-        best
+        Bins::new(&self.counts[place * BINS..(place + 1) * BINS])
     }
 }
 
@@ -190,8 +123,9 @@ impl Tally {
             }
         }
         self.count += WIDTH as u64;
-        if !together.iter().sum::<f64>().is_finite() {
-            self.leave_out_failures(&mut scaled, &together);
+        let failures = !together.iter().sum::<f64>().is_finite();
+        if failures {
+            leave_out_failures(&mut scaled, &together);
         }
         let mut pair = 0;
         for row in 0..PARAMETERS {
@@ -206,36 +140,33 @@ impl Tally {
             }
         }
         self.count_bins(&scaled);
+        if failures {
+            self.uncount_failures(&together);
+        }
     }
 
-    /// Trials without finite parameters count as the centre, and are told.
+    /// Takes back what was counted of trials without finite parameters, and tells how many they are.
     #[cold]
     #[inline(never)]
-    fn leave_out_failures(&mut self, scaled: &mut Solutions, together: &Column) {
-        for trial in (0..WIDTH).filter(|trial| !together[*trial].is_finite()) {
-            self.failed += 1;
-            for column in scaled.iter_mut() {
-                column[trial] = 0.0;
-            }
+    fn uncount_failures(&mut self, together: &Column) {
+        let failed = together.iter().filter(|sum| !sum.is_finite()).count();
+        for counts in self.block.chunks_exact_mut(BINS) {
+            counts[bin(0.0)] -= u32::try_from(failed).unwrap_or(u32::MAX);
         }
+        self.count -= failed as u64;
+        self.failed += failed as u64;
     }
 
     #[inline(always)]
     fn count_bins(&mut self, scaled: &Solutions) {
-        const PER_UNIT: f64 = BINS as f64 / (2.0 * REACH);
-        // 2^52: the mantissa's lowest bits are then the whole number nearest to what was added.
-        const WHOLE: f64 = 4_503_599_627_370_496.0;
         for (place, column) in scaled.iter().enumerate() {
-            let mut bins = [0_u64; WIDTH];
+            let mut bins = [0; WIDTH];
             for trial in 0..WIDTH {
-                let bin = (column[trial] + REACH) * PER_UNIT - 0.5;
-                let bin = if bin > 0.0 { bin } else { 0.0 };
-                let bin = if bin < (BINS - 1) as f64 { bin } else { (BINS - 1) as f64 };
-                bins[trial] = (bin + WHOLE).to_bits() & (BINS as u64 - 1);
+                bins[trial] = bin(column[trial]);
             }
             let counts = &mut self.block[place * BINS..(place + 1) * BINS];
             for bin in bins {
-                counts[bin as usize] += 1;
+                counts[bin] += 1;
             }
         }
     }
@@ -244,9 +175,8 @@ impl Tally {
     pub fn end_of_block(&mut self) -> BlockSummary {
         let mut quantiles = [[0.0; 2]; PARAMETERS];
         for (place, quantiles) in quantiles.iter_mut().enumerate() {
-            let counts = &self.block[place * BINS..(place + 1) * BINS];
-            let (low, high) = (0.025 * self.count as f64, 0.975 * self.count as f64);
-            *quantiles = [Bins(counts).at_count(low), Bins(counts).at_count(high)];
+            let bins = Bins::new(&self.block[place * BINS..(place + 1) * BINS]);
+            *quantiles = [0.025, 0.975].map(|share| bins.quantile(share));
         }
         for (all, count) in self.all.counts.iter_mut().zip(&mut self.block) {
             *all += u64::from(*count);
@@ -266,12 +196,22 @@ impl Tally {
     }
 }
 
+/// Zeros, which add nothing to sums, in place of trials without finite parameters.
+#[cold]
+#[inline(never)]
+fn leave_out_failures(scaled: &mut Solutions, together: &Column) {
+    for trial in (0..WIDTH).filter(|trial| !together[*trial].is_finite()) {
+        for column in scaled.iter_mut() {
+            column[trial] = 0.0;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Expected: quantiles of the normal distribution by `normal_quantile`, of a sample that is its own quantiles; the
-    /// shortest interval of a symmetric density is the symmetric one.
+    /// Expected: quantiles of the normal distribution by `normal_quantile`, of a sample that is its own quantiles.
     #[test]
     fn quantiles_of_a_normal_sample() {
         use crate::statistics::distributions::normal_quantile;
@@ -292,8 +232,6 @@ mod tests {
             for share in [0.025, 0.3, 0.5, 0.975] {
                 assert!((bins.quantile(share) - normal_quantile(share)).abs() < 2e-4, "{share}");
             }
-            let [low, high] = bins.shortest(0.95);
-            assert!((high - low - 2.0 * 1.959_964).abs() < 1e-3 && (low + 1.96).abs() < 0.05, "{low} {high}");
             assert!((summary.quantiles[place][1] - 1.959_964).abs() < 2e-4);
             assert!(summary.sums[place].abs() < 1e-6);
         }
@@ -308,7 +246,10 @@ mod tests {
         column[4] = f64::INFINITY;
         tally.add(&[column; PARAMETERS]);
         let summary = tally.end_of_block();
-        assert_eq!((summary.count, summary.failed), (WIDTH as u64, 2));
+        assert_eq!((summary.count, summary.failed), (WIDTH as u64 - 2, 2));
         assert!((summary.sums[0] - 15.0).abs() < 1e-12);
+        // The rest is all in one bin: so are its lowest and its highest value.
+        let [low, high] = summary.quantiles[0];
+        assert!(low > 0.49 && high < 0.51, "{low} {high}");
     }
 }

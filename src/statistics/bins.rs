@@ -1,0 +1,112 @@
+//! A sample in bins, of a fixed size whatever the size of the sample: its quantiles and its shortest coverage interval.
+//!
+//! Values come in units of about a standard deviation from about their middle; [`BINS`] bins cover ±[`REACH`]. A quantile
+//! is interpolated in its bin: it is off by less than a bin, 0.0049 standard deviations, and by w² |f′|/(8 f) where the
+//! density f is smooth over a bin of width w: for a normal distribution 6e-6 standard deviations at 2.5 % and 97.5 %.
+
+/// Bins of a sample; a power of two.
+pub const BINS: usize = 4096;
+
+/// How far they reach either way.
+pub const REACH: f64 = 10.0;
+
+/// The bin of a value; the first or the last one beyond their reach.
+#[inline(always)]
+pub fn bin(value: f64) -> usize {
+    const PER_UNIT: f64 = BINS as f64 / (2.0 * REACH);
+    // 2^52: the mantissa's lowest bits are then the whole number nearest to what was added.
+    const WHOLE: f64 = 4_503_599_627_370_496.0;
+    let place = (value + REACH) * PER_UNIT - 0.5;
+    let place = if place > 0.0 { place } else { 0.0 };
+    let place = if place < (BINS - 1) as f64 { place } else { (BINS - 1) as f64 };
+    (place + WHOLE).to_bits() as usize & (BINS - 1)
+}
+
+/// Counts of a sample, bin by bin.
+#[derive(Debug, Clone, Copy)]
+pub struct Bins<'a, T>(&'a [T]);
+
+/// The value at a place counted in bins from the lower end.
+fn value_at(bins: f64) -> f64 {
+    bins * (2.0 * REACH / BINS as f64) - REACH
+}
+
+impl<'a, T: Copy + Into<u64>> Bins<'a, T> {
+    /// Of [`BINS`] counts, the lowest bin first.
+    pub fn new(counts: &'a [T]) -> Self {
+        Self(counts)
+    }
+
+    fn total(&self) -> u64 {
+        self.0.iter().map(|count| (*count).into()).sum()
+    }
+
+    /// The value that `share` of the sample does not exceed, 0 of nothing.
+    pub fn quantile(&self, share: f64) -> f64 {
+        let due = share * self.total() as f64;
+        let mut below = 0.0;
+        for (bin, count) in self.0.iter().enumerate() {
+            let count = (*count).into() as f64;
+            if count > 0.0 && below + count >= due {
+                return value_at(bin as f64 + (due - below) / count);
+            }
+            below += count;
+        }
+        0.0
+    }
+
+    /// The shortest interval that holds `share` of the sample ([JCGM 101](crate::bibliography::Bibliography::Jcgm101),
+    /// 5.3.4 and 7.7.3).
+    pub fn shortest(&self, share: f64) -> [f64; 2] {
+        let total = self.total() as f64;
+        let (mut best, mut width) = ([self.quantile(0.0), self.quantile(1.0)], f64::INFINITY);
+        let mut below = 0.0;
+        // The upper end moves up with the lower one.
+        let (mut upper, mut below_upper) = (0, 0.0);
+        for (bin, count) in self.0.iter().enumerate() {
+            let due = below + share * total;
+            if due > total {
+                break;
+            }
+            while upper < self.0.len() && below_upper + (self.0[upper].into() as f64) < due {
+                below_upper += self.0[upper].into() as f64;
+                upper += 1;
+            }
+            let in_bin = self.0.get(upper).map_or(1.0, |count| (*count).into() as f64);
+            let high = value_at(upper as f64 + (due - below_upper) / in_bin.max(1.0));
+            let low = value_at(bin as f64);
+            if high - low < width {
+                (best, width) = ([low, high], high - low);
+            }
+            below += (*count).into() as f64;
+        }
+        best
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::statistics::distributions::normal_quantile;
+
+    /// Expected: quantiles of the normal distribution by `normal_quantile`, of a sample that is its own quantiles; the
+    /// shortest interval of a symmetric density is the symmetric one, of an exponential one it begins at its beginning.
+    #[test]
+    fn intervals() {
+        let shares = (0..200_000).map(|rank| (f64::from(rank) + 0.5) / 200_000.0);
+        let mut counts = vec![0_u32; BINS];
+        shares.clone().for_each(|share| counts[bin(normal_quantile(share))] += 1);
+        let bins = Bins::new(&counts);
+        for share in [0.025, 0.3, 0.5, 0.975] {
+            assert!((bins.quantile(share) - normal_quantile(share)).abs() < 2e-4, "{share}");
+        }
+        let [low, high] = bins.shortest(0.95);
+        assert!((high - low - 2.0 * 1.959_964).abs() < 1e-3 && (low + 1.96).abs() < 0.05, "{low} {high}");
+        let mut counts = vec![0_u32; BINS];
+        shares.for_each(|share| counts[bin(-libm::log(share))] += 1);
+        let [low, high] = Bins::new(&counts).shortest(0.95);
+        assert!(low.abs() < 0.005 && (high + libm::log(0.05)).abs() < 0.01, "{low} {high}");
+        assert_eq!(Bins::new(&[0_u32; BINS]).quantile(0.5), 0.0);
+        assert_eq!([-1e300, f64::NEG_INFINITY, 1e300].map(bin), [0, 0, BINS - 1]);
+    }
+}
