@@ -5,7 +5,7 @@
 
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::problem::{Location, Unreadable};
-use crate::text::{Field, Node, Path, Problems, rule};
+use crate::text::{Field, Node, Path, Problems, canonical, rule};
 use crate::trust::{KeyError, PublicKey, Signature, SignatureError, SigningKey};
 use sha2::{Digest, Sha256};
 
@@ -129,7 +129,24 @@ impl<'a> SignedText<'a> {
 ///
 /// # Errors
 /// Every mistake of the content, or the first line that differs.
-pub fn parse<T: Field>(name: &str, payload: &str, check: impl FnOnce(&T, &mut Problems)) -> Result<T, Unreadable> {
+pub fn parse<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut Problems)) -> Result<T, Unreadable> {
+    match scanned(payload, &check) {
+        Some(content) => Ok(content),
+        None => read(name, payload, check),
+    }
+}
+
+/// Reads a text in canonical form with the quick reader of that form; `None` when anything at all is wrong or different:
+/// then [`read`] finds the words for it.
+pub(crate) fn scanned<T: Field>(payload: &str, check: impl Fn(&T, &mut Problems)) -> Option<T> {
+    let content: T = canonical::scan(payload)?;
+    let mut problems = Problems::new();
+    check(&content, &mut problems);
+    (problems.is_empty() && canonical::is_written(&content, payload)).then_some(content)
+}
+
+/// The same with the general reader of YAML, which knows the place of every mistake.
+pub(crate) fn read<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut Problems)) -> Result<T, Unreadable> {
     let (node, text) = Node::from_yaml(name, payload.as_bytes())?;
     let mut problems = Problems::new();
     let content = T::read(&node, &Path::Root, &mut problems);
@@ -139,8 +156,7 @@ pub fn parse<T: Field>(name: &str, payload: &str, check: impl FnOnce(&T, &mut Pr
     let Some(content) = content.filter(|_| problems.is_empty()) else {
         return Err(problems.refuse(name, &text));
     };
-    let canonical = content.write().map(|node| rule::write(&node, &rule::no_comments)).unwrap_or_default();
-    match rule::differs(payload, &canonical) {
+    match rule::differs(payload, &canonical::write(&content, &canonical::no_comments)) {
         None => Ok(content),
         Some((line, found, expected)) => {
             let advice = "the text is not as this format is written";

@@ -5,7 +5,7 @@
 
 use crate::document::{self, Malformed, SignedText, Signer, SigningFailed};
 use crate::text::problem::Unreadable;
-use crate::text::{Field, Path, Problems, record, rule};
+use crate::text::{Path, Problems, canonical, record, rule};
 use crate::trust::{AllowedSigners, NotAuthorised, RevokedKeys, SignatureError};
 use jiff::Timestamp;
 
@@ -223,7 +223,7 @@ impl RevocationList {
             ],
             _ => Vec::new(),
         };
-        let payload = self.write().map(|node| rule::write(&node, &comments)).unwrap_or_default();
+        let payload = canonical::write(self, &comments);
         let signature = signer.sign(REVOCATION_NAMESPACE, payload.as_bytes())?;
         signature.verify(REVOCATION_NAMESPACE, payload.as_bytes())?;
         Ok(document::join(&payload, &signature))

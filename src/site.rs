@@ -3,6 +3,7 @@
 use crate::coefficients::EarthRate;
 use crate::earth::{self, LaplaceCorrection, Place};
 use crate::text::scalar::Identifier;
+use crate::text::sink::Sink;
 use crate::text::{Field, Node, Path, Problems, Unreadable, node, record};
 use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};
 
@@ -121,12 +122,16 @@ impl Field for SiteFile {
         Some(Self { format: format?, site: site? })
     }
 
-    fn write(&self) -> Option<Node> {
-        let mut entries = vec![("format".to_owned(), Node::Text(self.format.clone()))];
-        if let Some(Node::Map(site)) = self.site.write() {
-            entries.extend(site);
-        }
-        Some(Node::Map(entries))
+    fn is_mapping(&self) -> bool {
+        true
+    }
+
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.mapping(false, |sink| {
+            sink.key("format");
+            sink.text(&self.format);
+            self.site.emit_entries(sink);
+        });
     }
 }
 

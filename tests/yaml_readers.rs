@@ -6,6 +6,7 @@
 mod tools;
 
 use dtg_passport::text::Node;
+use dtg_passport::text::canonical;
 use dtg_passport::text::rule::{self, allowed_in_string};
 use std::collections::HashSet;
 use std::path::Path;
@@ -157,7 +158,7 @@ fn file(name: &str, text: &str) -> tempfile::TempPath {
 
 /// Writes the document canonically and requires that every reader, the library's own too, gives it back.
 fn goes_through_every_reader(name: &str, document: &Node) {
-    let text = rule::write(document, &|path| match path {
+    let text = canonical::write(document, &|path| match path {
         "first" => vec!["A comment, with \"quotes\", a colon: and # signs".to_owned()],
         _ => Vec::new(),
     });
@@ -168,7 +169,7 @@ fn goes_through_every_reader(name: &str, document: &Node) {
     Seen::list(document, &mut expected);
     Seen::list(&own, &mut found);
     assert_same("the library", &expected, &found);
-    assert_eq!(rule::differs(&text, &rule::write(&own, &rule::no_comments)), None);
+    assert_eq!(rule::differs(&text, &canonical::write(&own, &canonical::no_comments)), None);
 
     let file = file(name, &text);
     // Each reader is a process of its own, so they share the cores; a panic in any of them is the test's.

@@ -2,7 +2,7 @@
 
 use super::Certification;
 use crate::stand::Stand;
-use crate::text::{Field, Node, Unreadable, rule};
+use crate::text::{Unreadable, canonical};
 
 impl Certification {
     /// The stand file (`dtg-stand/1`), read back and compared before it is given.
@@ -10,8 +10,7 @@ impl Certification {
     /// # Errors
     /// What its reader refuses: means beyond what can be certified.
     pub fn to_yaml(&self, name: &str) -> Result<String, Unreadable> {
-        let node = self.stand.write().unwrap_or(Node::Null);
-        let text = rule::write(&node, &|path| self.comments(path));
+        let text = canonical::write(&self.stand, &|path| self.comments(path));
         let read = Stand::from_yaml(name, text.as_bytes())?;
         if read != self.stand {
             return Err(Unreadable::whole(name, None, "other content than was written", "the same", "report this"));

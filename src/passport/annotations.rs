@@ -3,14 +3,12 @@
 
 use super::content::Content;
 use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
-use crate::text::rule;
+use crate::text::canonical;
 use crate::{earth, units};
 
 /// The payload of a passport: its content in canonical form, with its comments.
 pub fn payload(content: &Content) -> String {
-    use crate::text::Field;
-    let node = content.write().unwrap_or(crate::text::Node::Null);
-    rule::write(&node, &|path| comments(content, path))
+    canonical::write(content, &|path| comments(content, path))
 }
 
 /// What a passport cannot state because it was not given.

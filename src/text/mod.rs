@@ -2,17 +2,21 @@
 //!
 //! * [`rule`]: what a signed text may contain, how a number and a string are written: writer and reader of
 //!   the rule side by side.
+//! * [`canonical`]: the one form that content is written in, and a quick reader of it.
+//! * [`sink`]: what a document is written into.
 //! * [`node`]: YAML to a tree, with the place of every value found again when an error needs it.
 //! * [`mod@record`]: from that tree to a Rust struct and back, every mistake reported, not only the first.
 //! * [`scalar`]: identifiers, dates and times.
 //! * [`table`]: tables of numbers (CSV).
 //! * [`problem`]: what is wrong, where, what was expected, what to do.
 
+pub mod canonical;
 pub mod node;
 pub mod problem;
 pub mod record;
 pub mod rule;
 pub mod scalar;
+pub mod sink;
 pub mod table;
 
 pub use node::Node;

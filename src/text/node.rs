@@ -1,7 +1,8 @@
 //! A document as a tree: YAML in through `serde_yaml`, every key kept in order (double ones too), JSON out.
 
 use super::problem::{Location, Problems, Step, Target, Unreadable};
-use super::{LARGEST_DOCUMENT_BYTES, Path};
+use super::sink::Sink;
+use super::{Field, LARGEST_DOCUMENT_BYTES, Path};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use std::cell::Cell;
@@ -166,6 +167,34 @@ pub(crate) fn locate(text: &str, target: &Target) -> Option<Location> {
     error.location().map(|at| Location { line: at.line(), column: at.column() })
 }
 
+/// Any value is a field: a document whose keys are not known.
+impl Field for Node {
+    fn read(node: &Node, _: &Path, _: &mut Problems) -> Option<Self> {
+        Some(node.clone())
+    }
+
+    fn is_mapping(&self) -> bool {
+        matches!(self, Node::Map(_))
+    }
+
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        match self {
+            Node::Null => sink.null(),
+            Node::Bool(value) => sink.boolean(*value),
+            Node::Integer(value) => sink.integer(*value),
+            Node::Number(value) => sink.number(*value),
+            Node::Text(value) => sink.text(value),
+            Node::List(items) => sink.list(items),
+            Node::Map(entries) => sink.mapping(entries.is_empty(), |sink| {
+                for (key, value) in entries {
+                    sink.key(key);
+                    value.emit(sink);
+                }
+            }),
+        }
+    }
+}
+
 impl Serialize for Node {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
@@ -190,7 +219,7 @@ impl Serialize for Node {
 const DEEPEST: usize = 64;
 
 /// The most opening brackets, those in strings too: a passport of the largest size has some 18,000.
-const MOST_BRACKETS: usize = 25_000;
+pub(super) const MOST_BRACKETS: usize = 25_000;
 
 /// Refuses brackets in more than [`DEEPEST`] others, strings and comments aside, and more than [`MOST_BRACKETS`] in all.
 ///
@@ -390,7 +419,7 @@ impl<'de> Visitor<'de> for Probe<'_> {
 
 /// Reads a document of the record type `T`: the tree, its `format`, then the fields, then the rules of its content
 /// (`check`). Every mistake of the stage that fails is reported.
-pub fn read_document<T: super::Field>(
+pub fn read_document<T: Field>(
     name: &str,
     bytes: &[u8],
     format: &str,

@@ -1,5 +1,7 @@
 //! From a [`Node`] to a Rust struct and back, from one declaration: what `record!` declares is the format.
 
+use super::canonical::Scanner;
+use super::sink::{Sink, Tree};
 use super::{Node, Path, Problems};
 use std::collections::HashSet;
 
@@ -18,8 +20,28 @@ pub trait Field: Sized {
         "a mapping".to_owned()
     }
 
-    /// What is written; `None` when the key is left out.
-    fn write(&self) -> Option<Node>;
+    /// Whether its key is left out.
+    fn is_absent(&self) -> bool {
+        false
+    }
+
+    /// Whether it is written as a mapping.
+    fn is_mapping(&self) -> bool {
+        false
+    }
+
+    /// Writes it; nothing when its key is left out.
+    fn emit<S: Sink>(&self, sink: &mut S);
+
+    /// It as a tree; `None` when the key is left out.
+    fn write(&self) -> Option<Node> {
+        Tree::of(self)
+    }
+
+    /// Reads it from a text in canonical form; `None` when something is wrong, or is not canonical.
+    fn scan(scanner: &mut Scanner) -> Option<Self> {
+        Self::read(&scanner.scalar()?, &Path::Root, &mut Problems::new())
+    }
 }
 
 /// Declares a struct whose fields are the keys of a mapping, in the order in which they are written.
@@ -41,15 +63,31 @@ macro_rules! record {
                 Self::read_beside(node, &[], at, problems)
             }
 
-            fn write(&self) -> Option<$crate::text::Node> {
-                let entries = [$(($crate::text::record::key(stringify!($field)), $crate::text::Field::write(&self.$field)),)*];
-                Some($crate::text::Node::Map(
-                    entries.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?))).collect(),
-                ))
+            fn is_mapping(&self) -> bool {
+                true
+            }
+
+            fn emit<S: $crate::text::sink::Sink>(&self, sink: &mut S) {
+                let empty = true $(&& $crate::text::Field::is_absent(&self.$field))*;
+                sink.mapping(empty, |sink| self.emit_entries(sink));
+            }
+
+            fn scan(scanner: &mut $crate::text::canonical::Scanner) -> Option<Self> {
+                scanner.mapping(|scanner| {
+                    Some(Self { $($field: scanner.entry(const { $crate::text::record::key(stringify!($field)) })?,)* })
+                })
             }
         }
 
         impl $name {
+            /// Writes its keys into a mapping that may also have others.
+            pub(crate) fn emit_entries<S: $crate::text::sink::Sink>(&self, sink: &mut S) {
+                $(if !$crate::text::Field::is_absent(&self.$field) {
+                    sink.key(const { $crate::text::record::key(stringify!($field)) });
+                    $crate::text::Field::emit(&self.$field, sink);
+                })*
+            }
+
             /// Reads it from a mapping that also has the keys `beside`, which somebody else reads.
             pub(crate) fn read_beside(
                 node: &$crate::text::Node,
@@ -69,8 +107,11 @@ macro_rules! record {
 pub(crate) use record;
 
 /// The key that a field's name stands for: `type` is a word of Rust, so its field is `r#type`.
-pub fn key(field: &str) -> &str {
-    field.trim_start_matches("r#")
+pub const fn key(field: &str) -> &str {
+    match field.as_bytes() {
+        [b'r', b'#', ..] => field.split_at(2).1,
+        _ => field,
+    }
 }
 
 /// The entries of a mapping, once unknown and double keys have been reported.
@@ -169,8 +210,13 @@ impl Field for f64 {
         expected_number(key)
     }
 
-    fn write(&self) -> Option<Node> {
-        Some(Node::Number(*self))
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.number(*self);
+    }
+
+    fn scan(scanner: &mut Scanner) -> Option<Self> {
+        // Adding zero as above.
+        scanner.number().filter(|value| value.is_finite()).map(|value| value + 0.0)
     }
 }
 
@@ -204,8 +250,8 @@ impl Field for u32 {
         "a whole number".to_owned()
     }
 
-    fn write(&self) -> Option<Node> {
-        Some(Node::Integer(i64::from(*self)))
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.integer(i64::from(*self));
     }
 }
 
@@ -224,8 +270,8 @@ impl Field for bool {
         "true or false".to_owned()
     }
 
-    fn write(&self) -> Option<Node> {
-        Some(Node::Bool(*self))
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.boolean(*self);
     }
 }
 
@@ -239,7 +285,8 @@ impl Field for String {
             problems.at(at, "an empty text", "a text", "leave the key out where it is not required");
             return None;
         }
-        if let Some(refused) = text.chars().find(|&c| !super::rule::allowed_in_string(c)) {
+        let plain = super::rule::is_printable_ascii(text.as_bytes());
+        if let Some(refused) = text.chars().find(|&c| !plain && !super::rule::allowed_in_string(c)) {
             let found = format!("the character U+{:04X}", u32::from(refused));
             let advice = "control, combining, bidirectional, invisible and separator characters cannot be signed: \
                           remove it, or write a composed character (NFC)";
@@ -253,8 +300,8 @@ impl Field for String {
         "a text".to_owned()
     }
 
-    fn write(&self) -> Option<Node> {
-        Some(Node::Text(self.clone()))
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.text(self);
     }
 }
 
@@ -267,8 +314,22 @@ impl<T: Field> Field for Option<T> {
         Some(None)
     }
 
-    fn write(&self) -> Option<Node> {
-        self.as_ref().and_then(T::write)
+    fn is_absent(&self) -> bool {
+        self.as_ref().is_none_or(T::is_absent)
+    }
+
+    fn is_mapping(&self) -> bool {
+        self.as_ref().is_some_and(T::is_mapping)
+    }
+
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        if let Some(value) = self {
+            value.emit(sink);
+        }
+    }
+
+    fn scan(scanner: &mut Scanner) -> Option<Self> {
+        T::scan(scanner).map(Some)
     }
 }
 
@@ -287,8 +348,12 @@ impl<T: Field> Field for Vec<T> {
         "a list".to_owned()
     }
 
-    fn write(&self) -> Option<Node> {
-        Some(Node::List(self.iter().filter_map(T::write).collect()))
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.list(self);
+    }
+
+    fn scan(scanner: &mut Scanner) -> Option<Self> {
+        scanner.list()
     }
 }
 
@@ -307,7 +372,11 @@ impl<T: Field, const N: usize> Field for [T; N] {
         format!("a list of {N}")
     }
 
-    fn write(&self) -> Option<Node> {
-        Some(Node::List(self.iter().filter_map(T::write).collect()))
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.list(self);
+    }
+
+    fn scan(scanner: &mut Scanner) -> Option<Self> {
+        scanner.list()?.try_into().ok()
     }
 }

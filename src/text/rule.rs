@@ -1,12 +1,10 @@
 //! The text rule of signed documents: what they may contain, and the one way in which content is written.
 //!
 //! Every YAML 1.1 and 1.2 reader finds the same content in such a text, to the last bit of every number. The
-//! writer ([`write()`], [`number`], [`quoted`]) and the reader of the rule ([`check`], [`differs`]) stand side by side.
+//! writer ([`number`], [`quoted`]) and the reader of the rule ([`check`], [`differs`]) stand side by side.
 
-use super::Node;
 use super::node::{location_of, plain_text};
 use super::problem::Unreadable;
-use std::fmt::Write as _;
 use std::ops::RangeInclusive;
 
 /// Characters beyond ASCII that a quoted string may hold: letters, punctuation and symbols that are drawn alone,
@@ -54,109 +52,70 @@ fn allowed_outside(c: char) -> bool {
 /// # Panics
 /// Never for a finite value; a value that is not finite is not a number of any document, and refused before.
 pub fn number(value: f64) -> String {
+    let mut text = String::new();
+    write_number(value, |part| text.push_str(part));
+    text
+}
+
+/// The same in parts.
+pub(super) fn write_number(value: f64, mut push: impl FnMut(&str)) {
     debug_assert!(value.is_finite(), "only finite numbers are written");
     let magnitude = value.abs();
     if magnitude == 0.0 {
-        return "0.0".to_owned();
+        return push("0.0");
     }
-    if (1e-4..1e16).contains(&magnitude) {
-        let decimal = format!("{value}");
-        return if decimal.contains('.') { decimal } else { decimal + ".0" };
+    let plain = (1e-4..1e16).contains(&magnitude);
+    let mut buffer = zmij::Buffer::new();
+    let shortest = buffer.format_finite(value);
+    if plain && !may_be_midway(value, shortest) {
+        return push(shortest);
     }
-    let scientific = format!("{value:e}");
-    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
-    let point = if mantissa.contains('.') { "" } else { ".0" };
-    let (sign, digits) = exponent.strip_prefix('-').map_or(('+', exponent), |digits| ('-', digits));
-    format!("{mantissa}{point}e{sign}{digits:0>2}")
+    let digits = if plain { format!("{value}") } else { format!("{value:e}") };
+    let (mantissa, exponent) = digits.split_once('e').map_or((&*digits, None), |(m, e)| (m, Some(e)));
+    push(mantissa);
+    push(if mantissa.contains('.') { "" } else { ".0" });
+    if let Some(exponent) = exponent {
+        let (sign, digits) = exponent.strip_prefix('-').map_or(('+', exponent), |digits| ('-', digits));
+        push(&format!("e{sign}{digits:0>2}"));
+    }
+}
+
+/// Whether a value may lie exactly between two decimals of so many places: then zmij takes the even one and the standard
+/// library the larger, which is what has always been written.
+///
+/// odd/2^f = (2k + 1)/(2·10^d) needs f = d + 1.
+fn may_be_midway(value: f64, decimal: &str) -> bool {
+    const MOST_PLACES: i64 = 21;
+    let bits = value.to_bits();
+    let exponent = (bits >> 52 & 0x7FF) as i64;
+    let mantissa = bits & ((1 << 52) - 1) | 1 << 52;
+    let binary_places = 1075 - exponent - i64::from(mantissa.trailing_zeros());
+    // Most values have more than any decimal shows.
+    binary_places <= MOST_PLACES + 1 && {
+        let places = decimal.split_once('.').map_or(0, |(_, places)| places.len());
+        binary_places == places as i64 + 1
+    }
 }
 
 /// A string in double quotes, with the only two escapes of the rule.
 pub fn quoted(text: &str) -> String {
-    let mut quoted = String::with_capacity(text.len() + 2);
-    quoted.push('"');
-    for c in text.chars() {
-        if c == '"' || c == '\\' {
-            quoted.push('\\');
-        }
-        quoted.push(c);
-    }
-    quoted.push('"');
+    let mut quoted = String::new();
+    write_quoted(text, |part| quoted.push_str(part));
     quoted
 }
 
-/// The comment lines above a key, given as a path like `earth.gravity_m_per_s2`; without the `# `.
-pub type Comments<'a> = &'a dyn Fn(&str) -> Vec<String>;
-
-/// No comments at all: the form that texts are compared in.
-pub fn no_comments(_: &str) -> Vec<String> {
-    Vec::new()
-}
-
-/// Writes a mapping: nested mappings as blocks, each item of a list of mappings on its own line, a matrix on one line.
-pub fn write(document: &Node, comments: Comments) -> String {
-    let mut text = String::new();
-    write_block(&mut text, document, "", 0, comments);
-    text
-}
-
-fn write_block(text: &mut String, node: &Node, path: &str, indent: usize, comments: Comments) {
-    let Node::Map(entries) = node else { return };
-    for (key, value) in entries {
-        let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-        for line in comments(&path) {
-            let _ = writeln!(text, "{:indent$}# {line}", "");
-        }
-        let _ = write!(text, "{:indent$}{key}:", "");
-        match value {
-            Node::Map(entries) if !entries.is_empty() => {
-                text.push('\n');
-                write_block(text, value, &path, indent + 2, comments);
-            }
-            Node::List(items) if matches!(items.first(), Some(Node::Map(_))) => {
-                text.push('\n');
-                for item in items {
-                    let _ = write!(text, "{:indent$}  - ", "");
-                    write_flow(text, item);
-                    text.push('\n');
-                }
-            }
-            value => {
-                text.push(' ');
-                write_flow(text, value);
-                text.push('\n');
-            }
-        }
+/// The same in parts.
+pub(super) fn write_quoted(text: &str, mut push: impl FnMut(&str)) {
+    push("\"");
+    let mut rest = text;
+    while let Some(at) = memchr::memchr2(b'"', b'\\', rest.as_bytes()) {
+        let (plain, others) = rest.split_at(at);
+        let (escaped, after) = others.split_at(1);
+        [plain, "\\", escaped].into_iter().for_each(&mut push);
+        rest = after;
     }
-}
-
-fn write_flow(text: &mut String, node: &Node) {
-    match node {
-        Node::Null => text.push_str("null"),
-        Node::Bool(value) => {
-            let _ = write!(text, "{value}");
-        }
-        Node::Integer(value) => {
-            let _ = write!(text, "{value}");
-        }
-        Node::Number(value) => text.push_str(&number(*value)),
-        Node::Text(value) => text.push_str(&quoted(value)),
-        Node::List(items) => {
-            text.push('[');
-            for (index, item) in items.iter().enumerate() {
-                text.push_str(if index > 0 { ", " } else { "" });
-                write_flow(text, item);
-            }
-            text.push(']');
-        }
-        Node::Map(entries) => {
-            text.push('{');
-            for (index, (key, value)) in entries.iter().enumerate() {
-                let _ = write!(text, "{}{key}: ", if index > 0 { ", " } else { "" });
-                write_flow(text, value);
-            }
-            text.push('}');
-        }
-    }
+    push(rest);
+    push("\"");
 }
 
 /// Checks the bytes against the rule, before anything is parsed; gives the text.
@@ -168,7 +127,12 @@ pub fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
     }
     let mut line_start = 0;
     for line in text.split_inclusive('\n') {
-        if let Some((offset, found, expected)) = first_fault(line.trim_end_matches('\n')) {
+        let content = line.trim_end_matches('\n');
+        if is_plain(content.as_bytes()) {
+            line_start += line.len();
+            continue;
+        }
+        if let Some((offset, found, expected)) = first_fault(content) {
             let at = location_of(&bytes[..line_start + offset]);
             let advice = "the text is not as any issuer writes it";
             return Err(Unreadable::whole(name, Some(at), found, expected, advice));
@@ -176,6 +140,43 @@ pub fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
         line_start += line.len();
     }
     Ok(text)
+}
+
+/// Whether all bytes are printable ASCII.
+pub(super) fn is_printable_ascii(bytes: &[u8]) -> bool {
+    // To the end in any case: so the compiler looks at many at once.
+    bytes.iter().fold(true, |good, byte| good & (b' '..=b'~').contains(byte))
+}
+
+/// Whether a line obeys the rule and no character of it needs a closer look than its byte: almost every line does.
+fn is_plain(line: &[u8]) -> bool {
+    let start = line.iter().position(|byte| *byte != b' ').unwrap_or(line.len());
+    match line.get(start) {
+        Some(b'#') => return is_printable_ascii(line),
+        Some(b'-' | b'.') if start == 0 => return false,
+        _ => {}
+    }
+    // Outside and inside of strings in turn.
+    let mut parts = line.split(|byte| *byte == b'"');
+    while let Some(outside) = parts.next() {
+        // What `allowed_outside` lets through, in ranges.
+        let good = |byte: &u8| {
+            (b'a'..=b'{').contains(byte)
+                | (b'0'..=b':').contains(byte)
+                | (b'+'..=b'.').contains(byte)
+                | matches!(byte, b' ' | b'[' | b']' | b'_' | b'}')
+        };
+        if !outside.iter().fold(true, |all, byte| all & good(byte)) {
+            return false;
+        }
+        match parts.next() {
+            None => return true,
+            Some(string) if is_printable_ascii(string) && !string.contains(&b'\\') => {}
+            Some(_) => return false,
+        }
+    }
+    // It ended inside a string.
+    false
 }
 
 /// The byte offset of the first character of a line that breaks the rule, what it is, and what was expected.
@@ -269,6 +270,47 @@ mod tests {
         }
     }
 
+    /// Expected: what the standard library finds, in the form of the rule, for values of every size.
+    #[test]
+    fn numbers_are_those_of_the_standard_library() {
+        let due = |value: f64| {
+            if (1e-4..1e16).contains(&value.abs()) {
+                let decimal = format!("{value}");
+                return if decimal.contains('.') { decimal } else { decimal + ".0" };
+            }
+            let scientific = format!("{value:e}");
+            let (mantissa, exponent) = scientific.split_once('e').unwrap();
+            let point = if mantissa.contains('.') { "" } else { ".0" };
+            let exponent: i32 = exponent.parse().unwrap();
+            format!("{mantissa}{point}e{}{:02}", if exponent < 0 { '-' } else { '+' }, exponent.abs())
+        };
+        let mut stream = crate::statistics::random::Stream::new(5);
+        let mut bits = || (stream.unit() * (1_u64 << 53) as f64) as u64 * 2048 + stream.below(2048) as u64;
+        for _ in 0..200_000 {
+            let value = f64::from_bits(bits());
+            if value.is_finite() && value != 0.0 {
+                assert_eq!(number(value), due(value), "{:x}", value.to_bits());
+            }
+        }
+        // Midway between two decimals of sixteen digits.
+        for value in [-8_895_655_562_136_013.0 / 4.0, 1_073_741_825.0 / 2048.0, 1_125_899_906_842_624.125] {
+            assert_eq!(number(value), due(value));
+        }
+        for bits in 20..52 {
+            for odd in 0..500 {
+                let value =
+                    f64::from(2 * odd + 1) * libm::pow(2.0, f64::from(bits - 52)) + libm::pow(2.0, f64::from(bits));
+                assert_eq!(number(value), due(value));
+            }
+        }
+        for exponent in -20..20 {
+            for digits in 1..2000 {
+                let value = f64::from(digits) * libm::pow(10.0, f64::from(exponent));
+                assert_eq!(number(-value), due(-value));
+            }
+        }
+    }
+
     #[test]
     fn a_line_is_refused_at_its_first_forbidden_character() {
         let good = [
@@ -280,6 +322,7 @@ mod tests {
         ];
         for line in good {
             assert_eq!(first_fault(line), None, "{line}");
+            assert!(is_plain(line.as_bytes()) || line.contains('\\'), "{line}");
         }
         let bad = [
             ("a: 'x'", 3),
@@ -301,6 +344,20 @@ mod tests {
         ];
         for (line, offset) in bad {
             assert_eq!(first_fault(line).map(|fault| fault.0), Some(offset), "{line}");
+            assert!(!is_plain(line.as_bytes()), "{line}");
+        }
+    }
+
+    /// Every byte between two neighbours, outside of strings, inside and in comments: quick and slow agree.
+    #[test]
+    fn no_line_is_plain_that_breaks_the_rule() {
+        for byte in 0..=127_u8 {
+            for (before, after) in [("", ""), ("a: ", "1.0"), ("a: \"x", "y\""), ("  # ", "z"), ("a: \"x\\", "\"\"")] {
+                let line = format!("{before}{}{after}", char::from(byte));
+                assert!(!is_plain(line.as_bytes()) || first_fault(&line).is_none(), "{line:?}");
+                let needs_no_look = !line.contains(['\\', '\n']) && !line.starts_with(['-', '.']);
+                assert!(!needs_no_look || is_plain(line.as_bytes()) == first_fault(&line).is_none(), "{line:?}");
+            }
         }
     }
 

@@ -1,5 +1,6 @@
 //! Texts with a form of their own: identifiers, dates, times.
 
+use super::sink::Sink;
 use super::{Field, Node, Path, Problems};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -25,7 +26,7 @@ impl Identifier {
             None => Err("an empty text".to_owned()),
             Some(first) if !first.is_ascii_alphanumeric() => Err(format!("{first:?} at the beginning of {text:?}")),
             _ if text.len() > 64 => Err(format!("{} characters", text.len())),
-            _ if text.contains("..") => Err(format!("\"..\" in {text:?}")),
+            _ if text.as_bytes().windows(2).any(|pair| pair == b"..") => Err(format!("\"..\" in {text:?}")),
             _ => Ok(Self(text.to_owned())),
         }
     }
@@ -74,8 +75,8 @@ impl Field for Identifier {
         "1 to 64 of the ASCII letters, digits, '.', '_', '-', a letter or digit first, no '..'".to_owned()
     }
 
-    fn write(&self) -> Option<Node> {
-        Some(Node::Text(self.0.clone()))
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.text(&self.0);
     }
 }
 
@@ -95,8 +96,8 @@ impl Field for Date {
         "a date as \"2026-11-02\"".to_owned()
     }
 
-    fn write(&self) -> Option<Node> {
-        Some(Node::Text(self.to_string()))
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.text(&self.to_string());
     }
 }
 
@@ -117,8 +118,8 @@ impl Field for Timestamp {
         "a time as \"2026-11-02T09:30:00Z\"".to_owned()
     }
 
-    fn write(&self) -> Option<Node> {
-        Some(Node::Text(self.to_string()))
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.text(&self.to_string());
     }
 }
 

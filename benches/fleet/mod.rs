@@ -1,0 +1,198 @@
+//! A fleet at random: stands with certified deviations, sites as they are delivered to, and what it takes to bench them.
+
+// Every bench is a program of its own, and none uses all of this.
+#![allow(dead_code)]
+
+use dtg_passport::coefficients::EIGHT_POSITIONS;
+use dtg_passport::gyro::GyroType;
+use dtg_passport::passport::issue::Issue;
+use dtg_passport::site::{Deflection, Site, SiteUncertainty};
+use dtg_passport::stand::{Certificate, CertifiedPosition, Datum, Identity, STAND_FORMAT, Stand};
+use dtg_passport::statistics::random::Stream;
+use dtg_passport::text::scalar::Identifier;
+use jiff::civil::date;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+pub const ISSUER: &str = "factory@example.org";
+pub const ISSUED_AT: &str = "2027-03-01T08:00:00Z";
+
+/// Cheap stands: deviations within 5 arc minutes, read to 0.1 arcseconds, everything certified.
+pub fn stands(count: usize) -> Vec<Stand> {
+    let mut stream = Stream::new(1);
+    (0..count).map(|number| stand(number, &mut stream)).collect()
+}
+
+fn tenths(value: f64) -> f64 {
+    (10.0 * value).round() / 10.0
+}
+
+fn identifier(text: &str) -> Identifier {
+    Identifier::new(text).expect("an identifier")
+}
+
+fn stand(number: usize, stream: &mut Stream) -> Stand {
+    let text = |text: &str| Some(text.to_owned());
+    let positions = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| CertifiedPosition {
+        i: index.i,
+        j: index.j,
+        theta_deg,
+        phi_deg,
+        alpha_arcsec: tenths(stream.within(300.0)),
+        beta_arcsec: tenths(stream.within(300.0)),
+        gamma_arcsec: tenths(stream.within(300.0)),
+        u_alpha_arcsec: Some(1.2),
+        u_beta_arcsec: Some(1.2),
+        u_gamma_arcsec: Some(2.0),
+        degrees_of_freedom: Some(4.0),
+    });
+    Stand {
+        format: STAND_FORMAT.to_owned(),
+        stand: Identity {
+            manufacturer: text("Example Stand Works"),
+            model: identifier("SPS-2"),
+            serial: identifier(&format!("{number:05}")),
+            configuration: text("A"),
+            name: text("Two-axis test stand"),
+            customer: None,
+        },
+        certificate: Certificate {
+            number: format!("C-2026-{number:05}"),
+            issued: date(2026, 11, 2),
+            performed: Some(date(2026, 10, 29)),
+            received: None,
+            valid_until: Some(date(2028, 11, 1)),
+            valid_until_basis: text("agreed with the customer"),
+            laboratory: "Example Stand Works, angle laboratory".to_owned(),
+            address: None,
+            authorized_by: None,
+            accreditation: None,
+            method: text("two autocollimators on a mirror cube at the gyro seat, levelled base, five runs"),
+            traceability: text("autocollimators calibrated against the national angle standard"),
+            temperature_c: Some(20.0),
+            temperature_range_c: Some([18.0, 22.0]),
+            repeatability_arcsec: Some(1.5),
+            repeatability_degrees_of_freedom: Some(32.0),
+            common_platform_arcsec: Some(0.8),
+            common_base_arcsec: Some(0.8),
+        },
+        datum: Some(Datum {
+            level: text("upper face of the base plate"),
+            azimuth: text("mirror M1 on the base, facing north"),
+            gyro_seat: text("platform face P with pins 1 and 2 along x"),
+        }),
+        positions: positions.to_vec(),
+    }
+}
+
+/// Places between 70 degrees south and north; every fourth with a measured deflection and gravity.
+pub fn sites(count: usize) -> Vec<Site> {
+    let mut stream = Stream::new(2);
+    (0..count)
+        .map(|number| {
+            let surveyed = number % 4 == 0;
+            let degrees = |value: f64| (1e6 * value).round() / 1e6;
+            Site {
+                id: identifier(&format!("laboratory-{number:05}")),
+                name: Some(format!("Calibration laboratory {number}, building 3, pillar 2")),
+                latitude_deg: Some(degrees(stream.within(70.0))),
+                astronomic_latitude_deg: None,
+                longitude_deg: Some(degrees(stream.within(180.0))),
+                height_m: Some(tenths(200.0 + stream.within(200.0))),
+                deflection_arcsec: surveyed.then(|| Deflection {
+                    xi: tenths(stream.within(10.0)),
+                    eta: tenths(stream.within(10.0)),
+                    u: Some(0.5),
+                }),
+                gravity_m_per_s2: surveyed.then(|| degrees(9.81 + stream.within(0.02))),
+                gravity_u_m_per_s2: surveyed.then_some(1e-6),
+                azimuth_mark: None,
+                valid_within_deg_per_h: None,
+                uncertainty: Some(SiteUncertainty {
+                    latitude_arcsec: Some(1.0),
+                    azimuth_arcsec: Some(30.0),
+                    level_arcsec: Some(5.0),
+                }),
+                source: Some("levelled and surveyed by the laboratory, report of 2026".to_owned()),
+            }
+        })
+        .collect()
+}
+
+/// Revision 1 of every passport.
+pub fn order() -> Issue {
+    Issue::first(ISSUER, ISSUED_AT.parse().expect("a time"), GyroType::gvk_6().nominal)
+}
+
+/// All the work, each piece once, on so many threads.
+pub fn on_threads(threads: usize, pieces: usize, work: impl Fn(usize) + Sync) {
+    let next = AtomicUsize::new(0);
+    let worker = || {
+        loop {
+            let piece = next.fetch_add(1, Ordering::Relaxed);
+            if piece >= pieces {
+                return;
+            }
+            work(piece);
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 1..threads {
+            scope.spawn(worker);
+        }
+        worker();
+    });
+}
+
+/// Seconds of wall-clock time.
+pub fn seconds(work: impl FnOnce()) -> f64 {
+    let start = Instant::now();
+    work();
+    start.elapsed().as_secs_f64()
+}
+
+/// A file written beside its place and renamed into it; nothing is synced.
+pub fn write_and_rename(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let beside = path.with_extension("tmp");
+    File::create_new(&beside)?.write_all(bytes)?;
+    fs::rename(beside, path)
+}
+
+/// A folder for the files of a bench, on the disk of the project.
+pub fn scratch(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+pub fn median(values: &[f64]) -> f64 {
+    let mut values = values.to_vec();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+/// Largest resident memory of this process so far, in MiB (Linux).
+pub fn resident_mib() -> Option<f64> {
+    let status = fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    Some(line.split_whitespace().nth(1)?.parse::<f64>().ok()? / 1024.0)
+}
+
+/// The number that follows an option of the command line.
+pub fn option(name: &str) -> Option<usize> {
+    std::env::args().skip_while(|word| word != name).nth(1)?.parse().ok()
+}
+
+/// What OpenSSH signs in place of a message (PROTOCOL.sshsig), written for the bench alone.
+pub fn signed_data(sha512: &[u8]) -> Vec<u8> {
+    let mut data = b"SSHSIG".to_vec();
+    for field in [b"dtg-passport".as_slice(), b"", b"sha512", sha512] {
+        data.extend((field.len() as u32).to_be_bytes());
+        data.extend(field);
+    }
+    data
+}

@@ -1,0 +1,80 @@
+//! What a document is written into, value by value: a text in canonical form, or a tree.
+
+use super::{Field, Node};
+
+/// Takes the values of a document in their order.
+///
+/// One walk over the fields of a record ([`Field::emit`]) serves every form that a document is written in.
+pub trait Sink: Sized {
+    /// Nothing.
+    fn null(&mut self);
+    /// `true` or `false`.
+    fn boolean(&mut self, value: bool);
+    /// A whole number.
+    fn integer(&mut self, value: i64);
+    /// A binary64 number, finite.
+    fn number(&mut self, value: f64);
+    /// A string.
+    fn text(&mut self, value: &str);
+    /// A list.
+    fn list<T: Field>(&mut self, items: &[T]);
+    /// A mapping; `entries` gives its keys, each followed by its value, and none when it is `empty`.
+    fn mapping(&mut self, empty: bool, entries: impl FnOnce(&mut Self));
+    /// The key of the value that follows.
+    fn key(&mut self, key: &str);
+}
+
+/// Builds a [`Node`].
+#[derive(Default)]
+pub(super) struct Tree {
+    keys: Vec<String>,
+    values: Vec<Node>,
+}
+
+impl Tree {
+    pub(super) fn of(value: &impl Field) -> Option<Node> {
+        let mut tree = Self::default();
+        value.emit(&mut tree);
+        tree.values.pop()
+    }
+}
+
+impl Sink for Tree {
+    fn null(&mut self) {
+        self.values.push(Node::Null);
+    }
+
+    fn boolean(&mut self, value: bool) {
+        self.values.push(Node::Bool(value));
+    }
+
+    fn integer(&mut self, value: i64) {
+        self.values.push(Node::Integer(value));
+    }
+
+    fn number(&mut self, value: f64) {
+        self.values.push(Node::Number(value));
+    }
+
+    fn text(&mut self, value: &str) {
+        self.values.push(Node::Text(value.to_owned()));
+    }
+
+    fn list<T: Field>(&mut self, items: &[T]) {
+        let first = self.values.len();
+        items.iter().filter(|item| !item.is_absent()).for_each(|item| item.emit(self));
+        let items = self.values.split_off(first);
+        self.values.push(Node::List(items));
+    }
+
+    fn mapping(&mut self, _empty: bool, entries: impl FnOnce(&mut Self)) {
+        let (first_key, first_value) = (self.keys.len(), self.values.len());
+        entries(self);
+        let (keys, values) = (self.keys.split_off(first_key), self.values.split_off(first_value));
+        self.values.push(Node::Map(keys.into_iter().zip(values).collect()));
+    }
+
+    fn key(&mut self, key: &str) {
+        self.keys.push(key.to_owned());
+    }
+}
