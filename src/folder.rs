@@ -2,30 +2,38 @@
 
 use crate::document::sha256_hex;
 use crate::document::{SignedText, Signer};
-use crate::files::{self, Access, FileError};
+use crate::files::walk::{Entry, Walk};
+use crate::files::{self, Access, Durability, FileError};
 use crate::passport::content::Content;
 use crate::passport::issue::{self, Draft, Issue, IssueRefused, Remarks};
 use crate::passport::reissue::{Successor, changes};
 use crate::passport::verification::{Question, Trust, verify};
 use crate::passport::{NAMESPACE, read};
+use crate::register::Alarm;
+use crate::revocation::{RevocationList, Series};
 use crate::site::Site;
 use crate::stand::{Identity, Stand};
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::scalar::Identifier;
+use jiff::Timestamp;
 use jiff::civil::Date;
+use std::collections::BTreeSet;
+use std::ffi::OsStr;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// A folder of passports: `<model>/<serial>/<site id>-<revision>.yaml`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Folder {
     root: PathBuf,
+    durability: Durability,
 }
 
 /// Who signs, and by whose trust a new passport must hold before it is written.
 #[derive(Clone, Copy)]
 pub struct Seal<'a> {
     /// The signer.
-    pub signer: &'a dyn Signer,
+    pub signer: &'a (dyn Signer + Sync),
     /// The trust of those who will verify; `None` to leave that to them.
     pub trust: Option<&'a Trust>,
 }
@@ -44,6 +52,42 @@ pub struct Issued {
     /// What the factory should know about it.
     pub remarks: Remarks,
 }
+
+/// What an order comes to.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Next {
+    /// An equal passport is there.
+    There(Issued),
+    /// A new one, which is yet to be signed and written.
+    New(Unwritten),
+}
+
+/// A passport that was computed and checked, and is not there yet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unwritten {
+    path: PathBuf,
+    draft: Box<Draft>,
+}
+
+impl Unwritten {
+    /// Its id.
+    pub fn id(&self) -> &str {
+        &self.draft.content().passport.id
+    }
+
+    /// Its file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What the factory should know about it.
+    pub fn remarks(&self) -> Remarks {
+        self.draft.remarks()
+    }
+}
+
+/// How often an order is looked at again because another run was faster. Each time that one wrote a passport.
+const ATTEMPTS: usize = 8;
 
 /// Why a folder got no new passport.
 #[derive(Debug, thiserror::Error)]
@@ -84,6 +128,15 @@ pub enum FolderRefused {
         /// Why it cannot be compared.
         reason: String,
     },
+    /// A link stands in its way.
+    #[error(
+        "{}: is a link, and nothing is written through links: they may lead out of the folder; give the real one with --out",
+        path.display()
+    )]
+    Link {
+        /// The link.
+        path: PathBuf,
+    },
     /// By the trust given, nobody could verify it.
     #[error("the new passport would not verify ({check}: {detail}); nothing was written")]
     NotVerifiable {
@@ -100,10 +153,31 @@ pub enum FolderRefused {
     File(#[from] FileError),
 }
 
+impl FolderRefused {
+    /// Whether the file system or the signer refused, which is no verdict on a document.
+    pub fn is_unusable(&self) -> bool {
+        match self {
+            Self::File(FileError::Exists { .. }) => false,
+            Self::File(_) | Self::Issue(IssueRefused::Signing(_) | IssueRefused::BadIdentity(_)) => true,
+            _ => false,
+        }
+    }
+}
+
 impl Folder {
-    /// The folder `root`, which need not exist yet.
+    /// The folder `root`, which need not exist yet. What is written to it is safe from a loss of power at once.
     pub fn new(root: impl Into<PathBuf>) -> Self {
-        Self { root: root.into() }
+        Self { root: root.into(), durability: Durability::Named }
+    }
+
+    /// The same folder; what is written to it is as safe from a loss of power as `durability` says.
+    pub fn with_durability(self, durability: Durability) -> Self {
+        Self { durability, ..self }
+    }
+
+    /// The folder itself.
+    pub fn root(&self) -> &Path {
+        &self.root
     }
 
     /// Where the passport of a stand for a site stands.
@@ -130,15 +204,23 @@ impl Folder {
     /// # Errors
     /// See [`FolderRefused`].
     pub fn issue(&self, stand: &Stand, site: &Site, order: &Issue, seal: Seal) -> Result<Issued, FolderRefused> {
-        let draft = issue::draft(stand, site, order)?;
+        self.settle(|| self.next_first(stand, site, order), seal)
+    }
+
+    /// What [`Self::issue`] would do; nothing is signed or written.
+    ///
+    /// # Errors
+    /// See [`FolderRefused`].
+    pub fn next_first(&self, stand: &Stand, site: &Site, order: &Issue) -> Result<Next, FolderRefused> {
+        let draft = Box::new(issue::draft(stand, site, order)?);
         let path = self.path_of(&stand.stand, &site.id, order.revision);
-        match existing(&path)? {
-            Some(there) if same(&there.content, draft.content()) => Ok(there.left(&draft)),
+        match self.existing(&path)? {
+            Some(there) if same(&there.content, draft.content()) => Ok(Next::There(there.left(&draft))),
             Some(there) => {
                 let changed = there.differences(stand, site, draft.content());
                 Err(FolderRefused::OtherContent { path: there.path, changed })
             }
-            None => write(path, &draft, seal),
+            None => Ok(Next::New(Unwritten { path, draft })),
         }
     }
 
@@ -147,14 +229,22 @@ impl Folder {
     /// # Errors
     /// See [`FolderRefused`].
     pub fn reissue(&self, successor: &Successor, seal: Seal) -> Result<Issued, FolderRefused> {
+        self.settle(|| self.next_successor(successor), seal)
+    }
+
+    /// What [`Self::reissue`] would do; nothing is signed or written.
+    ///
+    /// # Errors
+    /// See [`FolderRefused`].
+    pub fn next_successor(&self, successor: &Successor) -> Result<Next, FolderRefused> {
         let mut revision = successor.first_revision();
         loop {
-            let draft = successor.draft(revision)?;
+            let draft = Box::new(successor.draft(revision)?);
             let path = self.path_of(&successor.stand().stand, &successor.site().id, revision);
-            let Some(there) = existing(&path)? else { return write(path, &draft, seal) };
+            let Some(there) = self.existing(&path)? else { return Ok(Next::New(Unwritten { path, draft })) };
             let of_the_same = there.predecessor_sha256() == Some(successor.old_sha256());
             if same(&there.content, draft.content()) {
-                return Ok(there.left(&draft));
+                return Ok(Next::There(there.left(&draft)));
             }
             if of_the_same {
                 return Err(FolderRefused::OtherSuccessor { path: there.path });
@@ -164,6 +254,71 @@ impl Folder {
                 return Err(FolderRefused::LaterRevision { path: there.path });
             }
             revision = revision.saturating_add(1);
+        }
+    }
+
+    /// Makes the names of files safe that were written with [`Durability::NameLater`]: theirs, and those of the folders
+    /// from the root to them.
+    ///
+    /// # Errors
+    /// The first folder that cannot be made safe, with what the system says.
+    pub fn sync_names<'a>(&self, files: impl Iterator<Item = &'a Path>) -> Result<(), FileError> {
+        if self.durability != Durability::NameLater {
+            return Ok(());
+        }
+        let mut folders: BTreeSet<&Path> = BTreeSet::new();
+        for file in files {
+            let above = file.ancestors().skip(1).take_while(|folder| folder.starts_with(&self.root));
+            folders.extend(above.filter(|folder| !folder.as_os_str().is_empty()));
+        }
+        for folder in folders {
+            files::sync_folder(folder).map_err(|error| FileError::Write { path: folder.to_owned(), error })?;
+        }
+        Ok(())
+    }
+
+    /// Signs and writes what comes next. When another run writes a file of that name first, what comes next is asked
+    /// again.
+    fn settle(&self, next: impl Fn() -> Result<Next, FolderRefused>, seal: Seal) -> Result<Issued, FolderRefused> {
+        for _ in 1..ATTEMPTS {
+            match self.settle_once(&next, seal) {
+                Err(FolderRefused::File(FileError::Exists { .. })) => {}
+                settled => return settled,
+            }
+        }
+        self.settle_once(&next, seal)
+    }
+
+    fn settle_once(&self, next: impl Fn() -> Result<Next, FolderRefused>, seal: Seal) -> Result<Issued, FolderRefused> {
+        match next()? {
+            Next::There(issued) => Ok(issued),
+            Next::New(new) => self.write(new, seal),
+        }
+    }
+
+    fn write(&self, new: Unwritten, seal: Seal) -> Result<Issued, FolderRefused> {
+        let Unwritten { path, draft } = new;
+        let text = draft.sign(seal.signer)?;
+        if let Some(trust) = seal.trust {
+            check_verifiable(&path, &text, &draft, trust)?;
+        }
+        files::write_new_as(&path, text.as_bytes(), Access::Shared, self.durability)?;
+        let id = draft.content().passport.id.clone();
+        Ok(Issued { id, path, sha256: sha256_hex(text.as_bytes()), new: true, remarks: draft.remarks() })
+    }
+
+    /// The passport that is there already.
+    fn existing(&self, path: &Path) -> Result<Option<Existing>, FolderRefused> {
+        for path in path.ancestors().take_while(|path| *path != self.root) {
+            match path.symlink_metadata() {
+                Ok(found) if found.is_symlink() => return Err(FolderRefused::Link { path: path.to_owned() }),
+                _ => {}
+            }
+        }
+        match files::read(path, LARGEST_DOCUMENT_BYTES) {
+            Err(FileError::Read { error, .. }) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(error.into()),
+            Ok(bytes) => Existing::of(path, &bytes).map(Some),
         }
     }
 }
@@ -185,42 +340,52 @@ pub struct Found {
 /// [`FileError::Read`] for a folder that cannot be read.
 pub fn find(root: &Path) -> Result<Found, FileError> {
     let mut found = Found::default();
-    let mut folders = vec![root.to_owned()];
-    while let Some(folder) = folders.pop() {
-        let failed = |error| FileError::Read { path: folder.clone(), error };
-        for entry in std::fs::read_dir(&folder).map_err(failed)? {
-            let entry = entry.map_err(failed)?;
-            let kind = entry.file_type().map_err(failed)?;
-            let path = entry.path();
-            match numbered(&path) {
-                _ if kind.is_dir() => folders.push(path),
-                None => {}
-                Some(_) if kind.is_symlink() => found.links.push(path),
-                Some("revocation") => found.revocation_lists.push(path),
-                Some(_) => found.passports.push(path),
-            }
+    for entry in Walk::deep(root, is_numbered) {
+        match entry? {
+            Entry::Link(path) => found.links.push(path),
+            Entry::File(path) if is_revocation_list(&path) => found.revocation_lists.push(path),
+            Entry::File(path) => found.passports.push(path),
         }
     }
-    found.passports.sort();
-    found.revocation_lists.sort();
-    found.links.sort();
     Ok(found)
 }
 
-/// What stands before the number in `<name>-<number>.yaml`.
-fn numbered(path: &Path) -> Option<&str> {
-    let (name, number) = path.file_name()?.to_str()?.strip_suffix(".yaml")?.rsplit_once('-')?;
-    (!number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())).then_some(name)
+/// Takes the revocation lists of a folder into account: of them and the one that is trusted already the newest counts.
+/// Gives what a person should look at.
+///
+/// # Errors
+/// A list that cannot be read.
+pub fn withdraw(lists: &[PathBuf], trust: &mut Trust, time: Timestamp) -> Result<Vec<Alarm>, FileError> {
+    let mut good: Vec<RevocationList> = trust.withdrawn.take().into_iter().collect();
+    let mut alarms = Vec::new();
+    for path in lists {
+        let name = path.display().to_string();
+        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES)?;
+        match RevocationList::verify(&name, &bytes, &trust.signers, &trust.revoked, time) {
+            Ok(list) => good.push(list),
+            Err(error) => alarms.push(Alarm::revocation(error.to_string(), &name)),
+        }
+    }
+    let series = Series::of(good);
+    alarms.extend(series.alarms.into_iter().map(|words| Alarm::revocation(words, "")));
+    trust.withdrawn = series.newest;
+    Ok(alarms)
 }
 
-fn write(path: PathBuf, draft: &Draft, seal: Seal) -> Result<Issued, FolderRefused> {
-    let text = draft.sign(seal.signer)?;
-    if let Some(trust) = seal.trust {
-        check_verifiable(&path, &text, draft, trust)?;
-    }
-    files::write_new(&path, text.as_bytes(), Access::Shared)?;
-    let id = draft.content().passport.id.clone();
-    Ok(Issued { id, path, sha256: sha256_hex(text.as_bytes()), new: true, remarks: draft.remarks() })
+/// Whether a file is named as passports and revocation lists are, `<name>-<number>.yaml`.
+pub fn is_numbered(name: &OsStr) -> bool {
+    numbered(name).is_some()
+}
+
+/// Whether it is named as a revocation list is, `revocation-<sequence>.yaml`.
+pub fn is_revocation_list(path: &Path) -> bool {
+    path.file_name().and_then(numbered) == Some("revocation")
+}
+
+/// What stands before the number in `<name>-<number>.yaml`.
+fn numbered(name: &OsStr) -> Option<&str> {
+    let (name, number) = name.to_str()?.strip_suffix(".yaml")?.rsplit_once('-')?;
+    (!number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())).then_some(name)
 }
 
 /// A passport that nobody could verify is worse than none.
@@ -243,6 +408,16 @@ struct Existing {
 }
 
 impl Existing {
+    fn of(path: &Path, bytes: &[u8]) -> Result<Self, FolderRefused> {
+        let name = path.display().to_string();
+        let incomparable = |reason: String| FolderRefused::NotComparable { path: path.to_owned(), reason };
+        let text = SignedText::split(&name, bytes, NAMESPACE)
+            .map_err(|malformed| incomparable(malformed.fault.to_string()))?;
+        let payload = text.signed_payload().map_err(|error| incomparable(error.to_string()))?;
+        let content = read::content(&name, payload).map_err(|error| incomparable(error.to_string()))?;
+        Ok(Self { path: path.to_owned(), sha256: sha256_hex(bytes), content })
+    }
+
     fn left(self, draft: &Draft) -> Issued {
         let id = self.content.passport.id.clone();
         Issued { id, path: self.path, sha256: self.sha256, new: false, remarks: draft.remarks() }
@@ -265,20 +440,6 @@ impl Existing {
     fn predecessor_sha256(&self) -> Option<&str> {
         self.content.passport.reissued_from.as_ref().map(|predecessor| predecessor.sha256.as_str())
     }
-}
-
-fn existing(path: &Path) -> Result<Option<Existing>, FolderRefused> {
-    if !path.try_exists().map_err(|error| FileError::Read { path: path.to_owned(), error })? {
-        return Ok(None);
-    }
-    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES)?;
-    let name = path.display().to_string();
-    let incomparable = |reason: String| FolderRefused::NotComparable { path: path.to_owned(), reason };
-    let text =
-        SignedText::split(&name, &bytes, NAMESPACE).map_err(|malformed| incomparable(malformed.fault.to_string()))?;
-    let payload = text.signed_payload().map_err(|error| incomparable(error.to_string()))?;
-    let content = read::content(&name, payload).map_err(|error| incomparable(error.to_string()))?;
-    Ok(Some(Existing { path: path.to_owned(), sha256: sha256_hex(&bytes), content }))
 }
 
 /// Whether two passports say the same, the time of issue and the program that wrote them aside.

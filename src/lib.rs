@@ -64,10 +64,11 @@
 //! | [`register`] | what is in force among many |
 //! | [`schema`] | JSON Schemas of the formats |
 //! | [`files`], [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports |
+//! | [`batch`] | many passports at once |
 //! | [`report`] | what people read |
 //! | [`demonstration`] | the whole story on a built-in example |
 //!
-//! Only `files`, `signing`, `folder` and `demonstration` touch the file system or start a program; nothing reads the
+//! Only `files`, `signing`, `folder`, `batch` and `demonstration` touch the file system or start a program; nothing reads the
 //! clock, prints, or looks at the environment (`ssh-keygen`, where it signs, looks for its agent there).
 //!
 //! # What it refuses
@@ -80,6 +81,7 @@
 #![deny(missing_docs)]
 
 pub mod attitude;
+pub mod batch;
 pub mod bibliography;
 pub mod calibration;
 pub mod certification;

@@ -129,8 +129,18 @@ struct Predecessor {
 
 /// Verifies one file; `within_days` sets from when on it counts as expiring.
 pub fn examine(file: &str, bytes: &[u8], trust: &Trust, question: &Question, within_days: Option<u32>) -> Examined {
-    let time = question.time;
-    let verification = verify(file, bytes, trust, &Question::at(time));
+    let verification = verify(file, bytes, trust, &Question::at(question.time));
+    examined(file, bytes, &verification, question.time, within_days)
+}
+
+/// What a register keeps of a file that was verified at `time`.
+pub fn examined(
+    file: &str,
+    bytes: &[u8],
+    verification: &Verification,
+    time: Timestamp,
+    within_days: Option<u32>,
+) -> Examined {
     let content = verification.content();
     let failed = verification.checks().iter().find(|check| check.passed() == Some(false));
     let (state, why) = match failed.map(|check| (check.code, check)) {
@@ -170,6 +180,25 @@ fn in_force(content: Option<&Content>, time: Timestamp, within_days: Option<u32>
             (State::Expiring, format!("the last day is {last}, in {days} days"))
         }
         _ => (State::InForce, format!("to {last}")),
+    }
+}
+
+impl Examined {
+    /// What the register says of the file while no other file is known.
+    pub fn line(&self) -> &Line {
+        &self.line
+    }
+
+    /// The SHA-256 of the file that it supersedes, when it says so and its word counts: also when it has itself been
+    /// withdrawn or has expired since.
+    pub fn supersedes(&self) -> Option<&str> {
+        let predecessor = self.predecessor.as_ref().filter(|predecessor| self.counts && predecessor.superseded);
+        predecessor.map(|predecessor| predecessor.sha256.as_str())
+    }
+
+    /// Where the file belongs by the passport's id, when it is not there.
+    pub fn misplaced(&self) -> Option<String> {
+        misplaced(&self.line).map(|alarm| alarm.words)
     }
 }
 
@@ -237,9 +266,9 @@ impl Register {
 /// For every SHA-256 the passports that say they supersede it, each once.
 fn successors(files: &[Examined]) -> BTreeMap<&str, Vec<&Examined>> {
     let mut successors: BTreeMap<&str, Vec<&Examined>> = BTreeMap::new();
-    for file in files.iter().filter(|file| file.counts) {
-        if let Some(predecessor) = file.predecessor.as_ref().filter(|predecessor| predecessor.superseded) {
-            let known = successors.entry(&predecessor.sha256).or_default();
+    for file in files {
+        if let Some(superseded) = file.supersedes() {
+            let known = successors.entry(superseded).or_default();
             // A copy of the same file is one successor, not two.
             if known.iter().all(|other| other.line.sha256 != file.line.sha256) {
                 known.push(file);

@@ -58,7 +58,7 @@ pub type AskPassphrase<'a> = &'a dyn Fn(&Path) -> Result<Zeroizing<String>, Stri
 ///
 /// # Errors
 /// See [`KeyFileError`]. A private key that others can read is refused, as OpenSSH does.
-pub fn signer(path: &Path, ask: AskPassphrase) -> Result<Box<dyn Signer>, KeyFileError> {
+pub fn signer(path: &Path, ask: AskPassphrase) -> Result<Box<dyn Signer + Sync>, KeyFileError> {
     let bytes = Zeroizing::new(files::read(path, LARGEST_KEY_FILE_BYTES)?);
     let text = std::str::from_utf8(&bytes).map_err(|_| KeyFileError::NotText { path: path.to_owned() })?;
     let key_error = |error| KeyFileError::Key { path: path.to_owned(), error };

@@ -32,6 +32,13 @@ record! {
     }
 }
 
+impl Identity {
+    /// Model and serial number as in a passport's id: `<model>/<serial>`.
+    pub fn id(&self) -> String {
+        format!("{}/{}", self.model, self.serial)
+    }
+}
+
 record! {
     /// The certificate that the deviations come from. Uncertainties are standard uncertainties (k = 1).
     pub struct Certificate {

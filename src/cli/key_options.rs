@@ -22,9 +22,14 @@ pub struct KeyOptions {
 }
 
 impl KeyOptions {
-    pub fn signer(&self) -> Result<Box<dyn Signer>, Failure> {
-        signing::signer(&self.key, &ask).map_err(Failure::unusable)
+    pub fn signer(&self) -> Result<Box<dyn Signer + Sync>, Failure> {
+        signer_of(&self.key)
     }
+}
+
+/// The signer for a key file.
+pub fn signer_of(key: &Path) -> Result<Box<dyn Signer + Sync>, Failure> {
+    signing::signer(key, &ask).map_err(Failure::unusable)
 }
 
 /// The passphrase of an existing key.

@@ -4,6 +4,7 @@
 //! or the document is good. 1: a document or a result is refused. 2: wrong usage, or a file that cannot be read as what
 //! it should be. Of several files every one is reported, and the highest code counts.
 
+mod batch;
 mod calibrate;
 mod certify;
 mod completions;

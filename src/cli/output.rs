@@ -1,10 +1,8 @@
 //! Results to standard output, words to standard error; a closed pipe ends quietly.
 
-use super::{Code, Failure, REFUSED, UNUSABLE};
+use super::Failure;
 use clap::ValueEnum;
-use dtg_passport::files::{self, FileError};
-use dtg_passport::folder::FolderRefused;
-use dtg_passport::passport::issue::IssueRefused;
+use dtg_passport::files;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -15,6 +13,17 @@ pub enum Format {
     Text,
     /// For programs.
     Json,
+}
+
+/// The form of a result that is a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum TableFormat {
+    /// For people.
+    Text,
+    /// For programs.
+    Json,
+    /// For spreadsheets.
+    Csv,
 }
 
 /// Writes a result.
@@ -43,15 +52,4 @@ pub fn file(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
 /// Writes words about a result. Nothing is to be done when even standard error is closed.
 pub fn say(words: &str) {
     let _ = writeln!(anstream::stderr().lock(), "dtg-passport: {}", words.trim_end().replace('\n', "\n              "));
-}
-
-/// The exit code of a refusal by the folder: what the file system or the signer refuses is no verdict on a document.
-pub fn code_of(refused: &FolderRefused) -> Code {
-    match refused {
-        FolderRefused::File(FileError::Exists { .. }) => REFUSED,
-        FolderRefused::File(_) | FolderRefused::Issue(IssueRefused::Signing(_) | IssueRefused::BadIdentity(_)) => {
-            UNUSABLE
-        }
-        _ => REFUSED,
-    }
 }

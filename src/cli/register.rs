@@ -1,16 +1,15 @@
 //! `register`: what is in force in a folder of passports.
 
+use super::output::{self, TableFormat};
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, REFUSED, output};
+use super::{Code, Failure, REFUSED};
 use clap::{Args, ValueEnum};
 use dtg_passport::files;
 use dtg_passport::folder::{self, Found};
 use dtg_passport::passport::{Question, Trust};
 use dtg_passport::register::{Alarm, Register, examine};
 use dtg_passport::report::register as report;
-use dtg_passport::revocation::{RevocationList, Series};
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
-use jiff::Timestamp;
 use std::path::{Path, PathBuf};
 
 /// List every passport under a folder: in force, superseded, moved, expired, revoked, broken
@@ -39,13 +38,6 @@ enum By {
     Issuer,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum TableFormat {
-    Text,
-    Json,
-    Csv,
-}
-
 pub fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let mut register = read(&options.folder, trust, &question, options.within)?;
@@ -65,7 +57,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
 /// Reads a folder: its revocation lists first, then every passport.
 pub fn read(folder: &Path, mut trust: Trust, question: &Question, within: Option<u32>) -> Result<Register, Failure> {
     let Found { passports, revocation_lists, links } = folder::find(folder).map_err(Failure::unusable)?;
-    let mut alarms = lists(&revocation_lists, &mut trust, question.time)?;
+    let mut alarms = folder::withdraw(&revocation_lists, &mut trust, question.time).map_err(Failure::unusable)?;
     alarms.extend(links.iter().map(|path| Alarm::link(&path.display().to_string())));
     let mut examined = Vec::with_capacity(passports.len());
     for path in &passports {
@@ -77,22 +69,4 @@ pub fn read(folder: &Path, mut trust: Trust, question: &Question, within: Option
         }
     }
     Ok(Register::of(examined, alarms))
-}
-
-/// The newest list of the folder and of those given counts.
-fn lists(paths: &[PathBuf], trust: &mut Trust, time: Timestamp) -> Result<Vec<Alarm>, Failure> {
-    let mut good: Vec<RevocationList> = trust.withdrawn.take().into_iter().collect();
-    let mut alarms = Vec::new();
-    for path in paths {
-        let name = path.display().to_string();
-        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-        match RevocationList::verify(&name, &bytes, &trust.signers, &trust.revoked, time) {
-            Ok(list) => good.push(list),
-            Err(error) => alarms.push(Alarm::revocation(error.to_string(), &name)),
-        }
-    }
-    let series = Series::of(good);
-    alarms.extend(series.alarms.into_iter().map(|words| Alarm::revocation(words, "")));
-    trust.withdrawn = series.newest;
-    Ok(alarms)
 }

@@ -92,6 +92,8 @@ pub struct Successor {
     same_site: bool,
     old_revision: u32,
     issue: Issue,
+    says_the_same: bool,
+    for_the_same_reason: bool,
 }
 
 /// Decides what follows from the old passport: everything, when every check passed; its id and hash alone, when its key
@@ -155,7 +157,14 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
             Usable::NameOnly { .. } => None,
         },
     };
-    Ok(Successor { stand, site, same_site, old_revision: old.passport.revision, issue })
+    let says_the_same = matches!(usable, Usable::Whole)
+        && stand == stand_of(old)
+        && site == old.site
+        && issue.issuer == old.passport.issuer
+        && issue.valid_until.or(stand.certificate.valid_until) == old.passport.valid_until;
+    let for_the_same_reason = old.passport.reissued_from.as_ref().is_some_and(|from| from.reason == order.reason);
+    let old_revision = old.passport.revision;
+    Ok(Successor { stand, site, same_site, old_revision, issue, says_the_same, for_the_same_reason })
 }
 
 /// How much of an old passport may be used.
@@ -200,6 +209,16 @@ impl Successor {
     /// Whether it is for the old passport's site: then it is its next revision, and supersedes it.
     pub fn same_site(&self) -> bool {
         self.same_site
+    }
+
+    /// Whether it would say of stand, site, issuer and last day what the old passport says.
+    pub fn says_the_same(&self) -> bool {
+        self.says_the_same
+    }
+
+    /// Whether the old passport was itself issued anew, and for the reason given now.
+    pub fn for_the_same_reason(&self) -> bool {
+        self.for_the_same_reason
     }
 
     /// The stand it is of.

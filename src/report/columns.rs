@@ -53,6 +53,14 @@ pub fn table(out: &mut String, names: &[&str], rows: &[Vec<String>]) {
     }
 }
 
+/// A row of CSV as RFC 4180 has it, but for its line feed.
+pub fn csv_row<'a>(cells: impl Iterator<Item = &'a str>) -> String {
+    let quoted = |cell: &str| {
+        if cell.contains([',', '"', '\n']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.to_owned() }
+    };
+    cells.map(quoted).collect::<Vec<_>>().join(",") + "\n"
+}
+
 /// Decimals that show a standard uncertainty with two significant digits (GUM, 7.2.6), at most 12.
 pub fn decimals(u: f64) -> usize {
     if !(u.is_finite() && u > 0.0) {

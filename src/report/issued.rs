@@ -1,5 +1,10 @@
-//! What became of an order, and what the factory should know before it hands the passport over.
+//! What became of orders, and what the factory should know before it hands the passports over.
+//!
+//! Reports come one after the other and are not held: of a few orders the text says everything, of many only what failed,
+//! and a summary.
 
+use super::columns::csv_row;
+use crate::batch::{Failure, Outcome};
 use crate::calibration::prediction::NoiseGrowth;
 use crate::folder::Issued;
 use crate::passport::issue::{NOISE_WARNING, Remarks};
@@ -9,12 +14,18 @@ use std::fmt::Write;
 /// From this growth of K's uncertainty towards the poles on, the factory is warned.
 const POLAR_WARNING: f64 = 3.0;
 
+/// Of so many orders at most the text says everything.
+const FEW: usize = 20;
+
+/// Remarks that are told apart; the others are counted.
+const REMARKS_TOLD: usize = 50;
+
 /// What became of one order.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Report {
-    /// The passport's id; of a re-issue that was refused, the old passport's file.
+    /// The passport's id; of a re-issue that was refused, the old passport's file; of an input, its file.
     pub id: String,
-    /// "issued", "unchanged" or "refused".
+    /// "issued", "unchanged", "planned" (in a dry run), "skipped" or "refused".
     pub state: &'static str,
     /// The passport's file.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -28,9 +39,12 @@ pub struct Report {
     /// What is not known, and what that costs.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub absences: Vec<String>,
-    /// Why it was refused.
+    /// Why it was refused or skipped.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
+    /// Of an input that cannot be used: how many passports it costs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub passports: Option<u64>,
 }
 
 /// Ratios of standard uncertainties, this stand's to a perfect one's.
@@ -49,23 +63,51 @@ impl From<NoiseGrowth> for Noise {
 }
 
 impl Report {
+    fn new(id: String, state: &'static str) -> Self {
+        let absences = Vec::new();
+        Self { id, state, file: None, sha256: None, noise_growth: None, absences, reason: None, passports: None }
+    }
+
     /// A passport that is there now, new or as before.
     pub fn of(issued: &Issued) -> Self {
         Self {
-            id: issued.id.clone(),
-            state: if issued.new { "issued" } else { "unchanged" },
             file: Some(issued.path.display().to_string()),
             sha256: Some(issued.sha256.clone()),
-            noise_growth: issued.remarks.noise.map(Noise::from),
-            absences: issued.remarks.absences.clone(),
-            reason: None,
+            ..Self::new(issued.id.clone(), if issued.new { "issued" } else { "unchanged" }).with(&issued.remarks)
         }
     }
 
-    /// An order that was refused.
-    pub fn refused(id: String, reason: String) -> Self {
-        let absences = Vec::new();
-        Self { id, state: "refused", file: None, sha256: None, noise_growth: None, absences, reason: Some(reason) }
+    /// What became of an order of a batch.
+    pub fn of_outcome(outcome: &Outcome) -> Self {
+        match outcome {
+            Outcome::There(issued) => Self::of(issued),
+            Outcome::Planned(planned) => Self {
+                file: Some(planned.path.display().to_string()),
+                ..Self::new(planned.id.clone(), "planned").with(&planned.remarks)
+            },
+            Outcome::Skipped { id, file, why } => Self {
+                file: Some(file.display().to_string()),
+                reason: Some(why.clone()),
+                ..Self::new(id.clone(), "skipped")
+            },
+            Outcome::Failed(Failure { what, why, passports, .. }) => {
+                Self { reason: Some(why.clone()), passports: *passports, ..Self::new(what.clone(), "refused") }
+            }
+        }
+    }
+
+    fn with(self, remarks: &Remarks) -> Self {
+        Self { noise_growth: remarks.noise.map(Noise::from), absences: remarks.absences.clone(), ..self }
+    }
+}
+
+/// What failed, in words: with its name, unless the reason begins with it, and with what it costs.
+pub fn failure(failure: &Failure) -> String {
+    let Failure { what, why, passports, .. } = failure;
+    let named = if why.starts_with(&format!("{what}:")) { why.clone() } else { format!("{what}: {why}") };
+    match passports {
+        None | Some(0 | 1) => named,
+        Some(passports) => format!("{named} (passports not issued: {})", grouped(*passports)),
     }
 }
 
@@ -93,22 +135,232 @@ pub fn warnings(remarks: &Remarks) -> Vec<String> {
     words
 }
 
-/// A line for each order, with the noise under it.
-pub fn text(reports: &[Report]) -> String {
-    let mut text = String::new();
-    for report in reports {
-        let file = report.file.as_deref().unwrap_or("nothing was written");
-        let _ = writeln!(text, "{:<9}  {}  {file}", report.state, report.id);
-        if let Some(sha256) = &report.sha256 {
-            let _ = writeln!(text, "           sha256 {sha256}");
-        }
-        if let Some(Noise { k, omega_0, omega_g, omega_k }) = report.noise_growth {
-            let _ = writeln!(
-                text,
-                "           noise, against a perfect stand: K {k:.2}, omega_0 {omega_0:.2}, omega_g {omega_g:.2}, \
-                 omega_k {omega_k:.2}"
-            );
-        }
+/// A line for an order, with what there is to say of it under it.
+fn text(report: &Report) -> String {
+    let mut text = line(report);
+    if let Some(sha256) = &report.sha256 {
+        let _ = writeln!(text, "           sha256 {sha256}");
+    }
+    if let Some(Noise { k, omega_0, omega_g, omega_k }) = report.noise_growth {
+        let _ = writeln!(
+            text,
+            "           noise, against a perfect stand: K {k:.2}, omega_0 {omega_0:.2}, omega_g {omega_g:.2}, \
+             omega_k {omega_k:.2}"
+        );
+    }
+    if let (Some(why), "skipped") = (&report.reason, report.state) {
+        let _ = writeln!(text, "           {why}");
     }
     text
+}
+
+fn line(report: &Report) -> String {
+    let file = report.file.as_deref().unwrap_or("nothing was written");
+    format!("{:<9}  {}  {file}\n", report.state, report.id)
+}
+
+/// A number with commas between its thousands.
+fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let groups: Vec<&str> = digits.as_bytes().rchunks(3).rev().filter_map(|group| str::from_utf8(group).ok()).collect();
+    groups.join(",")
+}
+
+/// How many orders had which end.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Totals {
+    issued: u64,
+    unchanged: u64,
+    planned: u64,
+    skipped: u64,
+    refused: u64,
+    inputs: u64,
+}
+
+impl Totals {
+    fn add(&mut self, report: &Report) {
+        match report.state {
+            "issued" => self.issued += 1,
+            "unchanged" => self.unchanged += 1,
+            "planned" => self.planned += 1,
+            "skipped" => self.skipped += 1,
+            _ => {
+                self.refused += report.passports.unwrap_or(1);
+                self.inputs += u64::from(report.passports.is_some());
+            }
+        }
+    }
+
+    fn summary(self) -> String {
+        let Self { issued, unchanged, planned, skipped, refused, inputs } = self;
+        let mut words = match planned {
+            0 => format!("issued {}, unchanged {}", grouped(issued), grouped(unchanged)),
+            planned => format!("planned {}, unchanged {}", grouped(planned), grouped(unchanged)),
+        };
+        if skipped > 0 {
+            let _ = write!(words, ", skipped {}", grouped(skipped));
+        }
+        let _ = write!(words, ", refused {}", grouped(refused));
+        if inputs > 0 {
+            let _ = write!(words, " (inputs that cannot be used: {})", grouped(inputs));
+        }
+        words + "\n"
+    }
+}
+
+/// The form of the reports.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// For people.
+    Text,
+    /// A list.
+    Json,
+    /// With the header `state,id,file,sha256,reason`.
+    Csv,
+}
+
+/// Writes reports as they come.
+#[derive(Debug)]
+pub struct Reports {
+    form: Form,
+    count: usize,
+    held: Vec<Report>,
+    totals: Totals,
+}
+
+impl Reports {
+    /// None yet.
+    pub fn new(form: Form) -> Self {
+        Self { form, count: 0, held: Vec::new(), totals: Totals::default() }
+    }
+
+    /// What is to be written now.
+    pub fn add(&mut self, report: Report) -> String {
+        self.totals.add(&report);
+        if self.form == Form::Text && report.passports.is_some() {
+            // An input is no passport, and words enough are said of it.
+            return String::new();
+        }
+        self.count += 1;
+        match self.form {
+            Form::Json => {
+                let json = serde_json::to_string_pretty(&report).unwrap_or_default().replace('\n', "\n  ");
+                format!("{}\n  {json}", if self.count == 1 { "[" } else { "," })
+            }
+            Form::Csv => self.csv(&report),
+            Form::Text if self.count <= FEW => {
+                self.held.push(report);
+                String::new()
+            }
+            Form::Text => {
+                let failed = self.held.drain(..).chain([report]).filter(|report| report.state == "refused");
+                failed.map(|report| line(&report)).collect()
+            }
+        }
+    }
+
+    fn csv(&self, report: &Report) -> String {
+        let head = if self.count == 1 { CSV_HEADER } else { "" };
+        let text = |text: &Option<String>| text.clone().unwrap_or_default();
+        let cells = [report.state.to_owned(), report.id.clone(), text(&report.file), text(&report.sha256)];
+        format!("{head}{}", csv_row(cells.iter().map(String::as_str).chain([text(&report.reason).as_str()])))
+    }
+
+    /// What is to be written at the end.
+    pub fn end(self) -> String {
+        match self.form {
+            Form::Json if self.count == 0 => "[]\n".to_owned(),
+            Form::Json => "\n]\n".to_owned(),
+            Form::Csv if self.count == 0 => CSV_HEADER.to_owned(),
+            Form::Csv => String::new(),
+            Form::Text if self.count <= FEW => self.held.iter().map(text).collect(),
+            Form::Text => self.totals.summary(),
+        }
+    }
+}
+
+const CSV_HEADER: &str = "state,id,file,sha256,reason\n";
+
+/// Remarks, each said once however many passports it is about.
+#[derive(Debug, Default)]
+pub struct Told {
+    remarks: Vec<(String, String, u64)>,
+    others: u64,
+}
+
+impl Told {
+    /// Remembers a remark about a passport or a file.
+    pub fn add(&mut self, about: &str, words: String) {
+        match self.remarks.iter().position(|(known, ..)| *known == words) {
+            Some(known) => self.remarks[known].2 += 1,
+            None if self.remarks.len() == REMARKS_TOLD => self.others += 1,
+            None => self.remarks.push((words, about.to_owned(), 1)),
+        }
+    }
+
+    /// The lines.
+    pub fn lines(&self) -> Vec<String> {
+        let told = self.remarks.iter().map(|(words, first, count)| match count {
+            1 => format!("{first}: {words}"),
+            count => format!("{first} and {} more: {words}", grouped(count - 1)),
+        });
+        let others = (self.others > 0).then(|| format!("and {} other remarks", grouped(self.others)));
+        told.chain(others).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousands_have_commas() {
+        for (number, words) in [(0, "0"), (999, "999"), (1000, "1,000"), (9998, "9,998"), (1_234_567, "1,234,567")] {
+            assert_eq!(grouped(number), words);
+        }
+    }
+
+    #[test]
+    fn reports_in_a_stream_are_one_json_list() {
+        for count in [0, 1, 3] {
+            let mut reports = Reports::new(Form::Json);
+            let mut text = String::new();
+            for number in 0..count {
+                text += &reports.add(Report::new(number.to_string(), "issued"));
+            }
+            text += &reports.end();
+            let list: Vec<serde_json::Value> = serde_json::from_str(&text).unwrap();
+            assert_eq!(list.len(), count);
+            // As the whole list would have been written.
+            assert_eq!(text, serde_json::to_string_pretty(&list).unwrap() + "\n");
+        }
+    }
+
+    #[test]
+    fn of_many_only_what_failed_is_said() {
+        let mut reports = Reports::new(Form::Text);
+        let mut text = String::new();
+        for number in 0..2000 {
+            let state = if number % 1000 == 7 { "refused" } else { "issued" };
+            text += &reports.add(Report::new(number.to_string(), state));
+        }
+        text += &reports.end();
+        let due = "refused    7  nothing was written\nrefused    1007  nothing was written\n\
+                   issued 1,998, unchanged 0, refused 2\n";
+        assert_eq!(text, due);
+    }
+
+    #[test]
+    fn remarks_are_said_once() {
+        let mut told = Told::default();
+        for number in 0..1000 {
+            told.add(&number.to_string(), "the same".to_owned());
+            told.add(&number.to_string(), format!("another, {number}"));
+        }
+        let lines = told.lines();
+        assert_eq!(lines[0], "0 and 999 more: the same");
+        assert_eq!(lines[1], "0: another, 0");
+        assert_eq!(lines.len(), REMARKS_TOLD + 1);
+        assert_eq!(lines[REMARKS_TOLD], "and 951 other remarks");
+    }
 }

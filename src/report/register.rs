@@ -47,13 +47,7 @@ pub fn csv(register: &Register) -> String {
         let texts = [line.id.as_deref(), line.stand.as_deref(), line.site.as_deref(), line.issuer.as_deref()];
         let cells = [Some(line.state.key())].into_iter().chain(texts);
         let cells = cells.chain([valid_until.as_deref(), Some(&line.sha256), Some(&line.file), Some(&line.why)]);
-        let cells: Vec<String> = cells.map(|cell| quoted(cell.unwrap_or(""))).collect();
-        let _ = writeln!(out, "{}", cells.join(","));
+        out += &columns::csv_row(cells.map(|cell| cell.unwrap_or("")));
     }
     out
-}
-
-/// A cell as RFC 4180 has it.
-fn quoted(cell: &str) -> String {
-    if cell.contains([',', '"', '\n']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.to_owned() }
 }

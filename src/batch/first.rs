@@ -1,0 +1,144 @@
+//! Every stand at every site: revision 1 of each.
+
+use super::catalogue::{Catalogue, Listed};
+use super::paths;
+use super::{Batch, Event, Failure, Listener, Outcome, Purpose, Sweeper, parallel};
+use crate::files::folder_of;
+use crate::passport::content::passport_id;
+use crate::passport::issue::Issue;
+use crate::site::Site;
+use crate::stand::Stand;
+use std::io::BufRead;
+use std::ops::Range;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Stands and sites that are in memory at a time, where there are more than a catalogue keeps.
+const STANDS_AT_ONCE: usize = 64;
+const SITES_AT_ONCE: usize = 1024;
+
+/// One passport to be issued.
+struct Pair {
+    stand: Arc<Stand>,
+    site: Arc<Site>,
+}
+
+impl Batch<'_> {
+    /// Issues a passport of every stand for every site.
+    ///
+    /// `stands` and `sites` are files, folders and patterns as [`paths`] has them. They are all read first, so that every
+    /// mistake in them is told before anything is signed; one that cannot be used costs its own passports and no more.
+    pub fn issue(&self, stands: &[PathBuf], sites: &[PathBuf], list: &mut dyn BufRead, order: &Issue, tell: Listener) {
+        let (stands, bad_stands) = self.catalogue(stands, list, Purpose::Stands, tell);
+        let (sites, bad_sites) = self.catalogue(sites, list, Purpose::Sites, tell);
+        let bad_files = bad_sites.iter().filter(|failure| failure.passports.is_none()).count();
+        let all_sites = (sites.len() + bad_files) as u64;
+        fail(bad_stands, all_sites, tell);
+        fail(bad_sites, stands.len() as u64, tell);
+        tell(Event::Planned(self.shard.share((stands.len() * sites.len()) as u64)));
+        let mut run = Run { batch: self, order, sweeper: Sweeper::default(), pairs: Vec::new() };
+        run.sweep_root();
+        run.all(&stands, &sites, tell);
+    }
+
+    fn catalogue<T: Listed>(
+        &self,
+        arguments: &[PathBuf],
+        list: &mut dyn BufRead,
+        purpose: Purpose,
+        tell: Listener,
+    ) -> (Catalogue<T>, Vec<Failure>) {
+        Catalogue::read(paths::files(arguments, list, purpose), self.threads, tell)
+    }
+}
+
+/// Tells that inputs cannot be used. Each file costs so many passports.
+fn fail(failures: Vec<Failure>, passports: u64, tell: Listener) {
+    for failure in failures {
+        let passports = failure.passports.or(Some(passports));
+        tell(Event::Done(Some(Outcome::Failed(Failure { passports, ..failure }))));
+    }
+}
+
+struct Run<'a> {
+    batch: &'a Batch<'a>,
+    order: &'a Issue,
+    sweeper: Sweeper,
+    pairs: Vec<Pair>,
+}
+
+impl Run<'_> {
+    fn sweep_root(&self) {
+        if self.batch.seal.is_some() {
+            self.sweeper.sweep(self.batch.folder.root());
+        }
+    }
+
+    /// By stands, and of each by sites; where there are too many sites to be held, some sites of some stands first.
+    fn all(&mut self, stands: &Catalogue<Stand>, sites: &Catalogue<Site>, tell: Listener) {
+        for some_stands in ranges(stands.len(), STANDS_AT_ONCE) {
+            let loaded_stands = self.load(stands, some_stands, sites.len(), tell);
+            for some_sites in ranges(sites.len(), SITES_AT_ONCE) {
+                let loaded_sites = self.load(sites, some_sites, loaded_stands.len(), tell);
+                for stand in &loaded_stands {
+                    let id = stand.stand.id();
+                    for site in loaded_sites.iter().filter(|site| self.batch.shard.has(&id, site.id.as_str())) {
+                        self.pairs.push(Pair { stand: Arc::clone(stand), site: Arc::clone(site) });
+                        if self.pairs.len() == self.batch.chunk() {
+                            self.chunk(tell);
+                        }
+                        if self.batch.cancelled() {
+                            return;
+                        }
+                    }
+                }
+            }
+        }
+        self.chunk(tell);
+    }
+
+    /// What was a good file when it was first read may be one no more.
+    fn load<T: Listed>(
+        &self,
+        catalogue: &Catalogue<T>,
+        places: Range<usize>,
+        each_costs: usize,
+        tell: Listener,
+    ) -> Vec<Arc<T>> {
+        let mut good = Vec::new();
+        for loaded in catalogue.load(places, self.batch.threads) {
+            match loaded {
+                Ok(value) => good.push(value),
+                Err(failure) => {
+                    fail(vec![failure], each_costs as u64, tell);
+                    tell(Event::Lost(self.batch.shard.share(each_costs as u64)));
+                }
+            }
+        }
+        good
+    }
+
+    fn chunk(&mut self, tell: Listener) {
+        let done = parallel::map(&self.pairs, self.batch.threads, |pair| Some(self.one(pair)));
+        self.pairs.clear();
+        self.batch.tell(done, tell);
+    }
+
+    /// One passport: every one of a batch is made here.
+    fn one(&self, Pair { stand, site }: &Pair) -> Outcome {
+        let folder = self.batch.folder;
+        if self.batch.seal.is_some() {
+            self.sweeper.sweep(folder_of(&folder.path_of(&stand.stand, &site.id, self.order.revision)));
+        }
+        self.batch.settle(
+            || passport_id(&stand.stand, &site.id, self.order.revision),
+            || folder.next_first(stand, site, self.order),
+            |seal| folder.issue(stand, site, self.order, seal),
+        )
+    }
+}
+
+/// `0..length` in pieces of at most `size`.
+fn ranges(length: usize, size: usize) -> impl Iterator<Item = Range<usize>> {
+    (0..length).step_by(size).map(move |start| start..length.min(start + size))
+}

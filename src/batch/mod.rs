@@ -1,0 +1,208 @@
+//! Many passports at once: stands × sites, or a folder of passports issued anew.
+//!
+//! The work is done in chunks, each by all processors and reported in order before the next one begins. So what is held
+//! does not grow with the number of passports, and what was reported is in the folder: under its name, and safe from a
+//! loss of power as far as [`Durability`](crate::files::Durability) says. A failure is one event; the rest goes on. Run
+//! again, a batch leaves what is done and does what is not.
+//!
+//! * [`paths`]: what a user names: files, folders, patterns, lists.
+//! * [`catalogue`]: stand and site files by their ids.
+//! * [`shard`]: a part of a job, for one of several machines.
+//! * [`first`]: every stand at every site.
+//! * [`successors`]: passports issued anew.
+//! * [`parallel`]: the same work on many things at once.
+
+pub mod catalogue;
+pub mod first;
+pub mod parallel;
+pub mod paths;
+pub mod shard;
+pub mod successors;
+
+use crate::files::{FileError, leftovers};
+use crate::folder::{Folder, FolderRefused, Issued, Next, Seal};
+use crate::passport::issue::Remarks;
+use shard::Shard;
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Orders that a thread has in a chunk.
+const CHUNK_PER_THREAD: usize = 64;
+
+/// What a folder is searched for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// Files `stand.yaml`, at any depth.
+    Stands,
+    /// Files `*.yaml` in the folder itself.
+    Sites,
+}
+
+/// How a batch is done.
+#[derive(Clone, Copy)]
+pub struct Batch<'a> {
+    /// Where the passports stand.
+    pub folder: &'a Folder,
+    /// Who signs; `None` for a dry run, which computes and checks everything and writes nothing.
+    pub seal: Option<Seal<'a>>,
+    /// Which part of the job.
+    pub shard: Shard,
+    /// Threads; 0 and 1 are the same.
+    pub threads: usize,
+    /// Once true, the batch ends after the chunk that has begun.
+    pub cancel: Option<&'a AtomicBool>,
+}
+
+/// What a batch tells while it goes on.
+#[derive(Debug)]
+pub enum Event {
+    /// So many more orders are known of; roughly, when this is a part of the job.
+    Planned(u64),
+    /// An order is done with. Of the passports in a folder those of other stands are no orders, and have no outcome.
+    Done(Option<Outcome>),
+    /// So many orders will not come, for a reason that was told as a failure.
+    Lost(u64),
+    /// Something to know about an input.
+    Remark {
+        /// The file.
+        file: String,
+        /// The words, which may be the same for many.
+        words: String,
+    },
+}
+
+/// What became of an order, or of an input.
+#[derive(Debug)]
+pub enum Outcome {
+    /// The passport is there, new or as before.
+    There(Issued),
+    /// It would be issued, were this no dry run.
+    Planned(Planned),
+    /// A passport of the folder is not to be issued anew.
+    Skipped {
+        /// Its id.
+        id: String,
+        /// Its file.
+        file: PathBuf,
+        /// Why.
+        why: String,
+    },
+    /// An order, or an input with all that hangs on it, has failed.
+    Failed(Failure),
+}
+
+/// A passport that would be issued.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Planned {
+    /// Its id.
+    pub id: String,
+    /// Its file.
+    pub path: PathBuf,
+    /// What the factory should know about it.
+    pub remarks: Remarks,
+}
+
+/// Why something is not there.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Failure {
+    /// The passport's id, or the file that it hangs on.
+    pub what: String,
+    /// Why, in words.
+    pub why: String,
+    /// Whether this is no verdict on a document, but a file that cannot be read as what it should be, or written.
+    pub unusable: bool,
+    /// How many passports it costs, where that is another number than one.
+    pub passports: Option<u64>,
+}
+
+impl Failure {
+    /// A verdict on a document.
+    pub fn refused(path: &Path, why: String) -> Self {
+        Self { what: path.display().to_string(), why, unusable: false, passports: None }
+    }
+
+    /// A file that cannot be used.
+    pub fn unusable(path: &Path, why: String) -> Self {
+        Self { unusable: true, ..Self::refused(path, why) }
+    }
+
+    /// A file that cannot be read.
+    pub fn file(error: FileError) -> Self {
+        Self::unusable(error.path(), error.to_string())
+    }
+
+    /// An order that the folder refused.
+    pub fn of_order(what: String, refused: &FolderRefused) -> Self {
+        Self { what, why: refused.to_string(), unusable: refused.is_unusable(), passports: None }
+    }
+}
+
+/// What listens to a batch.
+pub type Listener<'a> = &'a mut dyn FnMut(Event);
+
+impl Batch<'_> {
+    fn cancelled(&self) -> bool {
+        self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed))
+    }
+
+    fn chunk(&self) -> usize {
+        CHUNK_PER_THREAD * self.threads.max(1)
+    }
+
+    /// Signs and writes what is next, or says that it would; `again` asks anew what is next when another run is faster.
+    fn settle(
+        &self,
+        id: impl Fn() -> String,
+        next: impl Fn() -> Result<Next, FolderRefused>,
+        issue: impl Fn(Seal) -> Result<Issued, FolderRefused>,
+    ) -> Outcome {
+        let there = match self.seal {
+            Some(seal) => issue(seal).map(Outcome::There),
+            None => next().map(|next| match next {
+                Next::There(issued) => Outcome::There(issued),
+                Next::New(new) => Outcome::Planned(Planned {
+                    id: new.id().to_owned(),
+                    path: new.path().to_owned(),
+                    remarks: new.remarks(),
+                }),
+            }),
+        };
+        there.unwrap_or_else(|refused| Outcome::Failed(Failure::of_order(id(), &refused)))
+    }
+
+    /// Makes the names of what was written safe, and only then tells of it.
+    fn tell(&self, mut outcomes: Vec<Option<Outcome>>, tell: Listener) {
+        let written = outcomes.iter().flatten().filter_map(|outcome| match outcome {
+            Outcome::There(issued) => Some(issued.path.as_path()),
+            _ => None,
+        });
+        if let Err(error) = self.folder.sync_names(written) {
+            let why = error.to_string();
+            for outcome in outcomes.iter_mut().flatten() {
+                if let Outcome::There(issued) = outcome {
+                    let what = issued.id.clone();
+                    *outcome = Outcome::Failed(Failure { what, why: why.clone(), unusable: true, passports: None });
+                }
+            }
+        }
+        outcomes.into_iter().for_each(|outcome| tell(Event::Done(outcome)));
+    }
+}
+
+/// The folders of stands that were swept clean of what killed runs left behind, each once.
+#[derive(Default)]
+struct Sweeper {
+    swept: Mutex<HashSet<PathBuf>>,
+}
+
+impl Sweeper {
+    fn sweep(&self, folder: &Path) {
+        let mut swept = self.swept.lock().unwrap_or_else(PoisonError::into_inner);
+        if !swept.contains(folder) {
+            swept.insert(folder.to_owned());
+            leftovers::remove(folder);
+        }
+    }
+}

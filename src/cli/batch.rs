@@ -1,0 +1,162 @@
+//! What `issue` and `reissue` have in common: how a batch is done, and what is said of it while it goes on.
+
+use super::key_options::signer_of;
+use super::output::{self, TableFormat};
+use super::{Code, Failure, REFUSED, UNUSABLE};
+use clap::Args;
+use dtg_passport::batch::shard::Shard;
+use dtg_passport::batch::{Batch, Event, Listener, Outcome};
+use dtg_passport::document::Signer;
+use dtg_passport::files::Durability;
+use dtg_passport::folder::{Folder, Seal};
+use dtg_passport::passport::Trust;
+use dtg_passport::report::issued::{Form, Report, Reports, Told, failure, warnings};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+#[derive(Args)]
+pub struct BatchOptions {
+    /// Private key, or a .pub file whose private half is in ssh-agent or a FIDO token
+    #[arg(long, value_name = "KEY", required_unless_present = "dry_run")]
+    key: Option<PathBuf>,
+    /// The issuer: the principal by which allowed_signers knows the key
+    #[arg(long, value_name = "WHO")]
+    pub identity: String,
+    /// Folder of the passports
+    #[arg(long, value_name = "DIR", default_value = "passports")]
+    out: PathBuf,
+    /// Only the K-th of N parts of the job: the parts are disjoint and complete
+    #[arg(long, value_name = "K/N")]
+    shard: Option<Shard>,
+    /// Compute and check everything, say what would be issued, write nothing; needs no key
+    #[arg(long)]
+    dry_run: bool,
+    /// Do not wait until the disk has it: faster, for what can be issued again after a loss of power
+    #[arg(long)]
+    no_sync: bool,
+    /// Threads [default: as many as the machine runs at once]
+    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Form of the result
+    #[arg(long, value_enum, default_value = "text")]
+    format: TableFormat,
+}
+
+impl BatchOptions {
+    /// The key, unless nothing is going to be signed.
+    pub fn signer(&self) -> Result<Option<Box<dyn Signer + Sync>>, Failure> {
+        self.key.as_deref().filter(|_| !self.dry_run).map(signer_of).transpose()
+    }
+
+    /// Does a batch; what becomes of it is reported as it goes on.
+    pub fn run(
+        &self,
+        signer: Option<&(dyn Signer + Sync)>,
+        trust: Option<&Trust>,
+        work: impl FnOnce(&Batch, Listener),
+    ) -> Result<Code, Failure> {
+        let cancel = Arc::new(AtomicBool::new(false));
+        let flag = Arc::clone(&cancel);
+        ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)).map_err(Failure::unusable)?;
+        let durability = if self.no_sync { Durability::None } else { Durability::NameLater };
+        let folder = Folder::new(&self.out).with_durability(durability);
+        let batch = Batch {
+            folder: &folder,
+            seal: signer.map(|signer| Seal { signer, trust }),
+            shard: self.shard.unwrap_or(Shard::WHOLE),
+            threads: self
+                .threads
+                .map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from),
+            cancel: Some(&cancel),
+        };
+        let mut reporter = Reporter::new(self.format, Arc::clone(&cancel))?;
+        work(&batch, &mut |event| reporter.hear(event));
+        reporter.end()
+    }
+}
+
+/// Says what is heard of a batch: reports on standard output, words and a progress bar on standard error.
+struct Reporter {
+    reports: Reports,
+    told: Told,
+    bar: ProgressBar,
+    code: Code,
+    cancel: Arc<AtomicBool>,
+    unwritten: Option<Failure>,
+}
+
+impl Reporter {
+    fn new(format: TableFormat, cancel: Arc<AtomicBool>) -> Result<Self, Failure> {
+        let form = match format {
+            TableFormat::Text => Form::Text,
+            TableFormat::Json => Form::Json,
+            TableFormat::Csv => Form::Csv,
+        };
+        // indicatif draws on standard error, and only on a terminal.
+        let bar = ProgressBar::new(0);
+        let template = "{wide_bar} {human_pos} of {human_len} passports, {per_sec}, {eta} left";
+        bar.set_style(ProgressStyle::with_template(template).map_err(Failure::unusable)?);
+        Ok(Self { reports: Reports::new(form), told: Told::default(), bar, code: 0, cancel, unwritten: None })
+    }
+
+    fn hear(&mut self, event: Event) {
+        match event {
+            Event::Planned(more) => self.bar.inc_length(more),
+            Event::Lost(less) => self.bar.dec_length(less),
+            Event::Remark { file, words } => self.told.add(&file, words),
+            Event::Done(outcome) => {
+                if let Some(outcome) = outcome {
+                    self.outcome(&outcome);
+                }
+                self.bar.inc(1);
+            }
+        }
+    }
+
+    fn outcome(&mut self, outcome: &Outcome) {
+        match outcome {
+            // An equal passport that is there already was remarked upon when it was issued.
+            Outcome::There(issued) if issued.new => {
+                warnings(&issued.remarks).into_iter().for_each(|words| self.told.add(&issued.id, words));
+            }
+            Outcome::Planned(planned) => {
+                warnings(&planned.remarks).into_iter().for_each(|words| self.told.add(&planned.id, words));
+            }
+            Outcome::There(_) | Outcome::Skipped { .. } => {}
+            Outcome::Failed(failed) => {
+                self.code = self.code.max(if failed.unusable { UNUSABLE } else { REFUSED });
+                self.bar.suspend(|| output::say(&failure(failed)));
+            }
+        }
+        let text = self.reports.add(Report::of_outcome(outcome));
+        self.write(&text);
+    }
+
+    /// A report that cannot be written ends the batch: whoever wanted it would not know what was issued.
+    fn write(&mut self, text: &str) {
+        if text.is_empty() || self.unwritten.is_some() {
+            return;
+        }
+        if let Err(failure) = self.bar.suspend(|| output::result(text)) {
+            self.unwritten = Some(failure);
+            self.cancel.store(true, Ordering::Relaxed);
+        }
+    }
+
+    fn end(mut self) -> Result<Code, Failure> {
+        self.bar.finish_and_clear();
+        self.told.lines().iter().for_each(|line| output::say(line));
+        let text = std::mem::replace(&mut self.reports, Reports::new(Form::Text)).end();
+        self.write(&text);
+        if let Some(failure) = self.unwritten {
+            return Err(failure);
+        }
+        if self.cancel.load(Ordering::Relaxed) {
+            output::say("interrupted: the same command, given again, does the rest");
+            self.code = self.code.max(REFUSED);
+        }
+        Ok(self.code)
+    }
+}

@@ -1,0 +1,97 @@
+//! The files under a folder, one after the other in the order of their names. Links are not followed: they may lead out
+//! of the folder.
+
+use super::FileError;
+use std::ffi::{OsStr, OsString};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Something under a folder.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Entry {
+    /// A file of a wanted name.
+    File(PathBuf),
+    /// A link of a wanted name, or to a folder; it was not followed.
+    Link(PathBuf),
+}
+
+/// Walks through a folder. It holds the wanted names of the folders from the top to where it is, and nothing of other
+/// files however many there are.
+pub struct Walk {
+    wanted: fn(&OsStr) -> bool,
+    deep: bool,
+    next: Option<PathBuf>,
+    levels: Vec<Level>,
+}
+
+struct Level {
+    folder: PathBuf,
+    entries: std::vec::IntoIter<(OsString, Kind)>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Kind {
+    File,
+    Folder,
+    Link,
+}
+
+impl Walk {
+    /// Files of wanted names under `root`, at any depth.
+    pub fn deep(root: &Path, wanted: fn(&OsStr) -> bool) -> Self {
+        Self { wanted, deep: true, next: Some(root.to_owned()), levels: Vec::new() }
+    }
+
+    /// Files of wanted names in `root` itself.
+    pub fn flat(root: &Path, wanted: fn(&OsStr) -> bool) -> Self {
+        Self { deep: false, ..Self::deep(root, wanted) }
+    }
+
+    fn enter(&mut self, folder: PathBuf) -> Result<(), FileError> {
+        let failed = |error| FileError::Read { path: folder.clone(), error };
+        let mut entries = Vec::new();
+        for entry in fs::read_dir(&folder).map_err(failed)? {
+            let entry = entry.map_err(failed)?;
+            let (name, kind) = (entry.file_name(), entry.file_type().map_err(failed)?);
+            let wanted = (self.wanted)(&name);
+            let kind = if kind.is_symlink() {
+                let to_folder = || self.deep && fs::metadata(entry.path()).is_ok_and(|target| target.is_dir());
+                (wanted || to_folder()).then_some(Kind::Link)
+            } else if kind.is_dir() {
+                self.deep.then_some(Kind::Folder)
+            } else {
+                wanted.then_some(Kind::File)
+            };
+            entries.extend(kind.map(|kind| (name, kind)));
+        }
+        entries.sort();
+        self.levels.push(Level { folder, entries: entries.into_iter() });
+        Ok(())
+    }
+}
+
+impl Iterator for Walk {
+    type Item = Result<Entry, FileError>;
+
+    /// The next one. A folder that cannot be read is one error; the walk goes on behind it.
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            if let Some(folder) = self.next.take()
+                && let Err(error) = self.enter(folder)
+            {
+                return Some(Err(error));
+            }
+            let level = self.levels.last_mut()?;
+            let Some((name, kind)) = level.entries.next() else {
+                self.levels.pop();
+                continue;
+            };
+            let path = level.folder.join(name);
+            match kind {
+                Kind::File => return Some(Ok(Entry::File(path))),
+                Kind::Link => return Some(Ok(Entry::Link(path))),
+                Kind::Folder => self.next = Some(path),
+            }
+        }
+    }
+}

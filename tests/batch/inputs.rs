@@ -1,0 +1,244 @@
+//! What a batch is given: folders, patterns, lists, parts of a job; and what is bad among it.
+
+use crate::workshop::{SIGN, Said, Workshop, site, snapshot};
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::Write;
+use std::os::unix::fs::symlink;
+use std::process::Stdio;
+
+#[test]
+fn of_ten_thousand_sites_one_bad_latitude_costs_one_passport() {
+    let workshop = Workshop::new(1, 10_000);
+    workshop
+        .write("sites/site-04321.yaml", &site("site-04321", 0).replace("latitude_deg: 1.0000", "latitude_deg: 91.5"));
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --no-sync"), 2);
+    assert_eq!(said.results, "issued 9,999, unchanged 0, refused 1 (inputs that cannot be used: 1)\n");
+    let words: Vec<&str> = said.words.lines().collect();
+    assert!(words[0].starts_with("dtg-passport: sites/site-04321.yaml:3:15: latitude_deg: found 91.5"), "{words:?}");
+    let ids = workshop.sound("passports");
+    assert_eq!(ids.len(), 9_999);
+    assert!(!ids.contains("SPS-2/0000/site-04321/1"));
+    // Corrected and run again, it issues the one that is missing and touches nothing else.
+    let before = snapshot(&workshop.path("passports"));
+    workshop.write("sites/site-04321.yaml", &site("site-04321", 4321));
+    let said = workshop.run(&format!("issue stands --site sites/site-04*.yaml {SIGN} --no-sync"), 0);
+    assert_eq!(said.results, "issued 1, unchanged 999, refused 0\n");
+    let after = snapshot(&workshop.path("passports"));
+    let new: Vec<_> = after.difference(&before).collect();
+    assert!(new.len() == 1 && new[0].0.ends_with("SPS-2/0000/site-04321-1.yaml") && before.is_subset(&after));
+}
+
+#[test]
+fn every_stand_is_issued_for_every_site_in_order_and_as_one_at_a_time() {
+    let workshop = Workshop::new(7, 30);
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 0);
+    let ids: Vec<&str> = said.results.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
+    let due: Vec<String> =
+        (0..7).flat_map(|stand| (0..30).map(move |site| format!("SPS-2/{stand:04}/site-{site:05}/1"))).collect();
+    assert_eq!(ids, due);
+    assert_eq!(workshop.sound("passports").len(), 210);
+    // The bytes are those of a run for this pair alone, on one thread.
+    let one = "issue stands/0003/stand.yaml --site sites/site-00011.yaml --out one --threads 1";
+    workshop.run(&format!("{one} {SIGN}"), 0);
+    let file = "SPS-2/0003/site-00011-1.yaml";
+    assert_eq!(
+        fs::read(workshop.path("one").join(file)).unwrap(),
+        fs::read(workshop.path("passports").join(file)).unwrap()
+    );
+}
+
+#[test]
+fn json_is_one_list_and_the_three_forms_say_the_same() {
+    let workshop = Workshop::new(2, 3);
+    workshop.write("sites/bad.yaml", "rubbish\n");
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format json"), 2);
+    let list: Vec<serde_json::Value> = serde_json::from_str(&said.results).unwrap();
+    let states = |state: &str| list.iter().filter(|report| report["state"] == state).count();
+    assert_eq!((list.len(), states("issued"), states("refused")), (7, 6, 1));
+    assert!(list[0]["id"] == "sites/bad.yaml" && list[0]["passports"] == 2, "{}", list[0]);
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 2);
+    assert_eq!((said.ids("unchanged").len(), said.ids("refused")), (6, BTreeSet::from(["sites/bad.yaml".to_owned()])));
+    let hashes = |index: usize| said.results.lines().nth(index).unwrap().split(',').nth(3).unwrap().to_owned();
+    assert_eq!(list[1]["sha256"], hashes(2).as_str());
+}
+
+#[test]
+fn remarks_are_said_once_however_many_passports_they_are_about() {
+    let workshop = Workshop::new(1, 500);
+    for number in 0..500 {
+        let text = site(&format!("site-{number:05}"), number).replace("height_m: 150.0\n", "");
+        workshop.write(&format!("sites/site-{number:05}.yaml"), &text);
+    }
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --no-sync"), 0);
+    let heights: Vec<&str> = said.words.lines().filter(|line| line.contains("The height is unknown")).collect();
+    assert_eq!(heights.len(), 1);
+    assert!(heights[0].starts_with("dtg-passport: SPS-2/0000/site-00000/1 and 499 more: "), "{heights:?}");
+}
+
+#[test]
+fn of_two_sites_with_one_id_neither_counts_unless_they_are_the_same() {
+    let workshop = Workshop::new(2, 3);
+    workshop.write("sites/other.yaml", &site("site-00001", 999));
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
+    let why = "sites/other.yaml: is site site-00001, as is sites/site-00001.yaml, with other content: keep one \
+               (passports not issued: 2)";
+    assert!(said.words.contains(why), "{}", said.words);
+    assert_eq!(said.ids("issued").len(), 4);
+    assert!(workshop.sound("passports").iter().all(|id| !id.contains("site-00001")));
+    // The same bytes twice are one site.
+    workshop.write("sites/other.yaml", &site("site-00001", 1));
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 0);
+    assert!(
+        said.words.contains("sites/site-00001.yaml: the site site-00001 a second time, taken once"),
+        "{}",
+        said.words
+    );
+    assert_eq!(workshop.sound("passports").len(), 6);
+}
+
+#[test]
+fn a_stand_given_twice_is_taken_once_and_one_given_differently_not_at_all() {
+    let workshop = Workshop::new(1, 40);
+    let twice = "issue stands/0000/stand.yaml stands ./stands/0000/stand.yaml --site sites";
+    let said = workshop.run(&format!("{twice} {SIGN} --format csv"), 0);
+    assert_eq!((said.results.lines().count(), said.ids("issued").len()), (41, 40));
+    assert!(
+        said.words.contains("stands/0000/stand.yaml and 1 more: the stand SPS-2/0000 a second time"),
+        "{}",
+        said.words
+    );
+    let text = fs::read_to_string(workshop.path("stands/0000/stand.yaml")).unwrap();
+    workshop.write("stands/copy/stand.yaml", &text.replace("12.4", "12.5"));
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
+    assert!(said.words.contains("is stand SPS-2/0000, as is stands/copy/stand.yaml, with other content: keep one"));
+    assert!(said.ids("issued").is_empty());
+}
+
+#[test]
+fn links_lead_nowhere_and_nothing_is_written_through_them() {
+    let workshop = Workshop::new(1, 1);
+    let outside = tempfile::tempdir().unwrap();
+    fs::copy(workshop.path("stand.yaml"), outside.path().join("stand.yaml")).unwrap();
+    symlink(outside.path(), workshop.path("stands/linked")).unwrap();
+    symlink("/etc/hostname", workshop.path("sites/linked.yaml")).unwrap();
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
+    assert_eq!(said.ids("refused"), ["sites/linked.yaml", "stands/linked"].map(str::to_owned).into());
+    assert_eq!(workshop.sound("passports").len(), 1);
+    // A stand's folder among the passports that leads elsewhere, and a passport that does.
+    fs::create_dir_all(workshop.path("out/SPS-2")).unwrap();
+    symlink(outside.path(), workshop.path("out/SPS-2/0000")).unwrap();
+    let said = workshop.run(&format!("issue stands/0000 --site sites/site-00000.yaml {SIGN} --out out"), 1);
+    assert!(said.words.contains("out/SPS-2/0000: is a link, and nothing is written through links"), "{}", said.words);
+    assert_eq!(fs::read_dir(outside.path()).unwrap().count(), 1);
+    fs::remove_file(workshop.path("out/SPS-2/0000")).unwrap();
+    fs::create_dir(workshop.path("out/SPS-2/0000")).unwrap();
+    symlink(workshop.path("nowhere"), workshop.path("out/SPS-2/0000/site-00000-1.yaml")).unwrap();
+    let said = workshop.run(&format!("issue stands/0000 --site sites/site-00000.yaml {SIGN} --out out"), 1);
+    assert!(said.words.contains("site-00000-1.yaml: is a link"), "{}", said.words);
+}
+
+#[test]
+fn a_great_many_other_files_in_a_folder_are_in_nobodys_way() {
+    let workshop = Workshop::new(1, 2);
+    for folder in ["sites", "stands", "passports/SPS-2/0000"] {
+        fs::create_dir_all(workshop.path(folder)).unwrap();
+        for number in 0..20_000 {
+            fs::File::create(workshop.path(&format!("{folder}/other-{number}.txt"))).unwrap();
+        }
+    }
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 0);
+    assert_eq!(said.ids("issued").len(), 2);
+    assert_eq!(workshop.sound("passports").len(), 2);
+}
+
+#[test]
+fn a_name_in_another_unicode_form_is_refused_with_its_place() {
+    let workshop = Workshop::new(1, 1);
+    let text = site("koeln", 1).replace("id: \"koeln\"\n", "id: \"koeln\"\nname: \"Ko\u{308}ln\"\n");
+    workshop.write("sites/koeln.yaml", &text);
+    // The file's own name may be in any form.
+    workshop.write("sites/Mu\u{308}nchen.yaml", &site("muenchen", 2));
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 2);
+    assert!(said.words.contains("sites/koeln.yaml:3:7: name: found the character U+0308"), "{}", said.words);
+    let issued = ["SPS-2/0000/muenchen/1", "SPS-2/0000/site-00000/1"].map(str::to_owned);
+    assert_eq!(said.ids("issued"), issued.into());
+}
+
+#[test]
+fn patterns_folders_and_lists_name_the_same() {
+    let workshop = Workshop::new(3, 4);
+    let ids = |arguments: &str, list: &[u8]| {
+        let mut command = workshop.command(&format!("issue {arguments} {SIGN} --dry-run --format csv"));
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        child.stdin.take().unwrap().write_all(list).unwrap();
+        Said::of(child.wait_with_output().unwrap(), 0).ids("planned")
+    };
+    let all = ids("stands --site sites", b"");
+    assert_eq!(all.len(), 12);
+    assert_eq!(ids("stands/*/stand.yaml --site sites/*.yaml", b""), all);
+    assert_eq!(ids("stands/000[0-2] --site sites/site-0000?.yaml", b""), all);
+    assert_eq!(ids("- --site sites", b"stands/0000/stand.yaml\nstands/0001/stand.yaml\nstands/0002/stand.yaml\n"), all);
+    assert_eq!(ids("- --site sites", b"stands/0000/stand.yaml\0stands/0001\0stands/0002/stand.yaml"), all);
+    let sites: String = (0..4).map(|site| format!("sites/site-{site:05}.yaml\n")).collect();
+    assert_eq!(ids("stands --site -", sites.as_bytes()), all);
+    // A file whose name looks like a pattern is that file.
+    fs::rename(workshop.path("stands/0001"), workshop.path("stands/[0]*")).unwrap();
+    assert_eq!(ids("stands/[0]*/stand.yaml --site sites", b"").len(), 4);
+
+    let said = workshop.run(&format!("issue stands/x* --site sites {SIGN}"), 2);
+    assert_eq!(said.words, "dtg-passport: stands/x*: no file has such a name\n");
+    let said = workshop.run(&format!("issue - --site - {SIGN}"), 2);
+    assert_eq!(said.words, "dtg-passport: standard input can be one list, of stands or of sites\n");
+}
+
+#[test]
+fn parts_of_a_job_are_disjoint_and_complete_wherever_each_is_run() {
+    let workshop = Workshop::new(5, 40);
+    let whole = workshop.run(&format!("issue stands --site sites {SIGN} --dry-run --format csv"), 0).ids("planned");
+    let mut together = BTreeSet::new();
+    for part in ["3/3", "1/3", "2/3"] {
+        let said = workshop.run(&format!("issue stands --site sites {SIGN} --shard {part} --no-sync --format csv"), 0);
+        let ids = said.ids("issued");
+        assert!(!ids.is_empty() && together.is_disjoint(&ids));
+        together.extend(ids);
+    }
+    assert_eq!(together, whole);
+    assert_eq!(workshop.sound("passports"), whole);
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --shard 5/4"), 2);
+    assert!(said.words.contains("of 4 parts there is no part 5, expected 1 to 4"), "{}", said.words);
+}
+
+#[test]
+fn a_dry_run_says_all_and_writes_nothing() {
+    let workshop = Workshop::new(2, 5);
+    workshop.run(&format!("issue stands/0000 --site sites {SIGN}"), 0);
+    let text = fs::read_to_string(workshop.path("sites/site-00002.yaml")).unwrap();
+    workshop.write("sites/site-00002.yaml", &text.replace("height_m: 150.0", "height_m: 151.0"));
+    let before = snapshot(&workshop.path("."));
+    let said = workshop.run("issue stands --site sites --identity factory --dry-run --format csv", 1);
+    assert_eq!((said.ids("unchanged").len(), said.ids("planned").len()), (4, 5));
+    assert_eq!(said.ids("refused"), BTreeSet::from(["SPS-2/0000/site-00002/1".to_owned()]));
+    assert!(said.words.contains("exists with other content (site height_m 150.0 -> 151.0)"), "{}", said.words);
+    assert_eq!(snapshot(&workshop.path(".")), before);
+    // A key that is given is not even opened.
+    let said = workshop.run("issue stands --site sites --identity factory --key no/such/key --dry-run --out new", 0);
+    assert_eq!(said.results.matches("planned    SPS-2/").count(), 10);
+    assert!(!workshop.path("new").exists());
+    let said = workshop.run("issue stands --site sites --identity factory", 2);
+    assert!(said.words.contains("--key <KEY>"), "{}", said.words);
+}
+
+#[test]
+fn progress_is_shown_on_a_terminal_and_nowhere_else() {
+    let workshop = Workshop::new(5, 60);
+    let issue = format!("issue stands --site sites {SIGN} --no-sync");
+    let said = workshop.run(&issue, 0);
+    assert_eq!(said.words, "");
+    // `script` gives the program a terminal, and prints what would be seen on it.
+    fs::remove_dir_all(workshop.path("passports")).unwrap();
+    let command = workshop.shell(&format!("script -qec \"$DTG {issue}\" /dev/null")).env("TERM", "xterm").output();
+    let seen = Said::of(command.unwrap(), 0).results;
+    assert!(seen.contains("of 300 passports, "), "{seen:?}");
+    assert!(seen.contains("left") && seen.contains("issued 300, unchanged 0, refused 0"), "{seen:?}");
+}

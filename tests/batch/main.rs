@@ -1,0 +1,8 @@
+//! Many passports at once, by the program itself: what is named and how, what is bad and what it costs, and that nothing
+//! is ever lost.
+
+#[path = "../tools/mod.rs"]
+mod tools;
+
+mod inputs;
+mod workshop;

@@ -1,0 +1,155 @@
+//! A factory's folder with as many stands and sites as a test wants, the program run in it, and what must hold after.
+
+use crate::tools;
+use dtg_passport::batch::parallel;
+use dtg_passport::folder::find;
+use dtg_passport::passport::{Question, Trust, verify};
+use dtg_passport::trust::AllowedSigners;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// Who signs, and when.
+pub const SIGN: &str = "--key key --identity factory --issued-at 2026-11-03";
+
+pub struct Workshop(tempfile::TempDir);
+
+impl Workshop {
+    /// So many stands in `stands/`, so many sites in `sites/`, the published test key and who trusts it.
+    pub fn new(stands: usize, sites: usize) -> Self {
+        let workshop = Self(tempfile::tempdir().unwrap());
+        for name in ["stand.yaml", "allowed_signers"] {
+            fs::copy(tools::project("tests/cmd/files").join(name), workshop.path(name)).unwrap();
+        }
+        fs::copy(tools::project("tests/keys/examples"), workshop.path("key")).unwrap();
+        // Git does not keep this mode, and a private key that others can read is refused.
+        assert!(Command::new("chmod").arg("600").arg(workshop.path("key")).status().unwrap().success());
+        let stand = fs::read_to_string(workshop.path("stand.yaml")).unwrap();
+        for number in 0..stands {
+            let text = stand.replace("\"0017\"", &format!("\"{number:04}\""));
+            assert_ne!(text, stand);
+            workshop.write(&format!("stands/{number:04}/stand.yaml"), &text);
+        }
+        fs::create_dir(workshop.path("sites")).unwrap();
+        for number in 0..sites {
+            workshop.write(&format!("sites/site-{number:05}.yaml"), &site(&format!("site-{number:05}"), number));
+        }
+        workshop
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// A file with this text, and the folders that it stands in.
+    pub fn write(&self, name: &str, text: &str) {
+        let path = self.path(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    }
+
+    /// The program in the workshop. Where an argument holds blanks, push it by hand.
+    pub fn command(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+        command.args(arguments.split(' ')).current_dir(self.0.path()).stdin(Stdio::null());
+        command
+    }
+
+    /// The same, run to its end; `code` is the exit code that it must have.
+    pub fn run(&self, arguments: &str, code: i32) -> Said {
+        Said::of(self.command(arguments).output().unwrap(), code)
+    }
+
+    /// A script of `sh` in the workshop; the program is `$DTG`.
+    pub fn shell(&self, script: &str) -> Command {
+        let mut command = tools::on_path("sh");
+        command.args(["-c", script]).current_dir(self.0.path()).stdin(Stdio::null());
+        command.env("DTG", env!("CARGO_BIN_EXE_dtg-passport"));
+        command
+    }
+
+    /// The ids of the passports under a folder. Every one verifies and is where it belongs.
+    pub fn sound(&self, folder: &str) -> BTreeSet<String> {
+        let root = self.path(folder);
+        if !root.exists() {
+            return BTreeSet::new();
+        }
+        let signers = fs::read(self.path("allowed_signers")).unwrap();
+        let trust = Trust::of(AllowedSigners::parse("allowed_signers", &signers).unwrap());
+        let question = Question::at("2027-01-01T00:00:00Z".parse().unwrap());
+        let passports = find(&root).unwrap().passports;
+        let ids = parallel::map(&passports, 4, |path| {
+            let name = path.display().to_string();
+            let verification = verify(&name, &fs::read(path).unwrap(), &trust, &question);
+            assert!(verification.valid(), "{name}: {:?}", verification.checks());
+            let id = verification.id().unwrap().to_owned();
+            let (place, revision) = id.rsplit_once('/').unwrap();
+            assert_eq!(*path, root.join(format!("{place}-{revision}.yaml")));
+            id
+        });
+        ids.into_iter().collect()
+    }
+
+    #[allow(dead_code)]
+    /// Temporary files anywhere under a folder.
+    pub fn leftovers(&self, folder: &str) -> Vec<PathBuf> {
+        let mut found = Vec::new();
+        let mut folders = vec![self.path(folder)];
+        while let Some(folder) = folders.pop() {
+            for entry in fs::read_dir(folder).into_iter().flatten() {
+                let path = entry.unwrap().path();
+                if path.is_dir() {
+                    folders.push(path);
+                } else if path.extension().is_some_and(|extension| extension == "tmp") {
+                    found.push(path);
+                }
+            }
+        }
+        found
+    }
+}
+
+/// A site of its own place.
+pub fn site(id: &str, number: usize) -> String {
+    let here = include_str!("../cmd/files/sites/here.yaml");
+    let latitude = format!("{}.{:04}", 1 + number / 1000 % 80, 10 * (number % 1000));
+    here.replace("\"here\"", &format!("\"{id}\"")).replace("55.7658", &latitude).replace("55.776", "88.5")
+}
+
+/// What a run of the program said.
+pub struct Said {
+    pub results: String,
+    pub words: String,
+}
+
+impl Said {
+    pub fn of(output: Output, code: i32) -> Self {
+        let [results, words] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
+        assert_eq!(output.status.code(), Some(code), "{words}");
+        Self { results, words }
+    }
+
+    /// The ids in some state, by the lines of `--format csv`.
+    pub fn ids(&self, state: &str) -> BTreeSet<String> {
+        let rows = self.results.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        rows.filter(|cells| cells[0] == state).map(|cells| cells[1].to_owned()).collect()
+    }
+}
+
+/// A folder as it is: every file with its bytes.
+pub fn snapshot(folder: &Path) -> BTreeSet<(PathBuf, Vec<u8>)> {
+    let mut files = BTreeSet::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                files.insert((path.clone(), fs::read(path).unwrap()));
+            }
+        }
+    }
+    files
+}
