@@ -9,6 +9,7 @@
 //! * [`issued`]: what became of an order, and what the factory should know about it.
 //! * [`page`]: pages for print and screen, in several languages.
 //! * [`passport_table`]: a passport in a terminal.
+//! * [`picture`]: what a document says, drawn.
 //! * [`register`]: what is in force in a folder.
 //! * [`selftest`]: the reference cases.
 //! * [`simulation`]: the tables of simulations.
@@ -21,6 +22,7 @@ pub mod issued;
 pub mod monte_carlo;
 pub mod page;
 pub mod passport_table;
+pub mod picture;
 pub mod register;
 pub mod selftest;
 pub mod simulation;

@@ -1,6 +1,7 @@
 //! What every page has: the document around its parts, the style, the running heads in print.
 
 use super::language::Languages;
+use crate::report::picture;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::fmt::Write;
 
@@ -31,7 +32,7 @@ pub fn document(languages: &Languages, title: &str, margins: &Margins, body: &Ma
                 meta name="color-scheme" content="light dark";
                 meta name="generator" content=(concat!("dtg-passport ", env!("CARGO_PKG_VERSION")));
                 title { (title) }
-                style { (PreEscaped(STYLE)) (PreEscaped(margins.css())) }
+                style { (PreEscaped(STYLE)) (PreEscaped(picture::STYLE)) (PreEscaped(margins.css())) }
             }
             body { (body) }
         }

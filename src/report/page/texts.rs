@@ -5,6 +5,7 @@
 //! * [`passport`]: the printable passport: what the signed file says.
 //! * [`record`]: the same: what is filled in with a pen.
 //! * [`absences`]: what a passport does not state, and what that costs.
+//! * [`pictures`]: words in pictures, and their descriptions.
 
 use super::language::Text;
 use super::language::texts;
@@ -12,16 +13,18 @@ use super::language::texts;
 pub mod absences;
 pub mod checks;
 pub mod passport;
+pub mod pictures;
 pub mod record;
 
 /// Every table by its name.
-pub const TABLES: [(&str, &[(&str, Text)]); 6] = [
+pub const TABLES: [(&str, &[(&str, Text)]); 7] = [
     ("units", units::ALL),
     ("words", words::ALL),
     ("checks", checks::ALL),
     ("passport", passport::ALL),
     ("record", record::ALL),
     ("absences", absences::ALL),
+    ("pictures", pictures::ALL),
 ];
 
 /// Units. Angles are written alike in both languages.
@@ -32,9 +35,12 @@ pub mod units {
         ARCSEC { en: "″", ru: "″" }
         DEGREES { en: "°", ru: "°" }
         METRES { en: "m", ru: "м" }
+        KILOMETRES { en: "km", ru: "км" }
+        G { en: "g", ru: "g" }
         MILLIAMPERES { en: "mA", ru: "мА" }
         DEG_PER_H { en: "°/h", ru: "°/ч" }
         DEG_PER_H_PER_G { en: "°/h/g", ru: "°/ч/g" }
+        DEG_PER_H_PER_G2 { en: "°/h/g²", ru: "°/ч/g²" }
         DEG_PER_H_PER_MA { en: "°/h/mA", ru: "°/ч/мА" }
         M_PER_S2 { en: "m/s²", ru: "м/с²" }
         CELSIUS { en: "°C", ru: "°C" }

@@ -1,0 +1,132 @@
+//! What a stand is good for: the standard uncertainty of every parameter against the tolerance of a type of gyro.
+
+use super::drawing::{
+    Anchor, Panel, Scale, Ticks, label, legend, line, nothing, number, panels, plain_symbol, rectangle, symbol, words,
+};
+use crate::calibration::parameter::Parameter;
+use crate::calibration::verdict::{COVERAGE_FACTOR, Found, against_type};
+use crate::passport::accuracy::Accuracy;
+use crate::report::page::language::{Language, Languages, Text};
+use crate::report::page::number::Number;
+use crate::report::page::texts::{pictures as texts, units};
+use maud::{Markup, html};
+
+const PANEL_PIXELS: u32 = 330;
+const WIDTH: f64 = 440.0;
+const BARS: [f64; 2] = [44.0, 300.0];
+const TOP: f64 = 12.0;
+const ROW: f64 = 22.0;
+const BAR_HALF: f64 = 6.0;
+const AXIS_HEIGHT: f64 = 36.0;
+
+/// No axis reaches farther; what is worse is at its end.
+const LARGEST_SHARE: f64 = 20.0;
+
+/// One parameter: its standard uncertainty, and its share of the tolerance; none when the tolerance is 0.
+struct Row {
+    parameter: Parameter,
+    u: f64,
+    share: Option<f64>,
+}
+
+/// Draws what a passport states about its accuracy; the drifts' tolerances are compared at the type's g, so the passport's
+/// `gravity_m_per_s2` is needed.
+pub fn accuracy(languages: &Languages, accuracy: &Accuracy, gravity_m_per_s2: f64) -> Markup {
+    let rows = rows(accuracy, gravity_m_per_s2);
+    let largest = rows.iter().filter_map(|row| row.share).fold(0.5, f64::max);
+    let reach = (1.08 * COVERAGE_FACTOR * largest).clamp(1.25, LARGEST_SHARE);
+    let scale = Scale { values: [0.0, reach], places: BARS };
+    let bottom = TOP + ROW * rows.len() as f64;
+    let panel = Panel { name: "accuracy", languages, size: [WIDTH, bottom + AXIS_HEIGHT] };
+    let drawing = [
+        panel.hatch("beyond"),
+        rectangle([scale.place(1.0), TOP], [BARS[1], bottom], "beyond", Some(&panel.filled_with("beyond"))),
+        grid(languages, &scale, bottom),
+        html! { @for (place, row) in rows.iter().enumerate() { (bar(languages, row, &scale, TOP + ROW * (place as f64 + 0.5))) } },
+        line([BARS[0], TOP], [BARS[0], bottom], "zero"),
+        line([scale.place(1.0), TOP - 5.0], [scale.place(1.0), bottom + 5.0], "limit"),
+    ];
+    let svg = panel.svg(
+        |language| texts::ACCURACY_TITLE.of(language).to_owned(),
+        |language| in_words(language, &rows),
+        &drawing,
+    );
+    panels(1, PANEL_PIXELS, &[svg], &key(languages))
+}
+
+fn key(languages: &Languages) -> Markup {
+    let bar = |class: &str| rectangle([2.0, 2.5], [26.0, 11.5], class, None);
+    let limit = line([14.0, 0.0], [14.0, 14.0], "limit");
+    let entries =
+        [(bar("bar"), texts::ACCURACY_U), (bar("bar-open"), texts::ACCURACY_EXPANDED), (limit, texts::ACCURACY_LIMIT)];
+    legend(languages, &entries)
+}
+
+fn rows(accuracy: &Accuracy, gravity_m_per_s2: f64) -> Vec<Row> {
+    let gyro = accuracy.gyro.to_type();
+    let standard_uncertainty = accuracy.standard_uncertainty.to_model().to_vector();
+    // The verdict on a gyro of just this uncertainty knows tolerance and uncertainty in one unit and at one g.
+    let found = Found { parameters: gyro.nominal.to_model(), standard_uncertainty, gravity_m_per_s2 };
+    let verdict = against_type(&found, &gyro);
+    let share = |parameter: Parameter| {
+        let row = verdict.parameters.iter().find(|row| row.parameter == parameter.key())?;
+        (row.tolerance > 0.0).then(|| row.expanded_uncertainty / COVERAGE_FACTOR / row.tolerance)
+    };
+    let row =
+        |parameter: Parameter| Row { parameter, u: standard_uncertainty[parameter.place()], share: share(parameter) };
+    Parameter::EIGHT.map(row).into()
+}
+
+/// The unit of a parameter on pages.
+pub fn unit(parameter: Parameter) -> Text {
+    match parameter {
+        Parameter::Kx | Parameter::Kxy | Parameter::Kyx | Parameter::Ky => units::DEG_PER_H_PER_MA,
+        Parameter::Omega0x | Parameter::Omega0y => units::DEG_PER_H,
+        Parameter::OmegaG | Parameter::OmegaK => units::DEG_PER_H_PER_G,
+        Parameter::Anisoelasticity => units::DEG_PER_H_PER_G2,
+    }
+}
+
+fn grid(languages: &Languages, scale: &Scale, bottom: f64) -> Markup {
+    let ticks = Ticks::between(0.0, 100.0 * scale.values[1], 6);
+    html! {
+        @for percent in &ticks.values {
+            @let x = scale.place(percent / 100.0);
+            (line([x, TOP], [x, bottom + 4.0], "grid"))
+            (words([x, bottom + 16.0], Anchor::Middle, "small", &ticks.text(*percent, languages.first())))
+        }
+        (words([BARS[0], bottom + 31.0], Anchor::Start, "small", &languages.plain(texts::ACCURACY_AXIS)))
+    }
+}
+
+fn bar(languages: &Languages, row: &Row, scale: &Scale, y: f64) -> Markup {
+    let printed = Number::uncertainty(row.u).text(languages.first());
+    let bars = row.share.map_or_else(nothing, |share| {
+        let end = |share: f64, half: f64| [scale.clamped(share), y + half];
+        html! {
+            (rectangle([BARS[0], y - BAR_HALF], end(COVERAGE_FACTOR * share, BAR_HALF), "bar-open", None))
+            (rectangle([BARS[0], y - BAR_HALF], end(share, BAR_HALF), "bar", None))
+        }
+    });
+    html! {
+        (label([36.0, y + 4.0], Anchor::End, "", &symbol(row.parameter.symbol())))
+        (bars)
+        (number([350.0, y + 4.0], Anchor::End, row.u, &printed))
+        (words([355.0, y + 4.0], Anchor::Start, "small", &languages.plain(unit(row.parameter))))
+    }
+}
+
+fn in_words(language: Language, rows: &[Row]) -> String {
+    let each = rows.iter().map(|row| {
+        let (name, u) = (plain_symbol(row.parameter.symbol()), Number::uncertainty(row.u).text(language));
+        let values = [("parameter", name.as_str()), ("u", u.as_str()), ("unit", unit(row.parameter).of(language))];
+        match row.share {
+            Some(share) => {
+                let share = Number::significant(100.0 * share, 2).text(language);
+                texts::ACCURACY_IN_WORDS.filled(language, &[values.as_slice(), &[("share", share.as_str())]].concat())
+            }
+            None => texts::ACCURACY_NO_TOLERANCE_IN_WORDS.filled(language, &values),
+        }
+    });
+    each.collect::<Vec<_>>().join("; ") + "."
+}

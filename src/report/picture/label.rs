@@ -1,0 +1,127 @@
+//! Labels of points that lie anywhere: none covers another one or a point, as far as there is room.
+
+use super::drawing::{Anchor, Point, line, words};
+use maud::{Markup, html};
+
+/// Width of a letter and height of a line, and how near points are one for the reader.
+const LETTER: f64 = 5.6;
+const LINE: f64 = 11.0;
+const SAME: f64 = 6.0;
+
+/// Distances from the point at which a label is tried.
+const DISTANCES: [f64; 4] = [8.0, 16.0, 26.0, 38.0];
+
+/// A label to be placed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Label {
+    at: Point,
+    words: String,
+}
+
+/// A box on the drawing: its lowest and highest coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Area {
+    low: Point,
+    high: Point,
+}
+
+impl Area {
+    /// By how much two boxes overlap, as an area.
+    fn overlap(&self, other: &Self) -> f64 {
+        let along =
+            |axis: usize| (self.high[axis].min(other.high[axis]) - self.low[axis].max(other.low[axis])).max(0.0);
+        along(0) * along(1)
+    }
+
+    fn about([x, y]: Point, half: f64) -> Self {
+        Self { low: [x - half, y - half], high: [x + half, y + half] }
+    }
+
+    /// By how much it lies outside another one.
+    fn outside(&self, other: &Self) -> f64 {
+        let size = (self.high[0] - self.low[0]) * (self.high[1] - self.low[1]);
+        size - self.overlap(other)
+    }
+}
+
+/// Points that are one for the reader get one label: "1,1–1,4" or "1,1 2,3".
+pub fn together(points: &[(Point, String)]) -> Vec<Label> {
+    let mut groups: Vec<(Point, Vec<&str>)> = Vec::new();
+    for (at, words) in points {
+        let near = |place: &Point| libm::hypot(place[0] - at[0], place[1] - at[1]) < SAME;
+        match groups.iter_mut().find(|(place, _)| near(place)) {
+            Some((_, members)) => members.push(words),
+            None => groups.push((*at, vec![words])),
+        }
+    }
+    let label = |(at, members): (Point, Vec<&str>)| {
+        let words = match members.as_slice() {
+            [first, .., last] if members.len() > 2 => format!("{first}…{last}"),
+            some => some.join(" "),
+        };
+        Label { at, words }
+    };
+    groups.into_iter().map(label).collect()
+}
+
+/// Draws the labels within `field`, clear of `obstacles` (points that lines run through) where that can be.
+pub fn place(labels: &[Label], obstacles: &[Point], [low, high]: [Point; 2]) -> Markup {
+    let field = Area { low, high };
+    let marks: Vec<Area> = labels.iter().map(|label| Area::about(label.at, 5.0)).collect();
+    let lines: Vec<Area> = obstacles.iter().map(|at| Area::about(*at, 1.0)).collect();
+    let mut taken: Vec<Area> = Vec::new();
+    let mut drawn = Vec::new();
+    for label in labels {
+        let cost = |area: &Area, distance: f64| {
+            let covered: f64 = taken.iter().chain(&marks).map(|other| area.overlap(other)).sum();
+            let crossed: f64 = lines.iter().map(|other| area.overlap(other)).sum();
+            100.0 * area.outside(&field) + 10.0 * covered + 4.0 * crossed + distance
+        };
+        let candidates = DISTANCES.iter().flat_map(|distance| (0..16).map(move |turn| (*distance, turn)));
+        let best = candidates
+            .map(|(distance, turn)| {
+                let (sin, cos) = crate::units::sin_cos_of_degrees(22.5 * f64::from(turn));
+                let area = label.area([label.at[0] + distance * cos, label.at[1] - distance * sin], cos);
+                (cost(&area, distance), distance, area)
+            })
+            .min_by(|(one, ..), (other, ..)| one.total_cmp(other));
+        if let Some((_, distance, area)) = best {
+            drawn.push(label.markup(&area, distance > 12.0));
+            taken.push(area);
+        }
+    }
+    html! { @for label in &drawn { (label) } }
+}
+
+impl Label {
+    fn width(&self) -> f64 {
+        LETTER * self.words.chars().count() as f64
+    }
+
+    /// Beside `at`: to its right where the label lies to the right of its point, and so on.
+    fn area(&self, [x, y]: Point, cos: f64) -> Area {
+        let left = x - 0.5 * self.width() * (1.0 - cos);
+        Area { low: [left, y - 0.5 * LINE], high: [left + self.width(), y + 0.5 * LINE] }
+    }
+
+    fn markup(&self, area: &Area, far: bool) -> Markup {
+        let nearest = [0, 1].map(|axis| self.at[axis].clamp(area.low[axis], area.high[axis]));
+        html! {
+            @if far { (line(self.at, nearest, "leader")) }
+            (words([area.low[0], area.high[1] - 2.0], Anchor::Start, "small", &self.words))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_that_coincide_share_a_label() {
+        let at = |x: f64, words: &str| ([x, 0.0], words.to_owned());
+        let labels = together(&[at(0.0, "1,1"), at(50.0, "2,1"), at(1.0, "1,2"), at(2.0, "1,3"), at(51.0, "2,2")]);
+        let words: Vec<&str> = labels.iter().map(|label| label.words.as_str()).collect();
+        assert_eq!(words, ["1,1…1,3", "2,1 2,2"]);
+    }
+}

@@ -1,0 +1,22 @@
+//! Pictures of what a document says, as SVG within a page.
+//!
+//! Each is a function of the content and of the languages of the page. All of them read in black and white, say what they show
+//! to screen readers, and take their colours from the page.
+//!
+//! * [`positions`]: the positions of the stand, drawn.
+//! * [`deviations`]: α, β and γ of every position.
+//! * [`vectors`]: Earth rate and specific force against the ideal ones.
+//! * [`place`]: where the passport is valid.
+//! * [`accuracy`]: what the stand is good for.
+//! * [`drawing`], [`label`]: what they share.
+
+pub mod accuracy;
+pub mod deviations;
+pub mod drawing;
+pub mod label;
+pub mod place;
+pub mod positions;
+pub mod vectors;
+
+/// The style of all pictures; it follows the colours of the page around them.
+pub const STYLE: &str = include_str!("style.css");

@@ -1,0 +1,289 @@
+//! The positions of the stand, drawn one by one: base, frame, platform, gyro, and the axes of its case as they are.
+//!
+//! The view is parallel. Frames and turns are those of [`attitude`]: base ξ east, η north, ζ up; the rows of a
+//! matrix are the case's axes in the base. Source: [the paper](crate::bibliography::Bibliography::Tang17), fig. 2 and 3.
+
+use super::drawing::{Anchor, Panel, Point, arrow, label, legend, line, panels, polygon, words};
+use crate::attitude;
+use crate::report::page::language::{Language, Languages, Text};
+use crate::report::page::number::Number;
+use crate::report::page::texts::{pictures as texts, words as compass};
+use crate::stand::CertifiedPosition;
+use crate::units::{degrees_from_radians, sin_cos_of_degrees};
+use maud::{Markup, html};
+use nalgebra::{Matrix3, Vector3};
+
+/// Pixels that a panel needs for its letters to be read.
+const PANEL_PIXELS: u32 = 155;
+const COLUMNS: u32 = 4;
+const SIZE: Point = [210.0, 232.0];
+/// Where the stand's centre is drawn, and how large its unit.
+const CENTRE: Point = [106.0, 108.0];
+const UNIT: f64 = 55.0;
+
+/// Where the view comes from: east of south, and above.
+const VIEW_EAST_OF_SOUTH_DEG: f64 = 34.0;
+const VIEW_ABOVE_DEG: f64 = 24.0;
+
+/// The stand in its own units: half the frame along ξ and across, half the thickness of its bars.
+const FRAME_HALF: [f64; 2] = [0.98, 0.86];
+const BAR_HALF: f64 = 0.07;
+/// Radius of the platform, of the gyro on it, and the gyro's height.
+const PLATFORM: f64 = 0.66;
+const GYRO: f64 = 0.34;
+const GYRO_HEIGHT: f64 = 0.46;
+/// Where the posts stand, and how high the axis of the frame is above the base.
+const POST: f64 = 1.16;
+const AXIS_HEIGHT: f64 = 1.32;
+/// Length of the axes.
+const AXIS: f64 = 1.27;
+
+/// Draws `positions`: those of a stand or of a passport, any number of them, at any angles.
+pub fn positions(languages: &Languages, positions: &[CertifiedPosition]) -> Markup {
+    let drawings: Vec<Markup> = positions.iter().map(|at| position(languages, at)).collect();
+    panels(COLUMNS, PANEL_PIXELS, &drawings, &key(languages))
+}
+
+fn key(languages: &Languages) -> Markup {
+    let stroke = |class: &str| arrow([2.0, 7.0], [26.0, 7.0], class);
+    let swatch = |class: &str| polygon(&[[4.0, 2.0], [24.0, 2.0], [24.0, 12.0], [4.0, 12.0]], class);
+    let entries = [
+        (stroke("axis"), texts::CASE_AXES),
+        (line([2.0, 7.0], [26.0, 7.0], "ideal"), texts::CASE_AXES_IDEAL),
+        (swatch("solid frame s2"), texts::FRAME),
+        (swatch("solid platform s1"), texts::PLATFORM),
+        (stroke("base-axis"), texts::BASE_AXES),
+    ];
+    legend(languages, &entries)
+}
+
+/// The view: two directions of the paper and the one towards the reader, in base axes.
+struct View {
+    right: Vector3<f64>,
+    up: Vector3<f64>,
+    towards: Vector3<f64>,
+}
+
+impl View {
+    fn new() -> Self {
+        let (sa, ca) = sin_cos_of_degrees(VIEW_EAST_OF_SOUTH_DEG);
+        let (se, ce) = sin_cos_of_degrees(VIEW_ABOVE_DEG);
+        let towards = Vector3::new(sa * ce, -ca * ce, se);
+        Self { right: Vector3::new(ca, sa, 0.0), up: Vector3::new(-sa * se, ca * se, ce), towards }
+    }
+
+    /// Where a point of the base frame is drawn.
+    fn point(&self, at: &Vector3<f64>) -> Point {
+        [CENTRE[0] + UNIT * self.right.dot(at), CENTRE[1] - UNIT * self.up.dot(at)]
+    }
+
+    /// A box with its `centre` and three half edges: the faces that can be seen.
+    fn cuboid(&self, centre: &Vector3<f64>, half: &[Vector3<f64>; 3], class: &str) -> Markup {
+        let faces = [(0, 1, 2), (1, 2, 0), (2, 0, 1)].map(|(normal, one, other)| {
+            let out = half[normal] * if half[normal].dot(&self.towards) < 0.0 { -1.0 } else { 1.0 };
+            let (one, other) = (half[one], half[other]);
+            let corners = [one + other, one - other, -one - other, other - one];
+            let points = corners.map(|corner| self.point(&(centre + out + corner)));
+            polygon(&points, &format!("solid {class} {}", shade(&out)))
+        });
+        html! { @for face in faces { (face) } }
+    }
+
+    /// A circle about `centre`, seen as an ellipse: as wide as it is along the direction across its normal.
+    fn circle(&self, centre: &Vector3<f64>, normal: &Vector3<f64>, radius: f64, class: &str) -> Markup {
+        let ([x, y], tilt) = (self.point(centre), self.tilt_deg(normal));
+        let (major, minor) = (radius * UNIT, radius * UNIT * normal.dot(&self.towards).abs());
+        html! {
+            ellipse class=(class) rx={ (format!("{major:.1}")) } ry={ (format!("{minor:.1}")) }
+                transform={ (format!("translate({x:.1} {y:.1}) rotate({tilt:.1})")) } {}
+        }
+    }
+
+    /// By how much the long axis of a circle's ellipse is turned on the paper, clockwise.
+    fn tilt_deg(&self, normal: &Vector3<f64>) -> f64 {
+        let across = self.across(normal);
+        -degrees_from_radians(libm::atan2(across.dot(&self.up), across.dot(&self.right)))
+    }
+
+    /// The unit vector in the plane of a circle that is seen at its full length.
+    fn across(&self, normal: &Vector3<f64>) -> Vector3<f64> {
+        normal.cross(&self.towards).try_normalize(1e-9).unwrap_or(self.right)
+    }
+
+    /// A cylinder from `foot` along `along`; the end towards the reader is drawn last.
+    fn cylinder(&self, foot: &Vector3<f64>, along: &Vector3<f64>, radius: f64, class: &str) -> Markup {
+        let axis = along.normalize();
+        let (far, near) = if along.dot(&self.towards) > 0.0 { (*foot, foot + along) } else { (foot + along, *foot) };
+        let side = self.across(&axis) * radius;
+        let edge = [far + side, near + side, near - side, far - side].map(|at| self.point(&at));
+        html! {
+            (self.circle(&far, &axis, radius, &format!("solid {class} s3")))
+            (polygon(&edge, &format!("{class} s3 inner")))
+            (line(edge[0], edge[1], "edge"))
+            (line(edge[2], edge[3], "edge"))
+            (self.circle(&near, &axis, radius, &format!("solid {class} {}", shade(&axis))))
+        }
+    }
+}
+
+/// How dark a face is: light comes from above.
+fn shade(normal: &Vector3<f64>) -> &'static str {
+    let normal = normal.normalize();
+    match normal {
+        n if n.z.abs() > 0.7 => "s1",
+        n if n.y.abs() > n.x.abs() => "s2",
+        _ => "s3",
+    }
+}
+
+fn position(languages: &Languages, at: &CertifiedPosition) -> Markup {
+    let name = format!("position-{}-{}", at.i, at.j);
+    let panel = Panel { name: &name, languages, size: SIZE };
+    let position = at.to_model();
+    let designed = attitude::nominal(at.theta_deg, at.phi_deg);
+    let real = attitude::actual(at.theta_deg, at.phi_deg, &position.deviation);
+    let view = View::new();
+    let drawing = [
+        heading(at, languages),
+        base(&view, languages),
+        stand(&view, &attitude::nominal(at.theta_deg, 0.0), &real),
+        axes(&view, &designed, &real),
+    ];
+    panel.svg(
+        |language| texts::POSITION_TITLE.filled(language, &[("index", &position.index.to_string())]),
+        |language| in_words(language, at, &real),
+        &drawing,
+    )
+}
+
+fn heading(at: &CertifiedPosition, languages: &Languages) -> Markup {
+    let degrees = |value: f64| format!("{}°", Number::exact(value).text(languages.first()));
+    html! {
+        (words([4.0, 16.0], Anchor::Start, "title", &at.index().to_string()))
+        (label([206.0, 16.0], Anchor::End, "", &html! {
+            tspan.letter { "θ" } " " (degrees(at.theta_deg)) "\u{2002}" tspan.letter { "φ" } " " (degrees(at.phi_deg))
+        }))
+    }
+}
+
+/// The base plate with north and up.
+fn base(view: &View, languages: &Languages) -> Markup {
+    let floor = -AXIS_HEIGHT;
+    let plate = [Vector3::new(1.56, 0.0, 0.0), Vector3::new(0.0, 0.9, 0.0), Vector3::new(0.0, 0.0, 0.045)];
+    let on_plate = |x: f64, y: f64| Vector3::new(x, y, floor);
+    let corner = on_plate(-1.43, -0.76);
+    let (north, up) = (corner + Vector3::new(0.0, 1.0, 0.0), corner + Vector3::new(0.0, 0.0, 0.7));
+    let [north_x, north_y] = view.point(&north);
+    let [up_x, up_y] = view.point(&up);
+    html! {
+        (view.cuboid(&Vector3::new(0.0, 0.0, floor - 0.045), &plate, "base"))
+        (arrow(view.point(&corner), [north_x, north_y], "base-axis"))
+        (arrow(view.point(&corner), [up_x, up_y], "base-axis"))
+        (words([north_x - 5.0, north_y - 3.0], Anchor::End, "small", texts::NORTH_LETTER.of(languages.first())))
+        (words([up_x, up_y - 5.0], Anchor::Middle, "small", texts::UP.of(languages.first())))
+    }
+}
+
+/// Posts, frame, platform and gyro, in the order from the far side: planes across ξ part them.
+fn stand(view: &View, frame: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
+    let [xi, across, out] = rows(frame);
+    let [_, _, spin] = rows(real);
+    let bar = |centre: Vector3<f64>, along: Vector3<f64>, thick: Vector3<f64>| {
+        view.cuboid(&centre, &[along, thick, out * BAR_HALF], "frame")
+    };
+    let side = |sign: f64| {
+        let centre = xi * (sign * (FRAME_HALF[0] - BAR_HALF));
+        bar(centre, across * FRAME_HALF[1], xi * BAR_HALF)
+    };
+    let crossbar = |sign: f64| {
+        let centre = across * (sign * (FRAME_HALF[1] - BAR_HALF));
+        bar(centre, xi * (FRAME_HALF[0] - 2.0 * BAR_HALF), across * BAR_HALF)
+    };
+    let post = |sign: f64| {
+        let height = 0.5 * (AXIS_HEIGHT + 0.12);
+        let centre = Vector3::new(sign * POST, 0.0, height - AXIS_HEIGHT);
+        let half = [Vector3::new(0.06, 0.0, 0.0), Vector3::new(0.0, 0.13, 0.0), Vector3::new(0.0, 0.0, height)];
+        view.cuboid(&centre, &half, "base")
+    };
+    let nearer = if across.dot(&view.towards) < 0.0 { -1.0 } else { 1.0 };
+    let centre = Vector3::zeros();
+    let gyro_is_near = spin.dot(&view.towards) > 0.0;
+    let gyro = view.cylinder(&centre, &(spin * GYRO_HEIGHT), GYRO, "gyro");
+    html! {
+        (post(-1.0)) (side(-1.0)) (crossbar(-nearer))
+        @if !gyro_is_near { (gyro) }
+        (view.circle(&centre, &spin, PLATFORM, &format!("solid platform {}", shade(&spin))))
+        (platform_mark(view, real))
+        (crossbar(nearer)) (side(1.0)) (post(1.0))
+        (line(view.point(&(xi * -1.42)), view.point(&(xi * -1.1)), "axle"))
+        (line(view.point(&(xi * 1.1)), view.point(&(xi * 1.42)), "axle"))
+        @if gyro_is_near { (gyro) }
+    }
+}
+
+/// The seat's two pins, which lie along x.
+fn platform_mark(view: &View, real: &Matrix3<f64>) -> Markup {
+    let [x, _, spin] = rows(real);
+    html! { @for sign in [-1.0, 1.0] { (view.circle(&(x * (sign * 0.5)), &spin, 0.055, "pin")) } }
+}
+
+/// The case's axes as designed, thin, and as they are; z from the gyro's end.
+fn axes(view: &View, designed: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
+    let one = |direction: &Vector3<f64>, designed: &Vector3<f64>, name: &str, from: f64| {
+        let tip = view.point(&(direction * AXIS));
+        let [x, y] = beyond(view, direction);
+        html! {
+            (line(view.point(&(designed * from)), view.point(&(designed * AXIS)), "ideal"))
+            (arrow(view.point(&(direction * from)), tip, "axis"))
+            (words([x, y + 4.0], Anchor::Middle, "letter", name))
+        }
+    };
+    let ([x, y, z], [x0, y0, z0]) = (rows(real), rows(designed));
+    html! { (one(&x, &x0, "x", GYRO)) (one(&y, &y0, "y", GYRO)) (one(&z, &z0, "z", GYRO_HEIGHT)) }
+}
+
+/// Where an axis has its letter: beyond its head, also when it points at the reader.
+fn beyond(view: &View, direction: &Vector3<f64>) -> Point {
+    const GAP: f64 = 9.0;
+    let ([cx, cy], [x, y]) = (CENTRE, view.point(&(direction * AXIS)));
+    let length = libm::hypot(x - cx, y - cy);
+    if length < 1.0 { [x + GAP, y - GAP] } else { [x + GAP * (x - cx) / length, y + GAP * (y - cy) / length] }
+}
+
+/// The axes of a frame, in the base.
+fn rows(matrix: &Matrix3<f64>) -> [Vector3<f64>; 3] {
+    [0, 1, 2].map(|row| matrix.row(row).transpose())
+}
+
+/// Where every axis points: the nearest of east, west, north, south, up, down, and how far it is from there.
+fn in_words(language: Language, at: &CertifiedPosition, real: &Matrix3<f64>) -> String {
+    let exact = |value: f64| Number::exact(value).text(language);
+    let [x, y, z] = rows(real).map(|axis| {
+        let (whither, angle_deg) = nearest(&axis);
+        (whither.of(language), Number::significant(angle_deg, 2).text(language))
+    });
+    let values = [
+        ("theta", exact(at.theta_deg)),
+        ("phi", exact(at.phi_deg)),
+        ("x", x.0.to_owned()),
+        ("y", y.0.to_owned()),
+        ("z", z.0.to_owned()),
+        ("x_angle", x.1),
+        ("y_angle", y.1),
+        ("z_angle", z.1),
+    ];
+    let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
+    texts::POSITION_DESCRIPTION.filled(language, &values)
+}
+
+/// The nearest of six directions, and the angle from it in degrees.
+fn nearest(axis: &Vector3<f64>) -> (Text, f64) {
+    let names = [(compass::EAST, compass::WEST), (compass::NORTH, compass::SOUTH), (texts::UPWARDS, texts::DOWNWARDS)];
+    let largest = axis.iamax();
+    let (positive, negative) = names[largest];
+    let name = if axis[largest] < 0.0 { negative } else { positive };
+    let mut rest = *axis;
+    rest[largest] = 0.0;
+    // From sine and cosine: an arc cosine would lose small angles.
+    (name, degrees_from_radians(libm::atan2(rest.norm(), axis[largest].abs())))
+}

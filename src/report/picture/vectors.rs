@@ -1,0 +1,224 @@
+//! Earth rate and specific force in the case of every position, against those of a stand without deviations: projections onto
+//! the gyro's x-y plane ([the paper](crate::bibliography::Bibliography::Tang17), eq. (5)), and what is left when the ideal one
+//! is taken away, at a scale of its own.
+
+use super::drawing::{
+    Anchor, Panel, Point, Scale, Ticks, arrow, exponent, heading, label, legend, line, mark, panels, power,
+    power_of_ten, rectangle, words,
+};
+use super::label as labels;
+use crate::attitude;
+use crate::coefficients::PositionIndex;
+use crate::passport::content::Content;
+use crate::report::page::language::{Language, Languages, Text};
+use crate::report::page::number::Number;
+use crate::report::page::texts::{pictures as texts, units};
+use maud::{Markup, html};
+
+const PANEL_PIXELS: u32 = 235;
+const COLUMNS: u32 = 2;
+const SIZE: Point = [262.0, 268.0];
+/// The field: left, right, upper and lower end.
+const FIELD: [Point; 2] = [[38.0, 22.0], [254.0, 238.0]];
+
+/// A vector of one position in the x-y plane: with and without the deviations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Pair {
+    index: PositionIndex,
+    real: [f64; 2],
+    ideal: [f64; 2],
+}
+
+impl Pair {
+    fn difference(&self) -> [f64; 2] {
+        [self.real[0] - self.ideal[0], self.real[1] - self.ideal[1]]
+    }
+}
+
+/// What one picture of vectors is about.
+struct Subject {
+    name: &'static str,
+    vectors: Text,
+    differences: Text,
+    unit: Text,
+    pairs: Vec<Pair>,
+}
+
+/// Draws ω_3 and n of every position of a passport, its own numbers, against those at the nominal angles.
+pub fn vectors(languages: &Languages, content: &Content) -> Markup {
+    let subjects = subjects(content);
+    let drawings: Vec<Markup> = subjects
+        .iter()
+        .flat_map(|subject| [vectors_of(languages, subject), differences_of(languages, subject)])
+        .collect();
+    panels(COLUMNS, PANEL_PIXELS, &drawings, &key(languages))
+}
+
+fn key(languages: &Languages) -> Markup {
+    let ideal = html! { (line([1.0, 7.0], [22.0, 7.0], "ideal")) (mark([23.0, 7.0], 1, "mark-open")) };
+    let marks = html! { (mark([5.0, 7.0], 1, "mark")) (mark([14.0, 7.0], 2, "mark")) (mark([23.0, 7.0], 3, "mark")) };
+    let entries = [
+        (arrow([2.0, 7.0], [26.0, 7.0], "real"), texts::VECTOR_REAL),
+        (ideal, texts::VECTOR_IDEAL),
+        (marks, texts::VECTOR_MARKS),
+    ];
+    legend(languages, &entries)
+}
+
+fn subjects(content: &Content) -> [Subject; 2] {
+    let earth = content.earth.rate();
+    // The vectors stand in the order of the positions: both are sorted by (i, j).
+    let each = content.positions.iter().zip(&content.vectors).map(|(at, vectors)| {
+        let nominal = attitude::nominal(at.theta_deg, at.phi_deg);
+        let rate =
+            |row: usize| nominal[(row, 1)] * earth.horizontal_deg_per_h + nominal[(row, 2)] * earth.vertical_deg_per_h;
+        let index = at.index();
+        let omega = Pair { index, real: vectors.omega_deg_per_h, ideal: [rate(0), rate(1)] };
+        (omega, Pair { index, real: vectors.specific_force_g, ideal: [nominal[(0, 2)], nominal[(1, 2)]] })
+    });
+    let (rates, forces) = each.unzip();
+    [
+        Subject {
+            name: "earth-rate",
+            vectors: texts::EARTH_RATE,
+            differences: texts::EARTH_RATE_DIFFERENCE,
+            unit: units::DEG_PER_H,
+            pairs: rates,
+        },
+        Subject {
+            name: "specific-force",
+            vectors: texts::SPECIFIC_FORCE,
+            differences: texts::SPECIFIC_FORCE_DIFFERENCE,
+            unit: units::G,
+            pairs: forces,
+        },
+    ]
+}
+
+/// The plane with its scales, the same along x and y.
+struct Plane {
+    x: Scale,
+    y: Scale,
+    /// The power of ten that its numbers are in.
+    exponent: i32,
+}
+
+impl Plane {
+    /// Wide enough for `points`; with room about them for labels.
+    fn about(points: impl Iterator<Item = [f64; 2]>) -> Self {
+        let largest = points.flatten().fold(0.0, |most, value: f64| f64::max(most, value.abs()));
+        let reach = if largest > 0.0 { 1.16 * largest } else { 1.0 };
+        let [[left, top], [right, bottom]] = FIELD;
+        let values = [-reach, reach];
+        // Numbers with many zeros have no room: a factor of the unit takes them.
+        let exponent = Some(exponent(reach)).filter(|exponent| !(-2..4).contains(exponent)).unwrap_or(0);
+        Self { x: Scale { values, places: [left, right] }, y: Scale { values, places: [bottom, top] }, exponent }
+    }
+
+    fn point(&self, [x, y]: [f64; 2]) -> Point {
+        [self.x.place(x), self.y.place(y)]
+    }
+
+    fn grid(&self, languages: &Languages, unit: Text) -> Markup {
+        let [[left, top], [right, bottom]] = FIELD;
+        let factor = power_of_ten(self.exponent);
+        let reach = self.x.values[1] / factor;
+        let ticks = Ticks::between(-0.93 * reach, 0.93 * reach, 5);
+        let text = |value: &f64| ticks.text(*value, languages.first());
+        let unit = match self.exponent {
+            0 => languages.plain(unit),
+            exponent => format!("{}\u{a0}{}", power(exponent, languages.first()), languages.plain(unit)),
+        };
+        html! {
+            @for value in &ticks.values {
+                @let (x, y) = (self.x.place(value * factor), self.y.place(value * factor));
+                (line([x, top], [x, bottom], "grid"))
+                (line([left, y], [right, y], "grid"))
+                (words([x, bottom + 12.0], Anchor::Middle, "small", &text(value)))
+                (words([left - 4.0, y + 4.0], Anchor::End, "small", &text(value)))
+            }
+            (rectangle(FIELD[0], FIELD[1], "frame-line", None))
+            (label([right, bottom + 26.0], Anchor::End, "", &html! { tspan.letter { "x" } ", " (unit) }))
+            (words([left + 5.0, top + 13.0], Anchor::Start, "letter", "y"))
+        }
+    }
+}
+
+fn vectors_of(languages: &Languages, subject: &Subject) -> Markup {
+    let plane = Plane::about(subject.pairs.iter().flat_map(|pair| [pair.real, pair.ideal]));
+    let origin = plane.point([0.0, 0.0]);
+    let mut tips = Vec::new();
+    let mut lines = Vec::new();
+    let mut drawing = vec![plane.grid(languages, subject.unit)];
+    for pair in &subject.pairs {
+        let (real, ideal) = (plane.point(pair.real), plane.point(pair.ideal));
+        drawing.push(html! {
+            (line(origin, ideal, "ideal"))
+            (arrow(origin, real, "real"))
+            (mark(ideal, pair.index.i, "mark-open"))
+        });
+        lines.extend(along(origin, real));
+        tips.push((real, pair.index));
+    }
+    finished(languages, subject, subject.vectors, "vectors", drawing, (&tips, &lines), |pair| pair.real)
+}
+
+fn differences_of(languages: &Languages, subject: &Subject) -> Markup {
+    let plane = Plane::about(subject.pairs.iter().map(Pair::difference));
+    let origin = plane.point([0.0, 0.0]);
+    let mut tips = Vec::new();
+    let mut lines = Vec::new();
+    let mut drawing = vec![plane.grid(languages, subject.unit)];
+    for pair in &subject.pairs {
+        let tip = plane.point(pair.difference());
+        drawing.push(arrow(origin, tip, "real"));
+        lines.extend(along(origin, tip));
+        tips.push((tip, pair.index));
+    }
+    finished(languages, subject, subject.differences, "differences", drawing, (&tips, &lines), Pair::difference)
+}
+
+/// Marks and labels at the tips, the heading, and the numbers in words.
+fn finished(
+    languages: &Languages,
+    subject: &Subject,
+    title: Text,
+    part: &str,
+    mut drawing: Vec<Markup>,
+    (tips, lines): (&[(Point, PositionIndex)], &[Point]),
+    value: impl Fn(&Pair) -> [f64; 2],
+) -> Markup {
+    let name = format!("{}-{part}", subject.name);
+    drawing.push(html! { @for (at, index) in tips { (mark(*at, index.i, "mark")) } });
+    let named: Vec<(Point, String)> =
+        tips.iter().map(|(at, index)| (*at, format!("{},{}", index.i, index.j))).collect();
+    drawing.push(labels::place(&labels::together(&named), lines, FIELD));
+    let (title_lines, more) = heading(languages, [2.0, 13.0], title);
+    let panel = Panel { name: &name, languages, size: [SIZE[0], SIZE[1] + more] };
+    let moved = html! { g transform={ "translate(0 " (more) ")" } { @for part in &drawing { (part) } } };
+    panel.svg(
+        |language| title.of(language).to_owned(),
+        |language| in_words(language, subject, &value),
+        &[title_lines, moved],
+    )
+}
+
+/// Points along a line, for labels to keep away from; its ends are marks.
+fn along(from: Point, to: Point) -> Vec<Point> {
+    let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
+    let steps = (length / 4.0) as u32;
+    let at = |step: u32| {
+        let share = f64::from(step) / f64::from(steps);
+        [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])]
+    };
+    (1..steps).map(at).collect()
+}
+
+fn in_words(language: Language, subject: &Subject, value: impl Fn(&Pair) -> [f64; 2]) -> String {
+    let each = subject.pairs.iter().map(|pair| {
+        let [x, y] = value(pair).map(|value| Number::significant(value, 5).text(language));
+        texts::VECTOR_IN_WORDS.filled(language, &[("index", &pair.index.to_string()), ("x", &x), ("y", &y)])
+    });
+    let list = each.collect::<Vec<_>>().join("; ");
+    texts::VECTORS_DESCRIPTION.filled(language, &[("unit", subject.unit.of(language)), ("list", &list)])
+}
