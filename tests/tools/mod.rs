@@ -26,6 +26,13 @@ pub fn node() -> Command {
     command
 }
 
+/// Node.js with playwright-core, axe-core and html-validate.
+pub fn node_for_pages() -> Command {
+    let mut command = on_path("node");
+    command.env("NODE_PATH", installed("target/test-tools/page/node_modules"));
+    command
+}
+
 /// Ruby, which brings Psych.
 pub fn ruby() -> Command {
     on_path("ruby")

@@ -150,6 +150,11 @@ impl Languages {
         sayings
     }
 
+    /// Words that are heard and not seen: one voice, one language.
+    pub fn spoken(&self, text: Text) -> &'static str {
+        text.of(self.first)
+    }
+
     /// Plain text for places that hold no markup, such as the words of a picture: `north / север`.
     pub fn plain(&self, text: Text) -> String {
         self.plain_with(|language| text.of(language).to_owned())

@@ -34,7 +34,7 @@ pub fn given(words: &str) -> Markup {
 
 /// A place for a pen.
 pub fn blank(languages: &Languages) -> Markup {
-    html! { span.blank role="img" aria-label=(languages.plain(words::EMPTY)) {} }
+    html! { span.blank role="img" aria-label=(languages.spoken(words::EMPTY)) {} }
 }
 
 /// A name and what it names: a place for a pen when it is not known.
@@ -104,9 +104,9 @@ pub fn symbol(letter: &str, subscript: &str) -> Markup {
     html! { span.symbol { i { (letter) } @if !subscript.is_empty() { sub { (subscript) } } } }
 }
 
-/// A symbol in the head of a column, with its unit.
+/// A symbol in the head of a column, with its unit; another language's unit stands below.
 pub fn symbol_and_unit(languages: &Languages, symbol: &Markup, unit: Text) -> Markup {
-    html! { (symbol) "," (BLANK) (languages.inline(unit)) }
+    html! { (symbol) "," (BLANK) (languages.label(unit)) }
 }
 
 /// A picture with its caption. The picture says for itself what it shows to those who do not see it: an `svg` with

@@ -1,6 +1,6 @@
 //! The positions of the stand, drawn one by one: base, frame, platform, gyro, and the axes of its case as they are.
 //!
-//! The view is parallel. Frames and turns are those of [`attitude`](crate::attitude): base ξ east, η north, ζ up; the rows of a
+//! The view is parallel. Frames and turns are those of [`attitude`]: base ξ east, η north, ζ up; the rows of a
 //! matrix are the case's axes in the base. Source: [the paper](crate::bibliography::Bibliography::Tang17), fig. 2 and 3.
 
 use super::drawing::{Anchor, Panel, Point, arrow, label, legend, line, panels, polygon, words};

@@ -97,7 +97,7 @@ fn uncertainties(accuracy: &Accuracy, languages: &Languages) -> Markup {
         (languages.label(texts::TOLERANCE), limits),
     ];
     let caption = Some(languages.label(texts::ACCURACY_CAPTION));
-    parameters(languages, caption, rows).markup(&languages.plain(texts::ACCURACY_CAPTION))
+    parameters(languages, caption, rows).markup(languages.spoken(texts::ACCURACY_CAPTION))
 }
 
 fn not_stated(page: &PassportPage, languages: &Languages) -> Markup {

@@ -73,7 +73,7 @@ fn positions(positions: &[CertifiedPosition], languages: &Languages) -> Markup {
         class: "numbers",
         ..Table::default()
     };
-    table.markup(&languages.plain(texts::DEVIATIONS_CAPTION))
+    table.markup(languages.spoken(texts::DEVIATIONS_CAPTION))
 }
 
 fn headings(languages: &Languages) -> Vec<Markup> {

@@ -10,18 +10,13 @@ use crate::report::page::parts::{Table, date_text, time_text};
 use crate::report::page::texts::checks as texts;
 use maud::{Markup, html};
 
-/// "In force", or why the passport may not be used.
-pub fn headline(page: &PassportPage, languages: &Languages) -> String {
-    languages.plain_with(|language| headline_in(page, language))
-}
-
 /// The verdict, large, and when it was reached.
 pub fn verdict(page: &PassportPage, languages: &Languages) -> Markup {
     let good = page.verification.valid();
     let when = if good { texts::ALL_PASSED } else { texts::GENUINE };
     html! {
         div.verdict.refused[!good] {
-            p.headline { (languages.label_with(|language| headline_in(page, language))) }
+            p.headline { (languages.label_with(|language| headline(page, language))) }
             (languages.paragraph_with(|language| {
                 html! { (when.filled(language, &[("time", &time_text(language, page.question.time))])) }
             }))
@@ -29,7 +24,8 @@ pub fn verdict(page: &PassportPage, languages: &Languages) -> Markup {
     }
 }
 
-fn headline_in(page: &PassportPage, language: Language) -> String {
+/// "In force", or why the passport may not be used.
+pub fn headline(page: &PassportPage, language: Language) -> String {
     let failed: Vec<&str> = failed(page).map(|check| reason(check.code).of(language)).collect();
     if failed.is_empty() {
         return texts::IN_FORCE.of(language).to_owned();
@@ -73,7 +69,7 @@ pub fn table(page: &PassportPage, languages: &Languages) -> Markup {
         class: "checks",
         ..Table::default()
     };
-    table.markup(&languages.plain(texts::CHECK))
+    table.markup(languages.spoken(texts::CHECK))
 }
 
 fn name(check: CheckName) -> Text {

@@ -50,7 +50,7 @@ fn predecessor(page: &PassportPage, languages: &Languages) -> Markup {
 fn sum(page: &PassportPage, languages: &Languages) -> Markup {
     html! {
         div.sum {
-            @if let Some(picture) = code::picture(&page.sha256, &languages.plain(texts::CODE)) { (picture) }
+            @if let Some(picture) = code::picture(&page.sha256, languages.spoken(texts::CODE)) { (picture) }
             div {
                 p.sum-name { (languages.label(texts::SHA256)) }
                 p.sha256 { code { (page.sha256) } }

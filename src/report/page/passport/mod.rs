@@ -82,11 +82,14 @@ impl<'a> PassportPage<'a> {
         let header = &self.content.passport;
         let margins = Margins {
             top_left: self.margin(languages),
-            top_right: if self.verification.valid() { String::new() } else { checks::headline(self, languages) },
-            bottom_left: languages
-                .plain_with(|language| texts::MARGIN_SHA256.filled(language, &[("sha256", &self.sha256)])),
+            top_right: if self.verification.valid() {
+                String::new()
+            } else {
+                checks::headline(self, languages.first())
+            },
+            bottom_left: texts::MARGIN_SHA256.filled(languages.first(), &[("sha256", &self.sha256)]),
         };
-        let title = format!("{} {}", languages.plain(texts::TITLE), header.id);
+        let title = format!("{} {}", languages.spoken(texts::TITLE), header.id);
         document(languages, &title, &margins, &self.body(languages))
     }
 
@@ -100,7 +103,7 @@ impl<'a> PassportPage<'a> {
         let stand = format!("{}/{}", stand.model, stand.serial);
         let revision = self.content.passport.revision.to_string();
         let values = [("stand", stand.as_str()), ("site", site.as_str()), ("revision", &revision)];
-        languages.plain_with(|language| texts::MARGIN_PASSPORT.filled(language, &values))
+        texts::MARGIN_PASSPORT.filled(languages.first(), &values)
     }
 
     fn body(&self, languages: &Languages) -> Markup {

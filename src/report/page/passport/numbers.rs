@@ -64,23 +64,26 @@ fn matrices(m: &MatrixRows, languages: &Languages) -> Markup {
     headings.extend(["11", "12", "21", "22"].map(|place| html! { (place) }));
     let caption = Some(languages.label(texts::MATRICES_CAPTION));
     let table = Table { caption, headings, rows, row_headings: 1, class: "numbers with-unit", ..Table::default() };
-    table.markup(&languages.plain(texts::MATRICES_CAPTION))
+    table.markup(languages.spoken(texts::MATRICES_CAPTION))
 }
 
 /// The paper's equations, alike in every language but for one word.
 fn formulas(languages: &Languages) -> Markup {
     let (k, b, delta) = (symbol("K", ""), symbol("B", ""), symbol("Δ", ""));
-    let (j1, j2) = (symbol("J", "1"), symbol("J", "2"));
+    let j = |index| symbol("J", index);
+    let (j1, j2) = (j("1"), j("2"));
     let wn = symbol("ω", "n");
     let inverse = html! { sup { "−1" } };
     html! {
         ul.formulas {
+            li { (j1) " = (" (j("11")) " − " (j("13")) ", " (j("12")) " − " (j("14")) ")" span.equation { "(11)" } }
+            li { (j2) " = (" (j("21")) " − " (j("23")) ", " (j("22")) " − " (j("24")) ")" span.equation { "(11)" } }
             li { (k) " = " (b) " (" (j1) " − " (j2) " " (delta) ")" (inverse) span.equation { "(13)" } }
             li { (wn) " = " (symbol("C", "")) " − " (k) " " (j2) " " (symbol("n", "2")) (inverse) span.equation { "(15)" } }
             li { (symbol("ω", "g")) " = ½ (" (symbol("ω", "n11")) " + " (symbol("ω", "n22")) "), "
                 (symbol("ω", "k")) " = ½ (" (symbol("ω", "n21")) " − " (symbol("ω", "n12")) ")" span.equation { "(16)" } }
             li { (symbol("ω", "0")) " = " (languages.inline(texts::MEAN)) " " (symbol("ω", "3ij")) " − " (k) " "
-                (symbol("J", "ij")) " − " (wn) " " (symbol("n", "ij")) span.equation { "(8)" } }
+                (j("ij")) " − " (wn) " " (symbol("n", "ij")) span.equation { "(8)" } }
         }
     }
 }
@@ -108,13 +111,13 @@ fn vectors(content: &Content, languages: &Languages) -> Markup {
     let caption = Some(languages.label(texts::VECTORS_CAPTION));
     let table =
         Table { caption, headings, rows: rows.collect(), row_headings: 2, class: "numbers", ..Table::default() };
-    table.markup(&languages.plain(texts::VECTORS_CAPTION))
+    table.markup(languages.spoken(texts::VECTORS_CAPTION))
 }
 
 fn self_check(check: &SelfCheck, languages: &Languages) -> Markup {
     let values = numbers_of(&check.parameters()).map(|value| Number::exact(value).markup(languages));
     let rows = vec![(languages.label(texts::VALUE), values)];
-    parameters(languages, None, rows).markup(&languages.plain(texts::SELF_CHECK))
+    parameters(languages, None, rows).markup(languages.spoken(texts::SELF_CHECK))
 }
 
 /// A table of the eight parameters of a gyro, in the paper's groups, a row for each thing said of them. Cells stand in the

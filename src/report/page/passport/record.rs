@@ -56,7 +56,7 @@ fn lines(languages: &Languages) -> Markup {
 fn table(languages: &Languages, name: Text, headings: &[Text], rows: Vec<Vec<Markup>>) -> Markup {
     let headings = headings.iter().map(|text| languages.label(*text)).collect();
     let table = Table { headings, rows, class: "form", ..Table::default() };
-    html! { div.part { (heading(languages, name)) (table.markup(&languages.plain(name))) } }
+    html! { div.part { (heading(languages, name)) (table.markup(languages.spoken(name))) } }
 }
 
 fn completeness(page: &PassportPage, languages: &Languages) -> Markup {

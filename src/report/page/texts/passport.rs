@@ -133,10 +133,10 @@ texts! {
     MATRIX { en: "Matrix", ru: "Матрица" }
     UNIT { en: "Unit", ru: "Единица" }
     FORMULAS {
-        en: "With the differences of the currents as columns, J₁ = (J₁₁ − J₁₃, J₁₂ − J₁₄) and J₂ = (J₂₁ − J₂₃, J₂₂ − J₂₄), the \
-             scale factors, the drifts that depend on g and the constant drift follow:",
-        ru: "По разностям токов, взятым столбцами, J₁ = (J₁₁ − J₁₃, J₁₂ − J₁₄) и J₂ = (J₂₁ − J₂₃, J₂₂ − J₂₄), определяются \
-             масштабные коэффициенты, составляющие дрейфа, зависящие от g, и постоянные составляющие дрейфа:"
+        en: "With the differences of the currents as columns, the scale factors, the drifts that depend on g and the constant \
+             drift follow:",
+        ru: "По разностям токов, взятым столбцами, определяются масштабные коэффициенты, составляющие дрейфа, зависящие от g, \
+             и постоянные составляющие дрейфа:"
     }
     MEAN { en: "mean over all positions of", ru: "среднее по всем положениям от" }
     VECTORS { en: "Vectors of the positions", ru: "Векторы положений" }

@@ -1,0 +1,140 @@
+// Looks at pages in the system's Chromium: what they say, whether anything is cut off, what axe and the validator find, what
+// they ask of the network, how they print.
+//
+// usage: node browser.cjs CHROMIUM FOLDER NAME...   reads FOLDER/NAME.html, writes FOLDER/NAME*.{pdf,png}, prints JSON.
+
+const fs = require("fs");
+const os = require("os");
+const path = require("path");
+const { chromium } = require("playwright-core");
+const { HtmlValidate } = require("html-validate");
+const axe = fs.readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
+
+const WIDTHS = { phone: 390, sheet: 794, screen: 1280 };
+// Void elements without a slash, styles in attributes (one rect's), and the two attributes that are long by nature are a
+// matter of taste; everything else of the recommended rules counts.
+const RULES = {
+  extends: ["html-validate:recommended"],
+  rules: { "void-style": "off", "long-title": "off", "no-inline-style": "off", "tel-non-breaking": "off" },
+};
+
+/** What the page says: numbers with their values, days, words of the file, all other words, the annex. */
+function said() {
+  const text = (element) => {
+    const copy = element.cloneNode(true);
+    copy.querySelectorAll(".pad").forEach((pad) => pad.remove());
+    return copy.textContent;
+  };
+  const all = (selector) => [...document.querySelectorAll(selector)];
+  const words = [];
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    const parent = node.parentElement;
+    if (!node.data.trim() || parent.closest("data, time, .given, code, pre, .pad, style")) continue;
+    const section = parent.closest("section");
+    words.push({
+      text: node.data,
+      lang: parent.closest("[lang]").lang,
+      section: section ? section.id : "",
+      picture: parent.closest("svg") !== null,
+    });
+  }
+  for (const picture of all("svg[aria-label], span[aria-label], div[aria-label]")) {
+    words.push({ text: picture.getAttribute("aria-label"), lang: picture.closest("[lang]").lang, section: "", picture: true });
+  }
+  const link = document.querySelector("a[download]");
+  return {
+    title: document.title,
+    lang: document.documentElement.lang,
+    numbers: all("data").map((data) => ({ value: data.value, text: text(data), lang: data.closest("[lang]").lang })),
+    days: all("time").map((time) => ({ value: time.dateTime, text: text(time) })),
+    given: all(".given").map(text),
+    codes: all("code").map(text),
+    words,
+    headings: all("h1, h2, h3, caption").map((heading) => heading.textContent),
+    blocks: all("p, dt, dd, th, td, caption, h1, h2, h3, li")
+      .filter((block) => !block.closest(".unseen, .save, svg") && !block.querySelector("sub, sup, p, .pad, .unseen"))
+      .map((block) => block.textContent),
+    annex: document.querySelector("pre").textContent,
+    download: { name: link.download, address: link.href },
+    headline: document.querySelector(".headline").textContent,
+    refused: document.querySelector(".verdict.refused") !== null,
+  };
+}
+
+/** What does not fit: elements beyond the page's edge, text wider than its box, words of a picture outside it. */
+function unfit() {
+  const found = [];
+  const name = (element) => `${element.tagName.toLowerCase()}.${element.getAttribute("class") || ""} ${element.textContent.slice(0, 60)}`;
+  const width = document.documentElement.clientWidth;
+  if (document.documentElement.scrollWidth > width) found.push(`the page scrolls sideways: ${document.documentElement.scrollWidth} > ${width}`);
+  for (const element of document.querySelectorAll("body *")) {
+    if (element.closest(".unseen, .pad, thead") && getComputedStyle(element.closest(".unseen, .pad, thead")).position === "absolute") continue;
+    const svg = element.ownerSVGElement;
+    const box = element.getBoundingClientRect();
+    if (box.width === 0) continue;
+    if (svg) {
+      const frame = svg.getBoundingClientRect();
+      const out = box.left < frame.left - 1 || box.right > frame.right + 1 || box.top < frame.top - 1 || box.bottom > frame.bottom + 1;
+      if (element.tagName === "text" && out) found.push(`outside its picture: ${name(element)}`);
+      continue;
+    }
+    const scrolls = element.parentElement.closest(".scroll");
+    if (!scrolls && (box.right > width + 1 || box.left < -1)) found.push(`beyond the edge: ${name(element)}`);
+    const style = getComputedStyle(element);
+    const boxed = style.display !== "inline" && !element.matches(".scroll, html, body");
+    if (boxed && element.scrollWidth > element.clientWidth + 1 && element.clientWidth > 0 && !element.matches("table, thead, tbody, tr")) {
+      found.push(`wider than its box: ${name(element)}`);
+    }
+  }
+  return found;
+}
+
+async function look(browser, folder, name) {
+  const file = path.join(folder, `${name}.html`);
+  const address = `file://${file}`;
+  const html = fs.readFileSync(file, "utf8");
+  const result = { bytes: Buffer.byteLength(html), asked: [], complaints: [], unfit: {}, axe: {}, html: [] };
+  const page = await browser.newPage();
+  page.on("request", (request) => { if (request.url() !== address) result.asked.push(request.url()); });
+  page.on("console", (message) => result.complaints.push(message.text()));
+  page.on("pageerror", (error) => result.complaints.push(String(error)));
+  page.on("dialog", (dialog) => { result.complaints.push(`a dialog: ${dialog.message()}`); dialog.dismiss(); });
+  await page.goto(address);
+  result.said = await page.evaluate(said);
+  for (const colours of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme: colours });
+    for (const [device, width] of Object.entries(WIDTHS)) {
+      await page.setViewportSize({ width, height: 1000 });
+      result.unfit[`${device} ${colours}`] = await page.evaluate(unfit);
+      await page.screenshot({ path: path.join(folder, `${name}-${device}-${colours}.png`), fullPage: true });
+    }
+    // The page's policy forbids scripts, so axe comes in through the debugger, as the measurements do.
+    const violations = await page.evaluate(`${axe}; axe.run().then((found) => found.violations)`);
+    result.axe[colours] = violations.map((violation) => `${violation.id}: ${violation.help}: ${violation.nodes.map((node) => node.html).join(" | ").slice(0, 500)}`);
+    await page.locator("svg.code").screenshot({ path: path.join(folder, `${name}-code-${colours}.png`) });
+  }
+  // A sheet is 180 mm wide between its margins.
+  await page.emulateMedia({ media: "print", colorScheme: "dark" });
+  await page.setViewportSize({ width: Math.floor((180 / 25.4) * 96), height: 1000 });
+  result.unfit.print = await page.evaluate(unfit);
+  await page.pdf({ path: path.join(folder, `${name}.pdf`), preferCSSPageSize: true });
+  await page.close();
+  const report = await new HtmlValidate(RULES).validateString(html);
+  result.html = report.results.flatMap((one) => one.messages.map((message) => `${message.line}:${message.column} ${message.ruleId}: ${message.message}`));
+  return result;
+}
+
+async function main() {
+  const [executablePath, folder, ...names] = process.argv.slice(2);
+  const profile = fs.mkdtempSync(path.join(os.tmpdir(), "chromium-"));
+  const quiet = ["--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"];
+  const context = await chromium.launchPersistentContext(profile, { executablePath, chromiumSandbox: false, args: quiet });
+  const results = {};
+  for (const name of names) results[name] = await look(context, folder, name);
+  await context.close();
+  fs.rmSync(profile, { recursive: true, force: true });
+  process.stdout.write(JSON.stringify(results));
+}
+
+main().catch((error) => { console.error(error); process.exit(1); });

@@ -1,0 +1,194 @@
+//! Passports of every kind that a page must stand: the usual one, all that a file can state, hardly anything, hostile words.
+
+use crate::made;
+use dtg_passport::earth::Place;
+use dtg_passport::gyro::GyroType;
+use dtg_passport::laboratory::Laboratory;
+use dtg_passport::passport::accuracy::Stated;
+use dtg_passport::passport::content::Predecessor;
+use dtg_passport::passport::issue::{Issue, draft};
+use dtg_passport::passport::{Question, Trust};
+use dtg_passport::report::page::Language::{English, Russian};
+use dtg_passport::report::page::{Language, Languages, PassportPage};
+use dtg_passport::trust::{AllowedSigners, SigningKey};
+
+/// One page: a passport, whom to trust, what is asked, in which languages.
+pub struct Case {
+    pub name: &'static str,
+    pub passport: String,
+    pub trust: Trust,
+    pub question: Question,
+    pub languages: Languages,
+}
+
+impl Case {
+    /// The page, or the test's failure with what verification said.
+    pub fn html(&self) -> String {
+        let page = PassportPage::verified(self.name, self.passport.as_bytes(), &self.trust, &self.question, None);
+        page.unwrap_or_else(|refused| panic!("{}: {:?}", self.name, refused.checks())).html(&self.languages)
+    }
+
+    fn asking(self, question: Question) -> Self {
+        Self { question, ..self }
+    }
+}
+
+/// Every case.
+pub fn all() -> Vec<Case> {
+    let elsewhere = Place { latitude_deg: 40.2455, longitude_deg: 116.2240 };
+    let wrong = Question { serial: Some("0203".to_owned()), place: Some(elsewhere), ..made::question() };
+    let here = Place { latitude_deg: 55.7658, longitude_deg: 37.6856 };
+    let right = Question {
+        serial: Some("0017".to_owned()),
+        place: Some(here),
+        issuer: Some(made::ISSUER.to_owned()),
+        ..made::question()
+    };
+    vec![
+        usual("usual-en", &[English]),
+        usual("usual-ru", &[Russian]),
+        usual("usual-both", &[English, Russian]),
+        full("full-en", &[English]).asking(right.clone()),
+        full("full-ru", &[Russian]).asking(right),
+        case("hostile-both", &hostile(made::ARC_MINUTES), made::SITE, &[Russian, English]),
+        case("hostile-en", &hostile(made::DEGREES), BARE_SITE, &[English]),
+        case("many-en", &many_positions(), made::SITE, &[English]),
+        case("many-ru", &many_positions(), made::SITE, &[Russian]),
+        case("four-ru", &four_positions(), BARE_SITE, &[Russian]),
+        case("bare-en", BARE_STAND, BARE_SITE, &[English]),
+        case("bare-ru", BARE_STAND, BARE_SITE, &[Russian]),
+        full("elsewhere-en", &[English]).asking(wrong.clone()),
+        full("elsewhere-both", &[Russian, English]).asking(wrong),
+        usual("expired-ru", &[Russian]).asking(Question::at(made::at("2028-11-02T00:00:00Z"))),
+    ]
+}
+
+/// The project's own example.
+pub fn usual(name: &'static str, languages: &[Language]) -> Case {
+    let passport = include_str!("../../passports/SPS-2/0017/moscow-bmstu-1.yaml").to_owned();
+    let signers = include_bytes!("../../docs/allowed_signers");
+    let trust = Trust::of(AllowedSigners::parse("allowed_signers", signers).unwrap());
+    let question = Question::at(made::at("2026-11-20T12:00:00Z"));
+    Case { name, passport, trust, question, languages: of(languages) }
+}
+
+fn of(languages: &[Language]) -> Languages {
+    Languages::new(languages[0], languages[1..].iter().copied())
+}
+
+fn case(name: &'static str, stand: &str, site: &str, languages: &[Language]) -> Case {
+    let order = Issue::first(made::ISSUER, made::at(made::ISSUED_AT), GyroType::gvk_6().nominal);
+    issued(name, stand, site, &order, languages)
+}
+
+fn issued(name: &'static str, stand: &str, site: &str, order: &Issue, languages: &[Language]) -> Case {
+    let key = SigningKey::generate().unwrap();
+    let passport = draft(&made::stand(stand), &made::site(site), order).unwrap().sign(&key).unwrap();
+    Case { name, passport, trust: made::trust(&key), question: made::question(), languages: of(languages) }
+}
+
+/// All that a file can state, after a re-issue for a reason that took a page to tell.
+fn full(name: &'static str, languages: &[Language]) -> Case {
+    let laboratory = Laboratory::from_yaml("laboratory", FULL_LABORATORY.as_bytes()).unwrap();
+    let gyro = GyroType::from_yaml("gyro", FULL_GYRO.as_bytes()).unwrap();
+    let reason = "the building was renovated, and the pillar was set up anew on a foundation of its own; ".repeat(8);
+    let predecessor = Predecessor {
+        id: "SPS-2/0017/bench/1".to_owned(),
+        sha256: "5411aa006c024adb21af45bbeae02557a6a434202ad1f6a92db7a9a7dcf5097a".to_owned(),
+        reason,
+        changed: "site: deflection_arcsec, azimuth_mark".to_owned(),
+    };
+    let order = Issue {
+        accuracy: Some(Stated { gyro: gyro.into(), laboratory: laboratory.into() }),
+        revision: 2,
+        predecessor: Some((predecessor, true)),
+        ..Issue::first(made::ISSUER, made::at(made::ISSUED_AT), GyroType::gvk_6().nominal)
+    };
+    let stand = made::ARC_MINUTES
+        .replace("name: \"Two-axis", "customer: \"Gyro laboratory, Moscow\", name: \"Two-axis")
+        .replace("  number:", "  received: \"2026-10-20\"\n  address: \"1, Example Street, Exampleton\"\n  authorized_by: \"A. N. Other, head of laboratory\"\n  accreditation: \"example accreditation 000\"\n  number:");
+    let site = made::SITE.replace("height_m", "gravity_m_per_s2: 9.81563\ngravity_u_m_per_s2: 2.5e-05\nheight_m");
+    issued(name, &stand, &site, &order, languages)
+}
+
+/// Words that would be markup, styles or scripts anywhere else, words without a blank, words in other scripts.
+fn hostile(stand: &str) -> String {
+    let manufacturer = "</style></title><script>alert('x')</script><img src=https://example.org/x onerror=alert(1)> & \
+                        'single' \\\"double\\\" &amp; {serial} \\\\";
+    let unbroken = "Manufacturer-without-a-blank".repeat(18);
+    let names = format!(
+        "stand: {{manufacturer: \"{manufacturer}\", customer: \"{unbroken}\", name: \"陀螺测试台 ジャイロ試験台 «стенд»\", model"
+    );
+    let method = "method: \"<b>bold</b> -- @import url(https://example.org/x.css);\"\n  traceability: \"国家角度基准\"";
+    // The example's own words give way; what it has not gets these.
+    let kept: Vec<String> = stand
+        .lines()
+        .filter(|line| !line.trim_start().starts_with("method:") && !line.trim_start().starts_with("traceability:"))
+        .map(|line| match line.strip_prefix("stand: {") {
+            Some(rest) => {
+                let model = rest.find("model").expect("a model");
+                let serial_end = rest.find(", configuration").or_else(|| rest.find(", name")).unwrap_or(rest.len() - 1);
+                format!("{names}{}}}", &rest[model + "model".len()..serial_end])
+            }
+            None => line.to_owned(),
+        })
+        .collect();
+    kept.join("\n").replace("  number:", &format!("  {method}\n  number:")) + "\n"
+}
+
+/// The example's eight positions and sixteen more, every 45 degrees.
+fn many_positions() -> String {
+    let mut stand = made::ARC_MINUTES.to_owned();
+    for i in 3..=4 {
+        for j in 1..=8 {
+            let (theta, phi) = (45 * (i - 2), 45 * (j - 1));
+            stand += &format!(
+                "  - {{i: {i}, j: {j}, theta_deg: {theta}, phi_deg: {phi}, alpha_arcsec: {}.25, beta_arcsec: -{}.5, \
+                 gamma_arcsec: 1{j}0, u_alpha_arcsec: 1.2, u_beta_arcsec: 0.85, u_gamma_arcsec: 12.0}}\n",
+                10 * i + j,
+                j * j
+            );
+        }
+    }
+    stand
+}
+
+/// The first four of the example's eight.
+fn four_positions() -> String {
+    let lines: Vec<&str> = made::ARC_MINUTES.lines().filter(|line| !line.contains("{i: 2")).collect();
+    lines.join("\n") + "\n"
+}
+
+const BARE_STAND: &str = r#"format: "dtg-stand/1"
+stand: {model: "SPS-2", serial: "0017"}
+certificate: {number: "C-1", issued: "2026-11-02", laboratory: "L"}
+positions:
+  - {i: 1, j: 1, theta_deg: 0, phi_deg: 0, alpha_arcsec: 12.4, beta_arcsec: -31.0, gamma_arcsec: 7.7}
+  - {i: 1, j: 2, theta_deg: 0, phi_deg: 90, alpha_arcsec: -48.9, beta_arcsec: 15, gamma_arcsec: -62.125}
+  - {i: 1, j: 3, theta_deg: 0, phi_deg: 180, alpha_arcsec: 77.2, beta_arcsec: 40.6, gamma_arcsec: 21.5}
+  - {i: 1, j: 4, theta_deg: 0, phi_deg: 270, alpha_arcsec: -5.8, beta_arcsec: -90.4, gamma_arcsec: 33.0}
+  - {i: 2, j: 1, theta_deg: 90, phi_deg: 0, alpha_arcsec: 64.3, beta_arcsec: 8.1, gamma_arcsec: -17.6}
+  - {i: 2, j: 2, theta_deg: 90, phi_deg: 90, alpha_arcsec: -22.7, beta_arcsec: 55.9, gamma_arcsec: 44.2}
+  - {i: 2, j: 3, theta_deg: 90, phi_deg: 180, alpha_arcsec: 18.0, beta_arcsec: -73.5, gamma_arcsec: -9.3}
+  - {i: 2, j: 4, theta_deg: 90, phi_deg: 270, alpha_arcsec: 39.6, beta_arcsec: 26.8, gamma_arcsec: -81.4}
+"#;
+
+const BARE_SITE: &str = r#"format: "dtg-site/1"
+id: "somewhere"
+astronomic_latitude_deg: -35.25
+"#;
+
+const FULL_GYRO: &str = r#"format: "dtg-gyro/1"
+type: "GVK-6"
+nominal: {k_deg_per_h_per_ma: [[95, 9.5], [9.5, 95]], omega0_deg_per_h: [20, 20], omega_g_deg_per_h_per_g: 10, omega_k_deg_per_h_per_g: 10}
+tolerance: {k_main_percent: 0.05, k_cross_percent: 0.5, omega0_deg_per_h: 0.01, omega_g_deg_per_h_per_g: 0.01, omega_k_deg_per_h_per_g: 0.01}
+gravity_m_per_s2: 9.80665
+"#;
+
+const FULL_LABORATORY: &str = r#"format: "dtg-laboratory/1"
+name: "Gyro laboratory"
+meter: {range_ma: 1.0, reading_percent: 0.0087, gain_percent: 0.001, offset_ma: 2.0e-06, floor_ma: 1.0e-06}
+seating_arcsec: {about_x: 5.0, about_y: 5.0, about_z: 10.0}
+base: {azimuth_arcsec: 10.0, level_arcsec: 3.0}
+temperature_c: 21.0
+"#;

@@ -1,0 +1,153 @@
+//! What Chromium, axe, html-validate, zbar and PyYAML find on every page.
+
+use crate::cases::{self, Case};
+use crate::tools;
+use dtg_passport::document::sha256_hex;
+use dtg_passport::report::page::Language;
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+/// Every case, and what was found on its page.
+pub struct Looked {
+    pub folder: PathBuf,
+    pub cases: Vec<Case>,
+    found: Value,
+}
+
+/// The pages are opened once for all tests.
+pub static LOOKED: LazyLock<Looked> = LazyLock::new(|| {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("page");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let cases = cases::all();
+    for case in &cases {
+        fs::write(folder.join(format!("{}.html", case.name)), case.html()).unwrap();
+        fs::write(folder.join(format!("{}.yaml", case.name)), &case.passport).unwrap();
+    }
+    let mut browser = tools::node_for_pages();
+    browser.arg(tools::project("tests/page/browser.cjs")).arg(tools::on_path("chromium").get_program()).arg(&folder);
+    browser.args(cases.iter().map(|case| case.name));
+    let found = tools::output(browser);
+    fs::write(folder.join("found.json"), &found).unwrap();
+    let found = serde_json::from_str(&found).unwrap();
+    Looked { folder, cases, found }
+});
+
+impl Looked {
+    /// Each case with what was found on its page.
+    pub fn each(&self) -> impl Iterator<Item = (&Case, &Value)> {
+        self.cases.iter().map(|case| (case, &self.found[case.name]))
+    }
+}
+
+/// The strings of a list.
+pub fn strings(list: &Value) -> Vec<&str> {
+    list.as_array().expect("a list").iter().map(|item| item.as_str().expect("a string")).collect()
+}
+
+/// Every list of strings below `lists` is empty.
+fn nothing(case: &Case, what: &str, lists: &Value) {
+    let lists = lists.as_object().expect("lists by name");
+    assert!(lists.len() > 1, "{}: {what} was not looked at", case.name);
+    for (when, list) in lists {
+        assert_eq!(strings(list), [""; 0], "{}: {what}, {when}", case.name);
+    }
+}
+
+#[test]
+fn axe_finds_no_violation_in_light_and_dark() {
+    LOOKED.each().for_each(|(case, found)| nothing(case, "axe", &found["axe"]));
+}
+
+/// On paper, a telephone, a sheet's width and a screen, in light and dark.
+#[test]
+fn nothing_is_cut_off_or_leaves_the_page() {
+    LOOKED.each().for_each(|(case, found)| nothing(case, "does not fit", &found["unfit"]));
+}
+
+#[test]
+fn nothing_is_asked_of_the_network_and_no_script_runs() {
+    for (case, found) in LOOKED.each() {
+        assert_eq!(strings(&found["asked"]), [""; 0], "{}", case.name);
+        assert_eq!(strings(&found["complaints"]), [""; 0], "{}", case.name);
+        let html = case.html();
+        // In the text of a passport such words are words: escaped.
+        for element in ["<script", "<img", "<link", "<iframe", "<object", "<b>", "@import url(https:"] {
+            let allowed = usize::from(element == "@import url(https:") * html.matches("-- @import url(https:").count();
+            assert_eq!(html.matches(element).count(), allowed, "{}: {element}", case.name);
+        }
+    }
+}
+
+#[test]
+fn the_validator_finds_nothing() {
+    for (case, found) in LOOKED.each() {
+        assert_eq!(strings(&found["html"]), [""; 0], "{}", case.name);
+    }
+}
+
+#[test]
+fn a_page_is_small() {
+    for (case, found) in LOOKED.each() {
+        let bytes = found["bytes"].as_u64().unwrap();
+        println!("{:<15} {:>7} bytes", case.name, bytes);
+        assert!(bytes < 300_000, "{}: {bytes} bytes", case.name);
+    }
+}
+
+/// Every number, day and word of the file on the page is the file's own, or its rounding; the annex is the file.
+#[test]
+fn the_page_says_what_the_signed_file_says() {
+    let pages = LOOKED.folder.join("found.json");
+    for (case, _) in LOOKED.each() {
+        let mut python = tools::python();
+        python.arg(tools::project("tests/page/signed_file.py")).arg(&pages).arg(case.name);
+        python.arg(LOOKED.folder.join(format!("{}.yaml", case.name)));
+        assert_eq!(tools::output(python).trim(), "", "{}", case.name);
+    }
+}
+
+/// The code on the first page, scanned from its picture, and the file that the page offers to save.
+#[test]
+fn code_text_and_saved_file_are_of_the_signed_file() {
+    for (case, found) in LOOKED.each() {
+        let sum = sha256_hex(case.passport.as_bytes());
+        for colours in ["light", "dark"] {
+            let mut scanner = tools::on_path("zbarimg");
+            scanner.args(["--quiet", "--raw"]).arg(LOOKED.folder.join(format!("{}-code-{colours}.png", case.name)));
+            assert_eq!(tools::output(scanner).trim(), sum, "{} {colours}", case.name);
+        }
+        let said = &found["said"];
+        assert!(strings(&said["codes"]).contains(&sum.as_str()), "{}: the sum as text", case.name);
+        let address = said["download"]["address"].as_str().unwrap();
+        let mut decoder = tools::python();
+        let script = "import base64, sys; sys.stdout.buffer.write(base64.b64decode(sys.argv[1].split(',', 1)[1], validate=True))";
+        decoder.args(["-c", script, address]);
+        assert_eq!(tools::output(decoder), case.passport, "{}: the file to save", case.name);
+        let file = said["download"]["name"].as_str().unwrap();
+        assert!(file.ends_with("-1.yaml") || file.ends_with("-2.yaml"), "{}: {file}", case.name);
+    }
+}
+
+/// What is good but may not be used says so in its largest words; everything else is in force.
+#[test]
+fn the_verdict_is_large() {
+    for (case, found) in LOOKED.each() {
+        let said = &found["said"];
+        let headline = said["headline"].as_str().unwrap();
+        let (russian, english) = match case.name {
+            "elsewhere-en" | "elsewhere-both" => (
+                "Не применять: относится к другому стенду, выдан для другого места",
+                "Not to be used: of another stand, for another place",
+            ),
+            "expired-ru" => ("Не применять: срок действия истёк", "Not to be used: expired"),
+            _ => ("Действует", "In force"),
+        };
+        let words = |language| if language == Language::Russian { russian } else { english };
+        let due: Vec<&str> = case.languages.iter().map(words).collect();
+        assert_eq!(headline, due.join(" "), "{}", case.name);
+        assert_eq!(said["refused"].as_bool().unwrap(), !["Действует", "In force"].contains(&due[0]), "{}", case.name);
+    }
+}

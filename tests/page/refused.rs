@@ -1,0 +1,54 @@
+//! No page is made of a passport that is not its issuer's own word.
+
+use crate::cases;
+use crate::made;
+use dtg_passport::passport::{Code, Question, Trust, Verification};
+use dtg_passport::report::page::{Language, PassportPage};
+use dtg_passport::trust::SigningKey;
+
+fn page<'a>(bytes: &'a [u8], trust: &'a Trust, question: &'a Question) -> Result<PassportPage<'a>, Box<Verification>> {
+    PassportPage::verified("passport.yaml", bytes, trust, question, None)
+}
+
+/// The code of the first check that failed.
+fn first_failure(verification: &Verification) -> Code {
+    verification.checks().iter().find(|check| check.passed() == Some(false)).expect("a check that failed").code
+}
+
+#[test]
+fn neither_altered_nor_of_a_stranger_nor_of_a_revoked_key() {
+    let good = cases::usual("usual-en", &[Language::English]);
+    assert!(page(good.passport.as_bytes(), &good.trust, &good.question).is_ok());
+
+    let altered = good.passport.replacen("alpha_arcsec: 12.4", "alpha_arcsec: 12.5", 1);
+    let refused = page(altered.as_bytes(), &good.trust, &good.question).unwrap_err();
+    assert_eq!(first_failure(&refused), Code::Altered);
+
+    let stranger = made::trust(&SigningKey::generate().unwrap());
+    let refused = page(good.passport.as_bytes(), &stranger, &good.question).unwrap_err();
+    assert_eq!(first_failure(&refused), Code::UnknownKey);
+
+    let question = Question { issuer: Some("somebody@else.example".to_owned()), ..good.question.clone() };
+    let refused = page(good.passport.as_bytes(), &good.trust, &question).unwrap_err();
+    assert_eq!(first_failure(&refused), Code::WrongIssuer);
+
+    let key = SigningKey::generate().unwrap();
+    let passport = made::written(&made::content(&made::stand(made::ARC_MINUTES), &made::site(made::SITE)), &key);
+    let question = made::question();
+    assert!(page(passport.as_bytes(), &made::trust(&key), &question).is_ok());
+    let revoked = made::trust_without(&key, key.public_key().to_openssh().as_bytes());
+    let refused = page(passport.as_bytes(), &revoked, &question).unwrap_err();
+    assert_eq!(first_failure(&refused), Code::KeyRevoked);
+}
+
+/// Rightly signed, but a number does not follow: the issuer's mistake is not printed either.
+#[test]
+fn nor_with_a_wrong_number() {
+    let key = SigningKey::generate().unwrap();
+    let mut content = made::content(&made::stand(made::ARC_MINUTES), &made::site(made::SITE));
+    content.earth.horizontal_deg_per_h += 1e-6;
+    let passport = made::written(&content, &key);
+    let (trust, question) = (made::trust(&key), made::question());
+    let refused = page(passport.as_bytes(), &trust, &question).unwrap_err();
+    assert_eq!(first_failure(&refused), Code::WrongNumber);
+}

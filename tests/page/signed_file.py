@@ -1,0 +1,95 @@
+"""Compares the numbers, days and words of pages with the signed file that they show.
+
+usage: signed_file.py PAGES.json NAME PASSPORT.yaml   prints what is wrong, a line each; nothing when all is well.
+
+The file is read by PyYAML, and numbers are rounded by `decimal`: nothing here knows how the program does either.
+"""
+
+import json
+import re
+import sys
+from decimal import ROUND_HALF_EVEN, Decimal
+
+import yaml
+
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+
+
+def leaves(node):
+    """Every number and every string of a document."""
+    if isinstance(node, dict):
+        for value in node.values():
+            yield from leaves(value)
+    elif isinstance(node, list):
+        for value in node:
+            yield from leaves(value)
+    else:
+        yield node
+
+
+def printed(text, comma):
+    """A printed number as a Decimal, and the place of its last digit."""
+    plain = text.replace("\u202f", "").replace("\u2212", "-")
+    mark, other = (",", ".") if comma else (".", ",")
+    if other in plain:
+        raise ValueError(f"{text!r} has the decimal mark of another language")
+    mantissa, _, power = plain.replace(mark, ".").partition("·10")
+    number = Decimal(mantissa)
+    exponent = int(power.translate(SUPERSCRIPTS)) if power else 0
+    return number.scaleb(exponent), number.as_tuple().exponent + exponent
+
+
+def main():
+    pages, name, file = sys.argv[1:]
+    said = json.load(open(pages, encoding="utf-8"))[name]["said"]
+    text = open(file, encoding="utf-8", newline="").read()
+    content = yaml.load(text, Loader=yaml.CSafeLoader)
+    values = list(leaves(content))
+    floats = {float(value) for value in values if isinstance(value, (int, float)) and not isinstance(value, bool)}
+    # What comments say in numbers is signed too.
+    comments = " ".join(line for line in text.splitlines() if line.lstrip().startswith("#"))
+    in_comments = {Decimal(number) for number in NUMBER.findall(comments)}
+    strings = {str(value) for value in values}
+    wrong = []
+
+    if len(said["numbers"]) < 40:
+        wrong.append(f"only {len(said['numbers'])} numbers on the page")
+    for number in said["numbers"]:
+        value, shown = number["value"], number["text"]
+        digits, place = printed(shown, said["lang"] == "ru")
+        if Decimal(value) in in_comments or digits in in_comments:
+            continue
+        if float(value) not in floats:
+            wrong.append(f"{value} is on the page and not in the file")
+        elif digits != Decimal(float(value)).quantize(Decimal(1).scaleb(place), ROUND_HALF_EVEN) and float(digits) != float(value):
+            wrong.append(f"{shown} is not {value} rounded")
+
+    for day in said["days"]:
+        year, month, date = day["value"][:10].split("-")
+        if said["lang"] == "ru":
+            due = f"{date}.{month}.{year}"
+        else:
+            due = f"{year}-{month}-{date}"
+        if day["value"] not in strings:
+            wrong.append(f"the day {day['value']} is not in the file")
+        if not day["text"].startswith(due) or (len(day["value"]) > 10 and day["value"][11:19] not in day["text"]):
+            wrong.append(f"{day['text']} is not {day['value']}")
+
+    for words in said["given"]:
+        if words not in strings:
+            wrong.append(f"{words!r} is not in the file")
+
+    # Everything that the file says in words is on the page outside the annex, too.
+    shown = set(said["given"]) | set(said["codes"]) | {day["value"] for day in said["days"]} | {said["annex"]}
+    for section in ("passport", "stand", "certificate", "datum", "site", "accuracy"):
+        for value in leaves(content.get(section) or {}):
+            if isinstance(value, str) and value not in shown:
+                wrong.append(f"{section}: {value!r} is in the file and not on the page")
+
+    if said["annex"] != text:
+        wrong.append("the annex is not the file")
+    print("\n".join(wrong))
+
+
+main()
