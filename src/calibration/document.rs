@@ -195,7 +195,7 @@ impl CalibrationDocument {
     /// [`Unreadable`], with line and column.
     pub fn from_json(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         serde_json::from_slice(bytes).map_err(|error| {
-            let location = (error.line() > 0).then(|| Location { line: error.line(), column: error.column() });
+            let location = (error.line() > 0).then(|| Location { line: error.line(), column: error.column().max(1) });
             let mut found = error.to_string();
             if let Some(at) = found.find(" at line ") {
                 found.truncate(at);

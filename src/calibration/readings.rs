@@ -2,7 +2,7 @@
 
 use crate::coefficients::{Coefficients, PositionIndex};
 use crate::text::Unreadable;
-use crate::text::problem::Problem;
+use crate::text::problem::{MOST_PROBLEMS, Problem};
 use crate::text::table::{Row, Table};
 use nalgebra::Vector2;
 
@@ -84,6 +84,9 @@ impl Readings {
         let mut problems = Vec::new();
         let mut readings = Vec::new();
         for row in &table.rows {
+            if problems.len() >= MOST_PROBLEMS {
+                break;
+            }
             let index = position(&table, row, coefficients, &mut problems);
             let x = current(&table, row, 2, range_ma, &mut problems);
             let y = current(&table, row, 3, range_ma, &mut problems);

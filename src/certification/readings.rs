@@ -4,7 +4,7 @@ use super::header::NominalPosition;
 use crate::coefficients::PositionIndex;
 use crate::stand::LARGEST_DEVIATION_DEG;
 use crate::text::Unreadable;
-use crate::text::problem::Problem;
+use crate::text::problem::{MOST_PROBLEMS, Problem};
 use crate::text::table::{Row, Table};
 use crate::units::ARCSECONDS_PER_DEGREE;
 use nalgebra::Vector3;
@@ -57,6 +57,9 @@ impl AngleReadings {
         let mut problems = Vec::new();
         let mut rows: Vec<(Place, Vector3<f64>, &Row)> = Vec::new();
         for row in &table.rows {
+            if problems.len() >= MOST_PROBLEMS {
+                break;
+            }
             let index = position(&table, row, positions, &mut problems);
             let run = table.index(row, 2, &mut problems);
             let angles = [3, 4, 5].map(|column| angle(&table, row, column, &mut problems));
@@ -145,6 +148,9 @@ fn incomplete(positions: &[NominalPosition], rows: &[(Place, Vector3<f64>, &Row)
     let there: BTreeSet<Place> = rows.iter().map(|(place, ..)| *place).collect();
     let mut problems = Vec::new();
     for at in positions {
+        if problems.len() >= MOST_PROBLEMS {
+            break;
+        }
         let missing: Vec<u32> = runs.iter().copied().filter(|run| !there.contains(&(at.index(), *run))).collect();
         if missing.len() == runs.len() {
             let advice = "are these the readings of this stand?";
@@ -157,7 +163,7 @@ fn incomplete(positions: &[NominalPosition], rows: &[(Place, Vector3<f64>, &Row)
         }
         let advice = "what is common to a run can be told from a position's own scatter in whole runs alone: \
                       measure it, or leave out the whole run";
-        for run in missing {
+        for run in missing.into_iter().take(MOST_PROBLEMS - problems.len()) {
             let found = format!("no reading of position {} in run {run}", at.index());
             problems.push(whole_file(found, "every position in every run", advice));
         }
@@ -167,26 +173,51 @@ fn incomplete(positions: &[NominalPosition], rows: &[(Place, Vector3<f64>, &Row)
 
 /// Readings that are no scatter: too far from the other runs, or of another unit.
 fn slips(table: &Table, rows: &[(Place, Vector3<f64>, &Row)]) -> Vec<Problem> {
-    let mut of_position: BTreeMap<PositionIndex, Vec<(u32, Vector3<f64>)>> = BTreeMap::new();
-    for ((index, run), angles, _) in rows {
-        of_position.entry(*index).or_default().push((*run, *angles));
-    }
+    let others = other_runs(rows);
     let mut problems = Vec::new();
     for ((index, run), angles, row) in rows {
-        let own = of_position.get(index).map_or(&[][..], Vec::as_slice);
         for axis in 0..3 {
-            let others = own.iter().filter(|(other, _)| other != run);
-            let mut others: Vec<f64> = others.map(|(_, angles)| angles[axis]).collect();
-            others.sort_by(f64::total_cmp);
-            let Some(&usual) = others.get(others.len() / 2) else { continue };
-            let spread = others.last().unwrap_or(&usual) - others.first().unwrap_or(&usual);
-            let Some(advice) = slip(angles[axis], usual, spread) else { continue };
+            let Some([least, usual, most]) = others.get(&((*index, *run), axis)) else { continue };
+            let Some(advice) = slip(angles[axis], *usual, most - least) else { continue };
+            if problems.len() >= MOST_PROBLEMS {
+                return problems;
+            }
             let column = 3 + axis;
             let expected = format!("about {usual} as in the other runs of position {index}");
             problems.push(table.problem(&row.cells[column], column, format!("{}", angles[axis]), &expected, advice));
         }
     }
     problems
+}
+
+/// For every place and axis the least, the middle and the largest angle that other runs have at its position.
+///
+/// Sorted once for each position and axis: sorting for each row anew would take minutes for a file of 10,000 runs.
+fn other_runs(rows: &[(Place, Vector3<f64>, &Row)]) -> BTreeMap<(Place, usize), [f64; 3]> {
+    let mut of_position: BTreeMap<(PositionIndex, usize), Vec<(f64, u32)>> = BTreeMap::new();
+    for ((index, run), angles, _) in rows {
+        for axis in 0..3 {
+            of_position.entry((*index, axis)).or_default().push((angles[axis], *run));
+        }
+    }
+    let mut others = BTreeMap::new();
+    for ((index, axis), mut values) in of_position {
+        values.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        let mut places_of_run: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for (place, (_, run)) in values.iter().enumerate() {
+            places_of_run.entry(*run).or_default().push(place);
+        }
+        for (run, own) in places_of_run {
+            let count = values.len() - own.len();
+            if count == 0 {
+                continue;
+            }
+            // The n-th of the others: the run's own up to there are passed over.
+            let nth = |n: usize| values[own.iter().fold(n, |at, place| at + usize::from(*place <= at))].0;
+            others.insert(((index, run), axis), [nth(0), nth(count / 2), nth(count - 1)]);
+        }
+    }
+    others
 }
 
 /// What is wrong with `value` where the other runs have about `usual` within `spread`, all arcseconds.

@@ -115,14 +115,17 @@ pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
     matches!(bytes, [0xFE, 0xFF, ..] | [0xFF, 0xFE, ..] | [0, 1..=255, ..] | [1..=255, 0, ..])
 }
 
-/// The YAML reader refuses them too, but gives a position that no editor shows.
+/// The YAML reader refuses control characters too, but gives a position that no editor shows. Separators end a line, and
+/// so a comment, for YAML 1.1 and not for YAML 1.2.
 fn refuse_control_characters(name: &str, text: &str) -> Result<(), Unreadable> {
-    let Some((index, c)) = text.char_indices().find(|(_, c)| c.is_control() && !"\n\t".contains(*c)) else {
+    const SEPARATORS: [char; 2] = ['\u{2028}', '\u{2029}'];
+    let refused = |c: char| (c.is_control() && !"\n\t".contains(c)) || SEPARATORS.contains(&c);
+    let Some((index, c)) = text.char_indices().find(|(_, c)| refused(*c)) else {
         return Ok(());
     };
     let at = Some(location_of(&text.as_bytes()[..index]));
-    let found = format!("the control character U+{:04X}", u32::from(c));
-    Err(Unreadable::whole(name, at, found, "text", "remove it"))
+    let kind = if SEPARATORS.contains(&c) { "line separator" } else { "control character" };
+    Err(Unreadable::whole(name, at, format!("the {kind} U+{:04X}", u32::from(c)), "text", "remove it"))
 }
 
 /// The place just after `before`, which must be valid UTF-8.
@@ -221,21 +224,39 @@ const DEEPEST: usize = 64;
 /// The most opening brackets, those in strings too: a passport of the largest size has some 18,000.
 pub(super) const MOST_BRACKETS: usize = 25_000;
 
-/// Refuses brackets in more than [`DEEPEST`] others, strings and comments aside, and more than [`MOST_BRACKETS`] in all.
+/// The most values: so many in any text, and one more for every so many bytes. A stand of 4,000 positions has a sixth of
+/// its bytes; what has more is no document.
+const MOST_VALUES: (usize, usize) = (25_000, 5);
+
+/// Refuses brackets in more than [`DEEPEST`] others, strings and comments aside, more than [`MOST_BRACKETS`] in all, and
+/// more than [`MOST_VALUES`].
 ///
-/// The parser looks at every open bracket at every token: a million of them would keep it busy for minutes. A string
-/// is taken to end with its line, as every string of a signed text does, and any quote to begin one. A quote inside a
-/// plain word begins none and so hides the brackets behind it: for these there is the second limit.
+/// The parser looks at every open bracket at every token: a million of them would keep it busy for minutes. For every
+/// value it keeps some hundred bytes, twice that while it makes room: a text of nothing but commas would take two hundred
+/// times its size. A string is taken to end with its line, as every string of a signed text does, and any quote to begin
+/// one. A quote inside a plain word begins none and so hides the brackets behind it: so the numbers in all count what is
+/// in strings too.
 fn refuse_deep(name: &str, text: &str) -> Result<(), Unreadable> {
     let refuse = |line: usize, column: usize, found: String| {
         let at = Some(Location { line: line + 1, column: column + 1 });
         Err(Unreadable::whole(name, at, found, "a document of this project", "is this the right file?"))
     };
-    let (mut depth, mut opened) = (0_usize, 0_usize);
+    let most_values = MOST_VALUES.0 + text.len() / MOST_VALUES.1;
+    let (mut depth, mut opened, mut values) = (0_usize, 0_usize, 0_usize);
     for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with('#')) {
         let (mut in_string, mut escaped) = (false, false);
+        // A comma without a colon since the last one can end two values: in braces a key that has none.
+        let mut paired = false;
+        values += 1;
         for (column, c) in line.chars().enumerate() {
             opened += usize::from("[{".contains(c));
+            values += match c {
+                ':' | '?' => 1,
+                '-' | '[' | '{' => 2,
+                ',' => 2 - usize::from(paired),
+                _ => 0,
+            };
+            paired = c == ':' || (paired && c != ',');
             match c {
                 _ if escaped => escaped = false,
                 '\\' => escaped = in_string,
@@ -249,6 +270,9 @@ fn refuse_deep(name: &str, text: &str) -> Result<(), Unreadable> {
             }
             if opened > MOST_BRACKETS {
                 return refuse(index, column, format!("more than {MOST_BRACKETS} brackets"));
+            }
+            if values > most_values {
+                return refuse(index, column, format!("more than {most_values} values in {} bytes", text.len()));
             }
         }
     }

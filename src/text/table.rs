@@ -5,7 +5,7 @@
 //! on the reader's country.
 
 use super::node::plain_text;
-use super::problem::{Location, Problem, Unreadable};
+use super::problem::{Location, MOST_PROBLEMS, Problem, Unreadable};
 
 /// A table: its rows of cells, in the order of the columns asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,11 +51,15 @@ impl<'a> Table<'a> {
         let mut problems = Vec::new();
         let mut rows = Vec::new();
         for (line, text) in lines {
-            let cells = cells(line, text);
-            if cells.len() == columns.len() {
+            let found = text.split(',').count();
+            if found == columns.len() {
+                let cells = cells(line, text);
                 rows.push(Row { cells: order.iter().map(|&place| cells[place].clone()).collect() });
             } else {
-                problems.push(wrong_number_of_cells(line, text, cells.len(), columns.len()));
+                problems.push(wrong_number_of_cells(line, text, found, columns.len()));
+            }
+            if problems.len() >= MOST_PROBLEMS {
+                break;
             }
         }
         if problems.is_empty() { Ok(Self { name, columns, rows }) } else { Err(Unreadable::of(name, problems)) }
@@ -140,6 +144,10 @@ fn order_of_columns(name: &str, line: usize, header: &str, columns: &[&str]) -> 
             let advice = "save as CSV with commas between the columns and points in the numbers";
             return Err(Unreadable::whole(name, Some(at), found, expected(), advice));
         }
+    }
+    if header.split(',').nth(MOST_PROBLEMS).is_some() {
+        let found = format!("{} columns", header.split(',').count());
+        return Err(Unreadable::whole(name, Some(at), found, expected(), "is this the right file?"));
     }
     let cells = cells(line, header);
     if cells.iter().all(|cell| cell.text.parse::<f64>().is_ok()) {

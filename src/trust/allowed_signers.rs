@@ -8,6 +8,7 @@ use super::lines;
 use super::pattern::matches_list;
 use super::signer_line::{self, SignerLine};
 use crate::text::Unreadable;
+use crate::text::problem::MOST_PROBLEMS;
 use jiff::Timestamp;
 use thiserror::Error;
 
@@ -57,7 +58,7 @@ impl AllowedSigners {
     /// type that OpenSSH knows.
     ///
     /// # Errors
-    /// [`Unreadable`] with every mistake of every line. Refused with the reason are `cert-authority`, and dates without
+    /// [`Unreadable`] with every mistake of every line, as far as they are reported. Refused with the reason are `cert-authority`, and dates without
     /// `Z`: the local time of whoever verifies would decide. A list without any key is refused too.
     pub fn parse(name: &str, text: &[u8]) -> Result<Self, Unreadable> {
         let mut kept = Vec::new();
@@ -66,6 +67,9 @@ impl AllowedSigners {
             match signer_line::read(&line) {
                 Ok(line) => kept.push(line),
                 Err(mut found) => problems.append(&mut found),
+            }
+            if problems.len() >= MOST_PROBLEMS {
+                break;
             }
         }
         if !problems.is_empty() {

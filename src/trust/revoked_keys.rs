@@ -4,6 +4,7 @@ use super::krl::{self, Revoked};
 use super::signer_line::read_key;
 use super::{LARGEST_TRUST_FILE_BYTES, PublicKey, lines};
 use crate::text::Unreadable;
+use crate::text::problem::MOST_PROBLEMS;
 use sha1::Sha1;
 use sha2::{Digest, Sha256};
 
@@ -73,6 +74,9 @@ fn text(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
                 revoked.keys.insert(key.into_blob());
             }
             Err(problem) => problems.push(problem),
+        }
+        if problems.len() >= MOST_PROBLEMS {
+            break;
         }
     }
     if problems.is_empty() { Ok(revoked) } else { Err(Unreadable::of(name, problems)) }

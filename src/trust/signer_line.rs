@@ -5,7 +5,7 @@ use super::lines::Line;
 use super::pattern::LONGEST_PATTERN;
 use super::public_key::{AnyKey, shortened};
 use super::validity;
-use crate::text::problem::Problem;
+use crate::text::problem::{MOST_PROBLEMS, Problem};
 use jiff::Timestamp;
 
 /// A key with what it may sign, as whom and when.
@@ -144,7 +144,7 @@ fn options_end(line: &Line, at: usize) -> Result<usize, Problem> {
 fn options(line: &Line, start: usize, end: usize, problems: &mut Vec<Problem>) -> Options {
     let mut options = Options::default();
     let mut at = start;
-    while at < end {
+    while at < end && problems.len() < MOST_PROBLEMS {
         let length = option_length(&line.text[at..end]);
         if let Err(problem) = options.read(line, at, &line.text[at..at + length], problems) {
             problems.push(problem);

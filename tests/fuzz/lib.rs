@@ -1,0 +1,25 @@
+//! Fuzz targets of the readers. What must hold is in `properties.rs`, how inputs are changed in `mutation.rs`; both are
+//! shared with `tests/fuzz.rs`, which runs them without a fuzzer.
+
+pub use libfuzzer_sys;
+pub mod mutation;
+pub mod properties;
+
+/// The target of this name.
+pub fn target(name: &str) -> &'static properties::Target {
+    properties::TARGETS.iter().find(|target| target.name == name).expect("a target of that name")
+}
+
+/// The program of one target: libFuzzer's own changes and the shared ones in turn.
+#[macro_export]
+macro_rules! target {
+    ($name:literal) => {
+        use dtg_passport_fuzz::libfuzzer_sys;
+        libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+            dtg_passport_fuzz::target($name).hold(bytes);
+        });
+        libfuzzer_sys::fuzz_mutator!(|data: &mut [u8], size: usize, max_size: usize, seed: u32| {
+            dtg_passport_fuzz::mutation::in_place(data, size, max_size, seed)
+        });
+    };
+}
