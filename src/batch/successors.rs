@@ -12,7 +12,7 @@ use crate::files::{self, FileError, folder_of};
 use crate::folder::{self, Issued, is_numbered, is_revocation_list};
 use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
 use crate::passport::{Question, Trust, verify};
-use crate::register::{State, examine, examined};
+use crate::register::{Line, State, examine, examined};
 use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::LARGEST_DOCUMENT_BYTES;
@@ -23,6 +23,9 @@ use std::sync::Arc;
 
 /// The line without which a passport supersedes none. Its one form makes it stand on a line of its own.
 const SUPERSEDES: &[u8] = b"\n  supersedes: true\n";
+
+const FORKED: &str = "comes from a passport that several supersede: `register` names them; withdraw with `revoke` what \
+                      does not count";
 
 /// What is to change, and by whose trust the old passports must hold.
 pub struct Change<'a> {
@@ -49,7 +52,15 @@ struct Candidate {
 struct Searched {
     /// With the revocation lists that stand there.
     trust: Trust,
-    chains: HashMap<Digest, Follower>,
+    chains: Chains,
+}
+
+/// What supersedes what.
+#[derive(Default)]
+struct Chains {
+    followers: HashMap<Digest, Follower>,
+    /// Of those, each with the one that it supersedes.
+    superseded: HashMap<Digest, Digest>,
 }
 
 /// The first half of a SHA-256.
@@ -172,8 +183,8 @@ impl Run<'_> {
     }
 
     /// What supersedes what, by the word of every passport that says so and counts.
-    fn chains(&self, root: &Path, trust: &Trust) -> HashMap<Digest, Follower> {
-        let mut chains: HashMap<Digest, Follower> = HashMap::new();
+    fn chains(&self, root: &Path, trust: &Trust) -> Chains {
+        let mut chains = Chains::default();
         // What cannot be read is told when its turn comes.
         let mut files = Walk::deep(root, is_numbered).flatten().filter_map(|entry| match entry {
             Entry::File(path) if !is_revocation_list(&path) => Some(path),
@@ -186,16 +197,7 @@ impl Run<'_> {
             }
             let question = Question::at(self.change.question.time);
             let links = parallel::map(&some, self.batch.threads, |path| link(path, trust, &question));
-            for (superseded, follower) in links.into_iter().flatten() {
-                match chains.get_mut(&superseded) {
-                    // A copy of the same file is one successor, not two.
-                    Some(known) if known.digest == follower.digest => {}
-                    // One that was withdrawn still supersedes, but leaves no doubt which of the two counts.
-                    Some(known) if known.withdrawn => *known = follower,
-                    Some(known) => known.forked |= !follower.withdrawn,
-                    None => drop(chains.insert(superseded, follower)),
-                }
-            }
+            links.into_iter().flatten().for_each(|(superseded, follower)| chains.add(superseded, follower));
         }
     }
 
@@ -266,12 +268,12 @@ impl Run<'_> {
             if let Some(words) = examined.misplaced() {
                 return Err(refused(format!("is in the wrong folder: {words}")));
             }
-            let id = line.id.clone().unwrap_or_default();
-            if let Some(why) = folder.why_not(&line.sha256, line.state, &line.why) {
+            if let Some(why) = folder.chains.why_not(line) {
+                let id = line.id.clone().unwrap_or_default();
                 return Ok(Examined::Done(Some(Outcome::Skipped { id, file: path.clone(), why })));
             }
-            if let Some(words) = examined.supersedes().and_then(|old| folder.forked(old)) {
-                return Err(refused(words));
+            if examined.supersedes().is_some_and(|old| folder.chains.forked(old)) {
+                return Err(refused(FORKED.to_owned()));
             }
         }
         let order = self.order(candidate, verification.content())?;
@@ -313,25 +315,33 @@ impl Run<'_> {
     }
 }
 
-impl Searched {
+impl Chains {
+    fn add(&mut self, superseded: Digest, follower: Follower) {
+        self.superseded.insert(follower.digest, superseded);
+        match self.followers.get_mut(&superseded) {
+            // A copy of the same file is one successor, not two.
+            Some(known) if known.digest == follower.digest => {}
+            // One that was withdrawn still supersedes, but leaves no doubt which of the two counts.
+            Some(known) if known.withdrawn => *known = follower,
+            Some(known) => known.forked |= !follower.withdrawn,
+            None => drop(self.followers.insert(superseded, follower)),
+        }
+    }
+
     /// Why a passport is not issued anew.
-    fn why_not(&self, sha256: &str, state: State, why: &str) -> Option<String> {
-        let follower = digest(sha256).and_then(|digest| self.chains.get(&digest));
-        match (state, follower) {
-            (State::Revoked, _) => Some(format!("revoked: {why}")),
+    fn why_not(&self, line: &Line) -> Option<String> {
+        let follower = digest(&line.sha256).and_then(|digest| self.followers.get(&digest));
+        match (line.state, follower) {
+            (State::Revoked, _) => Some(format!("revoked: {}", line.why)),
             (State::InForce | State::Expiring | State::Expired, Some(by)) => Some(format!("superseded by {}", by.id)),
             _ => None,
         }
     }
 
-    /// Words, when another passport supersedes the same one as this does.
-    fn forked(&self, superseded: &str) -> Option<String> {
-        let follower = digest(superseded).and_then(|digest| self.chains.get(&digest))?;
-        follower.forked.then(|| {
-            "is one of several that supersede the same passport: `register` names them; which of them counts, \
-             `revoke` of the others says"
-                .to_owned()
-        })
+    /// Whether a passport comes from one that several supersede.
+    fn forked(&self, superseded: &str) -> bool {
+        let ancestors = std::iter::successors(digest(superseded), |digest| self.superseded.get(digest).copied());
+        ancestors.filter_map(|digest| self.followers.get(&digest)).any(|follower| follower.forked)
     }
 }
 

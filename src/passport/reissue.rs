@@ -47,7 +47,7 @@ pub enum ReissueRefused {
     /// Its signature no longer counts, and the factory's files were not given.
     #[error(
         "the old passport can only be named, not used ({check}: {detail}); \
-         give the factory's own files with --stand and --site"
+         give the factory's own files with --stand and --site (of many passports: --sites)"
     )]
     NeedsFactoryFiles {
         /// The check that failed.

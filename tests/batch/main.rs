@@ -5,4 +5,5 @@
 mod tools;
 
 mod inputs;
+mod successors;
 mod workshop;

@@ -1,0 +1,215 @@
+//! Passports of a whole folder issued anew: those that a change concerns, and no others.
+
+use crate::workshop::{SIGN, Workshop, snapshot};
+use std::collections::BTreeSet;
+use std::fs;
+
+/// A month later.
+const ANEW: &str =
+    "--key key --identity factory --trust allowed_signers --time 2026-12-01 --issued-at 2026-12-01 --format csv";
+
+/// Two stands at five sites, revision 1 of each.
+fn issued() -> Workshop {
+    let workshop = Workshop::new(2, 5);
+    workshop.run(&format!("issue stands --site sites {SIGN}"), 0);
+    workshop
+}
+
+/// A new certificate of a stand, in a folder of its own.
+fn certified_again(workshop: &Workshop, stand: &str, number: &str) {
+    let text = fs::read_to_string(workshop.path(&format!("stands/{stand}/stand.yaml"))).unwrap();
+    let text = text.replace("C-2026-0142", number).replace("alpha_arcsec: 12.4", "alpha_arcsec: 12.9");
+    workshop.write(&format!("new/{stand}/stand.yaml"), &text);
+}
+
+fn ids(stand: &str, sites: &[u32], revision: u32) -> BTreeSet<String> {
+    sites.iter().map(|site| format!("SPS-2/{stand}/site-{site:05}/{revision}")).collect()
+}
+
+const ALL: [u32; 5] = [0, 1, 2, 3, 4];
+
+#[test]
+fn a_new_certificate_re_issues_all_that_hangs_on_it_once() {
+    let workshop = issued();
+    certified_again(&workshop, "0001", "C-2027-0001");
+    let before = snapshot(&workshop.path("passports"));
+    let again = format!("reissue passports --stand new/0001/stand.yaml --reason recertified {ANEW}");
+    let said = workshop.run(&format!("{again} --dry-run"), 0);
+    assert_eq!(said.ids("planned"), ids("0001", &ALL, 2));
+    assert_eq!(snapshot(&workshop.path("passports")), before);
+    let said = workshop.run(&again, 0);
+    assert_eq!((said.ids("issued"), said.results.lines().count()), (ids("0001", &ALL, 2), 6));
+    assert_eq!(workshop.sound("passports").len(), 15);
+    let after = snapshot(&workshop.path("passports"));
+    assert!(before.is_subset(&after));
+    // Nothing hangs on the old certificate any more.
+    let said = workshop.run(&again, 0);
+    assert_eq!(said.ids("unchanged"), ids("0001", &ALL, 2));
+    assert_eq!(said.ids("skipped"), ids("0001", &ALL, 1));
+    assert_eq!(snapshot(&workshop.path("passports")), after);
+    // The folder of all stands, of which one has changed once more.
+    certified_again(&workshop, "0001", "C-2027-0002");
+    fs::rename(workshop.path("new/0001/stand.yaml"), workshop.path("stands/0001/stand.yaml")).unwrap();
+    let said = workshop.run(&format!("reissue passports --stand stands --reason corrected {ANEW}"), 0);
+    assert_eq!(said.ids("issued"), ids("0001", &ALL, 3));
+    assert_eq!(said.ids("unchanged"), ids("0000", &ALL, 1));
+    let text = fs::read_to_string(workshop.path("passports/SPS-2/0001/site-00002-3.yaml")).unwrap();
+    assert!(text.contains("    id: \"SPS-2/0001/site-00002/2\"\n") && text.contains("C-2027-0002"), "{text}");
+}
+
+#[test]
+fn without_files_all_is_issued_anew_once_for_a_reason() {
+    let workshop = issued();
+    let everything: BTreeSet<String> = ids("0000", &ALL, 2).into_iter().chain(ids("0001", &ALL, 2)).collect();
+    let said = workshop.run(&format!("reissue passports --reason rotated {ANEW}"), 0);
+    assert_eq!(said.ids("issued"), everything);
+    let said = workshop.run(&format!("reissue passports --reason rotated {ANEW}"), 0);
+    assert_eq!(said.ids("unchanged"), everything);
+    let said = workshop.run(&format!("reissue passports/SPS-2/0000 --reason otherwise {ANEW}"), 0);
+    assert_eq!(said.ids("issued"), ids("0000", &ALL, 3));
+    assert_eq!(workshop.sound("passports").len(), 25);
+}
+
+#[test]
+fn parts_of_a_folder_are_disjoint_and_complete() {
+    let workshop = issued();
+    let mut together = BTreeSet::new();
+    for part in ["2/2", "1/2"] {
+        let said = workshop.run(&format!("reissue passports --reason rotated --shard {part} {ANEW}"), 0);
+        let issued = said.ids("issued");
+        assert!(!issued.is_empty() && together.is_disjoint(&issued));
+        together.extend(issued);
+    }
+    assert_eq!(together.len(), 10);
+    assert_eq!(workshop.sound("passports").len(), 20);
+}
+
+#[test]
+fn what_has_expired_is_issued_anew_with_the_factorys_files() {
+    let workshop = issued();
+    let text = fs::read_to_string(workshop.path("stands/0000/stand.yaml")).unwrap();
+    let text = text
+        .replace("2028-11-01", "2030-11-01")
+        .replace("2026-11-02", "2028-11-02")
+        .replace("2026-10-29", "2028-10-29");
+    workshop.write("new.yaml", &text);
+    let later = ANEW.replace("2026-12-01", "2028-11-03");
+    let said = workshop.run(&format!("reissue passports --stand new.yaml --reason recertified {later}"), 1);
+    assert_eq!(said.ids("refused").len(), 5);
+    assert!(said.words.contains("--sites"), "{}", said.words);
+    fs::remove_file(workshop.path("sites/site-00003.yaml")).unwrap();
+    let with_sites = format!("reissue passports --stand new.yaml --sites sites --reason recertified {later}");
+    let said = workshop.run(&with_sites, 1);
+    assert_eq!(said.ids("issued"), ids("0000", &[0, 1, 2, 4], 2));
+    assert_eq!(said.ids("refused"), BTreeSet::from(["passports/SPS-2/0000/site-00003-1.yaml".to_owned()]));
+}
+
+#[test]
+fn a_site_file_that_cannot_be_read_lets_nothing_be_issued_with_old_numbers() {
+    let workshop = issued();
+    let text = fs::read_to_string(workshop.path("sites/site-00002.yaml")).unwrap();
+    workshop.write("sites/site-00002.yaml", &text.replace("height_m: 150.0", "height_m: 151.0"));
+    workshop.write("sites/site-00003.yaml", "rubbish\n");
+    let said = workshop.run(&format!("reissue passports --sites sites --reason surveyed {ANEW}"), 2);
+    let corrected: BTreeSet<String> = ["0000", "0001"].iter().flat_map(|stand| ids(stand, &[2], 2)).collect();
+    assert_eq!(said.ids("issued"), corrected);
+    assert_eq!(said.ids("unchanged").len(), 6);
+    assert_eq!(said.ids("refused").len(), 3);
+    // The same with a stand: no passport is issued anew with the old one's numbers.
+    workshop.write("bad.yaml", "rubbish\n");
+    let named = "passports/SPS-2/0000/site-00001-1.yaml";
+    let said = workshop.run(&format!("reissue {named} --stand bad.yaml --reason recertified {ANEW}"), 2);
+    assert_eq!(said.ids("refused"), BTreeSet::from(["bad.yaml".to_owned(), named.to_owned()]));
+    assert!(said.words.contains("no stand file is of SPS-2/0000"), "{}", said.words);
+}
+
+#[test]
+fn withdrawn_passports_are_skipped_and_uncertain_lists_stop_the_folder() {
+    let workshop = issued();
+    let revoke = "revoke SPS-2/0000/site-00001/1 --list passports --reason wrong --key key --identity factory";
+    workshop.run(&format!("{revoke} --trust allowed_signers"), 0);
+    let anew = ANEW.replace("2026-12-01", "2027-12-01");
+    let said = workshop.run(&format!("reissue passports --reason rotated {anew}"), 0);
+    assert_eq!(said.ids("skipped"), ids("0000", &[1], 1));
+    assert_eq!(said.ids("issued").len(), 9);
+    // The first list is missing.
+    let revoke = revoke.replace("site-00001", "site-00002");
+    workshop.run(&format!("{revoke} --trust allowed_signers"), 0);
+    fs::remove_file(workshop.path("passports/revocation-1.yaml")).unwrap();
+    let before = snapshot(&workshop.path("passports"));
+    let said = workshop.run(&format!("reissue passports --reason otherwise {anew}"), 1);
+    assert!(said.words.starts_with("dtg-passport: passports: what was withdrawn is not certain: "), "{}", said.words);
+    assert_eq!(snapshot(&workshop.path("passports")), before);
+}
+
+#[test]
+fn of_a_fork_neither_branch_goes_on_until_one_is_withdrawn() {
+    let workshop = issued();
+    let old = "passports/SPS-2/0000/site-00000-1.yaml";
+    workshop.run(&format!("reissue {old} --reason one {ANEW}"), 0);
+    workshop.run(&format!("reissue {old} --reason other --out elsewhere {ANEW}"), 0);
+    workshop.run(&format!("reissue elsewhere/SPS-2/0000/site-00000-2.yaml --reason another --out passports {ANEW}"), 0);
+    // Restored from a copy that had gone its own way: two passports supersede the first one.
+    fs::create_dir_all(workshop.path("passports/restored/SPS-2/0000")).unwrap();
+    let other = "SPS-2/0000/site-00000-2.yaml";
+    fs::rename(workshop.path("elsewhere").join(other), workshop.path("passports/restored").join(other)).unwrap();
+    let said = workshop.run(&format!("reissue passports --reason rotated {ANEW}"), 1);
+    assert_eq!(said.ids("issued").len(), 9);
+    let [one, another] = [2, 3].map(|revision| format!("passports/SPS-2/0000/site-00000-{revision}.yaml"));
+    assert_eq!(said.ids("refused"), [one.clone(), another].into());
+    assert!(said.words.contains("comes from a passport that several supersede"), "{}", said.words);
+    let revoke = "--list passports --reason wrong --key key --identity factory --trust allowed_signers";
+    workshop.run(&format!("revoke {one} {revoke} --time 2027-01-01"), 0);
+    let anew = ANEW.replace("2026-12-01", "2027-12-01");
+    let said = workshop.run(&format!("reissue passports --reason rotated {anew}"), 0);
+    assert_eq!(said.ids("issued"), ids("0000", &[0], 4));
+}
+
+#[test]
+fn what_is_broken_or_misplaced_or_a_link_is_refused_and_the_rest_goes_on() {
+    let workshop = issued();
+    let (folder, other) = (workshop.path("passports/SPS-2/0000"), workshop.path("passports/SPS-2/0001"));
+    let text = fs::read_to_string(folder.join("site-00000-1.yaml")).unwrap();
+    fs::write(folder.join("site-00000-1.yaml"), text.replace("12.4", "12.6")).unwrap();
+    fs::rename(folder.join("site-00001-1.yaml"), other.join("site-00009-1.yaml")).unwrap();
+    fs::rename(folder.join("site-00002-1.yaml"), workshop.path("site-00002-1.yaml")).unwrap();
+    std::os::unix::fs::symlink(workshop.path("site-00002-1.yaml"), folder.join("site-00002-1.yaml")).unwrap();
+    fs::write(folder.join("site-00003-1.yaml"), vec![b'#'; 2 << 20]).unwrap();
+    let said = workshop.run(&format!("reissue passports --reason rotated {ANEW}"), 1);
+    let refused = ["0000/site-00000", "0000/site-00002", "0000/site-00003", "0001/site-00009"];
+    assert_eq!(said.ids("refused"), refused.map(|file| format!("passports/SPS-2/{file}-1.yaml")).into());
+    for words in ["does not hold (signature", "SPS-2/0000/site-00001/1 belongs into", "is a link", "more than 1048576"]
+    {
+        assert!(said.words.contains(words), "{words}: {}", said.words);
+    }
+    let due: BTreeSet<String> = ids("0000", &[4], 2).into_iter().chain(ids("0001", &ALL, 2)).collect();
+    assert_eq!(said.ids("issued"), due);
+}
+
+#[test]
+fn several_that_move_to_one_site_follow_each_other_in_order() {
+    let workshop = issued();
+    workshop.write("hall.yaml", &crate::workshop::site("hall", 70_000));
+    let said = workshop.run(&format!("reissue passports/SPS-2/0000 --site hall.yaml --reason moved --moved {ANEW}"), 0);
+    let rows: Vec<&str> = said.results.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
+    let due: Vec<String> = (1..=5).map(|revision| format!("SPS-2/0000/hall/{revision}")).collect();
+    assert_eq!(rows, due);
+    for revision in 1..=5 {
+        let text = fs::read_to_string(workshop.path(&format!("passports/SPS-2/0000/hall-{revision}.yaml"))).unwrap();
+        assert!(text.contains(&format!("    id: \"SPS-2/0000/site-{:05}/1\"\n", revision - 1)), "{revision}");
+    }
+    // Only the last is in force at the end, for each names another passport: the same command again adds nothing.
+    let before = snapshot(&workshop.path("passports"));
+    let said = workshop.run(&format!("reissue passports/SPS-2/0000 --site hall.yaml --reason moved {ANEW}"), 0);
+    assert_eq!((said.ids("skipped"), said.ids("unchanged").len()), (ids("0000", &ALL, 1), 5));
+    assert_eq!(snapshot(&workshop.path("passports")), before);
+}
+
+#[test]
+fn passports_by_pattern_are_named_ones() {
+    let workshop = issued();
+    let said = workshop.run(&format!("reissue passports/SPS-2/*/site-00001-?.yaml --reason rotated {ANEW}"), 0);
+    assert_eq!(said.ids("issued").len(), 2);
+    let said = workshop.run(&format!("reissue passports/SPS-2/000[01] --reason rotated {ANEW}"), 0);
+    assert_eq!((said.ids("issued").len(), said.ids("unchanged").len(), said.ids("skipped").len()), (8, 2, 2));
+}
