@@ -17,7 +17,7 @@ use dtg_passport::report::passport_table;
 use dtg_passport::revocation::{REVOCATION_NAMESPACE, RevocationList};
 use dtg_passport::site::{SITE_FORMAT, Site, SiteFile};
 use dtg_passport::stand::Stand;
-use dtg_passport::text::{Field, Unreadable, rule};
+use dtg_passport::text::{Field, Unreadable, canonical, rule};
 use dtg_passport::trust::{AllowedSigners, PublicKey, RevokedKeys, Signature, SigningKey};
 use peak_alloc::PeakAlloc;
 use std::fmt::Debug;
@@ -114,16 +114,16 @@ fn document<T: Field + PartialEq + Debug>(bytes: &[u8], from_yaml: fn(&str, &[u8
         Ok(value) => value,
         Err(error) => return refused(&error, bytes),
     };
-    let text = canonical(&value);
+    let text = written(&value);
     rule::check("written", text.as_bytes()).expect("what is written obeys the text rule");
     let again = from_yaml("written", text.as_bytes()).expect("what is written is read");
     assert_eq!(again, value);
-    assert_eq!(canonical(&again), text);
+    assert_eq!(written(&again), text);
     true
 }
 
-fn canonical<T: Field>(value: &T) -> String {
-    rule::write(&value.write().expect("a document is a mapping"), &rule::no_comments)
+fn written<T: Field>(value: &T) -> String {
+    canonical::write(value, &canonical::no_comments)
 }
 
 fn stand(bytes: &[u8]) -> bool {
@@ -187,7 +187,7 @@ fn content(bytes: &[u8]) -> bool {
         Ok(content) => content,
         Err(error) => return refused(&error, payload.as_bytes()),
     };
-    assert_eq!(rule::differs(payload, &canonical(&content)), None);
+    assert_eq!(rule::differs(payload, &written(&content)), None);
     let written = annotations::payload(&content);
     assert_eq!(read::content("written", &written).as_ref(), Ok(&content));
     assert!(!passport_table::text(&content, false).is_empty());
@@ -218,7 +218,7 @@ fn signed(bytes: &[u8]) -> bool {
     let file = join(payload, &BENCH.key.sign(NAMESPACE, payload.as_bytes()).unwrap());
     let answer = verify("f", file.as_bytes(), &BENCH.trust, &BENCH.question);
     let Some(passport) = answer.passport() else { return false };
-    assert_eq!(rule::differs(payload, &canonical(passport.content())), None);
+    assert_eq!(rule::differs(payload, &written(passport.content())), None);
     true
 }
 
@@ -235,7 +235,7 @@ fn revocation(bytes: &[u8]) -> bool {
             return false;
         }
     };
-    assert_eq!(rule::differs(payload, &canonical(&list)), None);
+    assert_eq!(rule::differs(payload, &written(&list)), None);
     let again = list.sign(key).unwrap();
     assert_eq!(verify(&again).as_ref(), Ok(&list));
     assert_eq!(list.sign(key).unwrap(), again);
