@@ -33,7 +33,7 @@ pub fn normal_below(x: f64) -> f64 {
 
 /// The `x` below which a standard normal variable is with the given probability; infinite at 0 and 1, NaN outside.
 ///
-/// By bisection of [`normal_below`], which never decreases: it is called once a result.
+/// By bisection: it is called once a result.
 pub fn normal_quantile(probability: f64) -> f64 {
     if probability > 0.5 {
         return -normal_quantile(1.0 - probability);
@@ -44,14 +44,22 @@ pub fn normal_quantile(probability: f64) -> f64 {
     if probability == 0.0 {
         return f64::NEG_INFINITY;
     }
-    // Below -39 there is nothing but zero in binary64.
-    let (mut low, mut high) = (-40.0, 0.0);
+    -falling_root(|x| normal_below(-x), probability)
+}
+
+/// The x ≥ 0 where `falling`, which never increases, has fallen to `level`, by bisection.
+pub(crate) fn falling_root(falling: impl Fn(f64) -> f64, level: f64) -> f64 {
+    let mut high = 1.0;
+    while falling(high) > level && high < f64::MAX / 2.0 {
+        high *= 2.0;
+    }
+    let mut low = 0.0;
     loop {
         let middle = 0.5 * (low + high);
         if middle <= low || middle >= high {
             return high;
         }
-        if normal_below(middle) < probability {
+        if falling(middle) > level {
             low = middle;
         } else {
             high = middle;
