@@ -78,6 +78,17 @@ impl Cause {
         }
     }
 
+    /// Whether both are of the same [kind](Self::kind).
+    pub fn is_alike(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Angle(..), Self::Angle(..))
+            | (Self::Return(..), Self::Return(..))
+            | (Self::Reading(..), Self::Reading(..))
+            | (Self::Floor(..), Self::Floor(..)) => true,
+            (one, other) => one == other,
+        }
+    }
+
     /// Who states it, and under which key.
     pub fn source(self) -> &'static str {
         match self {

@@ -119,9 +119,8 @@ fn of_parameter(parameter: Parameter, value: f64, inputs: &[Input], spread: &DMa
     let variance: f64 = changes.iter().map(|change| change * change).sum();
     let mut contributions: Vec<Contribution> = Vec::new();
     for (input, change) in inputs.iter().zip(&changes) {
-        let kind = input.cause.kind();
         let u = input.standard_uncertainty;
-        match contributions.iter_mut().find(|line| line.cause.kind() == kind) {
+        match contributions.iter_mut().find(|line| line.cause.is_alike(input.cause)) {
             Some(line) => {
                 line.inputs += 1;
                 line.standard_uncertainty = [line.standard_uncertainty[0].min(u), line.standard_uncertainty[1].max(u)];
