@@ -1,12 +1,16 @@
-//! Time of one calibration by all three methods: `cargo run --release --example calibration_time`.
+//! Time of one calibration by all three methods, and of first order on top of it (budget of all parameters with covariance,
+//! degrees of freedom and coverage factors; covariance of a passport's own numbers):
+//! `cargo run --release --example calibration_time`.
 
-use dtg_passport::calibration::{InputUncertainty, Options, Readings, Setup, calibrate};
+use dtg_passport::calibration::{InputUncertainty, Method, Options, Readings, Setup, calibrate};
 use dtg_passport::coefficients::{EarthRate, PositionIndex};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::simulation::accuracy::PAPER_LATITUDE_DEG;
 use dtg_passport::simulation::draw::{self, CurrentError, Deviations};
 use dtg_passport::statistics::random::Stream;
+use dtg_passport::uncertainty::Budget;
+use dtg_passport::uncertainty::entries::EntryUncertainty;
 use dtg_passport::units::radians_from_arcseconds;
 use nalgebra::Vector2;
 use std::hint::black_box;
@@ -21,6 +25,7 @@ fn main() {
     let arcsec = radians_from_arcseconds;
     let uncertainty = InputUncertainty {
         angles_rad: vec![[arcsec(1.5); 3]; 8],
+        angles_degrees_of_freedom: vec![8.0; 8],
         repeatability_rad: arcsec(1.5),
         common_platform_rad: arcsec(0.8),
         common_base_rad: arcsec(0.8),
@@ -39,11 +44,23 @@ fn main() {
     let each: Vec<(PositionIndex, Vector2<f64>)> = positions.iter().map(|at| at.index).zip(currents).collect();
     let Ok(readings) = Readings::new(setup.coefficients(), &each) else { return };
     for _ in 0..5 {
-        let start = Instant::now();
-        for _ in 0..CALIBRATIONS {
-            let found = calibrate(black_box(&setup), black_box(&readings), &Options::default());
-            assert!(black_box(found).is_ok_and(|found| found.results.len() == 3));
-        }
-        println!("{:.1} us for one calibration", start.elapsed().as_secs_f64() * 1e6 / f64::from(CALIBRATIONS));
+        let one =
+            time(CALIBRATIONS, || calibrate(&setup, &readings, &Options::default()).map(|found| found.results.len()));
+        let of_parameters = time(CALIBRATIONS / 10, || {
+            Budget::new(&setup, &readings, Method::LeastSquares, false).map(|budget| budget.covariance())
+        });
+        let of_entries = time(CALIBRATIONS / 10, || EntryUncertainty::new(&setup).covariance());
+        println!(
+            "{one:.1} us for one calibration; first order: {of_parameters:.0} us for a budget, {of_entries:.0} us for a passport's numbers"
+        );
     }
+}
+
+/// Microseconds of each of `count` runs.
+fn time<T>(count: u32, work: impl Fn() -> T) -> f64 {
+    let start = Instant::now();
+    for _ in 0..count {
+        black_box(work());
+    }
+    start.elapsed().as_secs_f64() * 1e6 / f64::from(count)
 }

@@ -3,8 +3,8 @@
 
 use crate::calibration::least_squares::NoLeastSquares;
 use crate::calibration::parameter::Parameter;
-use crate::calibration::{self, Options, Readings, Setup};
-use crate::coefficients::{PositionIndex, SingularPositions};
+use crate::calibration::{self, NoSetup, Options, Readings, Setup};
+use crate::coefficients::PositionIndex;
 use crate::earth::Place;
 use crate::files::{self, Access, FileError};
 use crate::folder::{Folder, FolderRefused, Issued, Seal};
@@ -60,7 +60,7 @@ pub enum Stopped {
     Refused,
     /// The stand's positions determine no gyro.
     #[error(transparent)]
-    Singular(#[from] SingularPositions),
+    Setup(#[from] NoSetup),
     /// Nor do its currents.
     #[error(transparent)]
     Calibration(#[from] NoLeastSquares),

@@ -295,6 +295,15 @@ impl Site {
         Some(earth::astronomic_azimuth(mark.pillar(), mark.mark(), laplace, mark.position_u_m))
     }
 
+    /// Standard uncertainty of the gravity of [`Site::earth`]: as measured, or that of normal gravity; `None` where it was
+    /// measured and that is not stated.
+    pub fn gravity_u_m_per_s2(&self) -> Option<f64> {
+        match self.gravity_m_per_s2 {
+            Some(_) => self.gravity_u_m_per_s2,
+            None => Some(earth::NORMAL_GRAVITY_U_M_PER_S2),
+        }
+    }
+
     /// 1/cos Φ: how many times K's uncertainty is what it would be at the equator.
     pub fn uncertainty_growth(&self) -> f64 {
         1.0 / sin_cos_of_degrees(self.astronomic_deg()).1

@@ -5,7 +5,8 @@ mod support;
 use dtg_passport::calibration::document::CalibrationDocument;
 use dtg_passport::calibration::stated::Stated;
 use dtg_passport::calibration::verdict::{Decision, Found, against_earlier, against_type, change_in_uncertainties};
-use dtg_passport::calibration::{Options, Setup, calibrate};
+use dtg_passport::calibration::{InputUncertainty, Options, Setup, calibrate};
+use dtg_passport::coefficients::EarthRate;
 use dtg_passport::gyro::{GyroParameters, GyroType};
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::site::Site;
@@ -18,7 +19,12 @@ const G: f64 = 9.80665;
 fn found(change: impl Fn(&mut [f64; 8]), u: [f64; 8]) -> Found {
     let mut values = gvk_6().to_vector();
     change(&mut values);
-    Found { parameters: GyroParameters::from_vector(&values), standard_uncertainty: u, gravity_m_per_s2: G }
+    Found {
+        parameters: GyroParameters::from_vector(&values),
+        standard_uncertainty: u,
+        gravity_m_per_s2: G,
+        gravity_u_m_per_s2: 0.0,
+    }
 }
 
 const SMALL: [f64; 8] = [0.005, 0.01, 0.01, 0.005, 0.002, 0.002, 0.002, 0.002];
@@ -68,6 +74,46 @@ fn drifts_are_brought_to_the_types_gravity() {
     assert_eq!(verdict.parameters[7].guarded, Decision::Fail);
 }
 
+/// Expected by hand: 10 °/h/g under a g known to 0.005 of 10 m/s² adds 0.005; a change under the same g does not see it,
+/// one under another g does, twice.
+#[test]
+fn what_is_known_of_gravity_enters_with_the_types_g() {
+    let at = |gravity_m_per_s2: f64| Found { gravity_m_per_s2, gravity_u_m_per_s2: 0.005, ..found(|_| {}, SMALL) };
+    let gyro = GyroType { gravity_m_per_s2: Some(10.0), ..GyroType::gvk_6() };
+    let expanded = |one: &Found, earlier: Option<&Found>| {
+        let verdict = earlier.map_or_else(|| against_type(one, &gyro), |earlier| against_earlier(one, earlier, &gyro));
+        verdict.parameters[6].expanded_uncertainty
+    };
+    let squares = |squares: f64| 2.0 * squares.sqrt();
+    assert!((expanded(&at(10.0), None) - squares(0.002_f64.powi(2) + 0.005_f64.powi(2))).abs() < 1e-12);
+    assert!((expanded(&at(10.0), Some(&at(10.0))) - squares(2.0 * 0.002_f64.powi(2))).abs() < 1e-12);
+    let elsewhere = Found { gravity_m_per_s2: 10.000_000_1, ..at(10.0) };
+    let due = squares(2.0 * (0.002_f64.powi(2) + 0.005_f64.powi(2)));
+    assert!((expanded(&at(10.0), Some(&elsewhere)) - due).abs() < 1e-9);
+}
+
+/// A standard uncertainty that is negative or no number, and degrees of freedom that are none, are refused by name.
+#[test]
+fn uncertainties_that_are_none_are_refused() {
+    type Change = fn(&mut InputUncertainty);
+    let cases: [(Change, &str); 5] = [
+        (|u| u.angles_rad[3][1] = -1e-6, "certified angle is -0.000001"),
+        (|u| u.level_rad = f64::NAN, "the level is NaN"),
+        (|u| u.meter.gain = f64::INFINITY, "the meter's gain is inf"),
+        (|u| u.angles_degrees_of_freedom[0] = 0.0, "degrees of freedom of a certified angle are 0"),
+        (|u| u.repeatability_degrees_of_freedom = f64::NAN, "degrees of freedom of the returns are NaN"),
+    ];
+    for (change, words) in cases {
+        let mut uncertainty = InputUncertainty::of_meter(paper_meter());
+        uncertainty.angles_rad = vec![[1e-6; 3]; 8];
+        uncertainty.angles_degrees_of_freedom = vec![4.0; 8];
+        change(&mut uncertainty);
+        let refused = Setup::new(&eight([[0.0; 3]; 8]), EarthRate::at_astronomic_latitude(50.0), uncertainty);
+        let said = refused.unwrap_err().to_string();
+        assert!(said.contains(words), "{said}");
+    }
+}
+
 #[test]
 fn microamperes_and_earlier_results() {
     let thousand = found(|v| v[..4].iter_mut().for_each(|k| *k /= 1000.0), SMALL);
@@ -85,8 +131,9 @@ fn json_is_read_back() {
     let setup = setup(&eight([[1e-3; 3]; 8]), LATITUDE_DEG);
     let currents = currents(&setup, &gvk_6());
     let found = calibrate(&setup, &readings(&setup, &currents), &Options::default()).unwrap();
-    let mut document = CalibrationDocument::new("SPS-2/0017/moscow/1", true, 9.8156, &found, &["the latitude"]);
-    let answer = found.results.last().unwrap().found(9.8156);
+    let mut document =
+        CalibrationDocument::new("SPS-2/0017/moscow/1", true, (9.8156, Some(5e-4)), &found, &["the latitude"]);
+    let answer = found.results.last().unwrap().found(9.8156, 5e-4);
     document.verdict = Some(against_type(&answer, &GyroType::gvk_6()));
     let json = serde_json::to_string_pretty(&document).unwrap();
     for key in ["\"spectral_radius\"", "\"iterations\": 2", "\"least-squares\"", "\"guarded\": \"", "\"probability\""] {
@@ -134,4 +181,35 @@ fn inputs_as_stated() {
     assert_eq!(stated.uncertainty.level_rad, arcsec(5.0));
     let (setup, missing) = Setup::stated(&stand.certificate, &stand.positions, &site, &laboratory).unwrap();
     assert_eq!((setup.coefficients().positions.len(), missing.len()), (1, 2));
+}
+
+/// One part that is stated does not hide another that is not: latitude and deflection, base and mark, g.
+#[test]
+fn every_part_that_is_not_stated_is_named() {
+    let stand = Stand::from_yaml("stand.yaml", STAND.as_bytes()).unwrap();
+    let laboratory = Laboratory::paper();
+    let missing = |site: &str| {
+        let site = Site::from_yaml("moscow.yaml", site.as_bytes()).unwrap();
+        let missing = Stated::new(&stand.certificate, &stand.positions, &site, &laboratory).missing;
+        missing
+            .into_iter()
+            .filter(|what| !what.contains("common_base") && !what.contains("seating"))
+            .collect::<Vec<_>>()
+    };
+    let mark = "azimuth_mark: {name: \"m\", latitude_deg: 55.776, longitude_deg: 37.6856, pillar_latitude_deg: 55.7658, \
+                pillar_longitude_deg: 37.6856, position_u_m: 0.02}\n";
+    let [latitude, deflection, azimuth, of_mark, gravity] = [
+        "the latitude (latitude_arcsec)",
+        "the deflection of the vertical (deflection_arcsec.u)",
+        "the base's azimuth (azimuth_arcsec)",
+        "the azimuth of the mark (position_u_m, deflection_arcsec.u)",
+        "gravity (gravity_u_m_per_s2)",
+    ];
+    assert!(missing(SITE).is_empty());
+    assert_eq!(missing(&SITE.replace("latitude_arcsec: 1.0, ", "")), [latitude]);
+    assert_eq!(missing(&format!("{SITE}deflection_arcsec: {{xi: 1.0, eta: 2.0}}\n")), [deflection]);
+    assert_eq!(missing(&format!("{}{mark}", SITE.replace("azimuth_arcsec: 30.0, ", ""))), [azimuth]);
+    assert_eq!(missing(&format!("{SITE}{}", mark.replace(", position_u_m: 0.02", ""))), [of_mark]);
+    assert_eq!(missing(&format!("{SITE}gravity_m_per_s2: 9.8156\n")), [gravity]);
+    assert!(missing(&SITE.replace("latitude_deg", "astronomic_latitude_deg")).is_empty());
 }

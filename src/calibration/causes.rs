@@ -78,6 +78,17 @@ impl Cause {
         }
     }
 
+    /// Whether both are of the same [kind](Self::kind).
+    pub fn is_alike(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Angle(..), Self::Angle(..))
+            | (Self::Return(..), Self::Return(..))
+            | (Self::Reading(..), Self::Reading(..))
+            | (Self::Floor(..), Self::Floor(..)) => true,
+            (one, other) => one == other,
+        }
+    }
+
     /// Who states it, and under which key.
     pub fn source(self) -> &'static str {
         match self {
@@ -147,80 +158,103 @@ pub(crate) fn inputs(
     currents_ma: &[Vector2<f64>],
     repeats: &Repeats,
 ) -> (Vec<Input>, DMatrix<f64>) {
-    let mut list = Vec::new();
     let sensitivity = Sensitivity::new(setup, unknowns);
-    for (place, current_ma) in currents_ma.iter().enumerate() {
-        own(&sensitivity, setup, (place, current_ma), repeats, &mut list);
-    }
-    shared(&sensitivity, setup, currents_ma, &mut list);
-    list.retain(|(input, _)| input.standard_uncertainty > 0.0);
-    let mut columns = DMatrix::zeros(2 * currents_ma.len(), list.len());
-    for (column, (input, changes)) in list.iter().enumerate() {
-        for (place, change) in changes {
-            columns[(2 * place, column)] = change.x * input.standard_uncertainty;
-            columns[(2 * place + 1, column)] = change.y * input.standard_uncertainty;
+    let mut inputs = of_stand_and_site(setup);
+    inputs.extend(of_gyro_and_meter(setup, repeats));
+    let mut columns = DMatrix::zeros(2 * currents_ma.len(), inputs.len());
+    for (column, input) in inputs.iter().enumerate() {
+        for (place, current_ma) in currents_ma.iter().enumerate() {
+            let change = effect(&sensitivity, setup, (place, current_ma), input.cause) * input.standard_uncertainty;
+            columns[(2 * place, column)] = change.x;
+            columns[(2 * place + 1, column)] = change.y;
         }
     }
-    (list.into_iter().map(|(input, _)| input).collect(), columns)
+    (inputs, columns)
 }
 
-/// An input, and the changes of misclosures per unit of it with their places.
-type Effect = (Input, Vec<(usize, Vector2<f64>)>);
+/// Inputs with a positive uncertainty that stand and site bring, and with them the numbers of a passport.
+pub(crate) fn of_stand_and_site(setup: &Setup) -> Vec<Input> {
+    let u = setup.uncertainty();
+    let mut inputs = Vec::new();
+    for (place, at) in setup.coefficients().positions.iter().enumerate() {
+        let known = u.angles_degrees_of_freedom.get(place).copied().unwrap_or(f64::INFINITY);
+        let angles = u.angles_rad.get(place).copied().unwrap_or_default();
+        inputs.extend((0..3).filter_map(|angle| Input::new(Cause::Angle(at.index, angle), angles[angle], known)));
+    }
+    let known = |cause, u| Input::new(cause, u, f64::INFINITY);
+    inputs.extend((0..3).filter_map(|axis| known(Cause::Platform(axis), u.common_platform_rad)));
+    inputs.extend((0..3).filter_map(|axis| known(Cause::Base(axis), u.common_base_rad)));
+    let others = [
+        (Cause::Level(0), u.level_rad),
+        (Cause::Level(1), u.level_rad),
+        (Cause::Azimuth, u.azimuth_rad),
+        (Cause::Mark, u.mark_rad),
+        (Cause::Latitude, u.latitude_rad),
+        (Cause::Deflection, u.deflection_rad),
+    ];
+    inputs.extend(others.into_iter().filter_map(|(cause, u)| known(cause, u)));
+    inputs
+}
 
-const AXES: [fn() -> Vector3<f64>; 3] = [Vector3::x, Vector3::y, Vector3::z];
+/// Inputs with a positive uncertainty that a calibration adds: returns, seat, currents.
+fn of_gyro_and_meter(setup: &Setup, repeats: &Repeats) -> Vec<Input> {
+    let u = setup.uncertainty();
+    let mut inputs = Vec::new();
+    let enlarged = repeats.degrees_of_freedom;
+    for (at, count) in setup.coefficients().positions.iter().zip(&repeats.counts) {
+        let of_mean = (repeats.variance_factor / (*count).max(1) as f64).sqrt();
+        let known = u.repeatability_degrees_of_freedom.min(enlarged);
+        let of_return = u.repeatability_rad * of_mean;
+        inputs.extend((0..3).filter_map(|axis| Input::new(Cause::Return(at.index, axis), of_return, known)));
+        for axis in 0..2 {
+            inputs.extend(Input::new(Cause::Reading(at.index, axis), u.meter.reading * of_mean, enlarged));
+            inputs.extend(Input::new(Cause::Floor(at.index, axis), u.meter.floor_ma * of_mean, enlarged));
+        }
+    }
+    let known = |cause, u| Input::new(cause, u, f64::INFINITY);
+    inputs.extend((0..3).filter_map(|axis| known(Cause::Seat(axis), u.seating_rad[axis])));
+    inputs.extend(known(Cause::Gain, u.meter.gain));
+    inputs.extend(known(Cause::Offset, u.meter.offset_ma));
+    inputs
+}
 
-fn own(
+impl Input {
+    /// `None` where nothing is uncertain.
+    fn new(cause: Cause, standard_uncertainty: f64, degrees_of_freedom: f64) -> Option<Self> {
+        (standard_uncertainty > 0.0).then_some(Self { cause, standard_uncertainty, degrees_of_freedom })
+    }
+}
+
+/// The unit vector of an axis.
+pub(crate) fn unit_vector(axis: usize) -> Vector3<f64> {
+    Vector3::from_fn(|row, _| if row == axis { 1.0 } else { 0.0 })
+}
+
+/// The change of the misclosure of a position per unit of a cause.
+fn effect(
     sensitivity: &Sensitivity,
     setup: &Setup,
     (place, current_ma): (usize, &Vector2<f64>),
-    repeats: &Repeats,
-    list: &mut Vec<Effect>,
-) {
-    let uncertainty = setup.uncertainty();
-    let index = setup.coefficients().positions[place].index;
-    let mut add = |cause, standard_uncertainty, degrees_of_freedom, change| {
-        list.push((Input { cause, standard_uncertainty, degrees_of_freedom }, vec![(place, change)]));
-    };
-    let angles = uncertainty.angles_rad.get(place).copied().unwrap_or_default();
-    let known = uncertainty.angles_degrees_of_freedom.get(place).copied().unwrap_or(f64::INFINITY);
-    for (angle, u) in angles.into_iter().enumerate() {
-        let change = sensitivity.to_case_turn(place, &setup.turns()[place].axes[angle]);
-        add(Cause::Angle(index, angle), u, known, change);
+    cause: Cause,
+) -> Vector2<f64> {
+    let here = setup.coefficients().positions[place].index;
+    let column = |axis: usize| -sensitivity.k_deg_per_h_per_ma().column(axis).into_owned();
+    let shared = |input: Shared| sensitivity.to_shared(place, current_ma, &input);
+    match cause {
+        Cause::Angle(index, _) | Cause::Return(index, _) | Cause::Reading(index, _) | Cause::Floor(index, _)
+            if index != here =>
+        {
+            Vector2::zeros()
+        }
+        Cause::Angle(_, angle) => sensitivity.to_case_turn(place, &setup.turns()[place].axes[angle]),
+        Cause::Return(_, axis) => sensitivity.to_case_turn(place, &unit_vector(axis)),
+        Cause::Reading(_, axis) => column(axis) * current_ma[axis],
+        Cause::Floor(_, axis) => column(axis),
+        Cause::Platform(axis) | Cause::Seat(axis) => shared(Shared::Case(unit_vector(axis))),
+        Cause::Base(axis) | Cause::Level(axis) => shared(Shared::Base(unit_vector(axis))),
+        Cause::Azimuth | Cause::Mark => shared(Shared::Base(Vector3::z())),
+        Cause::Latitude | Cause::Deflection => shared(Shared::Latitude),
+        Cause::Gain => shared(Shared::Gain),
+        Cause::Offset => shared(Shared::Offset),
     }
-    let of_mean = (repeats.variance_factor / repeats.counts[place].max(1) as f64).sqrt();
-    let enlarged = repeats.degrees_of_freedom;
-    for (axis, vector) in AXES.iter().enumerate() {
-        let known = uncertainty.repeatability_degrees_of_freedom.min(enlarged);
-        let u = uncertainty.repeatability_rad * of_mean;
-        add(Cause::Return(index, axis), u, known, sensitivity.to_case_turn(place, &vector()));
-    }
-    let k = sensitivity.k_deg_per_h_per_ma();
-    let meter = &uncertainty.meter;
-    for axis in 0..2 {
-        let change = -k.column(axis).into_owned();
-        add(Cause::Reading(index, axis), meter.reading * of_mean, enlarged, change * current_ma[axis]);
-        add(Cause::Floor(index, axis), meter.floor_ma * of_mean, enlarged, change);
-    }
-}
-
-fn shared(sensitivity: &Sensitivity, setup: &Setup, currents_ma: &[Vector2<f64>], list: &mut Vec<Effect>) {
-    let u = setup.uncertainty();
-    let mut add = |cause, standard_uncertainty, input: Shared| {
-        let each = currents_ma.iter().enumerate();
-        let changes = each.map(|(place, current)| (place, sensitivity.to_shared(place, current, &input))).collect();
-        list.push((Input { cause, standard_uncertainty, degrees_of_freedom: f64::INFINITY }, changes));
-    };
-    for (axis, vector) in AXES.iter().enumerate() {
-        add(Cause::Platform(axis), u.common_platform_rad, Shared::Case(vector()));
-        add(Cause::Seat(axis), u.seating_rad[axis], Shared::Case(vector()));
-        add(Cause::Base(axis), u.common_base_rad, Shared::Base(vector()));
-    }
-    add(Cause::Level(0), u.level_rad, Shared::Base(Vector3::x()));
-    add(Cause::Level(1), u.level_rad, Shared::Base(Vector3::y()));
-    add(Cause::Azimuth, u.azimuth_rad, Shared::Base(Vector3::z()));
-    add(Cause::Mark, u.mark_rad, Shared::Base(Vector3::z()));
-    add(Cause::Latitude, u.latitude_rad, Shared::Latitude);
-    add(Cause::Deflection, u.deflection_rad, Shared::Latitude);
-    add(Cause::Gain, u.meter.gain, Shared::Gain);
-    add(Cause::Offset, u.meter.offset_ma, Shared::Offset);
 }

@@ -2,8 +2,9 @@
 
 use super::inputs::Setup;
 use super::least_squares::Fit;
-use super::procedure::{ChiSquare, Data};
+use super::procedure::Data;
 use super::propagation;
+use super::result::ChiSquare;
 use super::sensitivity::Sensitivity;
 use crate::coefficients::PositionIndex;
 use crate::units::arcseconds_from_radians;

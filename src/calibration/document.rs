@@ -2,7 +2,7 @@
 
 use super::iterative::LARGEST_NUMBER_OF_STEPS;
 use super::parameter::Parameter;
-use super::procedure::{Calibration, MethodResult};
+use super::result::{Calibration, MethodResult};
 use super::verdict::{Found, Verdict};
 use crate::gyro::GyroParameters;
 use crate::text::Unreadable;
@@ -21,6 +21,9 @@ pub struct CalibrationDocument {
     pub passport_verified: bool,
     /// The g that drifts are stated for.
     pub gravity_m_per_s2: f64,
+    /// Its standard uncertainty; absent where it is not stated.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub gravity_u_m_per_s2: Option<f64>,
     /// One for each method.
     pub results: Vec<ResultDocument>,
     /// What certificate, site and laboratory do not state: the uncertainties are without it.
@@ -159,13 +162,13 @@ fn left_aside_whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D:
 }
 
 impl CalibrationDocument {
-    /// Of a calibration with the passport `passport_id`; `not_stated` is what [`Setup::stated`] did not find.
+    /// Of a calibration with the passport `passport_id` under a local g with its uncertainty; `not_stated` is what [`Setup::stated`] did not find.
     ///
     /// [`Setup::stated`]: super::inputs::Setup::stated
     pub fn new(
         passport_id: &str,
         passport_verified: bool,
-        gravity_m_per_s2: f64,
+        (gravity_m_per_s2, gravity_u_m_per_s2): (f64, Option<f64>),
         calibration: &Calibration,
         not_stated: &[&str],
     ) -> Self {
@@ -173,6 +176,7 @@ impl CalibrationDocument {
             passport_id: passport_id.to_owned(),
             passport_verified,
             gravity_m_per_s2,
+            gravity_u_m_per_s2,
             results: calibration.results.iter().map(ResultDocument::new).collect(),
             not_stated: not_stated.iter().map(|&what| what.to_owned()).collect(),
             scatter: calibration.scatter.as_ref().map(|scatter| ScatterDocument {
@@ -209,7 +213,7 @@ impl CalibrationDocument {
     /// The answer of this result: least squares where it is there, else the last method.
     pub fn answer(&self) -> Option<Found> {
         let best = self.results.iter().find(|result| result.method == "least-squares").or(self.results.last())?;
-        Some(best.found(self.gravity_m_per_s2))
+        Some(best.found(self.gravity_m_per_s2, self.gravity_u_m_per_s2))
     }
 }
 
@@ -252,7 +256,7 @@ impl ResultDocument {
         }
     }
 
-    fn found(&self, gravity_m_per_s2: f64) -> Found {
+    fn found(&self, gravity_m_per_s2: f64, gravity_u_m_per_s2: Option<f64>) -> Found {
         let [[kx, kxy], [kyx, ky]] = self.k_deg_per_h_per_ma;
         let u = &self.standard_uncertainty;
         let [[u_kx, u_kxy], [u_kyx, u_ky]] = u.k_deg_per_h_per_ma;
@@ -275,6 +279,7 @@ impl ResultDocument {
                 u.omega_k_deg_per_h_per_g,
             ],
             gravity_m_per_s2,
+            gravity_u_m_per_s2: gravity_u_m_per_s2.unwrap_or(0.0),
         }
     }
 }
@@ -294,9 +299,9 @@ impl UncertaintyDocument {
 }
 
 impl MethodResult {
-    /// Values and uncertainties for a verdict.
-    pub fn found(&self, gravity_m_per_s2: f64) -> Found {
+    /// Values and uncertainties for a verdict, under a local g and its standard uncertainty.
+    pub fn found(&self, gravity_m_per_s2: f64, gravity_u_m_per_s2: f64) -> Found {
         let standard_uncertainty = Parameter::EIGHT.map(|p| self.standard_uncertainty(p).unwrap_or(0.0));
-        Found { parameters: self.parameters, standard_uncertainty, gravity_m_per_s2 }
+        Found { parameters: self.parameters, standard_uncertainty, gravity_m_per_s2, gravity_u_m_per_s2 }
     }
 }

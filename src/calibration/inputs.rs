@@ -114,32 +114,61 @@ pub(crate) struct Turn {
     pub(crate) axes: [Vector3<f64>; 3],
 }
 
+/// Why there is no setup.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum NoSetup {
+    /// n_2 has no inverse.
+    #[error(transparent)]
+    Singular(#[from] SingularPositions),
+    /// A standard uncertainty that is none.
+    #[error("the standard uncertainty of {0} is {1}: found no finite number of 0 or more")]
+    Uncertainty(&'static str, f64),
+    /// Degrees of freedom that are none.
+    #[error("the degrees of freedom of {0} are {1}: found no positive number")]
+    DegreesOfFreedom(&'static str, f64),
+}
+
+impl InputUncertainty {
+    /// Whether every number is one that an uncertainty can be.
+    fn check(&self) -> Result<(), NoSetup> {
+        let angles = self.angles_rad.iter().flatten().map(|u| ("a certified angle", *u));
+        let seat = self.seating_rad.map(|u| ("the seat", u));
+        let rest = [
+            ("the returns", self.repeatability_rad),
+            ("the platform", self.common_platform_rad),
+            ("the stand's base", self.common_base_rad),
+            ("the latitude", self.latitude_rad),
+            ("the deflection", self.deflection_rad),
+            ("the azimuth", self.azimuth_rad),
+            ("the mark", self.mark_rad),
+            ("the level", self.level_rad),
+            ("a reading", self.meter.reading),
+            ("the meter's floor", self.meter.floor_ma),
+            ("the meter's gain", self.meter.gain),
+            ("the meter's offset", self.meter.offset_ma),
+        ];
+        let is_none = |(_, u): &(&str, f64)| !(u.is_finite() && *u >= 0.0);
+        if let Some((what, u)) = angles.chain(seat).chain(rest).find(is_none) {
+            return Err(NoSetup::Uncertainty(what, u));
+        }
+        let known = self.angles_degrees_of_freedom.iter().map(|known| ("a certified angle", *known));
+        let known = known.chain([("the returns", self.repeatability_degrees_of_freedom)]);
+        match known.into_iter().find(|(_, known)| known.is_nan() || *known <= 0.0) {
+            Some((what, known)) => Err(NoSetup::DegreesOfFreedom(what, known)),
+            None => Ok(()),
+        }
+    }
+}
+
 impl Setup {
     /// `positions` of a stand at a place with the Earth rate `earth`.
     ///
     /// # Errors
-    /// [`SingularPositions`] when the paper's eight are there and n_2 has no inverse.
-    pub fn new(
-        positions: &[Position],
-        earth: EarthRate,
-        uncertainty: InputUncertainty,
-    ) -> Result<Self, SingularPositions> {
+    /// See [`NoSetup`].
+    pub fn new(positions: &[Position], earth: EarthRate, uncertainty: InputUncertainty) -> Result<Self, NoSetup> {
+        uncertainty.check()?;
         let coefficients = StandGeometry::new(positions)?.at(earth);
         Ok(Self { coefficients, turns: positions.iter().map(Turn::of).collect(), earth, uncertainty })
-    }
-
-    /// With the coefficients as a passport prints them, in place of those computed from the angles.
-    ///
-    /// `None` when they are of other positions or in another order.
-    pub fn with_coefficients(mut self, coefficients: Coefficients) -> Option<Self> {
-        let same = |own: &Coefficients| {
-            own.positions.iter().map(|at| at.index).eq(coefficients.positions.iter().map(|at| at.index))
-        };
-        if !same(&self.coefficients) {
-            return None;
-        }
-        self.coefficients = coefficients;
-        Some(self)
     }
 
     /// What the mathematics takes.

@@ -95,16 +95,6 @@ pub fn solve(
     Ok(fit.solution())
 }
 
-/// The condition number of the equations, their columns in units of the largest current, 1 °/h and 1 g; infinite where
-/// they do not determine a parameter.
-pub fn condition_number(coefficients: &Coefficients, currents_ma: &[Vector2<f64>], anisoelasticity: bool) -> f64 {
-    let columns = if anisoelasticity { Parameter::NINE.len() } else { Parameter::EIGHT.len() };
-    let largest = largest_current(currents_ma);
-    let scaled: Vec<_> = currents_ma.iter().map(|current| current / largest).collect();
-    let design = design(&coefficients.positions, &scaled, columns);
-    condition(&design, LARGEST_CONDITION).map_or(f64::INFINITY, |found| found.number)
-}
-
 /// The unit of the columns of K: the largest current, or 1 mA where all are 0.
 fn largest_current(currents_ma: &[Vector2<f64>]) -> f64 {
     let largest = currents_ma.iter().fold(0.0, |a: f64, current| a.max(current.amax()));

@@ -4,7 +4,7 @@
 //! * [`analytic`]: the paper's closed solution, eq. (13)-(16) and (8).
 //! * [`iterative`]: the paper's successive approximation, eq. (17)-(19).
 //! * [`least_squares`]: all readings of any positions, weighted.
-//! * [`procedure`]: all of them side by side, with uncertainties, residuals and chi-square.
+//! * [`procedure`]: all of them side by side; [`result`]: with uncertainties, residuals and chi-square.
 //! * [`scatter`]: whether repeated readings agree.
 //! * [`diagnosis`]: what may be wrong where readings do not fit.
 //! * [`verdict`]: against a type's specification and against an earlier calibration.
@@ -48,12 +48,14 @@ pub mod prediction;
 pub mod procedure;
 pub(crate) mod propagation;
 pub mod readings;
+pub mod result;
 pub mod scatter;
 pub(crate) mod sensitivity;
 pub mod stated;
 pub(crate) mod unknowns;
 pub mod verdict;
 
-pub use inputs::{InputUncertainty, MeterUncertainty, Setup};
-pub use procedure::{Calibration, Method, MethodResult, Options, calibrate};
+pub use inputs::{InputUncertainty, MeterUncertainty, NoSetup, Setup};
+pub use procedure::{Options, calibrate};
 pub use readings::Readings;
+pub use result::{Calibration, Method, MethodResult};

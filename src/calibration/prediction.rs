@@ -3,8 +3,9 @@
 
 use super::inputs::{InputUncertainty, MeterUncertainty, Setup};
 use super::parameter::Parameter;
-use super::procedure::{Method, MethodResult, Options, calibrate};
+use super::procedure::{Options, calibrate};
 use super::readings::Readings;
+use super::result::{Method, MethodResult};
 use crate::attitude::Deviation;
 use crate::coefficients::{EarthRate, Position};
 use crate::gyro::GyroParameters;

@@ -172,12 +172,12 @@ pub(crate) fn standard_deviations(spread: &DMatrix<f64>) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::attitude::Deviation;
     use crate::calibration::inputs::{InputUncertainty, MeterUncertainty};
     use crate::calibration::unknowns::Unknowns;
     use crate::calibration::{analytic, procedure::Data, readings::Readings};
-    use crate::coefficients::EarthRate;
+    use crate::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
     use crate::gyro::GyroType;
-    use crate::simulation::draw::{self, CurrentError, Deviations};
     use crate::statistics::random::Stream;
 
     /// The claim of [`chi_square`]: r' C⁻ r by the pseudo-inverse of the residuals' covariance, for two methods.
@@ -198,12 +198,15 @@ mod tests {
                 offset_ma: 1e-5,
             })
         };
-        let stand = draw::stand(&mut stream, Deviations::Uniform, 8.0);
+        let stand = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| {
+            let [alpha_rad, beta_rad, gamma_rad] = [(); 3].map(|()| stream.within(0.14));
+            Position { index, theta_deg, phi_deg, deviation: Deviation { alpha_rad, beta_rad, gamma_rad } }
+        });
         let setup = Setup::new(&stand, EarthRate::at_astronomic_latitude(40.0), uncertainty).unwrap();
         let gyro = GyroType::gvk_6().nominal.to_model();
         let positions = &setup.coefficients().positions;
         let mut currents: Vec<_> = positions.iter().map(|at| gyro.currents_ma(at).unwrap()).collect();
-        CurrentError::Independent.add(&mut stream, 0.02, &mut currents);
+        currents.iter_mut().for_each(|current| *current = current.map(|j| j * (1.0 + stream.within(2e-4))));
         let each: Vec<_> = positions.iter().map(|at| at.index).zip(currents.clone()).collect();
         let data = Data::new(&Readings::new(setup.coefficients(), &each).unwrap());
         let fit = data.fit(&setup, false).unwrap();

@@ -11,16 +11,49 @@ use nalgebra::{DMatrix, Matrix2, Vector2, Vector3};
 /// A change of the misclosure of one position per unit change of an input.
 type Change = Vector2<f64>;
 
+/// A change of the vectors of one position, in case coordinates, per radian.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct VectorChange {
+    pub(crate) earth_rate_deg_per_h: Vector3<f64>,
+    pub(crate) vertical: Vector3<f64>,
+}
+
+impl Setup {
+    /// Of position `place`, to a turn of the case by the unit vector `axis` (case coordinates).
+    pub(crate) fn case_turned(&self, place: usize, axis: &Vector3<f64>) -> VectorChange {
+        let attitude = &self.turns()[place].attitude;
+        VectorChange {
+            earth_rate_deg_per_h: (attitude * self.earth_rate_in_base()).cross(axis),
+            vertical: attitude.column(2).cross(axis),
+        }
+    }
+
+    /// Of position `place`, to a turn of the base by the unit vector `axis` (base coordinates).
+    pub(crate) fn base_turned(&self, place: usize, axis: &Vector3<f64>) -> VectorChange {
+        let attitude = &self.turns()[place].attitude;
+        VectorChange {
+            earth_rate_deg_per_h: attitude * self.earth_rate_in_base().cross(axis),
+            vertical: attitude * Vector3::z().cross(axis),
+        }
+    }
+
+    /// Of position `place`, to the latitude: ω_Γ falls by ω_B, ω_B rises by ω_Γ.
+    pub(crate) fn latitude_changed(&self, place: usize) -> VectorChange {
+        let earth = self.earth_rate_in_base();
+        let change = self.turns()[place].attitude * Vector3::new(0.0, -earth.z, earth.y);
+        VectorChange { earth_rate_deg_per_h: change, vertical: Vector3::zeros() }
+    }
+}
+
 /// The misclosures' sensitivities at one solution.
 pub(crate) struct Sensitivity<'a> {
     setup: &'a Setup,
     unknowns: &'a Unknowns,
-    earth: Vector3<f64>,
 }
 
 impl<'a> Sensitivity<'a> {
     pub(crate) fn new(setup: &'a Setup, unknowns: &'a Unknowns) -> Self {
-        Self { setup, unknowns, earth: setup.earth_rate_in_base() }
+        Self { setup, unknowns }
     }
 
     /// K of the solution, 2×2.
@@ -28,36 +61,20 @@ impl<'a> Sensitivity<'a> {
         &self.unknowns.parameters.k_deg_per_h_per_ma
     }
 
-    /// Of position `place`, to changes of the Earth rate and of the vertical in case coordinates.
-    fn of_vectors(&self, place: usize, earth_rate: &Vector3<f64>, vertical: &Vector3<f64>) -> Change {
+    /// Of position `place`, to a change of its vectors.
+    fn of_vectors(&self, place: usize, change: &VectorChange) -> Change {
+        let VectorChange { earth_rate_deg_per_h, vertical } = change;
         let at = &self.setup.coefficients().positions[place];
         let unknowns = self.unknowns;
         let drift = unknowns.parameters.omega_n_deg_per_h_per_g() * vertical.xy();
         // d(n n_z) = dn n_z + n dn_z (paper, eq. (2)).
         let anisoelastic = vertical.xy() * at.specific_force_z_g + at.specific_force_g * vertical.z;
-        earth_rate.xy() - drift - anisoelastic * unknowns.anisoelasticity_deg_per_h_per_g2
+        earth_rate_deg_per_h.xy() - drift - anisoelastic * unknowns.anisoelasticity_deg_per_h_per_g2
     }
 
     /// Of position `place`, to a turn of the case by the unit vector `axis` (case coordinates), °/h per radian.
     pub(crate) fn to_case_turn(&self, place: usize, axis: &Vector3<f64>) -> Change {
-        let attitude = &self.setup.turns()[place].attitude;
-        let earth_rate = (attitude * self.earth).cross(axis);
-        let vertical = attitude.column(2).cross(axis);
-        self.of_vectors(place, &earth_rate, &vertical)
-    }
-
-    /// Of position `place`, to a turn of the base by the unit vector `axis` (base coordinates), °/h per radian.
-    fn to_base_turn(&self, place: usize, axis: &Vector3<f64>) -> Change {
-        let attitude = &self.setup.turns()[place].attitude;
-        let earth_rate = attitude * self.earth.cross(axis);
-        let vertical = attitude * Vector3::z().cross(axis);
-        self.of_vectors(place, &earth_rate, &vertical)
-    }
-
-    /// Of position `place`, to the latitude, °/h per radian: ω_Γ falls by ω_B, ω_B rises by ω_Γ.
-    fn to_latitude(&self, place: usize) -> Change {
-        let attitude = &self.setup.turns()[place].attitude;
-        (attitude * Vector3::new(0.0, -self.earth.z, self.earth.y)).xy()
+        self.of_vectors(place, &self.setup.case_turned(place, axis))
     }
 
     /// Covariance, 2×2, of what is each position's own: its meter readings, its returns, its certified angles.
@@ -133,8 +150,8 @@ impl<'a> Sensitivity<'a> {
         let k = &self.unknowns.parameters.k_deg_per_h_per_ma;
         match input {
             Shared::Case(axis) => self.to_case_turn(place, axis),
-            Shared::Base(axis) => self.to_base_turn(place, axis),
-            Shared::Latitude => self.to_latitude(place),
+            Shared::Base(axis) => self.of_vectors(place, &self.setup.base_turned(place, axis)),
+            Shared::Latitude => self.of_vectors(place, &self.setup.latitude_changed(place)),
             Shared::Gain => -(k * current_ma),
             Shared::Offset => -(k * Vector2::repeat(1.0)),
         }

@@ -1,7 +1,6 @@
 //! The uncertainty of the inputs, as certificate, site and laboratory state it.
 
-use super::inputs::{InputUncertainty, MeterUncertainty, Setup};
-use crate::coefficients::SingularPositions;
+use super::inputs::{InputUncertainty, MeterUncertainty, NoSetup, Setup};
 use crate::laboratory::{Base, Laboratory};
 use crate::site::{Site, SiteUncertainty, UNKNOWN_DEFLECTION_U_ARCSEC};
 use crate::stand::{Certificate, CertifiedPosition};
@@ -39,12 +38,6 @@ impl Stated {
         let base = Known::new(site, laboratory);
         let seat = laboratory.seating_arcsec.as_ref();
         let seat = [seat.map(|seat| seat.about_x), seat.map(|seat| seat.about_y), seat.map(|seat| seat.about_z)];
-        let mut part = |one: Option<f64>, other: Option<f64>, what: &'static str| {
-            angle(one.or(other), what);
-            [one, other].map(|u| radians_from_arcseconds(u.unwrap_or(0.0)))
-        };
-        let [latitude_rad, deflection_rad] = part(base.latitude_arcsec, base.deflection_arcsec, "the latitude");
-        let [azimuth_rad, mark_rad] = part(base.azimuth_arcsec, base.mark_arcsec, "the base's azimuth");
         let degrees_of_freedom = |stated: Option<f64>| stated.unwrap_or(f64::INFINITY);
         let uncertainty = InputUncertainty {
             angles_rad,
@@ -56,14 +49,17 @@ impl Stated {
             ),
             common_platform_rad: angle(certificate.common_platform_arcsec, "the platform (common_platform_arcsec)"),
             common_base_rad: angle(certificate.common_base_arcsec, "the stand's base (common_base_arcsec)"),
-            latitude_rad,
-            deflection_rad,
-            azimuth_rad,
-            mark_rad,
-            level_rad: angle(base.level_arcsec, "the base's level"),
+            latitude_rad: angle(base.latitude_arcsec, "the latitude (latitude_arcsec)"),
+            deflection_rad: angle(base.deflection_arcsec, "the deflection of the vertical (deflection_arcsec.u)"),
+            azimuth_rad: angle(base.azimuth_arcsec, "the base's azimuth (azimuth_arcsec)"),
+            mark_rad: angle(base.mark_arcsec, "the azimuth of the mark (position_u_m, deflection_arcsec.u)"),
+            level_rad: angle(base.level_arcsec, "the base's level (level_arcsec)"),
             seating_rad: seat.map(|u| angle(u, "the gyro's seat (seating_arcsec)")),
             meter: MeterUncertainty::from(&laboratory.meter),
         };
+        if site.gravity_u_m_per_s2().is_none() {
+            missing.push("gravity (gravity_u_m_per_s2)");
+        }
         Self { uncertainty, missing }
     }
 }
@@ -72,13 +68,13 @@ impl Setup {
     /// The stand of a certificate at a site, with what certificate, site and laboratory state; and what they do not.
     ///
     /// # Errors
-    /// [`SingularPositions`] when the paper's eight positions are there and n_2 has no inverse.
+    /// See [`NoSetup`].
     pub fn stated(
         certificate: &Certificate,
         positions: &[CertifiedPosition],
         site: &Site,
         laboratory: &Laboratory,
-    ) -> Result<(Self, Vec<&'static str>), SingularPositions> {
+    ) -> Result<(Self, Vec<&'static str>), NoSetup> {
         let Stated { uncertainty, missing } = Stated::new(certificate, positions, site, laboratory);
         let positions: Vec<_> = positions.iter().map(CertifiedPosition::to_model).collect();
         Ok((Self::new(&positions, site.earth().rate(), uncertainty)?, missing))
@@ -93,7 +89,7 @@ pub fn temperature_remark(certificate: &Certificate, laboratory: &Laboratory) ->
         .then(|| format!("the laboratory is at {here} deg C; the deviations are certified for {low} to {high} deg C"))
 }
 
-/// The base at its place. Parts that are independent are kept apart.
+/// The base at its place. Parts that are independent are kept apart; what does not enter is known exactly.
 struct Known {
     latitude_arcsec: Option<f64>,
     deflection_arcsec: Option<f64>,
@@ -112,14 +108,14 @@ impl Known {
         let deflection = match (site.latitude_deg, &site.deflection_arcsec) {
             (Some(_), Some(deflection)) => deflection.u,
             (Some(_), None) => Some(UNKNOWN_DEFLECTION_U_ARCSEC),
-            (None, _) => None,
+            (None, _) => Some(0.0),
         };
         Self {
             latitude_arcsec: of_site.latitude_arcsec,
             deflection_arcsec: deflection,
             // From the mark to the base as stated or measured; from the pillar to the mark as computed.
             azimuth_arcsec: measured.azimuth_arcsec.or(of_site.azimuth_arcsec),
-            mark_arcsec: site.earth().azimuth_u_arcsec,
+            mark_arcsec: if site.azimuth_mark.is_some() { site.earth().azimuth_u_arcsec } else { Some(0.0) },
             level_arcsec: measured.level_arcsec.or(of_site.level_arcsec),
         }
     }

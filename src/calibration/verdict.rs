@@ -65,20 +65,32 @@ pub struct Found {
     pub standard_uncertainty: [f64; 8],
     /// The local g.
     pub gravity_m_per_s2: f64,
+    /// Its standard uncertainty.
+    pub gravity_u_m_per_s2: f64,
 }
 
 impl Found {
-    /// With g-sensitive drifts per `gravity_m_per_s2` instead of the local g: the drift per m/s² is the gyro's own.
+    /// With g-sensitive drifts per `gravity_m_per_s2` exactly, instead of the local g: the drift per m/s² is the gyro's
+    /// own, and how well the local g is known enters here.
     #[must_use]
     pub fn at_gravity(&self, gravity_m_per_s2: f64) -> Self {
         let ratio = gravity_m_per_s2 / self.gravity_m_per_s2;
         let mut values = self.parameters.to_vector();
         let mut standard_uncertainty = self.standard_uncertainty;
         for parameter in [Parameter::OmegaG, Parameter::OmegaK] {
-            values[parameter.place()] *= ratio;
-            standard_uncertainty[parameter.place()] *= ratio;
+            let place = parameter.place();
+            let of_gravity = values[place] * self.gravity_u_m_per_s2 / self.gravity_m_per_s2;
+            values[place] *= ratio;
+            standard_uncertainty[place] = ratio * libm::hypot(standard_uncertainty[place], of_gravity);
         }
-        Self { parameters: GyroParameters::from_vector(&values), standard_uncertainty, gravity_m_per_s2 }
+        let parameters = GyroParameters::from_vector(&values);
+        Self { parameters, standard_uncertainty, gravity_m_per_s2, gravity_u_m_per_s2: 0.0 }
+    }
+
+    /// The same with the local g taken as exact: a change between two results under the same g does not depend on it.
+    fn under_the_same_gravity(&self, other: &Self) -> Self {
+        let same = self.gravity_m_per_s2 == other.gravity_m_per_s2;
+        Self { gravity_u_m_per_s2: if same { 0.0 } else { self.gravity_u_m_per_s2 }, ..*self }
     }
 }
 
@@ -114,7 +126,8 @@ pub fn against_type(found: &Found, gyro_type: &GyroType) -> Verdict {
 /// not change: what is said here is then on the cautious side.
 pub fn against_earlier(found: &Found, earlier: &Found, gyro_type: &GyroType) -> Verdict {
     let gravity = gyro_type.gravity();
-    let (found, earlier) = (found.at_gravity(gravity), earlier.at_gravity(gravity));
+    let brought = |one: &Found, other: &Found| one.under_the_same_gravity(other).at_gravity(gravity);
+    let (found, earlier) = (brought(found, earlier), brought(earlier, found));
     let parameters = ORDER.map(|parameter| {
         let place = parameter.place();
         let change = found.parameters.to_vector()[place] - earlier.parameters.to_vector()[place];
@@ -129,7 +142,9 @@ pub fn against_earlier(found: &Found, earlier: &Found, gyro_type: &GyroType) -> 
 /// The change of each parameter since an earlier result, in units of the change's standard uncertainty, in the order of
 /// [`Parameter::EIGHT`]; drifts brought to the same g.
 pub fn change_in_uncertainties(found: &Found, earlier: &Found) -> [f64; 8] {
-    let earlier = earlier.at_gravity(found.gravity_m_per_s2);
+    let gravity = found.gravity_m_per_s2;
+    let brought = |one: &Found, other: &Found| one.under_the_same_gravity(other).at_gravity(gravity);
+    let (found, earlier) = (brought(found, earlier), brought(earlier, found));
     let (now, before) = (found.parameters.to_vector(), earlier.parameters.to_vector());
     std::array::from_fn(|place| {
         (now[place] - before[place])

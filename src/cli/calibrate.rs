@@ -82,7 +82,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     if let Some(remark) = temperature_remark(&content.certificate, &laboratory) {
         output::say(&format!("WARNING: {remark}"));
     }
-    let gravity = content.earth.gravity_m_per_s2;
+    let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
     let mut document = CalibrationDocument::new(&content.passport.id, verified, gravity, &calibration, &missing);
     let Some(found) = document.answer() else {
         let words: Vec<String> =

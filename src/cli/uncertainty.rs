@@ -30,11 +30,11 @@ pub struct UncertaintyOptions {
     /// Replace an existing picture
     #[arg(long)]
     force: bool,
-    /// Monte Carlo (JCGM 101): intervals, and whether first order is valid; until every stated digit is stable
+    /// Monte Carlo (JCGM 101): intervals, and whether first order is valid
     #[arg(long)]
     monte_carlo: bool,
-    /// So many trials instead, rounded up to blocks of 16384
-    #[arg(long, value_name = "N", requires = "monte_carlo", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000_000))]
+    /// So many trials, rounded up to blocks of 16384 [default: until every digit is stable, at most 200 million]
+    #[arg(long, value_name = "N", requires = "monte_carlo", value_parser = trials)]
     trials: Option<u64>,
     /// The same seed gives the same numbers, on any number of threads
     #[arg(long, value_name = "S", default_value_t = 1, requires = "monte_carlo")]
@@ -42,6 +42,14 @@ pub struct UncertaintyOptions {
     /// Threads [default: all processors]
     #[arg(long, value_name = "T", requires = "monte_carlo", value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: Option<u32>,
+}
+
+/// A number of trials, also as 1e9.
+fn trials(text: &str) -> Result<u64, String> {
+    const MOST: f64 = 1e12;
+    let whole = |value: &f64| value.fract() == 0.0 && (1.0..=MOST).contains(value);
+    let value = text.parse().ok().filter(whole);
+    value.map(|value| value as u64).ok_or_else(|| "a whole number from 1 to 1e12".to_owned())
 }
 
 /// What was asked for.
@@ -122,6 +130,9 @@ impl UncertaintyOptions {
         }
         let found = monte_carlo(&engine, budget, &run);
         bar.finish_and_clear();
+        if found.trials == 0 {
+            return Err(Failure::refused("interrupted before any trial was made"));
+        }
         if cancel.load(Ordering::Relaxed) {
             output::say("interrupted: the result is that of the trials made until then");
         }

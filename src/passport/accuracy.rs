@@ -6,8 +6,7 @@
 use crate::calibration::least_squares::NoLeastSquares;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::readings::NoReadings;
-use crate::calibration::{Method, Options, Readings, Setup, calibrate};
-use crate::coefficients::SingularPositions;
+use crate::calibration::{Method, NoSetup, Options, Readings, Setup, calibrate};
 use crate::gyro::{GYRO_FORMAT, GyroParameters, GyroType, Parameters, Tolerance};
 use crate::laboratory::{Base, LABORATORY_FORMAT, Laboratory, Meter, Seating};
 use crate::site::Site;
@@ -97,9 +96,9 @@ pub struct Stated {
 /// Why no accuracy can be stated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoAccuracy {
-    /// n_2 has no inverse.
+    /// The stand cannot be used, or an uncertainty is none.
     #[error(transparent)]
-    Singular(#[from] SingularPositions),
+    Setup(#[from] NoSetup),
     /// The positions do not determine the gyro.
     #[error(transparent)]
     LeastSquares(#[from] NoLeastSquares),

@@ -15,8 +15,8 @@ pub struct Context<'a> {
     pub passport_id: &'a str,
     /// Whether it was verified.
     pub passport_verified: bool,
-    /// The g that drifts are per.
-    pub gravity_m_per_s2: f64,
+    /// The g that drifts are per, and its standard uncertainty where that is stated.
+    pub gravity_m_per_s2: (f64, Option<f64>),
     /// Uncertainties that nobody stated.
     pub missing: &'a [&'static str],
     /// Against the gyro's type, by its name.
@@ -30,11 +30,9 @@ pub fn text(calibration: &Calibration, context: &Context) -> String {
     let mut out = String::new();
     let state = if context.passport_verified { "verified" } else { "NOT VERIFIED" };
     let _ = writeln!(out, "Calibrated with passport {} ({state})", context.passport_id);
-    let _ = writeln!(
-        out,
-        "Drifts per g are per local g, {} m/s2. u: standard uncertainty (k = 1).",
-        context.gravity_m_per_s2
-    );
+    let (gravity, u) = context.gravity_m_per_s2;
+    let u = u.map_or_else(String::new, |u| format!(" (u {u})"));
+    let _ = writeln!(out, "Drifts per g are per local g, {gravity} m/s2{u}. u: standard uncertainty (k = 1).");
     if calibration.hint.is_some() || !calibration.settled {
         let words = "WARNING: these readings do not fit this stand. Until that is explained (below), the parameters mean nothing.";
         columns::paragraph(&mut out, "", words);
@@ -192,9 +190,15 @@ fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
     }
 }
 
-fn change(out: &mut String, calibration: &Calibration, gravity: f64, earlier: &Found, verdict: Option<&Verdict>) {
+fn change(
+    out: &mut String,
+    calibration: &Calibration,
+    (gravity, u): (f64, Option<f64>),
+    earlier: &Found,
+    verdict: Option<&Verdict>,
+) {
     let Some(answer) = calibration.answer() else { return };
-    let change = change_in_uncertainties(&answer.found(gravity), earlier);
+    let change = change_in_uncertainties(&answer.found(gravity, u.unwrap_or(0.0)), earlier);
     let words: Vec<String> = Parameter::EIGHT
         .iter()
         .zip(change)

@@ -44,6 +44,10 @@ fn row(line: &crate::uncertainty::monte_carlo::Distribution) -> Vec<String> {
         interval(line.shortest),
         format!("{:.1e}", first.differences[0].max(first.differences[1])),
         format!("{:.0e}", first.tolerance),
-        (if first.valid { "valid" } else { "NOT VALID" }).to_owned(),
+        match first.valid {
+            Some(true) => "valid".to_owned(),
+            Some(false) => "NOT VALID".to_owned(),
+            None => "too few trials".to_owned(),
+        },
     ]
 }

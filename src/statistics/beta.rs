@@ -3,7 +3,7 @@
 //! Degrees of freedom are any positive numbers, as Welch and Satterthwaite's formula gives them; infinite ones are the
 //! normal and the chi-square distribution.
 
-use super::distributions::{chi_square_larger, normal_below};
+use super::distributions::{chi_square_larger, falling_root, normal_below};
 
 /// The regularised incomplete beta function I_x(a, b) for positive a and b, 0 ≤ x ≤ 1; NaN outside.
 ///
@@ -96,26 +96,6 @@ pub fn chi_square_point(probability: f64, degrees_of_freedom: usize) -> f64 {
         return f64::NAN;
     }
     falling_root(|value| chi_square_larger(value, degrees_of_freedom), probability)
-}
-
-/// The x ≥ 0 where `falling`, which never increases, has fallen to `level`, by bisection.
-fn falling_root(falling: impl Fn(f64) -> f64, level: f64) -> f64 {
-    let mut high = 1.0;
-    while falling(high) > level && high < f64::MAX / 2.0 {
-        high *= 2.0;
-    }
-    let mut low = 0.0;
-    loop {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            return high;
-        }
-        if falling(middle) > level {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
 }
 
 #[cfg(test)]

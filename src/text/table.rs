@@ -6,6 +6,7 @@
 
 use super::node::plain_text;
 use super::problem::{Location, MOST_PROBLEMS, Problem, Unreadable};
+use std::collections::BTreeMap;
 
 /// A table: its rows of cells, in the order of the columns asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -104,10 +105,38 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// The refusal of this table.
+    /// The refusal of this table. Of many cells that want the same advice the first is shown, the others are counted.
     pub fn refuse(&self, problems: Vec<Problem>) -> Unreadable {
-        Unreadable::of(self.name, problems)
+        Unreadable::of(self.name, counted(problems))
     }
+}
+
+/// From so many cells that want the same advice on, the first stands for all.
+const ALIKE: usize = 4;
+
+fn counted(problems: Vec<Problem>) -> Vec<Problem> {
+    // Of every advice: the place of its first cell, how many cells there are, the line of the last one.
+    let mut alike: BTreeMap<String, (usize, usize, usize)> = BTreeMap::new();
+    let cell = |problem: &Problem| problem.location.filter(|_| !problem.field.is_empty() && !problem.advice.is_empty());
+    for (place, problem) in problems.iter().enumerate() {
+        if let Some(location) = cell(problem) {
+            let (_, count, last) = alike.entry(problem.advice.clone()).or_insert((place, 0, 0));
+            *count += 1;
+            *last = location.line.max(*last);
+        }
+    }
+    let shown = problems.into_iter().enumerate().filter_map(|(place, mut problem)| {
+        let of_all = cell(&problem).and_then(|_| alike.get(&problem.advice)).filter(|(_, count, _)| *count >= ALIKE);
+        match of_all {
+            Some((first, ..)) if *first != place => return None,
+            Some((_, count, last)) => {
+                problem.found += &format!(" (and {} more like it, down to line {last})", count - 1)
+            }
+            None => {}
+        }
+        Some(problem)
+    });
+    shown.collect()
 }
 
 /// The bytes as text, byte order mark and CR LF taken away.

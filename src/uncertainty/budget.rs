@@ -6,9 +6,11 @@
 
 use crate::calibration::causes::{self, Cause, Input};
 use crate::calibration::parameter::Parameter;
-use crate::calibration::procedure::{MethodRefusal, linearise};
+use crate::calibration::procedure::linearise;
+use crate::calibration::result::MethodRefusal;
 use crate::calibration::{Method, Readings, Setup};
 use crate::statistics::beta::student_factor;
+use crate::statistics::propagation;
 use nalgebra::DMatrix;
 
 /// The coverage probability of expanded uncertainties.
@@ -117,9 +119,8 @@ fn of_parameter(parameter: Parameter, value: f64, inputs: &[Input], spread: &DMa
     let variance: f64 = changes.iter().map(|change| change * change).sum();
     let mut contributions: Vec<Contribution> = Vec::new();
     for (input, change) in inputs.iter().zip(&changes) {
-        let kind = input.cause.kind();
         let u = input.standard_uncertainty;
-        match contributions.iter_mut().find(|line| line.cause.kind() == kind) {
+        match contributions.iter_mut().find(|line| line.cause.is_alike(input.cause)) {
             Some(line) => {
                 line.inputs += 1;
                 line.standard_uncertainty = [line.standard_uncertainty[0].min(u), line.standard_uncertainty[1].max(u)];
@@ -149,33 +150,33 @@ fn of_parameter(parameter: Parameter, value: f64, inputs: &[Input], spread: &DMa
     }
 }
 
-/// ν_eff = u⁴/Σ (u_i⁴/ν_i) (JCGM 100, G.4.1), not rounded.
-///
-/// All returns to positions share one estimate of their scatter, and so do all readings whose variance was enlarged by
-/// the scatter found: such inputs are one term.
+/// What an input's uncertainty rests on.
+#[derive(Clone, Copy, PartialEq)]
+enum Estimate {
+    /// The one scatter of all returns to positions.
+    Returns,
+    /// The scatter of repeated readings, by which the variance of all readings was enlarged.
+    Readings,
+    /// One of its own, by its place among the inputs.
+    Own(usize),
+}
+
+/// By Welch and Satterthwaite (JCGM 100, G.4.1), not rounded; what rests on one estimate is one term.
 fn effective_degrees_of_freedom(inputs: &[Input], changes: &[f64]) -> f64 {
-    // Estimates: whether of the returns, degrees of freedom, and the variance that rests on it.
-    let mut shared: Vec<(bool, f64, f64)> = Vec::new();
-    let (mut variance, mut sum) = (0.0, 0.0);
-    for (input, change) in inputs.iter().zip(changes) {
-        let square = change * change;
-        variance += square;
-        if input.degrees_of_freedom.is_infinite() {
-            continue;
-        }
-        let of_all = match input.cause {
-            Cause::Return(..) => true,
-            Cause::Reading(..) | Cause::Floor(..) => false,
-            _ => {
-                sum += square * square / input.degrees_of_freedom;
-                continue;
-            }
+    // Estimate, its degrees of freedom, the variance that rests on it.
+    let mut terms: Vec<(Estimate, f64, f64)> = Vec::new();
+    for (place, (input, change)) in inputs.iter().zip(changes).enumerate() {
+        let (known, square) = (input.degrees_of_freedom, change * change);
+        let estimate = match input.cause {
+            Cause::Return(..) => Estimate::Returns,
+            Cause::Reading(..) | Cause::Floor(..) => Estimate::Readings,
+            _ => Estimate::Own(place),
         };
-        match shared.iter_mut().find(|(kind, known, _)| *kind == of_all && *known == input.degrees_of_freedom) {
-            Some((.., total)) => *total += square,
-            None => shared.push((of_all, input.degrees_of_freedom, square)),
+        match terms.iter_mut().find(|(other, nu, _)| *other == estimate && *nu == known) {
+            Some((.., sum)) => *sum += square,
+            None => terms.push((estimate, known, square)),
         }
     }
-    sum += shared.iter().map(|(_, known, total)| total * total / known).sum::<f64>();
-    if sum > 0.0 { variance * variance / sum } else { f64::INFINITY }
+    let contributions: Vec<(f64, f64)> = terms.into_iter().map(|(_, known, square)| (square.sqrt(), known)).collect();
+    propagation::effective_degrees_of_freedom(&contributions)
 }

@@ -186,8 +186,8 @@ pub struct DistributionDocument {
     pub differences: [f64; 2],
     /// What they may be apart.
     pub tolerance: f64,
-    /// JCGM 101, clause 8.
-    pub first_order_valid: bool,
+    /// JCGM 101, clause 8; null where there are too few trials to tell.
+    pub first_order_valid: Option<bool>,
 }
 
 impl MonteCarloDocument {

@@ -5,7 +5,8 @@
 //! currents are no part of a passport and leave its numbers alone.
 
 use crate::calibration::Setup;
-use crate::calibration::causes::{Cause, Input};
+use crate::calibration::causes::{Cause, Input, of_stand_and_site, unit_vector};
+use crate::calibration::sensitivity::VectorChange;
 use crate::coefficients::{EIGHT_POSITIONS, Matrices, PositionIndex, pair_differences};
 use nalgebra::{DMatrix, Matrix2, Vector3};
 
@@ -42,7 +43,7 @@ pub struct EntryUncertainty {
 impl EntryUncertainty {
     /// Of the stand and the site of `setup`.
     pub fn new(setup: &Setup) -> Self {
-        let inputs = inputs(setup);
+        let inputs = of_stand_and_site(setup);
         let positions = &setup.coefficients().positions;
         let mut entries = Vec::new();
         for at in positions {
@@ -58,8 +59,8 @@ impl EntryUncertainty {
         }
         let mut spread = DMatrix::zeros(entries.len(), inputs.len());
         for (column, input) in inputs.iter().enumerate() {
-            let changes: Vec<Change> = (0..positions.len()).map(|place| change(setup, place, input)).collect();
-            let mut values: Vec<f64> = changes.iter().flat_map(Change::entries).collect();
+            let changes: Vec<VectorChange> = (0..positions.len()).map(|place| change(setup, place, input)).collect();
+            let mut values: Vec<f64> = changes.iter().flat_map(entries_of).collect();
             if let Some(matrices) = &setup.coefficients().matrices {
                 values.extend(of_matrices(setup, matrices, &changes));
             }
@@ -78,89 +79,35 @@ impl EntryUncertainty {
 const MATRIX_KEYS: [&str; 8] =
     ["delta", "b_deg_per_h", "c_deg_per_h_per_g", "n1", "n2", "n2_inverse", "omega1_deg_per_h", "omega2_deg_per_h"];
 
-/// What happens to the vectors of one position.
-#[derive(Clone, Copy)]
-struct Change {
-    earth_rate: Vector3<f64>,
-    vertical: Vector3<f64>,
+/// In the order of the entries of a position.
+fn entries_of(change: &VectorChange) -> [f64; 5] {
+    let VectorChange { earth_rate_deg_per_h: earth, vertical } = change;
+    [vertical.x, vertical.y, vertical.z, earth.x, earth.y]
 }
 
-impl Change {
-    fn entries(&self) -> [f64; 5] {
-        [self.vertical.x, self.vertical.y, self.vertical.z, self.earth_rate.x, self.earth_rate.y]
-    }
-}
-
-/// The inputs of a passport that are uncertain.
-fn inputs(setup: &Setup) -> Vec<Input> {
-    let u = setup.uncertainty();
-    let mut inputs = Vec::new();
-    let mut add = |cause, standard_uncertainty: f64, degrees_of_freedom| {
-        if standard_uncertainty > 0.0 {
-            inputs.push(Input { cause, standard_uncertainty, degrees_of_freedom });
+/// What one standard uncertainty of an input does to a position.
+fn change(setup: &Setup, place: usize, input: &Input) -> VectorChange {
+    let none = VectorChange { earth_rate_deg_per_h: Vector3::zeros(), vertical: Vector3::zeros() };
+    let change = match input.cause {
+        Cause::Angle(index, angle) if index == setup.coefficients().positions[place].index => {
+            setup.case_turned(place, &setup.turns()[place].axes[angle])
         }
+        Cause::Platform(axis) => setup.case_turned(place, &unit_vector(axis)),
+        Cause::Base(axis) | Cause::Level(axis) => setup.base_turned(place, &unit_vector(axis)),
+        Cause::Azimuth | Cause::Mark => setup.base_turned(place, &Vector3::z()),
+        Cause::Latitude | Cause::Deflection => setup.latitude_changed(place),
+        _ => none,
     };
-    for (place, at) in setup.coefficients().positions.iter().enumerate() {
-        let known = u.angles_degrees_of_freedom.get(place).copied().unwrap_or(f64::INFINITY);
-        let angles = u.angles_rad.get(place).copied().unwrap_or_default();
-        for (angle, u_rad) in angles.into_iter().enumerate() {
-            add(Cause::Angle(at.index, angle), u_rad, known);
-        }
-    }
-    for axis in 0..3 {
-        add(Cause::Platform(axis), u.common_platform_rad, f64::INFINITY);
-        add(Cause::Base(axis), u.common_base_rad, f64::INFINITY);
-    }
-    for (cause, u_rad) in [
-        (Cause::Level(0), u.level_rad),
-        (Cause::Level(1), u.level_rad),
-        (Cause::Azimuth, u.azimuth_rad),
-        (Cause::Mark, u.mark_rad),
-        (Cause::Latitude, u.latitude_rad),
-        (Cause::Deflection, u.deflection_rad),
-    ] {
-        add(cause, u_rad, f64::INFINITY);
-    }
-    inputs
-}
-
-fn axis_of(place: usize) -> Vector3<f64> {
-    Vector3::from_fn(|row, _| if row == place { 1.0 } else { 0.0 })
-}
-
-/// What one standard uncertainty of an input does to a position: coordinates of a fixed vector v change by v × δ when
-/// the case turns by δ, and by Ã (v × δ) when the base does.
-fn change(setup: &Setup, place: usize, input: &Input) -> Change {
-    let turn = &setup.turns()[place];
-    let attitude = &turn.attitude;
-    let earth = setup.earth_rate_in_base();
     let u = input.standard_uncertainty;
-    let of_case = |axis: Vector3<f64>| Change {
-        earth_rate: (attitude * earth).cross(&axis) * u,
-        vertical: attitude.column(2).cross(&axis) * u,
-    };
-    let of_base = |axis: Vector3<f64>| Change {
-        earth_rate: attitude * earth.cross(&axis) * u,
-        vertical: attitude * Vector3::z().cross(&axis) * u,
-    };
-    match input.cause {
-        Cause::Angle(index, angle) if index == setup.coefficients().positions[place].index => of_case(turn.axes[angle]),
-        Cause::Platform(axis) => of_case(axis_of(axis)),
-        Cause::Base(axis) | Cause::Level(axis) => of_base(axis_of(axis)),
-        Cause::Azimuth | Cause::Mark => of_base(Vector3::z()),
-        Cause::Latitude | Cause::Deflection => {
-            Change { earth_rate: attitude * Vector3::new(0.0, -earth.z, earth.y) * u, vertical: Vector3::zeros() }
-        }
-        _ => Change { earth_rate: Vector3::zeros(), vertical: Vector3::zeros() },
-    }
+    VectorChange { earth_rate_deg_per_h: change.earth_rate_deg_per_h * u, vertical: change.vertical * u }
 }
 
 /// Changes of the matrices, in the order of [`MATRIX_KEYS`], by rows.
-fn of_matrices(setup: &Setup, m: &Matrices, changes: &[Change]) -> Vec<f64> {
+fn of_matrices(setup: &Setup, m: &Matrices, changes: &[VectorChange]) -> Vec<f64> {
     let positions = &setup.coefficients().positions;
     let find = |position: usize| positions.iter().position(|at| at.index == EIGHT_POSITIONS[position].0).unwrap_or(0);
     let (n1, n2) = pair_differences(|position| changes[find(position)].vertical.xy());
-    let (omega1, omega2) = pair_differences(|position| changes[find(position)].earth_rate.xy());
+    let (omega1, omega2) = pair_differences(|position| changes[find(position)].earth_rate_deg_per_h.xy());
     // Δ = n_2⁻¹ n_1, B = ω_31 − ω_32 Δ, C = ω_32 n_2⁻¹ (paper, eq. (13), (15)).
     let delta = m.n2_inverse * (n1 - n2 * m.delta);
     let b = omega1 - omega2 * m.delta - m.omega2_deg_per_h * delta;

@@ -158,6 +158,7 @@ fn the_picture_has_every_parameter_and_no_colour() {
     for colour in svg.split('#').skip(1).filter_map(|rest| rest.get(..6)) {
         assert!(colour[..2] == colour[2..4] && colour[2..4] == colour[4..], "{colour}");
     }
+    assert!(svg.contains("role=\"img\" aria-label=\"Uncertainty budget. K_x: u = "));
     assert_eq!(svg, budget_svg(&budget).unwrap());
 }
 

@@ -18,7 +18,8 @@ pub mod plan;
 pub mod refit;
 mod student;
 
-use crate::calibration::procedure::{Linearised, MethodRefusal, linearise};
+use crate::calibration::procedure::{Linearised, linearise};
+use crate::calibration::result::MethodRefusal;
 use crate::calibration::{Method, Readings, Setup};
 use crate::statistics::lanes::{Column, Lanes, WIDTH};
 use closed::Closed;
