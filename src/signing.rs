@@ -7,6 +7,7 @@ use crate::trust::{KeyError, PublicKey, Signature, SigningKey};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::{Mutex, PoisonError};
 use zeroize::Zeroizing;
 
 /// The largest key file that is read, in bytes.
@@ -54,6 +55,22 @@ pub enum KeyFileError {
 /// Asks for the passphrase of a key; called only for an encrypted one.
 pub type AskPassphrase<'a> = &'a dyn Fn(&Path) -> Result<Zeroizing<String>, String>;
 
+/// From here on this process leaves no core dump, which would hold the key and its passphrase; nor can another process
+/// of the same user look into its memory. What the system does not know of stays as it is.
+pub fn forbid_core_dumps() {
+    #[cfg(unix)]
+    {
+        use rustix::process::{Resource, Rlimit, setrlimit};
+        let _ = setrlimit(Resource::Core, Rlimit { current: Some(0), maximum: Some(0) });
+    }
+    // A program that collects core dumps does not ask for the limit.
+    #[cfg(target_os = "linux")]
+    {
+        use rustix::process::{DumpableBehavior, set_dumpable_behavior};
+        let _ = set_dumpable_behavior(DumpableBehavior::NotDumpable);
+    }
+}
+
 /// The signer for a key file: the key itself, or `ssh-keygen` for a `.pub` whose private half is in the agent or a token.
 ///
 /// # Errors
@@ -64,13 +81,13 @@ pub fn signer(path: &Path, ask: AskPassphrase) -> Result<Box<dyn Signer + Sync>,
     let key_error = |error| KeyFileError::Key { path: path.to_owned(), error };
     if path.extension().is_some_and(|extension| extension == "pub") {
         PublicKey::from_openssh(text.trim_end()).map_err(key_error)?;
-        return Ok(Box::new(SshKeygen { key: path.to_owned() }));
+        return Ok(Box::new(SshKeygen::of(path)));
     }
     refuse_exposed(path)?;
     match SigningKey::from_openssh(text, None) {
         Ok(key) => Ok(Box::new(key)),
         // The file of a token's key holds only a handle: ssh-keygen asks the token.
-        Err(KeyError::SecurityKey) => Ok(Box::new(SshKeygen { key: path.to_owned() })),
+        Err(KeyError::SecurityKey) => Ok(Box::new(SshKeygen::of(path))),
         Err(KeyError::Encrypted) => {
             let asked = ask(path);
             let passphrase = asked.map_err(|reason| KeyFileError::Passphrase { path: path.to_owned(), reason })?;
@@ -116,15 +133,24 @@ pub fn allowed_signers_line(identity: &str, key: &PublicKey) -> Result<String, B
 }
 
 /// Signs through `ssh-keygen -Y sign`, which speaks to ssh-agent and to FIDO tokens.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug)]
 pub struct SshKeygen {
     key: PathBuf,
+    /// A token makes one signature at a time.
+    turn: Mutex<()>,
+}
+
+impl SshKeygen {
+    fn of(key: &Path) -> Self {
+        Self { key: key.to_owned(), turn: Mutex::new(()) }
+    }
 }
 
 impl Signer for SshKeygen {
     fn sign(&self, namespace: &str, message: &[u8]) -> Result<Signature, SigningFailed> {
         let failed =
             |what: String| SigningFailed(format!("ssh-keygen could not sign with {}: {what}", self.key.display()));
+        let _turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
         let mut child = Command::new("ssh-keygen")
             .args(["-Y", "sign", "-q", "-n", namespace, "-f"])
             .arg(&self.key)

@@ -29,6 +29,7 @@ impl KeyOptions {
 
 /// The signer for a key file.
 pub fn signer_of(key: &Path) -> Result<Box<dyn Signer + Sync>, Failure> {
+    signing::forbid_core_dumps();
     signing::signer(key, &ask).map_err(Failure::unusable)
 }
 

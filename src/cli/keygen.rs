@@ -4,7 +4,7 @@ use super::key_options::{PASSPHRASE_VARIABLE, passphrase};
 use super::{Code, Failure, output};
 use clap::Args;
 use dtg_passport::files::{self, Access};
-use dtg_passport::signing::allowed_signers_line;
+use dtg_passport::signing::{allowed_signers_line, forbid_core_dumps};
 use dtg_passport::trust::SigningKey;
 use std::path::{Path, PathBuf};
 use zeroize::Zeroizing;
@@ -32,6 +32,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     // Before anybody is asked for a passphrase that would then not be needed.
     refuse_existing(&options.key)?;
     refuse_existing(&public_path)?;
+    forbid_core_dumps();
     let key = SigningKey::generate().map_err(Failure::unusable)?;
     let line = allowed_signers_line(&identity, &key.public_key()).map_err(Failure::unusable)?;
     let passphrase = new_passphrase(options)?;

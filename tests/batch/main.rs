@@ -5,5 +5,7 @@
 mod tools;
 
 mod inputs;
+mod kills;
+mod limits;
 mod successors;
 mod workshop;

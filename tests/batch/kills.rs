@@ -1,0 +1,205 @@
+//! Killed at any moment: every passport that is there verifies, what was reported is there, nothing that was there has
+//! changed, and the same command again does the rest and clears up.
+
+use crate::workshop::{SIGN, Said, Workshop};
+use dtg_passport::document::sha256_hex;
+use dtg_passport::statistics::random::Stream;
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::path::PathBuf;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+const STANDS: usize = 3;
+const SITES: usize = 70;
+const PASSPORTS: usize = STANDS * SITES;
+
+/// A job that is killed again and again until it is done: first every passport, then every one anew.
+struct Job {
+    workshop: Workshop,
+    /// What was there after the last kill.
+    known: BTreeMap<PathBuf, String>,
+    issued: bool,
+}
+
+/// What the kills met.
+#[derive(Debug, Default)]
+struct Tally {
+    kills: usize,
+    in_the_middle: usize,
+    leftovers: usize,
+    jobs: usize,
+}
+
+impl Job {
+    fn new() -> Self {
+        let workshop = Workshop::new(STANDS, SITES);
+        for number in 0..STANDS {
+            let text = fs::read_to_string(workshop.path(&format!("stands/{number:04}/stand.yaml"))).unwrap();
+            workshop.write(&format!("new/{number:04}/stand.yaml"), &text.replace("C-2026-0142", "C-2027-0001"));
+        }
+        Self { workshop, known: BTreeMap::new(), issued: false }
+    }
+
+    fn arguments(&self) -> String {
+        if self.issued {
+            let anew = SIGN.replace("2026-11-03", "2026-12-01");
+            let trust = "--trust allowed_signers --time 2026-12-01 --format csv";
+            format!("reissue passports --stand new --reason recertified {anew} {trust}")
+        } else {
+            format!("issue stands --site sites {SIGN} --format csv")
+        }
+    }
+
+    /// Runs the job and kills it after some time, unless it is done before. Whether it was killed.
+    fn run_and_kill(&self, after: Duration) -> bool {
+        let report = File::create(self.workshop.path("report")).unwrap();
+        let mut command = self.workshop.command(&self.arguments());
+        let mut child = command.stdout(report).stderr(Stdio::null()).spawn().unwrap();
+        std::thread::sleep(after);
+        // On Unix this is SIGKILL.
+        child.kill().unwrap();
+        child.wait().unwrap().code().is_none()
+    }
+
+    /// What must hold after a kill. Gives how many new passports there are.
+    fn check(&mut self) -> usize {
+        let before = self.known.len();
+        let ids = self.workshop.sound("passports");
+        let mut now = BTreeMap::new();
+        for id in &ids {
+            let (place, revision) = id.rsplit_once('/').unwrap();
+            let path = self.workshop.path(&format!("passports/{place}-{revision}.yaml"));
+            now.insert(path.clone(), sha256_hex(&fs::read(path).unwrap()));
+        }
+        assert!(self.known.iter().all(|(path, hash)| now.get(path) == Some(hash)), "something that was there is gone");
+        self.known = now;
+        // The last line may be cut; all others are whole.
+        let report = fs::read_to_string(self.workshop.path("report")).unwrap();
+        let whole = &report[..report.rfind('\n').map_or(0, |end| end + 1)];
+        for line in whole.lines().skip(1) {
+            let cells: Vec<&str> = line.split(',').collect();
+            let [state, id, file, hash, ..] = cells[..] else { panic!("{line}") };
+            assert!(["issued", "unchanged", "skipped"].contains(&state), "{line}");
+            assert!(ids.contains(id), "{id} was reported and is not there");
+            if !hash.is_empty() {
+                assert_eq!(self.known[&self.workshop.path(file)], hash);
+            }
+        }
+        self.known.len() - before
+    }
+
+    /// Not killed, the job is done, and nothing is left over.
+    fn finish(&mut self) {
+        let said = self.workshop.run(&self.arguments(), 0);
+        let (done, skipped) = (said.ids("issued").len() + said.ids("unchanged").len(), said.ids("skipped").len());
+        assert_eq!(done, PASSPORTS, "{}", said.words);
+        assert!(skipped <= PASSPORTS);
+        assert_eq!(self.workshop.leftovers("passports"), Vec::<PathBuf>::new());
+        fs::write(self.workshop.path("report"), said.results).unwrap();
+        self.check();
+    }
+}
+
+/// Kills so many runs at random moments.
+fn kill(kills: usize, seed: u64) -> Tally {
+    let mut random = Stream::new(seed);
+    let mut tally = Tally::default();
+    let mut job = Job::new();
+    let start = Instant::now();
+    job.finish();
+    // Kills come at any moment of a whole run and a little after it.
+    let whole = start.elapsed();
+    job = Job::new();
+    while tally.kills < kills {
+        let killed = job.run_and_kill(whole.mul_f64(1.1 * random.unit()));
+        tally.kills += usize::from(killed);
+        tally.in_the_middle += usize::from(job.check() > 0 && killed);
+        tally.leftovers += job.workshop.leftovers("passports").len();
+        let all = if job.issued { 2 * PASSPORTS } else { PASSPORTS };
+        if job.known.len() < all {
+            continue;
+        }
+        job.finish();
+        tally.jobs += 1;
+        if job.issued {
+            job = Job::new();
+        } else {
+            job.issued = true;
+        }
+    }
+    job.finish();
+    tally
+}
+
+#[test]
+fn killed_at_random_nothing_is_lost() {
+    let tally = kill(60, 1);
+    assert!(tally.in_the_middle > 5, "hardly a kill met a run at work: {tally:?}");
+}
+
+/// `cargo test --release --test batch -- --ignored --nocapture a_thousand_kills`
+#[test]
+#[ignore = "takes minutes; the figure in docs/figures.md"]
+fn a_thousand_kills() {
+    let seed = std::env::var("DTG_SEED").map_or(2, |seed| seed.parse().unwrap());
+    println!("documents lost: 0; {:?}", kill(1000, seed));
+}
+
+/// The temporary file of a living run stays, and that of a dead one does not.
+#[test]
+fn leftovers_are_cleared_by_the_next_run_unless_somebody_is_at_work_on_them() {
+    let workshop = Workshop::new(1, 2);
+    let folder = "passports/SPS-2/0000";
+    workshop.write(&format!("{folder}/.dtg-passport-dead.tmp"), "half a passp");
+    workshop.write("passports/.dtg-passport-dead.tmp", "");
+    workshop.write(&format!("{folder}/.dtg-passport-living.tmp"), "half a passp");
+    let living = File::open(workshop.path(&format!("{folder}/.dtg-passport-living.tmp"))).unwrap();
+    living.lock().unwrap();
+    workshop.run(&format!("issue stands --site sites {SIGN} --dry-run"), 0);
+    assert_eq!(workshop.leftovers("passports").len(), 3);
+    workshop.run(&format!("issue stands --site sites {SIGN}"), 0);
+    assert_eq!(workshop.leftovers("passports"), [workshop.path(&format!("{folder}/.dtg-passport-living.tmp"))]);
+    drop(living);
+    workshop.run(&format!("issue stands --site sites {SIGN}"), 0);
+    assert!(workshop.leftovers("passports").is_empty());
+}
+
+/// On a shared folder whose locks do not reach from machine to machine, somebody may clear away what is in use.
+#[test]
+fn temporary_files_that_are_taken_away_cost_nothing() {
+    let workshop = Workshop::new(2, 60);
+    let mut command = workshop.command(&format!("issue stands --site sites {SIGN} --format csv"));
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut taken = 0;
+    while child.try_wait().unwrap().is_none() {
+        taken += workshop.leftovers("passports").iter().filter(|path| fs::remove_file(path).is_ok()).count();
+    }
+    let output = child.wait_with_output().unwrap();
+    let code = output.status.code().unwrap();
+    let said = Said::of(output, code);
+    assert!(taken > 0, "nothing was taken away");
+    // Whoever lost his file four times in a row says so.
+    assert_eq!(code == 0, said.ids("refused").is_empty(), "{}", said.words);
+    assert_eq!(workshop.sound("passports"), said.ids("issued"));
+    workshop.run(&format!("issue stands --site sites {SIGN}"), 0);
+    assert_eq!(workshop.sound("passports").len(), 120);
+}
+
+/// Whoever is first writes a passport, and the others find it equal.
+#[test]
+fn several_batches_on_one_folder_do_the_job_together() {
+    let workshop = Workshop::new(3, 60);
+    let spawn = |number: usize| {
+        let sign = SIGN.replace("2026-11-03", &format!("2026-11-0{}", number + 3));
+        let mut command = workshop.command(&format!("issue stands --site sites {sign} --format csv"));
+        command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+    };
+    let children: Vec<_> = (0..3).map(spawn).collect();
+    let said: Vec<Said> = children.into_iter().map(|child| Said::of(child.wait_with_output().unwrap(), 0)).collect();
+    let issued: usize = said.iter().map(|said| said.ids("issued").len()).sum();
+    let unchanged: usize = said.iter().map(|said| said.ids("unchanged").len()).sum();
+    assert_eq!((issued, unchanged), (180, 360));
+    assert_eq!(workshop.sound("passports").len(), 180);
+    assert!(workshop.leftovers("passports").is_empty());
+}

@@ -1,0 +1,206 @@
+//! No space, no file handles, a folder that cannot be written: what is there verifies, what was reported is there, nothing
+//! is left over, and the job can be run again. And in which order things reach the disk.
+
+use crate::tools;
+use crate::workshop::{SIGN, Said, Workshop};
+use std::collections::BTreeMap;
+use std::fs;
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Command, Stdio};
+
+/// A mount namespace of its own, in which a script is root: as root, or by a user namespace.
+fn namespace() -> String {
+    for way in ["unshare -m", "unshare -rm"] {
+        let words: Vec<&str> = way.split(' ').collect();
+        let mut command = tools::on_path(words[0]);
+        command.args(&words[1..]).args(["sh", "-c", "mount -t tmpfs none /mnt"]).stderr(Stdio::null());
+        if command.status().is_ok_and(|status| status.success()) {
+            return way.to_owned();
+        }
+    }
+    panic!("neither `unshare -m` (as root) nor `unshare -rm` can mount here: these tests need one of them");
+}
+
+/// Runs a script in a namespace; in it stand `out/`, and the exit codes and reports of its runs in `report-1`, ….
+fn in_namespace(workshop: &Workshop, script: &str) {
+    fs::create_dir_all(workshop.path("out")).unwrap();
+    let output = workshop.shell(&format!("exec {} sh -ec '{script}'", namespace())).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// `n`-th run of a job into `out/`: its report, its words, its exit code.
+fn run(number: usize, arguments: &str) -> String {
+    format!(
+        "set +e; \"$DTG\" {arguments} --format csv --out out >report-{number} 2>words-{number}; \
+         echo $? >code-{number}; set -e; cp -a out survived-{number};"
+    )
+}
+
+/// What the run left, which must be sound; what it reported must be there.
+fn survived(workshop: &Workshop, number: usize, code: i32) -> Said {
+    let read = |name: &str| fs::read_to_string(workshop.path(&format!("{name}-{number}"))).unwrap();
+    let said = Said { results: read("report"), words: read("words") };
+    assert_eq!(read("code").trim(), code.to_string(), "{}", said.words);
+    let folder = format!("survived-{number}");
+    let there = workshop.sound(&folder);
+    let reported = said.ids("issued").union(&said.ids("unchanged")).cloned().collect();
+    assert_eq!(there, reported);
+    assert!(workshop.leftovers(&folder).is_empty());
+    said
+}
+
+#[test]
+fn a_full_disk_costs_what_has_no_room_and_no_more() {
+    let workshop = Workshop::new(1, 60);
+    let issue = format!("issue stands --site sites {SIGN}");
+    let script = format!(
+        "mount -t tmpfs -o size=300k none out; {} mount -o remount,size=20m out; {}",
+        run(1, &issue),
+        run(2, &issue)
+    );
+    in_namespace(&workshop, &script);
+    let said = survived(&workshop, 1, 2);
+    assert!(!said.ids("issued").is_empty() && !said.ids("refused").is_empty());
+    assert!(said.words.contains("no space left; nothing was left behind"), "{}", said.words);
+    let said = survived(&workshop, 2, 0);
+    assert_eq!(said.ids("issued").len() + said.ids("unchanged").len(), 60);
+}
+
+#[test]
+fn no_file_may_grow_large_enough() {
+    let workshop = Workshop::new(1, 5);
+    let issue = format!("issue stands --site sites {SIGN} --out out");
+    // The limit is in units of 512 bytes. Ignored, the signal becomes an error; otherwise it kills in the middle.
+    let limited = format!("ulimit -f 8; exec \"$DTG\" {issue}");
+    let output = workshop.shell(&format!("trap '' XFSZ; {limited} --format csv")).output().unwrap();
+    let said = Said::of(output, 2);
+    assert_eq!(said.ids("refused").len(), 5);
+    assert!(said.words.contains("cannot be written: File too large"), "{}", said.words);
+    assert!(workshop.sound("out").is_empty() && workshop.leftovers("out").is_empty());
+    let killed = workshop.shell(&limited).output().unwrap();
+    assert!(killed.status.signal().is_some(), "{}", killed.status);
+    assert!(workshop.sound("out").is_empty() && !workshop.leftovers("out").is_empty());
+    let said = workshop.run(&format!("{issue} --format csv"), 0);
+    assert_eq!(said.ids("issued").len(), 5);
+    assert!(workshop.leftovers("out").is_empty());
+}
+
+#[test]
+fn too_few_file_handles_cost_what_needs_them() {
+    let workshop = Workshop::new(2, 20);
+    let issue = format!("issue stands --site sites {SIGN}");
+    let mut out_of_handles = 0;
+    for handles in 4..14 {
+        let out = format!("out-{handles}");
+        let script = format!("ulimit -n {handles}; exec \"$DTG\" {issue} --threads 4 --format csv --out {out}");
+        let output = workshop.shell(&script).output().unwrap();
+        let code = output.status.code().expect("no signal");
+        let said = Said::of(output, code);
+        assert!(code == 0 || code == 2, "{code}: {}", said.words);
+        assert_eq!(workshop.sound(&out), said.ids("issued"));
+        assert!(workshop.leftovers(&out).is_empty());
+        out_of_handles += usize::from(said.words.contains("Too many open files"));
+        let said = workshop.run(&format!("{issue} --format csv --out {out}"), 0);
+        assert_eq!(said.ids("issued").len() + said.ids("unchanged").len(), 40);
+    }
+    assert!(out_of_handles > 0, "there were always handles enough");
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_left_as_it_is() {
+    let workshop = Workshop::new(2, 3);
+    workshop.run(&format!("issue stands/0000 --site sites {SIGN} --out out"), 0);
+    let issue = format!("issue stands --site sites {SIGN}");
+    let script = format!(
+        "mount --bind out out; mount -o remount,bind,ro out; {} mount -o remount,bind,rw out; {}",
+        run(1, &issue),
+        run(2, &issue)
+    );
+    in_namespace(&workshop, &script);
+    let said = survived(&workshop, 1, 2);
+    assert_eq!((said.ids("unchanged").len(), said.ids("refused").len()), (3, 3));
+    assert!(said.words.contains("cannot be written: "), "{}", said.words);
+    let said = survived(&workshop, 2, 0);
+    assert_eq!((said.ids("unchanged").len(), said.ids("issued").len()), (3, 3));
+}
+
+/// By the calls that the system sees: a passport is synced before it is renamed, and its folder before it is reported.
+#[test]
+fn nothing_is_reported_before_it_is_safe() {
+    let workshop = Workshop::new(2, 40);
+    let issue = format!("{} issue stands --site sites {SIGN} --format csv", env!("CARGO_BIN_EXE_dtg-passport"));
+    let calls = "trace=openat,fsync,rename,renameat,renameat2,mkdir,write,close";
+    let trace = |more: &str| {
+        let mut strace = tools::on_path("strace");
+        strace.args(["-f", "-y", "-qq", "-s", "200", "-o", "trace", "-e", calls]);
+        strace.args(issue.split(' ')).args(more.split(' ')).current_dir(workshop.path("."));
+        tools::output(strace);
+        fs::read_to_string(workshop.path("trace")).unwrap()
+    };
+    let mut order = Order::default();
+    trace("--out synced").lines().for_each(|line| order.note(line));
+    assert_eq!((order.renamed.len(), order.reported), (80, 80));
+    let trace = trace("--out quick --no-sync");
+    assert!(!trace.contains("fsync("), "{trace}");
+    assert_eq!(workshop.sound("synced").len(), workshop.sound("quick").len());
+}
+
+/// When what happened, by the number of the call.
+#[derive(Default)]
+struct Order {
+    calls: usize,
+    synced: BTreeMap<String, usize>,
+    renamed: BTreeMap<String, usize>,
+    reported: usize,
+}
+
+impl Order {
+    fn note(&mut self, line: &str) {
+        self.calls += 1;
+        // `1234 fsync(5</tmp/…/.dtg-passport-AbCdEf.tmp>) = 0`; a call that another thread interrupts has two lines, and
+        // its arguments stand in the first.
+        if line.contains(" fsync(") {
+            let name = between(line, "<", ">").expect("the name of what is synced");
+            self.synced.insert(name.to_owned(), self.calls);
+        } else if line.contains(" rename") && line.contains(".tmp\"") {
+            let names: Vec<&str> = line.split('"').collect();
+            let (from, to) = (names[1], names[3]);
+            assert!(self.synced.keys().any(|synced| synced.ends_with(from)), "{from} was not synced before: {line}");
+            self.renamed.insert(to.to_owned(), self.calls);
+        } else if line.contains(" write(1") {
+            for file in self.renamed.keys().filter(|file| line.contains(&format!(",{file},"))) {
+                let folder = file.rsplit_once('/').unwrap().0;
+                for folder in [folder, "synced/SPS-2", "synced"] {
+                    let synced = self.synced.iter().filter(|(name, _)| name.ends_with(folder)).map(|(_, call)| *call);
+                    assert!(synced.max() > Some(self.renamed[file]), "{folder} was not synced before: {line}");
+                }
+                self.reported += 1;
+            }
+        }
+    }
+}
+
+fn between<'a>(text: &'a str, start: &str, end: &str) -> Option<&'a str> {
+    text.split_once(start)?.1.split_once(end).map(|(inside, _)| inside)
+}
+
+/// While a key is in memory, no core dump can be made.
+#[test]
+fn a_key_in_memory_is_kept_out_of_core_dumps() {
+    let workshop = Workshop::new(20, 200);
+    let mut command = workshop.shell(&format!("ulimit -c unlimited; exec \"$DTG\" issue stands --site sites {SIGN}"));
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    // With the first passport the key is surely there.
+    while !workshop.path("passports/SPS-2/0000/site-00000-1.yaml").exists() {
+        assert!(child.try_wait().unwrap().is_none(), "the batch has ended without a passport");
+        std::thread::yield_now();
+    }
+    let kill = |signal: &str| Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+    assert!(kill("-STOP").success());
+    let limits = fs::read_to_string(format!("/proc/{}/limits", child.id())).unwrap();
+    assert!(kill("-CONT").success() && kill("-ABRT").success());
+    let core = limits.lines().find(|line| line.starts_with("Max core file size")).unwrap();
+    assert_eq!(core.split_whitespace().skip(4).take(2).collect::<Vec<_>>(), ["0", "0"], "{core}");
+    let status = child.wait().unwrap();
+    assert!(status.signal().is_some() && !status.core_dumped(), "{status}");
+}
