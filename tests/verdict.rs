@@ -3,7 +3,7 @@
 mod support;
 
 use dtg_passport::calibration::document::CalibrationDocument;
-use dtg_passport::calibration::stated::Stated;
+use dtg_passport::calibration::stated::{NotStated, Stated};
 use dtg_passport::calibration::verdict::{Decision, Found, against_earlier, against_type, change_in_uncertainties};
 use dtg_passport::calibration::{Options, Setup, calibrate};
 use dtg_passport::gyro::{GyroParameters, GyroType};
@@ -85,7 +85,7 @@ fn json_is_read_back() {
     let setup = setup(&eight([[1e-3; 3]; 8]), LATITUDE_DEG);
     let currents = currents(&setup, &gvk_6());
     let found = calibrate(&setup, &readings(&setup, &currents), &Options::default()).unwrap();
-    let mut document = CalibrationDocument::new("SPS-2/0017/moscow/1", true, 9.8156, &found, &["the latitude"]);
+    let mut document = CalibrationDocument::new("SPS-2/0017/moscow/1", true, 9.8156, &found, &[NotStated::Latitude]);
     let answer = found.results.last().unwrap().found(9.8156);
     document.verdict = Some(against_type(&answer, &GyroType::gvk_6()));
     let json = serde_json::to_string_pretty(&document).unwrap();
@@ -127,7 +127,8 @@ fn inputs_as_stated() {
     assert_eq!(stated.uncertainty.latitude_rad, arcsec(1.0));
     assert_eq!(stated.uncertainty.deflection_rad, arcsec(10.0));
     assert_eq!(stated.uncertainty.azimuth_rad, arcsec(30.0));
-    assert_eq!(stated.missing, ["the stand's base (common_base_arcsec)", "the gyro's seat (seating_arcsec)"]);
+    let words: Vec<&str> = stated.missing.iter().map(|what| what.words()).collect();
+    assert_eq!(words, ["the stand's base (common_base_arcsec)", "the gyro's seat (seating_arcsec)"]);
     laboratory.base = Some(dtg_passport::laboratory::Base { azimuth_arcsec: Some(10.0), level_arcsec: None });
     let stated = Stated::new(&stand.certificate, &stand.positions, &site, &laboratory);
     assert_eq!(stated.uncertainty.azimuth_rad, arcsec(10.0));

@@ -4,7 +4,7 @@ use super::analytic::{self, AnalyticMap, NoAnalyticSolution};
 use super::causes::Repeats;
 use super::diagnosis::{self, Hint};
 use super::inputs::Setup;
-use super::iterative::{self, NoIterativeSolution, StopRule};
+use super::iterative::{self, NoIterativeSolution, StepChange, StopRule};
 use super::least_squares::{Fit, NoLeastSquares};
 use super::parameter::Parameter;
 use super::propagation::{Propagation, chi_square, covariance, standard_deviations};
@@ -146,10 +146,14 @@ impl MethodResult {
 }
 
 /// How successive approximation went.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Iteration {
+    /// When it was to stop.
+    pub stop_rule: StopRule,
     /// Steps taken, the first approximation counted as 1.
     pub steps: u32,
+    /// What each step after the first approximation moved.
+    pub changes: Vec<StepChange>,
     /// Steps predicted before the first one.
     pub predicted_steps: Option<u32>,
     /// ρ(T), known before the first step.
@@ -184,6 +188,8 @@ pub struct Residual {
     pub index: PositionIndex,
     /// Along x and y.
     pub residual_deg_per_h: Vector2<f64>,
+    /// Its standard uncertainty: what is left when nothing is wrong.
+    pub standard_uncertainty_deg_per_h: Vector2<f64>,
     /// In units of its standard uncertainty; 0 where it cannot differ from 0.
     pub normalised: Vector2<f64>,
 }
@@ -362,7 +368,9 @@ impl<'a> Evaluation<'a> {
         let found = iterative::solve(coefficients, self.currents_ma, rule)?;
         let predicted_steps = iterative::Plan::new(coefficients, self.currents_ma)?.predicted_steps(rule);
         let iteration = Iteration {
+            stop_rule: *rule,
             steps: found.steps,
+            changes: found.changes,
             predicted_steps,
             spectral_radius: found.spectral_radius,
             remainder_k_deg_per_h_per_ma: found.remainder_k_deg_per_h_per_ma,
@@ -415,6 +423,7 @@ impl<'a> Evaluation<'a> {
             Residual {
                 index: at.index,
                 residual_deg_per_h: residual,
+                standard_uncertainty_deg_per_h: Vector2::new(u[0], u[1]),
                 normalised: Vector2::new(in_units(residual.x, u[0]), in_units(residual.y, u[1])),
             }
         })
