@@ -210,6 +210,14 @@ fn successive_approximation_knows_what_it_lacks() {
                 let k = found.parameters.k_deg_per_h_per_ma + found.remainder_k_deg_per_h_per_ma;
                 assert!((k - gvk_6().k_deg_per_h_per_ma).amax() < 1e-6, "{k}");
                 solved += 1;
+                // Each step after the first approximation, and the last one alone meets the rule.
+                let met = found.changes.iter().map(|change| {
+                    change.main_scale_factors_percent <= rule.delta1_percent
+                        && change.g_drifts_deg_per_h_per_g <= rule.delta2_deg_per_h
+                });
+                let met: Vec<bool> = met.collect();
+                assert_eq!(met.len() + 1, found.steps as usize);
+                assert_eq!(met.iter().position(|met| *met), Some(met.len() - 1));
                 let predicted = iterative::Plan::new(setup.coefficients(), &currents).unwrap().predicted_steps(&rule);
                 predicted_well += i32::from(predicted.unwrap().abs_diff(found.steps) <= found.steps / 3 + 1);
             }

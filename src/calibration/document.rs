@@ -1,8 +1,9 @@
 //! A result for machines: the JSON of `calibrate`, which is also what a later calibration compares itself with.
 
-use super::iterative::LARGEST_NUMBER_OF_STEPS;
+use super::iterative::{LARGEST_NUMBER_OF_STEPS, StepChange};
 use super::parameter::Parameter;
 use super::result::{Calibration, MethodResult};
+use super::stated::NotStated;
 use super::verdict::{Found, Verdict};
 use crate::gyro::GyroParameters;
 use crate::text::Unreadable;
@@ -73,6 +74,12 @@ pub struct ResultDocument {
     /// Steps predicted before the first one; absent when that is more than are allowed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub iterations_predicted: Option<u32>,
+    /// Δ₁ and Δ₂, at which it was to stop.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stop_rule: Option<StopRuleDocument>,
+    /// What each step after the first approximation moved.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub changes: Option<Vec<ChangeDocument>>,
     /// ρ(T).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spectral_radius: Option<f64>,
@@ -91,6 +98,28 @@ pub struct ResultDocument {
     pub chi_square: ChiSquareDocument,
     /// What is left of each equation.
     pub residuals_deg_per_h: Vec<ResidualDocument>,
+}
+
+/// The paper's Δ₁ and Δ₂.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StopRuleDocument {
+    /// Δ₁.
+    pub delta1_percent: f64,
+    /// Δ₂.
+    pub delta2_deg_per_h: f64,
+}
+
+/// What one step of successive approximation moved.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ChangeDocument {
+    /// Which step; the first approximation is step 1.
+    pub step: u32,
+    /// K_x or K_y, whichever moved more.
+    pub main_scale_factors_percent: f64,
+    /// ω_g or ω_k, whichever moved more.
+    pub g_drifts_deg_per_h_per_g: f64,
 }
 
 /// Standard uncertainties of one method's values.
@@ -150,6 +179,12 @@ pub struct ResidualDocument {
     pub x: f64,
     /// Along y.
     pub y: f64,
+    /// Standard uncertainty of x; results of earlier versions have none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub u_x: Option<f64>,
+    /// Of y.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub u_y: Option<f64>,
 }
 
 /// A verdict of an earlier result is not read again: it is judged anew.
@@ -170,7 +205,7 @@ impl CalibrationDocument {
         passport_verified: bool,
         (gravity_m_per_s2, gravity_u_m_per_s2): (f64, Option<f64>),
         calibration: &Calibration,
-        not_stated: &[&str],
+        not_stated: &[NotStated],
     ) -> Self {
         Self {
             passport_id: passport_id.to_owned(),
@@ -178,7 +213,7 @@ impl CalibrationDocument {
             gravity_m_per_s2,
             gravity_u_m_per_s2,
             results: calibration.results.iter().map(ResultDocument::new).collect(),
-            not_stated: not_stated.iter().map(|&what| what.to_owned()).collect(),
+            not_stated: not_stated.iter().map(|what| what.words().to_owned()).collect(),
             scatter: calibration.scatter.as_ref().map(|scatter| ScatterDocument {
                 chi_square: scatter.chi_square,
                 degrees_of_freedom: scatter.degrees_of_freedom,
@@ -228,7 +263,8 @@ impl ResultDocument {
         let chi_square = &result.chi_square;
         let residuals = result.residuals.iter().map(|residual| {
             let (index, value) = (residual.index, residual.residual_deg_per_h);
-            ResidualDocument { i: index.i, j: index.j, x: value.x, y: value.y }
+            let u = residual.standard_uncertainty_deg_per_h;
+            ResidualDocument { i: index.i, j: index.j, x: value.x, y: value.y, u_x: Some(u.x), u_y: Some(u.y) }
         });
         Self {
             method: result.method.key().to_owned(),
@@ -242,6 +278,11 @@ impl ResultDocument {
             iterations_predicted: iteration
                 .and_then(|iteration| iteration.predicted_steps)
                 .filter(|steps| *steps <= LARGEST_NUMBER_OF_STEPS),
+            stop_rule: iteration.map(|iteration| StopRuleDocument {
+                delta1_percent: iteration.stop_rule.delta1_percent,
+                delta2_deg_per_h: iteration.stop_rule.delta2_deg_per_h,
+            }),
+            changes: iteration.map(|iteration| (2..).zip(&iteration.changes).map(ChangeDocument::new).collect()),
             spectral_radius: iteration.map(|iteration| iteration.spectral_radius),
             remainder_k_deg_per_h_per_ma: iteration.map(|it| rows(&it.remainder_k_deg_per_h_per_ma)),
             remainder_omega_n_deg_per_h_per_g: iteration.map(|it| rows(&it.remainder_omega_n_deg_per_h_per_g)),
@@ -281,6 +322,13 @@ impl ResultDocument {
             gravity_m_per_s2,
             gravity_u_m_per_s2: gravity_u_m_per_s2.unwrap_or(0.0),
         }
+    }
+}
+
+impl ChangeDocument {
+    fn new((step, change): (u32, &StepChange)) -> Self {
+        let StepChange { main_scale_factors_percent, g_drifts_deg_per_h_per_g } = *change;
+        Self { step, main_scale_factors_percent, g_drifts_deg_per_h_per_g }
     }
 }
 

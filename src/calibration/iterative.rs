@@ -65,8 +65,17 @@ pub enum NoIterativeSolution {
     },
 }
 
-/// What successive approximation gives.
+/// By how much one step moved what the stop rule looks at.
 #[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepChange {
+    /// K_x or K_y, whichever moved more, percent of its value.
+    pub main_scale_factors_percent: f64,
+    /// ω_g or ω_k, whichever moved more, °/h/g.
+    pub g_drifts_deg_per_h_per_g: f64,
+}
+
+/// What successive approximation gives.
+#[derive(Debug, Clone, PartialEq)]
 pub struct IterativeSolution {
     /// K, ω_0, ω_g and ω_k at the last step.
     pub parameters: GyroParameters,
@@ -74,6 +83,8 @@ pub struct IterativeSolution {
     pub omega_n_deg_per_h_per_g: Matrix2<f64>,
     /// Steps taken; the first approximation counts as 1.
     pub steps: u32,
+    /// What each step after the first approximation moved.
+    pub changes: Vec<StepChange>,
     /// ρ(T).
     pub spectral_radius: f64,
     /// K_λ − K_{λ−1}, the last step of K, °/h/mA.
@@ -165,13 +176,15 @@ impl Plan {
     }
 
     /// Steps until the rule is met; `None` when 200 are not enough.
-    fn run(&self, rule: &StopRule) -> Option<LastStep> {
+    fn run(&self, rule: &StopRule, mut watch: impl FnMut(StepChange)) -> Option<LastStep> {
         let (mut k, mut omega_n) = (self.first_k, self.omega_n(&self.first_k));
         for step in 2..=LARGEST_NUMBER_OF_STEPS {
             let next_k = self.next_k(&omega_n);
             let next_omega_n = self.omega_n(&next_k);
             let (change, change_omega_n) = (next_k - k, next_omega_n - omega_n);
             (k, omega_n) = (next_k, next_omega_n);
+            let moved = StepChange::new(&k, &change, &change_omega_n);
+            watch(moved);
             if meets(rule, &k, &change, &change_omega_n) {
                 return Some(LastStep { k, omega_n, change, steps: step });
             }
@@ -181,7 +194,7 @@ impl Plan {
 
     /// How many steps the rule asks for; `None` when 200 are not enough.
     pub fn steps(&self, rule: &StopRule) -> Option<u32> {
-        self.run(rule).map(|last| last.steps)
+        self.run(rule, |_| ()).map(|last| last.steps)
     }
 }
 
@@ -194,11 +207,30 @@ struct LastStep {
     steps: u32,
 }
 
+impl StepChange {
+    fn new(k: &Matrix2<f64>, change: &Matrix2<f64>, change_omega_n: &Matrix2<f64>) -> Self {
+        let [omega_g, omega_k] = g_drifts(change_omega_n);
+        // A value that passes through 0 moved by more than any percentage; documents hold finite numbers alone.
+        let percent = |change: f64, value: f64| match change {
+            0.0 => 0.0,
+            change => (100.0 * (change / value).abs()).min(f64::MAX),
+        };
+        Self {
+            main_scale_factors_percent: percent(change.m11, k.m11).max(percent(change.m22, k.m22)),
+            g_drifts_deg_per_h_per_g: omega_g.abs().max(omega_k.abs()),
+        }
+    }
+}
+
+/// ω_g and ω_k of an ω_n (paper, eq. (16)).
+fn g_drifts(omega_n: &Matrix2<f64>) -> [f64; 2] {
+    [(omega_n.m11 + omega_n.m22) / 2.0, (omega_n.m21 - omega_n.m12) / 2.0]
+}
+
 /// The paper's stop rule (under eq. (19)): K_x, K_y by at most Δ₁ %, ω_g, ω_k by at most Δ₂.
 fn meets(rule: &StopRule, k: &Matrix2<f64>, change: &Matrix2<f64>, change_omega_n: &Matrix2<f64>) -> bool {
     let share = rule.delta1_percent / 100.0;
-    let omega_g = (change_omega_n.m11 + change_omega_n.m22) / 2.0;
-    let omega_k = (change_omega_n.m21 - change_omega_n.m12) / 2.0;
+    let [omega_g, omega_k] = g_drifts(change_omega_n);
     change.m11.abs() <= share * k.m11.abs()
         && change.m22.abs() <= share * k.m22.abs()
         && omega_g.abs() <= rule.delta2_deg_per_h
@@ -222,19 +254,22 @@ pub fn solve(
         return Err(NoIterativeSolution::Diverges { spectral_radius });
     }
     let too_many = NoIterativeSolution::TooManySteps { spectral_radius };
-    let LastStep { k, omega_n, change, steps } = plan.run(rule).ok_or(too_many)?;
+    let mut changes = Vec::new();
+    let LastStep { k, omega_n, change, steps } = plan.run(rule, |change| changes.push(change)).ok_or(too_many)?;
     let rest = (Matrix2::identity() - plan.t).try_inverse().ok_or(too_many)?;
     let remainder = change * plan.t * rest;
+    let [omega_g_deg_per_h_per_g, omega_k_deg_per_h_per_g] = g_drifts(&omega_n);
     let parameters = GyroParameters {
         k_deg_per_h_per_ma: k,
         omega0_deg_per_h: mean_misclosure(coefficients, currents_ma, &k, &omega_n),
-        omega_g_deg_per_h_per_g: (omega_n.m11 + omega_n.m22) / 2.0,
-        omega_k_deg_per_h_per_g: (omega_n.m21 - omega_n.m12) / 2.0,
+        omega_g_deg_per_h_per_g,
+        omega_k_deg_per_h_per_g,
     };
     Ok(IterativeSolution {
         parameters,
         omega_n_deg_per_h_per_g: omega_n,
         steps,
+        changes,
         spectral_radius,
         last_change_k_deg_per_h_per_ma: change,
         remainder_k_deg_per_h_per_ma: remainder,

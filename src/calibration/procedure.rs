@@ -207,7 +207,9 @@ impl<'a> Evaluation<'a> {
         let found = iterative::solve(coefficients, self.currents_ma, rule)?;
         let predicted_steps = iterative::Plan::new(coefficients, self.currents_ma)?.predicted_steps(rule);
         let iteration = Iteration {
+            stop_rule: *rule,
             steps: found.steps,
+            changes: found.changes,
             predicted_steps,
             spectral_radius: found.spectral_radius,
             remainder_k_deg_per_h_per_ma: found.remainder_k_deg_per_h_per_ma,
@@ -260,6 +262,7 @@ impl<'a> Evaluation<'a> {
             Residual {
                 index: at.index,
                 residual_deg_per_h: residual,
+                standard_uncertainty_deg_per_h: Vector2::new(u[0], u[1]),
                 normalised: Vector2::new(in_units(residual.x, u[0]), in_units(residual.y, u[1])),
             }
         })

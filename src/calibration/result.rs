@@ -2,7 +2,7 @@
 
 use super::analytic::NoAnalyticSolution;
 use super::diagnosis::Hint;
-use super::iterative::NoIterativeSolution;
+use super::iterative::{NoIterativeSolution, StepChange, StopRule};
 use super::least_squares::NoLeastSquares;
 use super::parameter::Parameter;
 use super::scatter::Scatter;
@@ -121,10 +121,14 @@ impl MethodResult {
 }
 
 /// How successive approximation went.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Iteration {
+    /// When it was to stop.
+    pub stop_rule: StopRule,
     /// Steps taken, the first approximation counted as 1.
     pub steps: u32,
+    /// What each step after the first approximation moved.
+    pub changes: Vec<StepChange>,
     /// Steps predicted before the first one.
     pub predicted_steps: Option<u32>,
     /// ρ(T), known before the first step.
@@ -159,6 +163,8 @@ pub struct Residual {
     pub index: PositionIndex,
     /// Along x and y.
     pub residual_deg_per_h: Vector2<f64>,
+    /// Its standard uncertainty: what is left when nothing is wrong.
+    pub standard_uncertainty_deg_per_h: Vector2<f64>,
     /// In units of its standard uncertainty; 0 where it cannot differ from 0.
     pub normalised: Vector2<f64>,
 }

@@ -6,13 +6,59 @@ use crate::site::{Site, SiteUncertainty, UNKNOWN_DEFLECTION_U_ARCSEC};
 use crate::stand::{Certificate, CertifiedPosition};
 use crate::units::radians_from_arcseconds;
 
+/// What nobody states: the uncertainty of a result is without it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NotStated {
+    /// The certified angles' own part.
+    Angles,
+    /// The return to a position.
+    Return,
+    /// What all positions share on the platform.
+    Platform,
+    /// What all positions share on the stand's base.
+    Base,
+    /// The latitude.
+    Latitude,
+    /// The deflection of the vertical, through which it becomes the astronomic one.
+    Deflection,
+    /// The azimuth of the base.
+    Azimuth,
+    /// The azimuth of the mark.
+    Mark,
+    /// The level of the base.
+    Level,
+    /// The gyro's seat.
+    Seat,
+    /// Gravity, which a verdict against a type needs.
+    Gravity,
+}
+
+impl NotStated {
+    /// In words, with the key of the file that would state it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Angles => "the certified angles (u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec)",
+            Self::Return => "the return to a position (repeatability_arcsec)",
+            Self::Platform => "the platform (common_platform_arcsec)",
+            Self::Base => "the stand's base (common_base_arcsec)",
+            Self::Latitude => "the latitude (latitude_arcsec)",
+            Self::Deflection => "the deflection of the vertical (deflection_arcsec.u)",
+            Self::Azimuth => "the base's azimuth (azimuth_arcsec)",
+            Self::Mark => "the azimuth of the mark (position_u_m, deflection_arcsec.u)",
+            Self::Level => "the base's level (level_arcsec)",
+            Self::Seat => "the gyro's seat (seating_arcsec)",
+            Self::Gravity => "gravity (gravity_u_m_per_s2)",
+        }
+    }
+}
+
 /// What the files state, and what they do not.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stated {
     /// Standard uncertainties; what is not stated is taken as exact.
     pub uncertainty: InputUncertainty,
-    /// What is not stated, in words: the uncertainty of a result is without it.
-    pub missing: Vec<&'static str>,
+    /// What is not stated.
+    pub missing: Vec<NotStated>,
 }
 
 impl Stated {
@@ -24,16 +70,15 @@ impl Stated {
         laboratory: &Laboratory,
     ) -> Self {
         let mut missing = Vec::new();
-        let mut angle = |arcsec: Option<f64>, what: &'static str| {
+        let mut angle = |arcsec: Option<f64>, what: NotStated| {
             if arcsec.is_none() && !missing.contains(&what) {
                 missing.push(what);
             }
             radians_from_arcseconds(arcsec.unwrap_or(0.0))
         };
-        let own = "the certified angles (u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec)";
         let angles_rad = positions
             .iter()
-            .map(|at| [at.u_alpha_arcsec, at.u_beta_arcsec, at.u_gamma_arcsec].map(|u| angle(u, own)))
+            .map(|at| [at.u_alpha_arcsec, at.u_beta_arcsec, at.u_gamma_arcsec].map(|u| angle(u, NotStated::Angles)))
             .collect();
         let base = Known::new(site, laboratory);
         let seat = laboratory.seating_arcsec.as_ref();
@@ -43,22 +88,19 @@ impl Stated {
             angles_rad,
             angles_degrees_of_freedom: positions.iter().map(|at| degrees_of_freedom(at.degrees_of_freedom)).collect(),
             repeatability_degrees_of_freedom: degrees_of_freedom(certificate.repeatability_degrees_of_freedom),
-            repeatability_rad: angle(
-                certificate.repeatability_arcsec,
-                "the return to a position (repeatability_arcsec)",
-            ),
-            common_platform_rad: angle(certificate.common_platform_arcsec, "the platform (common_platform_arcsec)"),
-            common_base_rad: angle(certificate.common_base_arcsec, "the stand's base (common_base_arcsec)"),
-            latitude_rad: angle(base.latitude_arcsec, "the latitude (latitude_arcsec)"),
-            deflection_rad: angle(base.deflection_arcsec, "the deflection of the vertical (deflection_arcsec.u)"),
-            azimuth_rad: angle(base.azimuth_arcsec, "the base's azimuth (azimuth_arcsec)"),
-            mark_rad: angle(base.mark_arcsec, "the azimuth of the mark (position_u_m, deflection_arcsec.u)"),
-            level_rad: angle(base.level_arcsec, "the base's level (level_arcsec)"),
-            seating_rad: seat.map(|u| angle(u, "the gyro's seat (seating_arcsec)")),
+            repeatability_rad: angle(certificate.repeatability_arcsec, NotStated::Return),
+            common_platform_rad: angle(certificate.common_platform_arcsec, NotStated::Platform),
+            common_base_rad: angle(certificate.common_base_arcsec, NotStated::Base),
+            latitude_rad: angle(base.latitude_arcsec, NotStated::Latitude),
+            deflection_rad: angle(base.deflection_arcsec, NotStated::Deflection),
+            azimuth_rad: angle(base.azimuth_arcsec, NotStated::Azimuth),
+            mark_rad: angle(base.mark_arcsec, NotStated::Mark),
+            level_rad: angle(base.level_arcsec, NotStated::Level),
+            seating_rad: seat.map(|u| angle(u, NotStated::Seat)),
             meter: MeterUncertainty::from(&laboratory.meter),
         };
         if site.gravity_u_m_per_s2().is_none() {
-            missing.push("gravity (gravity_u_m_per_s2)");
+            missing.push(NotStated::Gravity);
         }
         Self { uncertainty, missing }
     }
@@ -74,7 +116,7 @@ impl Setup {
         positions: &[CertifiedPosition],
         site: &Site,
         laboratory: &Laboratory,
-    ) -> Result<(Self, Vec<&'static str>), NoSetup> {
+    ) -> Result<(Self, Vec<NotStated>), NoSetup> {
         let Stated { uncertainty, missing } = Stated::new(certificate, positions, site, laboratory);
         let positions: Vec<_> = positions.iter().map(CertifiedPosition::to_model).collect();
         Ok((Self::new(&positions, site.earth().rate(), uncertainty)?, missing))

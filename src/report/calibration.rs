@@ -3,6 +3,7 @@
 use crate::calibration::diagnosis::CANNOT_TELL;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::parameter::Parameter;
+use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, Found, Verdict, change_in_uncertainties};
 use crate::calibration::{Calibration, MethodResult};
 use crate::report::columns;
@@ -18,7 +19,7 @@ pub struct Context<'a> {
     /// The g that drifts are per, and its standard uncertainty where that is stated.
     pub gravity_m_per_s2: (f64, Option<f64>),
     /// Uncertainties that nobody stated.
-    pub missing: &'a [&'static str],
+    pub missing: &'a [NotStated],
     /// Against the gyro's type, by its name.
     pub verdict: Option<(&'a str, &'a Verdict)>,
     /// An earlier result, and the change since then against the same tolerance.
@@ -105,7 +106,7 @@ fn methods(out: &mut String, calibration: &Calibration) {
     }
 }
 
-fn fit(out: &mut String, calibration: &Calibration, missing: &[&str]) {
+fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
     let Some(answer) = calibration.answer() else { return };
     let chi_square = &answer.chi_square;
     let _ = writeln!(
@@ -152,6 +153,7 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[&str]) {
         columns::paragraph(out, "", &format!("WARNING: {hint}."));
     }
     if !missing.is_empty() {
+        let missing: Vec<&str> = missing.iter().map(|what| what.words()).collect();
         let words = format!("Not stated by anybody, and so missing from every u: {}.", missing.join("; "));
         columns::paragraph(out, "", &words);
     }

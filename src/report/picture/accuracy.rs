@@ -66,7 +66,9 @@ fn rows(accuracy: &Accuracy, gravity_m_per_s2: f64) -> Vec<Row> {
     let gyro = accuracy.gyro.to_type();
     let standard_uncertainty = accuracy.standard_uncertainty.to_model().to_vector();
     // The verdict on a gyro of just this uncertainty knows tolerance and uncertainty in one unit and at one g.
-    let found = Found { parameters: gyro.nominal.to_model(), standard_uncertainty, gravity_m_per_s2 };
+    // What a passport states is per local g: the uncertainty of g itself is no part of it.
+    let parameters = gyro.nominal.to_model();
+    let found = Found { parameters, standard_uncertainty, gravity_m_per_s2, gravity_u_m_per_s2: 0.0 };
     let verdict = against_type(&found, &gyro);
     let share = |parameter: Parameter| {
         let row = verdict.parameters.iter().find(|row| row.parameter == parameter.key())?;
