@@ -78,6 +78,8 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
 pub(crate) struct Linearised {
     /// The best fit, which is where derivatives are taken.
     pub(crate) fit: Fit,
+    /// The method's own result: the fit's, or the closed solution of the readings, to which iteration leads too.
+    pub(crate) found: Unknowns,
     /// How often every position was read.
     pub(crate) repeats: Repeats,
     /// L: parameters × misclosures (two a position). L F is the spread of the parameters.
@@ -98,20 +100,22 @@ pub(crate) fn linearise(
     data.variance_factor = scatter.map_or(1.0, |found| found.variance_factor);
     let fit = data.fit(setup, anisoelasticity)?;
     let propagation = Propagation::new(setup, &fit);
-    let response = match method {
-        Method::LeastSquares => propagation.response_of_least_squares(),
+    let (found, response) = match method {
+        Method::LeastSquares => (fit.unknowns, propagation.response_of_least_squares()),
         Method::Analytic | Method::Iterative => {
+            let parameters = analytic::solve(setup.coefficients(), &data.currents_ma)?.parameters;
             let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma);
             let map = map.ok_or(match setup.coefficients().matrices {
                 Some(_) => NoAnalyticSolution::SingularCurrents,
                 None => NoAnalyticSolution::EightPositionsMissing,
             })?;
-            propagation.response_of_analytic(&map)
+            let found = Unknowns { parameters, anisoelasticity_deg_per_h_per_g2: 0.0 };
+            (found, propagation.response_of_analytic(&map))
         }
     };
     let degrees_of_freedom = scatter.map_or(f64::INFINITY, |found| found.degrees_of_freedom as f64);
     let repeats = Repeats { counts: data.counts, variance_factor: data.variance_factor, degrees_of_freedom };
-    Ok(Linearised { repeats, response, fit })
+    Ok(Linearised { found, repeats, response, fit })
 }
 
 /// Mean currents as a fit takes them.

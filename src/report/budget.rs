@@ -39,9 +39,11 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
         line.expanded_uncertainty(),
         100.0 * COVERAGE,
     );
-    let shown: Vec<&Contribution> = line.contributions.iter().filter(|part| part.share >= SHARE_SHOWN).collect();
-    let mut rows: Vec<Vec<String>> = shown.iter().map(|part| row(part)).collect();
-    let rest = &line.contributions[shown.len()..];
+    let large = line.contributions.iter().filter(|part| part.share >= SHARE_SHOWN).count();
+    // One that is left is shown as it is.
+    let shown = if large + 1 == line.contributions.len() { large + 1 } else { large };
+    let (shown, rest) = line.contributions.split_at(shown);
+    let mut rows: Vec<Vec<String>> = shown.iter().map(row).collect();
     if !rest.is_empty() {
         let sum: f64 = rest.iter().map(|part| part.contribution * part.contribution).sum();
         let name = format!("{} others", rest.len());

@@ -35,7 +35,7 @@ pub struct Budget {
 pub struct ParameterBudget {
     /// Which parameter.
     pub parameter: Parameter,
-    /// Its value by the fit.
+    /// Its value by the method; by iteration carried on without end.
     pub value: f64,
     /// Its standard uncertainty.
     pub standard_uncertainty: f64,
@@ -86,9 +86,8 @@ impl Budget {
         let linear = linearise(setup, readings, method, anisoelasticity)?;
         let (inputs, columns) = causes::inputs(setup, &linear.fit.unknowns, &linear.fit.currents_ma, &linear.repeats);
         let spread = product(&linear.response, &columns);
-        let unknowns = &linear.fit.unknowns;
-        let mut values = unknowns.parameters.to_vector().to_vec();
-        values.push(unknowns.anisoelasticity_deg_per_h_per_g2);
+        let mut values = linear.found.parameters.to_vector().to_vec();
+        values.push(linear.found.anisoelasticity_deg_per_h_per_g2);
         let each = Parameter::NINE.into_iter().zip(values).take(spread.nrows());
         let parameters = each.map(|(parameter, value)| of_parameter(parameter, value, &inputs, &spread)).collect();
         Ok(Self { method, inputs, spread, parameters })

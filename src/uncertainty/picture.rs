@@ -4,7 +4,7 @@ use super::budget::{Budget, ParameterBudget};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// Bars of a panel at most; the rest is one bar.
+/// Bars of a panel; one more for what is left.
 const MOST_BARS: usize = 6;
 
 /// Width of a panel and of the names at its left, height of its title and of a bar, in pixels.
@@ -80,7 +80,8 @@ fn parameter(area: &Area, line: &ParameterBudget) -> Drawn {
     area.draw(&Text::new(format!("{name}: u = {u:.1e} {unit}"), (14, 14), title))?;
     let mut bars: Vec<(String, f64)> =
         line.contributions.iter().map(|part| (part.cause.kind(), part.contribution)).collect();
-    if bars.len() > MOST_BARS {
+    // One that is left is shown as it is.
+    if bars.len() > MOST_BARS + 1 {
         let rest = bars.split_off(MOST_BARS);
         let sum: f64 = rest.iter().map(|(_, part)| part * part).sum();
         bars.push((format!("{} others", rest.len()), sum.sqrt()));
