@@ -13,6 +13,7 @@ use crate::stand::{Identity, Stand};
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::scalar::Identifier;
 use jiff::civil::Date;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// A folder of passports: `<model>/<serial>/<site id>-<revision>.yaml`.
@@ -169,42 +170,58 @@ impl Folder {
 }
 
 /// What a folder holds that a register reads.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Default)]
 pub struct Found {
     /// Files named as passports are, `<site id>-<revision>.yaml`, sorted.
     pub passports: Vec<PathBuf>,
     /// Files named `revocation-<sequence>.yaml`, sorted.
     pub revocation_lists: Vec<PathBuf>,
-    /// Links: they may lead out of the folder, and were not followed.
+    /// Links to folders, or named so: they may lead out of the folder, and were not followed.
     pub links: Vec<PathBuf>,
+    /// Pipes, devices and sockets named so: to open one may wait for ever.
+    pub special: Vec<PathBuf>,
+    /// Folders below that cannot be read, and why.
+    pub unreadable: Vec<FileError>,
 }
 
 /// Finds the passports and revocation lists under `root`, at any depth; links are not followed.
 ///
 /// # Errors
-/// [`FileError::Read`] for a folder that cannot be read.
+/// [`FileError::Read`] when `root` cannot be read; of a folder below it is told in what is found.
 pub fn find(root: &Path) -> Result<Found, FileError> {
     let mut found = Found::default();
     let mut folders = vec![root.to_owned()];
     while let Some(folder) = folders.pop() {
-        let failed = |error| FileError::Read { path: folder.clone(), error };
-        for entry in std::fs::read_dir(&folder).map_err(failed)? {
-            let entry = entry.map_err(failed)?;
-            let kind = entry.file_type().map_err(failed)?;
-            let path = entry.path();
-            match numbered(&path) {
-                _ if kind.is_dir() => folders.push(path),
-                None => {}
-                Some(_) if kind.is_symlink() => found.links.push(path),
-                Some("revocation") => found.revocation_lists.push(path),
-                Some(_) => found.passports.push(path),
+        if let Err(error) = search(&folder, &mut found, &mut folders) {
+            let error = FileError::Read { path: folder.clone(), error };
+            if folder == root {
+                return Err(error);
             }
+            found.unreadable.push(error);
         }
     }
     found.passports.sort();
     found.revocation_lists.sort();
     found.links.sort();
+    found.special.sort();
     Ok(found)
+}
+
+fn search(folder: &Path, found: &mut Found, folders: &mut Vec<PathBuf>) -> io::Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let entry = entry?;
+        let kind = entry.file_type()?;
+        let path = entry.path();
+        match numbered(&path) {
+            _ if kind.is_dir() => folders.push(path),
+            name if kind.is_symlink() && (name.is_some() || path.is_dir()) => found.links.push(path),
+            None => {}
+            Some(_) if !kind.is_file() => found.special.push(path),
+            Some("revocation") => found.revocation_lists.push(path),
+            Some(_) => found.passports.push(path),
+        }
+    }
+    Ok(())
 }
 
 /// What stands before the number in `<name>-<number>.yaml`.
@@ -271,9 +288,13 @@ fn existing(path: &Path) -> Result<Option<Existing>, FolderRefused> {
     if !path.try_exists().map_err(|error| FileError::Read { path: path.to_owned(), error })? {
         return Ok(None);
     }
+    let incomparable = |reason: String| FolderRefused::NotComparable { path: path.to_owned(), reason };
+    // A pipe of that name would keep its reader waiting for ever.
+    if std::fs::metadata(path).is_ok_and(|what| !what.is_file() && !what.is_dir()) {
+        return Err(incomparable("a pipe, a device or a socket".to_owned()));
+    }
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES)?;
     let name = path.display().to_string();
-    let incomparable = |reason: String| FolderRefused::NotComparable { path: path.to_owned(), reason };
     let text =
         SignedText::split(&name, &bytes, NAMESPACE).map_err(|malformed| incomparable(malformed.fault.to_string()))?;
     let payload = text.signed_payload().map_err(|error| incomparable(error.to_string()))?;

@@ -5,6 +5,7 @@ use clap::ValueEnum;
 use dtg_passport::files::{self, FileError};
 use dtg_passport::folder::FolderRefused;
 use dtg_passport::passport::issue::IssueRefused;
+use dtg_passport::text::printable;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -41,7 +42,8 @@ pub fn file(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
 
 /// Writes words about a result. Nothing is to be done when even standard error is closed.
 pub fn say(words: &str) {
-    let _ = writeln!(io::stderr().lock(), "dtg-passport: {}", words.trim_end().replace('\n', "\n              "));
+    let lines: Vec<String> = words.trim_end().split('\n').map(printable).collect();
+    let _ = writeln!(io::stderr().lock(), "dtg-passport: {}", lines.join("\n              "));
 }
 
 /// The exit code of a refusal by the folder: what the file system or the signer refuses is no verdict on a document.

@@ -1,16 +1,15 @@
 //! `register`: what is in force in a folder of passports.
 
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, REFUSED, output};
+use super::{Code, Failure, REFUSED, UNUSABLE, output};
 use clap::{Args, ValueEnum};
-use dtg_passport::files;
-use dtg_passport::folder::{self, Found};
+use dtg_passport::files::{self, FileError};
+use dtg_passport::folder;
 use dtg_passport::passport::{Question, Trust};
 use dtg_passport::register::{Alarm, Register, examine};
 use dtg_passport::report::register as report;
-use dtg_passport::revocation::{RevocationList, Series};
+use dtg_passport::revocation::{RevocationList, Series, claims_to_be_a_list};
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
-use jiff::Timestamp;
 use std::path::{Path, PathBuf};
 
 /// List every passport under a folder: in force, superseded, moved, expired, revoked, broken
@@ -48,7 +47,7 @@ enum TableFormat {
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
-    let mut register = read(&options.folder, trust, &question, options.within)?;
+    let (mut register, _) = read(&options.folder, trust, &question, options.within)?;
     match options.by {
         By::Stand => {}
         By::Site => register.passports.sort_by(|a, b| a.site.cmp(&b.site)),
@@ -59,40 +58,66 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         TableFormat::Json => output::json(&register)?,
         TableFormat::Csv => output::result(&report::csv(&register))?,
     }
-    Ok(if register.needs_attention() { REFUSED } else { 0 })
+    Ok(match (register.is_incomplete(), register.needs_attention()) {
+        (true, _) => UNUSABLE,
+        (_, true) => REFUSED,
+        _ => 0,
+    })
 }
 
-/// Reads a folder: its revocation lists first, then every passport.
-pub fn read(folder: &Path, mut trust: Trust, question: &Question, within: Option<u32>) -> Result<Register, Failure> {
-    let Found { passports, revocation_lists, links } = folder::find(folder).map_err(Failure::unusable)?;
-    let mut alarms = lists(&revocation_lists, &mut trust, question.time)?;
-    alarms.extend(links.iter().map(|path| Alarm::link(&path.display().to_string())));
-    let mut examined = Vec::with_capacity(passports.len());
-    for path in &passports {
-        let name = path.display().to_string();
-        match files::read(path, LARGEST_DOCUMENT_BYTES) {
-            Ok(bytes) => examined.push(examine(&name, &bytes, &trust, question, within)),
-            Err(files::FileError::TooLarge { .. }) => alarms.push(Alarm::too_large(&name)),
-            Err(error) => return Err(Failure::unusable(error)),
-        }
-    }
-    Ok(Register::of(examined, alarms))
-}
-
-/// The newest list of the folder and of those given counts.
-fn lists(paths: &[PathBuf], trust: &mut Trust, time: Timestamp) -> Result<Vec<Alarm>, Failure> {
+/// Reads a folder: its revocation lists first, then every passport. The trust that comes back knows what those lists
+/// withdraw.
+pub fn read(
+    folder: &Path,
+    mut trust: Trust,
+    question: &Question,
+    within: Option<u32>,
+) -> Result<(Register, Trust), Failure> {
+    let found = folder::find(folder).map_err(Failure::unusable)?;
+    let name = |path: &Path| path.display().to_string();
+    let mut alarms: Vec<Alarm> = found.unreadable.iter().map(unreadable).collect();
+    alarms.extend(found.links.iter().map(|path| Alarm::link(&name(path))));
+    alarms.extend(found.special.iter().map(|path| Alarm::special(&name(path))));
     let mut good: Vec<RevocationList> = trust.withdrawn.take().into_iter().collect();
-    let mut alarms = Vec::new();
-    for path in paths {
-        let name = path.display().to_string();
-        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-        match RevocationList::verify(&name, &bytes, &trust.signers, &trust.revoked, time) {
-            Ok(list) => good.push(list),
-            Err(error) => alarms.push(Alarm::revocation(error.to_string(), &name)),
+    let mut passports = found.passports;
+    for path in found.revocation_lists {
+        match files::read(&path, LARGEST_DOCUMENT_BYTES) {
+            // A site may be called so.
+            Ok(bytes) if !claims_to_be_a_list(&bytes) => passports.push(path),
+            Ok(bytes) => {
+                match RevocationList::verify(&name(&path), &bytes, &trust.signers, &trust.revoked, question.time) {
+                    Ok(list) => {
+                        if path.file_name().is_none_or(|name| *name != *list.file_name()) {
+                            alarms.push(Alarm::misnamed_list(&list, &name(&path)));
+                        }
+                        good.push(list);
+                    }
+                    Err(error) => alarms.push(Alarm::refused_list(&error, &name(&path))),
+                }
+            }
+            Err(error) => alarms.push(unreadable(&error)),
         }
     }
     let series = Series::of(good);
-    alarms.extend(series.alarms.into_iter().map(|words| Alarm::revocation(words, "")));
+    alarms.extend(series.alarms.into_iter().map(Alarm::series));
     trust.withdrawn = series.newest;
-    Ok(alarms)
+    let mut examined = Vec::with_capacity(passports.len());
+    for path in &passports {
+        match files::read(path, LARGEST_DOCUMENT_BYTES) {
+            Ok(bytes) => examined.push(examine(&name(path), &bytes, &trust, question, within)),
+            Err(error) => alarms.push(unreadable(&error)),
+        }
+    }
+    Ok((Register::of(examined, alarms), trust))
+}
+
+/// One file that cannot be read hides none of the others.
+fn unreadable(error: &FileError) -> Alarm {
+    match error {
+        FileError::TooLarge { path, .. } => Alarm::too_large(&path.display().to_string()),
+        FileError::Read { path, error } => {
+            Alarm::unreadable(&format!("cannot be read: {}", files::reason(error)), &path.display().to_string())
+        }
+        other => Alarm::unreadable(&other.to_string(), ""),
+    }
 }

@@ -28,9 +28,14 @@ pub struct Options {
 }
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
-    let (trust, question) = options.trust.load()?;
-    let register = options.register.as_deref();
-    let register = register.map(|folder| super::register::read(folder, trust.clone(), &question, None)).transpose()?;
+    let (mut trust, question) = options.trust.load()?;
+    let mut register = None;
+    if let Some(folder) = &options.register {
+        // What the folder's lists withdraw is withdrawn here too.
+        let (read, with_lists) = super::register::read(folder, trust, &question, None)?;
+        read.alarms.iter().for_each(|alarm| output::say(&alarm.to_string()));
+        (register, trust) = (Some(read), with_lists);
+    }
     let mut code = 0;
     let mut verdicts = Vec::new();
     for path in &options.passports {

@@ -2,6 +2,7 @@
 
 use crate::register::{Register, State};
 use crate::report::columns;
+use crate::text::printable;
 use std::fmt::Write;
 
 impl State {
@@ -25,12 +26,11 @@ pub fn text(register: &Register) -> String {
     let mut out = String::new();
     for line in &register.passports {
         let id = line.id.as_deref().unwrap_or("(nothing of it may be believed)");
-        let _ = writeln!(out, "{:<13}  {id}  {}", line.state.words(), line.file);
-        columns::paragraph(&mut out, "               ", &line.why);
+        let _ = writeln!(out, "{:<13}  {id}  {}", line.state.words(), printable(&line.file));
+        columns::paragraph(&mut out, "               ", &printable(&line.why));
     }
     for alarm in &register.alarms {
-        let files = if alarm.files.is_empty() { String::new() } else { format!(": {}", alarm.files.join(", ")) };
-        columns::paragraph(&mut out, "", &format!("ALARM ({}): {}{files}", alarm.kind, alarm.words));
+        columns::paragraph(&mut out, "", &printable(&alarm.to_string()));
     }
     let counts: Vec<String> =
         register.counts().into_iter().map(|(state, count)| format!("{count} {}", state.words())).collect();
@@ -53,7 +53,14 @@ pub fn csv(register: &Register) -> String {
     out
 }
 
-/// A cell as RFC 4180 has it.
+/// A cell as RFC 4180 has it, on one line. Spreadsheets take a text for a formula by its first character, and whoever
+/// signs with a key of his own may choose that: an apostrophe before it makes it a text.
 fn quoted(cell: &str) -> String {
-    if cell.contains([',', '"', '\n']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.to_owned() }
+    let cell = printable(cell);
+    let apostrophe = if cell.starts_with(['=', '+', '-', '@']) { "'" } else { "" };
+    if cell.contains([',', '"']) {
+        format!("\"{apostrophe}{}\"", cell.replace('"', "\"\""))
+    } else {
+        apostrophe.to_owned() + &cell
+    }
 }

@@ -1,6 +1,7 @@
 //! The answer of `verify`, as text and as the JSON that programs rely on.
 
 use crate::passport::Verification;
+use crate::text::printable;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -50,7 +51,7 @@ pub fn text(verdicts: &[Verdict]) -> String {
     for verdict in verdicts {
         let answer = if verdict.valid { "VALID" } else { "REFUSED" };
         let id = verdict.id.as_deref().unwrap_or("(nothing of it may be believed)");
-        let _ = writeln!(text, "{answer}  {id}  {}", verdict.file);
+        let _ = writeln!(text, "{answer}  {id}  {}", printable(&verdict.file));
         for check in &verdict.checks {
             let mark = match check.passed {
                 Some(true) => "ok",
