@@ -6,6 +6,7 @@ use crate::document::sha256_hex;
 use crate::passport::checks::{Check, CheckName, Code};
 use crate::passport::content::Content;
 use crate::passport::verification::{Question, Trust, Verification, verify};
+use crate::revocation::{ListRefused, RevocationList, SeriesAlarm};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;
@@ -59,29 +60,101 @@ pub struct Line {
 /// What needs a person to look at it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Alarm {
-    /// "forked", "duplicate_id", "misplaced", "link", "too_large" or "revocation".
-    pub kind: &'static str,
+    /// Which kind: its key.
+    pub kind: AlarmKind,
     /// In words.
     pub words: String,
     /// The files.
     pub files: Vec<String>,
 }
 
+/// Kinds of alarm.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AlarmKind {
+    /// Two successors of one passport.
+    Forked,
+    /// Two files with one id.
+    DuplicateId,
+    /// A revision is missing from a chain whose ends are there.
+    Missing,
+    /// A file is not where its content belongs.
+    Misplaced,
+    /// A link, which may lead out of the folder.
+    Link,
+    /// A pipe, a device or a socket.
+    Special,
+    /// A file larger than any document.
+    TooLarge,
+    /// A file or a folder that cannot be read.
+    Unreadable,
+    /// Lists of withdrawn passports.
+    Revocation,
+}
+
+impl AlarmKind {
+    /// Its name for programs.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Forked => "forked",
+            Self::DuplicateId => "duplicate_id",
+            Self::Missing => "missing",
+            Self::Misplaced => "misplaced",
+            Self::Link => "link",
+            Self::Special => "special",
+            Self::TooLarge => "too_large",
+            Self::Unreadable => "unreadable",
+            Self::Revocation => "revocation",
+        }
+    }
+}
+
 impl Alarm {
     /// A link, which may lead out of the folder.
     pub fn link(file: &str) -> Self {
-        Self { kind: "link", words: "a link is not followed".to_owned(), files: vec![file.to_owned()] }
+        Self::of_file(AlarmKind::Link, "a link is not followed", file)
+    }
+
+    /// A file that only looks like one.
+    pub fn special(file: &str) -> Self {
+        Self::of_file(AlarmKind::Special, "a pipe, a device or a socket is not read", file)
     }
 
     /// A file larger than any passport.
     pub fn too_large(file: &str) -> Self {
-        Self { kind: "too_large", words: "larger than any passport".to_owned(), files: vec![file.to_owned()] }
+        Self::of_file(AlarmKind::TooLarge, "larger than any passport", file)
     }
 
-    /// Something about the lists of withdrawn passports; `file` is empty when it is about several.
-    pub fn revocation(words: String, file: &str) -> Self {
-        let files = if file.is_empty() { Vec::new() } else { vec![file.to_owned()] };
-        Self { kind: "revocation", words, files }
+    /// A file or a folder that cannot be read, and why.
+    pub fn unreadable(why: &str, file: &str) -> Self {
+        Self::of_file(AlarmKind::Unreadable, why, file)
+    }
+
+    /// A list of withdrawn passports that does not count.
+    pub fn refused_list(error: &ListRefused, file: &str) -> Self {
+        Self::of_file(AlarmKind::Revocation, &error.to_string(), file)
+    }
+
+    /// A good list of withdrawn passports in a file of another name than its own.
+    pub fn misnamed_list(list: &RevocationList, file: &str) -> Self {
+        let words = format!("list {} belongs into {}", list.sequence, list.file_name());
+        Self::of_file(AlarmKind::Misplaced, &words, file)
+    }
+
+    /// Something about several lists.
+    pub fn series(alarm: SeriesAlarm) -> Self {
+        Self { kind: AlarmKind::Revocation, words: alarm.to_string(), files: Vec::new() }
+    }
+
+    fn of_file(kind: AlarmKind, words: &str, file: &str) -> Self {
+        Self { kind, words: words.to_owned(), files: vec![file.to_owned()] }
+    }
+}
+
+impl std::fmt::Display for Alarm {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let files = if self.files.is_empty() { String::new() } else { format!(": {}", self.files.join(", ")) };
+        write!(f, "ALARM ({}): {}{files}", self.kind.key(), self.words)
     }
 }
 
@@ -108,12 +181,16 @@ pub struct Register {
     pub passports: Vec<Line>,
     /// What needs a person.
     pub alarms: Vec<Alarm>,
+    #[serde(skip)]
+    successors: Successors,
 }
 
 /// What a register keeps of one file: a few hundred bytes, whatever the passport's size.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Examined {
     line: Line,
+    /// Model, serial number and site: what revisions are counted for.
+    series: String,
     revision: u32,
     predecessor: Option<Predecessor>,
     /// Whether its word counts: text, signature, numbers and signer hold, and its key is not revoked.
@@ -124,7 +201,28 @@ pub struct Examined {
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Predecessor {
     sha256: String,
+    series: String,
+    revision: u32,
     superseded: bool,
+}
+
+/// A passport that supersedes others.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Successor {
+    id: String,
+    file: String,
+    sha256: String,
+    series: String,
+}
+
+/// What is superseded, and by what.
+///
+/// A successor names one passport by the SHA-256 of its file. By its id it names it too, and with it every earlier
+/// revision for that site: they do not come back when a file between them is taken away.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+struct Successors {
+    of_file: BTreeMap<String, Vec<Successor>>,
+    of_series: BTreeMap<String, (u32, Successor)>,
 }
 
 /// Verifies one file; `within_days` sets from when on it counts as expiring.
@@ -153,8 +251,11 @@ pub fn examined(
     let counts = verification.authentic().is_some();
     let predecessor = content.and_then(|content| {
         let from = content.passport.reissued_from.as_ref()?;
-        Some(Predecessor { sha256: from.sha256.clone(), superseded: content.passport.supersedes == Some(true) })
+        let (series, revision) = series_of(&from.id);
+        let superseded = content.passport.supersedes == Some(true);
+        Some(Predecessor { sha256: from.sha256.clone(), series, revision, superseded })
     });
+    let series = content.map_or_else(String::new, |content| series_of(&content.passport.id).0);
     let line = Line {
         file: file.to_owned(),
         state,
@@ -166,7 +267,13 @@ pub fn examined(
         valid_until: content.and_then(Content::last_day).map(|(day, _)| day),
         why,
     };
-    Examined { line, revision: content.map_or(0, |content| content.passport.revision), predecessor, counts }
+    Examined { line, series, revision: content.map_or(0, |content| content.passport.revision), predecessor, counts }
+}
+
+/// What an id counts revisions for, and the revision.
+fn series_of(id: &str) -> (String, u32) {
+    let (series, revision) = id.rsplit_once('/').unwrap_or((id, ""));
+    (series.to_owned(), revision.parse().unwrap_or(0))
 }
 
 fn in_force(content: Option<&Content>, time: Timestamp, within_days: Option<u32>) -> (State, String) {
@@ -205,45 +312,45 @@ impl Examined {
 impl Register {
     /// Follows the chains of all files examined.
     ///
-    /// A passport is superseded by one that names its file's SHA-256 and says so, when that one's word counts; also by
-    /// one that has itself been withdrawn or has expired since: the older numbers do not come back.
+    /// A passport is superseded by one that names its file's SHA-256 and says so, or says so of a later revision, when
+    /// that one's word counts; also by one that has itself been withdrawn or has expired since: the older numbers do not
+    /// come back.
     ///
     /// `alarms` are those that were raised while the files were found.
     pub fn of(mut files: Vec<Examined>, mut alarms: Vec<Alarm>) -> Self {
         files.sort_by(|a, b| (&a.line.id, a.revision, &a.line.file).cmp(&(&b.line.id, b.revision, &b.line.file)));
-        let successors = successors(&files);
+        let successors = Successors::of(&files);
         let mut passports: Vec<Line> = Vec::with_capacity(files.len());
         for file in &files {
             let mut line = file.line.clone();
-            let followed_by = successors.get(line.sha256.as_str()).map_or(&[][..], Vec::as_slice);
-            if let (Some(by), State::InForce | State::Expiring | State::Expired) = (followed_by.first(), line.state) {
-                let same_site = by.line.site == line.site;
-                line.state = if same_site { State::Superseded } else { State::Moved };
-                line.why = format!("by {} ({})", by.line.id.as_deref().unwrap_or("?"), by.line.file);
+            let by = successors.by(&line.sha256, &file.series, file.revision);
+            if let (Some(by), State::InForce | State::Expiring | State::Expired) = (by, line.state) {
+                line.state = if by.series == file.series { State::Superseded } else { State::Moved };
+                line.why = format!("by {} ({})", by.id, by.file);
             }
+            let followed_by = successors.of_file.get(&line.sha256).map_or(&[][..], Vec::as_slice);
             if followed_by.len() > 1 {
                 alarms.push(forked(&line, followed_by));
             }
             passports.push(line);
         }
         alarms.extend(duplicate_ids(&passports));
+        alarms.extend(missing(&files));
         alarms.extend(passports.iter().filter_map(misplaced));
-        Self { passports, alarms }
+        Self { passports, alarms, successors }
     }
 
-    /// The successor of the file with this SHA-256, when there is one that supersedes it.
-    pub fn successor_of(&self, sha256: &str) -> Option<&Line> {
-        self.passports
-            .iter()
-            .find(|line| line.sha256 == sha256 && matches!(line.state, State::Superseded | State::Moved))
-    }
-
-    /// Adds to the answer about a passport whether a successor counts in its place; `bytes` is its whole file.
+    /// Adds to the answer about a passport whether a successor counts in its place; `bytes` is its whole file, which need
+    /// not be one of the register's.
     pub fn asked(&self, verification: Verification, bytes: &[u8]) -> Verification {
-        let (code, detail) = match (verification.content(), self.successor_of(&sha256_hex(bytes))) {
-            (None, _) => (Code::NotRun, "not run: an earlier check failed".to_owned()),
-            (_, Some(line)) => (Code::Superseded, format!("superseded {}: use that one", line.why)),
-            (_, None) => (Code::Ok, format!("not superseded by any of {} files", self.passports.len())),
+        let by = verification.content().map(|content| {
+            let (series, revision) = series_of(&content.passport.id);
+            self.successors.by(&sha256_hex(bytes), &series, revision)
+        });
+        let (code, detail) = match by {
+            None => (Code::NotRun, "not run: an earlier check failed".to_owned()),
+            Some(Some(by)) => (Code::Superseded, format!("superseded by {} ({}): use that one", by.id, by.file)),
+            Some(None) => (Code::Ok, format!("not superseded by any of {} files", self.passports.len())),
         };
         verification.with(Check { name: CheckName::Register, code, detail })
     }
@@ -251,6 +358,11 @@ impl Register {
     /// Whether a person must look at it: an alarm, or a passport that does not verify.
     pub fn needs_attention(&self) -> bool {
         !self.alarms.is_empty() || self.passports.iter().any(|line| line.state == State::Broken)
+    }
+
+    /// Whether something could not be read at all: then more may be wrong than the register says.
+    pub fn is_incomplete(&self) -> bool {
+        self.alarms.iter().any(|alarm| alarm.kind == AlarmKind::Unreadable)
     }
 
     /// How many are in each state.
@@ -263,26 +375,66 @@ impl Register {
     }
 }
 
-/// For every SHA-256 the passports that say they supersede it, each once.
-fn successors(files: &[Examined]) -> BTreeMap<&str, Vec<&Examined>> {
-    let mut successors: BTreeMap<&str, Vec<&Examined>> = BTreeMap::new();
-    for file in files {
-        if let Some(superseded) = file.supersedes() {
-            let known = successors.entry(superseded).or_default();
+impl Successors {
+    fn of(files: &[Examined]) -> Self {
+        let mut successors = Self::default();
+        for file in files.iter().filter(|file| file.counts) {
+            let (Some(from), Some(id)) = (file.predecessor.as_ref().filter(|from| from.superseded), &file.line.id)
+            else {
+                continue;
+            };
+            let Line { file: name, sha256, .. } = file.line.clone();
+            let successor = Successor { id: id.clone(), file: name, sha256, series: file.series.clone() };
+            let last = successors.of_series.get(&from.series).map_or(0, |(revision, _)| *revision);
+            if from.revision > last {
+                successors.of_series.insert(from.series.clone(), (from.revision, successor.clone()));
+            }
+            let known = successors.of_file.entry(from.sha256.clone()).or_default();
             // A copy of the same file is one successor, not two.
-            if known.iter().all(|other| other.line.sha256 != file.line.sha256) {
-                known.push(file);
+            if known.iter().all(|other| other.sha256 != successor.sha256) {
+                known.push(successor);
+            }
+        }
+        successors
+    }
+
+    /// What supersedes a file, known by its SHA-256, or a revision of a series.
+    fn by(&self, sha256: &str, series: &str, revision: u32) -> Option<&Successor> {
+        let of_file = self.of_file.get(sha256).and_then(|successors| successors.first());
+        let of_series = || {
+            let (last, successor) = self.of_series.get(series)?;
+            (revision < *last).then_some(successor)
+        };
+        of_file.or_else(of_series)
+    }
+}
+
+fn forked(line: &Line, by: &[Successor]) -> Alarm {
+    let ids: Vec<&str> = by.iter().map(|successor| successor.id.as_str()).collect();
+    let id = line.id.as_deref().unwrap_or("?");
+    let words = format!("{id} has {} successors that all supersede it: {}", by.len(), ids.join(", "));
+    Alarm { kind: AlarmKind::Forked, words, files: by.iter().map(|successor| successor.file.clone()).collect() }
+}
+
+/// Revisions between two that are there: somebody took them away, or did not pass them on.
+fn missing(files: &[Examined]) -> Vec<Alarm> {
+    let mut of_series: BTreeMap<&str, BTreeMap<u32, &str>> = BTreeMap::new();
+    for file in files.iter().filter(|file| file.counts) {
+        of_series.entry(&file.series).or_default().insert(file.revision, &file.line.file);
+    }
+    let mut alarms = Vec::new();
+    for (series, revisions) in of_series {
+        let revisions: Vec<(u32, &str)> = revisions.into_iter().collect();
+        for pair in revisions.windows(2) {
+            let [(from, before), (to, after)] = pair else { continue };
+            if to - from > 1 {
+                let words = format!("between {series}/{from} and {series}/{to} a revision is missing");
+                let files = vec![(*before).to_owned(), (*after).to_owned()];
+                alarms.push(Alarm { kind: AlarmKind::Missing, words, files });
             }
         }
     }
-    successors
-}
-
-fn forked(line: &Line, by: &[&Examined]) -> Alarm {
-    let ids: Vec<&str> = by.iter().filter_map(|file| file.line.id.as_deref()).collect();
-    let id = line.id.as_deref().unwrap_or("?");
-    let words = format!("{id} has {} successors that all supersede it: {}", by.len(), ids.join(", "));
-    Alarm { kind: "forked", words, files: by.iter().map(|file| file.line.file.clone()).collect() }
+    alarms
 }
 
 fn duplicate_ids(passports: &[Line]) -> Vec<Alarm> {
@@ -298,7 +450,7 @@ fn duplicate_ids(passports: &[Line]) -> Vec<Alarm> {
             let alike = lines.windows(2).all(|pair| pair[0].sha256 == pair[1].sha256);
             let what = if alike { "the same file, copied" } else { "different files" };
             let words = format!("{id} is there {} times: {what}", lines.len());
-            Alarm { kind: "duplicate_id", words, files: lines.iter().map(|line| line.file.clone()).collect() }
+            Alarm { kind: AlarmKind::DuplicateId, words, files: lines.iter().map(|line| line.file.clone()).collect() }
         })
         .collect()
 }
@@ -311,7 +463,7 @@ fn misplaced(line: &Line) -> Option<Alarm> {
     let file = line.file.replace('\\', "/");
     let there = file == due || file.ends_with(&format!("/{due}"));
     (!there).then(|| Alarm {
-        kind: "misplaced",
+        kind: AlarmKind::Misplaced,
         words: format!("{id} belongs into {due}"),
         files: vec![line.file.clone()],
     })

@@ -8,6 +8,7 @@ use crate::text::problem::Unreadable;
 use crate::text::{Path, Problems, canonical, record, rule};
 use crate::trust::{AllowedSigners, NotAuthorised, RevokedKeys, SignatureError};
 use jiff::Timestamp;
+use std::collections::BTreeSet;
 
 /// The format of a list.
 pub const REVOCATION_FORMAT: &str = "dtg-revocation/1";
@@ -23,6 +24,7 @@ pub const REVOCATION_NAMESPACE: &str = "dtg-revocation";
 
 record! {
     /// A withdrawn passport.
+    #[derive(Eq, PartialOrd, Ord)]
     pub struct Entry {
         /// Its id.
         pub id: String,
@@ -184,6 +186,17 @@ impl RevocationList {
         self.entries.iter().find(|entry| entry.id == id || entry.sha256 == sha256)
     }
 
+    /// Whether every entry of `other` is in it.
+    fn has_all_of(&self, other: &Self) -> bool {
+        let own: BTreeSet<&Entry> = self.entries.iter().collect();
+        other.entries.iter().all(|entry| own.contains(entry))
+    }
+
+    /// The name of its file. Of a list under another name somebody may want to be believed that it is newer.
+    pub fn file_name(&self) -> String {
+        format!("revocation-{}.yaml", self.sequence)
+    }
+
     /// The list that follows `last`: its entries, and these; `None` begins a new series.
     ///
     /// # Errors
@@ -236,10 +249,56 @@ impl RevocationList {
 /// lists for new ones: an alarm.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// The list with the highest number: the one that counts.
+    /// The list with the highest number: the one that counts. Entries that only other lists have are added to it: nobody
+    /// can tell which of contradicting lists is right, and what was withdrawn once must not come back in silence.
     pub newest: Option<RevocationList>,
-    /// What is wrong, in words.
-    pub alarms: Vec<String>,
+    /// What is wrong.
+    pub alarms: Vec<SeriesAlarm>,
+}
+
+/// What is wrong with a series of lists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum SeriesAlarm {
+    /// Its beginning is not there.
+    #[error("the series of revocation lists begins with {first}, not with 1: a gap")]
+    Beginning {
+        /// The first list that is there.
+        first: u32,
+    },
+    /// Lists in between are not there.
+    #[error("after revocation list {from} comes {to}: a gap")]
+    Gap {
+        /// The last list before it.
+        from: u32,
+        /// The first list after it.
+        to: u32,
+    },
+    /// Two lists have one number.
+    #[error("two different revocation lists have the number {0}: a fork")]
+    Fork(u32),
+    /// A later list was issued earlier.
+    #[error("revocation list {to} is older than list {from}: a step back in time")]
+    StepBack {
+        /// The earlier list.
+        from: u32,
+        /// The later list.
+        to: u32,
+    },
+    /// A later list has lost an entry.
+    #[error("revocation list {to} has lost an entry of list {from}")]
+    LostEntry {
+        /// The earlier list.
+        from: u32,
+        /// The later list.
+        to: u32,
+    },
+}
+
+impl SeriesAlarm {
+    /// Whether the lists contradict each other; otherwise some are only missing, as when single lists are shown.
+    pub fn is_contradiction(self) -> bool {
+        !matches!(self, Self::Beginning { .. } | Self::Gap { .. })
+    }
 }
 
 impl Series {
@@ -247,30 +306,31 @@ impl Series {
     pub fn of(mut lists: Vec<RevocationList>) -> Self {
         lists.sort_by_key(|list| (list.sequence, list.issued_at));
         lists.dedup();
-        let mut alarms = Vec::new();
-        if let Some(first) = lists.first().filter(|first| first.sequence != 1) {
-            alarms.push(format!(
-                "the series of revocation lists begins with {}: lists 1 to {} are missing",
-                first.sequence,
-                first.sequence - 1
-            ));
-        }
+        let first = lists.first().map(|list| list.sequence).filter(|first| *first != 1);
+        let mut alarms: Vec<SeriesAlarm> = first.map(|first| SeriesAlarm::Beginning { first }).into_iter().collect();
         for pair in lists.windows(2) {
             let [earlier, later] = pair else { continue };
             let (from, to) = (earlier.sequence, later.sequence);
             if from == to {
-                alarms.push(format!("two different revocation lists have the number {from}: a fork"));
-            } else if to > from + 1 {
-                alarms.push(format!("after revocation list {from} comes {to}: a gap"));
+                alarms.push(SeriesAlarm::Fork(from));
+            } else if to - from > 1 {
+                alarms.push(SeriesAlarm::Gap { from, to });
             }
             if later.issued_at < earlier.issued_at {
-                alarms.push(format!("revocation list {to} is older than list {from}: a step back in time"));
+                alarms.push(SeriesAlarm::StepBack { from, to });
             }
-            if !earlier.entries.iter().all(|entry| later.entries.contains(entry)) {
-                alarms.push(format!("revocation list {to} has lost an entry of list {from}"));
+            if from != to && !later.has_all_of(earlier) {
+                alarms.push(SeriesAlarm::LostEntry { from, to });
             }
         }
-        Self { newest: lists.pop(), alarms }
+        let mut newest = lists.pop();
+        if let Some(newest) = &mut newest {
+            let known: BTreeSet<Entry> = newest.entries.iter().cloned().collect();
+            let mut others: BTreeSet<Entry> = lists.into_iter().flat_map(|list| list.entries).collect();
+            others.retain(|entry| !known.contains(entry));
+            newest.entries.extend(others);
+        }
+        Self { newest, alarms }
     }
 }
 
@@ -308,9 +368,29 @@ mod tests {
             (vec![list(1, 200, &["a"]), list(2, 300, &["b"])], "lost an entry"),
         ];
         for (lists, words) in cases {
-            let alarms = Series::of(lists).alarms.join("; ");
-            assert!(alarms.contains(words), "{alarms}");
+            let alarms: Vec<String> = Series::of(lists).alarms.iter().map(ToString::to_string).collect();
+            assert!(alarms.iter().any(|alarm| alarm.contains(words)), "{alarms:?}");
         }
+    }
+
+    #[test]
+    fn what_was_withdrawn_once_does_not_come_back() {
+        let withdrawn = |lists| -> Vec<String> {
+            Series::of(lists).newest.unwrap().entries.into_iter().map(|entry| entry.id).collect()
+        };
+        assert_eq!(withdrawn(vec![list(1, 200, &["a"]), list(1, 250, &["b"])]), ["b", "a"]);
+        assert_eq!(
+            withdrawn(vec![list(1, 200, &["a", "c"]), list(2, 300, &["a"]), list(3, 300, &["b"])]),
+            ["b", "a", "c"]
+        );
+        assert_eq!(withdrawn(vec![list(1, 200, &["a"]), list(2, 300, &["a", "b"])]), ["a", "b"]);
+    }
+
+    #[test]
+    fn single_lists_are_no_contradiction() {
+        let alarms = |lists| Series::of(lists).alarms.into_iter().filter(|alarm| alarm.is_contradiction()).count();
+        assert_eq!(alarms(vec![list(2, 200, &["a"]), list(5, 300, &["a", "b"])]), 0);
+        assert_eq!(alarms(vec![list(2, 200, &["a"]), list(2, 300, &["b"])]), 1);
     }
 
     #[test]

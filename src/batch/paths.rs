@@ -78,6 +78,9 @@ fn in_folder(folder: PathBuf, purpose: Purpose) -> Box<dyn Iterator<Item = Resul
 pub fn found(entry: Result<Entry, FileError>) -> Result<PathBuf, Failure> {
     match entry {
         Ok(Entry::File(path)) => Ok(path),
+        Ok(Entry::Special(path)) => {
+            Err(Failure::unusable(&path, format!("{}: a pipe, a device or a socket is not read", path.display())))
+        }
         Ok(Entry::Link(path)) => {
             let why = format!("{}: is a link, which is not followed: it may lead out of the folder", path.display());
             Err(Failure::refused(&path, why))

@@ -9,7 +9,7 @@ use super::{Batch, Event, Failure, Listener, Outcome, Purpose, Sweeper, parallel
 use crate::document::sha256_hex;
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError, folder_of};
-use crate::folder::{self, Issued, is_numbered, is_revocation_list};
+use crate::folder::{self, Issued, Withdrawn, is_numbered, is_revocation_list};
 use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
 use crate::passport::{Question, Trust, verify};
 use crate::register::{Line, State, examine, examined};
@@ -53,6 +53,13 @@ struct Searched {
     /// With the revocation lists that stand there.
     trust: Trust,
     chains: Chains,
+    /// Passports of a site that is called as revocation lists are.
+    no_lists: Vec<PathBuf>,
+}
+
+/// Whether a file is a revocation list by its name, and none of those that are not.
+fn is_list(path: &Path, no_lists: &[PathBuf]) -> bool {
+    is_revocation_list(path) && !no_lists.iter().any(|other| other == path)
 }
 
 /// What supersedes what.
@@ -149,7 +156,7 @@ impl Run<'_> {
         };
         for entry in Walk::deep(root, is_numbered) {
             let path = match paths::found(entry) {
-                Ok(path) if is_revocation_list(&path) || !self.batch.shard.has_file(&path) => continue,
+                Ok(path) if is_list(&path, &searched.no_lists) || !self.batch.shard.has_file(&path) => continue,
                 path => path,
             };
             self.push(path.map(|path| Candidate { path, folder: Some(Arc::clone(&searched)) }), tell);
@@ -171,23 +178,23 @@ impl Run<'_> {
         }
         tell(Event::Planned(passports));
         let mut trust = self.change.trust.clone();
-        let alarms = folder::withdraw(&lists, &mut trust, self.change.question.time).map_err(Failure::file)?;
+        let Withdrawn { alarms, no_lists } = folder::withdraw(&lists, &mut trust, self.change.question.time);
         if !alarms.is_empty() {
             tell(Event::Lost(passports));
             let words: Vec<_> = alarms.into_iter().map(|alarm| alarm.words).collect();
             let why = format!("{}: what was withdrawn is not certain: {}", root.display(), words.join("; "));
             return Err(Failure { passports: Some(passports), ..Failure::refused(root, why) });
         }
-        let chains = self.chains(root, &trust);
-        Ok(Searched { trust, chains })
+        let chains = self.chains(root, &trust, &no_lists);
+        Ok(Searched { trust, chains, no_lists })
     }
 
     /// What supersedes what, by the word of every passport that says so and counts.
-    fn chains(&self, root: &Path, trust: &Trust) -> Chains {
+    fn chains(&self, root: &Path, trust: &Trust, no_lists: &[PathBuf]) -> Chains {
         let mut chains = Chains::default();
         // What cannot be read is told when its turn comes.
         let mut files = Walk::deep(root, is_numbered).flatten().filter_map(|entry| match entry {
-            Entry::File(path) if !is_revocation_list(&path) => Some(path),
+            Entry::File(path) if !is_list(&path, no_lists) => Some(path),
             _ => None,
         });
         loop {

@@ -3,6 +3,7 @@
 use super::Failure;
 use clap::ValueEnum;
 use dtg_passport::files;
+use dtg_passport::text::printable;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -51,5 +52,6 @@ pub fn file(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
 
 /// Writes words about a result. Nothing is to be done when even standard error is closed.
 pub fn say(words: &str) {
-    let _ = writeln!(anstream::stderr().lock(), "dtg-passport: {}", words.trim_end().replace('\n', "\n              "));
+    let lines: Vec<String> = words.trim_end().split('\n').map(printable).collect();
+    let _ = writeln!(io::stderr().lock(), "dtg-passport: {}", lines.join("\n              "));
 }

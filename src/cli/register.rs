@@ -2,14 +2,12 @@
 
 use super::output::{self, TableFormat};
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, REFUSED};
+use super::{Code, Failure, REFUSED, UNUSABLE};
 use clap::{Args, ValueEnum};
-use dtg_passport::files;
-use dtg_passport::folder::{self, Found};
+use dtg_passport::folder;
 use dtg_passport::passport::{Question, Trust};
-use dtg_passport::register::{Alarm, Register, examine};
+use dtg_passport::register::Register;
 use dtg_passport::report::register as report;
-use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
 use std::path::{Path, PathBuf};
 
 /// List every passport under a folder: in force, superseded, moved, expired, revoked, broken
@@ -40,7 +38,8 @@ enum By {
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
-    let mut register = read(&options.folder, trust, &question, options.within)?;
+    let register = folder::register(&options.folder, trust, &question, options.within);
+    let (mut register, _) = register.map_err(Failure::unusable)?;
     match options.by {
         By::Stand => {}
         By::Site => register.passports.sort_by(|a, b| a.site.cmp(&b.site)),
@@ -51,22 +50,17 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         TableFormat::Json => output::json(&register)?,
         TableFormat::Csv => output::result(&report::csv(&register))?,
     }
-    Ok(if register.needs_attention() { REFUSED } else { 0 })
+    Ok(match (register.is_incomplete(), register.needs_attention()) {
+        (true, _) => UNUSABLE,
+        (_, true) => REFUSED,
+        _ => 0,
+    })
 }
 
-/// Reads a folder: its revocation lists first, then every passport.
-pub fn read(folder: &Path, mut trust: Trust, question: &Question, within: Option<u32>) -> Result<Register, Failure> {
-    let Found { passports, revocation_lists, links } = folder::find(folder).map_err(Failure::unusable)?;
-    let mut alarms = folder::withdraw(&revocation_lists, &mut trust, question.time).map_err(Failure::unusable)?;
-    alarms.extend(links.iter().map(|path| Alarm::link(&path.display().to_string())));
-    let mut examined = Vec::with_capacity(passports.len());
-    for path in &passports {
-        let name = path.display().to_string();
-        match files::read(path, LARGEST_DOCUMENT_BYTES) {
-            Ok(bytes) => examined.push(examine(&name, &bytes, &trust, question, within)),
-            Err(files::FileError::TooLarge { .. }) => alarms.push(Alarm::too_large(&name)),
-            Err(error) => return Err(Failure::unusable(error)),
-        }
-    }
-    Ok(Register::of(examined, alarms))
+/// The register that a passport is asked about in, and the trust that knows what the lists in its folder withdraw.
+pub fn asked(folder: Option<&Path>, trust: Trust, question: &Question) -> Result<(Option<Register>, Trust), Failure> {
+    let Some(folder) = folder else { return Ok((None, trust)) };
+    let (register, trust) = folder::register(folder, trust, question, None).map_err(Failure::unusable)?;
+    register.alarms.iter().for_each(|alarm| output::say(&alarm.to_string()));
+    Ok((Some(register), trust))
 }

@@ -1,11 +1,11 @@
 //! `render`: the printable passport, of a verified passport alone.
 
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, REFUSED, output};
+use super::{Code, Failure, REFUSED, output, register};
 use clap::{Args, ValueEnum};
 use dtg_passport::files;
 use dtg_passport::report::page::{Language, Languages, PassportPage};
-use dtg_passport::report::verdict;
+use dtg_passport::report::{style, verdict};
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
 use std::path::PathBuf;
 
@@ -50,12 +50,11 @@ impl From<Written> for Language {
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
-    let register = options.register.as_deref();
-    let register = register.map(|folder| super::register::read(folder, trust.clone(), &question, None)).transpose()?;
+    let (register, trust) = register::asked(options.register.as_deref(), trust, &question)?;
     let bytes = files::read(&options.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
     let name = options.passport.display().to_string();
     let page = PassportPage::verified(&name, &bytes, &trust, &question, register.as_ref()).map_err(|refused| {
-        let words = verdict::text(&[verdict::Verdict::of(&name, &refused)]);
+        let words = style::plain(&verdict::text(&[verdict::Verdict::of(&name, &refused)]));
         Failure { message: format!("no page was written\n{words}"), code: REFUSED }
     })?;
     let mut languages = options.lang.iter().copied().map(Language::from);
@@ -63,7 +62,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     output::file(&options.output, &page.html(&Languages::new(first, languages)), options.force)?;
     output::say(&format!("wrote {}", options.output.display()));
     if !page.verification().valid() {
-        output::say(verdict::text(&[verdict::Verdict::of(&name, page.verification())]).as_str());
+        output::say(&style::plain(&verdict::text(&[verdict::Verdict::of(&name, page.verification())])));
     }
     Ok(0)
 }

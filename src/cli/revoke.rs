@@ -49,7 +49,8 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     }
     let series = Series::of(lists);
     if !series.alarms.is_empty() {
-        return Err(Failure::refused(series.alarms.join("\n")));
+        let alarms: Vec<String> = series.alarms.iter().map(ToString::to_string).collect();
+        return Err(Failure::refused(alarms.join("\n")));
     }
     let mut entries = Vec::new();
     for id in &options.ids {
@@ -73,7 +74,16 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let list = RevocationList::following(series.newest.as_ref(), &options.key.identity, now(), entries);
     let list = list.map_err(Failure::refused)?;
     let text = list.sign(options.key.signer()?.as_ref()).map_err(Failure::refused)?;
-    let path = options.list.join(format!("revocation-{}.yaml", list.sequence));
+    let path = options.list.join(list.file_name());
+    // A list that nobody can verify would withdraw nothing.
+    RevocationList::verify(
+        &path.display().to_string(),
+        text.as_bytes(),
+        &trust.signers,
+        &trust.revoked,
+        list.issued_at,
+    )
+    .map_err(|refused| Failure::refused(format!("the new list would not count ({refused}); nothing was written")))?;
     files::write_new(&path, text.as_bytes(), Access::Shared).map_err(Failure::file)?;
     output::result(&format!("revoked    passports in all: {}  {}\n", list.entries.len(), path.display()))?;
     Ok(0)

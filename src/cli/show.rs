@@ -6,7 +6,7 @@ use super::{Code, Failure, REFUSED, output};
 use clap::{ArgGroup, Args};
 use dtg_passport::files;
 use dtg_passport::passport::{Content, read, verify};
-use dtg_passport::report::{passport_table, verdict};
+use dtg_passport::report::{passport_table, style, verdict};
 use dtg_passport::text::{Field, LARGEST_DOCUMENT_BYTES};
 use std::path::PathBuf;
 
@@ -63,7 +63,7 @@ impl PassportOptions {
             Some(passport) => Ok(Read { content: passport.content().clone(), verified: true }),
             None => {
                 let verdict = verdict::Verdict::of(&name, &verification);
-                Err(Failure { message: verdict::text(&[verdict]), code: REFUSED })
+                Err(Failure { message: style::plain(&verdict::text(&[verdict])), code: REFUSED })
             }
         }
     }

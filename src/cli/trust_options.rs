@@ -1,6 +1,6 @@
 //! TRUST: whom to trust, and what is asked. The same options everywhere, by this code.
 
-use super::Failure;
+use super::{Failure, output};
 use clap::Args;
 use dtg_passport::earth::Place;
 use dtg_passport::files;
@@ -82,6 +82,9 @@ pub fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Result<Trus
         RevocationList::verify(name, bytes, &trust.signers, &trust.revoked, time).map_err(Failure::unusable)
     });
     let series = Series::of(verified.collect::<Result<_, _>>()?);
+    for alarm in series.alarms.iter().filter(|alarm| alarm.is_contradiction()) {
+        output::say(&format!("ALARM: {alarm}; what any of the lists given withdraws counts as withdrawn"));
+    }
     trust.withdrawn = series.newest;
     Ok(trust)
 }

@@ -2,7 +2,7 @@
 
 use super::output::Format;
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, REFUSED, UNUSABLE, output};
+use super::{Code, Failure, REFUSED, UNUSABLE, output, register};
 use clap::Args;
 use dtg_passport::files;
 use dtg_passport::passport::verification::unreadable;
@@ -29,8 +29,7 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
-    let register = options.register.as_deref();
-    let register = register.map(|folder| super::register::read(folder, trust.clone(), &question, None)).transpose()?;
+    let (register, trust) = register::asked(options.register.as_deref(), trust, &question)?;
     let mut code = 0;
     let mut verdicts = Vec::new();
     for path in &options.passports {

@@ -13,6 +13,8 @@ pub enum Entry {
     File(PathBuf),
     /// A link of a wanted name, or to a folder; it was not followed.
     Link(PathBuf),
+    /// A pipe, a device or a socket of a wanted name: reading it might never end.
+    Special(PathBuf),
 }
 
 /// Walks through a folder. It holds the wanted names of the folders from the top to where it is, and nothing of other
@@ -34,6 +36,7 @@ enum Kind {
     File,
     Folder,
     Link,
+    Special,
 }
 
 impl Walk {
@@ -60,7 +63,7 @@ impl Walk {
             } else if kind.is_dir() {
                 self.deep.then_some(Kind::Folder)
             } else {
-                wanted.then_some(Kind::File)
+                wanted.then_some(if kind.is_file() { Kind::File } else { Kind::Special })
             };
             entries.extend(kind.map(|kind| (name, kind)));
         }
@@ -90,6 +93,7 @@ impl Iterator for Walk {
             match kind {
                 Kind::File => return Some(Ok(Entry::File(path))),
                 Kind::Link => return Some(Ok(Entry::Link(path))),
+                Kind::Special => return Some(Ok(Entry::Special(path))),
                 Kind::Folder => self.next = Some(path),
             }
         }

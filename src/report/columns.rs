@@ -1,6 +1,7 @@
 //! Text in columns, 100 wide.
 
 use super::style;
+use crate::text::printable;
 use std::fmt::Write;
 
 /// The width of a terminal that nothing is wider than, but for a word or a row that cannot be broken.
@@ -53,10 +54,19 @@ pub fn table(out: &mut String, names: &[&str], rows: &[Vec<String>]) {
     }
 }
 
-/// A row of CSV as RFC 4180 has it, but for its line feed.
+/// A row of CSV as RFC 4180 has it, but for its line feed; every cell is on one line.
+///
+/// Spreadsheets take a text for a formula by its first character, and whoever signs with a key of his own may choose
+/// that: an apostrophe before it makes it a text.
 pub fn csv_row<'a>(cells: impl Iterator<Item = &'a str>) -> String {
     let quoted = |cell: &str| {
-        if cell.contains([',', '"', '\n']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.to_owned() }
+        let cell = printable(cell);
+        let apostrophe = if cell.starts_with(['=', '+', '-', '@']) { "'" } else { "" };
+        if cell.contains([',', '"']) {
+            format!("\"{apostrophe}{}\"", cell.replace('"', "\"\""))
+        } else {
+            apostrophe.to_owned() + &cell
+        }
     };
     cells.map(quoted).collect::<Vec<_>>().join(",") + "\n"
 }
