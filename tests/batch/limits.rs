@@ -204,3 +204,20 @@ fn a_key_in_memory_is_kept_out_of_core_dumps() {
     let status = child.wait().unwrap();
     assert!(status.signal().is_some() && !status.core_dumped(), "{status}");
 }
+
+/// What is held does not grow with the number of passports. The peak is that of the system's own account.
+#[test]
+fn memory_does_not_grow_with_the_number_of_passports() {
+    let workshop = Workshop::new(40, 100);
+    let peak_kib = |stands: &str| -> u64 {
+        let script = "import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, stdout=sys.stderr); \
+                      print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)";
+        let mut python = tools::python();
+        python.args(["-c", script, env!("CARGO_BIN_EXE_dtg-passport")]).current_dir(workshop.path("."));
+        python.args(format!("issue {stands} --site sites {SIGN} --dry-run --format csv").split(' '));
+        tools::output(python).trim().parse().unwrap()
+    };
+    let (few, many) = (peak_kib("stands/0000"), peak_kib("stands"));
+    assert!(many < 64 << 10, "{many} KiB");
+    assert!(many < few + (4 << 10), "{few} KiB for 100 passports, {many} KiB for 4,000");
+}

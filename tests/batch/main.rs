@@ -7,5 +7,6 @@ mod tools;
 mod inputs;
 mod kills;
 mod limits;
+mod scale;
 mod successors;
 mod workshop;

@@ -2,16 +2,20 @@
 
 use crate::tools;
 use dtg_passport::batch::parallel;
+use dtg_passport::document::sha256_hex;
 use dtg_passport::folder::find;
 use dtg_passport::passport::{Question, Trust, verify};
 use dtg_passport::trust::AllowedSigners;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 /// Who signs, and when.
 pub const SIGN: &str = "--key key --identity factory --issued-at 2026-11-03";
+
+/// Files of passports, each with its id and SHA-256.
+pub type Passports = BTreeMap<PathBuf, (String, String)>;
 
 pub struct Workshop(tempfile::TempDir);
 
@@ -70,24 +74,35 @@ impl Workshop {
 
     /// The ids of the passports under a folder. Every one verifies and is where it belongs.
     pub fn sound(&self, folder: &str) -> BTreeSet<String> {
+        self.sound_beside(folder, &BTreeMap::new()).into_values().map(|(id, _)| id).collect()
+    }
+
+    /// The passports under a folder, each with its id and SHA-256; those that are known and have not changed are not
+    /// verified once more.
+    pub fn sound_beside(&self, folder: &str, known: &Passports) -> Passports {
         let root = self.path(folder);
         if !root.exists() {
-            return BTreeSet::new();
+            return BTreeMap::new();
         }
         let signers = fs::read(self.path("allowed_signers")).unwrap();
         let trust = Trust::of(AllowedSigners::parse("allowed_signers", &signers).unwrap());
         let question = Question::at("2027-01-01T00:00:00Z".parse().unwrap());
         let passports = find(&root).unwrap().passports;
-        let ids = parallel::map(&passports, 4, |path| {
+        let sound = parallel::map(&passports, 4, |path| {
+            let bytes = fs::read(path).unwrap();
+            let hash = sha256_hex(&bytes);
+            if let Some((id, _)) = known.get(path).filter(|(_, known)| *known == hash) {
+                return (id.clone(), hash);
+            }
             let name = path.display().to_string();
-            let verification = verify(&name, &fs::read(path).unwrap(), &trust, &question);
+            let verification = verify(&name, &bytes, &trust, &question);
             assert!(verification.valid(), "{name}: {:?}", verification.checks());
             let id = verification.id().unwrap().to_owned();
             let (place, revision) = id.rsplit_once('/').unwrap();
             assert_eq!(*path, root.join(format!("{place}-{revision}.yaml")));
-            id
+            (id, hash)
         });
-        ids.into_iter().collect()
+        passports.into_iter().zip(sound).collect()
     }
 
     /// Temporary files anywhere under a folder.
