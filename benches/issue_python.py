@@ -129,7 +129,7 @@ class Signer:
 
 def main():
     fleet = json.load(sys.stdin)
-    start = time.perf_counter()
+    start, used = time.perf_counter(), time.process_time()
     sites, signer = fleet["sites"], Signer(bytes(fleet["secret"]))
     at = earth(sites)
     horizontal, vertical = (at[key][:, None, None] for key in ("horizontal_deg_per_h", "vertical_deg_per_h"))
@@ -198,8 +198,8 @@ def main():
                 beside.write(file)
             os.rename(path + ".tmp", path)
             computed.append((delta, b_rows, c_rows, omega_rows))
-    seconds = time.perf_counter() - start
-    json.dump({"seconds": seconds, "computed": computed}, sys.stdout)
+    seconds, processor = time.perf_counter() - start, time.process_time() - used
+    json.dump({"seconds": seconds, "processor_seconds": processor, "computed": computed}, sys.stdout)
 
 
 main()

@@ -101,6 +101,11 @@ impl StandGeometry {
         Ok(Self { positions, eight })
     }
 
+    /// Whether the paper's eight are among the positions: then there are matrices at every site.
+    pub fn has_eight(&self) -> bool {
+        self.eight.is_some()
+    }
+
     /// The coefficients at a site with the Earth rate `earth` (paper, eq. (5), (12), (13), (15)).
     ///
     /// B = ω_Γ (A_1 − A_2 Δ) and C = ω_B·1 + ω_Γ A_2 n_2⁻¹, which are the paper's B and C with the part that is free

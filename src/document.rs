@@ -6,7 +6,7 @@
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::problem::{Location, Unreadable};
 use crate::text::{Field, Node, Path, Problems, canonical, rule};
-use crate::trust::{KeyError, PublicKey, Signature, SignatureError, SigningKey};
+use crate::trust::{AllowedSigners, KeyError, Message, PublicKey, Signature, SignatureError, SigningKey};
 use sha2::{Digest, Sha256};
 
 /// The line that ends the payload.
@@ -22,6 +22,14 @@ pub trait Signer {
     /// # Errors
     /// Why there is no signature, in words.
     fn sign(&self, namespace: &str, message: &[u8]) -> Result<Signature, SigningFailed>;
+
+    /// The same for a message that is hashed already, for those who sign the hash.
+    ///
+    /// # Errors
+    /// As [`Signer::sign`].
+    fn sign_message(&self, message: &Message) -> Result<Signature, SigningFailed> {
+        self.sign(message.namespace(), message.bytes())
+    }
 }
 
 /// There is no signature.
@@ -38,6 +46,10 @@ impl From<KeyError> for SigningFailed {
 impl Signer for SigningKey {
     fn sign(&self, namespace: &str, message: &[u8]) -> Result<Signature, SigningFailed> {
         Ok(SigningKey::sign(self, namespace, message)?)
+    }
+
+    fn sign_message(&self, message: &Message) -> Result<Signature, SigningFailed> {
+        Ok(SigningKey::sign_message(self, message)?)
     }
 }
 
@@ -77,12 +89,12 @@ impl<'a> SignedText<'a> {
             let advice = "an unsigned text is no passport; was the file cut?";
             return Err(malformed(Unreadable::whole(name, location, "no signature", "`signature: |`", advice)));
         };
-        let at = Location { line: payload.lines().count() + 2, column: 1 };
+        let at = || Location { line: payload.lines().count() + 2, column: 1 };
         let refuse = |found: String| {
             let advice = "the signature, or what follows it, was changed";
             Unreadable::whole(
                 name,
-                Some(at),
+                Some(at()),
                 found,
                 "an armored SSH signature indented by two spaces, and no more",
                 advice,
@@ -96,7 +108,7 @@ impl<'a> SignedText<'a> {
             let other = signature.namespace().to_owned();
             let found = format!("a signature for {other:?}");
             let advice = "it was signed as another kind of document";
-            let fault = Unreadable::whole(name, Some(at), found, format!("one for {namespace:?}"), advice);
+            let fault = Unreadable::whole(name, Some(at()), found, format!("one for {namespace:?}"), advice);
             return Err(Malformed { fault, other_namespace: Some(other) });
         }
         Ok(Self { payload, signature })
@@ -118,6 +130,16 @@ impl<'a> SignedText<'a> {
     /// The signature does not hold: the text is not the one that was signed.
     pub fn signed_payload(&self) -> Result<&'a str, SignatureError> {
         self.signature.verify(self.signature.namespace(), self.payload.as_bytes())?;
+        Ok(self.payload)
+    }
+
+    /// The same, quicker when the key is one of `signers`; whether it is makes no difference to the answer.
+    ///
+    /// # Errors
+    /// As [`SignedText::signed_payload`].
+    pub(crate) fn payload_signed_by_any(&self, signers: &AllowedSigners) -> Result<&'a str, SignatureError> {
+        let message = Message::new(self.signature.namespace(), self.payload.as_bytes());
+        self.signature.verify_message(&message, signers.point(self.key()))?;
         Ok(self.payload)
     }
 }
@@ -167,7 +189,9 @@ pub(crate) fn read<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut 
 
 /// SHA-256 of a file, lower-case hexadecimal.
 pub fn sha256_hex(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    const DIGITS: [char; 16] = ['0', '1', '2', '3', '4', '5', '6', '7', '8', '9', 'a', 'b', 'c', 'd', 'e', 'f'];
+    let halves = |byte: u8| [byte >> 4, byte & 0xF].map(|half| DIGITS[usize::from(half)]);
+    Sha256::digest(bytes).into_iter().flat_map(halves).collect()
 }
 
 /// Whether a text has the form that [`sha256_hex`] gives.
@@ -177,9 +201,8 @@ pub fn is_sha256_hex(text: &str) -> bool {
 
 /// Where the payload ends: at the first line `signature: |`.
 fn signature_line(bytes: &[u8]) -> Option<usize> {
-    let line = SIGNATURE_LINE.as_bytes();
-    let found = bytes.windows(line.len() + 1).position(|window| window[0] == b'\n' && window[1..] == *line)?;
-    Some(found + 1)
+    let begins_a_line = |at: &usize| *at > 0 && bytes[at - 1] == b'\n';
+    memchr::memmem::find_iter(bytes, SIGNATURE_LINE).find(begins_a_line)
 }
 
 /// The armor without its indent, when every line has it.

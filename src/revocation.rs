@@ -6,7 +6,7 @@
 use crate::document::{self, Malformed, SignedText, Signer, SigningFailed};
 use crate::text::problem::Unreadable;
 use crate::text::{Path, Problems, canonical, record, rule};
-use crate::trust::{AllowedSigners, NotAuthorised, RevokedKeys, SignatureError};
+use crate::trust::{AllowedSigners, Message, NotAuthorised, RevokedKeys, SignatureError};
 use jiff::Timestamp;
 use std::collections::BTreeSet;
 
@@ -237,8 +237,9 @@ impl RevocationList {
             _ => Vec::new(),
         };
         let payload = canonical::write(self, &comments);
-        let signature = signer.sign(REVOCATION_NAMESPACE, payload.as_bytes())?;
-        signature.verify(REVOCATION_NAMESPACE, payload.as_bytes())?;
+        let message = Message::new(REVOCATION_NAMESPACE, payload.as_bytes());
+        let signature = signer.sign_message(&message)?;
+        signature.verify_message(&message, None)?;
         Ok(document::join(&payload, &signature))
     }
 }

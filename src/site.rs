@@ -128,8 +128,9 @@ impl Field for SiteFile {
 
     fn emit<S: Sink>(&self, sink: &mut S) {
         sink.mapping(false, |sink| {
-            sink.key("format");
-            sink.text(&self.format);
+            if sink.key("format") {
+                sink.text(&self.format);
+            }
             self.site.emit_entries(sink);
         });
     }

@@ -3,12 +3,33 @@
 
 use super::content::Content;
 use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
+use crate::stand::{Certificate, CertifiedPosition, Datum, Stand};
 use crate::text::canonical;
 use crate::{earth, units};
 
 /// The payload of a passport: its content in canonical form, with its comments.
 pub fn payload(content: &Content) -> String {
     canonical::write(content, &|path| comments(content, path))
+}
+
+/// The part of the payload that is the same at every site: the keys of [`Stand`] but for its format.
+pub fn payload_of_stand(stand: &Stand, has_matrices: bool) -> String {
+    let of_certificate =
+        || absent_of_certificate(&stand.certificate, &stand.positions, stand.datum.as_ref(), has_matrices);
+    let mut text = String::new();
+    canonical::write_some(&mut text, stand, &|path| of_the_stand(path, of_certificate), &|key| key != "format");
+    text
+}
+
+/// The payload of a passport of a stand whose part of it is known: see [`payload_of_stand`].
+pub fn payload_with(content: &Content, of_stand: &str) -> String {
+    let mut text = String::with_capacity(2 * of_stand.len() + 6000);
+    let comments = |path: &str| comments(content, path);
+    canonical::write_some(&mut text, content, &comments, &|key| matches!(key, "format" | "passport"));
+    text.push_str(of_stand);
+    let others = |key: &str| !matches!(key, "format" | "passport" | "stand" | "certificate" | "datum" | "positions");
+    canonical::write_some(&mut text, content, &comments, &others);
+    text
 }
 
 /// What a passport cannot state because it was not given.
@@ -110,8 +131,17 @@ fn sentences(absences: Vec<Absence>) -> Vec<String> {
 }
 
 fn of_the_certificate(content: &Content) -> Vec<Absence> {
-    let certificate = &content.certificate;
-    let uncertain = content.positions.iter().any(|position| {
+    let Content { certificate, positions, datum, matrices, .. } = content;
+    absent_of_certificate(certificate, positions, datum.as_ref(), matrices.is_some())
+}
+
+fn absent_of_certificate(
+    certificate: &Certificate,
+    positions: &[CertifiedPosition],
+    datum: Option<&Datum>,
+    has_matrices: bool,
+) -> Vec<Absence> {
+    let uncertain = positions.iter().any(|position| {
         position.u_alpha_arcsec.is_none() || position.u_beta_arcsec.is_none() || position.u_gamma_arcsec.is_none()
     });
     let common = certificate.common_platform_arcsec.is_none() || certificate.common_base_arcsec.is_none();
@@ -123,8 +153,8 @@ fn of_the_certificate(content: &Content) -> Vec<Absence> {
         (certificate.traceability.is_none(), Absence::Traceability),
         (temperature, Absence::Temperature),
         (certificate.valid_until.is_none(), Absence::LastDay),
-        (content.datum.is_none(), Absence::Datum),
-        (content.matrices.is_none(), Absence::EightPositions),
+        (datum.is_none(), Absence::Datum),
+        (!has_matrices, Absence::EightPositions),
     ];
     those_that_are(absences)
 }
@@ -149,6 +179,23 @@ fn those_that_are(absences: impl IntoIterator<Item = (bool, Absence)>) -> Vec<Ab
     absences.into_iter().filter_map(|(is, absence)| is.then_some(absence)).collect()
 }
 
+/// The comments above the keys that every passport of a stand has alike; `absences` are those of its certificate.
+fn of_the_stand(path: &str, absences: impl Fn() -> Vec<Absence>) -> Vec<String> {
+    match path {
+        "certificate" => {
+            let mut lines = vec!["What the stand's factory measured, and how well.".to_owned()];
+            lines.extend(sentences(absences()));
+            lines
+        }
+        "positions" => vec![
+            "Nominal frame angle theta and platform angle phi; deviation of the real orientation from them:".to_owned(),
+            "E = Rz(gamma) Ry(beta) Rx(alpha) turns coordinates from the nominal to the real platform, eq. (4)."
+                .to_owned(),
+        ],
+        _ => Vec::new(),
+    }
+}
+
 fn comments(content: &Content, path: &str) -> Vec<String> {
     let fixed: &[&str] = match path {
         "format" => &[
@@ -158,11 +205,7 @@ fn comments(content: &Content, path: &str) -> Vec<String> {
             "Equations: Tang and Podchezertsev 2017, doi 10.18698/2308-6033-2017-10-1691.",
             "Standard uncertainties (k = 1). Matrices are lists of rows.",
         ],
-        "certificate" => &["What the stand's factory measured, and how well."],
-        "positions" => &[
-            "Nominal frame angle theta and platform angle phi; deviation of the real orientation from them:",
-            "E = Rz(gamma) Ry(beta) Rx(alpha) turns coordinates from the nominal to the real platform, eq. (4).",
-        ],
+        "certificate" | "positions" => return of_the_stand(path, || of_the_certificate(content)),
         "matrices" => &[
             "With J1 = (J11 - J13, J12 - J14), J2 = (J21 - J23, J22 - J24) as columns, in mA:",
             "K = B (J1 - J2 Delta)^-1, eq. (13); omega_n = C - K J2 n2^-1, eq. (15);",
@@ -181,7 +224,6 @@ fn comments(content: &Content, path: &str) -> Vec<String> {
     };
     let mut lines: Vec<String> = fixed.iter().map(|line| (*line).to_owned()).collect();
     match path {
-        "certificate" => lines.extend(sentences(of_the_certificate(content))),
         "site" => lines.extend(sentences(of_the_site(content))),
         "earth" => lines.extend(of_the_earth(content)),
         _ => {}

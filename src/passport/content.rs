@@ -2,7 +2,9 @@
 
 use super::accuracy::Accuracy;
 use crate::calibration::analytic;
-use crate::coefficients::{Coefficients, Matrices, PositionCoefficients, PositionIndex, SingularPositions};
+use crate::coefficients::{
+    Coefficients, Matrices, PositionCoefficients, PositionIndex, SingularPositions, StandGeometry,
+};
 use crate::document::is_sha256_hex;
 use crate::gyro::{GyroParameters, Parameters};
 use crate::site::{Earth, Site};
@@ -171,12 +173,17 @@ pub struct Derived {
 /// # Errors
 /// [`SingularPositions`] when the paper's eight are there and n_2 has no inverse.
 pub fn derive(positions: &[CertifiedPosition], site: &Site, gyro: &Parameters) -> Result<Derived, SingularPositions> {
+    Ok(derive_from(&stand::geometry(positions)?, site, gyro))
+}
+
+/// The same from the geometry of the positions.
+pub fn derive_from(geometry: &StandGeometry, site: &Site, gyro: &Parameters) -> Derived {
     let earth = site.earth();
-    let coefficients = stand::geometry(positions)?.at(earth.rate());
+    let coefficients = geometry.at(earth.rate());
     let vectors = coefficients.positions.iter().map(PositionVectors::from_model).collect();
     let matrices = coefficients.matrices.as_ref().map(MatrixRows::from_model);
     let self_check = matrices.is_some().then(|| SelfCheck::of(gyro, &coefficients)).flatten();
-    Ok(Derived { earth, matrices, vectors, self_check })
+    Derived { earth, matrices, vectors, self_check }
 }
 
 fn rows(matrix: &Matrix2<f64>) -> Rows {

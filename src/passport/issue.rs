@@ -1,11 +1,11 @@
 //! From a certified stand and a site to a signed passport.
 
 use super::accuracy::{NoAccuracy, Stated};
-use super::annotations::{absences, payload};
-use super::content::{self, Content, Header, PASSPORT_FORMAT, Predecessor, passport_id};
+use super::annotations::{self, absences};
+use super::content::{Content, Header, PASSPORT_FORMAT, Predecessor, derive_from, passport_id};
 use super::{NAMESPACE, read};
 use crate::calibration::prediction::{NoiseGrowth, noise_growth};
-use crate::coefficients::SingularPositions;
+use crate::coefficients::{SingularPositions, StandGeometry};
 use crate::document::{Signer, SigningFailed, join};
 use crate::gyro::Parameters;
 use crate::laboratory::Laboratory;
@@ -13,7 +13,7 @@ use crate::site::Site;
 use crate::stand::{CertifiedPosition, Stand};
 use crate::text::scalar::day;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, rule};
-use crate::trust::SignatureError;
+use crate::trust::{Message, SignatureError};
 use jiff::Timestamp;
 use jiff::civil::Date;
 
@@ -126,15 +126,67 @@ pub struct Draft {
     payload: String,
 }
 
-/// Computes everything that the passport of `stand` at `site` says, writes it, and checks what was written.
+/// A stand with all that its passports have in common, whatever the site: its geometry, and its part of the text.
+///
+/// Both are found once, and every passport is the same as if they had been found for it alone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PreparedStand {
+    stand: Stand,
+    /// With the text.
+    geometry: Result<(StandGeometry, String), SingularPositions>,
+}
+
+impl PreparedStand {
+    /// Prepares a stand. One without passports, since n_2 has no inverse, says so when a passport is asked for.
+    pub fn new(stand: Stand) -> Self {
+        let geometry = stand.geometry().map(|geometry| {
+            let text = annotations::payload_of_stand(&stand, geometry.has_eight());
+            (geometry, text)
+        });
+        Self { stand, geometry }
+    }
+
+    /// The stand.
+    pub fn stand(&self) -> &Stand {
+        &self.stand
+    }
+
+    /// Computes everything that the passport at `site` says, writes it, and checks what was written.
+    ///
+    /// # Errors
+    /// See [`IssueRefused`]: nothing is signed whose self-check fails, or that does not read back bit for bit.
+    pub fn draft(&self, site: &Site, issue: &Issue) -> Result<Draft, IssueRefused> {
+        check_identity(&issue.issuer)?;
+        let (geometry, text) = self.geometry.as_ref().map_err(|singular| *singular)?;
+        let content = content(&self.stand, geometry, site, issue)?;
+        check_dates(&content)?;
+        let payload = annotations::payload_with(&content, text);
+        if payload.len() + LONGEST_SIGNATURE > LARGEST_DOCUMENT_BYTES {
+            return Err(IssueRefused::TooLarge { bytes: payload.len() });
+        }
+        let read_back = read_back(&payload, &content)?;
+        if let Some(self_check) = &read_back.self_check {
+            let error = self_check.error(&read_back.coefficients());
+            if error.is_nan() || error > SELF_CHECK_LIMIT {
+                return Err(IssueRefused::SelfCheckFails { error, growth: site.uncertainty_growth() });
+            }
+        }
+        Ok(Draft { content, payload })
+    }
+}
+
+/// The passport of a stand for one site: see [`PreparedStand::draft`], which is for many.
 ///
 /// # Errors
-/// See [`IssueRefused`]: nothing is signed whose self-check fails, or that does not read back bit for bit.
+/// See [`IssueRefused`].
 pub fn draft(stand: &Stand, site: &Site, issue: &Issue) -> Result<Draft, IssueRefused> {
-    check_identity(&issue.issuer)?;
-    let derived = content::derive(&stand.positions, site, &issue.self_check_gyro)?;
+    PreparedStand::new(stand.clone()).draft(site, issue)
+}
+
+fn content(stand: &Stand, geometry: &StandGeometry, site: &Site, issue: &Issue) -> Result<Content, IssueRefused> {
+    let derived = derive_from(geometry, site, &issue.self_check_gyro);
     let (reissued_from, supersedes) = issue.predecessor.clone().unzip();
-    let content = Content {
+    Ok(Content {
         format: PASSPORT_FORMAT.to_owned(),
         passport: Header {
             id: passport_id(&stand.stand, &site.id, issue.revision),
@@ -160,20 +212,7 @@ pub fn draft(stand: &Stand, site: &Site, issue: &Issue) -> Result<Draft, IssueRe
             .as_ref()
             .map(|stated| stated.accuracy(&stand.certificate, &stand.positions, site))
             .transpose()?,
-    };
-    check_dates(&content)?;
-    let payload = payload(&content);
-    if payload.len() + LONGEST_SIGNATURE > LARGEST_DOCUMENT_BYTES {
-        return Err(IssueRefused::TooLarge { bytes: payload.len() });
-    }
-    let read_back = read_back(&payload, &content)?;
-    if let Some(self_check) = &read_back.self_check {
-        let error = self_check.error(&read_back.coefficients());
-        if error.is_nan() || error > SELF_CHECK_LIMIT {
-            return Err(IssueRefused::SelfCheckFails { error, growth: site.uncertainty_growth() });
-        }
-    }
-    Ok(Draft { content, payload })
+    })
 }
 
 fn check_identity(identity: &str) -> Result<(), IssueRefused> {
@@ -225,8 +264,9 @@ impl Draft {
     /// # Errors
     /// [`IssueRefused::Signing`] and [`IssueRefused::BadSignature`].
     pub fn sign(&self, signer: &dyn Signer) -> Result<String, IssueRefused> {
-        let signature = signer.sign(NAMESPACE, self.payload.as_bytes())?;
-        signature.verify(NAMESPACE, self.payload.as_bytes())?;
+        let message = Message::new(NAMESPACE, self.payload.as_bytes());
+        let signature = signer.sign_message(&message)?;
+        signature.verify_message(&message, None)?;
         Ok(join(&self.payload, &signature))
     }
 
@@ -257,4 +297,72 @@ pub struct Remarks {
     pub uncertainty_growth: f64,
     /// What is not known, and what that costs.
     pub absences: Vec<String>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gyro::GyroType;
+    use crate::passport::content::derive;
+
+    const STANDS: [&str; 2] =
+        [include_str!("../../passports/SPS-1/0203/stand.yaml"), include_str!("../../passports/SPS-2/0017/stand.yaml")];
+    const SITES: [&str; 3] = [
+        include_str!("../../sites/moscow-bmstu.yaml"),
+        include_str!("../../sites/ny-alesund-kartverket.yaml"),
+        include_str!("../../sites/singapore-nus.yaml"),
+    ];
+
+    /// The shipped stands, and each with less: no datum, seven positions, nothing certified that need not be.
+    fn stands() -> Vec<Stand> {
+        let whole = STANDS.iter().map(|text| Stand::from_yaml("stand", text.as_bytes()).unwrap());
+        whole
+            .flat_map(|stand| {
+                let without_datum = Stand { datum: None, ..stand.clone() };
+                let mut seven = stand.clone();
+                seven.positions.remove(3);
+                let mut bare = stand.clone();
+                bare.certificate.repeatability_arcsec = None;
+                bare.certificate.traceability = None;
+                bare.certificate.valid_until = None;
+                bare.certificate.valid_until_basis = None;
+                bare.positions.iter_mut().for_each(|position| position.u_beta_arcsec = None);
+                [stand, without_datum, seven, bare]
+            })
+            .collect()
+    }
+
+    #[test]
+    fn what_a_stand_has_in_common_is_what_each_passport_would_find() {
+        let gyro = GyroType::gvk_6().nominal;
+        let order = Issue::first("factory@example.org", "2027-03-01T08:00:00Z".parse().unwrap(), gyro.clone());
+        for stand in stands() {
+            let prepared = PreparedStand::new(stand.clone());
+            for text in SITES {
+                let site = Site::from_yaml("site", text.as_bytes()).unwrap();
+                let draft = prepared.draft(&site, &order).unwrap();
+                assert_eq!(draft.payload(), annotations::payload(draft.content()));
+                let alone = derive(&stand.positions, &site, &gyro).unwrap();
+                let content = draft.content().clone();
+                assert_eq!((content.earth, content.matrices), (alone.earth, alone.matrices));
+                assert_eq!((content.vectors, content.self_check), (alone.vectors, alone.self_check));
+            }
+        }
+    }
+
+    /// Positions that are all the same orientation: n_2 is zero.
+    #[test]
+    fn a_stand_without_passports_says_so_for_each() {
+        let mut stand = Stand::from_yaml("stand", STANDS[0].as_bytes()).unwrap();
+        for position in &mut stand.positions {
+            (position.theta_deg, position.phi_deg) = (0.0, 0.0);
+            (position.alpha_arcsec, position.beta_arcsec, position.gamma_arcsec) = (0.0, 0.0, 0.0);
+        }
+        let site = Site::from_yaml("site", SITES[0].as_bytes()).unwrap();
+        let order = Issue::first("a@b", "2027-03-01T08:00:00Z".parse().unwrap(), GyroType::gvk_6().nominal);
+        let prepared = PreparedStand::new(stand);
+        for _ in 0..2 {
+            assert!(matches!(prepared.draft(&site, &order), Err(IssueRefused::Singular(_))));
+        }
+    }
 }

@@ -160,7 +160,7 @@ pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> V
     let mut verification = Verification { checks: Vec::new(), key: None, content: None };
     if let Some(text) = run.grammar(name, bytes) {
         verification.key = Some(text.key().clone());
-        if let Some(payload) = run.signature(&text) {
+        if let Some(payload) = run.signature(&text, trust) {
             verification.content = run.schema(name, payload).map(Box::new);
             run.revocation(bytes, text.key(), verification.content.as_deref(), trust);
             if let Some(content) = &verification.content {
@@ -210,8 +210,8 @@ impl Run {
         }
     }
 
-    fn signature<'a>(&mut self, text: &SignedText<'a>) -> Option<&'a str> {
-        match text.signed_payload() {
+    fn signature<'a>(&mut self, text: &SignedText<'a>, trust: &Trust) -> Option<&'a str> {
+        match text.payload_signed_by_any(&trust.signers) {
             Ok(payload) => {
                 self.note(
                     CheckName::Signature,

@@ -19,7 +19,15 @@ pub fn no_comments(_: &str) -> Vec<String> {
 
 /// Writes a mapping: nested mappings as blocks, each item of a list of mappings on its own line, a matrix on one line.
 pub fn write(document: &impl Field, comments: Comments) -> String {
-    Writer::new(String::with_capacity(USUAL_BYTES), comments).written(document)
+    let mut text = String::with_capacity(USUAL_BYTES);
+    write_some(&mut text, document, comments, &|_| true);
+    text
+}
+
+/// Writes those keys of a mapping that are `wanted` to the end of a text, nested ones aside, which go with theirs.
+pub fn write_some(text: &mut String, document: &impl Field, comments: Comments, wanted: &dyn Fn(&str) -> bool) {
+    let writer = Writer { wanted, ..Writer::new(std::mem::take(text), comments) };
+    *text = writer.written(document);
 }
 
 /// Whether `text`, its comments and blank lines aside, is what [`write()`] makes of the document.
@@ -91,11 +99,13 @@ struct Writer<'a, O> {
     /// Whether no key has been written yet in the current brackets.
     first: bool,
     comments: Comments<'a>,
+    /// Which keys are written, those at the top.
+    wanted: &'a dyn Fn(&str) -> bool,
 }
 
 impl<'a, O: Output> Writer<'a, O> {
     fn new(text: O, comments: Comments<'a>) -> Self {
-        Self { text, path: String::new(), outer: 0, depth: 0, inline: 0, first: true, comments }
+        Self { text, path: String::new(), outer: 0, depth: 0, inline: 0, first: true, comments, wanted: &|_| true }
     }
 
     fn written(mut self, document: &impl Field) -> O {
@@ -192,14 +202,17 @@ impl<O: Output> Sink for Writer<'_, O> {
         self.outer = outer;
     }
 
-    fn key(&mut self, key: &str) {
+    fn key(&mut self, key: &str) -> bool {
         if self.inline > 0 {
             if !std::mem::take(&mut self.first) {
                 self.text.push(", ");
             }
             self.text.push(key);
             self.text.push(": ");
-            return;
+            return true;
+        }
+        if self.depth == 1 && !(self.wanted)(key) {
+            return false;
         }
         self.path.truncate(self.outer);
         self.path.push_str(if self.outer > 0 { "." } else { "" });
@@ -212,6 +225,7 @@ impl<O: Output> Sink for Writer<'_, O> {
         self.indent();
         self.text.push(key);
         self.text.push(":");
+        true
     }
 }
 

@@ -96,7 +96,7 @@ pub fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable
             return refuse(Some(at), &found, "UTF-8", "save the file as UTF-8");
         }
     };
-    if let Some(index) = text.find('\r') {
+    if let Some(index) = memchr::memchr(b'\r', bytes) {
         let at = Some(location_of(&bytes[..index]));
         return if text[index..].starts_with("\r\n") {
             let advice = "the file was changed in transit, e.g. by git autocrlf: fetch it again byte for byte, \
@@ -190,8 +190,9 @@ impl Field for Node {
             Node::List(items) => sink.list(items),
             Node::Map(entries) => sink.mapping(entries.is_empty(), |sink| {
                 for (key, value) in entries {
-                    sink.key(key);
-                    value.emit(sink);
+                    if sink.key(key) {
+                        value.emit(sink);
+                    }
                 }
             }),
         }

@@ -82,8 +82,9 @@ macro_rules! record {
         impl $name {
             /// Writes its keys into a mapping that may also have others.
             pub(crate) fn emit_entries<S: $crate::text::sink::Sink>(&self, sink: &mut S) {
-                $(if !$crate::text::Field::is_absent(&self.$field) {
-                    sink.key(const { $crate::text::record::key(stringify!($field)) });
+                $(if !$crate::text::Field::is_absent(&self.$field)
+                    && sink.key(const { $crate::text::record::key(stringify!($field)) })
+                {
                     $crate::text::Field::emit(&self.$field, sink);
                 })*
             }

@@ -126,18 +126,16 @@ pub fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
         return Err(Unreadable::whole(name, Some(at), "no line feed at the end", "one", "was it copied to the end?"));
     }
     let mut line_start = 0;
-    for line in text.split_inclusive('\n') {
-        let content = line.trim_end_matches('\n');
-        if is_plain(content.as_bytes()) {
-            line_start += line.len();
-            continue;
-        }
-        if let Some((offset, found, expected)) = first_fault(content) {
+    for line_end in memchr::memchr_iter(b'\n', bytes) {
+        let line = &text[line_start..line_end];
+        if !is_plain(line.as_bytes())
+            && let Some((offset, found, expected)) = first_fault(line)
+        {
             let at = location_of(&bytes[..line_start + offset]);
             let advice = "the text is not as any issuer writes it";
             return Err(Unreadable::whole(name, Some(at), found, expected, advice));
         }
-        line_start += line.len();
+        line_start = line_end + 1;
     }
     Ok(text)
 }
@@ -156,27 +154,28 @@ fn is_plain(line: &[u8]) -> bool {
         Some(b'-' | b'.') if start == 0 => return false,
         _ => {}
     }
-    // Outside and inside of strings in turn.
-    let mut parts = line.split(|byte| *byte == b'"');
-    while let Some(outside) = parts.next() {
-        // What `allowed_outside` lets through, in ranges.
-        let good = |byte: &u8| {
-            (b'a'..=b'{').contains(byte)
-                | (b'0'..=b':').contains(byte)
-                | (b'+'..=b'.').contains(byte)
-                | matches!(byte, b' ' | b'[' | b']' | b'_' | b'}')
-        };
-        if !outside.iter().fold(true, |all, byte| all & good(byte)) {
+    let mut rest = line;
+    while let Some(quote) = memchr::memchr(b'"', rest) {
+        let (outside, string) = (&rest[..quote], &rest[quote + 1..]);
+        let Some(end) = memchr::memchr(b'"', string) else { return false };
+        let without_escapes = |string: &[u8]| memchr::memchr(b'\\', string).is_none();
+        if !may_stand_outside(outside) || !is_printable_ascii(&string[..end]) || !without_escapes(&string[..end]) {
             return false;
         }
-        match parts.next() {
-            None => return true,
-            Some(string) if is_printable_ascii(string) && !string.contains(&b'\\') => {}
-            Some(_) => return false,
-        }
+        rest = &string[end + 1..];
     }
-    // It ended inside a string.
-    false
+    may_stand_outside(rest)
+}
+
+/// Whether all bytes are characters that [`allowed_outside`] lets through.
+fn may_stand_outside(bytes: &[u8]) -> bool {
+    let good = |byte: &u8| {
+        (b'a'..=b'{').contains(byte)
+            | (b'0'..=b':').contains(byte)
+            | (b'+'..=b'.').contains(byte)
+            | matches!(byte, b' ' | b'[' | b']' | b'_' | b'}')
+    };
+    bytes.iter().fold(true, |all, byte| all & good(byte))
 }
 
 /// The byte offset of the first character of a line that breaks the rule, what it is, and what was expected.

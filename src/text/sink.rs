@@ -20,8 +20,8 @@ pub trait Sink: Sized {
     fn list<T: Field>(&mut self, items: &[T]);
     /// A mapping; `entries` gives its keys, each followed by its value, and none when it is `empty`.
     fn mapping(&mut self, empty: bool, entries: impl FnOnce(&mut Self));
-    /// The key of the value that follows.
-    fn key(&mut self, key: &str);
+    /// The key of the value that follows; `false` when both are to be left out.
+    fn key(&mut self, key: &str) -> bool;
 }
 
 /// Builds a [`Node`].
@@ -74,7 +74,8 @@ impl Sink for Tree {
         self.values.push(Node::Map(keys.into_iter().zip(values).collect()));
     }
 
-    fn key(&mut self, key: &str) {
+    fn key(&mut self, key: &str) -> bool {
         self.keys.push(key.to_owned());
+        true
     }
 }

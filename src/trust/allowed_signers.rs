@@ -7,6 +7,7 @@ use super::PublicKey;
 use super::lines;
 use super::pattern::matches_list;
 use super::signer_line::{self, SignerLine};
+use super::sshsig::KeyPoint;
 use crate::text::Unreadable;
 use crate::text::problem::MOST_PROBLEMS;
 use jiff::Timestamp;
@@ -80,6 +81,12 @@ impl AllowedSigners {
             return Err(Unreadable::whole(name, None, "no key", "a line for each trusted key", advice));
         }
         Ok(Self { lines: kept })
+    }
+
+    /// The point of a key of the list, found once; `None` for any other key.
+    pub(crate) fn point(&self, key: &PublicKey) -> Option<&KeyPoint> {
+        let line = self.lines.iter().find(|line| line.key == key.blob())?;
+        line.point.get_or_init(|| KeyPoint::of(key)).as_ref()
     }
 
     /// Whether `key` is trusted for a document of `namespace` that `principal` issued at the instant `at`.

@@ -4,9 +4,11 @@ use super::error::KeyError;
 use super::lines::Line;
 use super::pattern::LONGEST_PATTERN;
 use super::public_key::{AnyKey, shortened};
+use super::sshsig::KeyPoint;
 use super::validity;
 use crate::text::problem::{MOST_PROBLEMS, Problem};
 use jiff::Timestamp;
+use std::sync::OnceLock;
 
 /// A key with what it may sign, as whom and when.
 #[derive(Debug, Clone)]
@@ -21,6 +23,8 @@ pub(super) struct SignerLine {
     pub(super) valid_before: Option<Timestamp>,
     /// The key as SSH transmits it.
     pub(super) key: Vec<u8>,
+    /// Its point, once it has been asked for.
+    pub(super) point: OnceLock<Option<KeyPoint>>,
 }
 
 /// Options of a line, each with the place where it stands.
@@ -59,6 +63,7 @@ pub(super) fn read(line: &Line) -> Result<SignerLine, Vec<Problem>> {
             valid_after: options.valid_after,
             valid_before: options.valid_before,
             key,
+            point: OnceLock::new(),
         }),
         Ok(_) => Err(problems),
         Err(problem) => {

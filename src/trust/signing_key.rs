@@ -2,7 +2,7 @@
 
 use super::error::{KeyError, SignatureError};
 use super::public_key::{AnyKey, PublicKey, shortened};
-use super::sshsig::Signature;
+use super::sshsig::{Message, Signature};
 use super::wire::{Truncated, Wire};
 use base64ct::{Base64, Encoding};
 use ed25519_dalek::Signer as _;
@@ -107,11 +107,18 @@ impl SigningKey {
     /// # Errors
     /// [`KeyError::Namespace`] when the namespace is empty.
     pub fn sign(&self, namespace: &str, message: &[u8]) -> Result<Signature, KeyError> {
-        let signed = SshSig::signed_data(namespace, HashAlg::Sha512, message).map_err(|_| KeyError::Namespace)?;
-        let bytes = self.key.sign(&signed).to_bytes();
+        self.sign_message(&Message::new(namespace, message))
+    }
+
+    /// The same for a message that is hashed already.
+    ///
+    /// # Errors
+    /// [`KeyError::Namespace`] when the namespace is empty.
+    pub fn sign_message(&self, message: &Message) -> Result<Signature, KeyError> {
+        let bytes = self.key.sign(message.signed().ok_or(KeyError::Namespace)?).to_bytes();
         let key: KeyData = ssh_key::public::Ed25519PublicKey(self.key.verifying_key().to_bytes()).into();
         let block = ssh_key::Signature::new(Algorithm::Ed25519, bytes)
-            .and_then(|signature| SshSig::new(key, namespace, HashAlg::Sha512, signature))
+            .and_then(|signature| SshSig::new(key, message.namespace(), HashAlg::Sha512, signature))
             .map_err(damaged)?;
         Signature::of(block).map_err(|error: SignatureError| KeyError::DamagedPrivateKey(error.to_string()))
     }

@@ -16,6 +16,37 @@ const LONGEST_ARMOR: usize = 4096;
 const FIRST_LINE: &str = "-----BEGIN SSH SIGNATURE-----";
 const LAST_LINE: &str = "-----END SSH SIGNATURE-----";
 
+/// Bytes with the purpose that they are signed for, hashed once for signing and checking.
+#[derive(Debug, Clone)]
+pub struct Message<'a> {
+    namespace: &'a str,
+    bytes: &'a [u8],
+    /// What the key signs; `None` without a namespace, for which nothing is signed.
+    signed: Option<Vec<u8>>,
+}
+
+impl<'a> Message<'a> {
+    /// The message `bytes` for the purpose `namespace`.
+    pub fn new(namespace: &'a str, bytes: &'a [u8]) -> Self {
+        Self { namespace, bytes, signed: SshSig::signed_data(namespace, HashAlg::Sha512, bytes).ok() }
+    }
+
+    /// The purpose.
+    pub fn namespace(&self) -> &'a str {
+        self.namespace
+    }
+
+    /// The bytes.
+    pub fn bytes(&self) -> &'a [u8] {
+        self.bytes
+    }
+
+    /// What the key signs; `None` without a namespace.
+    pub(super) fn signed(&self) -> Option<&[u8]> {
+        self.signed.as_deref()
+    }
+}
+
 /// A signature whose form is right; whether it holds for a text is what [`Signature::verify`] says.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Signature {
@@ -96,22 +127,35 @@ impl Signature {
     /// [`SignatureError::WrongNamespace`] when the signature was made for another purpose,
     /// [`SignatureError::DoesNotHold`] when text or signature were altered.
     pub fn verify(&self, namespace: &str, message: &[u8]) -> Result<(), SignatureError> {
-        if self.namespace() != namespace {
+        self.verify_message(&Message::new(namespace, message), None)
+    }
+
+    /// The same for a message that is hashed already, and with the key's point when that is known already.
+    ///
+    /// # Errors
+    /// As [`Signature::verify`].
+    pub(crate) fn verify_message(&self, message: &Message, point: Option<&KeyPoint>) -> Result<(), SignatureError> {
+        if self.namespace() != message.namespace {
             let found = self.namespace().to_owned();
-            return Err(SignatureError::WrongNamespace { found, expected: namespace.to_owned() });
+            return Err(SignatureError::WrongNamespace { found, expected: message.namespace.to_owned() });
         }
-        let signed =
-            SshSig::signed_data(namespace, HashAlg::Sha512, message).map_err(|_| SignatureError::DoesNotHold)?;
+        let signed = message.signed().ok_or(SignatureError::DoesNotHold)?;
+        let own;
+        let point = match point.filter(|point| point.is_of(&self.key)) {
+            Some(point) => point,
+            None => {
+                own = KeyPoint::of(&self.key).ok_or(SignatureError::DoesNotHold)?;
+                &own
+            }
+        };
         let bytes = self.inner.signature_bytes();
         match self.key.data() {
-            KeyData::Ed25519(key) => verify_strict(&key.0, &signed, bytes),
             KeyData::SkEd25519(key) => {
                 let (signature, flags_and_counter) =
                     bytes.split_at_checked(ed25519_dalek::SIGNATURE_LENGTH).ok_or(SignatureError::DoesNotHold)?;
-                let signed = signed_by_token(key.application(), flags_and_counter, &signed);
-                verify_strict(&key.public_key().0, &signed, signature)
+                point.verify(&signed_by_token(key.application(), flags_and_counter, signed), signature)
             }
-            _ => Err(SignatureError::DoesNotHold),
+            _ => point.verify(signed, bytes),
         }
     }
 }
@@ -134,10 +178,32 @@ fn signed_by_token(application: &str, flags_and_counter: &[u8], message: &[u8]) 
     [&Sha256::digest(application)[..], flags_and_counter, &Sha256::digest(message)].concat()
 }
 
-fn verify_strict(key: &[u8; 32], message: &[u8], signature: &[u8]) -> Result<(), SignatureError> {
-    let key = VerifyingKey::from_bytes(key).map_err(|_| SignatureError::DoesNotHold)?;
-    let signature = ed25519_dalek::Signature::from_slice(signature).map_err(|_| SignatureError::DoesNotHold)?;
-    key.verify_strict(message, &signature).map_err(|_| SignatureError::DoesNotHold)
+/// The point on the curve that a public key is, found once for many signatures.
+#[derive(Debug, Clone)]
+pub(crate) struct KeyPoint(VerifyingKey);
+
+impl KeyPoint {
+    /// `None` when the key's bytes are no point.
+    pub(super) fn of(key: &PublicKey) -> Option<Self> {
+        VerifyingKey::from_bytes(point_bytes(key)?).ok().map(Self)
+    }
+
+    fn is_of(&self, key: &PublicKey) -> bool {
+        point_bytes(key) == Some(self.0.as_bytes())
+    }
+
+    fn verify(&self, message: &[u8], signature: &[u8]) -> Result<(), SignatureError> {
+        let signature = ed25519_dalek::Signature::from_slice(signature).map_err(|_| SignatureError::DoesNotHold)?;
+        self.0.verify_strict(message, &signature).map_err(|_| SignatureError::DoesNotHold)
+    }
+}
+
+fn point_bytes(key: &PublicKey) -> Option<&[u8; 32]> {
+    match key.data() {
+        KeyData::Ed25519(key) => Some(&key.0),
+        KeyData::SkEd25519(key) => Some(&key.public_key().0),
+        _ => None,
+    }
 }
 
 fn refusal(error: ssh_key::Error) -> SignatureError {
