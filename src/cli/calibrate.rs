@@ -1,6 +1,7 @@
 //! `calibrate`: the gyro's parameters from a passport and currents.
 
 use super::output::Format;
+use super::render::{Written, languages};
 use super::show::{PassportOptions, Read};
 use super::simulate::{MethodName, read_gyro};
 use super::{Code, Failure, REFUSED, output, uncertainty};
@@ -10,11 +11,15 @@ use dtg_passport::calibration::iterative::StopRule;
 use dtg_passport::calibration::stated::temperature_remark;
 use dtg_passport::calibration::verdict::{Decision, against_earlier, against_type, thousandfold};
 use dtg_passport::calibration::{self, Method, Options as CalibrationOptions, Readings, Setup};
+use dtg_passport::document::sha256_hex;
 use dtg_passport::files;
 use dtg_passport::laboratory::Laboratory;
+use dtg_passport::passport::{Content, Question, Trust, Verification};
 use dtg_passport::report::calibration as report;
+use dtg_passport::report::page::{CalibrationPage, PassportPage, UsedPassport};
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
 use dtg_passport::uncertainty::document::WholeDocument;
+use jiff::Timestamp;
 use std::path::{Path, PathBuf};
 
 /// Find the gyro's parameters, their uncertainty, the fit, and the verdict against its type
@@ -48,6 +53,12 @@ pub struct Options {
     anisoelasticity: bool,
     #[command(flatten)]
     uncertainty: uncertainty::UncertaintyOptions,
+    /// Also a report for paper, screen and telephone, to be signed with a pen
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
+    /// Languages of the report, the first of which writes the numbers: en, ru, or en,ru for both side by side
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
+    lang: Vec<Written>,
     /// Form of the result
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -60,7 +71,8 @@ fn limit(text: &str) -> Result<f64, String> {
 }
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
-    let Read { content, verified } = options.passport.read()?;
+    let Read { content, bytes: passport, verification } = options.passport.read()?;
+    let verified = verification.is_some();
     let laboratory = read_laboratory(options.laboratory.as_deref())?;
     let gyro_type = read_gyro(options.gyro.as_deref())?;
     let earlier = earlier(options)?;
@@ -100,6 +112,22 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let tolerance = gyro_type.as_ref().map(|gyro_type| &gyro_type.tolerance);
     let asked = (options.anisoelasticity, tolerance);
     let uncertainty = options.uncertainty.find(&setup, &readings, &calibration, asked)?;
+    if let Some(path) = &options.report {
+        let page = CalibrationPage {
+            passport: used(&content, &passport, verification.as_ref())?,
+            time: verification.as_ref().map_or_else(Timestamp::now, |(_, _, question)| question.time),
+            currents: (&name, sha256_hex(&bytes)),
+            gyro: gyro_type.as_ref(),
+            laboratory: &laboratory,
+            calibration: &calibration,
+            missing: &missing,
+            document: &document,
+            budget: uncertainty.budget(),
+            monte_carlo: uncertainty.monte_carlo(),
+        };
+        output::file(path, &page.html(&languages(&options.lang)), options.uncertainty.force)?;
+        output::say(&format!("wrote {}", path.display()));
+    }
     match options.format {
         Format::Json => {
             let (budget, monte_carlo) = uncertainty.documents();
@@ -124,6 +152,22 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     }
     let failed = document.verdict.is_some_and(|verdict| verdict.overall == Decision::Fail);
     Ok(if failed { REFUSED } else { 0 })
+}
+
+/// The passport as the report names it.
+fn used<'a>(
+    content: &'a Content,
+    bytes: &'a [u8],
+    verification: Option<&'a (Verification, Trust, Question)>,
+) -> Result<UsedPassport<'a>, Failure> {
+    let Some((verification, trust, question)) = verification else {
+        return Ok(UsedPassport::NotVerified { content, sha256: sha256_hex(bytes) });
+    };
+    match PassportPage::of(bytes, trust, question, verification.clone()) {
+        Ok(page) => Ok(UsedPassport::Verified(Box::new(page))),
+        // It passed every check a moment ago.
+        Err(_) => Err(Failure::refused("the passport could not be put into a report")),
+    }
 }
 
 /// Reads a laboratory file; the paper's meter without one.

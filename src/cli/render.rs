@@ -48,6 +48,13 @@ impl From<Written> for Language {
     }
 }
 
+/// The languages of a page; English when none is named.
+pub fn languages(written: &[Written]) -> Languages {
+    let mut languages = written.iter().copied().map(Language::from);
+    let first = languages.next().unwrap_or(Language::English);
+    Languages::new(first, languages)
+}
+
 pub fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let (register, trust) = register::asked(options.register.as_deref(), trust, &question)?;
@@ -57,9 +64,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         let words = style::plain(&verdict::text(&[verdict::Verdict::of(&name, &refused)]));
         Failure { message: format!("no page was written\n{words}"), code: REFUSED }
     })?;
-    let mut languages = options.lang.iter().copied().map(Language::from);
-    let first = languages.next().unwrap_or(Language::English);
-    output::file(&options.output, &page.html(&Languages::new(first, languages)), options.force)?;
+    output::file(&options.output, &page.html(&languages(&options.lang)), options.force)?;
     output::say(&format!("wrote {}", options.output.display()));
     if !page.verification().valid() {
         output::say(&style::plain(&verdict::text(&[verdict::Verdict::of(&name, page.verification())])));

@@ -5,7 +5,7 @@ use super::trust_options::{self, Asked};
 use super::{Code, Failure, REFUSED, output};
 use clap::{ArgGroup, Args};
 use dtg_passport::files;
-use dtg_passport::passport::{Content, read, verify};
+use dtg_passport::passport::{Content, Question, Trust, Verification, read, verify};
 use dtg_passport::report::{passport_table, style, verdict};
 use dtg_passport::text::{Field, LARGEST_DOCUMENT_BYTES};
 use std::path::PathBuf;
@@ -40,10 +40,12 @@ pub struct PassportOptions {
     no_verify: bool,
 }
 
-/// What was read, and whether it was verified.
+/// What was read, and how it was verified.
 pub struct Read {
     pub content: Content,
-    pub verified: bool,
+    pub bytes: Vec<u8>,
+    /// The answer, and by what; none when nothing was verified.
+    pub verification: Option<(Verification, Trust, Question)>,
 }
 
 impl PassportOptions {
@@ -54,13 +56,16 @@ impl PassportOptions {
         let Some(signers) = &self.trust else {
             output::say("NOT VERIFIED (--no-verify): anybody may have written these numbers");
             let content = read::unverified(&name, &bytes).map_err(Failure::unusable)?;
-            return Ok(Read { content, verified: false });
+            return Ok(Read { content, bytes, verification: None });
         };
         let question = self.asked.question();
         let trust = trust_options::load(signers, &self.revoked, question.time)?;
         let verification = verify(&name, &bytes, &trust, &question);
         match verification.passport() {
-            Some(passport) => Ok(Read { content: passport.content().clone(), verified: true }),
+            Some(passport) => {
+                let content = passport.content().clone();
+                Ok(Read { content, bytes, verification: Some((verification, trust, question)) })
+            }
             None => {
                 let verdict = verdict::Verdict::of(&name, &verification);
                 Err(Failure { message: style::plain(&verdict::text(&[verdict])), code: REFUSED })
@@ -70,10 +75,10 @@ impl PassportOptions {
 }
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
-    let Read { content, verified } = options.passport.read()?;
+    let Read { content, verification, .. } = options.passport.read()?;
     match options.format {
         Format::Json => output::json(&content.write())?,
-        Format::Text => output::result(&passport_table::text(&content, verified))?,
+        Format::Text => output::result(&passport_table::text(&content, verification.is_some()))?,
     }
     Ok(0)
 }

@@ -27,9 +27,9 @@ pub struct UncertaintyOptions {
     /// The budget as a picture
     #[arg(long, value_name = "FILE.svg", requires = "budget")]
     budget_svg: Option<PathBuf>,
-    /// Replace an existing picture
+    /// Replace an existing picture or report
     #[arg(long)]
-    force: bool,
+    pub force: bool,
     /// Monte Carlo (JCGM 101): intervals, and whether first order is valid
     #[arg(long)]
     monte_carlo: bool,
@@ -64,6 +64,16 @@ impl Found {
         let budget = self.budget.as_ref().map(|(budget, words)| budget_report::text(budget, words.as_deref()));
         let trials = self.monte_carlo.as_ref().map(monte_carlo_report::text);
         budget.unwrap_or_default() + &trials.unwrap_or_default()
+    }
+
+    /// The budget, and one sentence on it.
+    pub fn budget(&self) -> Option<(&Budget, Option<&str>)> {
+        self.budget.as_ref().map(|(budget, sentence)| (budget, sentence.as_deref()))
+    }
+
+    /// The Monte Carlo.
+    pub fn monte_carlo(&self) -> Option<&MonteCarlo> {
+        self.monte_carlo.as_ref()
     }
 
     /// For programs.

@@ -1,5 +1,6 @@
 //! Pages for print, screen and telephone: one HTML file each, no script, nothing from outside.
 //!
+//! * [`calibration`]: the report of a calibration.
 //! * [`language`]: the languages of a page, and a text in each of them.
 //! * [`texts`]: the table of texts.
 //! * [`number`]: numbers as people read them.
@@ -8,6 +9,7 @@
 //! * [`shell`]: the document around them, its style and its running heads.
 //! * [`passport`]: the printable passport.
 
+pub mod calibration;
 pub mod code;
 pub mod language;
 pub mod number;
@@ -16,6 +18,7 @@ pub mod passport;
 pub mod shell;
 pub mod texts;
 
+pub use calibration::{CalibrationPage, UsedPassport};
 pub use language::{Language, Languages, Text};
 pub use number::Number;
 pub use passport::PassportPage;

@@ -32,6 +32,16 @@ impl Number {
         Self::to_place(value, rounded_exponent(value, digits) - digits + 1)
     }
 
+    /// With so many significant digits, and a power of ten where there would be many zeros.
+    pub fn scientific(value: f64, digits: i32) -> Self {
+        let plain = value == 0.0 || (1e-3..1e5).contains(&value.abs());
+        if plain {
+            return if value == 0.0 { Self::exact(value) } else { Self::significant(value, digits) };
+        }
+        let decimals = usize::try_from(digits - 1).unwrap_or(0);
+        Self { value, digits: format!("{value:.decimals$e}") }
+    }
+
     /// The shortest decimal that gives the value back.
     pub fn exact(value: f64) -> Self {
         let magnitude = value.abs();
@@ -217,6 +227,8 @@ mod tests {
         assert_eq!(english(&Number::fixed(0.15, 1)), "0.1");
         assert_eq!(english(&Number::fixed(2.675, 2)), "2.67");
         assert_eq!(english(&Number::significant(0.000_123_456, 3)), "0.000_123");
+        assert_eq!(english(&Number::scientific(4.649e-9, 2)), "4.6_·_10⁻⁹");
+        assert_eq!(english(&Number::scientific(0.0464, 2)), "0.046");
     }
 
     #[test]

@@ -5,25 +5,28 @@
 //! * [`passport`]: the printable passport: what the signed file says.
 //! * [`record`]: the same: what is filled in with a pen.
 //! * [`absences`]: what a passport does not state, and what that costs.
+//! * [`calibration`]: the report of a calibration.
 //! * [`pictures`]: words in pictures, and their descriptions.
 
 use super::language::Text;
 use super::language::texts;
 
 pub mod absences;
+pub mod calibration;
 pub mod checks;
 pub mod passport;
 pub mod pictures;
 pub mod record;
 
 /// Every table by its name.
-pub const TABLES: [(&str, &[(&str, Text)]); 7] = [
+pub const TABLES: [(&str, &[(&str, Text)]); 8] = [
     ("units", units::ALL),
     ("words", words::ALL),
     ("checks", checks::ALL),
     ("passport", passport::ALL),
     ("record", record::ALL),
     ("absences", absences::ALL),
+    ("calibration", calibration::ALL),
     ("pictures", pictures::ALL),
 ];
 
@@ -37,6 +40,7 @@ pub mod units {
         METRES { en: "m", ru: "м" }
         KILOMETRES { en: "km", ru: "км" }
         G { en: "g", ru: "g" }
+        MICROAMPERES { en: "µA", ru: "мкА" }
         MILLIAMPERES { en: "mA", ru: "мА" }
         DEG_PER_H { en: "°/h", ru: "°/ч" }
         DEG_PER_H_PER_G { en: "°/h/g", ru: "°/ч/g" }

@@ -44,7 +44,7 @@ impl Panel<'_> {
         let id = |part: &str, language: Language| format!("{}-{}", self.id(part), language.tag());
         let labels: Vec<String> = words.iter().map(|(part, language)| id(part, *language)).collect();
         html! {
-            svg.picture viewBox={ "0 0 " (width) " " (height) } style={ "max-width:" (coordinate(LARGEST * self.size[0])) "px" }
+            svg.picture viewBox={ "0 0 " (width) " " (height) } style={ "max-width:" (rem(LARGEST * self.size[0])) }
                 role="img" aria-labelledby=(labels.join(" ")) {
                 @for language in self.languages.iter() {
                     title id=(id("title", language)) lang=(language.tag()) { (title(language)) }
@@ -70,10 +70,10 @@ impl Panel<'_> {
     }
 }
 
-/// The panels of a picture, up to `columns` side by side where there is room for `width` pixels each, and the legend beneath.
+/// The panels of a picture, up to `columns` side by side where there is room for `width` pixels of a screen each, and the legend beneath.
 pub fn panels(columns: u32, width: u32, drawings: &[Markup], legend: &Markup) -> Markup {
     html! {
-        div.panels style={ "--columns:" (columns) ";--panel:" (width) "px" } { @for drawing in drawings { (drawing) } }
+        div.panels style={ "--columns:" (columns) ";--panel:" (rem(f64::from(width))) } { @for drawing in drawings { (drawing) } }
         (legend)
     }
 }
@@ -90,6 +90,12 @@ pub fn legend(languages: &Languages, entries: &[(Markup, Text)]) -> Markup {
             }
         }
     }
+}
+
+/// A length on the page, for the size of letters that the page has there: print has smaller ones.
+fn rem(pixels: f64) -> String {
+    const PIXELS_OF_THE_SCREEN: f64 = 16.0;
+    format!("{:.2}rem", pixels / PIXELS_OF_THE_SCREEN)
 }
 
 /// A coordinate to a tenth, which is finer than print.
@@ -315,8 +321,13 @@ pub fn power(exponent: i32, language: Language) -> String {
 }
 
 /// The power of ten of the first digit of `value`.
-pub fn exponent(value: f64) -> i32 {
+fn exponent(value: f64) -> i32 {
     if value > 0.0 && value.is_finite() { libm::floor(libm::log10(value)) as i32 } else { 0 }
+}
+
+/// The power of ten to take out of the numbers of an axis that reaches to `reach`: 0 unless they had many zeros.
+pub fn crowding(reach: f64) -> i32 {
+    Some(exponent(reach)).filter(|exponent| !(-2..4).contains(exponent)).unwrap_or(0)
 }
 
 /// Nothing.

@@ -8,14 +8,18 @@
 //! * [`vectors`]: Earth rate and specific force against the ideal ones.
 //! * [`place`]: where the passport is valid.
 //! * [`accuracy`]: what the stand is good for.
+//! * [`residuals`], [`tolerances`], [`convergence`]: of a calibration.
 //! * [`drawing`], [`label`]: what they share.
 
 pub mod accuracy;
+pub mod convergence;
 pub mod deviations;
 pub mod drawing;
 pub mod label;
 pub mod place;
 pub mod positions;
+pub mod residuals;
+pub mod tolerances;
 pub mod vectors;
 
 /// The style of all pictures; it follows the colours of the page around them.

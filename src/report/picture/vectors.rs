@@ -3,7 +3,7 @@
 //! is taken away, at a scale of its own.
 
 use super::drawing::{
-    Anchor, Panel, Point, Scale, Ticks, arrow, exponent, heading, label, legend, line, mark, panels, power,
+    Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading, label, legend, line, mark, panels, power,
     power_of_ten, rectangle, words,
 };
 use super::label as labels;
@@ -111,7 +111,7 @@ impl Plane {
         let [[left, top], [right, bottom]] = FIELD;
         let values = [-reach, reach];
         // Numbers with many zeros have no room: a factor of the unit takes them.
-        let exponent = Some(exponent(reach)).filter(|exponent| !(-2..4).contains(exponent)).unwrap_or(0);
+        let exponent = crowding(reach);
         Self { x: Scale { values, places: [left, right] }, y: Scale { values, places: [bottom, top] }, exponent }
     }
 

@@ -57,7 +57,8 @@ fn stated_for(accuracy: &Accuracy, languages: &Languages) -> Markup {
     ])
 }
 
-fn meter(laboratory: &StatedLaboratory, languages: &Languages) -> Markup {
+/// The meter, in a sentence.
+pub fn meter(laboratory: &StatedLaboratory, languages: &Languages) -> Markup {
     let meter = &laboratory.meter;
     let values = [
         ("reading", meter.reading_percent),

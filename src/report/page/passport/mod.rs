@@ -13,14 +13,14 @@
 //! * [`annex`]: the signed file.
 //! * [`figures`]: where pictures stand.
 
-mod accuracy;
+pub(super) mod accuracy;
 mod annex;
 mod characteristics;
-mod checks;
+pub(super) mod checks;
 mod figures;
 mod front;
 mod general;
-mod numbers;
+pub(super) mod numbers;
 mod record;
 
 use super::language::Languages;
@@ -62,6 +62,19 @@ impl<'a> PassportPage<'a> {
             Some(register) => register.asked(verification, bytes),
             None => verification,
         };
+        Self::of(bytes, trust, question, verification)
+    }
+
+    /// Of a passport that was verified already, with the same trust and question.
+    ///
+    /// # Errors
+    /// As [`Self::verified`].
+    pub fn of(
+        bytes: &'a [u8],
+        trust: &'a Trust,
+        question: &'a Question,
+        verification: Verification,
+    ) -> Result<Self, Box<Verification>> {
         let text = std::str::from_utf8(bytes).ok();
         let genuine = verification.authentic().map(|(content, key)| (content.clone(), key.clone()));
         match text.zip(genuine) {
@@ -75,6 +88,21 @@ impl<'a> PassportPage<'a> {
     /// What verification found.
     pub fn verification(&self) -> &Verification {
         &self.verification
+    }
+
+    /// What the passport says.
+    pub fn content(&self) -> &Content {
+        &self.content
+    }
+
+    /// SHA-256 of its file, lower-case hexadecimal.
+    pub fn sha256(&self) -> &str {
+        &self.sha256
+    }
+
+    /// The key that signed it.
+    pub fn key(&self) -> &PublicKey {
+        &self.key
     }
 
     /// The page, one self-contained HTML document.

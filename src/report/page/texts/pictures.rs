@@ -90,5 +90,41 @@ texts! {
     }
     ACCURACY_U { en: "standard uncertainty u", ru: "стандартная неопределённость u" }
     ACCURACY_EXPANDED { en: "expanded uncertainty U = 2u", ru: "расширенная неопределённость U = 2u" }
+    RESIDUALS_TITLE { en: "Residuals along {axis} and their limits", ru: "Остатки по оси {axis} и их границы" }
+    RESIDUAL_IN_WORDS { en: "position {index}: {value}, u = {u}", ru: "положение {index}: {value}, u = {u}" }
+    RESIDUAL { en: "residual: what the fit leaves of an equation", ru: "остаток уравнения после оценивания" }
+    RESIDUAL_LIMITS {
+        en: "limits ±2u, with the residual's standard uncertainty u",
+        ru: "границы ±2u, где u — стандартная неопределённость остатка"
+    }
+
+    TOLERANCES_TITLE { en: "Parameters against their tolerance", ru: "Параметры в сравнении с допуском" }
+    TOLERANCE_IN_WORDS {
+        en: "{parameter}: deviation {deviation}, U = {expanded}, tolerance ±{tolerance} {unit}: {decision}",
+        ru: "{parameter}: отклонение {deviation}, U = {expanded}, допуск ±{tolerance} {unit}: {decision}"
+    }
+    TOLERANCES_WHISKER { en: "expanded uncertainty ±U, U = 2u", ru: "расширенная неопределённость ±U, U = 2u" }
+    TOLERANCES_GUARDED {
+        en: "guarded acceptance: within the tolerance less U",
+        ru: "приёмка с защитной полосой: в пределах допуска за вычетом U"
+    }
+    TOLERANCES_LIMIT { en: "tolerance", ru: "допуск" }
+    DECISION_PASS { en: "pass", ru: "годен" }
+    DECISION_FAIL { en: "fail", ru: "не годен" }
+    DECISION_UNDECIDED { en: "undecided", ru: "не определено" }
+
+    CONVERGENCE_TITLE {
+        en: "Successive approximation: what each step moved, over its limit",
+        ru: "Последовательные приближения: изменение на каждом шаге, отнесённое к пределу"
+    }
+    CONVERGENCE_STEP { en: "step; the first approximation is 1", ru: "шаг; первое приближение — 1" }
+    CONVERGENCE_K { en: "main scale factors, the one that moved more", ru: "основные масштабные коэффициенты, наибольшее" }
+    CONVERGENCE_G { en: "g-sensitive drifts, the one that moved more", ru: "составляющие дрейфа от g, наибольшее" }
+    CONVERGENCE_LIMIT { en: "below it both stop", ru: "ниже неё процесс останавливается" }
+    CONVERGENCE_IN_WORDS { en: "step {step}: {k} % and {g} °/h/g", ru: "шаг {step}: {k} % и {g} °/ч/g" }
+    CONVERGENCE_DESCRIPTION {
+        en: "Limits: {k} % of the main scale factors, {g} °/h/g of the g-sensitive drifts. Moved by {list}.",
+        ru: "Пределы: {k} % основных масштабных коэффициентов, {g} °/ч/g составляющих дрейфа от g. Изменения: {list}."
+    }
     ACCURACY_LIMIT { en: "beyond the tolerance: nothing can be decided", ru: "за пределами допуска: решение невозможно" }
 }

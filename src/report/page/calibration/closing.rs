@@ -1,0 +1,103 @@
+//! Lines to sign, and the result for programs.
+
+use super::CalibrationPage;
+use crate::report::page::language::{Languages, Text};
+use crate::report::page::parts::{field, fields, heading, section as part};
+use crate::report::page::texts::calibration as texts;
+use base64ct::{Base64, Encoding};
+use maud::{Markup, html};
+use serde::Serialize;
+use serde_json::Serializer;
+use serde_json::ser::Formatter;
+use std::io::{self, Write};
+
+pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
+    let signatures = html! {
+        div.pair { (signature(languages, texts::CALIBRATED_BY)) (signature(languages, texts::APPROVED_BY)) }
+        div.statement { (languages.paragraph(texts::VALID_WHEN_SIGNED)) }
+    };
+    html! {
+        (part(languages, "signatures", "", texts::SIGNATURES, &signatures))
+        (annex(page, languages))
+    }
+}
+
+fn signature(languages: &Languages, who: Text) -> Markup {
+    let names = [texts::POST_AND_NAME, texts::SIGNATURE, texts::DATE, texts::STAMP];
+    html! {
+        div.part {
+            (heading(languages, who))
+            (fields(names.map(|name| field(languages, name, None))))
+        }
+    }
+}
+
+fn annex(page: &CalibrationPage, languages: &Languages) -> Markup {
+    // Every number of a result is finite, and its keys are strings: this JSON can always be written.
+    let mut json = Vec::new();
+    let mut writer = Serializer::with_formatter(&mut json, Lines { depth: 0 });
+    let json = match page.result().serialize(&mut writer) {
+        Ok(()) => String::from_utf8(json).unwrap_or_default() + "\n",
+        Err(_) => String::new(),
+    };
+    let address = format!("data:application/json;base64,{}", Base64::encode_string(json.as_bytes()));
+    let body = html! {
+        (languages.paragraph(texts::ANNEX_NOTE))
+        p.save { a href=(address) download="calibration.json" { (languages.inline(texts::SAVE)) } }
+        pre lang="en" translate="no" tabindex="0" aria-labelledby="annex-heading" { (json) }
+        p.end {
+            (languages.label_with(|language| texts::END.filled(language, &[("id", &page.content().passport.id)])))
+        }
+    };
+    part(languages, "annex", "", texts::ANNEX, &body)
+}
+
+/// JSON with a line for each key of the document and of each result: matrices and lists stay on one line.
+struct Lines {
+    /// How many objects are open.
+    depth: usize,
+}
+
+impl Lines {
+    /// Objects within objects within objects stay on one line.
+    const DEEPEST: usize = 2;
+
+    fn new_line(&self, writer: &mut (impl Write + ?Sized)) -> io::Result<()> {
+        write!(writer, "\n{}", "  ".repeat(self.depth))
+    }
+}
+
+impl Formatter for Lines {
+    fn begin_object<W: Write + ?Sized>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.depth += 1;
+        writer.write_all(b"{")
+    }
+
+    fn end_object<W: Write + ?Sized>(&mut self, writer: &mut W) -> io::Result<()> {
+        let deep = self.depth > Self::DEEPEST;
+        self.depth -= 1;
+        if !deep {
+            self.new_line(writer)?;
+        }
+        writer.write_all(b"}")
+    }
+
+    fn begin_object_key<W: Write + ?Sized>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        if !first {
+            writer.write_all(b",")?;
+        }
+        match (self.depth > Self::DEEPEST, first) {
+            (false, _) => self.new_line(writer),
+            (true, true) => Ok(()),
+            (true, false) => writer.write_all(b" "),
+        }
+    }
+
+    fn begin_object_value<W: Write + ?Sized>(&mut self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(b": ")
+    }
+
+    fn begin_array_value<W: Write + ?Sized>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        writer.write_all(if first { b"" } else { b", " })
+    }
+}

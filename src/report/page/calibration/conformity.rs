@@ -1,0 +1,87 @@
+//! The parameters against the type's tolerance, and their change since an earlier result.
+
+use super::CalibrationPage;
+use crate::calibration::parameter::Parameter;
+use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
+use crate::report::page::language::{Languages, Text};
+use crate::report::page::number::Number;
+use crate::report::page::parts::{Table, figure, heading, section as part, symbol};
+use crate::report::page::texts::calibration as texts;
+use crate::report::picture::tolerances::{decision, parameter_of, printed, tolerances, unit_of};
+use maud::{Markup, html};
+
+/// Smaller risks matter to nobody.
+const LEAST_RISK: f64 = 1e-6;
+
+pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
+    let Some((gyro, verdict)) = page.gyro.zip(page.result().verdict.as_ref()) else { return html! {} };
+    let body = html! {
+        p { (languages.inline_with(|language| texts::CONFORMITY.filled(language, &[("type", &gyro.r#type)]))) }
+        (table(languages, verdict, texts::VERDICT_CAPTION, texts::DEVIATION))
+        (languages.paragraph(texts::RISK_NOTE))
+        (figure(languages, &tolerances(languages, "tolerances", verdict), texts::TOLERANCES_CAPTION))
+        @if let Some(change) = &page.result().change {
+            (heading(languages, texts::CHANGE))
+            (table(languages, change, texts::CHANGE_CAPTION, texts::CHANGED_BY))
+            (figure(languages, &tolerances(languages, "changes", change), texts::CHANGES_CAPTION))
+        }
+    };
+    part(languages, "conformity", "3", texts::TOLERANCES_CAPTION, &body)
+}
+
+fn table(languages: &Languages, verdict: &Verdict, caption: Text, deviation: Text) -> Markup {
+    let headings = [
+        texts::PARAMETER,
+        texts::UNIT,
+        deviation,
+        texts::EXPANDED_SHORT,
+        texts::TOLERANCE,
+        texts::SIMPLE,
+        texts::RISK,
+        texts::GUARDED,
+    ];
+    let table = Table {
+        caption: Some(languages.label(caption)),
+        headings: headings.map(|text| languages.label(text)).into(),
+        rows: verdict.parameters.iter().map(|row| cells(languages, row)).collect(),
+        row_headings: 1,
+        class: "numbers with-unit",
+        ..Table::default()
+    };
+    table.markup(languages.spoken(caption))
+}
+
+fn cells(languages: &Languages, row: &ParameterVerdict) -> Vec<Markup> {
+    let (deviation, expanded) = printed(row);
+    let name = parameter_of(row).map_or(row.parameter, Parameter::symbol);
+    let (letter, index) = name.split_once('_').unwrap_or((name, ""));
+    let decided = |found: Decision| {
+        let words = languages.label(decision(found));
+        match found {
+            Decision::Pass => html! { span.passed { (words) } },
+            Decision::Undecided => words,
+            Decision::Fail => html! { strong.failed { (words) } },
+        }
+    };
+    vec![
+        symbol(letter, index),
+        languages.inline(unit_of(row)),
+        deviation.markup(languages),
+        expanded.markup(languages),
+        Number::exact(row.tolerance).markup(languages),
+        decided(row.simple),
+        probability(languages, row.specific_risk),
+        decided(row.guarded),
+    ]
+}
+
+/// A probability: two digits, or that it is less than any that matters.
+pub fn probability(languages: &Languages, p: f64) -> Markup {
+    if p < LEAST_RISK {
+        let limit = Number::scientific(LEAST_RISK, 1);
+        return languages
+            .inline_with(|language| texts::BELOW.filled(language, &[("limit", &limit.text(languages.first()))]));
+    }
+    let number = if p < 0.01 { Number::scientific(p, 2) } else { Number::fixed(p, 2) };
+    number.markup(languages)
+}

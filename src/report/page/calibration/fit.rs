@@ -1,0 +1,139 @@
+//! Whether the readings fit, what may be wrong where they do not, and what no fit can see.
+
+use super::CalibrationPage;
+use super::conformity::probability;
+use crate::calibration::diagnosis::{Explanation, Hint};
+use crate::calibration::document::{ResidualDocument, ResultDocument};
+use crate::calibration::stated::NotStated;
+use crate::report::page::language::{Language, Languages, Text};
+use crate::report::page::number::Number;
+use crate::report::page::parts::{Table, field, fields, figure, heading, section as part, symbol, symbol_and_unit};
+use crate::report::page::texts::{calibration as texts, units};
+use crate::report::picture::residuals::residuals;
+use maud::{Markup, html};
+
+pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
+    let results = &page.result().results;
+    let answer = results.iter().find(|result| result.method == "least-squares").or(results.last());
+    let fit = html! {
+        @if let Some(hint) = &page.calibration.hint { (what_may_be_wrong(hint, languages)) }
+        @if let Some(result) = answer {
+            (chi_square(page, result, languages))
+            (table(result, languages))
+            (figure(languages, &residuals(languages, result), texts::RESIDUALS_FIGURE))
+        }
+    };
+    let blind = html! {
+        (languages.paragraph(texts::CANNOT_TELL))
+        @if page.missing.is_empty() {
+            (languages.paragraph(texts::ALL_STATED))
+        } @else {
+            (languages.paragraph(texts::NOT_STATED))
+            ul.absences { @for what in page.missing { li { (languages.label(not_stated(*what))) } } }
+        }
+    };
+    html! {
+        (part(languages, "fit", "4", texts::FIT, &fit))
+        (part(languages, "blind", "5", texts::BLIND, &blind))
+    }
+}
+
+fn chi_square(page: &CalibrationPage, result: &ResultDocument, languages: &Languages) -> Markup {
+    let whole = |count: usize| html! { data value=(count) { (count) } };
+    let value = |value: f64| Number::fixed(value, 2).markup(languages);
+    let found = &result.chi_square;
+    html! {
+        (fields([
+            field(languages, texts::CHI_SQUARE, Some(value(found.value))),
+            field(languages, texts::FREEDOM, Some(whole(found.degrees_of_freedom))),
+            field(languages, texts::PROBABILITY, Some(probability(languages, found.probability))),
+        ]))
+        @if let Some(scatter) = &page.result().scatter {
+            (fields([
+                field(languages, texts::SCATTER, Some(value(scatter.chi_square))),
+                field(languages, texts::FREEDOM, Some(whole(scatter.degrees_of_freedom))),
+                field(languages, texts::PROBABILITY, Some(probability(languages, scatter.probability))),
+                field(
+                    languages,
+                    texts::ENLARGED,
+                    Some(Number::significant(scatter.variance_factor, 2).markup(languages)),
+                ),
+            ]))
+        }
+    }
+}
+
+fn table(result: &ResultDocument, languages: &Languages) -> Markup {
+    let row = |at: &ResidualDocument| {
+        let mut cells = vec![html! { (at.i) }, html! { (at.j) }];
+        for (value, u) in [(at.x, at.u_x), (at.y, at.u_y)] {
+            cells.push(Number::measured(value, u.unwrap_or(0.0)).markup(languages));
+            cells.push(u.map_or_else(|| html! { "–" }, |u| Number::uncertainty(u).markup(languages)));
+        }
+        cells
+    };
+    let mut headings = vec![symbol("i", ""), symbol("j", "")];
+    for axis in ["x", "y"] {
+        headings.push(symbol_and_unit(languages, &symbol(axis, ""), units::DEG_PER_H));
+        headings.push(symbol_and_unit(languages, &symbol("u", axis), units::DEG_PER_H));
+    }
+    let table = Table {
+        caption: Some(languages.label(texts::RESIDUALS_CAPTION)),
+        headings,
+        rows: result.residuals_deg_per_h.iter().map(row).collect(),
+        row_headings: 2,
+        class: "numbers",
+        ..Table::default()
+    };
+    table.markup(languages.spoken(texts::RESIDUALS_CAPTION))
+}
+
+fn what_may_be_wrong(hint: &Hint, languages: &Languages) -> Markup {
+    html! {
+        (heading(languages, texts::HINT))
+        @if hint.explanations.is_empty() {
+            (languages.paragraph_with(|language| {
+                let size = Number::significant(hint.size_arcsec, 2).text(language);
+                html! { (texts::HINT_NOTHING.filled(language, &[("size", &size)])) }
+            }))
+        }
+        @for explanation in &hint.explanations {
+            (languages.paragraph_with(|language| html! { (explained(explanation, language)) }))
+        }
+    }
+}
+
+fn explained(explanation: &Explanation, language: Language) -> String {
+    match explanation {
+        Explanation::Exchanged(one, other) => {
+            texts::HINT_EXCHANGED.filled(language, &[("one", &one.to_string()), ("other", &other.to_string())])
+        }
+        Explanation::DidNotRepeat { index, angle_arcsec, current_ua } => {
+            let two = |value: f64| Number::significant(value, 2).text(language);
+            let values = [
+                ("index", index.to_string()),
+                ("angle", two(*angle_arcsec)),
+                ("jx", two(current_ua.x)),
+                ("jy", two(current_ua.y)),
+            ];
+            let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
+            texts::HINT_DID_NOT_REPEAT.filled(language, &values)
+        }
+    }
+}
+
+fn not_stated(what: NotStated) -> Text {
+    match what {
+        NotStated::Angles => texts::NOT_STATED_ANGLES,
+        NotStated::Return => texts::NOT_STATED_RETURN,
+        NotStated::Platform => texts::NOT_STATED_PLATFORM,
+        NotStated::Base => texts::NOT_STATED_BASE,
+        NotStated::Latitude => texts::NOT_STATED_LATITUDE,
+        NotStated::Deflection => texts::NOT_STATED_DEFLECTION,
+        NotStated::Azimuth => texts::NOT_STATED_AZIMUTH,
+        NotStated::Mark => texts::NOT_STATED_MARK,
+        NotStated::Level => texts::NOT_STATED_LEVEL,
+        NotStated::Seat => texts::NOT_STATED_SEAT,
+        NotStated::Gravity => texts::NOT_STATED_GRAVITY,
+    }
+}

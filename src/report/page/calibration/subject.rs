@@ -1,0 +1,91 @@
+//! What was calibrated, on which stand, with which passport, from which readings.
+
+use super::{CalibrationPage, UsedPassport};
+use crate::passport::accuracy::StatedLaboratory;
+use crate::report::page::language::Languages;
+use crate::report::page::number::Number;
+use crate::report::page::parts::{field, fields, given, heading, quantity, section as part, time, wide_field};
+use crate::report::page::passport::{accuracy, checks};
+use crate::report::page::texts::{calibration as texts, passport as passport_texts, units};
+use maud::{Markup, html};
+
+pub fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
+    let body = html! {
+        (gyro(page, languages))
+        (heading(languages, texts::PASSPORT))
+        (passport(page, languages))
+        (heading(languages, texts::LABORATORY))
+        (laboratory(page, languages))
+    };
+    part(languages, "subject", "1", texts::SUBJECT, &body)
+}
+
+fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
+    let content = page.content();
+    let stand = format!("{} {}", content.stand.model, content.stand.serial);
+    fields([
+        field(languages, texts::TYPE, page.gyro.map(|gyro| given(&gyro.r#type))),
+        field(languages, texts::SERIAL, None),
+        field(languages, texts::CUSTOMER, None),
+        field(languages, texts::MEASURED, None),
+        field(languages, texts::STAND, Some(given(&stand))),
+        field(languages, texts::SITE, Some(given(content.site.name.as_deref().unwrap_or(content.site.id.as_str())))),
+        field(languages, texts::TIME, Some(time(languages, page.time))),
+        field(languages, texts::CURRENTS, Some(given(page.currents.0))),
+        wide_field(languages, texts::CURRENTS_SHA256, Some(html! { code { (page.currents.1) } })),
+    ])
+}
+
+fn passport(page: &CalibrationPage, languages: &Languages) -> Markup {
+    let header = &page.content().passport;
+    let signed = match &page.passport {
+        UsedPassport::Verified(passport) => Some(passport),
+        UsedPassport::NotVerified { .. } => None,
+    };
+    // Of a passport that nobody verified, who signed it is not known: the fields are not even empty.
+    html! {
+        (fields([
+            field(languages, passport_texts::ID, Some(given(&header.id))),
+            field(languages, passport_texts::ISSUED, Some(time(languages, header.issued_at))),
+            wide_field(languages, texts::PASSPORT_SHA256, Some(html! { code { (page.passport.sha256()) } })),
+        ]))
+        @if let Some(passport) = signed {
+            (fields([
+                field(languages, passport_texts::ISSUER, Some(given(&header.issuer))),
+                wide_field(languages, passport_texts::KEY, Some(html! { code { (passport.key().fingerprint()) } })),
+            ]))
+            (checks::table(passport, languages))
+        }
+    }
+}
+
+fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
+    let laboratory = page.laboratory;
+    let celsius = |value: f64| quantity(languages, &Number::exact(value), units::CELSIUS);
+    let gravity = Number::exact(page.result().gravity_m_per_s2);
+    let stated = StatedLaboratory::from(laboratory.clone());
+    html! {
+        (fields([
+            field(languages, texts::LABORATORY_NAME, laboratory.name.as_deref().map(given)),
+            field(languages, texts::TEMPERATURE, laboratory.temperature_c.map(celsius)),
+            field(languages, texts::GRAVITY, Some(quantity(languages, &gravity, units::M_PER_S2))),
+            wide_field(languages, texts::METER, Some(accuracy::meter(&stated, languages))),
+        ]))
+        (temperature(page, languages))
+    }
+}
+
+/// Said where the deviations are certified for other temperatures.
+fn temperature(page: &CalibrationPage, languages: &Languages) -> Markup {
+    let range = page.content().certificate.temperature_range_c;
+    let Some((here, [low, high])) = page.laboratory.temperature_c.zip(range) else { return html! {} };
+    let [here, low, high] = [here, low, high].map(|value| (value, Number::exact(value).markup(languages)));
+    let values = [("here", here.1), ("low", low.1), ("high", high.1)];
+    html! {
+        @if !(low.0..=high.0).contains(&here.0) {
+            div.statement {
+                (languages.paragraph_with(|language| texts::TEMPERATURE_OUTSIDE.marked_up(language, &values)))
+            }
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! How successive approximation went: what each step moved, against what it had to fall below.
+
+use super::drawing::{Anchor, Panel, Point, Scale, Ticks, label, legend, line, list, mark, panels, power, words};
+use crate::calibration::document::{ChangeDocument, ResultDocument, StopRuleDocument};
+use crate::report::page::language::{Language, Languages};
+use crate::report::page::number::Number;
+use crate::report::page::texts::pictures as texts;
+use maud::{Markup, html};
+
+const PANEL_PIXELS: u32 = 280;
+const SIZE: Point = [360.0, 226.0];
+/// The field: left and upper, right and lower end.
+const FIELD: [Point; 2] = [[46.0, 10.0], [350.0, 184.0]];
+
+/// Decades of the axis at most below the limit; what is smaller, or nothing, is at its end.
+const MOST_DECADES: i32 = 12;
+
+/// What each step moved, as a share of its limit.
+type Share = fn(&ChangeDocument, &StopRuleDocument) -> f64;
+
+/// The frame index whose mark a series borrows, its class, and its numbers.
+const SERIES: [(u32, &str, Share); 2] = [
+    (1, "series", |change, rule| change.main_scale_factors_percent / rule.delta1_percent),
+    (2, "series dashed", |change, rule| change.g_drifts_deg_per_h_per_g / rule.delta2_deg_per_h),
+];
+
+/// Draws the steps of a result by successive approximation; `None` for other methods, and where a limit is 0, which no
+/// logarithm knows.
+pub fn convergence(languages: &Languages, result: &ResultDocument) -> Option<Markup> {
+    let (changes, rule) = result.changes.as_deref().zip(result.stop_rule)?;
+    if changes.is_empty() || rule.delta1_percent <= 0.0 || rule.delta2_deg_per_h <= 0.0 {
+        return None;
+    }
+    let plane = Plane::of(changes, &rule);
+    let panel = Panel { name: "convergence", languages, size: SIZE };
+    let limit = plane.y.place(0.0);
+    let [[left, _], [right, _]] = FIELD;
+    let mut drawing = vec![plane.grid(languages), line([left, limit], [right, limit], "limit")];
+    drawing.extend(SERIES.map(|series| plane.series(changes, &rule, series)));
+    let svg = panel.svg(
+        |language| texts::CONVERGENCE_TITLE.of(language).to_owned(),
+        |language| in_words(language, changes, &rule),
+        &drawing,
+    );
+    Some(panels(1, PANEL_PIXELS, &[svg], &key(languages)))
+}
+
+fn key(languages: &Languages) -> Markup {
+    let sample =
+        |index: u32, class: &str| html! { (line([1.0, 7.0], [27.0, 7.0], class)) (mark([14.0, 7.0], index, "mark")) };
+    let entries = [
+        (sample(1, "series"), texts::CONVERGENCE_K),
+        (sample(2, "series dashed"), texts::CONVERGENCE_G),
+        (line([2.0, 7.0], [26.0, 7.0], "limit"), texts::CONVERGENCE_LIMIT),
+    ];
+    legend(languages, &entries)
+}
+
+/// Steps to the right; the power of ten of a change over its limit upwards.
+struct Plane {
+    x: Scale,
+    y: Scale,
+}
+
+impl Plane {
+    fn of(changes: &[ChangeDocument], rule: &StopRuleDocument) -> Self {
+        let powers = changes.iter().flat_map(|change| SERIES.map(|(_, _, share)| libm::log10(share(change, rule))));
+        let finite = powers.filter(|power| power.is_finite());
+        let (low, high) = finite.fold((-1.0, 1.0), |(low, high), power| (f64::min(low, power), f64::max(high, power)));
+        let low = libm::floor(low).max(-f64::from(MOST_DECADES));
+        let last = f64::from(changes.iter().map(|change| change.step).max().unwrap_or(2));
+        let [[left, top], [right, bottom]] = FIELD;
+        Self {
+            x: Scale { values: [1.0, last + 0.5], places: [left, right] },
+            y: Scale { values: [low, libm::ceil(high)], places: [bottom, top] },
+        }
+    }
+
+    fn grid(&self, languages: &Languages) -> Markup {
+        let [[left, top], [right, bottom]] = FIELD;
+        let steps = Ticks::along(&self.x, languages.first());
+        let whole = steps.values.iter().filter(|step| libm::floor(**step) == **step);
+        let [low, high] = self.y.values.map(|value| value as i32);
+        let every = usize::try_from((high - low) / 6 + 1).unwrap_or(1);
+        html! {
+            @for step in whole {
+                @let x = self.x.place(*step);
+                (line([x, top], [x, bottom + 4.0], "grid"))
+                (words([x, bottom + 16.0], Anchor::Middle, "small", &Number::fixed(*step, 0).text(languages.first())))
+            }
+            @for exponent in (low..=high).rev().step_by(every) {
+                @let y = self.y.place(f64::from(exponent));
+                (line([left - 4.0, y], [right, y], "grid"))
+                (words([left - 7.0, y + 4.0], Anchor::End, "small", &decade(exponent, languages.first())))
+            }
+            (line([left, top], [left, bottom], "zero"))
+            (line([left, bottom], [right, bottom], "zero"))
+            (label([right, bottom + 32.0], Anchor::End, "small", &html! { (languages.plain(texts::CONVERGENCE_STEP)) }))
+        }
+    }
+
+    fn series(
+        &self,
+        changes: &[ChangeDocument],
+        rule: &StopRuleDocument,
+        (index, class, share): (u32, &str, Share),
+    ) -> Markup {
+        let points: Vec<Point> = changes
+            .iter()
+            .map(|change| {
+                // The logarithm of 0 is at the lower end, like whatever is too small for the axis.
+                let power = libm::log10(share(change, rule)).max(self.y.values[0]);
+                [self.x.place(f64::from(change.step)), self.y.clamped(power)]
+            })
+            .collect();
+        html! {
+            polyline class=(class) points=(list(&points)) {}
+            @for at in &points { (mark(*at, index, "mark")) }
+        }
+    }
+}
+
+fn decade(exponent: i32, language: Language) -> String {
+    if exponent == 0 { "1".to_owned() } else { power(exponent, language) }
+}
+
+fn in_words(language: Language, changes: &[ChangeDocument], rule: &StopRuleDocument) -> String {
+    let each = changes.iter().map(|change| {
+        let step = change.step.to_string();
+        let [k, g] = [change.main_scale_factors_percent, change.g_drifts_deg_per_h_per_g]
+            .map(|value| Number::scientific(value, 2).text(language));
+        texts::CONVERGENCE_IN_WORDS.filled(language, &[("step", &step), ("k", &k), ("g", &g)])
+    });
+    let list = each.collect::<Vec<_>>().join("; ");
+    let [k, g] = [rule.delta1_percent, rule.delta2_deg_per_h].map(|value| Number::exact(value).text(language));
+    texts::CONVERGENCE_DESCRIPTION.filled(language, &[("list", &list), ("k", &k), ("g", &g)])
+}
