@@ -200,7 +200,8 @@ fn main() {
     let (Ok(closed), Ok(refit)) = (engine(Method::Analytic), engine(Method::LeastSquares)) else { return };
     let (Ok(of_closed), Ok(of_refit)) = (budget(Method::Analytic), budget(Method::LeastSquares)) else { return };
     if let Some(trials) = std::env::args().skip_while(|word| word != "--memory").nth(1) {
-        let run = Trials { trials: trials.parse().ok(), threads: 2, ..Trials::adaptive(1) };
+        let trials = trials.parse().ok().map(|trials: f64| trials as u64);
+        let run = Trials { trials, threads: 2, ..Trials::adaptive(1) };
         let (start, found) = (Instant::now(), monte_carlo(&closed, &of_closed, &run));
         let (seconds, mb) = (start.elapsed().as_secs_f64(), resident_mb().unwrap_or(f64::NAN));
         println!("{} trials: {seconds:.1} s, {mb:.1} MB", found.trials);

@@ -45,7 +45,7 @@ pub struct Options {
     /// Iteration stops when the main scale factors move by at most this, percent
     #[arg(long, value_name = "P", default_value_t = 0.1, value_parser = limit, allow_hyphen_values = true)]
     delta1_percent: f64,
-    /// And the g-sensitive drifts by at most this
+    /// And the g-sensitive drifts by at most this, deg/h per g
     #[arg(long, value_name = "D", default_value_t = 0.001, value_parser = limit, allow_hyphen_values = true)]
     delta2_deg_per_h: f64,
     /// Also fit the anisoelastic coefficient by least squares; the eight positions cannot show it

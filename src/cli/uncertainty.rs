@@ -24,7 +24,7 @@ pub struct UncertaintyOptions {
     /// Where the uncertainty comes from: what every input contributes to every parameter
     #[arg(long)]
     budget: bool,
-    /// The budget as a picture
+    /// The budget as a picture too
     #[arg(long, value_name = "FILE.svg", requires = "budget")]
     budget_svg: Option<PathBuf>,
     /// Replace an existing picture or report
