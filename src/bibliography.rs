@@ -59,6 +59,14 @@ pub enum Bibliography {
     /// G. Marsaglia and W. W. Tsang, "A simple method for generating gamma variables", ACM Transactions on Mathematical
     /// Software 26, 2000, 363-372, <https://doi.org/10.1145/358407.358414>.
     MarsagliaTsang00,
+    /// ISO/IEC 17025:2017, General requirements for the competence of testing and calibration laboratories: 7.8.2 and 7.8.4,
+    /// what a calibration certificate states.
+    Iso17025,
+    /// GOST R 2.610-2019, Unified system of design documentation, Rules for the execution of operating documents
+    /// (ГОСТ Р 2.610-2019, ЕСКД. Правила выполнения эксплуатационных документов): the parts of a product's passport.
+    GostR2610,
+    /// ISO/IEC 18004:2015, QR Code bar code symbology specification.
+    Iso18004,
     /// OpenSSH, PROTOCOL.sshsig: the signature format, its armor and its namespaces.
     SshSig,
     /// OpenSSH, PROTOCOL.krl: key revocation lists.

@@ -14,6 +14,7 @@ use crate::passport::checks::CheckName;
 use crate::passport::issue::Issue;
 use crate::passport::reissue::{Order, ReissueRefused, successor};
 use crate::passport::verification::{Question, Trust, Verification, verify};
+use crate::report::page::{Language, Languages, PassportPage};
 use crate::signing::{BadIdentity, allowed_signers_line};
 use crate::simulation::draw::CurrentError;
 use crate::site::Site;
@@ -211,8 +212,14 @@ impl Stage<'_> {
             self.passports().reissue(&successor(&bytes, &old, &order)?, Seal { signer: key, trust: Some(trust) })?;
         self.line(&format!("   {}", issued.path.display()))?;
         let bytes = files::read(&issued.path, LARGEST_DOCUMENT_BYTES)?;
-        let answer = verify(&issued.id, &bytes, trust, &Question::at(self.now));
+        let question = Question::at(self.now);
+        let answer = verify(&issued.id, &bytes, trust, &question);
         self.answer(&answer, None)?;
+        let page = PassportPage::verified(&issued.id, &bytes, trust, &question, None).map_err(|_| Stopped::Refused)?;
+        let path = self.path("passport.html");
+        let languages = Languages::new(Language::English, [Language::Russian]);
+        files::write_new(&path, page.html(&languages).as_bytes(), Access::Shared)?;
+        self.line(&format!("   To print, in English and Russian: {}", path.display()))?;
         Ok(issued)
     }
 

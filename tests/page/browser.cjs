@@ -34,19 +34,19 @@ function said() {
     const section = parent.closest("section");
     words.push({
       text: node.data,
-      lang: parent.closest("[lang]").lang,
+      lang: parent.closest("[lang]").getAttribute("lang"),
       section: section ? section.id : "",
       picture: parent.closest("svg") !== null,
     });
   }
   for (const picture of all("svg[aria-label], span[aria-label], div[aria-label]")) {
-    words.push({ text: picture.getAttribute("aria-label"), lang: picture.closest("[lang]").lang, section: "", picture: true });
+    words.push({ text: picture.getAttribute("aria-label"), lang: picture.closest("[lang]").getAttribute("lang"), section: "", picture: true });
   }
   const link = document.querySelector("a[download]");
   return {
     title: document.title,
     lang: document.documentElement.lang,
-    numbers: all("data").map((data) => ({ value: data.value, text: text(data), lang: data.closest("[lang]").lang })),
+    numbers: all("data").map((data) => ({ value: data.value, text: text(data), lang: data.closest("[lang]").getAttribute("lang") })),
     days: all("time").map((time) => ({ value: time.dateTime, text: text(time) })),
     given: all(".given").map(text),
     codes: all("code").map(text),
@@ -105,6 +105,8 @@ async function look(browser, folder, name) {
   for (const colours of ["light", "dark"]) {
     await page.emulateMedia({ colorScheme: colours });
     for (const [device, width] of Object.entries(WIDTHS)) {
+      // Dark changes colours alone: it is looked at once.
+      if (colours === "dark" && device !== "screen") continue;
       await page.setViewportSize({ width, height: 1000 });
       result.unfit[`${device} ${colours}`] = await page.evaluate(unfit);
       await page.screenshot({ path: path.join(folder, `${name}-${device}-${colours}.png`), fullPage: true });

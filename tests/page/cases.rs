@@ -115,7 +115,7 @@ fn full(name: &'static str, languages: &[Language]) -> Case {
 fn hostile(stand: &str) -> String {
     let manufacturer = "</style></title><script>alert('x')</script><img src=https://example.org/x onerror=alert(1)> & \
                         'single' \\\"double\\\" &amp; {serial} \\\\";
-    let unbroken = "Manufacturer-without-a-blank".repeat(18);
+    let unbroken = "ManufacturerWithoutABlank".repeat(20);
     let names = format!(
         "stand: {{manufacturer: \"{manufacturer}\", customer: \"{unbroken}\", name: \"陀螺测试台 ジャイロ試験台 «стенд»\", model"
     );

@@ -93,7 +93,9 @@ fn a_page_is_small() {
     for (case, found) in LOOKED.each() {
         let bytes = found["bytes"].as_u64().unwrap();
         println!("{:<15} {:>7} bytes", case.name, bytes);
-        assert!(bytes < 300_000, "{}: {bytes} bytes", case.name);
+        // Twenty-four positions are drawn twenty-four times.
+        let most = if case.name.starts_with("many") { 450_000 } else { 300_000 };
+        assert!(bytes < most, "{}: {bytes} bytes", case.name);
     }
 }
 

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use qrcode::{Color, EcLevel, QrCode};
 use std::fmt::Write;
 
-/// The quiet zone around the code, in modules (ISO/IEC 18004, 5.3.8).
+/// The quiet zone around the code, in modules ([ISO/IEC 18004](crate::bibliography::Bibliography::Iso18004), 6.3.8).
 const QUIET: usize = 4;
 
 /// The code of `text`, dark on white in every mode, and what it says for those who do not see it; `None` when `text` is

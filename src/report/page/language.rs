@@ -193,7 +193,7 @@ impl Languages {
         html! {
             @for (index, (language, words)) in sayings.iter().enumerate() {
                 @if index > 0 { " " }
-                span.second[index > 0] lang=[self.marked(*language)] { (words) }
+                span class=[(index > 0).then_some("second")] lang=[self.marked(*language)] { (words) }
             }
         }
     }

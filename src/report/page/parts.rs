@@ -109,13 +109,13 @@ pub fn symbol_and_unit(languages: &Languages, symbol: &Markup, unit: Text) -> Ma
     html! { (symbol) "," (BLANK) (languages.label(unit)) }
 }
 
-/// A picture with its caption. The picture says for itself what it shows to those who do not see it: an `svg` with
-/// `role="img"`, and `aria-label` or `title`.
-pub fn figure(languages: &Languages, drawing: &Markup, caption: Text) -> Markup {
+/// A picture with its caption; `id` names it for the style. The picture says for itself what it shows to those who do not see
+/// it.
+pub fn figure(languages: &Languages, id: &str, drawing: &Markup, caption: Text) -> Markup {
     html! {
-        figure {
+        figure id={ "figure-" (id) } {
             (drawing)
-            figcaption { (languages.paragraph(caption)) }
+            figcaption { (languages.label(caption)) }
         }
     }
 }

@@ -22,7 +22,7 @@ pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
             Some(accuracy) => {
                 (stated_for(accuracy, languages))
                 (uncertainties(accuracy, languages))
-                (figure(Slot::Budget, content, languages))
+                (figure(Slot::Accuracy, content, languages))
             }
             None => (languages.paragraph(texts::ACCURACY_NONE)),
         }

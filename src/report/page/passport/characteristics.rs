@@ -29,8 +29,10 @@ pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
         (heading(languages, texts::SITE))
         (place(&content.site, languages))
         (heading(languages, texts::EARTH))
-        (the_earth(&content.site, &content.earth, languages))
-        (figure(Slot::Radius, content, languages))
+        div.with-figure {
+            (the_earth(&content.site, &content.earth, languages))
+            (figure(Slot::Radius, content, languages))
+        }
     };
     part(languages, "characteristics", "2", texts::CHARACTERISTICS, &body)
 }

@@ -1,4 +1,5 @@
-//! General data: the stand and its certificate (ISO/IEC 17025:2017, 7.8.2.1 and 7.8.4.1).
+//! General data: the stand and its certificate ([ISO/IEC 17025:2017](crate::bibliography::Bibliography::Iso17025),
+//! 7.8.2.1 and 7.8.4.1).
 
 use super::PassportPage;
 use crate::report::page::language::Languages;

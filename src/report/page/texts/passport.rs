@@ -58,7 +58,7 @@ texts! {
     ACCREDITATION { en: "Accreditation", ru: "Аккредитация" }
     METHOD { en: "Method", ru: "Методика" }
     TRACEABILITY { en: "Traceability", ru: "Прослеживаемость" }
-    TEMPERATURE { en: "Temperature of the measurement", ru: "Температура при измерениях" }
+    TEMPERATURE { en: "Measured at", ru: "Температура измерений" }
     TEMPERATURE_RANGE { en: "Valid at temperatures of", ru: "Температура применения" }
     FROM_TO { en: "{low} to {high}", ru: "от {low} до {high}" }
     THIS_ITEM_ONLY {
@@ -84,45 +84,58 @@ texts! {
              аттестованного среднего, собственная часть положения; ν — число её степеней свободы. Неопределённости имеют \
              две значащие цифры, значения округлены до того же разряда."
     }
-    COMMON { en: "What all positions share", ru: "Общее для всех положений" }
-    REPEATABILITY { en: "Repeatability of one return, per axis", ru: "Повторяемость возвращения, по каждой оси" }
+    FIGURE_POSITIONS {
+        en: "Figure 1. The stand in its positions (i, j), seen from south-south-east and above.",
+        ru: "Рисунок 1. Стенд в положениях (i, j), вид с юго-юго-востока и сверху."
+    }
+    FIGURE_DEVIATIONS { en: "Figure 2. The certified deviations.", ru: "Рисунок 2. Аттестованные отклонения." }
+    COMMON {
+        en: "Uncertainty that all positions share (k = 1)",
+        ru: "Неопределённость, общая для всех положений (k = 1)"
+    }
+    REPEATABILITY { en: "Repeatability of a return, per axis", ru: "Повторяемость, по каждой оси" }
     REPEATABILITY_DOF { en: "Its degrees of freedom", ru: "Число её степеней свободы" }
     COMMON_PLATFORM {
-        en: "Common to all positions, per axis of the platform",
-        ru: "Общая составляющая, по осям платформы"
+        en: "Common, per axis of the platform",
+        ru: "Общая, по осям платформы"
     }
-    COMMON_BASE { en: "Common to all positions, per axis of the base", ru: "Общая составляющая, по осям основания" }
+    COMMON_BASE { en: "Common, per axis of the base", ru: "Общая, по осям основания" }
     DATUM { en: "Datum surfaces", ru: "Базовые поверхности" }
     DATUM_LEVEL { en: "To level", ru: "Горизонтируется" }
     DATUM_AZIMUTH { en: "To point north", ru: "Направляется на север" }
-    DATUM_SEAT { en: "Seat of the gyro", ru: "Посадочная поверхность гироскопа" }
+    DATUM_SEAT { en: "Seat of the gyro", ru: "Посадка гироскопа" }
 
     SITE { en: "Place of delivery", ru: "Место поставки" }
     SITE_ID { en: "Site", ru: "Место" }
     SITE_NAME { en: "Name", ru: "Наименование" }
     LATITUDE { en: "Geodetic latitude (WGS 84)", ru: "Геодезическая широта (WGS 84)" }
     ASTRONOMIC_LATITUDE { en: "Astronomic latitude, as given", ru: "Астрономическая широта, заданная" }
-    LONGITUDE { en: "Longitude, east positive", ru: "Долгота, положительная к востоку" }
+    LONGITUDE { en: "Longitude, east", ru: "Долгота, восточная" }
     HEIGHT { en: "Height above the ellipsoid", ru: "Высота над эллипсоидом" }
     DEFLECTION { en: "Deflection of the vertical", ru: "Уклонение отвесной линии" }
-    GRAVITY_MEASURED { en: "Gravity, measured", ru: "Ускорение свободного падения, измеренное" }
+    GRAVITY_MEASURED { en: "Gravity g, measured", ru: "Ускорение g, измеренное" }
     MARK { en: "Azimuth mark", ru: "Ориентирный пункт" }
     MARK_POSITION { en: "Latitude, longitude of the mark", ru: "Широта, долгота пункта" }
     PILLAR_POSITION { en: "Latitude, longitude of the pillar", ru: "Широта, долгота столба" }
     POSITION_U { en: "u of each of these coordinates", ru: "u каждой из этих координат" }
     LATITUDE_U { en: "u of the latitude", ru: "u широты" }
     AZIMUTH_U { en: "u of the base's azimuth", ru: "u азимута основания" }
-    LEVEL_U { en: "u of the base's level", ru: "u горизонтирования основания" }
+    LEVEL_U { en: "u of the base's level", ru: "u уровня основания" }
     SOURCE { en: "Source of these numbers", ru: "Источник этих данных" }
     EARTH { en: "The Earth at this place", ru: "Земля в этом месте" }
     EARTH_RATE { en: "Earth rate Ω", ru: "Угловая скорость Земли Ω" }
     EARTH_LATITUDE { en: "Astronomic latitude Φ", ru: "Астрономическая широта Φ" }
     HORIZONTAL { en: "Horizontal part, Ω cos Φ", ru: "Горизонтальная составляющая, Ω cos Φ" }
     VERTICAL { en: "Vertical part, Ω sin Φ", ru: "Вертикальная составляющая, Ω sin Φ" }
-    GRAVITY { en: "Gravity g of the drifts per g", ru: "Ускорение g, к которому отнесены дрейфы" }
+    GRAVITY { en: "Gravity g of the drifts per g", ru: "Ускорение g для дрейфов" }
     RADIUS { en: "Radius of validity", ru: "Радиус действия" }
-    RADIUS_WITHIN { en: "Change of the rates at that distance", ru: "Изменение скоростей на этом расстоянии" }
-    AZIMUTH { en: "Astronomic azimuth, pillar to mark", ru: "Астрономический азимут со столба на пункт" }
+    RADIUS_WITHIN { en: "Change of the rates there", ru: "Изменение скоростей там" }
+    AZIMUTH { en: "Astronomic azimuth of the mark", ru: "Астрономический азимут пункта" }
+
+    FIGURE_RADIUS {
+        en: "Figure 3. Where the passport may be used.",
+        ru: "Рисунок 3. Где применим паспорт."
+    }
 
     NUMBERS { en: "Data for the calibration", ru: "Данные для калибровки" }
     MATRICES { en: "Matrices", ru: "Матрицы" }
@@ -143,6 +156,12 @@ texts! {
     VECTORS_CAPTION {
         en: "Specific force n and Earth rate ω in the axes of the gyro's case, and currents J of the self-check",
         ru: "Перегрузка n и угловая скорость Земли ω в осях корпуса гироскопа и токи J контрольного примера"
+    }
+    FIGURE_VECTORS {
+        en: "Figure 4. Earth rate and specific force in the axes of the gyro's case, and how far they are from those of an \
+             ideal stand.",
+        ru: "Рисунок 4. Угловая скорость Земли и перегрузка в осях корпуса гироскопа и их отличие от значений для идеального \
+             стенда."
     }
     SELF_CHECK { en: "Self-check", ru: "Контрольный пример" }
     SELF_CHECK_NOTE {
@@ -178,17 +197,21 @@ texts! {
         en: "Not stated: the passport was issued without a type of gyro and a meter.",
         ru: "Не указана: паспорт выдан без типа гироскопа и прибора для измерения токов."
     }
+    FIGURE_ACCURACY {
+        en: "Figure 5. The uncertainties against the tolerances.",
+        ru: "Рисунок 5. Неопределённости в сравнении с допусками."
+    }
     GYRO_TYPE { en: "Type of gyro", ru: "Тип гироскопа" }
     GYRO_GRAVITY { en: "Its drifts are stated for g of", ru: "Его дрейфы указаны для g" }
     CALIBRATING_LABORATORY { en: "Calibrating laboratory", ru: "Калибрующая лаборатория" }
-    METER { en: "Meter, standard uncertainties", ru: "Измеритель токов, стандартные неопределённости" }
+    METER { en: "Meter (k = 1)", ru: "Измеритель токов (k = 1)" }
     METER_WORDS {
         en: "of a reading {reading} %, of the gain {gain} %, of the offset {offset} mA, floor {floor} mA; range {range} mA",
         ru: "показания {reading} %, усиления {gain} %, смещения {offset} мА, порог {floor} мА; диапазон {range} мА"
     }
     SEATING { en: "u of the seat about x, y, z", ru: "u установки вокруг x, y, z" }
     BASE_AZIMUTH_U { en: "u of the base's azimuth there", ru: "u азимута основания там" }
-    BASE_LEVEL_U { en: "u of the base's level there", ru: "u горизонтирования основания там" }
+    BASE_LEVEL_U { en: "u of the base's level there", ru: "u уровня основания там" }
     LABORATORY_TEMPERATURE { en: "Temperature there", ru: "Температура там" }
     NOMINAL { en: "Nominal", ru: "Номинал" }
     TOLERANCE { en: "Tolerance", ru: "Допуск" }

@@ -9,8 +9,8 @@ texts! {
     CONDITION { en: "Condition of the stand", ru: "Состояние стенда" }
     MANUFACTURED { en: "Date of manufacture", ru: "Дата изготовления" }
     METHOD_CHANGES { en: "Changes to the method", ru: "Отступления от методики" }
-    ADJUSTMENT { en: "Results before adjustment or repair", ru: "Результаты до юстировки или ремонта" }
-    EXTERNAL { en: "Results from others", ru: "Результаты сторонних организаций" }
+    ADJUSTMENT { en: "Before adjustment or repair", ru: "До юстировки или ремонта" }
+    EXTERNAL { en: "Results from others", ru: "Сторонние результаты" }
     SIGNATURE { en: "Signature", ru: "Подпись" }
 
     RECORD { en: "The stand's record", ru: "Учёт изделия" }
