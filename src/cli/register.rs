@@ -5,7 +5,7 @@ use super::trust_options::TrustOptions;
 use super::{Code, Failure, REFUSED};
 use clap::{Args, ValueEnum};
 use dtg_passport::files;
-use dtg_passport::folder::{self, Found};
+use dtg_passport::folder::search::{self, Found};
 use dtg_passport::passport::{Question, Trust};
 use dtg_passport::register::{Alarm, Register, examine};
 use dtg_passport::report::register as report;
@@ -56,8 +56,8 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
 
 /// Reads a folder: its revocation lists first, then every passport.
 pub fn read(folder: &Path, mut trust: Trust, question: &Question, within: Option<u32>) -> Result<Register, Failure> {
-    let Found { passports, revocation_lists, links } = folder::find(folder).map_err(Failure::unusable)?;
-    let mut alarms = folder::withdraw(&revocation_lists, &mut trust, question.time).map_err(Failure::unusable)?;
+    let Found { passports, revocation_lists, links } = search::find(folder).map_err(Failure::unusable)?;
+    let mut alarms = search::withdraw(&revocation_lists, &mut trust, question.time).map_err(Failure::unusable)?;
     alarms.extend(links.iter().map(|path| Alarm::link(&path.display().to_string())));
     let mut examined = Vec::with_capacity(passports.len());
     for path in &passports {
