@@ -9,10 +9,11 @@ use super::{Batch, Event, Failure, Listener, Outcome, Purpose, Sweeper, parallel
 use crate::document::sha256_hex;
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError, folder_of};
-use crate::folder::{self, Issued, Withdrawn, is_numbered, is_revocation_list};
+use crate::folder::Issued;
+use crate::folder::search::{self, Withdrawn, is_numbered, is_revocation_list};
 use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
 use crate::passport::{Question, Trust, verify};
-use crate::register::{Line, State, examine, examined};
+use crate::register::{self, Line, State, examine, examined};
 use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::LARGEST_DOCUMENT_BYTES;
@@ -178,7 +179,7 @@ impl Run<'_> {
         }
         tell(Event::Planned(passports));
         let mut trust = self.change.trust.clone();
-        let Withdrawn { alarms, no_lists } = folder::withdraw(&lists, &mut trust, self.change.question.time);
+        let Withdrawn { alarms, no_lists } = search::withdraw(&lists, &mut trust, self.change.question.time);
         if !alarms.is_empty() {
             tell(Event::Lost(passports));
             let words: Vec<_> = alarms.into_iter().map(|alarm| alarm.words).collect();
@@ -262,26 +263,14 @@ impl Run<'_> {
         })?;
         let trust = candidate.folder.as_ref().map_or(&change.trust, |folder| &folder.trust);
         let verification = verify(&name, &bytes, trust, &change.question);
-        if let Some(folder) = &candidate.folder {
-            let examined = examined(&name, &bytes, &verification, change.question.time, None);
-            let line = examined.line();
-            let of_another_stand = |stand: &String| !self.change.stands.is_empty() && !self.stands.has(stand);
-            if line.stand.as_ref().is_some_and(of_another_stand) {
-                return Ok(Examined::Done(None));
-            }
-            if line.state == State::Broken {
-                return Err(refused(format!("the passport does not hold ({})", line.why)));
-            }
-            if let Some(words) = examined.misplaced() {
-                return Err(refused(format!("is in the wrong folder: {words}")));
-            }
-            if let Some(why) = folder.chains.why_not(line) {
-                let id = line.id.clone().unwrap_or_default();
-                return Ok(Examined::Done(Some(Outcome::Skipped { id, file: path.clone(), why })));
-            }
-            if examined.supersedes().is_some_and(|old| folder.chains.forked(old)) {
-                return Err(refused(FORKED.to_owned()));
-            }
+        if let Some(folder) = &candidate.folder
+            && let Some(done) = self.settled_by_folder(
+                path,
+                folder,
+                &examined(&name, &bytes, &verification, change.question.time, None),
+            )?
+        {
+            return Ok(Examined::Done(done));
         }
         let order = self.order(candidate, verification.content())?;
         let changed = order.stand.is_some() || order.site.is_some();
@@ -297,6 +286,35 @@ impl Run<'_> {
             return Ok(Examined::Done(Some(Outcome::There(there))));
         }
         Ok(Examined::Next(name, Box::new(next)))
+    }
+
+    /// What becomes of a passport by what else its folder holds; `None` when it is to be issued anew.
+    fn settled_by_folder(
+        &self,
+        path: &Path,
+        folder: &Searched,
+        examined: &register::Examined,
+    ) -> Result<Option<Option<Outcome>>, Failure> {
+        let refused = |why: String| Failure::refused(path, why);
+        let line = examined.line();
+        let of_another_stand = |stand: &String| !self.change.stands.is_empty() && !self.stands.has(stand);
+        if line.stand.as_ref().is_some_and(of_another_stand) {
+            return Ok(Some(None));
+        }
+        if line.state == State::Broken {
+            return Err(refused(format!("the passport does not hold ({})", line.why)));
+        }
+        if let Some(words) = examined.misplaced() {
+            return Err(refused(format!("is in the wrong folder: {words}")));
+        }
+        if let Some(why) = folder.chains.why_not(line) {
+            let id = line.id.clone().unwrap_or_default();
+            return Ok(Some(Some(Outcome::Skipped { id, file: path.to_owned(), why })));
+        }
+        if examined.supersedes().is_some_and(|old| folder.chains.forked(old)) {
+            return Err(refused(FORKED.to_owned()));
+        }
+        Ok(None)
     }
 
     /// The order for one passport: with the files that are for its stand and site.

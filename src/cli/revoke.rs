@@ -6,7 +6,8 @@ use super::{Code, Failure, output};
 use clap::Args;
 use dtg_passport::document::sha256_hex;
 use dtg_passport::files::{self, Access};
-use dtg_passport::folder::{self, Folder};
+use dtg_passport::folder::Folder;
+use dtg_passport::folder::search::{self, Found};
 use dtg_passport::passport::{CheckName, Code as Verdict, verify};
 use dtg_passport::revocation::{Entry, RevocationList, Series};
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
@@ -36,11 +37,8 @@ pub struct Options {
 pub fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let mut lists = Vec::new();
-    let found = if options.list.exists() {
-        folder::find(&options.list).map_err(Failure::unusable)?
-    } else {
-        folder::Found::default()
-    };
+    let found =
+        if options.list.exists() { search::find(&options.list).map_err(Failure::unusable)? } else { Found::default() };
     for path in &found.revocation_lists {
         let bytes = read(path)?;
         let name = path.display().to_string();

@@ -153,6 +153,20 @@ fn a_great_many_other_files_in_a_folder_are_in_nobodys_way() {
 }
 
 #[test]
+fn a_passport_in_the_wrong_place_for_its_id_is_not_taken_for_the_right_one() {
+    let workshop = Workshop::new(2, 2);
+    workshop.run(&format!("issue stands/0000 --site sites {SIGN}"), 0);
+    fs::create_dir(workshop.path("passports/SPS-2/0001")).unwrap();
+    let file = |stand: &str| workshop.path(&format!("passports/SPS-2/{stand}/site-00001-1.yaml"));
+    fs::copy(file("0000"), file("0001")).unwrap();
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
+    assert_eq!((said.ids("unchanged").len(), said.ids("issued").len()), (2, 1));
+    assert_eq!(said.ids("refused"), BTreeSet::from(["SPS-2/0001/site-00001/1".to_owned()]));
+    assert!(said.words.contains("exists with other content (stand serial '0000' -> '0001')"), "{}", said.words);
+    assert_eq!(fs::read(file("0000")).unwrap(), fs::read(file("0001")).unwrap());
+}
+
+#[test]
 fn a_name_in_another_unicode_form_is_refused_with_its_place() {
     let workshop = Workshop::new(1, 1);
     let text = site("koeln", 1).replace("id: \"koeln\"\n", "id: \"koeln\"\nname: \"Ko\u{308}ln\"\n");

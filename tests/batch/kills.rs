@@ -6,7 +6,7 @@ use dtg_passport::statistics::random::Stream;
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::path::PathBuf;
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 use std::time::Duration;
 
 const STANDS: usize = 3;
@@ -204,5 +204,27 @@ fn several_batches_on_one_folder_do_the_job_together() {
     let unchanged: usize = said.iter().map(|said| said.ids("unchanged").len()).sum();
     assert_eq!((issued, unchanged), (180, 360));
     assert_eq!(workshop.sound("passports").len(), 180);
+    assert!(workshop.leftovers("passports").is_empty());
+}
+
+/// Ctrl-C: the passports that have begun are finished and reported, the list is whole, and the rest is for the next run.
+#[test]
+fn interrupted_it_finishes_what_it_has_begun() {
+    let workshop = Workshop::new(20, 200);
+    let mut command = workshop.command(&format!("issue stands --site sites {SIGN} --no-sync --format json"));
+    let mut child =
+        command.stdout(File::create(workshop.path("report")).unwrap()).stderr(Stdio::piped()).spawn().unwrap();
+    while !workshop.path("passports/SPS-2/0000/site-00000-1.yaml").exists() {
+        assert!(child.try_wait().unwrap().is_none(), "the batch has ended without a passport");
+        std::thread::sleep(Duration::from_micros(200));
+    }
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let said = Said::of(child.wait_with_output().unwrap(), 1);
+    assert_eq!(said.words, "dtg-passport: interrupted: the same command, given again, does the rest\n");
+    let report = fs::read(workshop.path("report")).unwrap();
+    let report: Vec<serde_json::Value> = serde_json::from_slice(&report).unwrap();
+    let reported: BTreeSet<String> = report.iter().map(|report| report["id"].as_str().unwrap().to_owned()).collect();
+    assert_eq!(workshop.sound("passports"), reported);
+    assert!(!reported.is_empty() && reported.len() < 4000, "{}", reported.len());
     assert!(workshop.leftovers("passports").is_empty());
 }

@@ -1,6 +1,6 @@
 //! Passports of a whole folder issued anew: those that a change concerns, and no others.
 
-use crate::workshop::{SIGN, Workshop, snapshot};
+use crate::workshop::{SIGN, Said, Workshop, snapshot};
 use std::collections::BTreeSet;
 use std::fs;
 
@@ -212,4 +212,27 @@ fn passports_by_pattern_are_named_ones() {
     assert_eq!(said.ids("issued").len(), 2);
     let said = workshop.run(&format!("reissue passports/SPS-2/000[01] --reason rotated {ANEW}"), 0);
     assert_eq!((said.ids("issued").len(), said.ids("unchanged").len(), said.ids("skipped").len()), (8, 2, 2));
+    let list = format!("ls passports/SPS-2/0001/*-2.yaml | \"$DTG\" reissue - --reason listed {ANEW}");
+    let said = Said::of(workshop.shell(&list).output().unwrap(), 0);
+    assert_eq!(said.ids("issued"), ids("0001", &ALL, 3));
+}
+
+/// A key that was stolen takes all that it signed with it: every passport is made anew from the factory's own files.
+#[test]
+fn after_a_theft_all_is_made_anew_from_the_factorys_files() {
+    let workshop = issued();
+    workshop.run("keygen new --identity factory --no-passphrase", 0);
+    fs::copy(crate::tools::project("tests/keys/examples.pub"), workshop.path("stolen.pub")).unwrap();
+    let signers = fs::read_to_string(workshop.path("allowed_signers")).unwrap();
+    let new = fs::read_to_string(workshop.path("new.pub")).unwrap();
+    workshop.write("allowed_signers", &format!("{signers}factory {new}"));
+    let anew = format!("{} --revoked stolen.pub", ANEW.replace("--key key", "--key new"));
+    // The register of a folder cannot follow the word of a revoked key: which passports are meant must be said.
+    let said = workshop.run(&format!("reissue passports --stand stands --sites sites --reason stolen {anew}"), 0);
+    assert_eq!((said.ids("skipped").len(), said.ids("issued").len()), (10, 0));
+    let named = "reissue passports/*/*/*.yaml --stand stands --sites sites";
+    let said = workshop.run(&format!("{named} --reason stolen {anew}"), 0);
+    assert_eq!(said.ids("issued").len(), 10);
+    let said = workshop.run(&format!("{named} --reason stolen {anew} --dry-run"), 0);
+    assert_eq!(said.ids("unchanged").len(), 10);
 }

@@ -3,7 +3,7 @@
 use crate::tools;
 use dtg_passport::batch::parallel;
 use dtg_passport::document::sha256_hex;
-use dtg_passport::folder::find;
+use dtg_passport::folder::search::find;
 use dtg_passport::passport::{Question, Trust, verify};
 use dtg_passport::trust::AllowedSigners;
 use std::collections::{BTreeMap, BTreeSet};

@@ -19,11 +19,11 @@ pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
         p { (languages.inline_with(|language| texts::CONFORMITY.filled(language, &[("type", &gyro.r#type)]))) }
         (table(languages, verdict, texts::VERDICT_CAPTION, texts::DEVIATION))
         (languages.paragraph(texts::RISK_NOTE))
-        (figure(languages, &tolerances(languages, "tolerances", verdict), texts::TOLERANCES_CAPTION))
+        (figure(languages, "tolerances", &tolerances(languages, "tolerances", verdict), texts::TOLERANCES_CAPTION))
         @if let Some(change) = &page.result().change {
             (heading(languages, texts::CHANGE))
             (table(languages, change, texts::CHANGE_CAPTION, texts::CHANGED_BY))
-            (figure(languages, &tolerances(languages, "changes", change), texts::CHANGES_CAPTION))
+            (figure(languages, "changes", &tolerances(languages, "changes", change), texts::CHANGES_CAPTION))
         }
     };
     part(languages, "conformity", "3", texts::TOLERANCES_CAPTION, &body)

@@ -20,7 +20,7 @@ pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
         @if let Some(result) = answer {
             (chi_square(page, result, languages))
             (table(result, languages))
-            (figure(languages, &residuals(languages, result), texts::RESIDUALS_FIGURE))
+            (figure(languages, "residuals", &residuals(languages, result), texts::RESIDUALS_FIGURE))
         }
     };
     let blind = html! {

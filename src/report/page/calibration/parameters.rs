@@ -123,7 +123,7 @@ fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
             ),
         ]))
         @if let Some(drawing) = convergence(languages, result) {
-            (figure(languages, &drawing, texts::CONVERGENCE_CAPTION))
+            (figure(languages, "convergence", &drawing, texts::CONVERGENCE_CAPTION))
         }
     }
 }
