@@ -1,7 +1,7 @@
-//! Pictures against what is known without them: directions by hand, lengths in proportion, every printed number in the file.
+//! Pictures of a passport.
 
-mod made;
-
+use crate::made;
+use crate::svg::{ROUNDING, both, english, number, of_class, svgs, tip, whole};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::accuracy::Stated;
@@ -11,22 +11,10 @@ use dtg_passport::report::page::{Language, Languages};
 use dtg_passport::report::picture::{accuracy, deviations, place, positions, vectors};
 use dtg_passport::site::Site;
 use dtg_passport::stand::{CertifiedPosition, Stand};
-use maud::Markup;
 use roxmltree::{Document, Node};
 use std::collections::BTreeSet;
 
 const BAND: &str = "format: \"dtg-site/1\"\nid: \"band\"\nlatitude_deg: 12.5\n";
-
-/// Half the last place of a coordinate, and of two.
-const ROUNDING: f64 = 0.051;
-
-fn english() -> Languages {
-    Languages::from(Language::English)
-}
-
-fn both() -> Languages {
-    Languages::new(Language::English, [Language::Russian])
-}
 
 /// A passport's content and its text; with an accuracy for the paper's gyro and meter.
 fn passport(stand: &str, site: &str) -> (Content, String) {
@@ -50,33 +38,6 @@ fn all_pictures(languages: &Languages, content: &Content) -> String {
         accuracy::accuracy(languages, stated, gravity),
     ];
     whole(&pictures)
-}
-
-fn whole(pictures: &[Markup]) -> String {
-    let parts: Vec<&str> = pictures.iter().map(|picture| picture.0.as_str()).collect();
-    format!("<page>{}</page>", parts.join("\n"))
-}
-
-fn svgs<'a>(page: &'a Document) -> Vec<Node<'a, 'a>> {
-    page.descendants().filter(|node| node.attribute("role") == Some("img")).collect()
-}
-
-/// The elements of a class.
-fn of_class<'a>(node: Node<'a, 'a>, class: &str) -> Vec<Node<'a, 'a>> {
-    let has = |node: &Node| node.attribute("class").is_some_and(|all| all.split(' ').any(|one| one == class));
-    node.descendants().filter(has).collect()
-}
-
-fn number(node: Node, attribute: &str) -> f64 {
-    node.attribute(attribute).unwrap().parse().unwrap()
-}
-
-/// Where an arrow points: the first corner of its head.
-fn tip(arrow: Node) -> [f64; 2] {
-    let head = arrow.children().find(|node| node.has_tag_name("polygon")).unwrap();
-    let first = head.attribute("points").unwrap().split(' ').next().unwrap();
-    let (x, y) = first.split_once(',').unwrap();
-    [x.parse().unwrap(), y.parse().unwrap()]
 }
 
 fn position(i: u32, j: u32, angles_deg: [f64; 2], deviation_deg: [f64; 3]) -> CertifiedPosition {
