@@ -51,7 +51,8 @@ fn main() {
         });
         let of_entries = time(CALIBRATIONS / 10, || EntryUncertainty::new(&setup).covariance());
         println!(
-            "{one:.1} us for one calibration; first order: {of_parameters:.0} us for a budget, {of_entries:.0} us for a passport's numbers"
+            "{one:.1} us for one calibration; first order: {of_parameters:.0} us for a budget, \
+             {of_entries:.0} us for a passport's numbers"
         );
     }
 }

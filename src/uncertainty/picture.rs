@@ -67,14 +67,14 @@ fn draw(budget: &Budget, svg: &mut String) -> Drawn {
     for (panel, line) in panels.split_evenly((rows, COLUMNS)).iter().zip(&budget.parameters) {
         parameter(panel, line)?;
     }
-    below.draw(&Text::new(WORDS, (14, 8), ("sans-serif", 13).into_font().color(&BLACK)))?;
+    below.draw(&Text::new(WORDS, (14, 8), ("sans-serif", 16).into_font().color(&BLACK)))?;
     area.present()?;
     Ok(())
 }
 
 fn parameter(area: &Area, line: &ParameterBudget) -> Drawn {
-    let title = ("sans-serif", 17).into_font().color(&BLACK);
-    let words = ("sans-serif", 13).into_font().color(&BLACK);
+    let title = ("sans-serif", 20).into_font().color(&BLACK);
+    let words = ("sans-serif", 16).into_font().color(&BLACK);
     let (name, unit) = (line.parameter.symbol(), line.parameter.unit());
     let u = line.standard_uncertainty;
     area.draw(&Text::new(format!("{name}: u = {u:.1e} {unit}"), (14, 14), title))?;

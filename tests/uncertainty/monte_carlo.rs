@@ -13,6 +13,8 @@ use dtg_passport::uncertainty::monte_carlo::{Trials, tolerance};
 use dtg_passport::uncertainty::{Budget, monte_carlo};
 use dtg_passport::units::{radians_from_arcseconds, radians_from_degrees};
 use nalgebra::{Matrix3, Vector2, Vector3};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The rotation that turns coordinates by the vector `turn`, with libm.
 fn rotation(turn: Vector3<f64>) -> Matrix3<f64> {
@@ -238,4 +240,25 @@ fn trials_go_on_until_digits_are_stable() {
         assert!(line.numerical.iter().all(|twice| *twice <= 0.2 * tolerance(line.standard_uncertainty)));
         assert_eq!(line.first_order.valid, Some(true), "{line:?}");
     }
+}
+
+/// A thousand million trials begin at once, tell how many are done and due, from which the time that is left follows, and
+/// end when told to, with what is known.
+#[test]
+fn many_trials_tell_how_far_they_are() {
+    let case = &three()[0];
+    let engine = Engine::new(&case.setup, &case.readings, Method::Analytic, ReadingShape::Normal).unwrap();
+    let budget = Budget::new(&case.setup, &case.readings, Method::Analytic, false).unwrap();
+    let (cancel, told) = (AtomicBool::new(false), Mutex::new(Vec::new()));
+    let progress = |done: u64, due: u64| {
+        told.lock().unwrap().push((done, due));
+        cancel.store(true, Ordering::Relaxed);
+    };
+    let run = Trials { cancel: Some(&cancel), progress: Some(&progress), ..fixed(1_000_000_000, 2) };
+    let found = monte_carlo(&engine, &budget, &run);
+    let due = 1_000_000_000_u64.div_ceil(BLOCK) * BLOCK;
+    assert_eq!(told.into_inner().unwrap(), [(found.trials, due)]);
+    assert!(found.trials < due / 50);
+    let line = &budget.parameters[0];
+    assert!((found.parameters[0].standard_uncertainty / line.standard_uncertainty - 1.0).abs() < 0.01);
 }
