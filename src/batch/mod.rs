@@ -31,6 +31,9 @@ use std::sync::{Mutex, PoisonError};
 /// Orders that a thread has in a chunk.
 const CHUNK_PER_THREAD: usize = 64;
 
+/// Orders in a chunk at most, however many the threads: what a chunk holds is held in memory.
+const LARGEST_CHUNK: usize = 4096;
+
 /// What a folder is searched for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
@@ -148,7 +151,7 @@ impl Batch<'_> {
     }
 
     fn chunk(&self) -> usize {
-        CHUNK_PER_THREAD * self.threads.max(1)
+        (CHUNK_PER_THREAD * self.threads.max(1)).min(LARGEST_CHUNK)
     }
 
     /// Signs and writes what is next, or says that it would; `again` asks anew what is next when another run is faster.

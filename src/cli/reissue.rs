@@ -9,7 +9,7 @@ use dtg_passport::batch::successors::Change;
 use dtg_passport::passport::reissue::Order;
 use jiff::Timestamp;
 use jiff::civil::Date;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Verify passports and issue their successors: another site, corrected stands or sites, another key
 ///
@@ -49,6 +49,11 @@ pub struct Options {
 }
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
+    let list = Path::new("-");
+    let lists = options.passports.iter().filter(|path| *path == list).count();
+    if lists > 1 || options.stands.iter().chain(&options.sites).any(|path| path == list) {
+        return Err(Failure::unusable("standard input can be one list, of passports"));
+    }
     let (trust, question) = options.trust.load()?;
     let order = Order {
         stand: None,

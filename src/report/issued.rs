@@ -273,6 +273,8 @@ impl Reports {
             Form::Json => "\n]\n".to_owned(),
             Form::Csv if self.count == 0 => CSV_HEADER.to_owned(),
             Form::Csv => String::new(),
+            // Not even an input was bad: that there was nothing to do must be said.
+            Form::Text if self.totals == Totals::default() => self.totals.summary(),
             Form::Text if self.count <= FEW => self.held.iter().map(text).collect(),
             Form::Text => self.totals.summary(),
         }
