@@ -123,3 +123,43 @@ fn links_lead_somewhere() {
     }
     assert!(checked > 5);
 }
+
+/// Every test that a page names is there: `tests/file.rs::function`, `tests/cmd/page.md#Heading`.
+#[test]
+fn tests_that_are_named_exist() {
+    let mut checked = 0;
+    for page in pages() {
+        let name = page.display().to_string();
+        let text = fs::read_to_string(&page).unwrap();
+        for span in text.split('`').skip(1).step_by(2).filter(|span| span.starts_with("tests/")) {
+            let (file, function) =
+                span.split_once("::").map_or((span, None), |(file, function)| (file, Some(function)));
+            let (file, heading) = file.split_once('#').map_or((file, None), |(file, heading)| (file, Some(heading)));
+            // The first word is the file: a command may follow.
+            let file = file.split(' ').next().unwrap();
+            let path = tools::project(file);
+            assert!(path.exists(), "{name} names {file}, which is not there");
+            let function = function.map(|function| format!("fn {function}() {{"));
+            for wanted in function.into_iter().chain(heading.map(|heading| format!("# {heading}"))) {
+                let text = fs::read_to_string(&path).unwrap();
+                assert!(text.lines().any(|line| line == wanted), "{name} names {span}: no line {wanted:?} there");
+                checked += 1;
+            }
+        }
+    }
+    assert!(checked > 30, "docs/security.md names tests: {checked}");
+}
+
+/// Each promise of docs/security.md names a test: every row of the tables about attackers.
+#[test]
+fn every_promise_names_a_test() {
+    let text = fs::read_to_string(tools::project("docs/security.md")).unwrap();
+    let attackers = text.split("\n## ").find(|section| section.starts_with("Attackers")).unwrap();
+    let rows: Vec<&str> =
+        attackers.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| wants")).collect();
+    assert!(rows.len() > 15);
+    for row in rows {
+        let shown_by = row.trim_end_matches(" |").rsplit(" | ").next().unwrap();
+        assert!(shown_by.contains("`tests/"), "no test is named in {row}");
+    }
+}

@@ -349,6 +349,13 @@ impl Content {
             let at = header.key("reissued_from");
             problems.at(&at.key("sha256"), format!("{:?}", from.sha256), "64 lower-case hexadecimal digits", "");
         }
+        if let Some(from) = &self.passport.reissued_from {
+            let own = format!("{}/{}/", self.stand.model, self.stand.serial);
+            if !from.id.starts_with(&own) {
+                let at = header.key("reissued_from");
+                problems.at(&at.key("id"), format!("{:?}", from.id), format!("a passport of this stand, {own}…"), "");
+            }
+        }
         if self.passport.reissued_from.is_some() != self.passport.supersedes.is_some() {
             problems.at(&header, "one of reissued_from and supersedes", "both or neither", "");
         }
