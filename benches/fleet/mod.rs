@@ -177,7 +177,7 @@ fn processor_seconds() -> f64 {
     const TICKS_PER_SECOND: f64 = 100.0;
     let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
     // After the program's name in brackets: state, then ten numbers, then ticks as user and as system.
-    let numbers = stat.rsplit(')').next().unwrap_or_default().split_whitespace().skip(12);
+    let numbers = stat.rsplit(')').next().unwrap_or_default().split_whitespace().skip(11);
     numbers.take(2).filter_map(|ticks| ticks.parse::<f64>().ok()).sum::<f64>() / TICKS_PER_SECOND
 }
 

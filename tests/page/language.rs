@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 /// Words of Latin letters that Russian texts have too: names of standards, programs, files and units of time.
 const LATIN_IN_RUSSIAN: &[&str] =
-    &["SHA", "WGS", "UTC", "binary", "dtg", "passport", "verify", "ssh", "keygen", "yaml"];
+    &["SHA", "WGS", "UTC", "binary", "dtg", "passport", "verify", "ssh", "keygen", "yaml", "JCGM"];
 
 fn cyrillic(c: char) -> bool {
     ('\u{0400}'..='\u{04FF}').contains(&c)

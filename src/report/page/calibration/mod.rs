@@ -3,12 +3,12 @@
 //!
 //! Its numbers are those of [`CalibrationDocument`], which `calibrate --format json` writes; the annex is that file.
 //!
-//! * [`subject`]: gyro, stand, passport and its verification, currents, laboratory.
-//! * [`parameters`]: what every method found.
-//! * [`conformity`]: against the type, and against an earlier result.
-//! * [`fit`]: chi-square, residuals, what may be wrong, what the fit cannot see.
-//! * [`uncertainty`]: budget and Monte Carlo.
-//! * [`closing`]: signatures, and the annex.
+//! * `subject`: gyro, stand, passport and its verification, currents, laboratory.
+//! * `parameters`: what every method found.
+//! * `conformity`: against the type, and against an earlier result.
+//! * `fit`: chi-square, residuals, what may be wrong, what the fit cannot see.
+//! * `uncertainty`: budget and Monte Carlo.
+//! * `closing`: signatures, and the annex.
 
 mod closing;
 mod conformity;

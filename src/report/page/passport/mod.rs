@@ -3,15 +3,15 @@
 //! A page is made only of a passport that is its issuer's own word: text, signature, content, signer and numbers hold.
 //! One that is good but may not be used (expired, superseded, for another place) becomes a page that says so large.
 //!
-//! * [`front`]: which passport, who signed it, what verification found.
-//! * [`checks`]: each check in words.
-//! * [`general`]: the stand and its certificate.
-//! * [`characteristics`]: the certified deviations, the place of delivery.
-//! * [`numbers`]: what a calibration computes with.
-//! * [`accuracy`]: what the stand is good for, what is not stated.
-//! * [`record`]: the parts to fill in with a pen.
-//! * [`annex`]: the signed file.
-//! * [`figures`]: where pictures stand.
+//! * `front`: which passport, who signed it, what verification found.
+//! * `checks`: each check in words.
+//! * `general`: the stand and its certificate.
+//! * `characteristics`: the certified deviations, the place of delivery.
+//! * `numbers`: what a calibration computes with.
+//! * `accuracy`: what the stand is good for, what is not stated.
+//! * `record`: the parts to fill in with a pen.
+//! * `annex`: the signed file.
+//! * `figures`: where pictures stand.
 
 pub(super) mod accuracy;
 mod annex;
