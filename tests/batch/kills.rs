@@ -143,7 +143,7 @@ fn killed_at_random_nothing_is_lost() {
 
 /// `cargo test --release --test batch -- --ignored --nocapture a_thousand_kills`
 #[test]
-#[ignore = "takes minutes; the figure in docs/figures.md"]
+#[ignore = "takes many minutes"]
 fn a_thousand_kills() {
     let seed = std::env::var("DTG_SEED").map_or(2, |seed| seed.parse().unwrap());
     println!("documents lost: 0; {:?}", kill(1000, seed));
