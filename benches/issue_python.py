@@ -2,8 +2,9 @@
 
 NumPy computes all sites of a stand at once; PyYAML's C writer writes only what is new in a passport (the parts of the
 stand and of the site are written once and reused); OpenSSL, through `cryptography`, signs in OpenSSH's framing; the file
-is written beside its place and renamed. Unlike the program that it is compared with it reads nothing back and verifies
-nothing. Reads the fleet as JSON from standard input, prints seconds (imports aside) and its numbers.
+is written beside its place and renamed. Where the fleet says "checked", every text is read back before it is signed, by
+PyYAML's C reader, and every signature verified before the file is written, as the program does that it is compared with.
+Reads the fleet as JSON from standard input, prints seconds (imports aside) and its numbers.
 """
 import base64
 import hashlib
@@ -25,6 +26,7 @@ WITHIN_DEG_PER_H = 0.001
 K = np.array([[95.0, 9.5], [9.5, 95.0]])
 OMEGA0 = np.array([20.0, 20.0])
 OMEGA_G, OMEGA_K = 10.0, 10.0
+STAND_KEYS = ("stand", "certificate", "datum", "positions")
 OMEGA_N = np.array([[OMEGA_G, -OMEGA_K], [OMEGA_K, OMEGA_G]])
 
 
@@ -111,7 +113,8 @@ def string(data):
 
 
 class Signer:
-    def __init__(self, secret):
+    def __init__(self, secret, checked):
+        self.checked = checked
         self.key = Ed25519PrivateKey.from_private_bytes(secret)
         public = self.key.public_key().public_bytes(Encoding.Raw, PublicFormat.Raw)
         self.head = b"SSHSIG" + struct.pack(">I", 1) + string(string(b"ssh-ed25519") + string(public))
@@ -119,7 +122,10 @@ class Signer:
 
     def armor(self, payload):
         """OpenSSH's PROTOCOL.sshsig."""
-        signature = self.key.sign(b"SSHSIG" + self.rest + string(hashlib.sha512(payload).digest()))
+        signed = b"SSHSIG" + self.rest + string(hashlib.sha512(payload).digest())
+        signature = self.key.sign(signed)
+        if self.checked:
+            self.key.public_key().verify(signature, signed)
         blob = self.head + self.rest + string(string(b"ssh-ed25519") + string(signature))
         text = base64.b64encode(blob).decode()
         lines = [text[at : at + 70] for at in range(0, len(text), 70)]
@@ -130,7 +136,7 @@ class Signer:
 def main():
     fleet = json.load(sys.stdin)
     start, used = time.perf_counter(), time.process_time()
-    sites, signer = fleet["sites"], Signer(bytes(fleet["secret"]))
+    sites, signer = fleet["sites"], Signer(bytes(fleet["secret"]), fleet["checked"])
     at = earth(sites)
     horizontal, vertical = (at[key][:, None, None] for key in ("horizontal_deg_per_h", "vertical_deg_per_h"))
     earth_rows = [dict(zip(at, row)) for row in zip(*(column.tolist() for column in at.values()))]
@@ -149,7 +155,7 @@ def main():
         b, c = omega1 - omega2 @ delta, omega2 @ n2_inverse
         currents = (omega - OMEGA0 - up @ OMEGA_N.T) @ k_inverse.T
         shared = {"n1": n1.tolist(), "n2": n2.tolist(), "n2_inverse": n2_inverse.tolist()}
-        stand_text = dump({key: stand[key] for key in ("stand", "certificate", "datum", "positions") if key in stand})
+        stand_text = dump({key: stand[key] for key in STAND_KEYS if key in stand})
         delta, forces, index = delta.tolist(), up.tolist(), [(position["i"], position["j"]) for position in positions]
         identity = stand["stand"]["model"] + "/" + stand["stand"]["serial"]
         folder = os.path.join(fleet["folder"], stand["stand"]["serial"])
@@ -192,6 +198,10 @@ def main():
                 },
             }
             payload = dump(head) + stand_text + site_text + dump(tail)
+            if fleet["checked"]:
+                due = {**head, "site": site, **tail, **{key: stand[key] for key in STAND_KEYS if key in stand}}
+                read = yaml.load(payload, Loader=yaml.CSafeLoader)
+                assert read.pop("earth") and read == due, "the text says something else"
             file = (payload + "signature: |\n" + signer.armor(payload.encode())).encode()
             path = os.path.join(folder, site["id"] + "-1.yaml")
             with open(path + ".tmp", "xb") as beside:

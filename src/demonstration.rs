@@ -11,7 +11,7 @@ use crate::folder::{Folder, FolderRefused, Issued, Seal};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::checks::CheckName;
-use crate::passport::issue::Issue;
+use crate::passport::issue::{Issue, PreparedStand};
 use crate::passport::reissue::{Order, ReissueRefused, successor};
 use crate::passport::verification::{Question, Trust, Verification, verify};
 use crate::report::page::{Language, Languages, PassportPage};
@@ -162,7 +162,12 @@ impl Stage<'_> {
         ))?;
         self.line("3. computes for the place of delivery what a calibration needs, and signs it:")?;
         let order = Issue::first(IDENTITY, self.now, GyroType::gvk_6().nominal);
-        let issued = self.passports().issue(stand, moscow, &order, Seal { signer: key, trust: None })?;
+        let issued = self.passports().issue(
+            &PreparedStand::new(stand.clone()),
+            moscow,
+            &order,
+            Seal { signer: key, trust: None },
+        )?;
         self.line(&format!("   {}", issued.path.display()))?;
         if let Some(growth) = issued.remarks.noise {
             let worst = growth.worst();

@@ -161,10 +161,15 @@ pub fn parse<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut Proble
 /// Reads a text in canonical form with the quick reader of that form; `None` when anything at all is wrong or different:
 /// then [`read`] finds the words for it.
 pub(crate) fn scanned<T: Field>(payload: &str, check: impl Fn(&T, &mut Problems)) -> Option<T> {
+    scanned_content(payload, check).filter(|content| canonical::is_written(content, payload))
+}
+
+/// What the quick reader makes of a text, which counts only when the text is known to be in canonical form.
+pub(crate) fn scanned_content<T: Field>(payload: &str, check: impl Fn(&T, &mut Problems)) -> Option<T> {
     let content: T = canonical::scan(payload)?;
     let mut problems = Problems::new();
     check(&content, &mut problems);
-    (problems.is_empty() && canonical::is_written(&content, payload)).then_some(content)
+    problems.is_empty().then_some(content)
 }
 
 /// The same with the general reader of YAML, which knows the place of every mistake.

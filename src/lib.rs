@@ -45,6 +45,7 @@
 //! |---|---|
 //! | [`bibliography`] | the papers and standards that formulas link to |
 //! | [`units`] | angles and rates: the one place that converts |
+//! | [`parallel`] | the same work on many things at once |
 //! | [`text`] | strict YAML in, one canonical form out, errors that point into the file |
 //! | [`attitude`] | eq. (3), (4): A, E, Ã |
 //! | [`coefficients`] | eq. (5), (9)-(13): n, ω_3, Δ, B, C |
@@ -93,6 +94,7 @@ pub mod files;
 pub mod folder;
 pub mod gyro;
 pub mod laboratory;
+pub mod parallel;
 pub mod passport;
 pub mod register;
 pub mod report;

@@ -320,9 +320,8 @@ impl Register {
     pub fn of(mut files: Vec<Examined>, mut alarms: Vec<Alarm>) -> Self {
         files.sort_by(|a, b| (&a.line.id, a.revision, &a.line.file).cmp(&(&b.line.id, b.revision, &b.line.file)));
         let successors = Successors::of(&files);
-        let mut passports: Vec<Line> = Vec::with_capacity(files.len());
-        for file in &files {
-            let mut line = file.line.clone();
+        for file in &mut files {
+            let line = &mut file.line;
             let by = successors.by(&line.sha256, &file.series, file.revision);
             if let (Some(by), State::InForce | State::Expiring | State::Expired) = (by, line.state) {
                 line.state = if by.series == file.series { State::Superseded } else { State::Moved };
@@ -330,12 +329,13 @@ impl Register {
             }
             let followed_by = successors.of_file.get(&line.sha256).map_or(&[][..], Vec::as_slice);
             if followed_by.len() > 1 {
-                alarms.push(forked(&line, followed_by));
+                alarms.push(forked(line, followed_by));
             }
-            passports.push(line);
         }
+        let missing = missing(&files);
+        let passports: Vec<Line> = files.into_iter().map(|file| file.line).collect();
         alarms.extend(duplicate_ids(&passports));
-        alarms.extend(missing(&files));
+        alarms.extend(missing);
         alarms.extend(passports.iter().filter_map(misplaced));
         Self { passports, alarms, successors }
     }
@@ -437,16 +437,12 @@ fn missing(files: &[Examined]) -> Vec<Alarm> {
     alarms
 }
 
+/// Of lines sorted by id.
 fn duplicate_ids(passports: &[Line]) -> Vec<Alarm> {
-    let mut by_id: BTreeMap<&str, Vec<&Line>> = BTreeMap::new();
-    for line in passports {
-        if let Some(id) = &line.id {
-            by_id.entry(id).or_default().push(line);
-        }
-    }
-    let several = by_id.into_iter().filter(|(_, lines)| lines.len() > 1);
+    let several = passports.chunk_by(|a, b| a.id.is_some() && a.id == b.id).filter(|lines| lines.len() > 1);
     several
-        .map(|(id, lines)| {
+        .map(|lines| {
+            let id = lines[0].id.as_deref().unwrap_or("?");
             let alike = lines.windows(2).all(|pair| pair[0].sha256 == pair[1].sha256);
             let what = if alike { "the same file, copied" } else { "different files" };
             let words = format!("{id} is there {} times: {what}", lines.len());
@@ -459,12 +455,13 @@ fn duplicate_ids(passports: &[Line]) -> Vec<Alarm> {
 fn misplaced(line: &Line) -> Option<Alarm> {
     let id = line.id.as_deref()?;
     let (folder, revision) = id.rsplit_once('/')?;
-    let due = format!("{folder}-{revision}.yaml");
     let file = line.file.replace('\\', "/");
-    let there = file == due || file.ends_with(&format!("/{due}"));
+    let before = file.strip_suffix(".yaml").and_then(|name| name.strip_suffix(revision)?.strip_suffix('-'));
+    let above = before.and_then(|name| name.strip_suffix(folder));
+    let there = above.is_some_and(|above| above.is_empty() || above.ends_with('/'));
     (!there).then(|| Alarm {
         kind: AlarmKind::Misplaced,
-        words: format!("{id} belongs into {due}"),
+        words: format!("{id} belongs into {folder}-{revision}.yaml"),
         files: vec![line.file.clone()],
     })
 }

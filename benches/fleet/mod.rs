@@ -127,6 +127,16 @@ pub fn order() -> Issue {
     Issue::first(ISSUER, ISSUED_AT.parse().expect("a time"), GyroType::gvk_6().nominal)
 }
 
+/// The secret of the bench's key.
+pub const SECRET: [u8; 32] = [7; 32];
+
+/// The bench's key as OpenSSH writes it.
+pub fn openssh_key() -> String {
+    let pair = ssh_key::private::Ed25519Keypair::from_seed(&SECRET);
+    let key = ssh_key::PrivateKey::from(pair);
+    key.to_openssh(ssh_key::LineEnding::LF).expect("a key").to_string()
+}
+
 /// All the work, each piece once, on so many threads.
 pub fn on_threads(threads: usize, pieces: usize, work: impl Fn(usize) + Sync) {
     let next = AtomicUsize::new(0);

@@ -5,7 +5,7 @@ use super::paths;
 use super::{Batch, Event, Failure, Listener, Outcome, Purpose, Sweeper, parallel};
 use crate::files::folder_of;
 use crate::passport::content::passport_id;
-use crate::passport::issue::Issue;
+use crate::passport::issue::{Issue, PreparedStand};
 use crate::site::Site;
 use crate::stand::Stand;
 use std::io::BufRead;
@@ -19,7 +19,7 @@ const SITES_AT_ONCE: usize = 1024;
 
 /// One passport to be issued.
 struct Pair {
-    stand: Arc<Stand>,
+    stand: Arc<PreparedStand>,
     site: Arc<Site>,
 }
 
@@ -78,10 +78,13 @@ impl Run<'_> {
     fn all(&mut self, stands: &Catalogue<Stand>, sites: &Catalogue<Site>, tell: Listener) {
         for some_stands in ranges(stands.len(), STANDS_AT_ONCE) {
             let loaded_stands = self.load(stands, some_stands, sites.len(), tell);
+            let prepared = parallel::map(&loaded_stands, self.batch.threads, |stand| {
+                Arc::new(PreparedStand::new(Stand::clone(stand)))
+            });
             for some_sites in ranges(sites.len(), SITES_AT_ONCE) {
                 let loaded_sites = self.load(sites, some_sites, loaded_stands.len(), tell);
-                for stand in &loaded_stands {
-                    let id = stand.stand.id();
+                for stand in &prepared {
+                    let id = stand.stand().stand.id();
                     for site in loaded_sites.iter().filter(|site| self.batch.shard.has(&id, site.id.as_str())) {
                         self.pairs.push(Pair { stand: Arc::clone(stand), site: Arc::clone(site) });
                         if self.pairs.len() == self.batch.chunk() {
@@ -128,10 +131,10 @@ impl Run<'_> {
     fn one(&self, Pair { stand, site }: &Pair) -> Outcome {
         let folder = self.batch.folder;
         if self.batch.seal.is_some() {
-            self.sweeper.sweep(folder_of(&folder.path_of(&stand.stand, &site.id, self.order.revision)));
+            self.sweeper.sweep(folder_of(&folder.path_of(&stand.stand().stand, &site.id, self.order.revision)));
         }
         self.batch.settle(
-            || passport_id(&stand.stand, &site.id, self.order.revision),
+            || passport_id(&stand.stand().stand, &site.id, self.order.revision),
             || folder.next_first(stand, site, self.order),
             |seal| folder.issue(stand, site, self.order, seal),
         )

@@ -10,23 +10,21 @@
 //! * [`shard`]: a part of a job, for one of several machines.
 //! * [`first`]: every stand at every site.
 //! * [`successors`]: passports issued anew.
-//! * [`parallel`]: the same work on many things at once.
 
 pub mod catalogue;
 pub mod first;
-pub mod parallel;
 pub mod paths;
 pub mod shard;
 pub mod successors;
 
 use crate::files::{FileError, leftovers};
-use crate::folder::{Folder, FolderRefused, Issued, Next, Seal};
+use crate::folder::{Folder, FolderRefused, Issued, Next, Seal, Visited};
+use crate::parallel;
 use crate::passport::issue::Remarks;
 use shard::Shard;
-use std::collections::HashSet;
+use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 /// Orders that a thread has in a chunk.
 const CHUNK_PER_THREAD: usize = 64;
@@ -197,15 +195,14 @@ impl Batch<'_> {
 /// The folders of stands that were swept clean of what killed runs left behind, each once.
 #[derive(Default)]
 struct Sweeper {
-    swept: Mutex<HashSet<PathBuf>>,
+    swept: Visited,
 }
 
 impl Sweeper {
     fn sweep(&self, folder: &Path) {
-        let mut swept = self.swept.lock().unwrap_or_else(PoisonError::into_inner);
-        if !swept.contains(folder) {
-            swept.insert(folder.to_owned());
+        let Ok(()) = self.swept.visit(folder, || {
             leftovers::remove(folder);
-        }
+            Ok::<_, Infallible>(true)
+        });
     }
 }

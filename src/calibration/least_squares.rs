@@ -87,12 +87,36 @@ pub fn solve(
     meter: &MeterUncertainty,
     anisoelasticity: bool,
 ) -> Result<LeastSquaresSolution, NoLeastSquares> {
-    let fit = Fit::new(coefficients, currents_ma, anisoelasticity, |_, unknowns, current| {
+    Ok(Fit::new(coefficients, currents_ma, anisoelasticity, own_covariance_of(meter))?.solution())
+}
+
+/// Standard uncertainties of [`Parameter::EIGHT`], to first order, where one reading each of the exact currents of
+/// `gyro` has the own errors of `meter`, and nothing else is uncertain.
+///
+/// `None` where the positions do not determine all eight.
+pub fn expected_uncertainties(
+    coefficients: &Coefficients,
+    gyro: &GyroParameters,
+    meter: &MeterUncertainty,
+) -> Option<[f64; 8]> {
+    let unknowns = Unknowns { parameters: *gyro, anisoelasticity_deg_per_h_per_g2: 0.0 };
+    let currents_ma = unknowns.currents_ma(&coefficients.positions)?;
+    let own_covariance = own_covariance_of(meter);
+    let problem = Problem { coefficients, currents_ma: &currents_ma, anisoelasticity: false, own_covariance };
+    problem.conditioned(largest_current(&currents_ma)).ok()?;
+    let (_, fit) = problem.step(&unknowns, currents_ma.clone())?;
+    // The parameters' covariance is R⁻¹ R⁻¹'.
+    let r_inverse = fit.model.r_inverse();
+    Some(std::array::from_fn(|place| r_inverse.row(place).norm()))
+}
+
+/// The covariance, 2×2, of a position's misclosure for the own errors of a meter.
+fn own_covariance_of(meter: &MeterUncertainty) -> impl Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64> {
+    |_, unknowns, current| {
         let k = unknowns.parameters.k_deg_per_h_per_ma;
         let variance = current.map(|current| meter.own_variance_ma2(current));
         k * Matrix2::from_diagonal(&variance) * k.transpose()
-    })?;
-    Ok(fit.solution())
+    }
 }
 
 /// The unit of the columns of K: the largest current, or 1 mA where all are 0.
@@ -158,21 +182,27 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         if self.anisoelasticity { Parameter::NINE.len() } else { Parameter::EIGHT.len() }
     }
 
-    /// The unweighted solution with measured currents, once rank and condition have been checked.
-    fn first(&self) -> Result<Unknowns, NoLeastSquares> {
+    /// The unweighted equations with measured currents in the unit `unit_ma`, once rank and condition have been checked.
+    fn conditioned(&self, unit_ma: f64) -> Result<Factorised, NoLeastSquares> {
         let positions = &self.coefficients.positions;
         if self.currents_ma.len() != positions.len() {
             let (found, expected) = (self.currents_ma.len(), positions.len());
             return Err(NoLeastSquares::WrongNumberOfCurrents { found, expected });
         }
-        let unit = largest_current(self.currents_ma);
-        let scaled: Vec<_> = self.currents_ma.iter().map(|current| current / unit).collect();
+        let scaled: Vec<_> = self.currents_ma.iter().map(|current| current / unit_ma).collect();
         let design = design(positions, &scaled, self.columns());
         let model = Factorised::new(design.clone()).ok().filter(|model| model.condition_bound() <= LARGEST_CONDITION);
-        let model = match model {
-            Some(model) => model,
-            None => self.checked(design)?,
-        };
+        match model {
+            Some(model) => Ok(model),
+            None => self.checked(design),
+        }
+    }
+
+    /// The unweighted solution with measured currents.
+    fn first(&self) -> Result<Unknowns, NoLeastSquares> {
+        let positions = &self.coefficients.positions;
+        let unit_ma = largest_current(self.currents_ma);
+        let model = self.conditioned(unit_ma)?;
         let mut right = DMatrix::zeros(2 * positions.len(), 1);
         for (place, at) in positions.iter().enumerate() {
             right[(2 * place, 0)] = at.earth_rate_deg_per_h.x;
@@ -180,7 +210,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         }
         model.rotate(&mut right);
         let (mut solution, _) = model.solve_rotated(&right);
-        solution.rows_mut(0, 4).scale_mut(1.0 / unit);
+        solution.rows_mut(0, 4).scale_mut(1.0 / unit_ma);
         Ok(Unknowns::from_vector(&solution))
     }
 

@@ -1,13 +1,13 @@
 //! What a calibration on a stand will be worth, before there is a reading: the uncertainties for exact currents of a
 //! nominal gyro.
 
-use super::inputs::{InputUncertainty, MeterUncertainty, Setup};
-use super::parameter::Parameter;
+use super::inputs::{MeterUncertainty, Setup};
+use super::least_squares;
 use super::procedure::{Options, calibrate};
 use super::readings::Readings;
 use super::result::{Method, MethodResult};
 use crate::attitude::Deviation;
-use crate::coefficients::{EarthRate, Position};
+use crate::coefficients::{EarthRate, Position, StandGeometry};
 use crate::gyro::GyroParameters;
 
 /// The result of a method on exact currents of `gyro`: its covariance is what a laboratory will find, to first order.
@@ -54,9 +54,8 @@ pub fn noise_growth(
     let none = Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 };
     let perfect: Vec<Position> = positions.iter().map(|at| Position { deviation: none, ..*at }).collect();
     let u = |positions: &[Position]| {
-        let setup = Setup::new(positions, earth, InputUncertainty::of_meter(meter)).ok()?;
-        let result = predicted(&setup, gyro, Method::LeastSquares)?;
-        Some(Parameter::EIGHT.map(|parameter| result.standard_uncertainty(parameter).unwrap_or(f64::NAN)))
+        let coefficients = StandGeometry::new(positions).ok()?.at(earth);
+        least_squares::expected_uncertainties(&coefficients, gyro, &meter)
     };
     let (real, perfect) = (u(positions)?, u(&perfect)?);
     let [kx, kxy, kyx, ky, omega0x, omega0y, omega_g, omega_k] =

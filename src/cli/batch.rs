@@ -9,6 +9,7 @@ use dtg_passport::batch::{Batch, Event, Listener, Outcome};
 use dtg_passport::document::Signer;
 use dtg_passport::files::Durability;
 use dtg_passport::folder::{Folder, Seal};
+use dtg_passport::parallel;
 use dtg_passport::passport::Trust;
 use dtg_passport::report::issued::{Form, Report, Reports, Told, failure, warnings};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -66,9 +67,7 @@ impl BatchOptions {
             folder: &folder,
             seal: signer.map(|signer| Seal { signer, trust }),
             shard: self.shard.unwrap_or(Shard::WHOLE),
-            threads: self
-                .threads
-                .map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from),
+            threads: self.threads.map_or_else(parallel::processors, usize::from),
             cancel: Some(&cancel),
         };
         let mut reporter = Reporter::new(self.format, Arc::clone(&cancel))?;

@@ -98,10 +98,13 @@ pub fn read(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
 pub fn read_first(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
     let failed = |error| FileError::Read { path: path.to_owned(), error };
     let file = File::open(path).map_err(failed)?;
-    if file.metadata().map_err(failed)?.is_dir() {
+    let found = file.metadata().map_err(failed)?;
+    if found.is_dir() {
         return Err(FileError::Folder { path: path.to_owned() });
     }
-    let mut bytes = Vec::new();
+    // With one byte more than there are, the end is seen without another look.
+    let length = usize::try_from(found.len()).unwrap_or(limit).min(limit);
+    let mut bytes = Vec::with_capacity(length.saturating_add(1));
     file.take(limit as u64).read_to_end(&mut bytes).map_err(failed)?;
     Ok(bytes)
 }
@@ -170,13 +173,16 @@ fn write(
 ) -> Result<(), FileError> {
     let failed = |error| FileError::Write { path: path.to_owned(), error };
     let folder = folder_of(path);
-    make_folder(folder, durability).map_err(failed)?;
-    for attempt in 1.. {
+    for attempt in 0.. {
         let written = temporary(folder, bytes, access, durability).and_then(|file| Ok(persist(file)?));
         match written {
             Ok(_) => break,
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
                 return Err(FileError::Exists { path: path.to_owned(), replaceable });
+            }
+            // Of many files only the first finds its folder missing.
+            Err(error) if attempt == 0 && error.kind() == io::ErrorKind::NotFound => {
+                make_folder(folder, durability).map_err(failed)?;
             }
             Err(error) if taken_away(&error) && attempt < ATTEMPTS && folder.is_dir() => {}
             Err(error) => return Err(failed(error)),

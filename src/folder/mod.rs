@@ -8,7 +8,7 @@ use crate::document::sha256_hex;
 use crate::document::{SignedText, Signer};
 use crate::files::{self, Access, Durability, FileError};
 use crate::passport::content::Content;
-use crate::passport::issue::{self, Draft, Issue, IssueRefused, Remarks};
+use crate::passport::issue::{Draft, Issue, IssueRefused, PreparedStand, Remarks};
 use crate::passport::reissue::{Successor, changes};
 use crate::passport::verification::{Question, Trust, verify};
 use crate::passport::{NAMESPACE, read};
@@ -17,15 +17,33 @@ use crate::stand::{Identity, Stand};
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::scalar::Identifier;
 use jiff::civil::Date;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// A folder of passports: `<model>/<serial>/<site id>-<revision>.yaml`.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug)]
 pub struct Folder {
     root: PathBuf,
     durability: Durability,
+    /// Folders below that are no links.
+    no_links: Visited,
+}
+
+/// Folders that are looked at once, by whichever thread comes first.
+#[derive(Debug, Default)]
+pub(crate) struct Visited(Mutex<HashSet<PathBuf>>);
+
+impl Visited {
+    /// Looks at a folder that was not looked at yet, while others wait; a look that comes to nothing is not the last one.
+    pub(crate) fn visit<E>(&self, folder: &Path, look: impl FnOnce() -> Result<bool, E>) -> Result<(), E> {
+        let mut visited = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if !visited.contains(folder) && look()? {
+            visited.insert(folder.to_owned());
+        }
+        Ok(())
+    }
 }
 
 /// Who signs, and by whose trust a new passport must hold before it is written.
@@ -166,7 +184,7 @@ impl FolderRefused {
 impl Folder {
     /// The folder `root`, which need not exist yet. What is written to it is safe from a loss of power at once.
     pub fn new(root: impl Into<PathBuf>) -> Self {
-        Self { root: root.into(), durability: Durability::Named }
+        Self { root: root.into(), durability: Durability::Named, no_links: Visited::default() }
     }
 
     /// The same folder; what is written to it is as safe from a loss of power as `durability` says.
@@ -202,7 +220,13 @@ impl Folder {
     ///
     /// # Errors
     /// See [`FolderRefused`].
-    pub fn issue(&self, stand: &Stand, site: &Site, order: &Issue, seal: Seal) -> Result<Issued, FolderRefused> {
+    pub fn issue(
+        &self,
+        stand: &PreparedStand,
+        site: &Site,
+        order: &Issue,
+        seal: Seal,
+    ) -> Result<Issued, FolderRefused> {
         self.settle(|| self.next_first(stand, site, order), seal)
     }
 
@@ -210,8 +234,9 @@ impl Folder {
     ///
     /// # Errors
     /// See [`FolderRefused`].
-    pub fn next_first(&self, stand: &Stand, site: &Site, order: &Issue) -> Result<Next, FolderRefused> {
-        let draft = Box::new(issue::draft(stand, site, order)?);
+    pub fn next_first(&self, stand: &PreparedStand, site: &Site, order: &Issue) -> Result<Next, FolderRefused> {
+        let draft = Box::new(stand.draft(site, order)?);
+        let stand = stand.stand();
         let path = self.path_of(&stand.stand, &site.id, order.revision);
         match self.existing(&path)? {
             Some(there) if same(&there.content, draft.content()) => Ok(Next::There(there.left(&draft))),
@@ -306,16 +331,30 @@ impl Folder {
         Ok(Issued { id, path, sha256: sha256_hex(text.as_bytes()), new: true, remarks: draft.remarks() })
     }
 
+    /// Whether the way from the root to `folder` has no link, asked once for all its passports.
+    fn check_for_links(&self, folder: &Path) -> Result<(), FolderRefused> {
+        self.no_links.visit(folder, || {
+            let mut way = folder.ancestors().take_while(|folder| *folder != self.root);
+            match way.find(|folder| folder.is_symlink()) {
+                Some(link) => Err(FolderRefused::Link { path: link.to_owned() }),
+                None => Ok(folder.is_dir()),
+            }
+        })
+    }
+
     /// The passport that is there already.
     fn existing(&self, path: &Path) -> Result<Option<Existing>, FolderRefused> {
-        for path in path.ancestors().take_while(|path| *path != self.root) {
-            match path.symlink_metadata() {
-                Ok(found) if found.is_symlink() => return Err(FolderRefused::Link { path: path.to_owned() }),
-                _ => {}
-            }
+        self.check_for_links(files::folder_of(path))?;
+        let found = match path.symlink_metadata() {
+            Ok(found) => found,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(FileError::Read { path: path.to_owned(), error }.into()),
+        };
+        if found.is_symlink() {
+            return Err(FolderRefused::Link { path: path.to_owned() });
         }
         // A pipe of that name would keep its reader waiting for ever.
-        if std::fs::metadata(path).is_ok_and(|what| !what.is_file() && !what.is_dir()) {
+        if !found.is_file() && !found.is_dir() {
             let reason = "a pipe, a device or a socket".to_owned();
             return Err(FolderRefused::NotComparable { path: path.to_owned(), reason });
         }

@@ -2,6 +2,7 @@
 
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
+use crate::parallel;
 use crate::passport::{Question, Trust};
 use crate::register::{Alarm, Register, examine};
 use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
@@ -80,7 +81,7 @@ pub fn withdraw(lists: &[PathBuf], trust: &mut Trust, time: Timestamp) -> Withdr
 }
 
 /// The register of a folder: its revocation lists first, then every passport. The trust that comes back knows what those
-/// lists withdraw.
+/// lists withdraw. So many threads do the work.
 ///
 /// # Errors
 /// [`FileError::Read`] when `root` cannot be read; one file or folder below it hides none of the others.
@@ -89,6 +90,7 @@ pub fn register(
     mut trust: Trust,
     question: &Question,
     within_days: Option<u32>,
+    threads: usize,
 ) -> Result<(Register, Trust), FileError> {
     let found = find(root)?;
     let name = |path: &Path| path.display().to_string();
@@ -97,10 +99,15 @@ pub fn register(
     alarms.extend(found.special.iter().map(|path| Alarm::special(&name(path))));
     let withdrawn = withdraw(&found.revocation_lists, &mut trust, question.time);
     alarms.extend(withdrawn.alarms);
-    let mut examined = Vec::with_capacity(found.passports.len());
-    for path in found.passports.iter().chain(&withdrawn.no_lists) {
-        match files::read(path, LARGEST_DOCUMENT_BYTES) {
-            Ok(bytes) => examined.push(examine(&name(path), &bytes, &trust, question, within_days)),
+    let passports: Vec<PathBuf> = found.passports.into_iter().chain(withdrawn.no_lists).collect();
+    let read = parallel::map(&passports, threads, |path| {
+        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES)?;
+        Ok(examine(&name(path), &bytes, &trust, question, within_days))
+    });
+    let mut examined = Vec::with_capacity(passports.len());
+    for file in read {
+        match file {
+            Ok(file) => examined.push(file),
             Err(error) => alarms.push(unreadable(&error)),
         }
     }

@@ -3,6 +3,7 @@
 //! Work is cut into blocks of a fixed size. Block n has the generator (xoshiro256++, period 2^256) that n jumps of
 //! 2^128 numbers lead to from the seed, so streams never overlap, whoever works on them and in whatever order.
 
+use crate::parallel;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -75,8 +76,7 @@ impl std::fmt::Debug for Run<'_> {
 impl Run<'_> {
     /// `trials` trials with the random numbers of `seed`, on all the machine's processors.
     pub fn new(trials: u64, seed: u64) -> Self {
-        let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        Self { trials, seed, threads, cancel: None, progress: None }
+        Self { trials, seed, threads: parallel::processors(), cancel: None, progress: None }
     }
 
     /// What `work` makes of every block of trials, in the order of the blocks.

@@ -32,7 +32,7 @@ pub fn write_some(text: &mut String, document: &impl Field, comments: Comments, 
 
 /// Whether `text`, its comments and blank lines aside, is what [`write()`] makes of the document.
 pub fn is_written(document: &impl Field, text: &str) -> bool {
-    let compared = Writer::new(Compared { rest: Some(text) }, &no_comments).written(document);
+    let compared = Writer::new(Compared { rest: Some(text.as_bytes()) }, &no_comments).written(document);
     compared.rest.is_some_and(|rest| after_comments(rest).is_empty())
 }
 
@@ -55,13 +55,13 @@ impl Output for String {
 
 /// A text that the parts are compared with; `None` from the first on that differs.
 struct Compared<'t> {
-    rest: Option<&'t str>,
+    rest: Option<&'t [u8]>,
 }
 
 impl Output for Compared<'_> {
     #[inline]
     fn push(&mut self, part: &str) {
-        self.rest = self.rest.and_then(|rest| rest.strip_prefix(part));
+        self.rest = self.rest.and_then(|rest| rest.strip_prefix(part.as_bytes()));
     }
 
     fn begin_line(&mut self) {
@@ -70,13 +70,13 @@ impl Output for Compared<'_> {
 }
 
 /// What follows the lines that are blank or a comment.
-fn after_comments(mut text: &str) -> &str {
-    while let Some(start) = text.bytes().position(|byte| byte != b' ') {
-        let end = match text.as_bytes()[start] {
+fn after_comments(mut text: &[u8]) -> &[u8] {
+    while let Some(start) = text.iter().position(|byte| *byte != b' ') {
+        let end = match text[start] {
             b'\n' => start,
-            b'#' => match memchr::memchr(b'\n', text.as_bytes()) {
+            b'#' => match memchr::memchr(b'\n', text) {
                 // What else could stand in a comment the general reader decides.
-                Some(end) if rule::is_printable_ascii(&text.as_bytes()[..end]) => end,
+                Some(end) if rule::is_printable_ascii(&text[..end]) => end,
                 _ => return text,
             },
             _ => return text,
@@ -146,7 +146,13 @@ impl<O: Output> Sink for Writer<'_, O> {
     }
 
     fn integer(&mut self, value: i64) {
-        self.on_the_line(|writer| writer.text.push(&value.to_string()));
+        const DIGITS: [&str; 10] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
+        // Indices of positions mostly.
+        let digit = usize::try_from(value).ok().and_then(|value| DIGITS.get(value));
+        self.on_the_line(|writer| match digit {
+            Some(digit) => writer.text.push(digit),
+            None => writer.text.push(&value.to_string()),
+        });
     }
 
     fn number(&mut self, value: f64) {
@@ -241,7 +247,8 @@ pub fn scan<T: Field>(text: &str) -> Option<T> {
     }
     let mut scanner = Scanner { rest: text, depth: 0, inline: false, first: true };
     let document = T::scan(&mut scanner)?;
-    after_comments(scanner.rest).is_empty().then_some(document)
+    scanner.skip_comments();
+    scanner.rest.is_empty().then_some(document)
 }
 
 /// A place in a text in canonical form.
@@ -260,6 +267,11 @@ impl<'t> Scanner<'t> {
     fn take(&mut self, text: &str) -> Option<()> {
         self.rest = self.rest.strip_prefix(text)?;
         Some(())
+    }
+
+    fn skip_comments(&mut self) {
+        // They are ASCII.
+        self.rest = &self.rest[self.rest.len() - after_comments(self.rest.as_bytes()).len()..];
     }
 
     /// The keys of a mapping, which [`Scanner::entry`] reads one after the other.
@@ -296,7 +308,7 @@ impl<'t> Scanner<'t> {
             self.first = false;
             rest
         } else {
-            self.rest = after_comments(self.rest);
+            self.skip_comments();
             self.indented(0)?.strip_prefix(key)?.strip_prefix(':')?
         };
         self.rest = rest;
@@ -334,7 +346,7 @@ impl<'t> Scanner<'t> {
         if !self.inline && self.rest.starts_with('\n') {
             self.take("\n")?;
             loop {
-                self.rest = after_comments(self.rest);
+                self.skip_comments();
                 let Some(item) = self.indented(2).and_then(|rest| rest.strip_prefix("- ")) else { return Some(items) };
                 self.rest = item;
                 items.push(self.bracketed(T::scan)?);

@@ -67,33 +67,53 @@ pub(super) fn write_number(value: f64, mut push: impl FnMut(&str)) {
     let plain = (1e-4..1e16).contains(&magnitude);
     let mut buffer = zmij::Buffer::new();
     let shortest = buffer.format_finite(value);
-    if plain && !may_be_midway(value, shortest) {
-        return push(shortest);
+    if may_be_midway(value, shortest) {
+        let digits = if plain { format!("{value}") } else { format!("{value:e}") };
+        return push_parts(&digits, push);
     }
-    let digits = if plain { format!("{value}") } else { format!("{value:e}") };
-    let (mantissa, exponent) = digits.split_once('e').map_or((&*digits, None), |(m, e)| (m, Some(e)));
+    match shortest.strip_prefix('-').unwrap_or(shortest).strip_prefix("0.0000") {
+        // From 1e-5 to 1e-4.
+        Some(digits) if !plain => {
+            let (first, others) = digits.split_at(1);
+            push(if value < 0.0 { "-" } else { "" });
+            push(first);
+            push(".");
+            push(if others.is_empty() { "0" } else { others });
+            push("e-05");
+        }
+        _ if plain => push(shortest),
+        _ => push_parts(shortest, push),
+    }
+}
+
+/// A number in digits of the rule, from the digits of any other form.
+fn push_parts(digits: &str, mut push: impl FnMut(&str)) {
+    let (mantissa, exponent) = digits.split_once('e').map_or((digits, None), |(m, e)| (m, Some(e)));
     push(mantissa);
     push(if mantissa.contains('.') { "" } else { ".0" });
     if let Some(exponent) = exponent {
-        let (sign, digits) = exponent.strip_prefix('-').map_or(('+', exponent), |digits| ('-', digits));
-        push(&format!("e{sign}{digits:0>2}"));
+        let unsigned = exponent.trim_start_matches(['-', '+']);
+        push(if exponent.starts_with('-') { "e-" } else { "e+" });
+        push(if unsigned.len() < 2 { "0" } else { "" });
+        push(unsigned);
     }
 }
 
 /// Whether a value may lie exactly between two decimals of so many places: then zmij takes the even one and the standard
 /// library the larger, which is what has always been written.
 ///
-/// odd/2^f = (2k + 1)/(2·10^d) needs f = d + 1.
-fn may_be_midway(value: f64, decimal: &str) -> bool {
-    const MOST_PLACES: i64 = 21;
+/// odd/2^f = (2k + 1)/(2·10^d) needs f = d + 1; and shortest decimals of d places are no coarser than the value's own
+/// steps of 2^-52 of it, which ends at f = 25.
+fn may_be_midway(value: f64, shortest: &str) -> bool {
+    const MOST_BINARY_PLACES: i64 = 25;
     let bits = value.to_bits();
     let exponent = (bits >> 52 & 0x7FF) as i64;
     let mantissa = bits & ((1 << 52) - 1) | 1 << 52;
     let binary_places = 1075 - exponent - i64::from(mantissa.trailing_zeros());
-    // Most values have more than any decimal shows.
-    binary_places <= MOST_PLACES + 1 && {
-        let places = decimal.split_once('.').map_or(0, |(_, places)| places.len());
-        binary_places == places as i64 + 1
+    binary_places <= MOST_BINARY_PLACES && {
+        let (mantissa, exponent) = shortest.split_once('e').unwrap_or((shortest, "0"));
+        let places = mantissa.split_once('.').map_or(0, |(_, places)| places.len() as i64);
+        binary_places == places - exponent.parse().unwrap_or(0) + 1
     }
 }
 

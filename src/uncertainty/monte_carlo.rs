@@ -10,6 +10,7 @@ use super::engine::{BLOCK, Engine};
 use super::tally::{BlockSummary, Histograms, Scale, Tally};
 use crate::calibration::Method;
 use crate::calibration::parameter::Parameter;
+use crate::parallel;
 use crate::statistics::lanes::Lanes;
 use nalgebra::DMatrix;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -53,7 +54,7 @@ impl std::fmt::Debug for Trials<'_> {
 impl Trials<'_> {
     /// Until the digits are stable, on all the machine's processors.
     pub fn adaptive(seed: u64) -> Self {
-        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let threads = parallel::processors();
         Self { trials: None, seed, threads, cancel: None, progress: None }
     }
 }

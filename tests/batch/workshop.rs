@@ -1,9 +1,9 @@
 //! A factory's folder with as many stands and sites as a test wants, the program run in it, and what must hold after.
 
 use crate::tools;
-use dtg_passport::batch::parallel;
 use dtg_passport::document::sha256_hex;
 use dtg_passport::folder::search::find;
+use dtg_passport::parallel;
 use dtg_passport::passport::{Question, Trust, verify};
 use dtg_passport::trust::AllowedSigners;
 use std::collections::{BTreeMap, BTreeSet};

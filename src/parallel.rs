@@ -3,6 +3,11 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
+/// The processors that this process may use.
+pub fn processors() -> usize {
+    thread::available_parallelism().map_or(1, usize::from)
+}
+
 /// Does `work` on every item with up to `threads` threads; the results come in the order of the items.
 ///
 /// Where the system gives no more threads, fewer do the same.
@@ -16,17 +21,20 @@ pub fn map<T: Sync, R: Send>(items: &[T], threads: usize, work: impl Fn(&T) -> R
             done.push((index, work(item)));
         }
     };
-    let mut results = thread::scope(|scope| {
+    let mut results: Vec<Option<R>> = Vec::new();
+    results.resize_with(items.len(), || None);
+    thread::scope(|scope| {
         let others = 1..threads.min(items.len());
         let others: Vec<_> = others.map_while(|_| thread::Builder::new().spawn_scoped(scope, run).ok()).collect();
-        let mut results = run();
+        let mut keep = |done: Vec<(usize, R)>| {
+            done.into_iter().for_each(|(index, result)| results[index] = Some(result));
+        };
+        keep(run());
         for other in others {
-            results.extend(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+            keep(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
         }
-        results
     });
-    results.sort_unstable_by_key(|(index, _)| *index);
-    results.into_iter().map(|(_, result)| result).collect()
+    results.into_iter().flatten().collect()
 }
 
 #[cfg(test)]
