@@ -6,7 +6,7 @@
 //! and once more without, from `target/test-tools` where the tests have installed it, otherwise as `python3`. One after
 //! the other in rounds, so that all share the machine's mood; nothing is synced, what syncing costs is apart.
 //!
-//! `-- --memory N` issues N passports and prints the memory of the process; `-- --linear` times 1,000, 10,000, 100,000.
+//! `-- --linear` times 1,000, 10,000 and 100,000 passports.
 
 mod fleet;
 
@@ -21,7 +21,7 @@ use dtg_passport::stand::Stand;
 use dtg_passport::text::{Field, canonical};
 use dtg_passport::trust::SigningKey;
 use ed25519_dalek::Signer as _;
-use fleet::{Time, median, on_threads, option, resident_mib, scratch, timed, write_and_rename};
+use fleet::{Time, median, on_threads, scratch, timed, write_and_rename};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha512};
 use std::cell::Cell;
@@ -50,8 +50,8 @@ struct Job {
 }
 
 impl Job {
-    fn new(name: &str, stands: usize) -> Self {
-        let (stands, sites) = (fleet::stands(stands), fleet::sites(SITES));
+    fn new(name: &str, stands: usize, sites: usize) -> Self {
+        let (stands, sites) = (fleet::stands(stands), fleet::sites(sites));
         let scratch = scratch(name);
         let inputs = scratch.join("inputs");
         for stand in &stands {
@@ -180,9 +180,6 @@ fn compare(job: &Job, computed: &Value) {
 }
 
 fn main() {
-    if let Some(passports) = option("--memory") {
-        return memory(passports);
-    }
     if std::env::args().any(|word| word == "--linear") {
         return linear();
     }
@@ -193,7 +190,7 @@ fn main() {
 }
 
 fn against_the_floor(threads: usize) -> Job {
-    let job = Job::new("bench-issue", STANDS);
+    let job = Job::new("bench-issue", STANDS, SITES);
     let key = ed25519_dalek::SigningKey::from_bytes(&fleet::SECRET);
     // All have run once before anything counts.
     let round = || {
@@ -212,7 +209,7 @@ fn against_the_floor(threads: usize) -> Job {
 }
 
 fn against_python() -> Job {
-    let job = Job::new("bench-issue-python", STANDS_OF_PYTHON);
+    let job = Job::new("bench-issue-python", STANDS_OF_PYTHON, SITES);
     let round = |first: bool| {
         let ours = job.run(1, Durability::None);
         let [writing, checking] = [false, true].map(|checked| {
@@ -237,7 +234,7 @@ fn against_python() -> Job {
 
 /// What a disk takes that has to be sure of every file.
 fn syncing(threads: usize) -> Job {
-    let job = Job::new("bench-issue-synced", STANDS_OF_PYTHON);
+    let job = Job::new("bench-issue-synced", STANDS_OF_PYTHON, SITES);
     let round = || [Durability::None, Durability::NameLater].map(|durability| job.run(threads, durability));
     let [without, with] = by_column((0..ROUNDS).map(|_| round()));
     say("batch, synced", job.passports(), &with);
@@ -268,18 +265,14 @@ fn ratio(what: &str, slow: &[Time], fast: &[Time]) {
     println!("{what}: {:.2}; {:.2} by processor time", of(|time| time.wall), of(|time| time.processor));
 }
 
-fn memory(passports: usize) {
-    let time = Job::new("bench-issue-many", passports / SITES).run(parallel::processors(), Durability::None);
-    println!("{passports} passports: {:.1} s, {:.1} MiB", time.wall, resident_mib().unwrap_or(f64::NAN));
-}
-
 fn linear() {
     let mut jobs = Vec::new();
     for passports in [1_000, 10_000, 100_000] {
-        let job = Job::new(&format!("bench-issue-{passports}"), passports / SITES);
-        let time = job.run(parallel::processors(), Durability::None);
+        let job = Job::new(&format!("bench-issue-{passports}"), STANDS, passports / STANDS);
+        let rounds = (100_000 / passports).min(ROUNDS);
+        let times: Vec<_> = (0..rounds).map(|_| job.run(parallel::processors(), Durability::None)).collect();
+        say(&format!("{STANDS} stands x {} sites", passports / STANDS), passports, &times);
         // For the reason that runs have folders of their own.
         jobs.push(job);
-        say(&format!("{passports} passports"), passports, &[time]);
     }
 }

@@ -212,13 +212,6 @@ pub fn median(values: &[f64]) -> f64 {
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-/// Largest resident memory of this process so far, in MiB (Linux).
-pub fn resident_mib() -> Option<f64> {
-    let status = fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    Some(line.split_whitespace().nth(1)?.parse::<f64>().ok()? / 1024.0)
-}
-
 /// The number that follows an option of the command line.
 pub fn option(name: &str) -> Option<usize> {
     std::env::args().skip_while(|word| word != name).nth(1)?.parse().ok()

@@ -205,19 +205,31 @@ fn a_key_in_memory_is_kept_out_of_core_dumps() {
     assert!(status.signal().is_some() && !status.core_dumped(), "{status}");
 }
 
-/// What is held does not grow with the number of passports. The peak is that of the system's own account.
+/// The largest memory that a dry run takes, by the system's own account.
+fn peak_kib(workshop: &Workshop, stands: &str, sites: &str) -> u64 {
+    let script = "import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, stdout=sys.stderr); \
+                  print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)";
+    let mut python = tools::python();
+    python.args(["-c", script, env!("CARGO_BIN_EXE_dtg-passport")]).current_dir(workshop.path("."));
+    python.args(format!("issue {stands} --site {sites} {SIGN} --dry-run --format csv").split(' '));
+    tools::output(python).trim().parse().unwrap()
+}
+
 #[test]
 fn memory_does_not_grow_with_the_number_of_passports() {
     let workshop = Workshop::new(40, 100);
-    let peak_kib = |stands: &str| -> u64 {
-        let script = "import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, stdout=sys.stderr); \
-                      print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)";
-        let mut python = tools::python();
-        python.args(["-c", script, env!("CARGO_BIN_EXE_dtg-passport")]).current_dir(workshop.path("."));
-        python.args(format!("issue {stands} --site sites {SIGN} --dry-run --format csv").split(' '));
-        tools::output(python).trim().parse().unwrap()
-    };
-    let (few, many) = (peak_kib("stands/0000"), peak_kib("stands"));
+    let (few, many) = (peak_kib(&workshop, "stands/0000", "sites"), peak_kib(&workshop, "stands", "sites"));
     assert!(many < 64 << 10, "{many} KiB");
     assert!(many < few + (4 << 10), "{few} KiB for 100 passports, {many} KiB for 4,000");
+}
+
+/// `cargo test --release --test batch -- --ignored --nocapture a_million_planned`
+#[test]
+#[ignore = "takes minutes; the figure in docs/figures.md"]
+fn a_million_planned() {
+    let workshop = Workshop::new(50, 20_000);
+    let few = peak_kib(&workshop, "stands", "sites/site-000*.yaml --site sites/site-001*.yaml");
+    let many = peak_kib(&workshop, "stands", "sites");
+    println!("peak memory: 10,000 planned {few} KiB, 1,000,000 planned {many} KiB");
+    assert!(many < 64 << 10);
 }
