@@ -2,7 +2,7 @@
 //! that whoever signed it could have put there.
 
 use dtg_passport::gyro::{GyroType, Parameters};
-use dtg_passport::passport::issue::{self, Issue};
+use dtg_passport::passport::issue::{self, Issue, PreparedStand};
 use dtg_passport::passport::reissue::{Order, successor};
 use dtg_passport::passport::{Question, Trust, verify};
 use dtg_passport::signing::allowed_signers_line;
@@ -10,6 +10,7 @@ use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
 use dtg_passport::trust::{AllowedSigners, SigningKey};
 use jiff::Timestamp;
+use std::sync::Arc;
 
 fn time(text: &str) -> Timestamp {
     text.parse().unwrap()
@@ -37,7 +38,7 @@ fn of_a_passport_that_may_only_be_named_nothing_but_its_id_and_hash_is_taken_ove
     let (lost, new) = (SigningKey::generate().unwrap(), SigningKey::generate().unwrap());
     let old = issue::draft(&stand, &site, &issue).unwrap().sign(&lost).unwrap();
     let order = Order {
-        stand: Some(stand.clone()),
+        stand: Some(Arc::new(PreparedStand::new(stand.clone()))),
         site: Some(site.clone()),
         moved: false,
         reason: "the key was lost".to_owned(),

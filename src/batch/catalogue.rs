@@ -3,6 +3,7 @@
 use super::parallel;
 use super::{Event, Failure, Listener};
 use crate::files;
+use crate::passport::issue::PreparedStand;
 use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable};
@@ -38,15 +39,15 @@ pub trait Listed: Clone + Send + Sync {
     }
 }
 
-impl Listed for Stand {
+impl Listed for PreparedStand {
     const NAME: &str = "stand";
 
     fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        Self::from_yaml(name, bytes)
+        Stand::from_yaml(name, bytes).map(Self::new)
     }
 
     fn id(&self) -> String {
-        self.stand.id()
+        self.stand().stand.id()
     }
 }
 

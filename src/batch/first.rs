@@ -7,7 +7,6 @@ use crate::files::folder_of;
 use crate::passport::content::passport_id;
 use crate::passport::issue::{Issue, PreparedStand};
 use crate::site::Site;
-use crate::stand::Stand;
 use std::io::BufRead;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -75,15 +74,12 @@ impl Run<'_> {
     }
 
     /// By stands, and of each by sites; where there are too many sites to be held, some sites of some stands first.
-    fn all(&mut self, stands: &Catalogue<Stand>, sites: &Catalogue<Site>, tell: Listener) {
+    fn all(&mut self, stands: &Catalogue<PreparedStand>, sites: &Catalogue<Site>, tell: Listener) {
         for some_stands in ranges(stands.len(), STANDS_AT_ONCE) {
             let loaded_stands = self.load(stands, some_stands, sites.len(), tell);
-            let prepared = parallel::map(&loaded_stands, self.batch.threads, |stand| {
-                Arc::new(PreparedStand::new(Stand::clone(stand)))
-            });
             for some_sites in ranges(sites.len(), SITES_AT_ONCE) {
                 let loaded_sites = self.load(sites, some_sites, loaded_stands.len(), tell);
-                for stand in &prepared {
+                for stand in &loaded_stands {
                     let id = stand.stand().stand.id();
                     for site in loaded_sites.iter().filter(|site| self.batch.shard.has(&id, site.id.as_str())) {
                         self.pairs.push(Pair { stand: Arc::clone(stand), site: Arc::clone(site) });

@@ -11,11 +11,11 @@ use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError, folder_of};
 use crate::folder::Issued;
 use crate::folder::search::{self, Withdrawn, is_numbered, is_revocation_list};
+use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
 use crate::passport::{Question, Trust, verify};
 use crate::register::{self, Line, State, examine, examined};
 use crate::site::Site;
-use crate::stand::Stand;
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use std::collections::{BTreeMap, HashMap};
 use std::io::BufRead;
@@ -133,7 +133,7 @@ impl Batch<'_> {
 struct Run<'a> {
     batch: &'a Batch<'a>,
     change: Change<'a>,
-    stands: Catalogue<Stand>,
+    stands: Catalogue<PreparedStand>,
     sites: Catalogue<Site>,
     /// Whether a file of a site could not be read: whose it is, nobody knows.
     sites_missing: bool,
@@ -328,7 +328,7 @@ impl Run<'_> {
                 stand => stand,
             };
             let missing = || Failure::refused(&candidate.path, format!("no stand file is of {}", old.stand.id()));
-            order.stand = Some(Stand::clone(&*stand.ok_or_else(missing)?));
+            order.stand = Some(stand.ok_or_else(missing)?);
         }
         if let Some(site) = self.sites.get(old.site.id.as_str())? {
             order.site = Some(Site::clone(&site));

@@ -3,7 +3,7 @@
 use super::accuracy::Stated;
 use super::checks::{CheckName, Code};
 use super::content::{Content, Predecessor};
-use super::issue::{self, Draft, Issue, IssueRefused};
+use super::issue::{Draft, Issue, IssueRefused, PreparedStand};
 use super::verification::Verification;
 use crate::document::sha256_hex;
 use crate::gyro::{GyroType, Parameters};
@@ -12,12 +12,13 @@ use crate::stand::{STAND_FORMAT, Stand};
 use crate::text::{Field, Node, rule};
 use jiff::Timestamp;
 use jiff::civil::Date;
+use std::sync::Arc;
 
 /// What is to be issued anew, and by whom.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Order {
     /// A corrected stand, or the factory's file of it; the old passport's when `None`.
-    pub stand: Option<Stand>,
+    pub stand: Option<Arc<PreparedStand>>,
     /// Another or a corrected site; the old passport's when `None`.
     pub site: Option<Site>,
     /// The stand has left the old site, whose passport is superseded.
@@ -87,7 +88,7 @@ pub enum ReissueRefused {
 /// What a new passport is made of; only its revision is open.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Successor {
-    stand: Stand,
+    stand: Arc<PreparedStand>,
     site: Site,
     same_site: bool,
     old_revision: u32,
@@ -118,7 +119,8 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         let (issued_at, old) = (order.issued_at, old.passport.issued_at);
         return Err(ReissueRefused::BeforeOld { issued_at, old });
     }
-    let stand = order.stand.clone().unwrap_or_else(|| stand_of(old));
+    let prepared = order.stand.clone().unwrap_or_else(|| Arc::new(PreparedStand::new(stand_of(old))));
+    let stand = prepared.stand();
     let site = order.site.clone().unwrap_or_else(|| old.site.clone());
     let name = |model: &dyn std::fmt::Display, serial: &dyn std::fmt::Display| format!("{model} {serial}");
     let (given, known) = (name(&stand.stand.model, &stand.stand.serial), name(&old.stand.model, &old.stand.serial));
@@ -135,7 +137,7 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         sha256: sha256_hex(old_bytes),
         reason: order.reason.clone(),
         changed: match &usable {
-            Usable::Whole => changes(old, &stand, &site, &order.issuer),
+            Usable::Whole => changes(old, stand, &site, &order.issuer),
             Usable::NameOnly { .. } => {
                 "not compared: made from the factory's files, the earlier passport only named".into()
             }
@@ -158,13 +160,13 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         },
     };
     let says_the_same = matches!(usable, Usable::Whole)
-        && stand == stand_of(old)
+        && *stand == stand_of(old)
         && site == old.site
         && issue.issuer == old.passport.issuer
         && issue.valid_until.or(stand.certificate.valid_until) == old.passport.valid_until;
     let for_the_same_reason = old.passport.reissued_from.as_ref().is_some_and(|from| from.reason == order.reason);
     let old_revision = old.passport.revision;
-    Ok(Successor { stand, site, same_site, old_revision, issue, says_the_same, for_the_same_reason })
+    Ok(Successor { stand: prepared, site, same_site, old_revision, issue, says_the_same, for_the_same_reason })
 }
 
 /// How much of an old passport may be used.
@@ -223,7 +225,7 @@ impl Successor {
 
     /// The stand it is of.
     pub fn stand(&self) -> &Stand {
-        &self.stand
+        self.stand.stand()
     }
 
     /// The site it is for.
@@ -246,7 +248,7 @@ impl Successor {
     /// # Errors
     /// See [`IssueRefused`].
     pub fn draft(&self, revision: u32) -> Result<Draft, IssueRefused> {
-        issue::draft(&self.stand, &self.site, &Issue { revision, ..self.issue.clone() })
+        self.stand.draft(&self.site, &Issue { revision, ..self.issue.clone() })
     }
 }
 
