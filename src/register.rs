@@ -213,6 +213,7 @@ struct Successor {
     file: String,
     sha256: String,
     series: String,
+    withdrawn: bool,
 }
 
 /// What is superseded, and by what.
@@ -327,10 +328,7 @@ impl Register {
                 line.state = if by.series == file.series { State::Superseded } else { State::Moved };
                 line.why = format!("by {} ({})", by.id, by.file);
             }
-            let followed_by = successors.of_file.get(&line.sha256).map_or(&[][..], Vec::as_slice);
-            if followed_by.len() > 1 {
-                alarms.push(forked(line, followed_by));
-            }
+            alarms.extend(forked(line, successors.of_file.get(&line.sha256).map_or(&[], Vec::as_slice)));
         }
         let missing = missing(&files);
         let passports: Vec<Line> = files.into_iter().map(|file| file.line).collect();
@@ -383,8 +381,9 @@ impl Successors {
             else {
                 continue;
             };
-            let Line { file: name, sha256, .. } = file.line.clone();
-            let successor = Successor { id: id.clone(), file: name, sha256, series: file.series.clone() };
+            let Line { file: name, sha256, state, .. } = file.line.clone();
+            let (series, withdrawn) = (file.series.clone(), state == State::Revoked);
+            let successor = Successor { id: id.clone(), file: name, sha256, series, withdrawn };
             let last = successors.of_series.get(&from.series).map_or(0, |(revision, _)| *revision);
             if from.revision > last {
                 successors.of_series.insert(from.series.clone(), (from.revision, successor.clone()));
@@ -400,7 +399,9 @@ impl Successors {
 
     /// What supersedes a file, known by its SHA-256, or a revision of a series.
     fn by(&self, sha256: &str, series: &str, revision: u32) -> Option<&Successor> {
-        let of_file = self.of_file.get(sha256).and_then(|successors| successors.first());
+        let of_file = self.of_file.get(sha256);
+        // Of a fork the branch that was not withdrawn.
+        let of_file = of_file.and_then(|successors| successors.iter().min_by_key(|successor| successor.withdrawn));
         let of_series = || {
             let (last, successor) = self.of_series.get(series)?;
             (revision < *last).then_some(successor)
@@ -409,11 +410,16 @@ impl Successors {
     }
 }
 
-fn forked(line: &Line, by: &[Successor]) -> Alarm {
+/// An alarm until all successors but one have been withdrawn.
+fn forked(line: &Line, by: &[Successor]) -> Option<Alarm> {
+    if by.iter().filter(|successor| !successor.withdrawn).count() < 2 {
+        return None;
+    }
     let ids: Vec<&str> = by.iter().map(|successor| successor.id.as_str()).collect();
     let id = line.id.as_deref().unwrap_or("?");
     let words = format!("{id} has {} successors that all supersede it: {}", by.len(), ids.join(", "));
-    Alarm { kind: AlarmKind::Forked, words, files: by.iter().map(|successor| successor.file.clone()).collect() }
+    let files = by.iter().map(|successor| successor.file.clone()).collect();
+    Some(Alarm { kind: AlarmKind::Forked, words, files })
 }
 
 /// Revisions between two that are there: somebody took them away, or did not pass them on.
