@@ -162,16 +162,11 @@ fn of_a_fork_neither_branch_goes_on_until_one_is_withdrawn() {
     let forked = || {
         let register =
             workshop.command("register passports --trust allowed_signers --time 2027-02-01").output().unwrap();
-        let text = String::from_utf8(register.stdout).unwrap();
-        let superseded = text.lines().skip_while(|line| !line.contains("SPS-2/0000/site-00000/1 ")).nth(1).unwrap();
-        (text.contains("ALARM (forked): SPS-2/0000/site-00000/1 has 2 successors"), superseded.trim().to_owned())
+        String::from_utf8(register.stdout).unwrap().contains("ALARM (forked): SPS-2/0000/site-00000/1 has 2 successors")
     };
-    assert!(forked().0);
+    assert!(forked());
     workshop.run(&format!("revoke {one} {revoke} --time 2027-01-01"), 0);
-    assert_eq!(
-        forked(),
-        (false, "by SPS-2/0000/site-00000/2 (passports/restored/SPS-2/0000/site-00000-2.yaml)".into())
-    );
+    assert!(!forked());
     let anew = ANEW.replace("2026-12-01", "2027-12-01");
     let said = workshop.run(&format!("reissue passports --reason rotated {anew}"), 0);
     assert_eq!(said.ids("issued"), ids("0000", &[0], 4));
