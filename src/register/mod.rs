@@ -2,15 +2,21 @@
 //!
 //! It is a function of verified passports, trust and a time; [`crate::folder`] finds the files.
 
+mod alarm;
+mod successors;
+
+pub use alarm::{Alarm, AlarmKind};
+
 use crate::document::sha256_hex;
 use crate::passport::checks::{Check, CheckName, Code};
 use crate::passport::content::Content;
 use crate::passport::verification::{Question, Trust, Verification, verify};
-use crate::revocation::{ListRefused, RevocationList, SeriesAlarm};
+use alarm::{duplicate_ids, forked, misplaced, missing};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use successors::Successors;
 
 /// What is to be said of a passport.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -55,107 +61,6 @@ pub struct Line {
     pub valid_until: Option<Date>,
     /// Why it is in this state: the successor, the failed check, the reason of withdrawal.
     pub why: String,
-}
-
-/// What needs a person to look at it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Alarm {
-    /// Which kind: its key.
-    pub kind: AlarmKind,
-    /// In words.
-    pub words: String,
-    /// The files.
-    pub files: Vec<String>,
-}
-
-/// Kinds of alarm.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum AlarmKind {
-    /// Two successors of one passport.
-    Forked,
-    /// Two files with one id.
-    DuplicateId,
-    /// A revision is missing from a chain whose ends are there.
-    Missing,
-    /// A file is not where its content belongs.
-    Misplaced,
-    /// A link, which may lead out of the folder.
-    Link,
-    /// A pipe, a device or a socket.
-    Special,
-    /// A file larger than any document.
-    TooLarge,
-    /// A file or a folder that cannot be read.
-    Unreadable,
-    /// Lists of withdrawn passports.
-    Revocation,
-}
-
-impl AlarmKind {
-    /// Its name for programs.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Forked => "forked",
-            Self::DuplicateId => "duplicate_id",
-            Self::Missing => "missing",
-            Self::Misplaced => "misplaced",
-            Self::Link => "link",
-            Self::Special => "special",
-            Self::TooLarge => "too_large",
-            Self::Unreadable => "unreadable",
-            Self::Revocation => "revocation",
-        }
-    }
-}
-
-impl Alarm {
-    /// A link, which may lead out of the folder.
-    pub fn link(file: &str) -> Self {
-        Self::of_file(AlarmKind::Link, "a link is not followed", file)
-    }
-
-    /// A file that only looks like one.
-    pub fn special(file: &str) -> Self {
-        Self::of_file(AlarmKind::Special, "a pipe, a device or a socket is not read", file)
-    }
-
-    /// A file larger than any passport.
-    pub fn too_large(file: &str) -> Self {
-        Self::of_file(AlarmKind::TooLarge, "larger than any passport", file)
-    }
-
-    /// A file or a folder that cannot be read, and why.
-    pub fn unreadable(why: &str, file: &str) -> Self {
-        Self::of_file(AlarmKind::Unreadable, why, file)
-    }
-
-    /// A list of withdrawn passports that does not count.
-    pub fn refused_list(error: &ListRefused, file: &str) -> Self {
-        Self::of_file(AlarmKind::Revocation, &error.to_string(), file)
-    }
-
-    /// A good list of withdrawn passports in a file of another name than its own.
-    pub fn misnamed_list(list: &RevocationList, file: &str) -> Self {
-        let words = format!("list {} belongs into {}", list.sequence, list.file_name());
-        Self::of_file(AlarmKind::Misplaced, &words, file)
-    }
-
-    /// Something about several lists.
-    pub fn series(alarm: SeriesAlarm) -> Self {
-        Self { kind: AlarmKind::Revocation, words: alarm.to_string(), files: Vec::new() }
-    }
-
-    fn of_file(kind: AlarmKind, words: &str, file: &str) -> Self {
-        Self { kind, words: words.to_owned(), files: vec![file.to_owned()] }
-    }
-}
-
-impl std::fmt::Display for Alarm {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        let files = if self.files.is_empty() { String::new() } else { format!(": {}", self.files.join(", ")) };
-        write!(f, "ALARM ({}): {}{files}", self.kind.key(), self.words)
-    }
 }
 
 impl State {
@@ -204,26 +109,6 @@ struct Predecessor {
     series: String,
     revision: u32,
     superseded: bool,
-}
-
-/// A passport that supersedes others.
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct Successor {
-    id: String,
-    file: String,
-    sha256: String,
-    series: String,
-    withdrawn: bool,
-}
-
-/// What is superseded, and by what.
-///
-/// A successor names one passport by the SHA-256 of its file. By its id it names it too, and with it every earlier
-/// revision for that site: they do not come back when a file between them is taken away.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-struct Successors {
-    of_file: BTreeMap<String, Vec<Successor>>,
-    of_series: BTreeMap<String, (u32, Successor)>,
 }
 
 /// Verifies one file; `within_days` sets from when on it counts as expiring.
@@ -328,7 +213,7 @@ impl Register {
                 line.state = if by.series == file.series { State::Superseded } else { State::Moved };
                 line.why = format!("by {} ({})", by.id, by.file);
             }
-            alarms.extend(forked(line, successors.of_file.get(&line.sha256).map_or(&[], Vec::as_slice)));
+            alarms.extend(forked(line, successors.of_file(&line.sha256)));
         }
         let missing = missing(&files);
         let passports: Vec<Line> = files.into_iter().map(|file| file.line).collect();
@@ -371,103 +256,4 @@ impl Register {
         }
         counts
     }
-}
-
-impl Successors {
-    fn of(files: &[Examined]) -> Self {
-        let mut successors = Self::default();
-        for file in files.iter().filter(|file| file.counts) {
-            let (Some(from), Some(id)) = (file.predecessor.as_ref().filter(|from| from.superseded), &file.line.id)
-            else {
-                continue;
-            };
-            let Line { file: name, sha256, state, .. } = file.line.clone();
-            let (series, withdrawn) = (file.series.clone(), state == State::Revoked);
-            let successor = Successor { id: id.clone(), file: name, sha256, series, withdrawn };
-            let last = successors.of_series.get(&from.series).map_or(0, |(revision, _)| *revision);
-            if from.revision > last {
-                successors.of_series.insert(from.series.clone(), (from.revision, successor.clone()));
-            }
-            let known = successors.of_file.entry(from.sha256.clone()).or_default();
-            // A copy of the same file is one successor, not two.
-            if known.iter().all(|other| other.sha256 != successor.sha256) {
-                known.push(successor);
-            }
-        }
-        successors
-    }
-
-    /// What supersedes a file, known by its SHA-256, or a revision of a series.
-    fn by(&self, sha256: &str, series: &str, revision: u32) -> Option<&Successor> {
-        let of_file = self.of_file.get(sha256);
-        // Of a fork the branch that was not withdrawn.
-        let of_file = of_file.and_then(|successors| successors.iter().min_by_key(|successor| successor.withdrawn));
-        let of_series = || {
-            let (last, successor) = self.of_series.get(series)?;
-            (revision < *last).then_some(successor)
-        };
-        of_file.or_else(of_series)
-    }
-}
-
-/// An alarm until all successors but one have been withdrawn.
-fn forked(line: &Line, by: &[Successor]) -> Option<Alarm> {
-    if by.iter().filter(|successor| !successor.withdrawn).count() < 2 {
-        return None;
-    }
-    let ids: Vec<&str> = by.iter().map(|successor| successor.id.as_str()).collect();
-    let id = line.id.as_deref().unwrap_or("?");
-    let words = format!("{id} has {} successors that all supersede it: {}", by.len(), ids.join(", "));
-    let files = by.iter().map(|successor| successor.file.clone()).collect();
-    Some(Alarm { kind: AlarmKind::Forked, words, files })
-}
-
-/// Revisions between two that are there: somebody took them away, or did not pass them on.
-fn missing(files: &[Examined]) -> Vec<Alarm> {
-    let mut of_series: BTreeMap<&str, BTreeMap<u32, &str>> = BTreeMap::new();
-    for file in files.iter().filter(|file| file.counts) {
-        of_series.entry(&file.series).or_default().insert(file.revision, &file.line.file);
-    }
-    let mut alarms = Vec::new();
-    for (series, revisions) in of_series {
-        let revisions: Vec<(u32, &str)> = revisions.into_iter().collect();
-        for pair in revisions.windows(2) {
-            let [(from, before), (to, after)] = pair else { continue };
-            if to - from > 1 {
-                let words = format!("between {series}/{from} and {series}/{to} a revision is missing");
-                let files = vec![(*before).to_owned(), (*after).to_owned()];
-                alarms.push(Alarm { kind: AlarmKind::Missing, words, files });
-            }
-        }
-    }
-    alarms
-}
-
-/// Of lines sorted by id.
-fn duplicate_ids(passports: &[Line]) -> Vec<Alarm> {
-    let several = passports.chunk_by(|a, b| a.id.is_some() && a.id == b.id).filter(|lines| lines.len() > 1);
-    several
-        .map(|lines| {
-            let id = lines[0].id.as_deref().unwrap_or("?");
-            let alike = lines.windows(2).all(|pair| pair[0].sha256 == pair[1].sha256);
-            let what = if alike { "the same file, copied" } else { "different files" };
-            let words = format!("{id} is there {} times: {what}", lines.len());
-            Alarm { kind: AlarmKind::DuplicateId, words, files: lines.iter().map(|line| line.file.clone()).collect() }
-        })
-        .collect()
-}
-
-/// A passport whose file is not where its id says.
-fn misplaced(line: &Line) -> Option<Alarm> {
-    let id = line.id.as_deref()?;
-    let (folder, revision) = id.rsplit_once('/')?;
-    let file = line.file.replace('\\', "/");
-    let before = file.strip_suffix(".yaml").and_then(|name| name.strip_suffix(revision)?.strip_suffix('-'));
-    let above = before.and_then(|name| name.strip_suffix(folder));
-    let there = above.is_some_and(|above| above.is_empty() || above.ends_with('/'));
-    (!there).then(|| Alarm {
-        kind: AlarmKind::Misplaced,
-        words: format!("{id} belongs into {folder}-{revision}.yaml"),
-        files: vec![line.file.clone()],
-    })
 }
