@@ -192,7 +192,10 @@ fn finished(
     drawing.push(html! { @for (at, index) in tips { (mark(*at, index.i, "mark")) } });
     let named: Vec<(Point, String)> =
         tips.iter().map(|(at, index)| (*at, format!("{},{}", index.i, index.j))).collect();
-    drawing.push(labels::place(&labels::together(&named), lines, FIELD));
+    let [[left, top], _] = FIELD;
+    let axis = labels::Area { low: [left, top], high: [left + 16.0, top + 18.0] };
+    let field = labels::Area { low: FIELD[0], high: FIELD[1] };
+    drawing.push(labels::place(&labels::together(&named), &[axis], lines, &field));
     let (title_lines, more) = heading(languages, [2.0, 13.0], title);
     let panel = Panel { name: &name, languages, size: [SIZE[0], SIZE[1] + more] };
     let moved = html! { g transform={ "translate(0 " (more) ")" } { @for part in &drawing { (part) } } };
