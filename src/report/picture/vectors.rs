@@ -138,7 +138,7 @@ impl Plane {
                 (words([left - 4.0, y + 4.0], Anchor::End, "small", &text(value)))
             }
             (rectangle(FIELD[0], FIELD[1], "frame-line", None))
-            (label([right, bottom + 26.0], Anchor::End, "", &html! { tspan.letter { "x" } ", " (unit) }))
+            (label([right, bottom + 27.0], Anchor::End, "", &html! { tspan.letter { "x" } ", " (unit) }))
             (words([left + 5.0, top + 13.0], Anchor::Start, "letter", "y"))
         }
     }
