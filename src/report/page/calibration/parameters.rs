@@ -28,7 +28,7 @@ pub fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
     let results = &page.result().results;
     let body = html! {
         (table(page, languages))
-        @if results.len() > 1 { (languages.paragraph(texts::OFF_BY_NOTE)) }
+        @if results.iter().any(|result| result.from_least_squares.is_some()) { (languages.paragraph(texts::OFF_BY_NOTE)) }
         @for result in results {
             (anisoelasticity(result, languages))
             (iteration(result, languages))
