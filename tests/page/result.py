@@ -80,6 +80,8 @@ def uncertainty(result, path):
         return at(result, (*path[:2], "standard_uncertainty", *path[2:]))
     if path[0] in ("verdict", "change") and last in ("deviation", "expanded_uncertainty"):
         return at(result, (*head, "expanded_uncertainty")) / 2
+    if path[0] == "budget" and last == "value":
+        return at(result, (*head, "standard_uncertainty"))
     if path[0] == "budget" and last in ("expanded_uncertainty", "contribution"):
         return at(result, path)
     if path[0] == "monte_carlo" and (last == "mean" or "symmetric_interval" in path):
@@ -102,13 +104,14 @@ def rounded(value, place):
 
 
 def derived(budget):
-    """What the sentence on a budget says besides: shares in percent, uncertainties of scale factors in percent of the factor, what
+    """What words on a budget say besides: uncertainties of inputs, shares in percent, uncertainties of scale factors in percent of the factor, what
     would be left without the largest contribution, and how small its input would have to be to halve the whole."""
     for line in budget["parameters"] if budget else ():
         u, first = line["standard_uncertainty"], line["contributions"][0]
         rest = max(u**2 - first["contribution"] ** 2, 0) ** 0.5
         factors = [1, 100 / abs(line["value"])] if line["parameter"].startswith("k_") else [1]
         yield 100 * first["share"]
+        yield from (part["input_standard_uncertainty"] for part in line["contributions"])
         yield from (factor * value for factor in factors for value in (u, rest))
         if u**2 / 4 > rest**2:
             limit = first["input_standard_uncertainty"] * ((u**2 / 4 - rest**2) ** 0.5 / first["contribution"])
@@ -142,8 +145,8 @@ class Report:
         if digits != rounded(float(value), place) and float(digits) != float(value):
             self.wrong.append(f"{shown} is not {value} rounded")
         due = [uncertainty(self.result, path) if path else None for path in paths]
-        if all(u is not None and u > 0 and place_of(u) != place for u in due):
-            self.wrong.append(f"{shown} has not the digits of its uncertainty {due}: {paths}")
+        if all(u and place_of(u) != place for u in due):
+            self.wrong.append(f"{shown} has not the digits of its uncertainty {due[0]}: {paths[0]}")
 
     def sentence(self, words):
         """The numbers within a sentence: each one that of the result, rounded, whatever its sign."""
@@ -151,7 +154,9 @@ class Report:
             self.day(day)
         for shown in TOKEN.findall(NAMES.sub(" ", DAY.sub(" ", words["text"]))):
             digits, place = printed(shown, words["lang"] == "ru")
-            near = [abs(value) for value in (*self.known, *self.derived)]
+            # A budget's words name its inputs, and what it comes to.
+            near = self.derived if words["section"] == "budget" else [*self.known, *self.derived]
+            near = [abs(value) for value in near]
             # What may be wrong is told with two digits, so with zeros at the end of large numbers.
             half = Decimal("0.5").scaleb(max(place, digits.adjusted() - 1))
             hinted = any(abs(number - digits) <= half + other for number, other in self.hinted)
@@ -179,10 +184,13 @@ class Report:
             return self.verdict(table)
         return table["caption"]
 
-    def cell(self, what, cell, due):
+    def cell(self, what, cell, due, u=None):
+        """One cell: the number that is due there, with the digits of its uncertainty."""
         shown = [float(value) for value in cell["values"]]
         if due is None and shown or due is not None and shown != [due]:
             self.wrong.append(f"{what}: {cell['text']} {shown}, and in the result {due}")
+        elif u and printed(cell["text"], self.said["lang"] == "ru")[1] != place_of(u):
+            self.wrong.append(f"{what}: {cell['text']} has not the digits of its uncertainty {u}")
 
     def parameters(self, heads, table):
         names = [row[0]["text"] for row in table["rows"]]
@@ -201,10 +209,11 @@ class Report:
             for symbol, cell in zip(heads[1:], row[1:]):
                 if kind is None:
                     order = ["Kx", "Kxy", "Kyx", "Ky", "ω0x", "ω0y", "ωg", "ωk"]
-                    path = ("results", method, "from_least_squares", order.index(symbol))
+                    path, u = ("results", method, "from_least_squares", order.index(symbol)), None
                 else:
                     path = ("results", method, *kind, *PLACES[symbol])
-                self.cell(f"{name}, {symbol}", cell, at(self.result, path))
+                    u = uncertainty(self.result, path)
+                self.cell(f"{name}, {symbol}", cell, at(self.result, path), u)
         return "parameters"
 
     def of_uncertainty(self, heads, table):
@@ -229,7 +238,8 @@ class Report:
             for symbol, cell in zip(heads[1:], row[1:]):
                 line = lines[symbol]
                 if key:
-                    self.cell(f"{row[0]['text']}, {symbol}", cell, at(line, key))
+                    u = line["expanded_uncertainty" if key[0] == "expanded_uncertainty" else "standard_uncertainty"]
+                    self.cell(f"{row[0]['text']}, {symbol}", cell, at(line, key), u)
                 elif part == "budget" and cell["values"]:
                     known = [one["contribution"] for one in line["contributions"]] + [line.get("effective_degrees_of_freedom")]
                     if float(cell["values"][0]) not in known:
@@ -245,7 +255,7 @@ class Report:
             if [row[0]["text"], row[1]["text"]] != [str(line["i"]), str(line["j"])]:
                 self.wrong.append(f"a row of residuals is out of order: {row}")
             for key, cell in zip(("x", "u_x", "y", "u_y"), row[2:]):
-                self.cell(f"residual {key} of ({line['i']}, {line['j']})", cell, line[key])
+                self.cell(f"residual {key} of ({line['i']}, {line['j']})", cell, line[key], line[f"u_{key[-1]}"])
         return "residuals"
 
     def verdict(self, table):
@@ -254,8 +264,10 @@ class Report:
             name = row[0]["text"]
             if name != symbol_of(line["parameter"]):
                 self.wrong.append(f"{part}: {name} stands in the row of {line['parameter']}")
-            for key, cell in zip(("deviation", "expanded_uncertainty", "tolerance"), row[2:5]):
-                self.cell(f"{part}, {name}, {key}", cell, line[key])
+            u = line["expanded_uncertainty"] / 2
+            self.cell(f"{part}, {name}, deviation", row[2], line["deviation"], u)
+            self.cell(f"{part}, {name}, U", row[3], line["expanded_uncertainty"], u)
+            self.cell(f"{part}, {name}, tolerance", row[4], line["tolerance"])
             if row[6]["values"]:
                 self.cell(f"{part}, {name}, risk", row[6], line["specific_risk"])
             elif not row[6]["text"].startswith("<") or line["specific_risk"] >= 1e-6:
