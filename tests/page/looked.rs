@@ -126,3 +126,17 @@ fn the_verdict_is_large() {
         assert_eq!(said["refused"].as_bool().unwrap(), !["Действует", "In force"].contains(&due[0]), "{}", case.name);
     }
 }
+
+/// A passport without a self-check has no currents, and its page names none.
+#[test]
+fn a_caption_names_the_columns_that_there_are() {
+    for (case, found) in LOOKED.each() {
+        let tables = found["said"]["tables"].as_array().unwrap();
+        let heads = |table: &Value| strings(&table["heads"]).concat();
+        let vectors = tables.iter().find(|table| heads(table).contains("nx")).unwrap();
+        let caption = vectors["caption"].as_str().unwrap();
+        let named = caption.contains("currents J") || caption.contains("токи J");
+        assert_eq!(named, heads(vectors).contains("Jx"), "{}: {caption}", case.name);
+        assert_eq!(named, case.passport.contains("self_check:"), "{}", case.name);
+    }
+}
