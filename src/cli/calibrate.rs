@@ -118,7 +118,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
             time: verification.as_ref().map_or_else(Timestamp::now, |(_, _, question)| question.time),
             currents: (&name, sha256_hex(&bytes)),
             gyro: gyro_type.as_ref(),
-            laboratory: &laboratory,
+            laboratory: options.laboratory.is_some().then_some(&laboratory),
             calibration: &calibration,
             missing: &missing,
             document: &document,

@@ -9,7 +9,8 @@ use dtg_passport::uncertainty::document::{BudgetDocument, MonteCarloDocument};
 use dtg_passport::uncertainty::engine::{Engine, ReadingShape};
 use dtg_passport::uncertainty::monte_carlo::Trials;
 use dtg_passport::uncertainty::picture::budget_svg;
-use dtg_passport::uncertainty::{Budget, MonteCarlo, monte_carlo, remedy};
+use dtg_passport::uncertainty::remedy::Remedy;
+use dtg_passport::uncertainty::{Budget, MonteCarlo, monte_carlo};
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -66,9 +67,9 @@ impl Found {
         budget.unwrap_or_default() + &trials.unwrap_or_default()
     }
 
-    /// The budget, and one sentence on it.
-    pub fn budget(&self) -> Option<(&Budget, Option<&str>)> {
-        self.budget.as_ref().map(|(budget, sentence)| (budget, sentence.as_deref()))
+    /// The budget.
+    pub fn budget(&self) -> Option<&Budget> {
+        self.budget.as_ref().map(|(budget, _)| budget)
     }
 
     /// The Monte Carlo.
@@ -107,7 +108,7 @@ impl UncertaintyOptions {
             output::file(path, &svg, self.force)?;
         }
         let trials = self.monte_carlo.then(|| self.trials(setup, readings, &budget)).transpose()?;
-        let sentence = remedy::sentence(&budget, tolerance);
+        let sentence = Remedy::of(&budget, tolerance).map(|remedy| remedy.sentence());
         Ok(Found { budget: self.budget.then_some((budget, sentence)), monte_carlo: trials })
     }
 

@@ -1,7 +1,7 @@
 //! Where the uncertainty of a calibration comes from, and how large it is.
 //!
 //! * [`budget`]: first order: contributions of every named input, effective degrees of freedom, covariance.
-//! * [`remedy`]: what would halve an uncertainty, in one computed sentence.
+//! * [`remedy`]: what matters in a budget, and what would halve an uncertainty.
 //! * [`document`]: the same for machines.
 //! * [`engine`]: trials of a Monte Carlo, many side by side.
 //! * [`entries`]: covariance of the numbers of a passport.

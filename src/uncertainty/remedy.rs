@@ -1,4 +1,4 @@
-//! One sentence on a budget: how well the worst parameter is known, from what, and what would halve that.
+//! What matters in a budget: how well the worst parameter is known, from what, and what would halve that; in one sentence too.
 
 use super::budget::{Budget, Contribution, ParameterBudget};
 use crate::calibration::causes::Cause;
@@ -22,63 +22,116 @@ fn weight(line: &ParameterBudget, tolerance: Option<&Tolerance>) -> f64 {
     if allowed > 0.0 { line.standard_uncertainty / allowed } else { 0.0 }
 }
 
-/// The sentence about the parameter whose uncertainty is the largest share of its tolerance; without a type's tolerance,
-/// of its own size. `None` when nothing is uncertain.
-pub fn sentence(budget: &Budget, tolerance: Option<&Tolerance>) -> Option<String> {
-    let heaviest = |a: &&ParameterBudget, b: &&ParameterBudget| weight(a, tolerance).total_cmp(&weight(b, tolerance));
-    let worst = budget.parameters.iter().max_by(heaviest)?;
-    let first = worst.contributions.first().filter(|first| first.contribution > 0.0)?;
-    let known = amount(worst, worst.standard_uncertainty);
-    let kind = first.cause.kind();
-    let from = if first.share >= NEARLY_ALL {
-        format!("nearly all of it from the {kind}")
-    } else if first.share >= 0.5 {
-        format!("{:.0} % of its variance from the {kind}", 100.0 * first.share)
-    } else {
-        format!("the largest part of its variance, {:.0} %, from the {kind}", 100.0 * first.share)
-    };
-    Some(format!("{} is known to {known}, {from}{}", worst.parameter.symbol(), remedy(worst, first)))
+/// What a budget comes to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Remedy<'a> {
+    /// The parameter whose uncertainty is the largest share of its tolerance; without a type's tolerance, of its own size.
+    pub worst: &'a ParameterBudget,
+    /// Its largest contribution.
+    pub first: &'a Contribution,
+    /// What smaller inputs of that kind would do.
+    pub effect: Effect,
+}
+
+/// What may be expected of the largest contribution alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Effect {
+    /// The parameter's uncertainty halves when that of the input is at most this, in the unit of
+    /// [`Cause::unit`](crate::calibration::causes::Cause::unit); two digits, rounded down, so that what is asked for is enough.
+    HalvesAt(f64),
+    /// Even without the contribution this would be left, in the parameter's unit.
+    Leaves(f64),
+}
+
+/// How much of a variance the largest contribution is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// From 90 % on.
+    NearlyAll,
+    /// From a half on.
+    Most,
+    /// No other is larger.
+    Largest,
+}
+
+impl<'a> Remedy<'a> {
+    /// Of a budget; `None` when nothing is uncertain.
+    pub fn of(budget: &'a Budget, tolerance: Option<&Tolerance>) -> Option<Self> {
+        let heaviest =
+            |a: &&ParameterBudget, b: &&ParameterBudget| weight(a, tolerance).total_cmp(&weight(b, tolerance));
+        let worst = budget.parameters.iter().max_by(heaviest)?;
+        let first = worst.contributions.first().filter(|first| first.contribution > 0.0)?;
+        let variance = worst.standard_uncertainty * worst.standard_uncertainty;
+        let own = first.contribution * first.contribution;
+        let rest = (variance - own).max(0.0);
+        // (r · contribution)² + rest = variance/4.
+        let allowed = variance / 4.0 - rest;
+        let effect = if allowed <= 0.0 {
+            Effect::Leaves(rest.sqrt())
+        } else {
+            let ratio = (allowed / own).sqrt();
+            Effect::HalvesAt(rounded_down(first.cause.shown(first.standard_uncertainty[1]) * ratio))
+        };
+        Some(Self { worst, first, effect })
+    }
+
+    /// How much of the variance its largest contribution is.
+    pub fn part(&self) -> Part {
+        match self.first.share {
+            share if share >= NEARLY_ALL => Part::NearlyAll,
+            share if share >= 0.5 => Part::Most,
+            _ => Part::Largest,
+        }
+    }
+
+    /// All of it in one sentence without a full stop.
+    pub fn sentence(&self) -> String {
+        let (worst, kind, percent) = (self.worst, self.first.cause.kind(), 100.0 * self.first.share);
+        let from = match self.part() {
+            Part::NearlyAll => format!("nearly all of it from the {kind}"),
+            Part::Most => format!("{percent:.0} % of its variance from the {kind}"),
+            Part::Largest => format!("the largest part of its variance, {percent:.0} %, from the {kind}"),
+        };
+        let known = amount(worst, worst.standard_uncertainty);
+        let effect = match self.effect {
+            Effect::Leaves(rest) => format!("; without it, it would still be {}", amount(worst, rest)),
+            Effect::HalvesAt(limit) => format!(": {} and it halves", what_to_do(self.first.cause, limit)),
+        };
+        format!("{} is known to {known}, {from}{effect}", worst.parameter.symbol())
+    }
+}
+
+/// Percent that an uncertainty of a scale factor is of it; `None` for other parameters, and of a factor of 0.
+pub fn percent(line: &ParameterBudget, u: f64) -> Option<f64> {
+    let of_factor = matches!(line.parameter, Parameter::Kx | Parameter::Kxy | Parameter::Kyx | Parameter::Ky);
+    (of_factor && line.value != 0.0).then(|| 100.0 * u / line.value.abs())
 }
 
 /// An uncertainty of a parameter: in percent of a scale factor, in its unit otherwise.
 fn amount(line: &ParameterBudget, u: f64) -> String {
-    match line.parameter {
-        Parameter::Kx | Parameter::Kxy | Parameter::Kyx | Parameter::Ky if line.value != 0.0 => {
-            format!("{} %", two_digits(100.0 * u / line.value.abs()))
-        }
-        other => format!("{} {}", two_digits(u), other.unit()),
+    match percent(line, u) {
+        Some(percent) => format!("{} %", two_digits(percent)),
+        None => format!("{} {}", two_digits(u), line.parameter.unit()),
     }
 }
 
-/// What halves the parameter's uncertainty through its largest contribution alone, or that this cannot.
-fn remedy(line: &ParameterBudget, first: &Contribution) -> String {
-    let variance = line.standard_uncertainty * line.standard_uncertainty;
-    let own = first.contribution * first.contribution;
-    let rest = (variance - own).max(0.0);
-    // (r · contribution)² + rest = variance/4.
-    let allowed = variance / 4.0 - rest;
-    if allowed <= 0.0 {
-        return format!("; without it, it would still be {}", amount(line, rest.sqrt()));
+/// How an input comes to be known to `limit`, in its unit.
+fn what_to_do(cause: Cause, limit: f64) -> String {
+    let to = format!("{} {}", two_digits(limit), cause.unit());
+    match cause {
+        Cause::Seat(axis) => format!("seat the gyro to {to} about {}", ["x", "y", "the spin axis"][axis]),
+        Cause::Angle(..) => format!("certify the angles to {to}"),
+        Cause::Return(..) => format!("let the stand return to its positions within {to}"),
+        Cause::Platform(_) | Cause::Base(_) => format!("certify the {} to {to}", cause.kind()),
+        Cause::Level(_) => format!("level the base to {to}"),
+        Cause::Azimuth => format!("turn the base north to {to}"),
+        Cause::Mark => format!("survey the azimuth of the mark to {to}"),
+        Cause::Latitude | Cause::Deflection => format!("find the {} to {to}", cause.kind()),
+        Cause::Reading(..) => format!("read the currents to {to}"),
+        Cause::Floor(..) => format!("read the currents to {to} at zero"),
+        Cause::Gain => format!("calibrate the meter's gain to {to}"),
+        Cause::Offset => format!("calibrate the meter's offset to {to}"),
     }
-    let ratio = (allowed / own).sqrt();
-    // Rounded down, so that what is asked for is enough.
-    let limit = rounded_down(first.cause.shown(first.standard_uncertainty[1]) * ratio);
-    let unit = first.cause.unit();
-    let what = match first.cause {
-        Cause::Seat(axis) => format!("seat the gyro to {limit} {unit} about {}", ["x", "y", "the spin axis"][axis]),
-        Cause::Angle(..) => format!("certify the angles to {limit} {unit}"),
-        Cause::Return(..) => format!("let the stand return to its positions within {limit} {unit}"),
-        Cause::Platform(_) | Cause::Base(_) => format!("certify the {} to {limit} {unit}", first.cause.kind()),
-        Cause::Level(_) => format!("level the base to {limit} {unit}"),
-        Cause::Azimuth => format!("turn the base north to {limit} {unit}"),
-        Cause::Mark => format!("survey the azimuth of the mark to {limit} {unit}"),
-        Cause::Latitude | Cause::Deflection => format!("find the {} to {limit} {unit}", first.cause.kind()),
-        Cause::Reading(..) => format!("read the currents to {limit} {unit}"),
-        Cause::Floor(..) => format!("read the currents to {limit} {unit} at zero"),
-        Cause::Gain => format!("calibrate the meter's gain to {limit} {unit}"),
-        Cause::Offset => format!("calibrate the meter's offset to {limit} {unit}"),
-    };
-    format!(": {what} and it halves")
 }
 
 /// Two significant digits.
@@ -87,9 +140,9 @@ fn two_digits(value: f64) -> String {
 }
 
 /// Two significant digits, towards zero.
-fn rounded_down(value: f64) -> String {
+fn rounded_down(value: f64) -> f64 {
     let decade = libm::pow(10.0, libm::log10(value).floor() - 1.0);
-    plain(format!("{:.1e}", (value / decade + 1e-9).floor() * decade))
+    (value / decade + 1e-9).floor() * decade
 }
 
 /// 1.5e-1 as 0.15, and so on, as long as that is short.
@@ -110,8 +163,8 @@ mod tests {
         for (value, due) in [(0.1503, "0.15"), (12.49, "12"), (0.000_123, "0.00012"), (1.0e-7, "1.0e-7")] {
             assert_eq!(two_digits(value), due);
         }
-        assert_eq!(rounded_down(14.97), "14");
-        assert_eq!(rounded_down(0.0499), "0.049");
-        assert_eq!(rounded_down(10.0), "10");
+        assert_eq!(two_digits(rounded_down(14.97)), "14");
+        assert_eq!(two_digits(rounded_down(0.0499)), "0.049");
+        assert_eq!(two_digits(rounded_down(10.0)), "10");
     }
 }

@@ -30,27 +30,42 @@ function said() {
   const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   for (let node = walker.nextNode(); node; node = walker.nextNode()) {
     const parent = node.parentElement;
-    if (!node.data.trim() || parent.closest("data, time, .given, code, pre, .pad, style")) continue;
+    if (!node.data.trim() || parent.closest("data, [data-value], time, .given, .number, code, pre, .pad, style")) continue;
     const section = parent.closest("section");
     words.push({
       text: node.data,
       lang: parent.closest("[lang]").getAttribute("lang"),
       section: section ? section.id : "",
       picture: parent.closest("svg") !== null,
+      drawn: parent.closest("text") !== null,
     });
   }
   for (const picture of all("svg[aria-label], span[aria-label], div[aria-label]")) {
-    words.push({ text: picture.getAttribute("aria-label"), lang: picture.closest("[lang]").getAttribute("lang"), section: "", picture: true });
+    words.push({ text: picture.getAttribute("aria-label"), lang: picture.closest("[lang]").getAttribute("lang"), section: "", picture: true, drawn: false });
   }
+  // Words in the margins of printed sheets: strings of CSS.
+  const style = [...document.querySelectorAll("style")].map((element) => element.textContent).join("");
+  const margins = [...style.matchAll(/@(?:top|bottom)-\w+ \{ content: "([^"]*)"/g)]
+    .map(([, words]) => words.replace(/\\([0-9a-f]+) /g, (_, code) => String.fromCodePoint(parseInt(code, 16))));
   const link = document.querySelector("a[download]");
   return {
     title: document.title,
+    margins,
     lang: document.documentElement.lang,
-    numbers: all("data").map((data) => ({ value: data.value, text: text(data), lang: data.closest("[lang]").getAttribute("lang") })),
+    // The page's first language writes the numbers.
+    numbers: all("data, [data-value]").map((data) => ({ value: data.value ?? data.dataset.value, text: text(data) })),
+    tables: all("table").map((table) => ({
+      caption: table.caption ? table.caption.textContent : "",
+      heads: [...[...table.tHead.rows].at(-1).cells].map(text),
+      rows: [...table.tBodies[0].rows].map((row) =>
+        [...row.cells].map((cell) => ({ text: text(cell), values: [...cell.querySelectorAll("data")].map((data) => data.value) })),
+      ),
+    })),
     days: all("time").map((time) => ({ value: time.dateTime, text: text(time) })),
     given: all(".given").map(text),
     codes: all("code").map(text),
     words,
+    sections: all("h2 .number").map(text),
     headings: all("h1, h2, h3, caption").map((heading) => heading.textContent),
     blocks: all("p, dt, dd, th, td, caption, h1, h2, h3, li")
       .filter((block) => !block.closest(".unseen, .save, svg") && !block.querySelector("sub, sup, p, .pad, .unseen"))
@@ -90,11 +105,28 @@ function unfit() {
   return found;
 }
 
+/** Words of a picture that lie one on the other. */
+function crowded() {
+  const found = [];
+  for (const picture of document.querySelectorAll("svg.picture")) {
+    const boxes = [...picture.querySelectorAll("text")].map((element) => [element.textContent, element.getBoundingClientRect()]);
+    const boxed = boxes.filter(([, box]) => box.width > 0);
+    boxed.forEach(([words, box], index) => {
+      for (const [others, other] of boxed.slice(index + 1)) {
+        const wide = Math.min(box.right, other.right) - Math.max(box.left, other.left);
+        const high = Math.min(box.bottom, other.bottom) - Math.max(box.top, other.top);
+        if (wide > 0 && high > 0) found.push(`${picture.querySelector("title").textContent}: ${words} and ${others}: ${wide.toFixed(1)} by ${high.toFixed(1)}`);
+      }
+    });
+  }
+  return found;
+}
+
 async function look(browser, folder, name) {
   const file = path.join(folder, `${name}.html`);
   const address = `file://${file}`;
   const html = fs.readFileSync(file, "utf8");
-  const result = { bytes: Buffer.byteLength(html), asked: [], complaints: [], unfit: {}, axe: {}, html: [] };
+  const result = { bytes: Buffer.byteLength(html), asked: [], complaints: [], unfit: {}, crowded: {}, axe: {}, html: [] };
   const page = await browser.newPage();
   page.on("request", (request) => { if (request.url() !== address) result.asked.push(request.url()); });
   page.on("console", (message) => result.complaints.push(message.text()));
@@ -109,17 +141,20 @@ async function look(browser, folder, name) {
       if (colours === "dark" && device !== "screen") continue;
       await page.setViewportSize({ width, height: 1000 });
       result.unfit[`${device} ${colours}`] = await page.evaluate(unfit);
+      result.crowded[`${device} ${colours}`] = await page.evaluate(crowded);
       await page.screenshot({ path: path.join(folder, `${name}-${device}-${colours}.png`), fullPage: true });
     }
     // The page's policy forbids scripts, so axe comes in through the debugger, as the measurements do.
     const violations = await page.evaluate(`${axe}; axe.run().then((found) => found.violations)`);
     result.axe[colours] = violations.map((violation) => `${violation.id}: ${violation.help}: ${violation.nodes.map((node) => node.html).join(" | ").slice(0, 500)}`);
-    await page.locator("svg.code").screenshot({ path: path.join(folder, `${name}-code-${colours}.png`) });
+    const code = page.locator("svg.code");
+    if (await code.count()) await code.screenshot({ path: path.join(folder, `${name}-code-${colours}.png`) });
   }
   // A sheet is 180 mm wide between its margins.
   await page.emulateMedia({ media: "print", colorScheme: "dark" });
   await page.setViewportSize({ width: Math.floor((180 / 25.4) * 96), height: 1000 });
   result.unfit.print = await page.evaluate(unfit);
+  result.crowded.print = await page.evaluate(crowded);
   await page.pdf({ path: path.join(folder, `${name}.pdf`), preferCSSPageSize: true });
   await page.close();
   const report = await new HtmlValidate(RULES).validateString(html);

@@ -1,6 +1,6 @@
 //! The table of texts, and what of it reaches a page: no Russian in English, no English in Russian.
 
-use crate::looked::LOOKED;
+use crate::every::every;
 use dtg_passport::report::page::{Language, texts};
 use std::collections::BTreeSet;
 
@@ -56,31 +56,31 @@ fn every_text_is_in_its_own_language_with_the_same_values() {
 /// Words that are not the file's own: in the language that their element names.
 #[test]
 fn pages_have_no_leftovers_of_the_other_language() {
-    for (case, found) in LOOKED.each() {
-        let content: BTreeSet<&str> = case.passport.split(|c: char| !c.is_ascii_alphabetic()).collect();
-        let words = found["said"]["words"].as_array().unwrap();
+    for page in every() {
+        let own: BTreeSet<&str> = page.own_words.split(|c: char| !c.is_ascii_alphabetic()).collect();
+        let words = page.found["said"]["words"].as_array().unwrap();
         let mut seen = BTreeSet::new();
         for word in words {
             let (text, lang) = (word["text"].as_str().unwrap(), word["lang"].as_str().unwrap());
             seen.insert(lang);
             // A picture's words stand in all languages of the page, one beside the other.
-            if word["picture"].as_bool().unwrap() && !case.languages.single() {
+            if word["picture"].as_bool().unwrap() && !page.languages.single() {
                 continue;
             }
             if lang == Language::English.tag() {
-                assert!(!text.chars().any(cyrillic), "{}: {text:?} in English", case.name);
+                assert!(!text.chars().any(cyrillic), "{}: {text:?} in English", page.name);
             } else {
                 for latin in latin_words(text) {
-                    // Ids, names of files and issuers of the passport stand within sentences.
+                    // Ids, names of files and issuers stand within sentences.
                     let known = LATIN_IN_RUSSIAN.contains(&latin)
                         || ["cos", "sin", "xy", "yx", "ij", "Kx", "Ky", "Kxy", "Kyx"].contains(&latin);
-                    assert!(known || content.contains(latin), "{}: {latin:?} of {text:?} in Russian", case.name);
+                    assert!(known || own.contains(latin), "{}: {latin:?} of {text:?} in Russian", page.name);
                 }
             }
             let untouched = text.contains('{') && !text.contains("{serial}");
-            assert!(!untouched, "{}: a name was not filled in: {text:?}", case.name);
+            assert!(!untouched, "{}: a name was not filled in: {text:?}", page.name);
         }
-        let due: BTreeSet<&str> = case.languages.iter().map(Language::tag).collect();
-        assert_eq!(seen, due, "{}", case.name);
+        let due: BTreeSet<&str> = page.languages.iter().map(Language::tag).collect();
+        assert_eq!(seen, due, "{}", page.name);
     }
 }

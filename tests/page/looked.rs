@@ -1,6 +1,7 @@
-//! What Chromium, axe, html-validate, zbar and PyYAML find on every page.
+//! What Chromium, zbar and PyYAML find on the pages of passports.
 
 use crate::cases::{self, Case};
+use crate::every::{Page, browsed, strings};
 use crate::tools;
 use dtg_passport::document::sha256_hex;
 use dtg_passport::report::page::Language;
@@ -26,12 +27,7 @@ pub static LOOKED: LazyLock<Looked> = LazyLock::new(|| {
         fs::write(folder.join(format!("{}.html", case.name)), case.html()).unwrap();
         fs::write(folder.join(format!("{}.yaml", case.name)), &case.passport).unwrap();
     }
-    let mut browser = tools::node_for_pages();
-    browser.arg(tools::project("tests/page/browser.cjs")).arg(tools::on_path("chromium").get_program()).arg(&folder);
-    browser.args(cases.iter().map(|case| case.name));
-    let found = tools::output(browser);
-    fs::write(folder.join("found.json"), &found).unwrap();
-    let found = serde_json::from_str(&found).unwrap();
+    let found = browsed(&folder, cases.iter().map(|case| case.name));
     Looked { folder, cases, found }
 });
 
@@ -40,51 +36,28 @@ impl Looked {
     pub fn each(&self) -> impl Iterator<Item = (&Case, &Value)> {
         self.cases.iter().map(|case| (case, &self.found[case.name]))
     }
-}
 
-/// The strings of a list.
-pub fn strings(list: &Value) -> Vec<&str> {
-    list.as_array().expect("a list").iter().map(|item| item.as_str().expect("a string")).collect()
-}
-
-/// Every list of strings below `lists` is empty.
-fn nothing(case: &Case, what: &str, lists: &Value) {
-    let lists = lists.as_object().expect("lists by name");
-    assert!(lists.len() > 1, "{}: {what} was not looked at", case.name);
-    for (when, list) in lists {
-        assert_eq!(strings(list), [""; 0], "{}: {what}, {when}", case.name);
+    /// The same as pages.
+    pub fn pages(&self) -> impl Iterator<Item = Page<'_>> {
+        self.each().map(|(case, found)| Page {
+            name: case.name,
+            folder: &self.folder,
+            languages: &case.languages,
+            own_words: &case.passport,
+            found,
+        })
     }
 }
 
+/// In the text of a passport such words are words: escaped.
 #[test]
-fn axe_finds_no_violation_in_light_and_dark() {
-    LOOKED.each().for_each(|(case, found)| nothing(case, "axe", &found["axe"]));
-}
-
-/// On paper, a telephone, a sheet's width and a screen, in light and dark.
-#[test]
-fn nothing_is_cut_off_or_leaves_the_page() {
-    LOOKED.each().for_each(|(case, found)| nothing(case, "does not fit", &found["unfit"]));
-}
-
-#[test]
-fn nothing_is_asked_of_the_network_and_no_script_runs() {
-    for (case, found) in LOOKED.each() {
-        assert_eq!(strings(&found["asked"]), [""; 0], "{}", case.name);
-        assert_eq!(strings(&found["complaints"]), [""; 0], "{}", case.name);
+fn words_of_a_passport_are_no_markup() {
+    for case in &LOOKED.cases {
         let html = case.html();
-        // In the text of a passport such words are words: escaped.
         for element in ["<script", "<img", "<link", "<iframe", "<object", "<b>", "@import url(https:"] {
             let allowed = usize::from(element == "@import url(https:") * html.matches("-- @import url(https:").count();
             assert_eq!(html.matches(element).count(), allowed, "{}: {element}", case.name);
         }
-    }
-}
-
-#[test]
-fn the_validator_finds_nothing() {
-    for (case, found) in LOOKED.each() {
-        assert_eq!(strings(&found["html"]), [""; 0], "{}", case.name);
     }
 }
 
@@ -151,5 +124,19 @@ fn the_verdict_is_large() {
         let due: Vec<&str> = case.languages.iter().map(words).collect();
         assert_eq!(headline, due.join(" "), "{}", case.name);
         assert_eq!(said["refused"].as_bool().unwrap(), !["Действует", "In force"].contains(&due[0]), "{}", case.name);
+    }
+}
+
+/// A passport without a self-check has no currents, and its page names none.
+#[test]
+fn a_caption_names_the_columns_that_there_are() {
+    for (case, found) in LOOKED.each() {
+        let tables = found["said"]["tables"].as_array().unwrap();
+        let heads = |table: &Value| strings(&table["heads"]).concat();
+        let vectors = tables.iter().find(|table| heads(table).contains("nx")).unwrap();
+        let caption = vectors["caption"].as_str().unwrap();
+        let named = caption.contains("currents J") || caption.contains("токи J");
+        assert_eq!(named, heads(vectors).contains("Jx"), "{}: {caption}", case.name);
+        assert_eq!(named, case.passport.contains("self_check:"), "{}", case.name);
     }
 }

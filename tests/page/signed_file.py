@@ -29,8 +29,8 @@ def leaves(node):
 
 
 def printed(text, comma):
-    """A printed number as a Decimal, and the place of its last digit."""
-    plain = text.replace("\u202f", "").replace("\u2212", "-")
+    """A printed number as a Decimal, and the place of its last digit; a picture's number may have its unit."""
+    plain = text.partition("\u00a0")[0].removesuffix("°").replace("\u202f", "").replace("\u2212", "-")
     mark, other = (",", ".") if comma else (".", ",")
     if other in plain:
         raise ValueError(f"{text!r} has the decimal mark of another language")
@@ -92,4 +92,5 @@ def main():
     print("\n".join(wrong))
 
 
-main()
+if __name__ == "__main__":
+    main()

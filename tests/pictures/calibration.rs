@@ -1,6 +1,7 @@
 //! Pictures of a calibration.
 
-use crate::svg::{both, english, number, of_class, svgs, whole};
+use crate::axis::Axis;
+use crate::svg::{both, english, number, of_class, svgs, tip, whole};
 use dtg_passport::calibration::document::{CalibrationDocument, ResultDocument};
 use dtg_passport::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use dtg_passport::report::picture::{convergence, residuals, tolerances};
@@ -48,18 +49,45 @@ fn residuals_stand_within_limits_of_two_uncertainties() {
     }
 }
 
-#[test]
-fn parameters_stand_where_they_are_in_their_tolerance() {
-    let row = |parameter, deviation, expanded_uncertainty, tolerance, guarded| ParameterVerdict {
+fn row(
+    parameter: &'static str,
+    deviation: f64,
+    expanded_uncertainty: f64,
+    tolerance: f64,
+    guarded: Decision,
+) -> ParameterVerdict {
+    let (unit, simple) = ("%", Decision::Pass);
+    ParameterVerdict {
         parameter,
-        unit: "%",
+        unit,
         deviation,
         tolerance,
         expanded_uncertainty,
-        simple: Decision::Pass,
+        simple,
         guarded,
         specific_risk: 0.0,
-    };
+    }
+}
+
+/// Ten tolerances off to the right, and nine to the left, where the axis ends at four.
+#[test]
+fn an_arrow_points_to_what_the_axis_does_not_reach() {
+    let parameters = vec![row("k_x", 0.5, 0.02, 0.05, Decision::Fail), row("k_y", -0.45, 0.02, 0.05, Decision::Fail)];
+    let verdict = Verdict { overall: Decision::Fail, parameters, remark: None };
+    let text = whole(&[tolerances::tolerances(&english(), "tolerances", &verdict)]);
+    let page = Document::parse(&text).unwrap();
+    let svg = svgs(&page)[0];
+    let axis = Axis::along_x(svg);
+    let tips: Vec<f64> = of_class(svg, "meridian").into_iter().map(|arrow| tip(arrow)[0]).collect();
+    assert_eq!(tips.len(), 2);
+    axis.says(tips[0], 400.0);
+    axis.says(tips[1], -400.0);
+    assert!(of_class(svg, "whisker").is_empty());
+    assert!(text.contains("data-value=\"0.5\"") && text.contains("data-value=\"-0.45\""));
+}
+
+#[test]
+fn parameters_stand_where_they_are_in_their_tolerance() {
     let parameters = vec![
         row("k_x", 0.01, 0.02, 0.05, Decision::Pass),
         row("k_y", -0.045, 0.02, 0.05, Decision::Undecided),

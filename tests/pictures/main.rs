@@ -2,7 +2,11 @@
 
 #[path = "../made/mod.rs"]
 mod made;
+#[path = "../tools/mod.rs"]
+mod tools;
 
+mod axis;
 mod calibration;
+mod drawn;
 mod passport;
 mod svg;

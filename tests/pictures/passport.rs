@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 const BAND: &str = "format: \"dtg-site/1\"\nid: \"band\"\nlatitude_deg: 12.5\n";
 
 /// A passport's content and its text; with an accuracy for the paper's gyro and meter.
-fn passport(stand: &str, site: &str) -> (Content, String) {
+pub fn passport(stand: &str, site: &str) -> (Content, String) {
     let stand = Stand::from_yaml("stand.yaml", stand.as_bytes()).unwrap();
     let site = Site::from_yaml("site.yaml", site.as_bytes()).unwrap();
     let gyro = GyroType::gvk_6();

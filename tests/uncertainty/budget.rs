@@ -8,9 +8,10 @@ use dtg_passport::calibration::causes::Cause;
 use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::{InputUncertainty, Method, Options, calibrate};
 use dtg_passport::gyro::GyroType;
+use dtg_passport::uncertainty::Budget;
 use dtg_passport::uncertainty::entries::{Entry, EntryUncertainty};
 use dtg_passport::uncertainty::picture::budget_svg;
-use dtg_passport::uncertainty::{Budget, remedy};
+use dtg_passport::uncertainty::remedy::Remedy;
 use dtg_passport::units::{radians_from_arcseconds, radians_from_degrees};
 use serde_json::{Value, json};
 use std::io::Write;
@@ -134,12 +135,12 @@ fn the_sentence_is_computed() {
         let readings = readings(&setup, &currents(&setup, &gvk_6()));
         Budget::new(&setup, &readings, Method::LeastSquares, false).unwrap()
     };
-    let said = remedy::sentence(&seat(30.0), Some(&GyroType::gvk_6().tolerance)).unwrap();
+    let said = Remedy::of(&seat(30.0), Some(&GyroType::gvk_6().tolerance)).unwrap().sentence();
     let due = "ω_0x is known to 0.0029 deg/h, nearly all of it from the seat about z: \
                seat the gyro to 14 arcsec about the spin axis and it halves";
     assert!(said == due || said == due.replace("0x", "0y"), "{said}");
     // Compared with their own size alone, the cross scale factors are the worst.
-    let said = remedy::sentence(&seat(30.0), None).unwrap();
+    let said = Remedy::of(&seat(30.0), None).unwrap().sentence();
     assert!(said.starts_with("K_xy is known to 0.15 %") || said.starts_with("K_yx is known to 0.15 %"), "{said}");
     // What it asks for does halve.
     let (before, after) = (seat(30.0), seat(14.0));

@@ -3,13 +3,17 @@
 use super::drawing::{Anchor, Point, line, words};
 use maud::{Markup, html};
 
-/// Width of a letter and height of a line, and how near points are one for the reader.
-const LETTER: f64 = 5.6;
-const LINE: f64 = 11.0;
+/// Widths of letters, of narrow and of wide ones, and height of a line: of the class `small`, with room to spare.
+const LETTER: f64 = 6.0;
+const NARROW: f64 = 3.2;
+const WIDE: f64 = 10.8;
+const LINE: f64 = 12.4;
+
+/// How near points are one for the reader.
 const SAME: f64 = 6.0;
 
 /// Distances from the point at which a label is tried.
-const DISTANCES: [f64; 4] = [8.0, 16.0, 26.0, 38.0];
+const DISTANCES: [f64; 6] = [8.0, 16.0, 26.0, 38.0, 52.0, 68.0];
 
 /// A label to be placed.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,14 +24,16 @@ pub struct Label {
 
 /// A box on the drawing: its lowest and highest coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Area {
-    low: Point,
-    high: Point,
+pub struct Area {
+    /// Left and upper end.
+    pub low: Point,
+    /// Right and lower end.
+    pub high: Point,
 }
 
 impl Area {
     /// By how much two boxes overlap, as an area.
-    fn overlap(&self, other: &Self) -> f64 {
+    pub fn overlap(&self, other: &Self) -> f64 {
         let along =
             |axis: usize| (self.high[axis].min(other.high[axis]) - self.low[axis].max(other.low[axis])).max(0.0);
         along(0) * along(1)
@@ -64,18 +70,18 @@ pub fn together(points: &[(Point, String)]) -> Vec<Label> {
     groups.into_iter().map(label).collect()
 }
 
-/// Draws the labels within `field`, clear of `obstacles` (points that lines run through) where that can be.
-pub fn place(labels: &[Label], obstacles: &[Point], [low, high]: [Point; 2]) -> Markup {
-    let field = Area { low, high };
+/// Draws the labels within `field`, off `words` that stand there already, and clear of `obstacles` (points that lines run
+/// through) where that can be.
+pub fn place(labels: &[Label], words: &[Area], obstacles: &[Point], field: &Area) -> Markup {
     let marks: Vec<Area> = labels.iter().map(|label| Area::about(label.at, 5.0)).collect();
     let lines: Vec<Area> = obstacles.iter().map(|at| Area::about(*at, 1.0)).collect();
-    let mut taken: Vec<Area> = Vec::new();
+    let mut taken = words.to_vec();
     let mut drawn = Vec::new();
     for label in labels {
         let cost = |area: &Area, distance: f64| {
-            let covered: f64 = taken.iter().chain(&marks).map(|other| area.overlap(other)).sum();
-            let crossed: f64 = lines.iter().map(|other| area.overlap(other)).sum();
-            100.0 * area.outside(&field) + 10.0 * covered + 4.0 * crossed + distance
+            let over = |others: &[Area]| others.iter().map(|other| area.overlap(other)).sum::<f64>();
+            // Words over words are never read: any way round is shorter than that.
+            1000.0 * (area.outside(field) + over(&taken)) + 10.0 * over(&marks) + 4.0 * over(&lines) + distance
         };
         let candidates = DISTANCES.iter().flat_map(|distance| (0..16).map(move |turn| (*distance, turn)));
         let best = candidates
@@ -93,9 +99,19 @@ pub fn place(labels: &[Label], obstacles: &[Point], [low, high]: [Point; 2]) -> 
     html! { @for label in &drawn { (label) } }
 }
 
+/// How wide words of the class `small` are, at most.
+pub fn width(words: &str) -> f64 {
+    let letter = |c: char| match c {
+        ',' | '.' | ' ' => NARROW,
+        '…' => WIDE,
+        _ => LETTER,
+    };
+    words.chars().map(letter).sum()
+}
+
 impl Label {
     fn width(&self) -> f64 {
-        LETTER * self.words.chars().count() as f64
+        width(&self.words)
     }
 
     /// Beside `at`: to its right where the label lies to the right of its point, and so on.
@@ -108,7 +124,7 @@ impl Label {
         let nearest = [0, 1].map(|axis| self.at[axis].clamp(area.low[axis], area.high[axis]));
         html! {
             @if far { (line(self.at, nearest, "leader")) }
-            (words([area.low[0], area.high[1] - 2.0], Anchor::Start, "small", &self.words))
+            (words([area.low[0], area.high[1] - 2.6], Anchor::Start, "small", &self.words))
         }
     }
 }

@@ -4,6 +4,7 @@
 //! matrix are the case's axes in the base. Source: [the paper](crate::bibliography::Bibliography::Tang17), fig. 2 and 3.
 
 use super::drawing::{Anchor, Panel, Point, arrow, label, legend, line, panels, polygon, words};
+use super::label::{Area, width};
 use crate::attitude;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::Number;
@@ -143,11 +144,12 @@ fn position(languages: &Languages, at: &CertifiedPosition) -> Markup {
     let designed = attitude::nominal(at.theta_deg, at.phi_deg);
     let real = attitude::actual(at.theta_deg, at.phi_deg, &position.deviation);
     let view = View::new();
+    let (base, words) = base(&view, languages);
     let drawing = [
         heading(at, languages),
-        base(&view, languages),
+        base,
         stand(&view, &attitude::nominal(at.theta_deg, 0.0), &real),
-        axes(&view, &designed, &real),
+        axes(&view, &designed, &real, words),
     ];
     panel.svg(
         |language| texts::POSITION_TITLE.filled(language, &[("index", &position.index.to_string())]),
@@ -166,8 +168,8 @@ fn heading(at: &CertifiedPosition, languages: &Languages) -> Markup {
     }
 }
 
-/// The base plate with north and up.
-fn base(view: &View, languages: &Languages) -> Markup {
+/// The base plate with north and up, and where their words stand.
+fn base(view: &View, languages: &Languages) -> (Markup, Vec<Area>) {
     let floor = -AXIS_HEIGHT;
     let plate = [Vector3::new(1.56, 0.0, 0.0), Vector3::new(0.0, 0.9, 0.0), Vector3::new(0.0, 0.0, 0.045)];
     let on_plate = |x: f64, y: f64| Vector3::new(x, y, floor);
@@ -175,13 +177,23 @@ fn base(view: &View, languages: &Languages) -> Markup {
     let (north, up) = (corner + Vector3::new(0.0, 1.0, 0.0), corner + Vector3::new(0.0, 0.0, 0.7));
     let [north_x, north_y] = view.point(&north);
     let [up_x, up_y] = view.point(&up);
-    html! {
+    let (north_word, up_word) = (texts::NORTH_LETTER.of(languages.first()), texts::UP.of(languages.first()));
+    let (north_baseline, up_baseline) = (north_y - 3.0, up_y - 5.0);
+    let line =
+        |left: f64, right: f64, baseline: f64| Area { low: [left, baseline - 10.0], high: [right, baseline + 3.0] };
+    let half = 0.5 * width(up_word);
+    let words_at = vec![
+        line(north_x - 7.0 - width(north_word), north_x - 5.0, north_baseline),
+        line(up_x - half, up_x + half, up_baseline),
+    ];
+    let drawing = html! {
         (view.cuboid(&Vector3::new(0.0, 0.0, floor - 0.045), &plate, "base"))
         (arrow(view.point(&corner), [north_x, north_y], "base-axis"))
         (arrow(view.point(&corner), [up_x, up_y], "base-axis"))
-        (words([north_x - 5.0, north_y - 3.0], Anchor::End, "small", texts::NORTH_LETTER.of(languages.first())))
-        (words([up_x, up_y - 5.0], Anchor::Middle, "small", texts::UP.of(languages.first())))
-    }
+        (words([north_x - 5.0, north_baseline], Anchor::End, "small", north_word))
+        (words([up_x, up_baseline], Anchor::Middle, "small", up_word))
+    };
+    (drawing, words_at)
 }
 
 /// Posts, frame, platform and gyro, in the order from the far side: planes across ξ part them.
@@ -227,27 +239,51 @@ fn platform_mark(view: &View, real: &Matrix3<f64>) -> Markup {
     html! { @for sign in [-1.0, 1.0] { (view.circle(&(x * (sign * 0.5)), &spin, 0.055, "pin")) } }
 }
 
-/// The case's axes as designed, thin, and as they are; z from the gyro's end.
-fn axes(view: &View, designed: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
-    let one = |direction: &Vector3<f64>, designed: &Vector3<f64>, name: &str, from: f64| {
-        let tip = view.point(&(direction * AXIS));
-        let [x, y] = beyond(view, direction);
+/// The case's axes as designed, thin, and as they are; z from the gyro's end. Their letters keep off the words at `taken`, and
+/// off each other.
+fn axes(view: &View, designed: &Matrix3<f64>, real: &Matrix3<f64>, taken: Vec<Area>) -> Markup {
+    let one = |direction: &Vector3<f64>, designed: &Vector3<f64>, from: f64| {
         html! {
             (line(view.point(&(designed * from)), view.point(&(designed * AXIS)), "ideal"))
-            (arrow(view.point(&(direction * from)), tip, "axis"))
-            (words([x, y + 4.0], Anchor::Middle, "letter", name))
+            (arrow(view.point(&(direction * from)), view.point(&(direction * AXIS)), "axis"))
         }
     };
-    let ([x, y, z], [x0, y0, z0]) = (rows(real), rows(designed));
-    html! { (one(&x, &x0, "x", GYRO)) (one(&y, &y0, "y", GYRO)) (one(&z, &z0, "z", GYRO_HEIGHT)) }
+    let (directions, [x0, y0, z0]) = (rows(real), rows(designed));
+    let [x, y, z] = &directions;
+    let mut taken = taken;
+    let letters = ["x", "y", "z"].into_iter().zip(&directions).map(|(name, direction)| {
+        let [x, y] = letter(view, direction, &taken);
+        taken.push(about_letter([x, y]));
+        words([x, y + 4.0], Anchor::Middle, "letter", name)
+    });
+    let letters: Vec<Markup> = letters.collect();
+    html! {
+        (one(x, &x0, GYRO)) (one(y, &y0, GYRO)) (one(z, &z0, GYRO_HEIGHT))
+        @for letter in &letters { (letter) }
+    }
 }
 
-/// Where an axis has its letter: beyond its head, also when it points at the reader.
-fn beyond(view: &View, direction: &Vector3<f64>) -> Point {
-    const GAP: f64 = 9.0;
+/// Where an axis has its letter: beyond its head, also when it points at the reader; beside it where words stand there.
+fn letter(view: &View, direction: &Vector3<f64>, taken: &[Area]) -> Point {
+    const GAPS: [f64; 2] = [9.0, 14.0];
+    const TURNS_DEG: [f64; 7] = [0.0, 45.0, -45.0, 90.0, -90.0, 135.0, -135.0];
     let ([cx, cy], [x, y]) = (CENTRE, view.point(&(direction * AXIS)));
     let length = libm::hypot(x - cx, y - cy);
-    if length < 1.0 { [x + GAP, y - GAP] } else { [x + GAP * (x - cx) / length, y + GAP * (y - cy) / length] }
+    // To the right and up, when it has no direction on the paper.
+    let [dx, dy] = if length < 1.0 { [0.7, -0.7] } else { [(x - cx) / length, (y - cy) / length] };
+    let at = |gap: f64, turn_deg: f64| {
+        let (sin, cos) = sin_cos_of_degrees(turn_deg);
+        [x + gap * (dx * cos - dy * sin), y + gap * (dx * sin + dy * cos)]
+    };
+    let places = GAPS.iter().flat_map(|gap| TURNS_DEG.map(|turn_deg| at(*gap, turn_deg)));
+    let covered = |place: &Point| taken.iter().map(|other| about_letter(*place).overlap(other)).sum::<f64>();
+    // The first of those that cover least: nothing, as a rule.
+    places.min_by(|one, other| covered(one).total_cmp(&covered(other))).unwrap_or([x, y])
+}
+
+/// The room that the letter of an axis takes about its place.
+fn about_letter([x, y]: Point) -> Area {
+    Area { low: [x - 4.6, y - 8.0], high: [x + 4.6, y + 7.2] }
 }
 
 /// The axes of a frame, in the base.

@@ -2,7 +2,7 @@
 
 use super::accuracy::unit;
 use super::drawing::{
-    Anchor, Panel, Point, Scale, Ticks, coordinate, label, legend, line, number, panels, plain_symbol, polygon,
+    Anchor, Panel, Point, Scale, Ticks, arrow, coordinate, label, legend, line, number, panels, plain_symbol, polygon,
     rectangle, symbol, words,
 };
 use crate::calibration::parameter::Parameter;
@@ -19,8 +19,9 @@ const TOP: f64 = 12.0;
 const ROW: f64 = 24.0;
 const AXIS_HEIGHT: f64 = 36.0;
 
-/// The axis ends between these, in tolerances; what lies beyond is at its end.
+/// The axis ends between these, in tolerances; an arrow points to what lies beyond.
 const REACH: [f64; 2] = [1.3, 4.0];
+const ROOM_FOR_ARROW: f64 = 22.0;
 
 /// Draws a verdict: against a type, or of a change since an earlier result. `name` tells two pictures of a page apart.
 pub fn tolerances(languages: &Languages, name: &str, verdict: &Verdict) -> Markup {
@@ -109,12 +110,24 @@ fn parameter(languages: &Languages, row: &ParameterVerdict, scale: &Scale, y: f6
     let name = parameter_of(row).map_or(row.parameter, Parameter::symbol);
     let guarded = row.tolerance - row.expanded_uncertainty;
     let share = |value: f64| scale.clamped(value / row.tolerance);
+    // What the axis does not reach is told by an arrow, not by a mark where it is not.
+    let [low, high] = scale.values;
+    let beyond = match row.deviation / row.tolerance {
+        share if share < low => Some((FIELD[0], 1.0)),
+        share if share > high => Some((FIELD[1], -1.0)),
+        _ => None,
+    };
     html! {
         (label([36.0, y + 4.0], Anchor::End, "", &symbol(name)))
         @if row.tolerance > 0.0 {
             @if guarded > 0.0 { (rectangle([share(-guarded), y - 8.0], [share(guarded), y + 8.0], "limits", None)) }
-            (whisker(share(row.deviation - row.expanded_uncertainty), share(row.deviation + row.expanded_uncertainty), y))
-            (decided([share(row.deviation), y], row.guarded))
+            @if let Some((end, inwards)) = beyond {
+                (arrow([end + inwards * ROOM_FOR_ARROW, y], [end, y], "meridian"))
+                (decided([end + inwards * ROOM_FOR_ARROW, y], row.guarded))
+            } @else {
+                (whisker(share(row.deviation - row.expanded_uncertainty), share(row.deviation + row.expanded_uncertainty), y))
+                (decided([share(row.deviation), y], row.guarded))
+            }
         }
         (number([352.0, y + 4.0], Anchor::End, row.deviation, &deviation.text(languages.first())))
         (words([356.0, y + 4.0], Anchor::Start, "", "±"))

@@ -138,7 +138,7 @@ impl Plane {
                 (words([left - 4.0, y + 4.0], Anchor::End, "small", &text(value)))
             }
             (rectangle(FIELD[0], FIELD[1], "frame-line", None))
-            (label([right, bottom + 26.0], Anchor::End, "", &html! { tspan.letter { "x" } ", " (unit) }))
+            (label([right, bottom + 27.0], Anchor::End, "", &html! { tspan.letter { "x" } ", " (unit) }))
             (words([left + 5.0, top + 13.0], Anchor::Start, "letter", "y"))
         }
     }
@@ -192,7 +192,10 @@ fn finished(
     drawing.push(html! { @for (at, index) in tips { (mark(*at, index.i, "mark")) } });
     let named: Vec<(Point, String)> =
         tips.iter().map(|(at, index)| (*at, format!("{},{}", index.i, index.j))).collect();
-    drawing.push(labels::place(&labels::together(&named), lines, FIELD));
+    let [[left, top], _] = FIELD;
+    let axis = labels::Area { low: [left, top], high: [left + 16.0, top + 18.0] };
+    let field = labels::Area { low: FIELD[0], high: FIELD[1] };
+    drawing.push(labels::place(&labels::together(&named), &[axis], lines, &field));
     let (title_lines, more) = heading(languages, [2.0, 13.0], title);
     let panel = Panel { name: &name, languages, size: [SIZE[0], SIZE[1] + more] };
     let moved = html! { g transform={ "translate(0 " (more) ")" } { @for part in &drawing { (part) } } };

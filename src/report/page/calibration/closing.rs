@@ -13,6 +13,7 @@ use std::io::{self, Write};
 
 pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
     let signatures = html! {
+        (languages.paragraph(texts::ONLY_THIS_ONE))
         div.pair { (signature(languages, texts::CALIBRATED_BY)) (signature(languages, texts::APPROVED_BY)) }
         div.statement { (languages.paragraph(texts::VALID_WHEN_SIGNED)) }
     };

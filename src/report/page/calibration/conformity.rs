@@ -1,11 +1,11 @@
 //! The parameters against the type's tolerance, and their change since an earlier result.
 
-use super::CalibrationPage;
+use super::{CalibrationPage, Section};
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::Number;
-use crate::report::page::parts::{Table, figure, heading, section as part, symbol};
+use crate::report::page::parts::{Table, figure, heading, symbol};
 use crate::report::page::texts::calibration as texts;
 use crate::report::picture::tolerances::{decision, parameter_of, printed, tolerances, unit_of};
 use maud::{Markup, html};
@@ -14,7 +14,7 @@ use maud::{Markup, html};
 const LEAST_RISK: f64 = 1e-6;
 
 pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let Some((gyro, verdict)) = page.gyro.zip(page.result().verdict.as_ref()) else { return html! {} };
+    let Some((gyro, verdict)) = page.judged() else { return html! {} };
     let body = html! {
         p { (languages.inline_with(|language| texts::CONFORMITY.filled(language, &[("type", &gyro.r#type)]))) }
         (table(languages, verdict, texts::VERDICT_CAPTION, texts::DEVIATION))
@@ -26,7 +26,7 @@ pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
             (figure(languages, "changes", &tolerances(languages, "changes", change), texts::CHANGES_CAPTION))
         }
     };
-    part(languages, "conformity", "3", texts::TOLERANCES_CAPTION, &body)
+    page.section(languages, Section::Conformity, texts::TOLERANCES_CAPTION, &body)
 }
 
 fn table(languages: &Languages, verdict: &Verdict, caption: Text, deviation: Text) -> Markup {

@@ -1,13 +1,13 @@
 //! Whether the readings fit, what may be wrong where they do not, and what no fit can see.
 
-use super::CalibrationPage;
 use super::conformity::probability;
+use super::{CalibrationPage, Section};
 use crate::calibration::diagnosis::{Explanation, Hint};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::calibration::stated::NotStated;
 use crate::report::page::language::{Language, Languages, Text};
-use crate::report::page::number::Number;
-use crate::report::page::parts::{Table, field, fields, figure, heading, section as part, symbol, symbol_and_unit};
+use crate::report::page::number::{self, Number};
+use crate::report::page::parts::{Table, field, fields, figure, heading, symbol, symbol_and_unit};
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::residuals::residuals;
 use maud::{Markup, html};
@@ -33,8 +33,8 @@ pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
         }
     };
     html! {
-        (part(languages, "fit", "4", texts::FIT, &fit))
-        (part(languages, "blind", "5", texts::BLIND, &blind))
+        (page.section(languages, Section::Fit, texts::FIT, &fit))
+        (page.section(languages, Section::Blind, texts::BLIND, &blind))
     }
 }
 
@@ -64,14 +64,20 @@ fn chi_square(page: &CalibrationPage, result: &ResultDocument, languages: &Langu
 }
 
 fn table(result: &ResultDocument, languages: &Languages) -> Markup {
-    let row = |at: &ResidualDocument| {
-        let mut cells = vec![html! { (at.i) }, html! { (at.j) }];
-        for (value, u) in [(at.x, at.u_x), (at.y, at.u_y)] {
-            cells.push(Number::measured(value, u.unwrap_or(0.0)).markup(languages));
-            cells.push(u.map_or_else(|| html! { "–" }, |u| Number::uncertainty(u).markup(languages)));
-        }
-        cells
-    };
+    let residuals = &result.residuals_deg_per_h;
+    type Of = fn(&ResidualDocument) -> (f64, Option<f64>);
+    let axes: [Of; 2] = [|at| (at.x, at.u_x), |at| (at.y, at.u_y)];
+    let columns = axes.into_iter().flat_map(|of| {
+        let value = |at: &ResidualDocument| Some(Number::measured(of(at).0, of(at).1.unwrap_or(0.0)));
+        let u = |at: &ResidualDocument| of(at).1.map(Number::uncertainty);
+        let column = |numbers: Vec<Option<Number>>| number::column(languages, &numbers);
+        [column(residuals.iter().map(value).collect()), column(residuals.iter().map(u).collect())]
+    });
+    let columns: Vec<Vec<Option<Markup>>> = columns.collect();
+    let rows = residuals.iter().enumerate().map(|(row, at)| {
+        let cells = columns.iter().map(|column| column[row].clone().unwrap_or_else(|| html! { "–" }));
+        [html! { (at.i) }, html! { (at.j) }].into_iter().chain(cells).collect()
+    });
     let mut headings = vec![symbol("i", ""), symbol("j", "")];
     for axis in ["x", "y"] {
         headings.push(symbol_and_unit(languages, &symbol(axis, ""), units::DEG_PER_H));
@@ -80,7 +86,7 @@ fn table(result: &ResultDocument, languages: &Languages) -> Markup {
     let table = Table {
         caption: Some(languages.label(texts::RESIDUALS_CAPTION)),
         headings,
-        rows: result.residuals_deg_per_h.iter().map(row).collect(),
+        rows: rows.collect(),
         row_headings: 2,
         class: "numbers",
         ..Table::default()

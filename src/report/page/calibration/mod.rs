@@ -18,12 +18,13 @@ mod subject;
 mod uncertainty;
 
 use super::language::{Language, Languages, Text};
+use super::parts;
 use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use super::texts::calibration as texts;
 use crate::calibration::document::CalibrationDocument;
 use crate::calibration::stated::NotStated;
-use crate::calibration::verdict::Decision;
+use crate::calibration::verdict::{Decision, Verdict};
 use crate::calibration::{Calibration, Method};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
@@ -62,6 +63,37 @@ impl UsedPassport<'_> {
     }
 }
 
+/// The numbered sections.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Section {
+    Subject,
+    Parameters,
+    Conformity,
+    Fit,
+    Blind,
+    Budget,
+    MonteCarlo,
+}
+
+impl Section {
+    /// In the order of the page.
+    const ALL: [Self; 7] =
+        [Self::Subject, Self::Parameters, Self::Conformity, Self::Fit, Self::Blind, Self::Budget, Self::MonteCarlo];
+
+    /// Its anchor.
+    fn id(self) -> &'static str {
+        match self {
+            Self::Subject => "subject",
+            Self::Parameters => "parameters",
+            Self::Conformity => "conformity",
+            Self::Fit => "fit",
+            Self::Blind => "blind",
+            Self::Budget => "budget",
+            Self::MonteCarlo => "monte-carlo",
+        }
+    }
+}
+
 /// A calibration and everything that a report of it says.
 #[derive(Debug, Clone)]
 pub struct CalibrationPage<'a> {
@@ -73,16 +105,16 @@ pub struct CalibrationPage<'a> {
     pub currents: (&'a str, String),
     /// The gyro's type, when one was named.
     pub gyro: Option<&'a GyroType>,
-    /// The laboratory.
-    pub laboratory: &'a Laboratory,
+    /// The laboratory; without one [`Laboratory::paper`] was assumed, and the report says so.
+    pub laboratory: Option<&'a Laboratory>,
     /// The calibration: what may be wrong with it, and which methods gave nothing.
     pub calibration: &'a Calibration,
     /// What nobody stated.
     pub missing: &'a [NotStated],
     /// The result as programs get it.
     pub document: &'a CalibrationDocument,
-    /// Where the uncertainty comes from, when asked for, and one sentence on it (in English).
-    pub budget: Option<(&'a Budget, Option<&'a str>)>,
+    /// Where the uncertainty comes from, when asked for.
+    pub budget: Option<&'a Budget>,
     /// Intervals, when asked for.
     pub monte_carlo: Option<&'a MonteCarlo>,
 }
@@ -92,10 +124,9 @@ impl CalibrationPage<'_> {
     pub fn html(&self, languages: &Languages) -> String {
         let id = &self.content().passport.id;
         let margins = Margins {
-            top_left: languages.plain_with(|language| texts::MARGIN.filled(language, &[("id", id)])),
+            top_left: texts::MARGIN.filled(languages.first(), &[("id", id)]),
             top_right: if self.verified() { String::new() } else { languages.plain(texts::NOT_VERIFIED) },
-            bottom_left: languages
-                .plain_with(|language| texts::MARGIN_SHA256.filled(language, &[("sha256", &self.currents.1)])),
+            bottom_left: texts::MARGIN_SHA256.filled(languages.first(), &[("sha256", &self.currents.1)]),
         };
         let title = format!("{} {id}", languages.plain(texts::TITLE));
         document(languages, &title, &margins, &self.body(languages))
@@ -107,6 +138,23 @@ impl CalibrationPage<'_> {
 
     fn result(&self) -> &CalibrationDocument {
         self.document
+    }
+
+    /// A section with its number: those that there are, are counted.
+    fn section(&self, languages: &Languages, section: Section, heading: Text, body: &Markup) -> Markup {
+        let there = Section::ALL.into_iter().filter(|one| match one {
+            Section::Conformity => self.judged().is_some(),
+            Section::Budget => self.budget.is_some(),
+            Section::MonteCarlo => self.monte_carlo.is_some(),
+            Section::Subject | Section::Parameters | Section::Fit | Section::Blind => true,
+        });
+        let number = 1 + there.take_while(|one| *one != section).count();
+        parts::section(languages, section.id(), &number.to_string(), heading, body)
+    }
+
+    /// The type and the verdict against it, when one was named.
+    fn judged(&self) -> Option<(&GyroType, &Verdict)> {
+        self.gyro.zip(self.result().verdict.as_ref())
     }
 
     fn verified(&self) -> bool {
@@ -146,7 +194,7 @@ impl CalibrationPage<'_> {
     }
 
     fn verdict(&self, languages: &Languages) -> Markup {
-        let Some((gyro, verdict)) = self.gyro.zip(self.result().verdict.as_ref()) else {
+        let Some((gyro, verdict)) = self.judged() else {
             return boxed(
                 "verdict neutral",
                 languages.label(texts::NO_TYPE),

@@ -1,12 +1,12 @@
 //! What every method found.
 
-use super::{CalibrationPage, method};
+use super::{CalibrationPage, Section, method};
 use crate::calibration::document::{ResultDocument, UncertaintyDocument};
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::parameter::Parameter;
 use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
-use crate::report::page::parts::{field, fields, figure, heading, quantity, section as part, symbol};
+use crate::report::page::parts::{field, fields, figure, heading, quantity, symbol};
 use crate::report::page::passport::numbers::parameters;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::convergence::convergence;
@@ -28,7 +28,7 @@ pub fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
     let results = &page.result().results;
     let body = html! {
         (table(page, languages))
-        @if results.len() > 1 { (languages.paragraph(texts::OFF_BY_NOTE)) }
+        @if results.iter().any(|result| result.from_least_squares.is_some()) { (languages.paragraph(texts::OFF_BY_NOTE)) }
         @for result in results {
             (anisoelasticity(result, languages))
             (iteration(result, languages))
@@ -40,7 +40,7 @@ pub fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
             }))
         }
     };
-    part(languages, "parameters", "2", texts::PARAMETERS, &body)
+    page.section(languages, Section::Parameters, texts::PARAMETERS, &body)
 }
 
 fn table(page: &CalibrationPage, languages: &Languages) -> Markup {

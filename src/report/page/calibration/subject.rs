@@ -1,10 +1,11 @@
 //! What was calibrated, on which stand, with which passport, from which readings.
 
-use super::{CalibrationPage, UsedPassport};
+use super::{CalibrationPage, Section, UsedPassport};
+use crate::laboratory::Laboratory;
 use crate::passport::accuracy::StatedLaboratory;
 use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
-use crate::report::page::parts::{field, fields, given, heading, quantity, section as part, time, wide_field};
+use crate::report::page::parts::{field, fields, given, heading, quantity, symbol, time, wide_field};
 use crate::report::page::passport::{accuracy, checks};
 use crate::report::page::texts::{calibration as texts, passport as passport_texts, units};
 use maud::{Markup, html};
@@ -17,7 +18,7 @@ pub fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
         (heading(languages, texts::LABORATORY))
         (laboratory(page, languages))
     };
-    part(languages, "subject", "1", texts::SUBJECT, &body)
+    page.section(languages, Section::Subject, texts::SUBJECT, &body)
 }
 
 fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -60,17 +61,22 @@ fn passport(page: &CalibrationPage, languages: &Languages) -> Markup {
 }
 
 fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let laboratory = page.laboratory;
+    let laboratory = page.laboratory.cloned().unwrap_or_else(Laboratory::paper);
     let celsius = |value: f64| quantity(languages, &Number::exact(value), units::CELSIUS);
-    let gravity = Number::exact(page.result().gravity_m_per_s2);
+    let (g, u) = (page.result().gravity_m_per_s2, page.result().gravity_u_m_per_s2);
+    let gravity = html! {
+        (quantity(languages, &Number::measured(g, u.unwrap_or(0.0)), units::M_PER_S2))
+        @if let Some(u) = u { ", " (symbol("u", "")) " " (quantity(languages, &Number::uncertainty(u), units::M_PER_S2)) }
+    };
     let stated = StatedLaboratory::from(laboratory.clone());
     html! {
         (fields([
             field(languages, texts::LABORATORY_NAME, laboratory.name.as_deref().map(given)),
             field(languages, texts::TEMPERATURE, laboratory.temperature_c.map(celsius)),
-            field(languages, texts::GRAVITY, Some(quantity(languages, &gravity, units::M_PER_S2))),
-            wide_field(languages, texts::METER, Some(accuracy::meter(&stated, languages))),
+            field(languages, texts::GRAVITY, Some(gravity)),
+            wide_field(languages, passport_texts::METER, Some(accuracy::meter(&stated, languages))),
         ]))
+        @if page.laboratory.is_none() { div.statement { (languages.paragraph(texts::METER_ASSUMED)) } }
         (temperature(page, languages))
     }
 }
@@ -78,7 +84,9 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
 /// Said where the deviations are certified for other temperatures.
 fn temperature(page: &CalibrationPage, languages: &Languages) -> Markup {
     let range = page.content().certificate.temperature_range_c;
-    let Some((here, [low, high])) = page.laboratory.temperature_c.zip(range) else { return html! {} };
+    let Some((here, [low, high])) = page.laboratory.and_then(|laboratory| laboratory.temperature_c).zip(range) else {
+        return html! {};
+    };
     let [here, low, high] = [here, low, high].map(|value| (value, Number::exact(value).markup(languages)));
     let values = [("here", here.1), ("low", low.1), ("high", high.1)];
     html! {

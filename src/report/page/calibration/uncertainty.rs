@@ -1,16 +1,18 @@
 //! Where the uncertainty comes from, and whether first order is valid; only when asked for.
 
-use super::CalibrationPage;
 use super::parameters::COLUMNS;
+use super::{CalibrationPage, Section};
 use crate::calibration::causes::Cause;
 use crate::calibration::parameter::Parameter;
 use crate::report::page::language::{Language, Languages, Text};
-use crate::report::page::number::Number;
-use crate::report::page::parts::section as part;
+use crate::report::page::number::{BLANK, Number};
+use crate::report::page::parts::symbol;
 use crate::report::page::passport::numbers::parameters;
 use crate::report::page::texts::{calibration as texts, units, words};
+use crate::report::picture::accuracy::unit as parameter_unit;
 use crate::uncertainty::budget::{Contribution, ParameterBudget};
 use crate::uncertainty::monte_carlo::Distribution;
+use crate::uncertainty::remedy::{Effect, Part, Remedy, percent};
 use crate::uncertainty::{Budget, MonteCarlo};
 use maud::{Markup, html};
 
@@ -22,17 +24,56 @@ const LEAST_SHARE: f64 = 1e-20;
 
 pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
     html! {
-        @if let Some((budget, sentence)) = &page.budget {
-            (part(languages, "budget", "6", texts::BUDGET, &budget_table(budget, *sentence, languages)))
+        @if let Some(budget) = page.budget {
+            @let tolerance = page.gyro.map(|gyro| &gyro.tolerance);
+            @let worst = if tolerance.is_some() { texts::BUDGET_WORST } else { texts::BUDGET_WORST_OF_SIZE };
+            (page.section(languages, Section::Budget, texts::BUDGET, &html! {
+                @if let Some(remedy) = Remedy::of(budget, tolerance) { (sentences(&remedy, worst, languages)) }
+                (budget_table(budget, languages))
+            }))
         }
         @if let Some(found) = page.monte_carlo {
-            (part(languages, "monte-carlo", "7", texts::MONTE_CARLO, &monte_carlo(found, languages)))
+            (page.section(languages, Section::MonteCarlo, texts::MONTE_CARLO, &monte_carlo(found, languages)))
         }
     }
 }
 
+/// What the budget comes to.
+fn sentences(remedy: &Remedy, worst: Text, languages: &Languages) -> Markup {
+    let (line, first) = (remedy.worst, remedy.first);
+    let share = match remedy.part() {
+        Part::NearlyAll => texts::BUDGET_NEARLY_ALL,
+        Part::Most => texts::BUDGET_MOST,
+        Part::Largest => texts::BUDGET_LARGEST,
+    };
+    let amount = |u: f64, language: Language| {
+        let (u, unit) = match percent(line, u) {
+            Some(percent) => (percent, units::PERCENT),
+            None => (u, parameter_unit(line.parameter)),
+        };
+        format!("{}{BLANK}{}", Number::scientific(u, 2).text(language), unit.of(language))
+    };
+    languages.paragraph_with(|language| {
+        let words = |words: String| html! { (words) };
+        let percent = Number::fixed(100.0 * first.share, 0).text(language);
+        let effect = match remedy.effect {
+            Effect::HalvesAt(limit) => {
+                texts::BUDGET_HALVES.filled(language, &[("limit", &of_input(first.cause, limit, language))])
+            }
+            Effect::Leaves(rest) => texts::BUDGET_LEAVES.filled(language, &[("rest", &amount(rest, language))]),
+        };
+        let (letter, index) = line.parameter.symbol().split_once('_').unwrap_or((line.parameter.symbol(), ""));
+        let known = [("parameter", symbol(letter, index)), ("u", words(amount(line.standard_uncertainty, language)))];
+        html! {
+            (worst.marked_up(language, &known)) " "
+            (share.filled(language, &[("share", &percent), ("source", &cause(first.cause, language))])) " "
+            (effect)
+        }
+    })
+}
+
 /// All parameters in one table: a row for each kind of input, the largest first, and what they add up to.
-fn budget_table(budget: &Budget, sentence: Option<&str>, languages: &Languages) -> Markup {
+fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
     let line = |parameter: Parameter| budget.parameters.iter().find(|line| line.parameter == parameter);
     let each = |cell: &dyn Fn(&ParameterBudget) -> Markup| {
         COLUMNS.map(|parameter| line(parameter).map(cell).unwrap_or_default())
@@ -64,12 +105,7 @@ fn budget_table(budget: &Budget, sentence: Option<&str>, languages: &Languages) 
         each(&|line| Number::uncertainty(line.expanded_uncertainty()).markup(languages)),
     ));
     let caption = Some(languages.label(texts::BUDGET_CAPTION));
-    let table = parameters(languages, caption, rows).markup(languages.spoken(texts::BUDGET_CAPTION));
-    let english = languages.iter().any(|language| language == Language::English);
-    html! {
-        @if let Some(sentence) = sentence.filter(|_| english) { p lang="en" { (sentence) "." } }
-        (table)
-    }
+    parameters(languages, caption, rows).markup(languages.spoken(texts::BUDGET_CAPTION))
 }
 
 /// A line for each kind of input that any parameter feels, the largest share of any variance first.
@@ -88,17 +124,22 @@ fn kinds(budget: &Budget) -> Vec<&Contribution> {
 
 /// A kind of input and its uncertainty; of several inputs the largest.
 fn input(part: &Contribution, languages: &Languages) -> Markup {
+    let u = part.cause.shown(part.standard_uncertainty[1]);
+    languages.label_with(|language| {
+        let (name, u) = (cause(part.cause, language), of_input(part.cause, u, language));
+        texts::INPUT.filled(language, &[("input", &name), ("u", &u)])
+    })
+}
+
+/// An uncertainty of an input with its unit.
+fn of_input(cause: Cause, u: f64, language: Language) -> String {
     // Marks of angles stand close to their number.
-    let (unit, blank) = match part.cause.unit() {
+    let (unit, blank) = match cause.unit() {
         "%" => (units::PERCENT, "\u{a0}"),
         "mA" => (units::MILLIAMPERES, "\u{a0}"),
         _ => (units::ARCSEC, ""),
     };
-    let u = Number::scientific(part.cause.shown(part.standard_uncertainty[1]), 2).text(languages.first());
-    languages.label_with(|language| {
-        let name = cause(part.cause, language);
-        texts::INPUT.filled(language, &[("input", &name), ("u", &format!("{u}{blank}{}", unit.of(language)))])
-    })
+    format!("{}{blank}{}", Number::scientific(u, 2).text(language), unit.of(language))
 }
 
 fn cause(cause: Cause, language: Language) -> String {
@@ -133,10 +174,7 @@ fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
         |value: f64, line: &Distribution| Number::measured(value, line.standard_uncertainty).markup(languages);
     let rows = vec![
         (languages.label(texts::MEAN), each(&|line| measured(line.mean, line))),
-        (
-            languages.label(texts::COMBINED),
-            each(&|line| Number::uncertainty(line.standard_uncertainty).markup(languages)),
-        ),
+        (symbol("u", ""), each(&|line| Number::uncertainty(line.standard_uncertainty).markup(languages))),
         (languages.label(texts::LOWER), each(&|line| measured(line.symmetric[0], line))),
         (languages.label(texts::UPPER), each(&|line| measured(line.symmetric[1], line))),
         (

@@ -108,10 +108,11 @@ fn vectors(content: &Content, languages: &Languages) -> Markup {
     if currents.is_some() {
         headings.extend(["x", "y"].map(|axis| unit(symbol("J", axis), units::MILLIAMPERES)));
     }
-    let caption = Some(languages.label(texts::VECTORS_CAPTION));
+    let caption_text = if currents.is_some() { texts::VECTORS_CAPTION } else { texts::VECTORS_ALONE_CAPTION };
+    let caption = Some(languages.label(caption_text));
     let table =
         Table { caption, headings, rows: rows.collect(), row_headings: 2, class: "numbers", ..Table::default() };
-    table.markup(languages.spoken(texts::VECTORS_CAPTION))
+    table.markup(languages.spoken(caption_text))
 }
 
 fn self_check(check: &SelfCheck, languages: &Languages) -> Markup {

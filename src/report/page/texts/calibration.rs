@@ -57,18 +57,22 @@ texts! {
     PASSPORT_SHA256 { en: "SHA-256 of the passport", ru: "SHA-256 паспорта" }
     LABORATORY { en: "The laboratory", ru: "Лаборатория" }
     LABORATORY_NAME { en: "Laboratory", ru: "Лаборатория" }
-    METER { en: "Meter", ru: "Измеритель тока" }
+    METER_ASSUMED {
+        en: "No laboratory stated its meter: one of ±0.015 % of a reading, uniformly distributed, is assumed, and nothing else.",
+        ru: "Лаборатория не указала свой измеритель: принят измеритель с погрешностью ±0,015 % показания, распределённой \
+             равномерно, и ничего более."
+    }
     TEMPERATURE { en: "Temperature", ru: "Температура" }
     TEMPERATURE_OUTSIDE {
         en: "The laboratory is at {here} °C; the deviations of the stand are certified for {low} to {high} °C.",
         ru: "В лаборатории {here} °C; отклонения стенда аттестованы для {low}–{high} °C."
     }
-    GRAVITY { en: "Local gravity, the g of the drifts", ru: "Местная сила тяжести, g составляющих дрейфа" }
+    GRAVITY { en: "Local gravity, the g of the drifts", ru: "Местное ускорение свободного падения, g составляющих дрейфа" }
 
     PARAMETERS { en: "Parameters", ru: "Параметры" }
     PARAMETERS_CAPTION {
         en: "Values, and beneath each its standard uncertainty u (k = 1); drifts per local g",
-        ru: "Значения и под ними стандартная неопределённость u (k = 1); составляющие дрейфа отнесены к местной g"
+        ru: "Значения и под ними стандартная неопределённость u (k = 1); составляющие дрейфа отнесены к местному g"
     }
     LEAST_SQUARES { en: "least squares: the answer", ru: "метод наименьших квадратов: ответ" }
     LEAST_SQUARES_NAME { en: "least squares", ru: "метод наименьших квадратов" }
@@ -177,7 +181,7 @@ texts! {
     NOT_STATED_LATITUDE { en: "the latitude", ru: "широта" }
     NOT_STATED_DEFLECTION { en: "the deflection of the vertical", ru: "уклонение отвесной линии" }
     NOT_STATED_MARK { en: "the azimuth of the mark", ru: "азимут ориентирного пункта" }
-    NOT_STATED_GRAVITY { en: "gravity", ru: "сила тяжести" }
+    NOT_STATED_GRAVITY { en: "gravity", ru: "ускорение свободного падения" }
     NOT_STATED_AZIMUTH { en: "the azimuth of the base", ru: "азимут основания" }
     NOT_STATED_LEVEL { en: "the level of the base", ru: "горизонтирование основания" }
     NOT_STATED_SEAT { en: "the gyro's seat", ru: "посадка гироскопа" }
@@ -187,7 +191,31 @@ texts! {
         en: "What each kind of input contributes to the standard uncertainty of each parameter",
         ru: "Вклад каждого вида входных величин в стандартную неопределённость каждого параметра"
     }
-    BUDGET_SENTENCE { en: "In one sentence", ru: "Одной фразой (по-английски)" }
+    BUDGET_WORST {
+        en: "Known least well for its tolerance is {parameter}: u = {u}.",
+        ru: "Наименее точно по отношению к допуску известен параметр {parameter}: u = {u}."
+    }
+    BUDGET_WORST_OF_SIZE {
+        en: "Known least well for its size is {parameter}: u = {u}.",
+        ru: "Наименее точно по отношению к своему значению известен параметр {parameter}: u = {u}."
+    }
+    BUDGET_NEARLY_ALL {
+        en: "Nearly all of its variance, {share} %, comes from one source: {source}.",
+        ru: "Почти всю его дисперсию, {share} %, даёт один источник: {source}."
+    }
+    BUDGET_MOST {
+        en: "Of its variance, {share} % come from one source: {source}.",
+        ru: "{share} % его дисперсии даёт один источник: {source}."
+    }
+    BUDGET_LARGEST {
+        en: "The largest part of its variance, {share} %, comes from one source: {source}.",
+        ru: "Наибольшую часть его дисперсии, {share} %, даёт один источник: {source}."
+    }
+    BUDGET_HALVES {
+        en: "To halve u, the uncertainty of that source has to be {limit} at most.",
+        ru: "Чтобы u уменьшилась вдвое, неопределённость этого источника не должна превышать {limit}."
+    }
+    BUDGET_LEAVES { en: "Without it, u would still be {rest}.", ru: "Без него u всё ещё составляла бы {rest}." }
     COMBINED { en: "combined, u", ru: "суммарная, u" }
     EFFECTIVE_FREEDOM { en: "effective degrees of freedom", ru: "эффективное число степеней свободы" }
     EXPANDED { en: "expanded, U for 95\u{a0}%", ru: "расширенная, U для 95\u{a0}%" }
@@ -221,6 +249,12 @@ texts! {
         ru: "Не все приведённые цифры установились: при большем числе испытаний некоторые изменятся."
     }
 
+    ONLY_THIS_ONE {
+        en: "The results relate only to the gyro named here. This report is to be reproduced in full only, unless the laboratory has \
+             agreed in writing.",
+        ru: "Результаты относятся только к указанному здесь гироскопу. Частичное воспроизведение отчёта без письменного согласия \
+             лаборатории не допускается."
+    }
     SIGNATURES { en: "Signatures", ru: "Подписи" }
     CALIBRATED_BY { en: "Calibrated by", ru: "Калибровку выполнил" }
     APPROVED_BY { en: "Approved by", ru: "Утвердил" }

@@ -153,6 +153,10 @@ texts! {
     }
     MEAN { en: "mean over all positions of", ru: "среднее по всем положениям от" }
     VECTORS { en: "Vectors of the positions", ru: "Векторы положений" }
+    VECTORS_ALONE_CAPTION {
+        en: "Specific force n and Earth rate ω in the axes of the gyro's case",
+        ru: "Перегрузка n и угловая скорость Земли ω в осях корпуса гироскопа"
+    }
     VECTORS_CAPTION {
         en: "Specific force n and Earth rate ω in the axes of the gyro's case, and currents J of the self-check",
         ru: "Перегрузка n и угловая скорость Земли ω в осях корпуса гироскопа и токи J контрольного примера"

@@ -1,0 +1,259 @@
+//! Reports of calibrations, as the program writes them, against the result that it gives to programs.
+
+use crate::cases;
+use crate::every::{Page, browsed, strings};
+use crate::tools;
+use dtg_passport::passport::read;
+use dtg_passport::report::page::Language::{English, Russian};
+use dtg_passport::report::page::{Language, Languages};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::LazyLock;
+
+/// One report: its languages, and what `calibrate` is asked; files of the reports' own folder begin with `@`.
+struct Report {
+    name: &'static str,
+    languages: &'static [Language],
+    asked: &'static [&'static [&'static str]],
+}
+
+/// The usual passport, verified; its gyro's currents, its laboratory, its type.
+const USUAL: &[&str] =
+    &["passports/SPS-2/0017/moscow-bmstu-1.yaml", "--trust", "docs/allowed_signers", "--time", "2026-11-20T08:00:00Z"];
+const CURRENTS: &[&str] = &["docs/currents.csv"];
+const LABORATORY: &[&str] = &["--laboratory", "docs/laboratory.yaml"];
+const GYRO: &[&str] = &["--gyro", "docs/gvk-6.yaml"];
+const WHOLE: &[&str] = &["--budget", "--monte-carlo", "--trials", "16384"];
+const PREVIOUS: &[&str] = &["--previous", "@earlier.json"];
+
+const REPORTS: &[Report] = &[
+    Report { name: "calibrated-en", languages: &[English], asked: &[USUAL, CURRENTS, LABORATORY, GYRO] },
+    Report { name: "calibrated-ru", languages: &[Russian], asked: &[USUAL, CURRENTS, LABORATORY, GYRO] },
+    Report { name: "whole-ru", languages: &[Russian], asked: &[USUAL, CURRENTS, LABORATORY, GYRO, WHOLE, PREVIOUS] },
+    // Repeated readings; a laboratory that is too warm, with a poor seat; a term more to fit.
+    Report {
+        name: "repeated-en",
+        languages: &[English],
+        asked: &[USUAL, &["@repeated.csv", "--laboratory", "@warm.yaml", "--anisoelasticity", "--budget"], GYRO],
+    },
+    Report {
+        name: "changed-both",
+        languages: &[English, Russian],
+        asked: &[USUAL, CURRENTS, LABORATORY, GYRO, WHOLE, PREVIOUS],
+    },
+    Report { name: "bad-both", languages: &[Russian, English], asked: &[USUAL, &["@bad.csv"], LABORATORY, GYRO] },
+    Report {
+        name: "failed-en",
+        languages: &[English],
+        asked: &[USUAL, CURRENTS, LABORATORY, &["--gyro", "@other-type.yaml"]],
+    },
+    // Neither type nor laboratory, one method alone.
+    Report { name: "plain-ru", languages: &[Russian], asked: &[USUAL, CURRENTS, &["--method", "iterative"]] },
+    Report {
+        name: "unverified-many-en",
+        languages: &[English],
+        asked: &[&["@many.yaml", "@many.csv", "--no-verify", "--budget"], LABORATORY],
+    },
+];
+
+/// A type that the example's gyro is not of, with a name that would be markup anywhere else.
+const HOSTILE_TYPE: &str = "GVK-7 </h1></style><script>alert('x')</script> & co";
+
+/// Reports and what was found on them.
+pub struct Reported {
+    folder: PathBuf,
+    languages: Vec<Languages>,
+    found: Value,
+}
+
+/// The reports are written and opened once for all tests.
+pub static REPORTED: LazyLock<Reported> = LazyLock::new(|| {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    files(&folder);
+    REPORTS.iter().for_each(|report| report.write(&folder));
+    let found = browsed(&folder, REPORTS.iter().map(|report| report.name));
+    let languages = |report: &Report| Languages::new(report.languages[0], report.languages[1..].iter().copied());
+    Reported { languages: REPORTS.iter().map(languages).collect(), folder, found }
+});
+
+impl Reported {
+    /// Each report as a page.
+    pub fn pages(&self) -> impl Iterator<Item = Page<'_>> {
+        REPORTS.iter().zip(&self.languages).map(|(report, languages)| Page {
+            name: report.name,
+            folder: &self.folder,
+            languages,
+            own_words: "SPS-2/0017/moscow-bmstu/1 GVK-6 examples@dtg-passport.test",
+            found: &self.found[report.name],
+        })
+    }
+
+    fn said(&self, name: &str) -> &Value {
+        &self.found[name]["said"]
+    }
+}
+
+impl Report {
+    /// Has the program write the page, and the result for programs.
+    fn write(&self, folder: &Path) {
+        let tags: Vec<&str> = self.languages.iter().map(|language| language.tag()).collect();
+        let page = folder.join(format!("{}.html", self.name));
+        let mut calibrate = calibrate(folder, &self.asked.concat());
+        calibrate.args(["--lang", &tags.join(","), "--format", "json", "--report"]).arg(&page);
+        let output = calibrate.output().unwrap();
+        assert!(page.exists(), "{}: {}", self.name, String::from_utf8_lossy(&output.stderr));
+        fs::write(folder.join(format!("{}.json", self.name)), output.stdout).unwrap();
+    }
+}
+
+/// The words of the command line.
+fn words(folder: &Path, asked: &[&str]) -> Vec<PathBuf> {
+    let word = |word: &&str| word.strip_prefix('@').map_or_else(|| PathBuf::from(word), |name| folder.join(name));
+    asked.iter().map(word).collect()
+}
+
+fn calibrate(folder: &Path, asked: &[&str]) -> Command {
+    let mut calibrate = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+    calibrate.current_dir(tools::project("")).arg("calibrate").args(words(folder, asked));
+    calibrate
+}
+
+/// What reports are made of, besides the examples.
+fn files(folder: &Path) {
+    let write = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();
+    let example = |name: &str| fs::read_to_string(tools::project(name)).unwrap();
+    let currents = example("docs/currents.csv");
+    let (head, rows) = currents.split_at(currents.find("1,1,").unwrap());
+    let changed = |by: &dyn Fn(&str, f64, f64) -> (f64, f64)| -> String {
+        let row = |row: &str| {
+            let cells: Vec<&str> = row.split(',').collect();
+            let (jx, jy) = by(&cells[..2].join(","), cells[2].parse().unwrap(), cells[3].parse().unwrap());
+            format!("{},{},{jx:.7},{jy:.7}\n", cells[0], cells[1])
+        };
+        rows.lines().map(row).collect()
+    };
+    // J_x of (1, 3) off by a thousandth of a milliampere.
+    let bad = changed(&|at, jx, jy| (if at == "1,3" { jx + 1e-3 } else { jx }, jy));
+    write("bad.csv", &format!("{head}{bad}"));
+    let again = changed(&|_, jx, jy| (jx + 5e-6, jy - 9e-6));
+    write("repeated.csv", &format!("{head}{rows}{again}"));
+    // Currents that were a little larger are scale factors that were a little smaller.
+    let larger = changed(&|_, jx, jy| (1.0001 * jx, 1.0002 * jy));
+    write("earlier.csv", &format!("{head}{larger}"));
+    let earlier = [USUAL, &["@earlier.csv", "--format", "json"], LABORATORY].concat();
+    write("earlier.json", &tools::output(calibrate(folder, &earlier)));
+    let seat = example("docs/laboratory.yaml").replace("about_z: 10.0", "about_z: 100.0");
+    write("warm.yaml", &(seat + "temperature_c: 35.5\n"));
+    let other = example("docs/gvk-6.yaml").replace("GVK-6", HOSTILE_TYPE).replace("[[95, 9.5]", "[[95.2, 9.5]");
+    write("other-type.yaml", &other);
+
+    // Twenty-four positions, with the currents of the gyro of the self-check.
+    let many = cases::all().into_iter().find(|case| case.name == "many-en").unwrap();
+    let content = read::unverified("many", many.passport.as_bytes()).unwrap();
+    let currents = content.self_check.unwrap().currents;
+    let rows: String = currents.iter().map(|at| format!("{},{},{},{}\n", at.i, at.j, at.jx_ma, at.jy_ma)).collect();
+    write("many.yaml", &many.passport);
+    write("many.csv", &format!("i,j,jx_ma,jy_ma\n{rows}"));
+}
+
+#[test]
+fn a_report_is_small() {
+    for page in REPORTED.pages() {
+        let bytes = page.found["bytes"].as_u64().unwrap();
+        println!("{:<20} {bytes:>7} bytes", page.name);
+        assert!(bytes < 200_000, "{}: {bytes} bytes", page.name);
+    }
+}
+
+/// The worst is said first and large.
+#[test]
+fn the_headline_is_the_verdict() {
+    let due = [
+        ("calibrated-en", "Not decided: conformity to the type GVK-6", false),
+        ("calibrated-ru", "Не решено: соответствие типу GVK-6", false),
+        ("bad-both", "Показания не согласуются с этим стендом The readings do not fit this stand", true),
+        ("plain-ru", "Параметры найдены", false),
+        ("unverified-many-en", "Passport NOT VERIFIED", true),
+    ];
+    let failed = format!("NOT within the tolerance of the type {HOSTILE_TYPE}");
+    for (name, words, refused) in due.into_iter().chain([("failed-en", failed.as_str(), true)]) {
+        let said = REPORTED.said(name);
+        assert_eq!(said["headline"].as_str().unwrap(), words, "{name}");
+        assert_eq!(said["refused"].as_bool().unwrap(), refused, "{name}");
+    }
+}
+
+/// Sections that were not asked for leave no gap.
+#[test]
+fn sections_are_counted() {
+    for page in REPORTED.pages() {
+        let numbers: Vec<usize> =
+            strings(&page.found["said"]["sections"]).into_iter().map(|number| number.parse().unwrap()).collect();
+        assert!(numbers.len() >= 4, "{}: {numbers:?}", page.name);
+        assert!(numbers.iter().copied().eq(1..=numbers.len()), "{}: {numbers:?}", page.name);
+    }
+}
+
+/// In the page's own language, with the numbers of the sentence that programs get.
+#[test]
+fn what_the_budget_comes_to_is_said_in_every_language() {
+    let due = [
+        (
+            "whole-ru",
+            "ru",
+            "Наименее точно по отношению к допуску известен параметр ",
+            "Без него u всё ещё составляла бы ",
+        ),
+        (
+            "changed-both",
+            "ru",
+            "Наименее точно по отношению к допуску известен параметр ",
+            "Без него u всё ещё составляла бы ",
+        ),
+        ("changed-both", "en", "Known least well for its tolerance is ", "Without it, u would still be "),
+        (
+            "repeated-en",
+            "en",
+            "Known least well for its tolerance is ",
+            "To halve u, the uncertainty of that source has to be ",
+        ),
+        ("unverified-many-en", "en", "Known least well for its size is ", "Without it, u would still be "),
+    ];
+    for (name, lang, beginning, effect) in due {
+        let result: Value =
+            serde_json::from_slice(&fs::read(REPORTED.folder.join(format!("{name}.json"))).unwrap()).unwrap();
+        let words = REPORTED.said(name)["words"].as_array().unwrap();
+        let said: String = words
+            .iter()
+            .filter(|word| word["section"] == "budget" && word["lang"] == lang)
+            .map(|word| word["text"].as_str().unwrap())
+            .collect();
+        assert!(said.contains(beginning) && said.contains(effect), "{name}: {said}");
+        let said = said.replace(',', if lang == "ru" { "." } else { "," });
+        let sentence = result["budget"]["sentence"].as_str().unwrap();
+        let numbers = sentence.split(' ').filter(|word| word.parse::<f64>().is_ok());
+        let numbers: Vec<&str> = numbers.collect();
+        assert_eq!(numbers.len(), 3, "{sentence}");
+        for number in numbers {
+            assert!(said.contains(number), "{name}: {number} of {sentence:?} in {said}");
+        }
+    }
+}
+
+/// Every number of the page, those in its sentences too, is the result's own, or one of a file that went into it, rounded once;
+/// what has an uncertainty has its digits; what stands in a table stands in the right row and column.
+#[test]
+fn every_number_is_that_of_the_result() {
+    let pages = REPORTED.folder.join("found.json");
+    for report in REPORTS {
+        let mut python = tools::python();
+        python.arg(tools::project("tests/page/result.py")).arg(&pages).arg(report.name);
+        python.arg(REPORTED.folder.join(format!("{}.json", report.name)));
+        python.current_dir(tools::project("")).args(words(&REPORTED.folder, &report.asked.concat()));
+        assert_eq!(tools::output(python).trim(), "", "{}", report.name);
+    }
+}

@@ -1,0 +1,320 @@
+"""Compares the numbers of a report with the result of the same calibration, as `--format json` writes it, and with the files that
+went into it, which
+are those of `calibrate`'s arguments.
+
+usage: result.py PAGES.json NAME RESULT.json ASKED...   prints what is wrong, a line each; nothing when all is well.
+
+Files are read by PyYAML and csv, numbers are rounded by `decimal`: nothing here knows how the program does either.
+"""
+
+import csv
+import json
+import re
+import sys
+from datetime import datetime, timezone
+from decimal import ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
+
+import yaml
+
+from signed_file import leaves, printed
+
+# A number as pages write it.
+TOKEN = re.compile(
+    r"(?<![\w.,−-])[−-]?\d(?:[\d\u202f]*\d)?(?:[.,]\d(?:[\d\u202f]*\d)?)?(?:\u202f?·\u202f?10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?(?!\w)"
+)
+DAY = re.compile(r"\d{4}-\d\d-\d\d|\d\d\.\d\d\.\d{4}")
+# What is no number of the result: clauses of standards, coverage, the sum's name, ids, times of day, the limit of risks.
+NAMES = re.compile(
+    r"JCGM \d+, [\d.]+|k = 1\b|95[\u00a0 ]?%|SHA-256|[A-Z]+-\d+(?:/\w+/[\w-]+/\d+)?|\d\d:\d\d:\d\d|< 1\u202f·\u202f10⁻⁶"
+)
+# The eight of every table of parameters, by their symbols.
+PLACES = {
+    "Kx": ("k_deg_per_h_per_ma", 0, 0),
+    "Kxy": ("k_deg_per_h_per_ma", 0, 1),
+    "Kyx": ("k_deg_per_h_per_ma", 1, 0),
+    "Ky": ("k_deg_per_h_per_ma", 1, 1),
+    "ω0x": ("omega0_deg_per_h", 0),
+    "ω0y": ("omega0_deg_per_h", 1),
+    "ωg": ("omega_g_deg_per_h_per_g",),
+    "ωk": ("omega_k_deg_per_h_per_g",),
+}
+METHODS = {
+    "least-squares": ("least squares", "метод наименьших квадратов"),
+    "analytic": ("analytic", "аналитический"),
+    "iterative": ("successive", "последовательные"),
+}
+
+
+def numbers(node, path=()):
+    """Every number of a document with the path to it."""
+    if isinstance(node, dict):
+        for key, value in node.items():
+            yield from numbers(value, (*path, key))
+    elif isinstance(node, list):
+        for index, value in enumerate(node):
+            yield from numbers(value, (*path, index))
+    elif isinstance(node, (int, float)) and not isinstance(node, bool):
+        yield path, float(node)
+
+
+def at(node, path):
+    """What stands at a path; None where nothing does."""
+    for key in path:
+        try:
+            node = node[key]
+        except (KeyError, IndexError, TypeError):
+            return None
+    return node
+
+
+def uncertainty(result, path):
+    """The standard uncertainty that says how many digits the number at a path has; None where it has none."""
+    *head, last = path
+    if path[0].startswith("gravity"):
+        return result.get("gravity_u_m_per_s2")
+    if "standard_uncertainty" in path or last in ("u_x", "u_y"):
+        return at(result, path)
+    if path[0] == "results" and last in ("x", "y"):
+        return at(result, (*head, f"u_{last}"))
+    if path[0] == "results":
+        return at(result, (*path[:2], "standard_uncertainty", *path[2:]))
+    if path[0] in ("verdict", "change") and last in ("deviation", "expanded_uncertainty"):
+        return at(result, (*head, "expanded_uncertainty")) / 2
+    if path[0] == "budget" and last == "value":
+        return at(result, (*head, "standard_uncertainty"))
+    if path[0] == "budget" and last in ("expanded_uncertainty", "contribution"):
+        return at(result, path)
+    if path[0] == "monte_carlo" and (last == "mean" or "symmetric_interval" in path):
+        return at(result, (*path[:3], "standard_uncertainty"))
+    return None
+
+
+def symbol_of(key):
+    """A parameter's symbol as text, by its key in lists: k_xy is Kxy, omega_0x is ω0x."""
+    return "K" + key[2:] if key.startswith("k_") else key.replace("omega_", "ω")
+
+
+def place_of(u):
+    """The place of the second significant digit of an uncertainty (JCGM 100, 7.2.6)."""
+    return int(f"{u:.1e}".partition("e")[2]) - 1
+
+
+def rounded(value, place):
+    return Decimal(value).quantize(Decimal(1).scaleb(place), ROUND_HALF_EVEN)
+
+
+def derived(budget):
+    """What words on a budget say besides: uncertainties of inputs, shares in percent, uncertainties of scale factors in percent of the factor, what
+    would be left without the largest contribution, and how small its input would have to be to halve the whole."""
+    for line in budget["parameters"] if budget else ():
+        u, first = line["standard_uncertainty"], line["contributions"][0]
+        rest = max(u**2 - first["contribution"] ** 2, 0) ** 0.5
+        factors = [1, 100 / abs(line["value"])] if line["parameter"].startswith("k_") else [1]
+        yield 100 * first["share"]
+        yield from (part["input_standard_uncertainty"] for part in line["contributions"])
+        yield from (factor * value for factor in factors for value in (u, rest))
+        if u**2 / 4 > rest**2:
+            limit = first["input_standard_uncertainty"] * ((u**2 / 4 - rest**2) ** 0.5 / first["contribution"])
+            place = place_of(limit)
+            yield float(Decimal(limit).quantize(Decimal(1).scaleb(place), ROUND_FLOOR))
+
+
+class Report:
+    def __init__(self, said, result, files, days):
+        self.said, self.result, self.days = said, result, days
+        self.known = {}
+        for path, value in numbers(result):
+            # What is missing is stated as at most so much.
+            size = abs(value) if any(str(key).startswith("remainder") for key in path) else value
+            self.known.setdefault(size, []).append(path)
+        for value in files:
+            self.known.setdefault(value, []).append(())
+        self.derived = list(derived(result.get("budget")))
+        # What may be wrong stands in the result in words: its numbers, and half of their last places.
+        hinted = (printed(number, False) for number in TOKEN.findall(result.get("hint", "").replace("-", "−")))
+        self.hinted = [(number, Decimal("0.5").scaleb(place)) for number, place in hinted]
+        self.wrong = []
+
+    def number(self, value, shown):
+        """A number that is marked as such: known, rounded once, to its uncertainty's digits."""
+        digits, place = printed(shown, self.said["lang"] == "ru")
+        paths = self.known.get(float(value))
+        if paths is None:
+            self.wrong.append(f"{value} is on the page and not in the result")
+            return
+        if digits != rounded(float(value), place) and float(digits) != float(value):
+            self.wrong.append(f"{shown} is not {value} rounded")
+        due = [uncertainty(self.result, path) if path else None for path in paths]
+        if all(u and place_of(u) != place for u in due):
+            self.wrong.append(f"{shown} has not the digits of its uncertainty {due[0]}: {paths[0]}")
+
+    def sentence(self, words):
+        """The numbers within a sentence: each one that of the result, rounded, whatever its sign."""
+        for day in DAY.findall(words["text"]):
+            self.day(day)
+        for shown in TOKEN.findall(NAMES.sub(" ", DAY.sub(" ", words["text"]))):
+            digits, place = printed(shown, words["lang"] == "ru")
+            # A budget's words name its inputs, and what it comes to.
+            near = self.derived if words["section"] == "budget" else [*self.known, *self.derived]
+            near = [abs(value) for value in near]
+            # What may be wrong is told with two digits, so with zeros at the end of large numbers.
+            half = Decimal("0.5").scaleb(max(place, digits.adjusted() - 1))
+            hinted = any(abs(number - digits) <= half + other for number, other in self.hinted)
+            if not hinted and all(rounded(value, place) != abs(digits) for value in near):
+                self.wrong.append(f"{shown} of {words['text']!r} is not in the result")
+
+    def day(self, day):
+        date = "-".join(reversed(day.split("."))) if "." in day else day
+        if date not in self.days:
+            self.wrong.append(f"the day {day} is in no file, and was not asked for")
+
+    def tables(self):
+        found = [self.table(table) for table in self.said["tables"]]
+        if "parameters" not in found or "residuals" not in found:
+            self.wrong.append(f"tables are missing: {found}")
+
+    def table(self, table):
+        """Cells by the names of their rows and columns."""
+        heads = [head.split(",")[0].strip() for head in table["heads"]]
+        if set(heads[1:]) == set(PLACES):
+            return self.parameters(heads, table)
+        if heads[:2] == ["i", "j"]:
+            return self.residuals(table)
+        if len(heads) == 8 and heads[3] == "U":
+            return self.verdict(table)
+        return table["caption"]
+
+    def cell(self, what, cell, due, u=None):
+        """One cell: the number that is due there, with the digits of its uncertainty."""
+        shown = [float(value) for value in cell["values"]]
+        if due is None and shown or due is not None and shown != [due]:
+            self.wrong.append(f"{what}: {cell['text']} {shown}, and in the result {due}")
+        elif u and printed(cell["text"], self.said["lang"] == "ru")[1] != place_of(u):
+            self.wrong.append(f"{what}: {cell['text']} has not the digits of its uncertainty {u}")
+
+    def parameters(self, heads, table):
+        names = [row[0]["text"] for row in table["rows"]]
+        if any(name.startswith(("combined", "суммарная", "mean", "среднее")) for name in names):
+            return self.of_uncertainty(heads, table)
+        method = None
+        for row in table["rows"]:
+            name = row[0]["text"]
+            for index, result in enumerate(self.result["results"]):
+                if name.startswith(METHODS[result["method"]]):
+                    method, kind = index, ()
+            if name == "u":
+                kind = ("standard_uncertainty",)
+            if name.startswith(("off by", "отличие")):
+                kind = None
+            for symbol, cell in zip(heads[1:], row[1:]):
+                if kind is None:
+                    order = ["Kx", "Kxy", "Kyx", "Ky", "ω0x", "ω0y", "ωg", "ωk"]
+                    path, u = ("results", method, "from_least_squares", order.index(symbol)), None
+                else:
+                    path = ("results", method, *kind, *PLACES[symbol])
+                    u = uncertainty(self.result, path)
+                self.cell(f"{name}, {symbol}", cell, at(self.result, path), u)
+        return "parameters"
+
+    def of_uncertainty(self, heads, table):
+        """Of a budget or a Monte Carlo, whose parameters stand in a list."""
+        part = "monte_carlo" if table["rows"][0][0]["text"].startswith(("mean", "среднее")) else "budget"
+        keys = {
+            "u": ("standard_uncertainty",),
+            "combined": ("standard_uncertainty",),
+            "суммарная": ("standard_uncertainty",),
+            "expanded": ("expanded_uncertainty",),
+            "расширенная": ("expanded_uncertainty",),
+            "mean": ("mean",),
+            "среднее": ("mean",),
+            "lower": ("symmetric_interval", 0),
+            "нижняя": ("symmetric_interval", 0),
+            "upper": ("symmetric_interval", 1),
+            "верхняя": ("symmetric_interval", 1),
+        }
+        lines = {symbol_of(line["parameter"]): line for line in self.result[part]["parameters"]}
+        for row in table["rows"]:
+            key = next((keys[word] for word in keys if row[0]["text"].replace(",", "").split(" ")[0] == word), None)
+            for symbol, cell in zip(heads[1:], row[1:]):
+                line = lines[symbol]
+                if key:
+                    u = line["expanded_uncertainty" if key[0] == "expanded_uncertainty" else "standard_uncertainty"]
+                    self.cell(f"{row[0]['text']}, {symbol}", cell, at(line, key), u)
+                elif part == "budget" and cell["values"]:
+                    known = [one["contribution"] for one in line["contributions"]] + [line.get("effective_degrees_of_freedom")]
+                    if float(cell["values"][0]) not in known:
+                        self.wrong.append(f"{row[0]['text']}, {symbol}: {cell['text']} is no contribution to it")
+        return part
+
+    def residuals(self, table):
+        answers = [result for result in self.result["results"] if result["method"] == "least-squares"]
+        due = (answers or self.result["results"][-1:])[0]["residuals_deg_per_h"]
+        if len(table["rows"]) != len(due):
+            self.wrong.append(f"{len(table['rows'])} rows of residuals, and {len(due)} in the result")
+        for row, line in zip(table["rows"], due):
+            if [row[0]["text"], row[1]["text"]] != [str(line["i"]), str(line["j"])]:
+                self.wrong.append(f"a row of residuals is out of order: {row}")
+            for key, cell in zip(("x", "u_x", "y", "u_y"), row[2:]):
+                self.cell(f"residual {key} of ({line['i']}, {line['j']})", cell, line[key], line[f"u_{key[-1]}"])
+        return "residuals"
+
+    def verdict(self, table):
+        part = "change" if table["heads"][2].startswith(("Change", "Изменение")) else "verdict"
+        for row, line in zip(table["rows"], self.result[part]["parameters"], strict=True):
+            name = row[0]["text"]
+            if name != symbol_of(line["parameter"]):
+                self.wrong.append(f"{part}: {name} stands in the row of {line['parameter']}")
+            u = line["expanded_uncertainty"] / 2
+            self.cell(f"{part}, {name}, deviation", row[2], line["deviation"], u)
+            self.cell(f"{part}, {name}, U", row[3], line["expanded_uncertainty"], u)
+            self.cell(f"{part}, {name}, tolerance", row[4], line["tolerance"])
+            if row[6]["values"]:
+                self.cell(f"{part}, {name}, risk", row[6], line["specific_risk"])
+            elif not row[6]["text"].startswith("<") or line["specific_risk"] >= 1e-6:
+                self.wrong.append(f"{part}, {name}: risk {row[6]['text']}, and {line['specific_risk']} in the result")
+        return part
+
+
+def of_file(file):
+    """The numbers of a file."""
+    text = open(file, encoding="utf-8").read()
+    if file.endswith(".csv"):
+        rows = csv.reader(line for line in text.splitlines() if not line.startswith("#"))
+        cells = [cell for row in rows for cell in row if re.fullmatch(r"-?[\d.]+", cell)]
+        return [float(cell) for cell in cells]
+    return [float(value) for value in leaves(yaml.load(text, Loader=yaml.CSafeLoader)) if isinstance(value, (int, float))]
+
+
+def main():
+    pages, name, result, *asked = sys.argv[1:]
+    said = json.load(open(pages, encoding="utf-8"))[name]["said"]
+    result = json.load(open(result, encoding="utf-8"))
+    files = [word for word in asked if word.endswith((".yaml", ".csv", ".json"))]
+    texts = [open(file, encoding="utf-8").read() for file in files]
+    values = [value for file in files for value in of_file(file)]
+    if "--laboratory" not in asked:
+        # The paper's meter: ±0.015 % of a reading, uniform (JCGM 100, 4.3.7), with a floor of a nanoampere at a range of 1 mA.
+        values += [0.015, round(0.015 / 3**0.5, 4), 0, 1e-6, 1]
+    days = {day for text in [*texts, *asked] for day in DAY.findall(text)}
+    if "--no-verify" in asked:
+        # Then the day is that of the report.
+        days.add(datetime.now(timezone.utc).date().isoformat())
+    report = Report(said, result, values, days)
+    if len(said["numbers"]) < 60:
+        report.wrong.append(f"only {len(said['numbers'])} numbers on the page")
+    for number in said["numbers"]:
+        report.number(number["value"], number["text"])
+    for day in said["days"]:
+        report.day(day["value"][:10])
+        report.day(DAY.findall(day["text"])[0])
+    for words in said["words"]:
+        if not words["drawn"]:
+            report.sentence(words)
+    report.tables()
+    annex = json.loads(said["annex"])
+    if annex != {key: value for key, value in result.items() if key not in ("budget", "monte_carlo")}:
+        report.wrong.append("the annex is not the result")
+    print("\n".join(report.wrong))
+
+
+main()
