@@ -26,7 +26,7 @@ pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
             (figure(languages, "changes", &tolerances(languages, "changes", change), texts::CHANGES_CAPTION))
         }
     };
-    page.section(languages, Section::Conformity, texts::TOLERANCES_CAPTION, &body)
+    page.section(languages, Section::Conformity, texts::TOLERANCES, &body)
 }
 
 fn table(languages: &Languages, verdict: &Verdict, caption: Text, deviation: Text) -> Markup {

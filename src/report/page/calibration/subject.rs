@@ -7,7 +7,7 @@ use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
 use crate::report::page::parts::{field, fields, given, heading, quantity, symbol, time, wide_field};
 use crate::report::page::passport::{accuracy, checks};
-use crate::report::page::texts::{calibration as texts, passport as passport_texts, units};
+use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units};
 use maud::{Markup, html};
 
 pub fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -27,7 +27,11 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
     fields([
         field(languages, texts::TYPE, page.gyro.map(|gyro| given(&gyro.r#type))),
         field(languages, texts::SERIAL, None),
+        field(languages, texts::CONDITION, None),
+        field(languages, texts::REPORT_NUMBER, None),
         field(languages, texts::CUSTOMER, None),
+        field(languages, record::CUSTOMER_CONTACT, None),
+        field(languages, texts::RECEIVED, None),
         field(languages, texts::MEASURED, None),
         field(languages, texts::STAND, Some(given(&stand))),
         field(languages, texts::SITE, Some(given(content.site.name.as_deref().unwrap_or(content.site.id.as_str())))),
@@ -72,6 +76,8 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
     html! {
         (fields([
             field(languages, texts::LABORATORY_NAME, laboratory.name.as_deref().map(given)),
+            field(languages, passport_texts::ADDRESS, None),
+            field(languages, texts::PROCEDURE, None),
             field(languages, texts::TEMPERATURE, laboratory.temperature_c.map(celsius)),
             field(languages, texts::GRAVITY, Some(gravity)),
             wide_field(languages, passport_texts::METER, Some(accuracy::meter(&stated, languages))),

@@ -47,7 +47,11 @@ texts! {
     TYPE { en: "Type", ru: "Тип" }
     SERIAL { en: "Serial number of the gyro", ru: "Заводской номер гироскопа" }
     CUSTOMER { en: "Customer", ru: "Заказчик" }
+    CONDITION { en: "Condition of the gyro", ru: "Состояние гироскопа" }
+    RECEIVED { en: "Gyro received", ru: "Дата поступления" }
     MEASURED { en: "Date of the readings", ru: "Дата измерений" }
+    REPORT_NUMBER { en: "Number of this report", ru: "Номер отчёта" }
+    PROCEDURE { en: "Procedure, departures from it", ru: "Методика и отступления от неё" }
     STAND { en: "Stand", ru: "Стенд" }
     SITE { en: "Site", ru: "Место" }
     TIME { en: "As of", ru: "По состоянию на" }
@@ -125,7 +129,8 @@ texts! {
              определено. Риск: вероятность того, что решение без полосы ошибочно."
     }
     BELOW { en: "< {limit}", ru: "< {limit}" }
-    TOLERANCES_CAPTION { en: "Parameters against their tolerance", ru: "Параметры в сравнении с допусками" }
+    TOLERANCES { en: "Parameters against their tolerance", ru: "Параметры в сравнении с допусками" }
+    TOLERANCES_CAPTION { en: "Each deviation as a share of its tolerance", ru: "Отклонения в долях допуска" }
     CHANGES_CAPTION { en: "Changes against the tolerance", ru: "Изменения в сравнении с допусками" }
 
     FIT { en: "The fit", ru: "Согласие показаний" }
