@@ -6,7 +6,7 @@
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::problem::{Location, Unreadable};
 use crate::text::{Field, Node, Path, Problems, canonical, rule};
-use crate::trust::{AllowedSigners, KeyError, Message, PublicKey, Signature, SignatureError, SigningKey};
+use crate::trust::{AllowedSigners, KeyError, KeyPoint, Message, PublicKey, Signature, SignatureError, SigningKey};
 use sha2::{Digest, Sha256};
 
 /// The line that ends the payload.
@@ -30,6 +30,11 @@ pub trait Signer {
     fn sign_message(&self, message: &Message) -> Result<Signature, SigningFailed> {
         self.sign(message.namespace(), message.bytes())
     }
+
+    /// The point of the key that signs, where it is at hand: what was signed is checked sooner with it.
+    fn point(&self) -> Option<KeyPoint> {
+        None
+    }
 }
 
 /// There is no signature.
@@ -50,6 +55,10 @@ impl Signer for SigningKey {
 
     fn sign_message(&self, message: &Message) -> Result<Signature, SigningFailed> {
         Ok(SigningKey::sign_message(self, message)?)
+    }
+
+    fn point(&self) -> Option<KeyPoint> {
+        Some(SigningKey::point(self))
     }
 }
 

@@ -27,7 +27,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Orders that a thread has in a chunk.
-const CHUNK_PER_THREAD: usize = 64;
+const CHUNK_PER_THREAD: usize = 128;
 
 /// Orders in a chunk at most, however many the threads: what a chunk holds is held in memory.
 const LARGEST_CHUNK: usize = 4096;

@@ -270,7 +270,7 @@ impl Draft {
     pub fn sign(&self, signer: &dyn Signer) -> Result<String, IssueRefused> {
         let message = Message::new(NAMESPACE, self.payload.as_bytes());
         let signature = signer.sign_message(&message)?;
-        signature.verify_message(&message, None)?;
+        signature.verify_message(&message, signer.point().as_ref())?;
         Ok(join(&self.payload, &signature))
     }
 

@@ -32,7 +32,7 @@ pub use error::{KeyError, SignatureError};
 pub use public_key::PublicKey;
 pub use revoked_keys::RevokedKeys;
 pub use signing_key::SigningKey;
-pub use sshsig::{Message, Signature};
+pub use sshsig::{KeyPoint, Message, Signature};
 
 /// The largest trust file (allowed signers, revoked keys) that is read at all, in bytes: room for 100,000 keys.
 pub const LARGEST_TRUST_FILE_BYTES: usize = 1 << 24;

@@ -2,7 +2,7 @@
 
 use super::error::{KeyError, SignatureError};
 use super::public_key::{AnyKey, PublicKey, shortened};
-use super::sshsig::{Message, Signature};
+use super::sshsig::{KeyPoint, Message, Signature};
 use super::wire::{Truncated, Wire};
 use base64ct::{Base64, Encoding};
 use ed25519_dalek::Signer as _;
@@ -100,6 +100,11 @@ impl SigningKey {
     pub fn public_key(&self) -> PublicKey {
         let key = ssh_key::public::Ed25519PublicKey(self.key.verifying_key().to_bytes());
         PublicKey::of_ed25519(key)
+    }
+
+    /// The public half as a point on the curve.
+    pub fn point(&self) -> KeyPoint {
+        KeyPoint::of_ed25519(self.key.verifying_key())
     }
 
     /// Signs `message` for `namespace`: the same bytes every time, those that `ssh-keygen -Y sign` gives.

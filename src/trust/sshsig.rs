@@ -180,12 +180,16 @@ fn signed_by_token(application: &str, flags_and_counter: &[u8], message: &[u8]) 
 
 /// The point on the curve that a public key is, found once for many signatures.
 #[derive(Debug, Clone)]
-pub(crate) struct KeyPoint(VerifyingKey);
+pub struct KeyPoint(VerifyingKey);
 
 impl KeyPoint {
     /// `None` when the key's bytes are no point.
     pub(super) fn of(key: &PublicKey) -> Option<Self> {
         VerifyingKey::from_bytes(point_bytes(key)?).ok().map(Self)
+    }
+
+    pub(super) fn of_ed25519(key: VerifyingKey) -> Self {
+        Self(key)
     }
 
     fn is_of(&self, key: &PublicKey) -> bool {
