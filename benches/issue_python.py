@@ -135,7 +135,7 @@ class Signer:
 
 def main():
     fleet = json.load(sys.stdin)
-    start, used = time.perf_counter(), time.process_time()
+    start, used = time.perf_counter(), os.times()
     sites, signer = fleet["sites"], Signer(bytes(fleet["secret"]), fleet["checked"])
     at = earth(sites)
     horizontal, vertical = (at[key][:, None, None] for key in ("horizontal_deg_per_h", "vertical_deg_per_h"))
@@ -208,8 +208,10 @@ def main():
                 beside.write(file)
             os.rename(path + ".tmp", path)
             computed.append((delta, b_rows, c_rows, omega_rows))
-    seconds, processor = time.perf_counter() - start, time.process_time() - used
-    json.dump({"seconds": seconds, "processor_seconds": processor, "computed": computed}, sys.stdout)
+    seconds, now = time.perf_counter() - start, os.times()
+    user, system = now.user - used.user, now.system - used.system
+    times = {"seconds": seconds, "processor_seconds": user + system, "user_seconds": user}
+    json.dump({**times, "computed": computed}, sys.stdout)
 
 
 main()

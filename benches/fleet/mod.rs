@@ -164,31 +164,29 @@ pub struct Time {
     pub wall: f64,
     /// Of all processors, for this process: what a busy machine disturbs least. Counted in hundredths (Linux).
     pub processor: f64,
-}
-
-impl std::iter::Sum for Time {
-    fn sum<I: Iterator<Item = Self>>(times: I) -> Self {
-        times.fold(Self::default(), |sum, time| Self {
-            wall: sum.wall + time.wall,
-            processor: sum.processor + time.processor,
-        })
-    }
+    /// Of these those outside the system: what the program itself does.
+    pub user: f64,
 }
 
 /// Does some work and takes its time.
 pub fn timed(work: impl FnOnce()) -> Time {
-    let (start, used) = (Instant::now(), processor_seconds());
+    let (start, [user, system]) = (Instant::now(), processor_seconds());
     work();
-    Time { wall: start.elapsed().as_secs_f64(), processor: processor_seconds() - used }
+    let (wall, used) = (start.elapsed().as_secs_f64(), processor_seconds());
+    Time { wall, processor: used[0] + used[1] - user - system, user: used[0] - user }
 }
 
-/// Seconds of processor that this process has used.
-fn processor_seconds() -> f64 {
+/// Seconds of processor that this process has used, as user and as system.
+fn processor_seconds() -> [f64; 2] {
     const TICKS_PER_SECOND: f64 = 100.0;
     let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
     // After the program's name in brackets: state, then ten numbers, then ticks as user and as system.
-    let numbers = stat.rsplit(')').next().unwrap_or_default().split_whitespace().skip(11);
-    numbers.take(2).filter_map(|ticks| ticks.parse::<f64>().ok()).sum::<f64>() / TICKS_PER_SECOND
+    let mut numbers = stat.rsplit(')').next().unwrap_or_default().split_whitespace().skip(11);
+    let mut seconds = || {
+        let ticks = numbers.next().and_then(|ticks| ticks.parse::<f64>().ok());
+        ticks.unwrap_or(f64::NAN) / TICKS_PER_SECOND
+    };
+    [seconds(), seconds()]
 }
 
 /// A file written beside its place and renamed into it; nothing is synced.
