@@ -31,6 +31,10 @@ impl Parameter {
     pub const EIGHT: [Self; 8] =
         [Self::Kx, Self::Kxy, Self::Kyx, Self::Ky, Self::Omega0x, Self::Omega0y, Self::OmegaG, Self::OmegaK];
 
+    /// The eight as the paper's table has them, for people.
+    pub const AS_IN_THE_PAPER: [Self; 8] =
+        [Self::Kx, Self::Ky, Self::Kxy, Self::Kyx, Self::Omega0x, Self::Omega0y, Self::OmegaG, Self::OmegaK];
+
     /// The eight, and the anisoelastic coefficient last.
     pub const NINE: [Self; 9] = [
         Self::Kx,

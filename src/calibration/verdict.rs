@@ -94,23 +94,11 @@ impl Found {
     }
 }
 
-/// The order of verdicts: the paper's.
-const ORDER: [Parameter; 8] = [
-    Parameter::Kx,
-    Parameter::Ky,
-    Parameter::Kxy,
-    Parameter::Kyx,
-    Parameter::Omega0x,
-    Parameter::Omega0y,
-    Parameter::OmegaG,
-    Parameter::OmegaK,
-];
-
 /// A result against the specification of a type.
 pub fn against_type(found: &Found, gyro_type: &GyroType) -> Verdict {
     let found = found.at_gravity(gyro_type.gravity());
     let nominal = gyro_type.nominal.to_model();
-    let parameters = ORDER.map(|parameter| {
+    let parameters = Parameter::AS_IN_THE_PAPER.map(|parameter| {
         let place = parameter.place();
         let deviation = found.parameters.to_vector()[place] - nominal.to_vector()[place];
         judge(parameter, deviation, found.standard_uncertainty[place], gyro_type)
@@ -128,7 +116,7 @@ pub fn against_earlier(found: &Found, earlier: &Found, gyro_type: &GyroType) -> 
     let gravity = gyro_type.gravity();
     let brought = |one: &Found, other: &Found| one.under_the_same_gravity(other).at_gravity(gravity);
     let (found, earlier) = (brought(found, earlier), brought(earlier, found));
-    let parameters = ORDER.map(|parameter| {
+    let parameters = Parameter::AS_IN_THE_PAPER.map(|parameter| {
         let place = parameter.place();
         let change = found.parameters.to_vector()[place] - earlier.parameters.to_vector()[place];
         let u = libm::hypot(found.standard_uncertainty[place], earlier.standard_uncertainty[place]);

@@ -3,6 +3,9 @@
 //! * [`search`]: what is there.
 
 pub mod search;
+mod visited;
+
+pub(crate) use visited::Visited;
 
 use crate::document::sha256_hex;
 use crate::document::{SignedText, Signer};
@@ -17,10 +20,9 @@ use crate::stand::{Identity, Stand};
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::scalar::Identifier;
 use jiff::civil::Date;
-use std::collections::{BTreeSet, HashSet};
+use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
 
 /// A folder of passports: `<model>/<serial>/<site id>-<revision>.yaml`.
 #[derive(Debug)]
@@ -29,21 +31,6 @@ pub struct Folder {
     durability: Durability,
     /// Folders below that are no links.
     no_links: Visited,
-}
-
-/// Folders that are looked at once, by whichever thread comes first.
-#[derive(Debug, Default)]
-pub(crate) struct Visited(Mutex<HashSet<PathBuf>>);
-
-impl Visited {
-    /// Looks at a folder that was not looked at yet, while others wait; a look that comes to nothing is not the last one.
-    pub(crate) fn visit<E>(&self, folder: &Path, look: impl FnOnce() -> Result<bool, E>) -> Result<(), E> {
-        let mut visited = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if !visited.contains(folder) && look()? {
-            visited.insert(folder.to_owned());
-        }
-        Ok(())
-    }
 }
 
 /// Who signs, and by whose trust a new passport must hold before it is written.

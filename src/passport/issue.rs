@@ -12,7 +12,7 @@ use crate::laboratory::Laboratory;
 use crate::site::Site;
 use crate::stand::{CertifiedPosition, Stand};
 use crate::text::scalar::day;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, rule};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, canonical, rule};
 use crate::trust::{Message, SignatureError};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -236,12 +236,13 @@ fn check_dates(content: &Content) -> Result<(), IssueRefused> {
     }
 }
 
-/// The written text is read as any verifier would read it, and every number compared bit for bit.
+/// The written text is read again by the verifier's reader, and its content compared with what was written.
 fn read_back(payload: &str, content: &Content) -> Result<Content, IssueRefused> {
     const NAME: &str = "the new passport";
     rule::check(NAME, payload.as_bytes()).map_err(IssueRefused::ReadBack)?;
-    // In its one form it is: what was written of equal content is equal.
+    // That it is in its one form follows: what is written of equal content is equal.
     if let Some(read) = document::scanned_content(payload, Content::check).filter(|read| read == content) {
+        debug_assert!(canonical::is_written(&read, payload), "equal content, written in another way");
         return Ok(read);
     }
     let read = read::content(NAME, payload).map_err(IssueRefused::ReadBack)?;

@@ -12,18 +12,6 @@ use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::convergence::convergence;
 use maud::{Markup, html};
 
-/// The eight in the order of the columns: the paper's.
-pub const COLUMNS: [Parameter; 8] = [
-    Parameter::Kx,
-    Parameter::Ky,
-    Parameter::Kxy,
-    Parameter::Kyx,
-    Parameter::Omega0x,
-    Parameter::Omega0y,
-    Parameter::OmegaG,
-    Parameter::OmegaK,
-];
-
 pub fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
     let results = &page.result().results;
     let body = html! {
@@ -48,7 +36,9 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     // The answer first: it is the last of the methods.
     let rows = results.iter().rev().flat_map(|result| {
         let (values, u) = (values(result), uncertainties(&result.standard_uncertainty));
-        let cells = |number: &dyn Fn(Parameter) -> Number| COLUMNS.map(|parameter| number(parameter).markup(languages));
+        let cells = |number: &dyn Fn(Parameter) -> Number| {
+            Parameter::AS_IN_THE_PAPER.map(|parameter| number(parameter).markup(languages))
+        };
         let name = match result.method.as_str() {
             "least-squares" => texts::LEAST_SQUARES,
             other => method(other),

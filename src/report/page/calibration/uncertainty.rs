@@ -1,6 +1,5 @@
 //! Where the uncertainty comes from, and whether first order is valid; only when asked for.
 
-use super::parameters::COLUMNS;
 use super::{CalibrationPage, Section};
 use crate::calibration::causes::Cause;
 use crate::calibration::parameter::Parameter;
@@ -76,7 +75,7 @@ fn sentences(remedy: &Remedy, worst: Text, languages: &Languages) -> Markup {
 fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
     let line = |parameter: Parameter| budget.parameters.iter().find(|line| line.parameter == parameter);
     let each = |cell: &dyn Fn(&ParameterBudget) -> Markup| {
-        COLUMNS.map(|parameter| line(parameter).map(cell).unwrap_or_default())
+        Parameter::AS_IN_THE_PAPER.map(|parameter| line(parameter).map(cell).unwrap_or_default())
     };
     let mut rows: Vec<(Markup, [Markup; 8])> = kinds(budget)
         .into_iter()
@@ -168,8 +167,9 @@ fn cause(cause: Cause, language: Language) -> String {
 
 fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
     let line = |parameter: Parameter| found.parameters.iter().find(|line| line.parameter == parameter);
-    let each =
-        |cell: &dyn Fn(&Distribution) -> Markup| COLUMNS.map(|parameter| line(parameter).map(cell).unwrap_or_default());
+    let each = |cell: &dyn Fn(&Distribution) -> Markup| {
+        Parameter::AS_IN_THE_PAPER.map(|parameter| line(parameter).map(cell).unwrap_or_default())
+    };
     let measured =
         |value: f64, line: &Distribution| Number::measured(value, line.standard_uncertainty).markup(languages);
     let rows = vec![
