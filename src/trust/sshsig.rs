@@ -6,13 +6,17 @@
 
 use super::error::{KeyError, SignatureError};
 use super::public_key::PublicKey;
+use base64ct::{Base64, Encoding};
 use ed25519_dalek::VerifyingKey;
 use sha2::{Digest, Sha256};
+use ssh_encoding::{Decode, Encode};
 use ssh_key::public::KeyData;
 use ssh_key::{HashAlg, LineEnding, SshSig};
 
 /// The longest armor that is read, in bytes: that of a security key with an unusually long application string.
 const LONGEST_ARMOR: usize = 4096;
+/// OpenSSH's lines of base64.
+const LINE_LENGTH: usize = 70;
 const FIRST_LINE: &str = "-----BEGIN SSH SIGNATURE-----";
 const LAST_LINE: &str = "-----END SSH SIGNATURE-----";
 
@@ -65,10 +69,20 @@ impl Signature {
         if armor.len() > LONGEST_ARMOR {
             return Err(SignatureError::Damaged(format!("{} bytes, expected at most {LONGEST_ARMOR}", armor.len())));
         }
-        let inner = SshSig::from_pem(armor).map_err(|error| match SshSig::from_pem(rewrapped(armor)) {
-            Ok(_) => SignatureError::NotCanonical,
-            Err(_) => refusal(error),
-        })?;
+        match as_openssh_writes_it(armor) {
+            Some(inner) => Self::checked(inner, armor.to_owned()),
+            None => Err(why_refused(armor)),
+        }
+    }
+
+    /// Writes a block as OpenSSH does.
+    pub(super) fn of(inner: SshSig) -> Result<Self, SignatureError> {
+        let armor = inner.to_pem(LineEnding::LF).map_err(refusal)?;
+        Self::checked(inner, armor)
+    }
+
+    /// Checks the fields of a block that is written so.
+    fn checked(inner: SshSig, armor: String) -> Result<Self, SignatureError> {
         if inner.version() != SshSig::VERSION {
             return Err(SignatureError::Version { found: inner.version() });
         }
@@ -78,15 +92,6 @@ impl Signature {
         if inner.hash_alg() != HashAlg::Sha512 {
             return Err(SignatureError::HashAlgorithm { found: inner.hash_alg().to_string() });
         }
-        let signature = Self::of(inner)?;
-        if signature.armor != armor {
-            return Err(SignatureError::NotCanonical);
-        }
-        Ok(signature)
-    }
-
-    /// Checks key and algorithm of a block and writes it as OpenSSH does.
-    pub(super) fn of(inner: SshSig) -> Result<Self, SignatureError> {
         let key_type = inner.public_key().algorithm();
         let key = PublicKey::from_data(inner.public_key().clone()).map_err(|error| match error {
             KeyError::OtherKeyType { found } => SignatureError::KeyType { found },
@@ -98,7 +103,6 @@ impl Signature {
                 signature: inner.algorithm().to_string(),
             });
         }
-        let armor = inner.to_pem(LineEnding::LF).map_err(refusal)?;
         Ok(Self { inner, key, armor })
     }
 
@@ -160,6 +164,37 @@ impl Signature {
     }
 }
 
+/// What a block says that is written as OpenSSH writes it, to the last byte; `None` for any other.
+fn as_openssh_writes_it(armor: &str) -> Option<SshSig> {
+    let body = armor.strip_prefix(FIRST_LINE)?.strip_prefix('\n')?;
+    let body = body.strip_suffix('\n')?.strip_suffix(LAST_LINE)?.strip_suffix('\n')?;
+    let mut lines = body.split('\n').peekable();
+    let mut base64 = String::with_capacity(body.len());
+    while let Some(line) = lines.next() {
+        let full = line.len() == LINE_LENGTH;
+        let last = lines.peek().is_none() && (1..LINE_LENGTH).contains(&line.len());
+        if !full && !last {
+            return None;
+        }
+        base64.push_str(line);
+    }
+    // Bits that mean nothing are refused where they are not 0: no two texts stand for the same bytes.
+    let bytes = Base64::decode_vec(&base64).ok()?;
+    let block = SshSig::decode(&mut bytes.as_slice()).ok()?;
+    let mut written = Vec::with_capacity(bytes.len());
+    block.encode(&mut written).ok()?;
+    (written == bytes).then_some(block)
+}
+
+/// Why a block is refused that is not written as OpenSSH writes it.
+fn why_refused(armor: &str) -> SignatureError {
+    match SshSig::from_pem(armor) {
+        Ok(_) => SignatureError::NotCanonical,
+        Err(_) if SshSig::from_pem(rewrapped(armor)).is_ok() => SignatureError::NotCanonical,
+        Err(error) => refusal(error),
+    }
+}
+
 /// The same block as OpenSSH would wrap it: tells a block that was wrapped anew from a damaged one.
 fn rewrapped(armor: &str) -> String {
     let base64: Vec<u8> = armor
@@ -169,7 +204,7 @@ fn rewrapped(armor: &str) -> String {
         .split_ascii_whitespace()
         .flat_map(str::bytes)
         .collect();
-    let lines: Vec<_> = base64.chunks(70).map(String::from_utf8_lossy).collect();
+    let lines: Vec<_> = base64.chunks(LINE_LENGTH).map(String::from_utf8_lossy).collect();
     format!("{FIRST_LINE}\n{}\n{LAST_LINE}\n", lines.join("\n"))
 }
 
@@ -223,7 +258,6 @@ fn refusal(error: ssh_key::Error) -> SignatureError {
 mod tests {
     use super::*;
     use crate::trust::SigningKey;
-    use base64ct::{Base64, Encoding};
 
     const NAMESPACE: &str = "dtg-passport";
     const MESSAGE: &[u8] = b"format: \"dtg-passport/1\"\n";
