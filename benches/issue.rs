@@ -57,13 +57,13 @@ impl Job {
         for stand in &stands {
             let folder = inputs.join("stands").join(stand.stand.serial.as_str());
             fs::create_dir_all(&folder).expect("a folder");
-            fs::write(folder.join("stand.yaml"), canonical::write(stand, &canonical::no_comments)).expect("a stand");
+            fs::write(folder.join("stand.yaml"), canonical::write_bare(stand)).expect("a stand");
         }
         fs::create_dir_all(inputs.join("sites")).expect("a folder");
         for site in &sites {
             let file = SiteFile { format: SITE_FORMAT.to_owned(), site: site.clone() };
             let path = inputs.join("sites").join(format!("{}.yaml", site.id));
-            fs::write(path, canonical::write(&file, &canonical::no_comments)).expect("a site");
+            fs::write(path, canonical::write_bare(&file)).expect("a site");
         }
         let key = SigningKey::from_openssh(&fleet::openssh_key(), None).expect("a key");
         Self { stands, sites, inputs, scratch, runs: Cell::new(0), key }

@@ -4,8 +4,9 @@
 //! every byte before `signature: |`.
 
 use crate::text::LARGEST_DOCUMENT_BYTES;
+use crate::text::canonical::{self, Memory};
 use crate::text::problem::{Location, Unreadable};
-use crate::text::{Field, Node, Path, Problems, canonical, rule};
+use crate::text::{Field, Node, Path, Problems, rule};
 use crate::trust::{AllowedSigners, KeyError, KeyPoint, Message, PublicKey, Signature, SignatureError, SigningKey};
 use sha2::{Digest, Sha256};
 
@@ -156,12 +157,19 @@ impl<'a> SignedText<'a> {
 /// Parses a payload and requires that its content, written again, gives the same lines, comments and blank lines aside
 /// (step 5). `check` knows the rules of the content.
 ///
+/// What `memory` remembers of other documents is not read again.
+///
 /// Call it only on text whose signature holds.
 ///
 /// # Errors
 /// Every mistake of the content, or the first line that differs.
-pub fn parse<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut Problems)) -> Result<T, Unreadable> {
-    match scanned(payload, &check) {
+pub fn parse<T: Field>(
+    name: &str,
+    payload: &str,
+    memory: &mut Memory,
+    check: impl Fn(&T, &mut Problems),
+) -> Result<T, Unreadable> {
+    match quickly_read(payload, memory, &check) {
         Some(content) => Ok(content),
         None => read(name, payload, check),
     }
@@ -169,16 +177,19 @@ pub fn parse<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut Proble
 
 /// Reads a text in canonical form with the quick reader of that form; `None` when anything at all is wrong or different:
 /// then [`read`] finds the words for it.
-pub(crate) fn scanned<T: Field>(payload: &str, check: impl Fn(&T, &mut Problems)) -> Option<T> {
-    scanned_content(payload, check).filter(|content| canonical::is_written(content, payload))
+pub(crate) fn quickly_read<T: Field>(
+    payload: &str,
+    memory: &mut Memory,
+    check: impl Fn(&T, &mut Problems),
+) -> Option<T> {
+    canonical::read(payload, memory).filter(|content| obeys(content, check))
 }
 
-/// What the quick reader makes of a text, which counts only when the text is known to be in canonical form.
-pub(crate) fn scanned_content<T: Field>(payload: &str, check: impl Fn(&T, &mut Problems)) -> Option<T> {
-    let content: T = canonical::scan(payload)?;
+/// Whether a content obeys its rules.
+pub(crate) fn obeys<T>(content: &T, check: impl Fn(&T, &mut Problems)) -> bool {
     let mut problems = Problems::new();
-    check(&content, &mut problems);
-    problems.is_empty().then_some(content)
+    check(content, &mut problems);
+    problems.is_empty()
 }
 
 /// The same with the general reader of YAML, which knows the place of every mistake.
@@ -192,7 +203,7 @@ pub(crate) fn read<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut 
     let Some(content) = content.filter(|_| problems.is_empty()) else {
         return Err(problems.refuse(name, &text));
     };
-    match rule::differs(payload, &canonical::write(&content, &canonical::no_comments)) {
+    match rule::differs(payload, &canonical::write_bare(&content)) {
         None => Ok(content),
         Some((line, found, expected)) => {
             let advice = "the text is not as this format is written";

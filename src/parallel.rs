@@ -12,13 +12,23 @@ pub fn processors() -> usize {
 ///
 /// Where the system gives no more threads, fewer do the same.
 pub fn map<T: Sync, R: Send>(items: &[T], threads: usize, work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    map_with(items, threads, || (), |(), item| work(item))
+}
+
+/// The same with something that every thread makes for itself and works with.
+pub fn map_with<T: Sync, R: Send, S>(
+    items: &[T],
+    threads: usize,
+    make: impl Fn() -> S + Sync,
+    work: impl Fn(&mut S, &T) -> R + Sync,
+) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let run = || {
-        let mut done = Vec::new();
+        let (mut own, mut done) = (make(), Vec::new());
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
             let Some(item) = items.get(index) else { return done };
-            done.push((index, work(item)));
+            done.push((index, work(&mut own, item)));
         }
     };
     let mut results: Vec<Option<R>> = Vec::new();

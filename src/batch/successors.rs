@@ -13,10 +13,11 @@ use crate::folder::Issued;
 use crate::folder::search::{self, Withdrawn, is_numbered, is_revocation_list};
 use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
-use crate::passport::{Question, Trust, verify};
+use crate::passport::{Question, Trust, Verifier, verify};
 use crate::register::{self, Line, State, examine, examined};
 use crate::site::Site;
 use crate::text::LARGEST_DOCUMENT_BYTES;
+use jiff::Timestamp;
 use std::collections::{BTreeMap, HashMap};
 use std::io::BufRead;
 use std::path::{Path, PathBuf};
@@ -203,8 +204,8 @@ impl Run<'_> {
             if some.is_empty() || self.batch.cancelled() {
                 return chains;
             }
-            let question = Question::at(self.change.question.time);
-            let links = parallel::map(&some, self.batch.threads, |path| link(path, trust, &question));
+            let (verifier, time) = (|| Verifier::new(trust), self.change.question.time);
+            let links = parallel::map_with(&some, self.batch.threads, verifier, |own, path| link(path, own, time));
             links.into_iter().flatten().for_each(|(superseded, follower)| chains.add(superseded, follower));
         }
     }
@@ -371,12 +372,10 @@ impl Chains {
 }
 
 /// What a file supersedes, and as what.
-fn link(path: &Path, trust: &Trust, question: &Question) -> Option<(Digest, Follower)> {
+fn link(path: &Path, verifier: &mut Verifier, time: Timestamp) -> Option<(Digest, Follower)> {
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).ok()?;
-    if !bytes.windows(SUPERSEDES.len()).any(|window| window == SUPERSEDES) {
-        return None;
-    }
-    let examined = examine(&path.display().to_string(), &bytes, trust, question, None);
+    memchr::memmem::find(&bytes, SUPERSEDES)?;
+    let examined = examine(&path.display().to_string(), &bytes, verifier, time, None);
     let (superseded, line) = (digest(examined.supersedes()?)?, examined.line());
     let id = line.id.clone()?.into();
     Some((

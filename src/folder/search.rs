@@ -3,7 +3,7 @@
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
 use crate::parallel;
-use crate::passport::{Question, Trust};
+use crate::passport::{Question, Trust, Verifier};
 use crate::register::{Alarm, Register, examine};
 use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
 use crate::text::LARGEST_DOCUMENT_BYTES;
@@ -100,9 +100,10 @@ pub fn register(
     let withdrawn = withdraw(&found.revocation_lists, &mut trust, question.time);
     alarms.extend(withdrawn.alarms);
     let passports: Vec<PathBuf> = found.passports.into_iter().chain(withdrawn.no_lists).collect();
-    let read = parallel::map(&passports, threads, |path| {
+    let verifier = || Verifier::new(&trust);
+    let read = parallel::map_with(&passports, threads, verifier, |verifier, path| {
         let bytes = files::read(path, LARGEST_DOCUMENT_BYTES)?;
-        Ok(examine(&name(path), &bytes, &trust, question, within_days))
+        Ok(examine(&name(path), &bytes, verifier, question.time, within_days))
     });
     let mut examined = Vec::with_capacity(passports.len());
     for file in read {

@@ -11,8 +11,9 @@ use crate::gyro::Parameters;
 use crate::laboratory::Laboratory;
 use crate::site::Site;
 use crate::stand::{CertifiedPosition, Stand};
+use crate::text::canonical::{self, Memory};
 use crate::text::scalar::day;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, canonical, rule};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, rule};
 use crate::trust::{Message, SignatureError};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -132,15 +133,31 @@ pub struct Draft {
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreparedStand {
     stand: Stand,
-    /// With the text.
-    geometry: Result<(StandGeometry, String), SingularPositions>,
+    geometry: Result<(StandGeometry, StandText), SingularPositions>,
+}
+
+/// A stand's part of the text, and what a reader finds in it.
+#[derive(Debug, Clone, PartialEq)]
+struct StandText {
+    text: String,
+    read: Memory,
+}
+
+impl StandText {
+    fn new(stand: &Stand, geometry: &StandGeometry) -> Self {
+        let text = annotations::payload_of_stand(stand, geometry.has_eight());
+        let mut read = read::memory();
+        // What cannot be read is not remembered, and every passport is refused when it is read back.
+        let _ = canonical::read::<Stand>(&format!("format: {}\n{text}", rule::quoted(&stand.format)), &mut read);
+        Self { text, read }
+    }
 }
 
 impl PreparedStand {
     /// Prepares a stand. One without passports, since n_2 has no inverse, says so when a passport is asked for.
     pub fn new(stand: Stand) -> Self {
         let geometry = stand.geometry().map(|geometry| {
-            let text = annotations::payload_of_stand(&stand, geometry.has_eight());
+            let text = StandText::new(&stand, &geometry);
             (geometry, text)
         });
         Self { stand, geometry }
@@ -160,11 +177,11 @@ impl PreparedStand {
         let (geometry, text) = self.geometry.as_ref().map_err(|singular| *singular)?;
         let content = content(&self.stand, geometry, site, issue)?;
         check_dates(&content)?;
-        let payload = annotations::payload_with(&content, text);
+        let payload = annotations::payload_with(&content, &text.text);
         if payload.len() + LONGEST_SIGNATURE > LARGEST_DOCUMENT_BYTES {
             return Err(IssueRefused::TooLarge { bytes: payload.len() });
         }
-        let read_back = read_back(&payload, &content)?;
+        let read_back = read_back(&payload, &content, &text.read)?;
         if let Some(self_check) = &read_back.self_check {
             let error = self_check.error(&read_back.coefficients());
             if error.is_nan() || error > SELF_CHECK_LIMIT {
@@ -237,11 +254,12 @@ fn check_dates(content: &Content) -> Result<(), IssueRefused> {
 }
 
 /// The written text is read again by the verifier's reader, and its content compared with what was written.
-fn read_back(payload: &str, content: &Content) -> Result<Content, IssueRefused> {
+fn read_back(payload: &str, content: &Content, memory: &Memory) -> Result<Content, IssueRefused> {
     const NAME: &str = "the new passport";
     rule::check(NAME, payload.as_bytes()).map_err(IssueRefused::ReadBack)?;
     // That it is in its one form follows: what is written of equal content is equal.
-    if let Some(read) = document::scanned_content(payload, Content::check).filter(|read| read == content) {
+    let same = |read: &Content| read == content && document::obeys(read, Content::check);
+    if let Some(read) = canonical::scan(payload, memory).filter(same) {
         debug_assert!(canonical::is_written(&read, payload), "equal content, written in another way");
         return Ok(read);
     }

@@ -7,6 +7,7 @@
 //! * [`issue`]: a stand and a site to a signed passport.
 //! * [`recomputed`]: every number again from the signed inputs.
 //! * [`checks`]: names and verdicts of the checks.
+//! * [`place`]: whether a place is near enough to the site.
 //! * [`verification`]: the six steps, and "may I use this passport, on this stand, here, now?".
 //! * [`reissue`]: a new passport from an old one.
 
@@ -15,6 +16,7 @@ pub mod annotations;
 pub mod checks;
 pub mod content;
 pub mod issue;
+pub mod place;
 pub mod read;
 pub mod recomputed;
 pub mod reissue;
@@ -22,7 +24,7 @@ pub mod verification;
 
 pub use checks::{Check, CheckName, Code};
 pub use content::Content;
-pub use verification::{Question, Trust, Verification, verify};
+pub use verification::{Question, Trust, Verification, Verifier, verify};
 
 /// The namespace that passports are signed for.
 pub const NAMESPACE: &str = "dtg-passport";

@@ -9,7 +9,7 @@ use crate::document::sha256_hex;
 use crate::gyro::{GyroType, Parameters};
 use crate::site::Site;
 use crate::stand::{STAND_FORMAT, Stand};
-use crate::text::{Field, Node, rule};
+use crate::text::{Field, Node, number, rule};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use std::sync::Arc;
@@ -310,7 +310,7 @@ fn words(node: Option<&Node>) -> String {
     match node {
         None => "nothing".to_owned(),
         Some(Node::Text(text)) => format!("'{text}'"),
-        Some(Node::Number(value)) => rule::number(*value),
+        Some(Node::Number(value)) => number::decimal(*value),
         Some(Node::List(items)) => {
             let items: Vec<String> = items.iter().map(|item| words(Some(item))).collect();
             format!("[{}]", items.join(", "))

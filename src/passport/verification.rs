@@ -5,16 +5,15 @@
 
 use super::checks::{Check, CheckName, Code};
 use super::content::{Content, PASSPORT_FORMAT};
-use super::{NAMESPACE, read, recomputed};
+use super::read::{Read, Reader};
+use super::{NAMESPACE, place, recomputed};
 use crate::coefficients::Coefficients;
 use crate::document::sha256_hex;
 use crate::document::{Malformed, SignedText};
-use crate::earth::{self, Place};
+use crate::earth::Place;
 use crate::revocation::{Entry, RevocationList};
-use crate::site::LATITUDE_MARGIN_ARCSEC;
 use crate::text::scalar::day;
 use crate::trust::{AllowedSigners, NotAuthorised, PublicKey, RevokedKeys};
-use crate::units::radians_from_arcseconds;
 use jiff::Timestamp;
 
 /// Whom to trust.
@@ -151,21 +150,47 @@ impl Verification {
     }
 }
 
-/// Verifies the bytes of a passport; `name` is the file's name, for messages.
+/// Verifies the bytes of a passport; `name` is the file's name, for messages. Of many passports see [`Verifier`].
 ///
 /// Steps 1 to 3 are the check `grammar`, 4 `signature`, 5 `schema`, 6 `signer`, `revocation` and `in_force`; then every
 /// number is computed again, and what the question names is compared.
 pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> Verification {
+    Verifier { trust, reader: Reader::for_one() }.verify(name, bytes, question)
+}
+
+/// Verifies passport after passport. The answers are those of [`verify()`]; they come sooner where passports of one stand
+/// follow each other, for what these have alike is read once.
+#[derive(Debug, Clone)]
+pub struct Verifier<'t> {
+    trust: &'t Trust,
+    reader: Reader,
+}
+
+impl<'t> Verifier<'t> {
+    /// One that trusts so.
+    pub fn new(trust: &'t Trust) -> Self {
+        Self { trust, reader: Reader::new() }
+    }
+
+    /// Verifies the next one: see [`verify()`].
+    pub fn verify(&mut self, name: &str, bytes: &[u8], question: &Question) -> Verification {
+        run(name, bytes, self.trust, question, &mut self.reader)
+    }
+}
+
+fn run(name: &str, bytes: &[u8], trust: &Trust, question: &Question, reader: &mut Reader) -> Verification {
     let mut run = Run { checks: Vec::new() };
     let mut verification = Verification { checks: Vec::new(), key: None, content: None };
     if let Some(text) = run.grammar(name, bytes) {
         verification.key = Some(text.key().clone());
         if let Some(payload) = run.signature(&text, trust) {
-            verification.content = run.schema(name, payload).map(Box::new);
+            let read = run.schema(name, payload, reader);
+            let follows = read.as_ref().is_some_and(|read| read.follows);
+            verification.content = read.map(|read| Box::new(read.content));
             run.revocation(bytes, text.key(), verification.content.as_deref(), trust);
             if let Some(content) = &verification.content {
                 run.signer(text.key(), content, trust);
-                run.recomputed(content);
+                run.recomputed(content, follows);
                 run.in_force(content, question.time);
                 run.asked(content, question);
             }
@@ -228,11 +253,11 @@ impl Run {
         }
     }
 
-    fn schema(&mut self, name: &str, payload: &str) -> Option<Content> {
-        match read::content(name, payload) {
-            Ok(content) => {
+    fn schema(&mut self, name: &str, payload: &str, reader: &mut Reader) -> Option<Read> {
+        match reader.read(name, payload) {
+            Ok(read) => {
                 self.note(CheckName::Schema, Code::Ok, format!("the content is complete and obeys {PASSPORT_FORMAT}"));
-                Some(content)
+                Some(read)
             }
             Err(error) => {
                 self.note(CheckName::Schema, Code::BadContent, error.to_string());
@@ -279,8 +304,9 @@ impl Run {
         }
     }
 
-    fn recomputed(&mut self, content: &Content) {
-        match recomputed::compare(content) {
+    fn recomputed(&mut self, content: &Content, follows: bool) {
+        let compared = if follows { recomputed::compare_the_rest(content) } else { recomputed::compare(content) };
+        match compared {
             Ok(()) => {
                 let detail = "every number follows from the signed deviations and site";
                 self.note(CheckName::Recomputed, Code::Ok, detail);
@@ -340,7 +366,7 @@ impl Run {
             self.note(CheckName::Stand, code, detail);
         }
         if let Some(place) = question.place {
-            let (code, detail) = place_verdict(content, place);
+            let (code, detail) = place::verdict(content, place);
             self.note(CheckName::Place, code, detail);
         }
     }
@@ -358,57 +384,5 @@ impl Run {
                 self.note(name, Code::NotRun, "not run: an earlier check failed");
             }
         }
-    }
-}
-
-/// How far a place is from a passport's site.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Nearness {
-    /// The geodesic distance; along the meridian where the site has no longitude.
-    pub distance_m: f64,
-    /// How far the passport is valid, with what is allowed for an unknown deflection of the vertical.
-    pub radius_m: f64,
-    /// That allowance.
-    pub allowance_m: f64,
-}
-
-impl Nearness {
-    /// How far `place` is from the site of `content`.
-    pub fn of(content: &Content, place: Place) -> Self {
-        let site = &content.site;
-        let latitude_deg = site.geodetic_deg();
-        let known = Place { latitude_deg, longitude_deg: site.longitude_deg.unwrap_or(place.longitude_deg) };
-        let allowance_m = if site.geodetic_is_uncertain() {
-            radians_from_arcseconds(LATITUDE_MARGIN_ARCSEC) * earth::MEAN_RADIUS_M
-        } else {
-            0.0
-        };
-        let radius_m = content.earth.valid_radius_m + allowance_m;
-        Self { distance_m: earth::distance_m(known, place), radius_m, allowance_m }
-    }
-
-    /// Whether the place is within the radius of validity.
-    pub fn within(self) -> bool {
-        self.distance_m <= self.radius_m
-    }
-}
-
-fn place_verdict(content: &Content, place: Place) -> (Code, String) {
-    let site = &content.site;
-    let nearness = Nearness::of(content, place);
-    let Nearness { distance_m, radius_m, allowance_m } = nearness;
-    let how = if site.longitude_deg.is_some() { "" } else { " in latitude (the site's longitude is unknown)" };
-    let allowance = if allowance_m > 0.0 {
-        format!(
-            ", {allowance_m:.0} m of it for the unknown deflection of the vertical ({LATITUDE_MARGIN_ARCSEC} arcsec)"
-        )
-    } else {
-        String::new()
-    };
-    let words = format!("{distance_m:.0} m from {}{how}, valid within {radius_m:.0} m{allowance}", site.id);
-    if nearness.within() {
-        (Code::Ok, words)
-    } else {
-        (Code::WrongPlace, format!("{words}: ask the factory to re-issue the passport for this place"))
     }
 }

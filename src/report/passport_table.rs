@@ -3,7 +3,7 @@
 use crate::passport::Content;
 use crate::passport::content::Rows;
 use crate::report::{columns, deviations, style};
-use crate::text::rule;
+use crate::text::number;
 use std::fmt::{Display, Write};
 
 /// The width of the names at the left.
@@ -90,7 +90,7 @@ fn positions(out: &mut String, content: &Content) {
     if with_freedom {
         names.push("deg. of freedom");
     }
-    let number = |value: f64| rule::number(value);
+    let number = |value: f64| number::decimal(value);
     let maybe = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), number);
     let rows = content.positions.iter().map(|at| {
         let mut row = vec![

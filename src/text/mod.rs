@@ -1,7 +1,7 @@
 //! The text of every document: strict YAML in, one canonical form out, errors that point into the file.
 //!
-//! * [`rule`]: what a signed text may contain, how a number and a string are written: writer and reader of
-//!   the rule side by side.
+//! * [`rule`]: what a signed text may contain, and how a string is written: writer and reader of the rule side by side.
+//! * [`number`]: how a number is written.
 //! * [`canonical`]: the one form that content is written in, and a quick reader of it.
 //! * [`sink`]: what a document is written into.
 //! * [`node`]: YAML to a tree, with the place of every value found again when an error needs it.
@@ -12,6 +12,7 @@
 
 pub mod canonical;
 pub mod node;
+pub mod number;
 pub mod problem;
 pub mod record;
 pub mod rule;

@@ -6,7 +6,7 @@ use super::{Node, Path, Problems};
 use std::collections::HashSet;
 
 /// A type that a field of a document can have.
-pub trait Field: Sized {
+pub trait Field: Sized + Clone + Send + Sync + 'static {
     /// Reads it; `None` when something is wrong, which is then in `problems`.
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self>;
 
@@ -286,8 +286,7 @@ impl Field for String {
             problems.at(at, "an empty text", "a text", "leave the key out where it is not required");
             return None;
         }
-        let plain = super::rule::is_printable_ascii(text.as_bytes());
-        if let Some(refused) = text.chars().find(|&c| !plain && !super::rule::allowed_in_string(c)) {
+        if let Some(refused) = refused_in_string(text) {
             let found = format!("the character U+{:04X}", u32::from(refused));
             let advice = "control, combining, bidirectional, invisible and separator characters cannot be signed: \
                           remove it, or write a composed character (NFC)";
@@ -304,6 +303,16 @@ impl Field for String {
     fn emit<S: Sink>(&self, sink: &mut S) {
         sink.text(self);
     }
+
+    fn scan(scanner: &mut Scanner) -> Option<Self> {
+        scanner.string().filter(|text| !text.is_empty() && refused_in_string(text).is_none())
+    }
+}
+
+/// The first character that no string of a signed document may hold.
+fn refused_in_string(text: &str) -> Option<char> {
+    let plain = super::rule::is_printable_ascii(text.as_bytes());
+    text.chars().find(|&c| !plain && !super::rule::allowed_in_string(c))
 }
 
 impl<T: Field> Field for Option<T> {
@@ -378,6 +387,6 @@ impl<T: Field, const N: usize> Field for [T; N] {
     }
 
     fn scan(scanner: &mut Scanner) -> Option<Self> {
-        scanner.list()?.try_into().ok()
+        scanner.array()
     }
 }

@@ -123,7 +123,7 @@ fn document<T: Field + PartialEq + Debug>(bytes: &[u8], from_yaml: fn(&str, &[u8
 }
 
 fn written<T: Field>(value: &T) -> String {
-    canonical::write(value, &canonical::no_comments)
+    canonical::write_bare(value)
 }
 
 fn stand(bytes: &[u8]) -> bool {

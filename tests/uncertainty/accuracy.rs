@@ -60,7 +60,7 @@ fn altered(payload: &str, key: &str, change: f64) -> String {
     let begin = payload.len() - rest.len();
     let end = begin + rest.find([',', ']', '\n', '}']).unwrap();
     let value: f64 = payload[begin..end].parse().unwrap();
-    let digits = dtg_passport::text::rule::number(value * (1.0 + change));
+    let digits = dtg_passport::text::number::decimal(value * (1.0 + change));
     format!("{}{digits}{}", &payload[..begin], &payload[end..])
 }
 

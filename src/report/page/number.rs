@@ -4,7 +4,7 @@
 //! same place. Groups of three digits are parted by a thin blank that does not break (SI Brochure, 5.4.4).
 
 use super::language::{Language, Languages};
-use crate::text::rule;
+use crate::text::number;
 use maud::{Markup, html};
 
 /// A blank that does not break, half as wide: between groups of digits.
@@ -88,7 +88,7 @@ impl Number {
 
     /// As an element that carries the value itself for programs, written as signed documents write it.
     pub fn markup(&self, languages: &Languages) -> Markup {
-        html! { data value=(rule::number(self.value)) { (self.text(languages.first())) } }
+        html! { data value=(number::decimal(self.value)) { (self.text(languages.first())) } }
     }
 
     /// The same, with room for so many decimals: the marks of a column stand one below the other.

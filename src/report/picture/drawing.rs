@@ -157,7 +157,7 @@ pub fn words(at: Point, anchor: Anchor, class: &str, words: &str) -> Markup {
 
 /// The number of a document, which a program finds again by its value.
 pub fn number(at: Point, anchor: Anchor, value: f64, printed: &str) -> Markup {
-    label(at, anchor, "", &html! { tspan data-value=(crate::text::rule::number(value)) { (printed) } })
+    label(at, anchor, "", &html! { tspan data-value=(crate::text::number::decimal(value)) { (printed) } })
 }
 
 /// A symbol of the paper: what follows the underscore stands lower.

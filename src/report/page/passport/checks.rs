@@ -2,7 +2,7 @@
 //! of these only the good verdict is ever printed.
 
 use super::PassportPage;
-use crate::passport::verification::Nearness;
+use crate::passport::place::Nearness;
 use crate::passport::{Check, CheckName, Code};
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::Number;

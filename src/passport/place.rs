@@ -1,0 +1,60 @@
+//! Whether a place is near enough to the site that a passport was made for.
+
+use super::checks::Code;
+use super::content::Content;
+use crate::earth::{self, Place};
+use crate::site::LATITUDE_MARGIN_ARCSEC;
+use crate::units::radians_from_arcseconds;
+
+/// How far a place is from a passport's site.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearness {
+    /// The geodesic distance; along the meridian where the site has no longitude.
+    pub distance_m: f64,
+    /// How far the passport is valid, with what is allowed for an unknown deflection of the vertical.
+    pub radius_m: f64,
+    /// That allowance.
+    pub allowance_m: f64,
+}
+
+impl Nearness {
+    /// How far `place` is from the site of `content`.
+    pub fn of(content: &Content, place: Place) -> Self {
+        let site = &content.site;
+        let latitude_deg = site.geodetic_deg();
+        let known = Place { latitude_deg, longitude_deg: site.longitude_deg.unwrap_or(place.longitude_deg) };
+        let allowance_m = if site.geodetic_is_uncertain() {
+            radians_from_arcseconds(LATITUDE_MARGIN_ARCSEC) * earth::MEAN_RADIUS_M
+        } else {
+            0.0
+        };
+        let radius_m = content.earth.valid_radius_m + allowance_m;
+        Self { distance_m: earth::distance_m(known, place), radius_m, allowance_m }
+    }
+
+    /// Whether the place is within the radius of validity.
+    pub fn within(self) -> bool {
+        self.distance_m <= self.radius_m
+    }
+}
+
+/// The verdict on a place, with words for it.
+pub(super) fn verdict(content: &Content, place: Place) -> (Code, String) {
+    let site = &content.site;
+    let nearness = Nearness::of(content, place);
+    let Nearness { distance_m, radius_m, allowance_m } = nearness;
+    let how = if site.longitude_deg.is_some() { "" } else { " in latitude (the site's longitude is unknown)" };
+    let allowance = if allowance_m > 0.0 {
+        format!(
+            ", {allowance_m:.0} m of it for the unknown deflection of the vertical ({LATITUDE_MARGIN_ARCSEC} arcsec)"
+        )
+    } else {
+        String::new()
+    };
+    let words = format!("{distance_m:.0} m from {}{how}, valid within {radius_m:.0} m{allowance}", site.id);
+    if nearness.within() {
+        (Code::Ok, words)
+    } else {
+        (Code::WrongPlace, format!("{words}: ask the factory to re-issue the passport for this place"))
+    }
+}

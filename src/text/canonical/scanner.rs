@@ -1,0 +1,244 @@
+//! The quick reader, which knows nothing but the canonical form.
+
+use super::{Entry, Memory, after_comments};
+use crate::text::node::{MOST_BRACKETS, Node};
+use crate::text::{Field, LARGEST_DOCUMENT_BYTES};
+
+/// A document that was scanned.
+pub(super) struct Scanned<'t, T> {
+    pub document: T,
+    /// What follows it.
+    pub rest: &'t str,
+    /// What was taken from the memory.
+    pub known: Vec<&'t Entry>,
+    /// What the memory is to keep once it is known to be canonical.
+    pub new: Vec<Entry>,
+}
+
+/// See [`super::scan()`].
+pub(super) fn scan<'t, T: Field>(text: &'t str, memory: &'t Memory) -> Option<Scanned<'t, T>> {
+    scan_beginning(text, memory).filter(|scanned| after_comments(scanned.rest.as_bytes()).is_empty())
+}
+
+/// The same of a text that has more keys than the document, at its end.
+pub(super) fn scan_beginning<'t, T: Field>(text: &'t str, memory: &'t Memory) -> Option<Scanned<'t, T>> {
+    // The general reader refuses these; so many brackets need as many bytes.
+    let brackets = |text: &str| text.bytes().filter(|byte| b"[{".contains(byte)).count();
+    if text.len() > LARGEST_DOCUMENT_BYTES || (text.len() > MOST_BRACKETS && brackets(text) > MOST_BRACKETS) {
+        return None;
+    }
+    let mut scanner =
+        Scanner { rest: text, depth: 0, inline: false, first: true, memory, known: Vec::new(), new: Vec::new() };
+    let document = T::scan(&mut scanner)?;
+    Some(Scanned { document, rest: scanner.rest, known: scanner.known, new: scanner.new })
+}
+
+/// A place in a text in canonical form.
+#[derive(Debug)]
+pub struct Scanner<'t> {
+    rest: &'t str,
+    /// Blocks around the current key.
+    depth: usize,
+    /// Whether brackets are open, or a line is being read to its end.
+    inline: bool,
+    /// Whether no key has been read yet in the current brackets.
+    first: bool,
+    memory: &'t Memory,
+    known: Vec<&'t Entry>,
+    new: Vec<Entry>,
+}
+
+impl<'t> Scanner<'t> {
+    fn take(&mut self, text: &str) -> Option<()> {
+        self.rest = self.rest.strip_prefix(text)?;
+        Some(())
+    }
+
+    fn after_comments(&self) -> &'t str {
+        // They are ASCII.
+        &self.rest[self.rest.len() - after_comments(self.rest.as_bytes()).len()..]
+    }
+
+    /// The keys of a mapping, which [`Scanner::entry`] reads one after the other.
+    pub fn mapping<T>(&mut self, entries: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+        if self.inline || (self.depth > 0 && self.rest.starts_with(" {")) {
+            return self.on_the_line(|scanner| {
+                scanner.take("{")?;
+                let outer = std::mem::replace(&mut scanner.first, true);
+                let mapping = entries(scanner)?;
+                scanner.first = outer;
+                scanner.take("}")?;
+                Some(mapping)
+            });
+        }
+        if self.depth > 0 {
+            self.take("\n")?;
+        }
+        self.depth += 1;
+        let mapping = entries(self)?;
+        self.depth -= 1;
+        Some(mapping)
+    }
+
+    /// The value of `key` when that is the next key, otherwise its value when absent.
+    pub fn entry<T: Field>(&mut self, key: &'static str) -> Option<T> {
+        if self.at_key(key).is_none() {
+            return T::absent();
+        }
+        let at_the_top = self.depth == 1 && !self.inline;
+        if at_the_top && self.memory.is_for(key) { self.known_or_new(key) } else { T::scan(self) }
+    }
+
+    /// A value that the memory knows, or that it is to keep.
+    fn known_or_new<T: Field>(&mut self, key: &'static str) -> Option<T> {
+        if let Some((entry, value)) = self.memory.recall(key, self.rest) {
+            self.known.push(entry);
+            self.take(entry.text())?;
+            return Some(value);
+        }
+        let from = self.rest;
+        let value = T::scan(self)?;
+        self.new.push(Entry::new(key, &from[..from.len() - self.rest.len()], &value));
+        Some(value)
+    }
+
+    /// Passes over `key` when that is the next one.
+    fn at_key(&mut self, key: &str) -> Option<()> {
+        let rest = if self.inline {
+            let rest = if self.first { self.rest } else { self.rest.strip_prefix(", ")? };
+            let rest = rest.strip_prefix(key)?.strip_prefix(": ")?;
+            self.first = false;
+            rest
+        } else {
+            self.indented(self.after_comments(), 0)?.strip_prefix(key)?.strip_prefix(':')?
+        };
+        self.rest = rest;
+        Some(())
+    }
+
+    /// The text without the indent of the current block and `more` blanks.
+    fn indented(&self, text: &'t str, more: usize) -> Option<&'t str> {
+        let indent = 2 * (self.depth - 1) + more;
+        let (blanks, rest) = text.split_at_checked(indent)?;
+        blanks.bytes().all(|byte| byte == b' ').then_some(rest)
+    }
+
+    /// A value on the line of its key, with the line's end.
+    fn on_the_line<T>(&mut self, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+        if self.inline {
+            return read(self);
+        }
+        self.take(" ")?;
+        let value = self.bracketed(read)?;
+        self.take("\n")?;
+        Some(value)
+    }
+
+    fn bracketed<T>(&mut self, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+        let outer = std::mem::replace(&mut self.inline, true);
+        let value = read(self)?;
+        self.inline = outer;
+        Some(value)
+    }
+
+    /// The items of a list.
+    pub fn list<T: Field>(&mut self) -> Option<Vec<T>> {
+        let mut items = Vec::new();
+        if !self.inline && self.rest.starts_with('\n') {
+            self.take("\n")?;
+            loop {
+                // What stands above the next key is no part of the list.
+                let line = self.indented(self.after_comments(), 2);
+                let Some(item) = line.and_then(|line| line.strip_prefix("- ")) else { return Some(items) };
+                self.rest = item;
+                items.push(self.bracketed(T::scan)?);
+                self.take("\n")?;
+            }
+        }
+        self.on_the_line(|scanner| {
+            scanner.take("[")?;
+            if scanner.take("]").is_some() {
+                return Some(items);
+            }
+            loop {
+                items.push(T::scan(scanner)?);
+                if scanner.take("]").is_some() {
+                    return Some(items);
+                }
+                scanner.take(", ")?;
+            }
+        })
+    }
+
+    /// The items of a list of so many, which are no mappings.
+    pub fn array<T: Field, const N: usize>(&mut self) -> Option<[T; N]> {
+        self.on_the_line(|scanner| {
+            scanner.take("[")?;
+            let mut item = T::scan(scanner)?;
+            let mut complete = true;
+            let items = std::array::from_fn(|index| {
+                if index > 0 {
+                    match scanner.take(", ").and_then(|()| T::scan(scanner)) {
+                        Some(next) => item = next,
+                        None => complete = false,
+                    }
+                }
+                item.clone()
+            });
+            scanner.take("]")?;
+            complete.then_some(items)
+        })
+    }
+
+    /// A value that is neither list nor mapping.
+    pub fn scalar(&mut self) -> Option<Node> {
+        self.on_the_line(|scanner| match scanner.rest.strip_prefix('"') {
+            Some(text) => scanner.quoted(text).map(Node::Text),
+            None => match scanner.word()? {
+                "true" => Some(Node::Bool(true)),
+                "false" => Some(Node::Bool(false)),
+                whole => whole.parse().ok().map(Node::Integer),
+            },
+        })
+    }
+
+    /// A string.
+    pub fn string(&mut self) -> Option<String> {
+        self.on_the_line(|scanner| scanner.quoted(scanner.rest.strip_prefix('"')?))
+    }
+
+    /// A number with a point.
+    pub fn number(&mut self) -> Option<f64> {
+        self.on_the_line(|scanner| scanner.word()?.parse().ok())
+    }
+
+    fn word(&mut self) -> Option<&'t str> {
+        let end = self.rest.bytes().position(|byte| matches!(byte, b',' | b']' | b'}' | b'\n'))?;
+        let (word, rest) = self.rest.split_at(end);
+        self.rest = rest;
+        Some(word)
+    }
+
+    /// The string that begins `text`, its opening quote aside.
+    fn quoted(&mut self, text: &'t str) -> Option<String> {
+        let mut string = String::new();
+        let mut rest = text;
+        loop {
+            let end = memchr::memchr3(b'"', b'\\', b'\n', rest.as_bytes())?;
+            string.push_str(&rest[..end]);
+            let (found, after) = rest[end..].split_at(1);
+            match found {
+                "\"" => {
+                    self.rest = after;
+                    return Some(string);
+                }
+                "\\" if after.starts_with(['"', '\\']) => {
+                    let (escaped, after) = after.split_at(1);
+                    string.push_str(escaped);
+                    rest = after;
+                }
+                _ => return None,
+            }
+        }
+    }
+}

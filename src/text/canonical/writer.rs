@@ -1,0 +1,252 @@
+//! The writer, whose parts make a text or are compared with one.
+
+use super::{Entry, after_comments};
+
+use crate::text::sink::Sink;
+use crate::text::{Field, number, rule};
+
+/// The comment lines above a key, given as a path like `earth.gravity_m_per_s2`; without the `# `.
+pub type Comments<'a> = &'a dyn Fn(&str) -> Vec<String>;
+
+/// Writes a mapping: nested mappings as blocks, each item of a list of mappings on its own line, a matrix on one line.
+pub fn write(document: &impl Field, comments: Comments) -> String {
+    let mut text = String::with_capacity(USUAL_BYTES);
+    write_some(&mut text, document, comments, &|_| true);
+    text
+}
+
+/// The same without comments: the form that texts are compared in.
+pub fn write_bare(document: &impl Field) -> String {
+    Writer::new(String::with_capacity(USUAL_BYTES)).written(document)
+}
+
+/// Writes those keys of a mapping that are `wanted` to the end of a text, nested ones aside, which go with theirs.
+pub fn write_some(text: &mut String, document: &impl Field, comments: Comments, wanted: &dyn Fn(&str) -> bool) {
+    let writer = Writer { wanted, comments: Some(comments), ..Writer::new(std::mem::take(text)) };
+    *text = writer.written(document);
+}
+
+/// Whether `text`, its comments and blank lines aside, is what [`write()`] makes of the document.
+pub fn is_written(document: &impl Field, text: &str) -> bool {
+    is_written_but_for(document, text, Vec::new())
+}
+
+/// The same of a document whose `known` entries are known to be what `text` says of them, and to be written so.
+pub(super) fn is_written_but_for(document: &impl Field, text: &str, known: Vec<&Entry>) -> bool {
+    let compared = Writer::new(Compared { rest: Some(text.as_bytes()), known }).written(document);
+    compared.rest.is_some_and(|rest| after_comments(rest).is_empty())
+}
+
+/// A passport has some 9,000 bytes.
+const USUAL_BYTES: usize = 12_000;
+
+/// Where the parts of a text go, one after the other.
+trait Output {
+    fn push(&mut self, part: &str);
+
+    /// The next part begins a line.
+    fn begin_line(&mut self) {}
+
+    /// In place of a number there is none that a text may hold.
+    fn push_not_finite(&mut self);
+
+    /// Whether nothing is to be written of a key at the top and its value, for it stands there.
+    fn stands_there(&mut self, _key: &str) -> bool {
+        false
+    }
+}
+
+impl Output for String {
+    fn push(&mut self, part: &str) {
+        self.push_str(part);
+    }
+
+    fn push_not_finite(&mut self) {
+        debug_assert!(false, "only finite numbers are written");
+        self.push_str(" null");
+    }
+}
+
+/// A text that the parts are compared with; `None` from the first on that differs.
+struct Compared<'t> {
+    rest: Option<&'t [u8]>,
+    known: Vec<&'t Entry>,
+}
+
+impl Output for Compared<'_> {
+    #[inline]
+    fn push(&mut self, part: &str) {
+        self.rest = self.rest.and_then(|rest| rest.strip_prefix(part.as_bytes()));
+    }
+
+    fn begin_line(&mut self) {
+        self.rest = self.rest.map(after_comments);
+    }
+
+    fn push_not_finite(&mut self) {
+        self.rest = None;
+    }
+
+    fn stands_there(&mut self, key: &str) -> bool {
+        let Some(entry) = self.known.iter().copied().find(|entry| entry.key() == key) else { return false };
+        self.begin_line();
+        [key, ":", entry.text()].into_iter().for_each(|part| self.push(part));
+        true
+    }
+}
+
+struct Writer<'a, O> {
+    text: O,
+    /// The keys from the top to the current one, joined by points.
+    path: String,
+    /// How much of the path leads to the current mapping.
+    outer: usize,
+    /// Blocks around the current key.
+    depth: usize,
+    /// Brackets around the current value; 0: it stands behind its key, which began a line.
+    inline: usize,
+    /// Whether no key has been written yet in the current brackets.
+    first: bool,
+    /// None: then nobody asks for the path.
+    comments: Option<Comments<'a>>,
+    /// Which keys are written, those at the top.
+    wanted: &'a dyn Fn(&str) -> bool,
+}
+
+impl<'a, O: Output> Writer<'a, O> {
+    fn new(text: O) -> Self {
+        let path = String::new();
+        Self { text, path, outer: 0, depth: 0, inline: 0, first: true, comments: None, wanted: &|_| true }
+    }
+
+    fn written(mut self, document: &impl Field) -> O {
+        if document.is_mapping() {
+            document.emit(&mut self);
+        }
+        self.text
+    }
+
+    fn indent(&mut self) {
+        (1..self.depth).for_each(|_| self.text.push("  "));
+    }
+
+    /// A value on the line of its key.
+    fn on_the_line(&mut self, write: impl FnOnce(&mut Self)) {
+        if self.inline > 0 {
+            return write(self);
+        }
+        self.text.push(" ");
+        self.bracketed(write);
+        self.text.push("\n");
+    }
+
+    fn bracketed(&mut self, write: impl FnOnce(&mut Self)) {
+        self.inline += 1;
+        write(self);
+        self.inline -= 1;
+    }
+}
+
+impl<O: Output> Sink for Writer<'_, O> {
+    fn null(&mut self) {
+        self.on_the_line(|writer| writer.text.push("null"));
+    }
+
+    fn boolean(&mut self, value: bool) {
+        self.on_the_line(|writer| writer.text.push(if value { "true" } else { "false" }));
+    }
+
+    fn integer(&mut self, value: i64) {
+        const DIGITS: [&str; 10] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
+        // Indices of positions mostly.
+        let digit = usize::try_from(value).ok().and_then(|value| DIGITS.get(value));
+        self.on_the_line(|writer| match digit {
+            Some(digit) => writer.text.push(digit),
+            None => writer.text.push(&value.to_string()),
+        });
+    }
+
+    fn number(&mut self, value: f64) {
+        if !value.is_finite() {
+            return self.text.push_not_finite();
+        }
+        self.on_the_line(|writer| number::write(value, |part| writer.text.push(part)));
+    }
+
+    fn text(&mut self, value: &str) {
+        self.on_the_line(|writer| rule::write_quoted(value, |part| writer.text.push(part)));
+    }
+
+    fn list<T: Field>(&mut self, items: &[T]) {
+        let mut items = items.iter().filter(|item| !item.is_absent()).peekable();
+        if self.inline == 0 && items.peek().is_some_and(|first| first.is_mapping()) {
+            self.text.push("\n");
+            for item in items {
+                self.text.begin_line();
+                self.indent();
+                self.text.push("  - ");
+                self.bracketed(|writer| item.emit(writer));
+                self.text.push("\n");
+            }
+            return;
+        }
+        self.on_the_line(|writer| {
+            writer.text.push("[");
+            for (index, item) in items.enumerate() {
+                if index > 0 {
+                    writer.text.push(", ");
+                }
+                writer.bracketed(|writer| item.emit(writer));
+            }
+            writer.text.push("]");
+        });
+    }
+
+    fn mapping(&mut self, empty: bool, entries: impl FnOnce(&mut Self)) {
+        if self.inline > 0 || (empty && self.depth > 0) {
+            return self.on_the_line(|writer| {
+                writer.text.push("{");
+                let outer = std::mem::replace(&mut writer.first, true);
+                writer.bracketed(entries);
+                writer.first = outer;
+                writer.text.push("}");
+            });
+        }
+        if self.depth > 0 {
+            self.text.push("\n");
+        }
+        let outer = std::mem::replace(&mut self.outer, self.path.len());
+        self.depth += 1;
+        entries(self);
+        self.depth -= 1;
+        self.outer = outer;
+    }
+
+    fn key(&mut self, key: &str) -> bool {
+        if self.inline > 0 {
+            if !std::mem::take(&mut self.first) {
+                self.text.push(", ");
+            }
+            self.text.push(key);
+            self.text.push(": ");
+            return true;
+        }
+        if self.depth == 1 && (!(self.wanted)(key) || self.text.stands_there(key)) {
+            return false;
+        }
+        self.text.begin_line();
+        if let Some(comments) = self.comments {
+            self.path.truncate(self.outer);
+            self.path.push_str(if self.outer > 0 { "." } else { "" });
+            self.path.push_str(key);
+            for line in comments(&self.path) {
+                self.indent();
+                ["# ", &line, "\n"].into_iter().for_each(|part| self.text.push(part));
+            }
+        }
+        self.indent();
+        self.text.push(key);
+        self.text.push(":");
+        true
+    }
+}

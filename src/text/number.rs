@@ -1,0 +1,144 @@
+//! The one way in which a number is written.
+
+/// A binary64 value as every YAML reader reads it back, bit for bit.
+///
+/// The shortest decimal that gives the value back, always with a point; with an exponent of a sign and at least two
+/// digits below 1e-4 and from 1e16 on (`1.0e-06`: PyYAML and Psych read `1e-6` as a string).
+///
+/// # Panics
+/// Never for a finite value; a value that is not finite is not a number of any document, and refused before.
+pub fn decimal(value: f64) -> String {
+    let mut text = String::new();
+    write(value, |part| text.push_str(part));
+    text
+}
+
+/// The same in parts.
+pub(super) fn write(value: f64, mut push: impl FnMut(&str)) {
+    debug_assert!(value.is_finite(), "only finite numbers are written");
+    let magnitude = value.abs();
+    if magnitude == 0.0 {
+        return push("0.0");
+    }
+    let plain = (1e-4..1e16).contains(&magnitude);
+    let mut buffer = zmij::Buffer::new();
+    let shortest = buffer.format_finite(value);
+    if may_be_midway(value, shortest) {
+        let digits = if plain { format!("{value}") } else { format!("{value:e}") };
+        return push_parts(&digits, push);
+    }
+    match shortest.strip_prefix('-').unwrap_or(shortest).strip_prefix("0.0000") {
+        // From 1e-5 to 1e-4.
+        Some(digits) if !plain => {
+            let (first, others) = digits.split_at(1);
+            push(if value < 0.0 { "-" } else { "" });
+            push(first);
+            push(".");
+            push(if others.is_empty() { "0" } else { others });
+            push("e-05");
+        }
+        _ if plain => push(shortest),
+        _ => push_parts(shortest, push),
+    }
+}
+
+/// A number in digits of the rule, from the digits of any other form.
+fn push_parts(digits: &str, mut push: impl FnMut(&str)) {
+    let (mantissa, exponent) = digits.split_once('e').map_or((digits, None), |(m, e)| (m, Some(e)));
+    push(mantissa);
+    push(if mantissa.contains('.') { "" } else { ".0" });
+    if let Some(exponent) = exponent {
+        let unsigned = exponent.trim_start_matches(['-', '+']);
+        push(if exponent.starts_with('-') { "e-" } else { "e+" });
+        push(if unsigned.len() < 2 { "0" } else { "" });
+        push(unsigned);
+    }
+}
+
+/// Whether a value may lie exactly between two decimals of so many places: then zmij takes the even one and the standard
+/// library the larger, which is what has always been written.
+///
+/// odd/2^f = (2k + 1)/(2·10^d) needs f = d + 1; and shortest decimals of d places are no coarser than the value's own
+/// steps of 2^-52 of it, which ends at f = 25.
+fn may_be_midway(value: f64, shortest: &str) -> bool {
+    const MOST_BINARY_PLACES: i64 = 25;
+    let bits = value.to_bits();
+    let exponent = (bits >> 52 & 0x7FF) as i64;
+    let mantissa = bits & ((1 << 52) - 1) | 1 << 52;
+    let binary_places = 1075 - exponent - i64::from(mantissa.trailing_zeros());
+    binary_places <= MOST_BINARY_PLACES && {
+        let (mantissa, exponent) = shortest.split_once('e').unwrap_or((shortest, "0"));
+        let places = mantissa.split_once('.').map_or(0, |(_, places)| places.len() as i64);
+        binary_places == places - exponent.parse().unwrap_or(0) + 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Expected texts from `contract`: a point always, an exponent with sign and two digits, `0.0` for both zeros.
+    #[test]
+    fn numbers_have_one_form() {
+        let cases = [
+            (0.0, "0.0"),
+            (-0.0, "0.0"),
+            (1.0, "1.0"),
+            (-20.0, "-20.0"),
+            (0.1, "0.1"),
+            (1e-4, "0.0001"),
+            (9.999e-5, "9.999e-05"),
+            (1e-6, "1.0e-06"),
+            (-2.5e-300, "-2.5e-300"),
+            (5e-324, "5.0e-324"),
+            (1e15, "1000000000000000.0"),
+            (1e16, "1.0e+16"),
+            (1.7976931348623157e308, "1.7976931348623157e+308"),
+            (15.04106687606545, "15.04106687606545"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(decimal(value), text);
+        }
+    }
+
+    /// Expected: what the standard library finds, in the form of the rule, for values of every size.
+    #[test]
+    fn numbers_are_those_of_the_standard_library() {
+        let due = |value: f64| {
+            if (1e-4..1e16).contains(&value.abs()) {
+                let decimal = format!("{value}");
+                return if decimal.contains('.') { decimal } else { decimal + ".0" };
+            }
+            let scientific = format!("{value:e}");
+            let (mantissa, exponent) = scientific.split_once('e').unwrap();
+            let point = if mantissa.contains('.') { "" } else { ".0" };
+            let exponent: i32 = exponent.parse().unwrap();
+            format!("{mantissa}{point}e{}{:02}", if exponent < 0 { '-' } else { '+' }, exponent.abs())
+        };
+        let mut stream = crate::statistics::random::Stream::new(5);
+        let mut bits = || (stream.unit() * (1_u64 << 53) as f64) as u64 * 2048 + stream.below(2048) as u64;
+        for _ in 0..200_000 {
+            let value = f64::from_bits(bits());
+            if value.is_finite() && value != 0.0 {
+                assert_eq!(decimal(value), due(value), "{:x}", value.to_bits());
+            }
+        }
+        // Midway between two decimals of sixteen digits.
+        for value in [-8_895_655_562_136_013.0 / 4.0, 1_073_741_825.0 / 2048.0, 1_125_899_906_842_624.125] {
+            assert_eq!(decimal(value), due(value));
+        }
+        for bits in 20..52 {
+            for odd in 0..500 {
+                let value =
+                    f64::from(2 * odd + 1) * libm::pow(2.0, f64::from(bits - 52)) + libm::pow(2.0, f64::from(bits));
+                assert_eq!(decimal(value), due(value));
+            }
+        }
+        for exponent in -20..20 {
+            for digits in 1..2000 {
+                let value = f64::from(digits) * libm::pow(10.0, f64::from(exponent));
+                assert_eq!(decimal(-value), due(-value));
+            }
+        }
+    }
+}
