@@ -84,11 +84,21 @@ pub fn reason(error: &io::Error) -> String {
 /// # Errors
 /// [`FileError::Read`], [`FileError::Folder`], [`FileError::TooLarge`].
 pub fn read(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
-    let bytes = read_first(path, limit + 1)?;
+    let mut bytes = Vec::new();
+    read_into(&mut bytes, path, limit)?;
+    Ok(bytes)
+}
+
+/// The same into `bytes`, in place of what they were: the memory of one file serves the next.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(), FileError> {
+    read_first_into(bytes, path, limit + 1)?;
     if bytes.len() > limit {
         return Err(FileError::TooLarge { path: path.to_owned(), limit });
     }
-    Ok(bytes)
+    Ok(())
 }
 
 /// The first `limit` bytes of a file, or all of it when it is shorter.
@@ -96,6 +106,12 @@ pub fn read(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
 /// # Errors
 /// [`FileError::Read`], [`FileError::Folder`].
 pub fn read_first(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
+    let mut bytes = Vec::new();
+    read_first_into(&mut bytes, path, limit)?;
+    Ok(bytes)
+}
+
+fn read_first_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(), FileError> {
     let failed = |error| FileError::Read { path: path.to_owned(), error };
     let file = File::open(path).map_err(failed)?;
     let found = file.metadata().map_err(failed)?;
@@ -104,9 +120,10 @@ pub fn read_first(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
     }
     // With one byte more than there are, the end is seen without another look.
     let length = usize::try_from(found.len()).unwrap_or(limit).min(limit);
-    let mut bytes = Vec::with_capacity(length.saturating_add(1));
-    file.take(limit as u64).read_to_end(&mut bytes).map_err(failed)?;
-    Ok(bytes)
+    bytes.clear();
+    bytes.reserve_exact(length.saturating_add(1));
+    file.take(limit as u64).read_to_end(bytes).map_err(failed)?;
+    Ok(())
 }
 
 /// Who may read a new file.

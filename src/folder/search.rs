@@ -100,10 +100,10 @@ pub fn register(
     let withdrawn = withdraw(&found.revocation_lists, &mut trust, question.time);
     alarms.extend(withdrawn.alarms);
     let passports: Vec<PathBuf> = found.passports.into_iter().chain(withdrawn.no_lists).collect();
-    let verifier = || Verifier::new(&trust);
-    let read = parallel::map_with(&passports, threads, verifier, |verifier, path| {
-        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES)?;
-        Ok(examine(&name(path), &bytes, verifier, question.time, within_days))
+    let verifier = || (Verifier::new(&trust), Vec::new());
+    let read = parallel::map_with(&passports, threads, verifier, |(verifier, bytes), path| {
+        files::read_into(bytes, path, LARGEST_DOCUMENT_BYTES)?;
+        Ok(examine(&name(path), bytes, verifier, question.time, within_days))
     });
     let mut examined = Vec::with_capacity(passports.len());
     for file in read {

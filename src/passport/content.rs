@@ -178,7 +178,11 @@ pub fn derive(positions: &[CertifiedPosition], site: &Site, gyro: &Parameters) -
 
 /// The same from the geometry of the positions.
 pub fn derive_from(geometry: &StandGeometry, site: &Site, gyro: &Parameters) -> Derived {
-    let earth = site.earth();
+    derive_at(geometry, site.earth(), gyro)
+}
+
+/// The same from what the Earth does at the site, too.
+pub fn derive_at(geometry: &StandGeometry, earth: Earth, gyro: &Parameters) -> Derived {
     let coefficients = geometry.at(earth.rate());
     let vectors = coefficients.positions.iter().map(PositionVectors::from_model).collect();
     let matrices = coefficients.matrices.as_ref().map(MatrixRows::from_model);
@@ -323,12 +327,16 @@ impl Content {
 
     /// Every rule of the content that its own inputs do not already settle.
     pub(crate) fn check(&self, problems: &mut Problems) {
+        check_inputs(&self.certificate, &self.positions, &self.site, problems);
+        self.check_but_for_inputs(problems);
+    }
+
+    /// The same without [`check_inputs`].
+    pub(super) fn check_but_for_inputs(&self, problems: &mut Problems) {
         let at = Path::Root;
         if self.format != PASSPORT_FORMAT {
             problems.at(&at.key("format"), format!("{:?}", self.format), format!("{PASSPORT_FORMAT:?}"), "");
         }
-        stand::check(&self.certificate, &self.positions, problems);
-        self.site.check(&at.key("site"), problems);
         if let Some(accuracy) = &self.accuracy {
             accuracy.check(&at.key("accuracy"), problems);
         }
@@ -363,6 +371,17 @@ impl Content {
             problems.at(&at.key("positions"), "positions out of order", "positions sorted by i, then j", "");
         }
     }
+}
+
+/// The rules of what the numbers are computed from.
+pub(super) fn check_inputs(
+    certificate: &Certificate,
+    positions: &[CertifiedPosition],
+    site: &Site,
+    problems: &mut Problems,
+) {
+    stand::check(certificate, positions, problems);
+    site.check(&Path::Root.key("site"), problems);
 }
 
 /// `<model>/<serial>/<site id>/<revision>`.

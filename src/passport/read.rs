@@ -1,70 +1,18 @@
 //! Step 5 of verification: the signed text, and nothing else, becomes the content of a passport.
 
 use super::NAMESPACE;
-use super::content::{Content, Derived, Header, derive};
+use super::content::Content;
+use super::expectation::Expectation;
 use crate::document::{self, SignedText};
-use crate::gyro::{GyroType, Parameters};
-use crate::site::Site;
-use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity};
+use crate::text::Unreadable;
 use crate::text::canonical::{self, Memory};
-use crate::text::{Path, Problems, Unreadable, record};
 
-/// The keys whose values every passport of a stand has alike.
-const OF_THE_STAND: [&str; 4] = ["stand", "certificate", "datum", "positions"];
+/// The keys whose values many passports have alike: those of one stand, those for one site.
+const IN_COMMON: [&str; 5] = ["stand", "certificate", "datum", "positions", "site"];
 
-/// A memory for passports of one stand.
+/// A memory for many passports.
 pub fn memory() -> Memory {
-    Memory::of(&OF_THE_STAND)
-}
-
-record! {
-    /// What a passport begins with: all the rest follows from it, the gyro of the self-check and the accuracy aside.
-    pub struct Given {
-        /// As of [`Content`].
-        pub format: String,
-        /// As of [`Content`].
-        pub passport: Header,
-        /// As of [`Content`].
-        pub stand: Identity,
-        /// As of [`Content`].
-        pub certificate: Certificate,
-        /// As of [`Content`].
-        pub datum: Option<Datum>,
-        /// As of [`Content`].
-        pub positions: Vec<CertifiedPosition>,
-        /// As of [`Content`].
-        pub site: Site,
-    }
-}
-
-impl Given {
-    /// What the whole passport says when its self-check is for this gyro.
-    fn whole(self, gyro: &Parameters) -> Option<Content> {
-        // What is computed from comes first: nobody has looked at it.
-        let check = |given: &Self, problems: &mut Problems| {
-            stand::check(&given.certificate, &given.positions, problems);
-            given.site.check(&Path::Root, problems);
-        };
-        if !document::obeys(&self, check) {
-            return None;
-        }
-        let Derived { earth, matrices, vectors, self_check } = derive(&self.positions, &self.site, gyro).ok()?;
-        let Self { format, passport, stand, certificate, datum, positions, site } = self;
-        Some(Content {
-            format,
-            passport,
-            stand,
-            certificate,
-            datum,
-            positions,
-            site,
-            earth,
-            matrices,
-            vectors,
-            self_check,
-            accuracy: None,
-        })
-    }
+    Memory::of(&IN_COMMON)
 }
 
 /// A content that was read.
@@ -72,27 +20,27 @@ impl Given {
 pub struct Read {
     /// What the text says.
     pub content: Content,
-    /// Whether it is known already that all that [`derive()`] gives stands there bit for bit.
+    /// Whether it is known already that all that follows from its inputs stands there bit for bit.
     pub follows: bool,
 }
 
 /// Reads passport after passport. What it reads is what [`content`] reads; it does so sooner where passports of one stand
-/// follow each other, and have their self-check for one gyro.
+/// follow each other, are for the same sites, and have their self-check for one gyro.
 #[derive(Debug, Clone)]
 pub struct Reader {
     memory: Memory,
-    gyro: Parameters,
+    expectation: Expectation,
 }
 
 impl Reader {
     /// For many passports.
     pub fn new() -> Self {
-        Self { memory: memory(), ..Self::for_one() }
+        Self { memory: memory(), expectation: Expectation::new() }
     }
 
     /// For one passport.
     pub fn for_one() -> Self {
-        Self { memory: Memory::none(), gyro: GyroType::gvk_6().nominal }
+        Self { memory: Memory::none(), expectation: Expectation::new() }
     }
 
     /// Parses the payload of a passport: see [`document::parse`].
@@ -100,24 +48,18 @@ impl Reader {
     /// # Errors
     /// As [`content`].
     pub fn read(&mut self, name: &str, payload: &str) -> Result<Read, Unreadable> {
-        if let Some(content) = self.predicted(payload).filter(|content| document::obeys(content, Content::check)) {
+        if let Some(content) = self.predicted(payload) {
             return Ok(Read { content, follows: true });
         }
         let content = document::parse(name, payload, &mut self.memory, Content::check)?;
-        if let Some(self_check) = &content.self_check {
-            self.gyro = self_check.parameters();
-        }
+        self.expectation.learn(&content);
         Ok(Read { content, follows: false })
     }
 
-    /// The content of a text that says of its numbers what this program computes.
+    /// The content of a text that obeys every rule, and says of its numbers what this program computes.
     fn predicted(&mut self, payload: &str) -> Option<Content> {
-        const ACCURACY: &[u8] = b"\naccuracy:";
-        if memchr::memmem::find(payload.as_bytes(), ACCURACY).is_some() {
-            return None;
-        }
-        let gyro = &self.gyro;
-        canonical::read_predicted(payload, &mut self.memory, |given: Given| given.whole(gyro))
+        let content = canonical::read_predicted(payload, &mut self.memory, |given| self.expectation.content(given));
+        content.filter(|content| document::obeys(content, Content::check_but_for_inputs))
     }
 }
 
@@ -203,7 +145,7 @@ uncertainty: {}
         let quick = document::quickly_read(text, &mut Memory::none(), Content::check);
         let remembering = document::quickly_read(text, &mut known.memory.clone(), Content::check);
         assert_eq!(quick, remembering, "{text}");
-        let predicted = known.clone().predicted(text).filter(|content| document::obeys(content, Content::check));
+        let predicted = known.clone().predicted(text);
         if predicted.is_some() {
             // Of equal numbers 0.0 and -0.0 are two.
             assert_eq!(format!("{predicted:?}"), format!("{quick:?}"), "{text}");

@@ -96,15 +96,11 @@ pub(super) fn is_printable_ascii(bytes: &[u8]) -> bool {
 /// Whether a text obeys the rule as far as can be told from many bytes at once: of one with an escape in a string it
 /// cannot, nor of one with a line that might be a document marker.
 fn obeys_at_first_sight(text: &str) -> bool {
-    let mut starts = memchr::memchr_iter(b'\n', text.as_bytes()).map(|end| end + 1);
-    if text.starts_with(['-', '.']) || starts.any(|start| text[start..].starts_with(['-', '.'])) {
-        return false;
-    }
     let mut rest = text;
     let mut at_line_start = true;
     while let Some(at) = memchr::memchr2(b'"', b'#', rest.as_bytes()) {
         let (outside, inside) = (&rest[..at], &rest[at + 1..]);
-        if !may_stand_outside(outside.as_bytes()) {
+        if !may_stand_outside(outside.as_bytes(), at_line_start) {
             return false;
         }
         let comment = rest[at..].starts_with('#');
@@ -127,11 +123,12 @@ fn obeys_at_first_sight(text: &str) -> bool {
         }
         at_line_start = comment;
     }
-    may_stand_outside(rest.as_bytes())
+    may_stand_outside(rest.as_bytes(), at_line_start)
 }
 
-/// Whether all bytes are ends of lines or characters that [`allowed_outside`] lets through.
-fn may_stand_outside(bytes: &[u8]) -> bool {
+/// Whether lines, or the rest of one, hold only characters that [`allowed_outside`] lets through, and none begins as a
+/// document marker does.
+fn may_stand_outside(bytes: &[u8], at_line_start: bool) -> bool {
     const fn may(byte: u8) -> bool {
         matches!(byte, b'a'..=b'{' | b'0'..=b':' | b'+'..=b'.' | b' ' | b'[' | b']' | b'_' | b'}' | b'\n')
     }
@@ -144,10 +141,22 @@ fn may_stand_outside(bytes: &[u8]) -> bool {
         }
         table
     };
+    let marks = |byte: u8| (byte == b'-') | (byte == b'.');
+    let begins = |before: u8, byte: u8| (before == b'\n') & marks(byte);
+    if at_line_start && bytes.first().is_some_and(|byte| marks(*byte)) {
+        return false;
+    }
     // Whole blocks to their end: so the compiler looks at all bytes of one at once.
     let (blocks, others) = bytes.as_chunks::<32>();
-    let all = |block: &[u8; 32]| block.iter().fold(true, |all, byte| all & may(*byte));
-    blocks.iter().all(all) && others.iter().all(|byte| MAY[usize::from(*byte)])
+    let all_may = |block: &[u8; 32]| block.iter().fold(true, |all, byte| all & may(*byte));
+    let (next_blocks, _) = bytes.get(1..).unwrap_or_default().as_chunks::<32>();
+    let any_begins = |(block, next): (&[u8; 32], &[u8; 32])| {
+        block.iter().zip(next).fold(false, |any, (before, byte)| any | begins(*before, *byte))
+    };
+    blocks.iter().all(all_may)
+        && others.iter().all(|byte| MAY[usize::from(*byte)])
+        && !blocks.iter().zip(next_blocks).any(any_begins)
+        && !bytes[32 * next_blocks.len()..].windows(2).any(|pair| begins(pair[0], pair[1]))
 }
 
 /// The byte offset of the first character of a line that breaks the rule, what it is, and what was expected.
@@ -279,6 +288,14 @@ mod tests {
             }
         }
         assert!(seen > 1000, "{seen}");
+        // Wherever in a block.
+        for length in 0..100 {
+            let line = "a".repeat(length);
+            assert!(obeys_at_first_sight(&format!("{line}\n  - b\n")));
+            for bad in ["\n---\n", "\n...\n", "A\n", "\n\tb\n"] {
+                assert!(!obeys_at_first_sight(&format!("{line}{bad}")), "{length} {bad:?}");
+            }
+        }
     }
 
     #[test]

@@ -3,16 +3,23 @@
 use super::after_comments;
 use crate::text::Field;
 use std::any::Any;
+use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Values of keys at the top of a document, each with its text: the newest of every key that is to be remembered.
+/// So many bytes of text are kept; with the next document it begins anew.
+const MOST_BYTES: usize = 1 << 20;
+
+/// Values of keys at the top of documents, each with its text; of several values of a key that begin with the same line
+/// the newest.
 ///
 /// What an entry says depends on its own text alone, and only what was canonical is kept. So a document read with a memory
 /// says what it says without.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Memory {
     keys: &'static [&'static str],
-    entries: Vec<Entry>,
+    /// By key and first line.
+    entries: HashMap<&'static str, HashMap<String, Entry>>,
+    bytes: usize,
 }
 
 /// A value with the text behind its key.
@@ -33,7 +40,7 @@ impl PartialEq for Entry {
 impl Memory {
     /// For documents that often have the values of these keys in common.
     pub fn of(keys: &'static [&'static str]) -> Self {
-        Self { keys, entries: Vec::new() }
+        Self { keys, ..Self::default() }
     }
 
     /// Nothing is remembered.
@@ -47,7 +54,7 @@ impl Memory {
 
     /// The value of a key when the `text` behind it begins as the one that is remembered, and the value ends there.
     pub(super) fn recall<T: Field>(&self, key: &str, text: &str) -> Option<(&Entry, T)> {
-        let entry = self.entries.iter().find(|entry| entry.key == key)?;
+        let entry = self.entries.get(key)?.get(first_line(text)?)?;
         let rest = text.strip_prefix(&*entry.text)?;
         // Another item of a list, or another key of a mapping, would be indented.
         let next = after_comments(rest.as_bytes()).first();
@@ -56,11 +63,24 @@ impl Memory {
         Some((entry, value.clone()))
     }
 
-    /// Keeps entries that are canonical, in place of what is remembered of their keys.
+    /// Keeps entries that are canonical.
     pub(super) fn keep(&mut self, new: Vec<Entry>) {
-        self.entries.retain(|entry| new.iter().all(|new| new.key != entry.key));
-        self.entries.extend(new);
+        if self.bytes > MOST_BYTES {
+            self.entries.clear();
+            self.bytes = 0;
+        }
+        for entry in new {
+            let Some(line) = first_line(&entry.text) else { continue };
+            self.bytes += entry.text.len();
+            self.entries.entry(entry.key).or_default().insert(line.to_owned(), entry);
+        }
     }
+}
+
+/// The line of a key, or of a mapping or list the first of its own.
+fn first_line(text: &str) -> Option<&str> {
+    let end = memchr::memchr(b'\n', text.as_bytes().get(1..)?)?;
+    text.get(..=end)
 }
 
 impl Entry {
