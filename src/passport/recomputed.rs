@@ -45,7 +45,7 @@ pub fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
     if !states_the_same(content, &derived) {
         compare_derived(content, &derived, &mut wrong);
     }
-    check_the_rest(content, &mut wrong);
+    wrong.extend(wrong_in_the_rest(content));
     if wrong.is_empty() { Ok(()) } else { Err(wrong) }
 }
 
@@ -54,12 +54,12 @@ pub fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
 /// # Errors
 /// As [`compare`].
 pub fn compare_the_rest(content: &Content) -> Result<(), Vec<WrongNumber>> {
-    let mut wrong = Vec::new();
-    check_the_rest(content, &mut wrong);
+    let wrong = wrong_in_the_rest(content);
     if wrong.is_empty() { Ok(()) } else { Err(wrong) }
 }
 
-fn check_the_rest(content: &Content, wrong: &mut Vec<WrongNumber>) {
+fn wrong_in_the_rest(content: &Content) -> Vec<WrongNumber> {
+    let mut wrong = Vec::new();
     // Consistent numbers are not enough: of an absurd gyro no software finds the parameters again.
     if let Some(self_check) = &content.self_check {
         let error = self_check.error(&content.coefficients());
@@ -68,7 +68,8 @@ fn check_the_rest(content: &Content, wrong: &mut Vec<WrongNumber>) {
             wrong.push(WrongNumber { field, stated: 0.0, computed: error });
         }
     }
-    compare_accuracy(content, wrong);
+    compare_accuracy(content, &mut wrong);
+    wrong
 }
 
 /// Whether every number is the one computed, bit for bit: so it is where the same program computed both.
