@@ -52,15 +52,16 @@ impl Memory {
         self.keys.contains(&key)
     }
 
-    /// The value of a key when the `text` behind it begins as the one that is remembered, and the value ends there.
-    pub(super) fn recall<T: Field>(&self, key: &str, text: &str) -> Option<(&Entry, T)> {
+    /// The value of a key when the `text` behind it begins as the one that is remembered, and the value ends there; with what
+    /// follows it.
+    pub(super) fn recall<'t, T: Field>(&self, key: &str, text: &'t str) -> Option<(&Entry, T, &'t str)> {
         let entry = self.entries.get(key)?.get(first_line(text)?)?;
         let rest = text.strip_prefix(&*entry.text)?;
         // Another item of a list, or another key of a mapping, would be indented.
         let next = after_comments(rest.as_bytes()).first();
         let ends = next.is_none_or(u8::is_ascii_lowercase);
         let value = entry.value.downcast_ref::<T>().filter(|_| ends)?;
-        Some((entry, value.clone()))
+        Some((entry, value.clone(), rest))
     }
 
     /// Keeps entries that are canonical.

@@ -91,9 +91,9 @@ impl<'t> Scanner<'t> {
 
     /// A value that the memory knows, or that it is to keep.
     fn known_or_new<T: Field>(&mut self, key: &'static str) -> Option<T> {
-        if let Some((entry, value)) = self.memory.recall(key, self.rest) {
+        if let Some((entry, value, rest)) = self.memory.recall(key, self.rest) {
             self.known.push(entry);
-            self.take(entry.text())?;
+            self.rest = rest;
             return Some(value);
         }
         let from = self.rest;
