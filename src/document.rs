@@ -4,9 +4,9 @@
 //! every byte before `signature: |`.
 
 use crate::text::LARGEST_DOCUMENT_BYTES;
-use crate::text::canonical::{self, Memory};
+use crate::text::canonical::{self, NotCanonical};
 use crate::text::problem::{Location, Unreadable};
-use crate::text::{Field, Node, Path, Problems, rule};
+use crate::text::{Field, Problems, rule};
 use crate::trust::{AllowedSigners, KeyError, KeyPoint, Message, PublicKey, Signature, SignatureError, SigningKey};
 use sha2::{Digest, Sha256};
 
@@ -154,62 +154,20 @@ impl<'a> SignedText<'a> {
     }
 }
 
-/// Parses a payload and requires that its content, written again, gives the same lines, comments and blank lines aside
-/// (step 5). `check` knows the rules of the content.
-///
-/// What `memory` remembers of other documents is not read again.
+/// Parses a payload in its one form (step 5). `check` knows the rules of the content.
 ///
 /// Call it only on text whose signature holds.
 ///
 /// # Errors
-/// Every mistake of the content, or the first line that differs.
-pub fn parse<T: Field>(
-    name: &str,
-    payload: &str,
-    memory: &mut Memory,
-    check: impl Fn(&T, &mut Problems),
-) -> Result<T, Unreadable> {
-    match quickly_read(payload, memory, &check) {
-        Some(content) => Ok(content),
-        None => read(name, payload, check),
-    }
-}
-
-/// Reads a text in canonical form with the quick reader of that form; `None` when anything at all is wrong or different:
-/// then [`read`] finds the words for it.
-pub(crate) fn quickly_read<T: Field>(
-    payload: &str,
-    memory: &mut Memory,
-    check: impl Fn(&T, &mut Problems),
-) -> Option<T> {
-    canonical::read(payload, memory).filter(|content| obeys(content, check))
-}
-
-/// Whether a content obeys its rules.
-pub(crate) fn obeys<T>(content: &T, check: impl Fn(&T, &mut Problems)) -> bool {
+/// The first line that is not in canonical form, or every rule that the content breaks.
+pub fn parse<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut Problems)) -> Result<T, Unreadable> {
+    let content: T = canonical::read(payload).map_err(|NotCanonical { location, found, expected }| {
+        let advice = "this is not the canonical form; get the file from the issuer again";
+        Unreadable::whole(name, Some(location), found, expected, advice)
+    })?;
     let mut problems = Problems::new();
-    check(content, &mut problems);
-    problems.is_empty()
-}
-
-/// The same with the general reader of YAML, which knows the place of every mistake.
-pub(crate) fn read<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut Problems)) -> Result<T, Unreadable> {
-    let (node, text) = Node::from_yaml(name, payload.as_bytes())?;
-    let mut problems = Problems::new();
-    let content = T::read(&node, &Path::Root, &mut problems);
-    if let Some(content) = &content {
-        check(content, &mut problems);
-    }
-    let Some(content) = content.filter(|_| problems.is_empty()) else {
-        return Err(problems.refuse(name, &text));
-    };
-    match rule::differs(payload, &canonical::write_bare(&content)) {
-        None => Ok(content),
-        Some((line, found, expected)) => {
-            let advice = "the text is not as this format is written";
-            Err(Unreadable::whole(name, Some(Location { line, column: 1 }), found, expected, advice))
-        }
-    }
+    check(&content, &mut problems);
+    if problems.is_empty() { Ok(content) } else { Err(problems.refuse(name, payload)) }
 }
 
 /// SHA-256 of a file, lower-case hexadecimal.
@@ -282,5 +240,31 @@ mod tests {
         }
         let other = SignedText::split("x", good.as_bytes(), "dtg-revocation").unwrap_err();
         assert_eq!(other.other_namespace.as_deref(), Some(NAMESPACE));
+    }
+
+    /// Expected: by hand, the first line of a passport that is not in its form, the column of what is left to read.
+    #[test]
+    fn text_that_is_not_canonical_is_refused_with_its_place() {
+        let passport = include_str!("../passports/SPS-1/0203/moscow-bmstu-1.yaml");
+        let payload = &passport[..passport.find(SIGNATURE_LINE).unwrap()];
+        let refusal = |from: &str, to: &str| {
+            let altered = payload.replacen(from, to, 1);
+            assert_ne!(altered, payload, "{from}");
+            let line = altered.lines().zip(payload.lines()).take_while(|(a, b)| a == b).count() + 1;
+            let read = parse("p.yaml", &altered, crate::passport::content::Content::check);
+            (read.unwrap_err().to_string(), line)
+        };
+        let other_form = |from: &str, to: &str, expected: &str| {
+            let (words, line) = refusal(from, to);
+            assert!(words.starts_with(&format!("p.yaml:{line}:")), "{words}");
+            assert!(words.contains(expected), "{words}");
+        };
+        other_form("revision: 1", "revision: 01", "found `  revision: 01`, expected `  revision: 1`");
+        other_form("stand:\n", "stand:\n  colour: \"red\"\n", "found `  colour: \"red\"`, expected the next key");
+        other_form("  model: ", "  modell: ", "modell: ");
+        other_form("  revision: 1\n", "", "expected the next key of this format");
+        // What breaks a rule of the content is named by its field.
+        let (words, _) = refusal("latitude_deg: 55.7658", "latitude_deg: 95.7658");
+        assert!(words.contains("latitude_deg: found 95.7658"), "{words}");
     }
 }

@@ -4,7 +4,6 @@
 //! mistake of an issuer whose key is still good.
 
 use crate::document::{self, Malformed, SignedText, Signer, SigningFailed};
-use crate::text::canonical::Memory;
 use crate::text::problem::Unreadable;
 use crate::text::{Path, Problems, canonical, record, rule};
 use crate::trust::{AllowedSigners, Message, NotAuthorised, RevokedKeys, SignatureError};
@@ -151,7 +150,7 @@ impl RevocationList {
             Ok(payload) => payload,
             Err(error) => return Err(ListRefused::Altered { name, error }),
         };
-        let list: Self = document::parse(&name, payload, &mut Memory::none(), Self::check)?;
+        let list: Self = document::parse(&name, payload, Self::check)?;
         if let Err(miss) = signers.authorise(text.key(), &list.issuer, REVOCATION_NAMESPACE, list.issued_at) {
             return Err(ListRefused::NotAuthorised { name, miss });
         }

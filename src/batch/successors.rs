@@ -13,7 +13,7 @@ use crate::folder::Issued;
 use crate::folder::search::{self, Withdrawn, is_numbered, is_revocation_list};
 use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
-use crate::passport::{Question, Trust, Verifier, verify};
+use crate::passport::{Question, Trust, verify};
 use crate::register::{self, Line, State, examine, examined};
 use crate::site::Site;
 use crate::text::LARGEST_DOCUMENT_BYTES;
@@ -204,8 +204,8 @@ impl Run<'_> {
             if some.is_empty() || self.batch.cancelled() {
                 return chains;
             }
-            let (verifier, time) = (|| Verifier::new(trust), self.change.question.time);
-            let links = parallel::map_with(&some, self.batch.threads, verifier, |own, path| link(path, own, time));
+            let time = self.change.question.time;
+            let links = parallel::map(&some, self.batch.threads, |path| link(path, trust, time));
             links.into_iter().flatten().for_each(|(superseded, follower)| chains.add(superseded, follower));
         }
     }
@@ -372,10 +372,10 @@ impl Chains {
 }
 
 /// What a file supersedes, and as what.
-fn link(path: &Path, verifier: &mut Verifier, time: Timestamp) -> Option<(Digest, Follower)> {
+fn link(path: &Path, trust: &Trust, time: Timestamp) -> Option<(Digest, Follower)> {
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).ok()?;
     memchr::memmem::find(&bytes, SUPERSEDES)?;
-    let examined = examine(&path.display().to_string(), &bytes, verifier, time, None);
+    let examined = examine(&path.display().to_string(), &bytes, trust, time, None);
     let (superseded, line) = (digest(examined.supersedes()?)?, examined.line());
     let id = line.id.clone()?.into();
     Some((

@@ -3,7 +3,7 @@
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
 use crate::parallel;
-use crate::passport::{Question, Trust, Verifier};
+use crate::passport::{Question, Trust};
 use crate::register::{Alarm, Register, examine};
 use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
 use crate::text::LARGEST_DOCUMENT_BYTES;
@@ -100,10 +100,9 @@ pub fn register(
     let withdrawn = withdraw(&found.revocation_lists, &mut trust, question.time);
     alarms.extend(withdrawn.alarms);
     let passports: Vec<PathBuf> = found.passports.into_iter().chain(withdrawn.no_lists).collect();
-    let verifier = || (Verifier::new(&trust), Vec::new());
-    let read = parallel::map_with(&passports, threads, verifier, |(verifier, bytes), path| {
+    let read = parallel::map_with(&passports, threads, Vec::new, |bytes, path| {
         files::read_into(bytes, path, LARGEST_DOCUMENT_BYTES)?;
-        Ok(examine(&name(path), bytes, verifier, question.time, within_days))
+        Ok(examine(&name(path), bytes, &trust, question.time, within_days))
     });
     let mut examined = Vec::with_capacity(passports.len());
     for file in read {

@@ -6,12 +6,11 @@ use super::content::{Content, Header, PASSPORT_FORMAT, Predecessor, derive_from,
 use super::{NAMESPACE, read};
 use crate::calibration::prediction::{NoiseGrowth, noise_growth};
 use crate::coefficients::{SingularPositions, StandGeometry};
-use crate::document::{self, Signer, SigningFailed, join};
+use crate::document::{Signer, SigningFailed, join};
 use crate::gyro::Parameters;
 use crate::laboratory::Laboratory;
 use crate::site::Site;
 use crate::stand::{CertifiedPosition, Stand};
-use crate::text::canonical::{self, Memory};
 use crate::text::scalar::day;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, rule};
 use crate::trust::{Message, SignatureError};
@@ -133,31 +132,14 @@ pub struct Draft {
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreparedStand {
     stand: Stand,
-    geometry: Result<(StandGeometry, StandText), SingularPositions>,
-}
-
-/// A stand's part of the text, and what a reader finds in it.
-#[derive(Debug, Clone, PartialEq)]
-struct StandText {
-    text: String,
-    read: Memory,
-}
-
-impl StandText {
-    fn new(stand: &Stand, geometry: &StandGeometry) -> Self {
-        let text = annotations::payload_of_stand(stand, geometry.has_eight());
-        let mut read = read::memory();
-        // What cannot be read is not remembered, and every passport is refused when it is read back.
-        let _ = canonical::read::<Stand>(&format!("format: {}\n{text}", rule::quoted(&stand.format)), &mut read);
-        Self { text, read }
-    }
+    geometry: Result<(StandGeometry, String), SingularPositions>,
 }
 
 impl PreparedStand {
     /// Prepares a stand. One without passports, since n_2 has no inverse, says so when a passport is asked for.
     pub fn new(stand: Stand) -> Self {
         let geometry = stand.geometry().map(|geometry| {
-            let text = StandText::new(&stand, &geometry);
+            let text = annotations::payload_of_stand(&stand, geometry.has_eight());
             (geometry, text)
         });
         Self { stand, geometry }
@@ -177,11 +159,11 @@ impl PreparedStand {
         let (geometry, text) = self.geometry.as_ref().map_err(|singular| *singular)?;
         let content = content(&self.stand, geometry, site, issue)?;
         check_dates(&content)?;
-        let payload = annotations::payload_with(&content, &text.text);
+        let payload = annotations::payload_with(&content, text);
         if payload.len() + LONGEST_SIGNATURE > LARGEST_DOCUMENT_BYTES {
             return Err(IssueRefused::TooLarge { bytes: payload.len() });
         }
-        let read_back = read_back(&payload, &content, &text.read)?;
+        let read_back = read_back(&payload, &content)?;
         if let Some(self_check) = &read_back.self_check {
             let error = self_check.error(&read_back.coefficients());
             if error.is_nan() || error > SELF_CHECK_LIMIT {
@@ -254,15 +236,9 @@ fn check_dates(content: &Content) -> Result<(), IssueRefused> {
 }
 
 /// The written text is read again by the verifier's reader, and its content compared with what was written.
-fn read_back(payload: &str, content: &Content, memory: &Memory) -> Result<Content, IssueRefused> {
+fn read_back(payload: &str, content: &Content) -> Result<Content, IssueRefused> {
     const NAME: &str = "the new passport";
     rule::check(NAME, payload.as_bytes()).map_err(IssueRefused::ReadBack)?;
-    // That it is in its one form follows: what is written of equal content is equal.
-    let same = |read: &Content| read == content && document::obeys(read, Content::check);
-    if let Some(read) = canonical::scan(payload, memory).filter(same) {
-        debug_assert!(canonical::is_written(&read, payload), "equal content, written in another way");
-        return Ok(read);
-    }
     let read = read::content(NAME, payload).map_err(IssueRefused::ReadBack)?;
     if read != *content {
         let fault = Unreadable::whole(NAME, None, "other content", "the content that was written", "");

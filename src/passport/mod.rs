@@ -4,7 +4,6 @@
 //! * [`accuracy`]: what the stand is good for, for a stated gyro and meter.
 //! * [`annotations`]: the comments that stand between them.
 //! * [`read`]: signed text to content, canonical form required.
-//! * [`expectation`]: what a text says when its numbers are those computed here.
 //! * [`issue`]: a stand and a site to a signed passport.
 //! * [`recomputed`]: every number again from the signed inputs.
 //! * [`checks`]: names and verdicts of the checks.
@@ -16,7 +15,6 @@ pub mod accuracy;
 pub mod annotations;
 pub mod checks;
 pub mod content;
-pub mod expectation;
 pub mod issue;
 pub mod place;
 pub mod read;
@@ -26,7 +24,7 @@ pub mod verification;
 
 pub use checks::{Check, CheckName, Code};
 pub use content::Content;
-pub use verification::{Question, Trust, Verification, Verifier, verify};
+pub use verification::{Question, Trust, Verification, verify};
 
 /// The namespace that passports are signed for.
 pub const NAMESPACE: &str = "dtg-passport";

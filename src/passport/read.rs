@@ -2,79 +2,15 @@
 
 use super::NAMESPACE;
 use super::content::Content;
-use super::expectation::Expectation;
 use crate::document::{self, SignedText};
 use crate::text::Unreadable;
-use crate::text::canonical::{self, Memory};
-
-/// The keys whose values many passports have alike: those of one stand, those for one site.
-const IN_COMMON: [&str; 5] = ["stand", "certificate", "datum", "positions", "site"];
-
-/// A memory for many passports.
-pub fn memory() -> Memory {
-    Memory::of(&IN_COMMON)
-}
-
-/// A content that was read.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Read {
-    /// What the text says.
-    pub content: Content,
-    /// Whether it is known already that all that follows from its inputs stands there bit for bit.
-    pub follows: bool,
-}
-
-/// Reads passport after passport. What it reads is what [`content`] reads; it does so sooner where passports of one stand
-/// follow each other, are for the same sites, and have their self-check for one gyro.
-#[derive(Debug, Clone)]
-pub struct Reader {
-    memory: Memory,
-    expectation: Expectation,
-}
-
-impl Reader {
-    /// For many passports.
-    pub fn new() -> Self {
-        Self { memory: memory(), expectation: Expectation::new() }
-    }
-
-    /// For one passport.
-    pub fn for_one() -> Self {
-        Self { memory: Memory::none(), expectation: Expectation::new() }
-    }
-
-    /// Parses the payload of a passport: see [`document::parse`].
-    ///
-    /// # Errors
-    /// As [`content`].
-    pub fn read(&mut self, name: &str, payload: &str) -> Result<Read, Unreadable> {
-        if let Some(content) = self.predicted(payload) {
-            return Ok(Read { content, follows: true });
-        }
-        let content = document::parse(name, payload, &mut self.memory, Content::check)?;
-        self.expectation.learn(&content);
-        Ok(Read { content, follows: false })
-    }
-
-    /// The content of a text that obeys every rule, and says of its numbers what this program computes.
-    fn predicted(&mut self, payload: &str) -> Option<Content> {
-        let content = canonical::read_predicted(payload, &mut self.memory, |given| self.expectation.content(given));
-        content.filter(|content| document::obeys(content, Content::check_but_for_inputs))
-    }
-}
-
-impl Default for Reader {
-    fn default() -> Self {
-        Self::new()
-    }
-}
 
 /// Parses the payload of a passport: see [`document::parse`].
 ///
 /// # Errors
-/// Every mistake of the content, or the first line that is not in its one form.
+/// The first line that is not in its one form, or every mistake of the content.
 pub fn content(name: &str, payload: &str) -> Result<Content, Unreadable> {
-    Ok(Reader::for_one().read(name, payload)?.content)
+    document::parse(name, payload, Content::check)
 }
 
 /// The content of a passport file of which nothing is verified but its form: anybody may have written it.
@@ -90,7 +26,7 @@ pub fn unverified(name: &str, bytes: &[u8]) -> Result<Content, Unreadable> {
 mod tests {
     use super::*;
     use crate::passport::annotations;
-    use crate::text::rule;
+    use crate::text::{Field, Node, Path, Problems, canonical, rule};
 
     const PASSPORTS: [&str; 2] = [
         include_str!("../../passports/SPS-1/0203/moscow-bmstu-1.yaml"),
@@ -139,42 +75,31 @@ uncertainty: {}
         shipped.chain([full()]).collect()
     }
 
-    /// The quick reader takes what the general reader takes, with the same content, and nothing else; and so it does with a
-    /// memory of another passport of the stand.
-    fn readers_agree(text: &str, known: &Reader) -> bool {
-        let quick = document::quickly_read(text, &mut Memory::none(), Content::check);
-        let remembering = document::quickly_read(text, &mut known.memory.clone(), Content::check);
-        assert_eq!(quick, remembering, "{text}");
-        let predicted = known.clone().predicted(text);
-        if predicted.is_some() {
-            // Of equal numbers 0.0 and -0.0 are two.
-            assert_eq!(format!("{predicted:?}"), format!("{quick:?}"), "{text}");
-        }
-        let obeys = rule::check("t", text.as_bytes()).is_ok();
-        if quick.is_none() && !obeys {
-            return false;
-        }
-        let general = document::read("t", text, Content::check).ok();
-        if let Some(quick) = &quick {
-            assert_eq!(Some(quick), general.as_ref(), "{text}");
-        }
-        assert!(quick.is_some() || general.is_none(), "only the general reader takes it: {text}");
-        quick.is_some()
+    /// What a general reader of YAML makes of the text, when its content, written again, gives the same lines.
+    fn general(text: &str) -> Option<Content> {
+        let (node, _) = Node::from_yaml("t", text.as_bytes()).ok()?;
+        let mut problems = Problems::new();
+        let content = Content::read(&node, &Path::Root, &mut problems)?;
+        content.check(&mut problems);
+        let same = rule::differs(text, &canonical::write_bare(&content)).is_none();
+        (problems.is_empty() && same).then_some(content)
     }
 
-    /// A reader that has read this passport before.
-    fn known(payload: &str) -> Reader {
-        let mut reader = Reader::new();
-        reader.read("t", payload).unwrap();
-        let read = reader.read("t", payload).unwrap();
-        assert_eq!(read.follows, !payload.contains("\naccuracy:"), "{payload}");
-        reader
+    /// Whether the reader takes the text. It takes what a general reader of YAML takes, with the same content, and nothing
+    /// else, of all texts that obey the rule of signed texts.
+    fn readers_agree(text: &str) -> bool {
+        let read = content("t", text).ok();
+        if read.is_some() || rule::check("t", text.as_bytes()).is_ok() {
+            // Of equal numbers 0.0 and -0.0 are two.
+            assert_eq!(format!("{read:?}"), format!("{:?}", general(text)), "{text}");
+        }
+        read.is_some()
     }
 
     #[test]
     fn both_readers_take_every_passport() {
         for payload in payloads() {
-            assert!(readers_agree(&payload, &known(&payload)), "{payload}");
+            assert!(readers_agree(&payload), "{payload}");
             let content = content("t", &payload).unwrap();
             assert_eq!(annotations::payload(&content), payload);
         }
@@ -186,7 +111,6 @@ uncertainty: {}
         let mut taken = 0;
         // The shipped ones say nothing that the full one does not.
         for payload in payloads().split_off(1) {
-            let known = known(&payload);
             for at in (0..payload.len())
                 .step_by(2)
                 .filter(|at| payload.is_char_boundary(*at) && payload.is_char_boundary(at + 1))
@@ -199,7 +123,7 @@ uncertainty: {}
                     1 => format!("{before}{}", &after[1..]),
                     _ => format!("{before}{other}{after}"),
                 };
-                taken += usize::from(readers_agree(&altered, &known));
+                taken += usize::from(readers_agree(&altered));
             }
         }
         // Altered comments, names and numbers without a consequence.
@@ -209,7 +133,6 @@ uncertainty: {}
     #[test]
     fn readers_agree_on_every_altered_line() {
         for payload in payloads() {
-            let known = known(&payload);
             let lines: Vec<&str> = payload.lines().collect();
             for (at, line) in lines.iter().enumerate() {
                 let next = lines.get(at + 1).copied().unwrap_or_default();
@@ -235,7 +158,7 @@ uncertainty: {}
                 for other in others {
                     let mut altered = lines.clone();
                     altered[at] = &other;
-                    readers_agree(&format!("{}\n", altered.join("\n")), &known);
+                    readers_agree(&format!("{}\n", altered.join("\n")));
                 }
             }
         }
@@ -244,7 +167,6 @@ uncertainty: {}
     #[test]
     fn readers_agree_on_every_other_spelling_of_a_number() {
         for payload in payloads() {
-            let known = known(&payload);
             let digit = |c: char| c.is_ascii_digit() || "+-.e".contains(c);
             let mut at = 0;
             while let Some(start) = payload[at..].find([' ', '[']).map(|found| at + found + 1) {
@@ -270,7 +192,7 @@ uncertainty: {}
                 ];
                 for other in others {
                     let (before, after) = (&payload[..start], &payload[start + word.len()..]);
-                    readers_agree(&format!("{before}{other}{after}"), &known);
+                    readers_agree(&format!("{before}{other}{after}"));
                 }
             }
         }

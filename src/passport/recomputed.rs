@@ -45,21 +45,6 @@ pub fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
     if !states_the_same(content, &derived) {
         compare_derived(content, &derived, &mut wrong);
     }
-    wrong.extend(wrong_in_the_rest(content));
-    if wrong.is_empty() { Ok(()) } else { Err(wrong) }
-}
-
-/// The same of a passport whose earth, matrices, vectors and self-check are known to be what [`derive()`] gives.
-///
-/// # Errors
-/// As [`compare`].
-pub fn compare_the_rest(content: &Content) -> Result<(), Vec<WrongNumber>> {
-    let wrong = wrong_in_the_rest(content);
-    if wrong.is_empty() { Ok(()) } else { Err(wrong) }
-}
-
-fn wrong_in_the_rest(content: &Content) -> Vec<WrongNumber> {
-    let mut wrong = Vec::new();
     // Consistent numbers are not enough: of an absurd gyro no software finds the parameters again.
     if let Some(self_check) = &content.self_check {
         let error = self_check.error(&content.coefficients());
@@ -69,7 +54,7 @@ fn wrong_in_the_rest(content: &Content) -> Vec<WrongNumber> {
         }
     }
     compare_accuracy(content, &mut wrong);
-    wrong
+    if wrong.is_empty() { Ok(()) } else { Err(wrong) }
 }
 
 /// Whether every number is the one computed, bit for bit: so it is where the same program computed both.

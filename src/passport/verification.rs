@@ -5,8 +5,7 @@
 
 use super::checks::{Check, CheckName, Code};
 use super::content::{Content, PASSPORT_FORMAT};
-use super::read::{Read, Reader};
-use super::{NAMESPACE, place, recomputed};
+use super::{NAMESPACE, place, read, recomputed};
 use crate::coefficients::Coefficients;
 use crate::document::sha256_hex;
 use crate::document::{Malformed, SignedText};
@@ -150,47 +149,21 @@ impl Verification {
     }
 }
 
-/// Verifies the bytes of a passport; `name` is the file's name, for messages. Of many passports see [`Verifier`].
+/// Verifies the bytes of a passport; `name` is the file's name, for messages.
 ///
 /// Steps 1 to 3 are the check `grammar`, 4 `signature`, 5 `schema`, 6 `signer`, `revocation` and `in_force`; then every
 /// number is computed again, and what the question names is compared.
 pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> Verification {
-    Verifier { trust, reader: Reader::for_one() }.verify(name, bytes, question)
-}
-
-/// Verifies passport after passport. The answers are those of [`verify()`]; they come sooner where passports of one stand
-/// follow each other, for what these have alike is read once.
-#[derive(Debug, Clone)]
-pub struct Verifier<'t> {
-    trust: &'t Trust,
-    reader: Reader,
-}
-
-impl<'t> Verifier<'t> {
-    /// One that trusts so.
-    pub fn new(trust: &'t Trust) -> Self {
-        Self { trust, reader: Reader::new() }
-    }
-
-    /// Verifies the next one: see [`verify()`].
-    pub fn verify(&mut self, name: &str, bytes: &[u8], question: &Question) -> Verification {
-        run(name, bytes, self.trust, question, &mut self.reader)
-    }
-}
-
-fn run(name: &str, bytes: &[u8], trust: &Trust, question: &Question, reader: &mut Reader) -> Verification {
     let mut run = Run { checks: Vec::new() };
     let mut verification = Verification { checks: Vec::new(), key: None, content: None };
     if let Some(text) = run.grammar(name, bytes) {
         verification.key = Some(text.key().clone());
         if let Some(payload) = run.signature(&text, trust) {
-            let read = run.schema(name, payload, reader);
-            let follows = read.as_ref().is_some_and(|read| read.follows);
-            verification.content = read.map(|read| Box::new(read.content));
+            verification.content = run.schema(name, payload).map(Box::new);
             run.revocation(bytes, text.key(), verification.content.as_deref(), trust);
             if let Some(content) = &verification.content {
                 run.signer(text.key(), content, trust);
-                run.recomputed(content, follows);
+                run.recomputed(content);
                 run.in_force(content, question.time);
                 run.asked(content, question);
             }
@@ -253,11 +226,11 @@ impl Run {
         }
     }
 
-    fn schema(&mut self, name: &str, payload: &str, reader: &mut Reader) -> Option<Read> {
-        match reader.read(name, payload) {
-            Ok(read) => {
+    fn schema(&mut self, name: &str, payload: &str) -> Option<Content> {
+        match read::content(name, payload) {
+            Ok(content) => {
                 self.note(CheckName::Schema, Code::Ok, format!("the content is complete and obeys {PASSPORT_FORMAT}"));
-                Some(read)
+                Some(content)
             }
             Err(error) => {
                 self.note(CheckName::Schema, Code::BadContent, error.to_string());
@@ -304,9 +277,8 @@ impl Run {
         }
     }
 
-    fn recomputed(&mut self, content: &Content, follows: bool) {
-        let compared = if follows { recomputed::compare_the_rest(content) } else { recomputed::compare(content) };
-        match compared {
+    fn recomputed(&mut self, content: &Content) {
+        match recomputed::compare(content) {
             Ok(()) => {
                 let detail = "every number follows from the signed deviations and site";
                 self.note(CheckName::Recomputed, Code::Ok, detail);

@@ -10,7 +10,7 @@ pub use alarm::{Alarm, AlarmKind};
 use crate::document::sha256_hex;
 use crate::passport::checks::{Check, CheckName, Code};
 use crate::passport::content::Content;
-use crate::passport::verification::{Question, Verification, Verifier};
+use crate::passport::verification::{Question, Trust, Verification, verify};
 use alarm::{duplicate_ids, forked, misplaced, missing};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -112,14 +112,8 @@ struct Predecessor {
 }
 
 /// Verifies one file; `within_days` sets from when on it counts as expiring.
-pub fn examine(
-    file: &str,
-    bytes: &[u8],
-    verifier: &mut Verifier,
-    time: Timestamp,
-    within_days: Option<u32>,
-) -> Examined {
-    let verification = verifier.verify(file, bytes, &Question::at(time));
+pub fn examine(file: &str, bytes: &[u8], trust: &Trust, time: Timestamp, within_days: Option<u32>) -> Examined {
+    let verification = verify(file, bytes, trust, &Question::at(time));
     examined(file, bytes, &verification, time, within_days)
 }
 

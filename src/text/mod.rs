@@ -2,7 +2,7 @@
 //!
 //! * [`rule`]: what a signed text may contain, and how a string is written: writer and reader of the rule side by side.
 //! * [`number`]: how a number is written.
-//! * [`canonical`]: the one form that content is written in, and a quick reader of it.
+//! * [`canonical`]: the one form that content is written in, and its reader.
 //! * [`sink`]: what a document is written into.
 //! * [`node`]: YAML to a tree, with the place of every value found again when an error needs it.
 //! * [`mod@record`]: from that tree to a Rust struct and back, every mistake reported, not only the first.

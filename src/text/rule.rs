@@ -214,7 +214,8 @@ pub fn differs(text: &str, canonical: &str) -> Option<(usize, String, String)> {
     expected.next().map(|missing| (text.lines().count() + 1, "the end".to_owned(), shortened(missing)))
 }
 
-fn shortened(line: &str) -> String {
+/// A line as a message shows it.
+pub(super) fn shortened(line: &str) -> String {
     const LONGEST: usize = 100;
     if line.chars().count() <= LONGEST {
         return format!("`{line}`");

@@ -1,36 +1,26 @@
-//! The quick reader, which knows nothing but the canonical form.
+//! The reader of the canonical form, which knows no other.
 
-use super::{Entry, Memory, after_comments};
-use crate::text::node::{MOST_BRACKETS, Node};
-use crate::text::{Field, LARGEST_DOCUMENT_BYTES};
+use super::{NotCanonical, after_comments};
+use crate::text::node::{MOST_BRACKETS, Node, location_of};
+use crate::text::{Field, LARGEST_DOCUMENT_BYTES, rule};
 
-/// A document that was scanned.
-pub(super) struct Scanned<'t, T> {
-    pub document: T,
-    /// What follows it.
-    pub rest: &'t str,
-    /// What was taken from the memory.
-    pub known: Vec<&'t Entry>,
-    /// What the memory is to keep once it is known to be canonical.
-    pub new: Vec<Entry>,
-}
-
-/// See [`super::scan()`].
-pub(super) fn scan<'t, T: Field>(text: &'t str, memory: &'t Memory) -> Option<Scanned<'t, T>> {
-    scan_beginning(text, memory).filter(|scanned| after_comments(scanned.rest.as_bytes()).is_empty())
-}
-
-/// The same of a text that has more keys than the document, at its end.
-pub(super) fn scan_beginning<'t, T: Field>(text: &'t str, memory: &'t Memory) -> Option<Scanned<'t, T>> {
-    // The general reader refuses these; so many brackets need as many bytes.
+/// Reads a text; a number written in another way may be taken, so ask [`super::is_written()`].
+///
+/// # Errors
+/// The place at which the reader stopped.
+pub(super) fn scan<T: Field>(text: &str) -> Result<T, NotCanonical> {
+    // So many brackets need as many bytes.
     let brackets = |text: &str| text.bytes().filter(|byte| b"[{".contains(byte)).count();
-    if text.len() > LARGEST_DOCUMENT_BYTES || (text.len() > MOST_BRACKETS && brackets(text) > MOST_BRACKETS) {
-        return None;
-    }
-    let mut scanner =
-        Scanner { rest: text, depth: 0, inline: false, first: true, memory, known: Vec::new(), new: Vec::new() };
-    let document = T::scan(&mut scanner)?;
-    Some(Scanned { document, rest: scanner.rest, known: scanner.known, new: scanner.new })
+    let too_large =
+        text.len() > LARGEST_DOCUMENT_BYTES || (text.len() > MOST_BRACKETS && brackets(text) > MOST_BRACKETS);
+    let mut scanner = Scanner { rest: text, depth: 0, inline: false, first: true };
+    let document = if too_large { None } else { T::scan(&mut scanner) };
+    let rest = scanner.after_comments();
+    document.filter(|_| rest.is_empty()).ok_or_else(|| NotCanonical {
+        location: location_of(&text.as_bytes()[..text.len() - rest.len()]),
+        found: rest.lines().next().map_or_else(|| "the end".to_owned(), rule::shortened),
+        expected: "the next key of this format".to_owned(),
+    })
 }
 
 /// A place in a text in canonical form.
@@ -43,9 +33,6 @@ pub struct Scanner<'t> {
     inline: bool,
     /// Whether no key has been read yet in the current brackets.
     first: bool,
-    memory: &'t Memory,
-    known: Vec<&'t Entry>,
-    new: Vec<Entry>,
 }
 
 impl<'t> Scanner<'t> {
@@ -85,21 +72,7 @@ impl<'t> Scanner<'t> {
         if self.at_key(key).is_none() {
             return T::absent();
         }
-        let at_the_top = self.depth == 1 && !self.inline;
-        if at_the_top && self.memory.is_for(key) { self.known_or_new(key) } else { T::scan(self) }
-    }
-
-    /// A value that the memory knows, or that it is to keep.
-    fn known_or_new<T: Field>(&mut self, key: &'static str) -> Option<T> {
-        if let Some((entry, value, rest)) = self.memory.recall(key, self.rest) {
-            self.known.push(entry);
-            self.rest = rest;
-            return Some(value);
-        }
-        let from = self.rest;
-        let value = T::scan(self)?;
-        self.new.push(Entry::new(key, &from[..from.len() - self.rest.len()], &value));
-        Some(value)
+        T::scan(self)
     }
 
     /// Passes over `key` when that is the next one.

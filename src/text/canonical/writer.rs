@@ -1,7 +1,6 @@
 //! The writer, whose parts make a text or are compared with one.
 
-use super::{Entry, after_comments};
-
+use super::after_comments;
 use crate::text::sink::Sink;
 use crate::text::{Field, number, rule};
 
@@ -28,13 +27,8 @@ pub fn write_some(text: &mut String, document: &impl Field, comments: Comments, 
 
 /// Whether `text`, its comments and blank lines aside, is what [`write()`] makes of the document.
 pub fn is_written(document: &impl Field, text: &str) -> bool {
-    is_written_but_for(document, text, Vec::new())
-}
-
-/// The same of a document whose `known` entries are known to be what `text` says of them, and to be written so.
-pub(super) fn is_written_but_for(document: &impl Field, text: &str, known: Vec<&Entry>) -> bool {
-    let compared = Writer::new(Compared { rest: Some(text.as_bytes()), known }).written(document);
-    compared.rest.is_some_and(|rest| after_comments(rest).is_empty())
+    let compared = Writer::new(Compared(Some(text.as_bytes()))).written(document);
+    compared.0.is_some_and(|rest| after_comments(rest).is_empty())
 }
 
 /// A passport has some 9,000 bytes.
@@ -49,11 +43,6 @@ trait Output {
 
     /// In place of a number there is none that a text may hold.
     fn push_not_finite(&mut self);
-
-    /// Whether nothing is to be written of a key at the top and its value, for it stands there.
-    fn stands_there(&mut self, _key: &str) -> bool {
-        false
-    }
 }
 
 impl Output for String {
@@ -68,30 +57,20 @@ impl Output for String {
 }
 
 /// A text that the parts are compared with; `None` from the first on that differs.
-struct Compared<'t> {
-    rest: Option<&'t [u8]>,
-    known: Vec<&'t Entry>,
-}
+struct Compared<'t>(Option<&'t [u8]>);
 
 impl Output for Compared<'_> {
     #[inline]
     fn push(&mut self, part: &str) {
-        self.rest = self.rest.and_then(|rest| rest.strip_prefix(part.as_bytes()));
+        self.0 = self.0.and_then(|rest| rest.strip_prefix(part.as_bytes()));
     }
 
     fn begin_line(&mut self) {
-        self.rest = self.rest.map(after_comments);
+        self.0 = self.0.map(after_comments);
     }
 
     fn push_not_finite(&mut self) {
-        self.rest = None;
-    }
-
-    fn stands_there(&mut self, key: &str) -> bool {
-        let Some(entry) = self.known.iter().copied().find(|entry| entry.key() == key) else { return false };
-        self.begin_line();
-        [key, ":", entry.text()].into_iter().for_each(|part| self.push(part));
-        true
+        self.0 = None;
     }
 }
 
@@ -231,7 +210,7 @@ impl<O: Output> Sink for Writer<'_, O> {
             self.text.push(": ");
             return true;
         }
-        if self.depth == 1 && (!(self.wanted)(key) || self.text.stands_there(key)) {
+        if self.depth == 1 && !(self.wanted)(key) {
             return false;
         }
         self.text.begin_line();
