@@ -23,9 +23,9 @@ from cryptography.hazmat.primitives.serialization import Encoding, PublicFormat
 
 RATE_DEG_PER_H = 7.292115e-5 * (3600.0 * 180.0 / np.pi)
 WITHIN_DEG_PER_H = 0.001
-K = np.array([[95.0, 9.5], [9.5, 95.0]])
-OMEGA0 = np.array([20.0, 20.0])
-OMEGA_G, OMEGA_K = 10.0, 10.0
+K = np.array([[95.0, 9.3], [-8.7, 93.0]])
+OMEGA0 = np.array([20.0, -15.0])
+OMEGA_G, OMEGA_K = 10.0, -7.0
 STAND_KEYS = ("stand", "certificate", "datum", "positions")
 OMEGA_N = np.array([[OMEGA_G, -OMEGA_K], [OMEGA_K, OMEGA_G]])
 

@@ -161,7 +161,7 @@ impl Stage<'_> {
             "2. measures how far a cheap stand is from its eight positions: up to {largest:.1} degrees."
         ))?;
         self.line("3. computes for the place of delivery what a calibration needs, and signs it:")?;
-        let order = Issue::first(IDENTITY, self.now, GyroType::gvk_6().nominal);
+        let order = Issue::first(IDENTITY, self.now);
         let issued = self.passports().issue(
             &PreparedStand::new(stand.clone()),
             moscow,

@@ -9,7 +9,6 @@
 //! The whole chain, stand → passport → signed text → verified → matrices:
 //!
 //! ```
-//! use dtg_passport::gyro::GyroType;
 //! use dtg_passport::passport::{Question, Trust, issue, verify};
 //! use dtg_passport::signing::allowed_signers_line;
 //! use dtg_passport::trust::{AllowedSigners, SigningKey};
@@ -21,8 +20,7 @@
 //! let key = SigningKey::generate()?;
 //!
 //! // The factory: who issues, and when.
-//! let gyro = GyroType::gvk_6().nominal;
-//! let order = issue::Issue::first("factory@example.org", "2026-11-09T09:00:00Z".parse()?, gyro);
+//! let order = issue::Issue::first("factory@example.org", "2026-11-09T09:00:00Z".parse()?);
 //! let passport: String = issue::draft(&stand, &site, &order)?.sign(&key)?;
 //!
 //! // The laboratory: whom it trusts, and what it asks.

@@ -1,10 +1,10 @@
 //! The shipped passports and sites: made again byte for byte, verified, and read by the programs of the documentation.
 //!
-//! `UPDATE_EXAMPLES=1 cargo test --test examples` writes the passports anew after a change of the format.
+//! `UPDATE_EXAMPLES=1 cargo test --test examples` writes the passports again after a change of the format; nothing writes
+//! tests/golden again.
 
 mod tools;
 
-use dtg_passport::gyro::GyroType;
 use dtg_passport::passport::issue::{self, Issue};
 use dtg_passport::passport::{Question, Trust, verify};
 use dtg_passport::site::Site;
@@ -23,47 +23,64 @@ fn read(path: &str) -> Vec<u8> {
     fs::read(tools::project(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-fn site(id: &str) -> Site {
-    let path = format!("sites/{id}.yaml");
-    Site::from_yaml(&path, &read(&path)).unwrap_or_else(|error| panic!("{error}"))
-}
-
 fn trust() -> Trust {
     let signers = AllowedSigners::parse("allowed_signers", &read("tests/keys/allowed_signers")).unwrap();
     Trust::of(signers)
+}
+
+/// The passport of a stand that does not exist, which integrators test their software with.
+const FICTITIOUS: &str = "docs/self_check.yaml";
+
+/// Each shipped passport with the files of its stand and its site.
+fn passports() -> Vec<(String, String, String)> {
+    let of_stand = |folder: &str| {
+        let each =
+            |id: &str| (format!("{folder}/{id}-1.yaml"), format!("{folder}/stand.yaml"), format!("sites/{id}.yaml"));
+        SITES.map(each)
+    };
+    let fictitious = [FICTITIOUS, "tests/self_check/stand.yaml", "tests/self_check/site.yaml"].map(str::to_owned);
+    STANDS.into_iter().flat_map(of_stand).chain([fictitious.into()]).collect()
 }
 
 #[test]
 fn the_passports_are_those_that_this_program_issues() {
     let key = String::from_utf8(read("tests/keys/examples")).unwrap();
     let key = SigningKey::from_openssh(&key, None).unwrap();
-    let order = Issue::first(ISSUER, ISSUED_AT.parse().unwrap(), GyroType::gvk_6().nominal);
-    for folder in STANDS {
-        let stand = Stand::from_yaml(folder, &read(&format!("{folder}/stand.yaml"))).unwrap();
-        for id in SITES {
-            let passport = issue::draft(&stand, &site(id), &order).unwrap().sign(&key).unwrap();
-            let path = format!("{folder}/{id}-1.yaml");
-            if std::env::var_os("UPDATE_EXAMPLES").is_some() {
-                fs::write(tools::project(&path), &passport).unwrap();
-            }
-            assert!(
-                read(&path) == passport.as_bytes(),
-                "{path} is not what this program issues: see the head of this file"
-            );
+    let order = Issue::first(ISSUER, ISSUED_AT.parse().unwrap());
+    for (path, stand, site) in passports() {
+        let stand = Stand::from_yaml(&stand, &read(&stand)).unwrap();
+        let site = Site::from_yaml(&site, &read(&site)).unwrap();
+        let passport = issue::draft(&stand, &site, &order).unwrap().sign(&key).unwrap();
+        if std::env::var_os("UPDATE_EXAMPLES").is_some() {
+            fs::write(tools::project(&path), &passport).unwrap();
         }
+        assert!(
+            read(&path) == passport.as_bytes(),
+            "{path} is not what this program issues: see the head of this file"
+        );
     }
 }
 
 #[test]
 fn the_passports_verify() {
     let question = Question::at("2026-12-01T00:00:00Z".parse().unwrap());
-    for folder in STANDS {
-        for id in SITES {
-            let path = format!("{folder}/{id}-1.yaml");
-            let answer = verify(&path, &read(&path), &trust(), &question);
-            assert!(answer.valid(), "{:?}", answer.checks());
-        }
+    for (path, _, _) in passports() {
+        let answer = verify(&path, &read(&path), &trust(), &question);
+        assert!(answer.valid(), "{path}: {:?}", answer.checks());
     }
+}
+
+/// A passport of an earlier version, with the GVK-6 in its self-check, and the trust file of then.
+#[test]
+fn passports_signed_before_stay_valid() {
+    let path = "tests/golden/passport-1-gvk-6.yaml";
+    let signers = AllowedSigners::parse("allowed_signers", &read("tests/golden/allowed_signers")).unwrap();
+    let question = Question { serial: Some("0017".into()), ..Question::at("2026-12-01T00:00:00Z".parse().unwrap()) };
+    let answer = verify(path, &read(path), &Trust::of(signers), &question);
+    assert!(answer.valid(), "{:?}", answer.checks());
+    let passport = answer.passport().unwrap();
+    let gyro = passport.content().self_check.as_ref().unwrap().parameters();
+    assert_eq!(gyro.k_deg_per_h_per_ma, [[95.0, 9.5], [9.5, 95.0]]);
 }
 
 #[test]
@@ -93,13 +110,11 @@ fn the_sites_are_spread_over_the_earth_and_name_their_sources() {
 fn the_python_program_finds_the_self_check() {
     let program = tools::project("docs/self_check.py");
     assert!(fs::read_to_string(&program).unwrap().lines().count() <= 25);
-    for folder in STANDS {
-        for id in SITES {
-            let mut python = tools::python();
-            python.arg(&program).arg(tools::project(&format!("{folder}/{id}-1.yaml")));
-            let printed = tools::output(python);
-            assert_eq!(printed.lines().count(), 4, "{printed}");
-        }
+    for (path, _, _) in passports() {
+        let mut python = tools::python();
+        python.arg(&program).arg(tools::project(&path));
+        let printed = tools::output(python);
+        assert_eq!(printed.lines().count(), 4, "{printed}");
     }
     // It must be able to fail: a current changed by 1e-6 mA is seen.
     let path = format!("{}/{}-1.yaml", STANDS[0], SITES[0]);

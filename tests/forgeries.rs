@@ -536,12 +536,20 @@ fn numbers_that_do_not_follow() {
     assert!(verify("nine", written(&nine, &bench.key).as_bytes(), &trust(&bench.key), &question()).valid());
     let mut loosened = nine.clone();
     loosened.self_check.as_mut().unwrap().currents[3].jx_ma += 1e-3;
+    // A gyro whose K_x is tiny: currents along x of 2e7 mA must not lend their size to the limit of those along y.
+    let mut uneven = bench.content.clone();
+    uneven.self_check.as_mut().unwrap().k_deg_per_h_per_ma = [[1e-6, 0.0], [0.0, 95.0]];
+    recompute(&mut uneven);
+    assert!(verify("uneven", written(&uneven, &bench.key).as_bytes(), &trust(&bench.key), &question()).valid());
+    uneven.self_check.as_mut().unwrap().currents[3].jy_ma += 3e-12;
+    // No calibration needs the self-check: a passport may be without.
+    let without = bench.rewritten(|content| content.self_check = None);
+    assert!(verify("without", without.as_bytes(), &trust(&bench.key), &question()).valid());
     let refused = cases(
         &bench,
         (CheckName::Recomputed, Code::WrongNumber),
         [
             wrong("matrices removed", &|content| content.matrices = None),
-            wrong("the self-check removed", &|content| content.self_check = None),
             wrong("the azimuth removed", &|content| content.earth.azimuth_deg = None),
             wrong("the azimuth's uncertainty removed", &|content| content.earth.azimuth_u_arcsec = None),
             wrong("a vector removed", &|content| content.vectors.truncate(7)),
@@ -563,6 +571,7 @@ fn numbers_that_do_not_follow() {
                 check.omega0_deg_per_h = [1.7e308, 1.7e308];
             }),
             ("a wrong current beside a large index", written(&loosened, &bench.key)),
+            ("a wrong current along y beside large ones along x", written(&uneven, &bench.key)),
             wrong("the earth of another place", &|content| {
                 content.earth = made::site(&made::SITE.replace("55.7658\nlong", "55.7659\nlong")).earth();
             }),

@@ -7,7 +7,6 @@ mod mutation;
 #[path = "fuzz/properties.rs"]
 mod properties;
 
-use dtg_passport::gyro::GyroType;
 use dtg_passport::passport::issue::{Issue, draft};
 use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
@@ -146,7 +145,7 @@ fn memory_is_bounded_for_good_documents() {
     assert!(of("stand").hold(stand.as_bytes()));
     let stand = Stand::from_yaml("stand", stand.as_bytes()).unwrap();
     let site = Site::from_yaml("site", b"format: \"dtg-site/1\"\nid: \"c\"\nlatitude_deg: 10\n").unwrap();
-    let order = Issue::first("d", "2026-01-02T00:00:00Z".parse().unwrap(), GyroType::gvk_6().nominal);
+    let order = Issue::first("d", "2026-01-02T00:00:00Z".parse().unwrap());
     let passport = draft(&stand, &site, &order).unwrap();
     assert!(passport.payload().len() > LARGEST_DOCUMENT_BYTES / 2);
     assert!(of("content").hold(passport.payload().as_bytes()));

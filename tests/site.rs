@@ -1,7 +1,6 @@
 //! A site: latitude, rates, gravity, radius, mark, and the check of place. Expected values by hand or from the sources named.
 
 use dtg_passport::earth::{Place, place_at};
-use dtg_passport::gyro::GyroType;
 use dtg_passport::passport::checks::{CheckName, Code};
 use dtg_passport::passport::{Question, Trust, Verification, issue, verify};
 use dtg_passport::signing::allowed_signers_line;
@@ -70,7 +69,7 @@ fn ask(site: &Site, place: Place) -> Verification {
     let stand = include_bytes!("../passports/SPS-2/0017/stand.yaml");
     let stand = Stand::from_yaml("stand.yaml", stand).unwrap();
     let key = SigningKey::generate().unwrap();
-    let order = issue::Issue::first("factory", "2026-11-09T09:00:00Z".parse().unwrap(), GyroType::gvk_6().nominal);
+    let order = issue::Issue::first("factory", "2026-11-09T09:00:00Z".parse().unwrap());
     let passport = issue::draft(&stand, site, &order).unwrap().sign(&key).unwrap();
     let line = allowed_signers_line("factory", &key.public_key()).unwrap();
     let trust = Trust::of(AllowedSigners::parse("signers", line.as_bytes()).unwrap());

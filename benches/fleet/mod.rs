@@ -4,7 +4,6 @@
 #![allow(dead_code)]
 
 use dtg_passport::coefficients::EIGHT_POSITIONS;
-use dtg_passport::gyro::GyroType;
 use dtg_passport::passport::issue::Issue;
 use dtg_passport::site::{Deflection, Site, SiteUncertainty};
 use dtg_passport::stand::{Certificate, CertifiedPosition, Datum, Identity, STAND_FORMAT, Stand};
@@ -124,7 +123,7 @@ pub fn sites(count: usize) -> Vec<Site> {
 
 /// Revision 1 of every passport.
 pub fn order() -> Issue {
-    Issue::first(ISSUER, ISSUED_AT.parse().expect("a time"), GyroType::gvk_6().nominal)
+    Issue::first(ISSUER, ISSUED_AT.parse().expect("a time"))
 }
 
 /// The secret of the bench's key.

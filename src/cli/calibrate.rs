@@ -13,6 +13,7 @@ use dtg_passport::calibration::verdict::{Decision, against_earlier, against_type
 use dtg_passport::calibration::{self, Method, Options as CalibrationOptions, Readings, Setup};
 use dtg_passport::document::sha256_hex;
 use dtg_passport::files;
+use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::{Content, Question, Trust, Verification};
 use dtg_passport::report::calibration as report;
@@ -101,9 +102,9 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
             calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key())).collect();
         return Err(Failure { message: words.join("\n"), code: REFUSED });
     };
-    // Without a type the gyro of the self-check tells at least a thousandfold error.
-    let usual = content.self_check.as_ref().filter(|_| gyro_type.is_none());
-    if let Some(remark) = usual.and_then(|check| thousandfold(&found.parameters, &check.parameters().to_model())) {
+    // Without a type the paper's tells at least a thousandfold error.
+    let usual = gyro_type.is_none().then(|| GyroType::gvk_6().nominal.to_model());
+    if let Some(remark) = usual.and_then(|usual| thousandfold(&found.parameters, &usual)) {
         output::say(&format!("WARNING: {remark}"));
     }
     document.verdict = gyro_type.as_ref().map(|gyro_type| against_type(&found, gyro_type));

@@ -61,7 +61,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let order = Issue {
         valid_until: options.valid_until,
         accuracy: options.accuracy.then(|| stated(options)).transpose()?,
-        ..Issue::first(&options.batch.identity, options.issued_at.unwrap_or(now), GyroType::gvk_6().nominal)
+        ..Issue::first(&options.batch.identity, options.issued_at.unwrap_or(now))
     };
     options.batch.run(signer.as_deref(), trust.as_ref(), |batch, tell| {
         batch.issue(&options.stands, &options.sites, &mut std::io::stdin().lock(), &order, tell);

@@ -214,7 +214,7 @@ fn comments(content: &Content, path: &str) -> Vec<String> {
         ],
         "vectors" => &["Specific force n = (c, d) in g and Earth rate omega_3 in deg/h along x and y, eq. (5)."],
         "self_check" => {
-            &["From these currents correct laboratory software finds the parameters below, to 1e-9 of each."]
+            &["From these currents correct laboratory software finds each number below: |found/stated - 1| <= 1e-9."]
         }
         "accuracy" => &[
             "What this stand at this site is good for: a gyro of this type, calibrated once in all positions with this",

@@ -155,6 +155,15 @@ record! {
     }
 }
 
+/// Gyro of the self-check of every passport that is issued: no two parameters alike or of opposite sign, so that software
+/// that exchanges or transposes any of them finds others. Earlier passports state the GVK-6 of the paper.
+pub const REFERENCE_GYRO: Parameters = Parameters {
+    k_deg_per_h_per_ma: [[95.0, 9.3], [-8.7, 93.0]],
+    omega0_deg_per_h: [20.0, -15.0],
+    omega_g_deg_per_h_per_g: 10.0,
+    omega_k_deg_per_h_per_g: -7.0,
+};
+
 /// The numbers of a passport that follow from its stand and its site.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Derived {

@@ -2,12 +2,12 @@
 
 use super::accuracy::{NoAccuracy, Stated};
 use super::annotations::{self, absences};
-use super::content::{Content, Header, PASSPORT_FORMAT, Predecessor, derive_from, passport_id};
+use super::content::{Content, Header, PASSPORT_FORMAT, Predecessor, REFERENCE_GYRO, derive_from, passport_id};
 use super::{NAMESPACE, read};
 use crate::calibration::prediction::{NoiseGrowth, noise_growth};
 use crate::coefficients::{SingularPositions, StandGeometry};
 use crate::document::{Signer, SigningFailed, join};
-use crate::gyro::Parameters;
+use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::site::Site;
 use crate::stand::{CertifiedPosition, Stand};
@@ -39,17 +39,15 @@ pub struct Issue {
     pub revision: u32,
     /// After a re-issue: the passport it was made from, and whether that one is superseded.
     pub predecessor: Option<(Predecessor, bool)>,
-    /// The gyro of the self-check.
-    pub self_check_gyro: Parameters,
     /// For whom the passport states what the stand is good for; nothing when `None`.
     pub accuracy: Option<Stated>,
 }
 
 impl Issue {
     /// Revision 1, to the certificate's last day.
-    pub fn first(issuer: &str, issued_at: Timestamp, self_check_gyro: Parameters) -> Self {
+    pub fn first(issuer: &str, issued_at: Timestamp) -> Self {
         let issuer = issuer.to_owned();
-        Self { issuer, issued_at, valid_until: None, revision: 1, predecessor: None, self_check_gyro, accuracy: None }
+        Self { issuer, issued_at, valid_until: None, revision: 1, predecessor: None, accuracy: None }
     }
 }
 
@@ -183,7 +181,7 @@ pub fn draft(stand: &Stand, site: &Site, issue: &Issue) -> Result<Draft, IssueRe
 }
 
 fn content(stand: &Stand, geometry: &StandGeometry, site: &Site, issue: &Issue) -> Result<Content, IssueRefused> {
-    let derived = derive_from(geometry, site, &issue.self_check_gyro);
+    let derived = derive_from(geometry, site, &REFERENCE_GYRO);
     let (reissued_from, supersedes) = issue.predecessor.clone().unzip();
     Ok(Content {
         format: PASSPORT_FORMAT.to_owned(),
@@ -275,15 +273,9 @@ impl Draft {
         let content = &self.content;
         let positions: Vec<_> = content.positions.iter().map(CertifiedPosition::to_model).collect();
         let meter = (&Laboratory::paper().meter).into();
-        let noise = noise_growth(&positions, content.earth.rate(), &self.noise_gyro().to_model(), meter);
+        let gyro = GyroType::gvk_6().nominal.to_model();
+        let noise = noise_growth(&positions, content.earth.rate(), &gyro, meter);
         Remarks { noise, uncertainty_growth: content.site.uncertainty_growth(), absences: absences(content) }
-    }
-
-    fn noise_gyro(&self) -> Parameters {
-        match &self.content.self_check {
-            Some(self_check) => self_check.parameters(),
-            None => crate::gyro::GyroType::gvk_6().nominal,
-        }
     }
 }
 
@@ -301,7 +293,6 @@ pub struct Remarks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gyro::GyroType;
     use crate::passport::content::derive;
 
     const STANDS: [&str; 2] =
@@ -333,15 +324,14 @@ mod tests {
 
     #[test]
     fn what_a_stand_has_in_common_is_what_each_passport_would_find() {
-        let gyro = GyroType::gvk_6().nominal;
-        let order = Issue::first("factory@example.org", "2027-03-01T08:00:00Z".parse().unwrap(), gyro.clone());
+        let order = Issue::first("factory@example.org", "2027-03-01T08:00:00Z".parse().unwrap());
         for stand in stands() {
             let prepared = PreparedStand::new(stand.clone());
             for text in SITES {
                 let site = Site::from_yaml("site", text.as_bytes()).unwrap();
                 let draft = prepared.draft(&site, &order).unwrap();
                 assert_eq!(draft.payload(), annotations::payload(draft.content()));
-                let alone = derive(&stand.positions, &site, &gyro).unwrap();
+                let alone = derive(&stand.positions, &site, &REFERENCE_GYRO).unwrap();
                 let content = draft.content().clone();
                 assert_eq!((content.earth, content.matrices), (alone.earth, alone.matrices));
                 assert_eq!((content.vectors, content.self_check), (alone.vectors, alone.self_check));
@@ -358,7 +348,7 @@ mod tests {
             (position.alpha_arcsec, position.beta_arcsec, position.gamma_arcsec) = (0.0, 0.0, 0.0);
         }
         let site = Site::from_yaml("site", SITES[0].as_bytes()).unwrap();
-        let order = Issue::first("a@b", "2027-03-01T08:00:00Z".parse().unwrap(), GyroType::gvk_6().nominal);
+        let order = Issue::first("a@b", "2027-03-01T08:00:00Z".parse().unwrap());
         let prepared = PreparedStand::new(stand);
         for _ in 0..2 {
             assert!(matches!(prepared.draft(&site, &order), Err(IssueRefused::Singular(_))));

@@ -1,7 +1,7 @@
 //! Every number of a passport that follows from its inputs, computed again and compared.
 
 use super::accuracy::Stated;
-use super::content::{Content, Derived, PositionCurrents, PositionVectors, SelfCheck, derive};
+use super::content::{Content, Derived, PositionCurrents, PositionVectors, REFERENCE_GYRO, SelfCheck, derive};
 use super::issue::SELF_CHECK_LIMIT;
 use crate::earth::{AZIMUTH_QUANTUM_DEG, LENGTH_QUANTUM_M};
 use crate::text::{Field, Node};
@@ -30,17 +30,19 @@ impl std::fmt::Display for WrongNumber {
 
 /// Compares earth, matrices, vectors, self-check and accuracy with what the signed inputs give; the worst number first.
 ///
-/// The self-check is computed for the gyro that it states itself.
+/// The self-check is computed for the gyro that it states itself; a passport may have none, because no calibration needs it.
 ///
 /// # Errors
 /// The wrong numbers, or in words why there is nothing to compare with.
 pub fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
-    let gyro = content.self_check.as_ref().map(SelfCheck::parameters);
-    let gyro = gyro.unwrap_or_else(|| crate::gyro::GyroType::gvk_6().nominal);
-    let Ok(derived) = derive(&content.positions, &content.site, &gyro) else {
+    let gyro = content.self_check.as_ref().map_or(REFERENCE_GYRO, SelfCheck::parameters);
+    let Ok(mut derived) = derive(&content.positions, &content.site, &gyro) else {
         let field = "matrices.n2_inverse".to_owned();
         return Err(vec![WrongNumber { field, stated: f64::NAN, computed: f64::NAN }]);
     };
+    if content.self_check.is_none() {
+        derived.self_check = None;
+    }
     let mut wrong = Vec::new();
     if !states_the_same(content, &derived) {
         compare_derived(content, &derived, &mut wrong);
@@ -168,9 +170,12 @@ const VECTORS: [Set<PositionVectors>; 4] = [
     ("omega_deg_per_h", |at| at.omega_deg_per_h.to_vec()),
 ];
 
-/// The currents of the self-check.
-const CURRENTS: [Set<PositionCurrents>; 2] =
-    [("i, j", |at| vec![f64::from(at.i), f64::from(at.j)]), ("jx_ma, jy_ma", |at| vec![at.jx_ma, at.jy_ma])];
+/// Currents of the self-check: each axis is a set, because the two may differ in size.
+const CURRENTS: [Set<PositionCurrents>; 3] = [
+    ("i, j", |at| vec![f64::from(at.i), f64::from(at.j)]),
+    ("jx_ma", |at| vec![at.jx_ma]),
+    ("jy_ma", |at| vec![at.jy_ma]),
+];
 
 fn compare_sets<T>(path: &str, stated: &[T], computed: &[T], sets: &[Set<T>], wrong: &mut Vec<WrongNumber>) {
     for (key, of) in sets {

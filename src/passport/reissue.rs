@@ -6,7 +6,6 @@ use super::content::{Content, Predecessor};
 use super::issue::{Draft, Issue, IssueRefused, PreparedStand};
 use super::verification::Verification;
 use crate::document::sha256_hex;
-use crate::gyro::{GyroType, Parameters};
 use crate::site::Site;
 use crate::stand::{STAND_FORMAT, Stand};
 use crate::text::{Field, Node, number, rule};
@@ -150,10 +149,6 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         revision: 0,
         predecessor: Some((predecessor, same_site || order.moved)),
         // Of a passport that may only be named nothing is taken over, whoever may have signed it.
-        self_check_gyro: match &usable {
-            Usable::Whole => self_check_gyro(old),
-            Usable::NameOnly { .. } => GyroType::gvk_6().nominal,
-        },
         accuracy: match &usable {
             Usable::Whole => old.accuracy.as_ref().map(Stated::of),
             Usable::NameOnly { .. } => None,
@@ -200,11 +195,6 @@ fn stand_of(old: &Content) -> Stand {
         datum: old.datum.clone(),
         positions: old.positions.clone(),
     }
-}
-
-fn self_check_gyro(old: &Content) -> Parameters {
-    let stated = old.self_check.as_ref().map(super::content::SelfCheck::parameters);
-    stated.unwrap_or_else(|| GyroType::gvk_6().nominal)
 }
 
 impl Successor {

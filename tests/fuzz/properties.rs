@@ -157,7 +157,7 @@ fn issue(bytes: &[u8]) -> bool {
         (Err(error), _) => return refused(&error, bytes),
     };
     let issued_at = "2026-11-19T09:30:00Z".parse().unwrap();
-    let order = Issue::first("examples@dtg-passport.test", issued_at, GyroType::gvk_6().nominal);
+    let order = Issue::first("examples@dtg-passport.test", issued_at);
     let draft = match draft(&stand, &site, &order) {
         Ok(draft) => draft,
         Err(error) => {

@@ -4,7 +4,6 @@
 #![allow(dead_code)]
 
 use dtg_passport::document::join;
-use dtg_passport::gyro::GyroType;
 use dtg_passport::passport::annotations::payload;
 use dtg_passport::passport::content::Content;
 use dtg_passport::passport::issue::{Issue, draft};
@@ -62,7 +61,6 @@ pub fn content(stand: &Stand, site: &Site) -> Content {
         valid_until: None,
         revision: 1,
         predecessor: None,
-        self_check_gyro: GyroType::gvk_6().nominal,
     };
     draft(stand, site, &order).unwrap().content().clone()
 }

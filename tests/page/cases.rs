@@ -77,7 +77,7 @@ fn of(languages: &[Language]) -> Languages {
 }
 
 fn case(name: &'static str, stand: &str, site: &str, languages: &[Language]) -> Case {
-    let order = Issue::first(made::ISSUER, made::at(made::ISSUED_AT), GyroType::gvk_6().nominal);
+    let order = Issue::first(made::ISSUER, made::at(made::ISSUED_AT));
     issued(name, stand, site, &order, languages)
 }
 
@@ -94,7 +94,7 @@ fn full(name: &'static str, languages: &[Language]) -> Case {
     let reason = "the building was renovated, and the pillar was set up anew on a foundation of its own; ".repeat(8);
     let predecessor = Predecessor {
         id: "SPS-2/0017/bench/1".to_owned(),
-        sha256: "5411aa006c024adb21af45bbeae02557a6a434202ad1f6a92db7a9a7dcf5097a".to_owned(),
+        sha256: "be8b0f4e679b1d57f4152954c0003938ce02286776d5a742ba17207493ea6fba".to_owned(),
         reason,
         changed: "site: deflection_arcsec, azimuth_mark".to_owned(),
     };
@@ -102,7 +102,7 @@ fn full(name: &'static str, languages: &[Language]) -> Case {
         accuracy: Some(Stated { gyro: gyro.into(), laboratory: laboratory.into() }),
         revision: 2,
         predecessor: Some((predecessor, true)),
-        ..Issue::first(made::ISSUER, made::at(made::ISSUED_AT), GyroType::gvk_6().nominal)
+        ..Issue::first(made::ISSUER, made::at(made::ISSUED_AT))
     };
     let stand = made::ARC_MINUTES
         .replace("name: \"Two-axis", "customer: \"Gyro laboratory, Moscow\", name: \"Two-axis")

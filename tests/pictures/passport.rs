@@ -21,7 +21,7 @@ pub fn passport(stand: &str, site: &str) -> (Content, String) {
     let stand = Stand::from_yaml("stand.yaml", stand.as_bytes()).unwrap();
     let site = Site::from_yaml("site.yaml", site.as_bytes()).unwrap();
     let gyro = GyroType::gvk_6();
-    let mut order = Issue::first(made::ISSUER, made::at(made::ISSUED_AT), gyro.nominal.clone());
+    let mut order = Issue::first(made::ISSUER, made::at(made::ISSUED_AT));
     order.accuracy = Some(Stated { gyro: gyro.into(), laboratory: Laboratory::paper().into() });
     let draft = draft(&stand, &site, &order).unwrap();
     (draft.content().clone(), draft.payload().to_owned())

@@ -27,7 +27,7 @@ fn site() -> Site {
 }
 
 fn order(accuracy: Option<Stated>) -> Issue {
-    let first = Issue::first(ISSUER, "2026-11-09T09:00:00Z".parse().unwrap(), GyroType::gvk_6().nominal);
+    let first = Issue::first(ISSUER, "2026-11-09T09:00:00Z".parse().unwrap());
     Issue { accuracy, ..first }
 }
 
