@@ -1,29 +1,26 @@
-"""Verifies a passport's signature with OpenSSH and fits all currents by least squares. Needs PyYAML, NumPy, ssh-keygen.
+"""Verifies a passport with OpenSSH and fits all currents by least squares. Needs PyYAML, NumPy, ssh-keygen.
 
-What this signature check leaves open is in verifying.md. Usage: python least_squares.py PASSPORT.yaml CURRENTS.csv SIGNERS ISSUER
+Usage: python least_squares.py PASSPORT.yaml CURRENTS.csv SIGNERS ISSUER
 """
-import csv, re, subprocess, sys, tempfile
+import csv, sys
 import numpy as np
-import yaml
+from passport_content import verified
 
 passport, currents, signers, issuer = sys.argv[1:]
-text, _, armor = open(passport, encoding="utf-8", newline="").read().partition('signature: |\n')
-issued_at = re.sub("[-:T]", "", re.search(r'^  issued_at: "(.*)"$', text, re.M)[1])
-with tempfile.NamedTemporaryFile("w", newline="") as signature:
-    signature.write(armor.replace("  ", ""))
-    signature.flush()
-    subprocess.run(
-        ["ssh-keygen", "-Y", "verify", "-f", signers, "-I", issuer, "-n", "dtg-passport", "-O", f"verify-time={issued_at}", "-s", signature.name],
-        input=text.encode(), stdout=subprocess.DEVNULL, check=True)
-passport = yaml.safe_load(text)  # only now, and only what is signed
-assert passport["passport"]["issuer"] == issuer
+vectors = verified(passport, signers, issuer)["vectors"]
 
-rows = csv.DictReader(line for line in open(currents) if not line.startswith("#"))
-current = {(int(row["i"]), int(row["j"])): (float(row["jx_ma"]), float(row["jy_ma"])) for row in rows}
+current = {}
+for row in csv.DictReader(line for line in open(currents, encoding="utf-8-sig") if not line.startswith("#")):
+    at = int(row["i"]), int(row["j"])
+    if at in current:
+        sys.exit(f"{currents}: refused: a second row for position {at}; give the mean, or use `dtg-passport calibrate`")
+    current[at] = float(row["jx_ma"]), float(row["jy_ma"])
+if current.keys() != {(at["i"], at["j"]) for at in vectors}:
+    sys.exit(f"{currents}: refused: its positions are not those of the passport")
 
 # K J + omega_0 + omega_n n = omega_3, eq. (5); unknown: K row by row, omega_0, omega_g, omega_k
 a, b = [], []
-for at in passport["vectors"]:
+for at in vectors:
     (jx, jy), (c, d) = current[at["i"], at["j"]], at["specific_force_g"]
     a += [[jx, jy, 0, 0, 1, 0, c, -d], [0, 0, jx, jy, 0, 1, d, c]]
     b += at["omega_deg_per_h"]

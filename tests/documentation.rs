@@ -106,6 +106,32 @@ fn every_key_is_in_the_reference() {
     );
 }
 
+/// The guide names the verbs that print JSON: those, and no others, whose help offers it for the result.
+#[test]
+fn the_verbs_that_print_json_are_named() {
+    let help = |verb: &str| run(&format!("dtg-passport {verb} --help"), Path::new(env!("CARGO_TARGET_TMPDIR")));
+    let commands = |help: &str| -> Vec<String> {
+        let listed = help.split("Commands:\n").nth(1).unwrap_or_default().split("\n\n").next().unwrap();
+        let lines = listed.lines().filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with(' ')));
+        lines.filter_map(|line| line.split(' ').next()).map(str::to_owned).collect()
+    };
+    let prints_json = |verb: &str| {
+        let below = commands(&help(verb)).first().map(|command| help(&format!("{verb} {command}")));
+        let text = below.unwrap_or_else(|| help(verb));
+        text.contains("Form of the result") && text.contains("- json")
+    };
+    let verbs = commands(&help(""));
+    assert!(verbs.len() > 10, "{verbs:?}");
+    let due: Vec<&String> = verbs.iter().filter(|verb| *verb != "help" && prints_json(verb)).collect();
+    let guide = fs::read_to_string(tools::project("docs/integrator.md")).unwrap();
+    let sentence = guide.split("With `--format json`, ").nth(1).unwrap().split(" print ").next().unwrap();
+    let mut named: Vec<&str> = sentence.split('`').skip(1).step_by(2).collect();
+    named.sort_unstable();
+    let mut due: Vec<&str> = due.into_iter().map(String::as_str).collect();
+    due.sort_unstable();
+    assert_eq!(named, due);
+}
+
 /// Every link to a file of the project leads to one.
 #[test]
 fn links_lead_somewhere() {

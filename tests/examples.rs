@@ -5,14 +5,15 @@
 
 mod tools;
 
+use dtg_passport::document::join;
 use dtg_passport::passport::issue::{self, Issue};
-use dtg_passport::passport::{Question, Trust, verify};
+use dtg_passport::passport::{NAMESPACE, Question, Trust, verify};
 use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
 use dtg_passport::trust::{AllowedSigners, SigningKey};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
 
 const STANDS: [&str; 2] = ["passports/SPS-1/0203", "passports/SPS-2/0017"];
 const SITES: [&str; 2] = ["moscow-bmstu", "beijing-nim"];
@@ -105,48 +106,134 @@ fn the_sites_are_spread_over_the_earth_and_name_their_sources() {
     assert!(latitudes.iter().any(|latitude| latitude.abs() > 65.0));
 }
 
-/// The Python program of docs/verifying.md finds the parameters of the self-check in every shipped passport.
-#[test]
-fn the_python_program_finds_the_self_check() {
-    let program = tools::project("docs/self_check.py");
-    assert!(fs::read_to_string(&program).unwrap().lines().count() <= 25);
-    for (path, _, _) in passports() {
-        let mut python = tools::python();
-        python.arg(&program).arg(tools::project(&path));
-        let printed = tools::output(python);
-        assert_eq!(printed.lines().count(), 4, "{printed}");
-    }
-    // It must be able to fail: a current changed by 1e-6 mA is seen.
-    let path = format!("{}/{}-1.yaml", STANDS[0], SITES[0]);
-    let text = String::from_utf8(read(&path)).unwrap();
-    let first = text.split("jx_ma: -0.").nth(1).unwrap();
-    let changed = text.replacen(&first[..6], &format!("{:06}", first[..6].parse::<u32>().unwrap() + 1), 1);
-    let wrong = scratch("self_check").join("wrong.yaml");
-    fs::write(&wrong, changed).unwrap();
-    let status = tools::python().arg(&program).arg(&wrong).output().unwrap().status;
-    assert_eq!(status.code(), Some(1));
+/// A Python program of docs/, with these options of Python.
+fn documented(options: &[&str], program: &str, arguments: &[&Path]) -> Output {
+    let mut python = tools::python();
+    python.args(options).arg(tools::project(program)).args(arguments).output().unwrap()
 }
 
-/// The recipe of docs/verifying.md, taken from the page, with stock OpenSSH: good, and altered.
+fn signers() -> PathBuf {
+    tools::project("docs/allowed_signers")
+}
+
+/// The Python program of docs/integrator.md finds the parameters of the self-check in every shipped passport.
 #[test]
-fn the_openssh_recipe_works_as_printed() {
+fn the_python_program_finds_the_self_check() {
+    let program = "docs/self_check.py";
+    assert!(fs::read_to_string(tools::project(program)).unwrap().lines().count() <= 25);
+    let run = |passport: &Path| documented(&[], program, &[passport, &signers(), Path::new(ISSUER)]);
+    for (path, _, _) in passports() {
+        let output = run(&tools::project(&path));
+        let printed = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status.success() && printed.lines().count() == 4, "{path}: {printed}");
+    }
+    // It must be able to fail: a current changed by 1e-6 mA is seen, and one that is no number.
+    let text = String::from_utf8(read(FICTITIOUS)).unwrap();
+    let (payload, _) = text.split_once("signature: |\n").unwrap();
+    let (before, current) = payload.split_once("jx_ma: ").unwrap();
+    let (current, after) = current.split_once(',').unwrap();
+    let key = SigningKey::from_openssh(&String::from_utf8(read("tests/keys/examples")).unwrap(), None).unwrap();
+    for wrong in [format!("{}", current.parse::<f64>().unwrap() + 1e-6), ".nan".to_owned()] {
+        let payload = format!("{before}jx_ma: {wrong},{after}");
+        let file = scratch("self_check").join("wrong.yaml");
+        fs::write(&file, join(&payload, &key.sign(NAMESPACE, payload.as_bytes()).unwrap())).unwrap();
+        let output = run(&file);
+        assert_eq!(output.status.code(), Some(1));
+        assert_eq!(String::from_utf8(output.stdout).unwrap().lines().count(), 4, "{wrong}");
+    }
+}
+
+/// The recipe of docs/verifying.md, taken from the page, with stock OpenSSH; its success and what it prints.
+fn recipe(passport: &Path, folder: &Path) -> (bool, String) {
     let page = String::from_utf8(read("docs/verifying.md")).unwrap();
     let recipe = page.split("```sh\n").nth(1).unwrap().split("```").next().unwrap();
-    let path = tools::project(&format!("{}/{}-1.yaml", STANDS[1], SITES[0]));
-    let run = |passport: &Path, folder: &Path| {
-        let mut shell = tools::on_path("sh");
-        shell.args(["-e", "-c", recipe]).current_dir(folder).env("PASSPORT", passport).env("ISSUER", ISSUER);
-        shell.env("SIGNERS", tools::project("tests/keys/allowed_signers"));
-        let output = shell.output().unwrap();
-        (output.status.success(), String::from_utf8_lossy(&output.stdout).into_owned())
-    };
+    let mut shell = tools::on_path("sh");
+    shell.args(["-e", "-c", recipe]).current_dir(folder).env("PASSPORT", passport).env("ISSUER", ISSUER);
+    let output = shell.env("SIGNERS", signers()).output().unwrap();
+    (output.status.success(), String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+#[test]
+fn the_openssh_recipe_works_as_printed() {
     let folder = scratch("recipe");
-    let (good, words) = run(&path, &folder);
+    let (good, words) = recipe(&tools::project(FICTITIOUS), &folder);
     assert!(good && words.starts_with("Good \"dtg-passport\" signature"), "{words}");
-    let altered = folder.join("altered.yaml");
-    let text = fs::read_to_string(&path).unwrap().replacen("alpha_arcsec: 12.4", "alpha_arcsec: 12.5", 1);
-    fs::write(&altered, text).unwrap();
-    assert!(!run(&altered, &folder).0);
+}
+
+/// Whatever is beside the signed bytes is refused before a program of the documentation reads a number.
+#[test]
+fn documented_programs_read_signed_bytes_alone() {
+    let text = String::from_utf8(read(FICTITIOUS)).unwrap();
+    let folder = scratch("signed-bytes");
+    let appended = "self_check: {currents: []}\n";
+    for (name, altered) in [
+        ("altered", text.replacen("alpha_arcsec: 25571.0", "alpha_arcsec: 25572.0", 1)),
+        ("a key after the signature", format!("{text}{appended}")),
+        ("an indented line after the signature", format!("{text}  {appended}")),
+        ("a second signature block with keys", format!("{text}{appended}signature: |\n")),
+        ("a second document", format!("{text}---\n{text}")),
+        ("a key before the block", text.replacen("signature: |\n", &format!("signature: |\n{appended}"), 1)),
+        ("a key in the line of the signature", text.replacen("signature: |\n", "signature: |\r\n", 1)),
+        ("the signature twice", text.replacen("signature: |\n", "signature: |\nsignature: |\n", 1)),
+        ("no signature", text.split("signature: |\n").next().unwrap().to_owned()),
+        ("nothing", String::new()),
+    ] {
+        assert_ne!(altered, text, "{name}");
+        let file = folder.join("altered.yaml");
+        fs::write(&file, altered).unwrap();
+        let currents = tools::project("docs/currents.csv");
+        let (issuer, signers) = (Path::new(ISSUER), signers());
+        let outputs = [
+            documented(&[], "docs/self_check.py", &[&file, &signers, issuer]),
+            documented(&[], "docs/least_squares.py", &[&file, &currents, &signers, issuer]),
+        ];
+        for output in outputs {
+            let words = String::from_utf8(output.stderr).unwrap();
+            assert!(output.status.code() == Some(1) && output.stdout.is_empty(), "{name}: {words}");
+            assert!(words.contains(": refused: ") && !words.contains("Traceback"), "{name}: {words}");
+        }
+        assert!(!recipe(&file, &folder).0, "{name}");
+    }
+}
+
+/// Asked for another issuer than the one that the text names, with a key that may sign for both; asserts switched off or not.
+#[test]
+fn documented_programs_refuse_another_issuer() {
+    let everybody = scratch("issuer").join("allowed_signers");
+    let line = String::from_utf8(read("tests/keys/allowed_signers")).unwrap();
+    fs::write(&everybody, line.replacen(ISSUER, "*", 1)).unwrap();
+    let passport = tools::project("passports/SPS-2/0017/moscow-bmstu-1.yaml");
+    let currents = tools::project("docs/currents.csv");
+    for options in [&[][..], &["-O"]] {
+        for (issuer, due) in [(ISSUER, 0), ("somebody@example.org", 1)] {
+            let issuer = Path::new(issuer);
+            let codes = [
+                documented(options, "docs/self_check.py", &[&passport, &everybody, issuer]),
+                documented(options, "docs/least_squares.py", &[&passport, &currents, &everybody, issuer]),
+            ]
+            .map(|output| output.status.code());
+            assert_eq!(codes, [Some(due), Some(due)], "{options:?} {issuer:?}");
+        }
+    }
+}
+
+#[test]
+fn documented_least_squares_takes_each_position_once() {
+    let passport = tools::project("passports/SPS-2/0017/moscow-bmstu-1.yaml");
+    let csv = String::from_utf8(read("docs/currents.csv")).unwrap();
+    let last = csv.lines().last().unwrap();
+    let table = scratch("rows").join("currents.csv");
+    for (name, altered, words) in [
+        ("a row twice", format!("{csv}{last}\n"), "a second row for position (2, 4)"),
+        ("other numbers for a position", format!("{csv}2,4,0.1,0.1\n"), "a second row for position (2, 4)"),
+        ("a row less", csv.replace(last, ""), "not those of the passport"),
+        ("another position", format!("{csv}3,1,0.1,0.1\n"), "not those of the passport"),
+    ] {
+        fs::write(&table, altered).unwrap();
+        let output = documented(&[], "docs/least_squares.py", &[&passport, &table, &signers(), Path::new(ISSUER)]);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(1) && output.stdout.is_empty() && said.contains(words), "{name}: {said}");
+    }
 }
 
 fn scratch(name: &str) -> PathBuf {
