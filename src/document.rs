@@ -7,7 +7,9 @@ use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::canonical::{self, NotCanonical};
 use crate::text::problem::{Location, Unreadable};
 use crate::text::{Field, Problems, rule};
-use crate::trust::{AllowedSigners, KeyError, KeyPoint, Message, PublicKey, Signature, SignatureError, SigningKey};
+use crate::trust::{AllowedSigners, KeyPoint, Message, PublicKey, Signature, SignatureError};
+#[cfg(feature = "factory")]
+use crate::trust::{KeyError, SigningKey};
 use sha2::{Digest, Sha256};
 
 /// The line that ends the payload.
@@ -43,12 +45,14 @@ pub trait Signer {
 #[error("{0}")]
 pub struct SigningFailed(pub String);
 
+#[cfg(feature = "factory")]
 impl From<KeyError> for SigningFailed {
     fn from(error: KeyError) -> Self {
         Self(error.to_string())
     }
 }
 
+#[cfg(feature = "factory")]
 impl Signer for SigningKey {
     fn sign(&self, namespace: &str, message: &[u8]) -> Result<Signature, SigningFailed> {
         Ok(SigningKey::sign(self, namespace, message)?)
@@ -167,7 +171,7 @@ pub fn parse<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut Proble
     })?;
     let mut problems = Problems::new();
     check(&content, &mut problems);
-    if problems.is_empty() { Ok(content) } else { Err(problems.refuse(name, payload)) }
+    if problems.is_empty() { Ok(content) } else { Err(problems.refuse_by_field(name)) }
 }
 
 /// SHA-256 of a file, lower-case hexadecimal.
@@ -199,7 +203,7 @@ pub fn join(payload: &str, signature: &Signature) -> String {
     format!("{payload}{SIGNATURE_LINE}{armor}")
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "factory"))]
 mod tests {
     use super::*;
 

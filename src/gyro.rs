@@ -4,7 +4,7 @@
 
 use crate::coefficients::PositionCoefficients;
 use crate::earth::STANDARD_GRAVITY_M_PER_S2;
-use crate::text::{Path, Problems, Unreadable, node, record};
+use crate::text::{Path, Problems, record};
 use nalgebra::{Matrix2, Vector2};
 
 /// The parameters of a dynamically tuned gyro in rate mode.
@@ -104,9 +104,12 @@ impl GyroType {
     /// Reads a `dtg-gyro/1` file; `name` is its name in messages.
     ///
     /// # Errors
-    /// Every mistake with its line, column and field: see [`Unreadable`].
-    pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        node::read_document(name, bytes, GYRO_FORMAT, |gyro: &Self, problems| gyro.check(&Path::Root, problems))
+    /// Every mistake with its line, column and field: see [`crate::text::Unreadable`].
+    #[cfg(feature = "factory")]
+    pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
+        crate::text::yaml::read_document(name, bytes, GYRO_FORMAT, |gyro: &Self, problems| {
+            gyro.check(&Path::Root, problems)
+        })
     }
 
     /// The rules of a type's content.

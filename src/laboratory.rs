@@ -1,6 +1,6 @@
 //! The laboratory: its meter, how the gyro sits, how the base stands: the file `dtg-laboratory/1`.
 
-use crate::text::{Path, Problems, Unreadable, node, record};
+use crate::text::{Path, Problems, record};
 
 /// The format of a laboratory file.
 pub const LABORATORY_FORMAT: &str = "dtg-laboratory/1";
@@ -65,9 +65,10 @@ impl Laboratory {
     /// Reads a `dtg-laboratory/1` file; `name` is its name in messages.
     ///
     /// # Errors
-    /// Every mistake with its line, column and field: see [`Unreadable`].
-    pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        node::read_document(name, bytes, LABORATORY_FORMAT, |laboratory: &Self, problems| {
+    /// Every mistake with its line, column and field: see [`crate::text::Unreadable`].
+    #[cfg(feature = "factory")]
+    pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
+        crate::text::yaml::read_document(name, bytes, LABORATORY_FORMAT, |laboratory: &Self, problems| {
             laboratory.check(&Path::Root, problems);
         })
     }
@@ -125,7 +126,7 @@ impl Meter {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "factory"))]
 mod tests {
     use super::*;
 

@@ -37,37 +37,39 @@
 //!
 //! # The modules, in the order of the data
 //!
-//! A module uses only those above it.
+//! A module uses only those above it. A feature of Cargo is a floor of the house: without any, bytes, keys and a time come in,
+//! and an answer goes out, without files, processes or a clock. Every feature alone builds and passes its tests.
 //!
-//! | module | what it holds |
-//! |---|---|
-//! | [`bibliography`] | the papers and standards that formulas link to |
-//! | [`units`] | angles and rates: the one place that converts |
-//! | [`parallel`] | the same work on many things at once |
-//! | [`text`] | strict YAML in, one canonical form out, errors that point into the file |
-//! | [`attitude`] | eq. (3), (4): A, E, Ã |
-//! | [`coefficients`] | eq. (5), (9)-(13): n, ω_3, Δ, B, C |
-//! | [`earth`] | Earth rate, gravity, deflection, geodesics |
-//! | [`site`], [`stand`] | a place of delivery; a stand and its certified deviations |
-//! | [`gyro`], [`laboratory`] | eq. (2): parameters and currents, types of gyro; the meter and the seat |
-//! | [`statistics`] | least squares, distributions, random streams: no gyro in it |
-//! | [`calibration`] | from currents to parameters, their uncertainty, the fit |
-//! | [`uncertainty`] | where the uncertainty comes from: the budget |
-//! | [`certification`] | readings of the angles to a stand, and whether it is still the same one |
-//! | [`simulation`] | the paper's table and its Fig. 4 |
-//! | [`selftest`] | the reference cases of the mathematics, found again on the user's own machine |
-//! | [`trust`] | signatures, keys, allowed signers, revocation: bytes and time in, a verdict out |
-//! | [`document`] | a signed text: split, checked, parsed, joined |
-//! | [`revocation`] | the signed list of withdrawn passports |
-//! | [`passport`] | content, issue, re-issue, verification |
-//! | [`register`] | what is in force among many |
-//! | [`schema`] | JSON Schemas of the formats |
-//! | [`files`], [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports |
-//! | [`batch`] | many passports at once |
-//! | [`report`] | what people read |
-//! | [`demonstration`] | the whole story on a built-in example |
+//! | module | what it holds | feature |
+//! |---|---|---|
+//! | [`bibliography`] | the papers and standards that formulas link to | |
+//! | [`units`] | angles and rates: the one place that converts | |
+//! | [`parallel`] | the same work on many things at once | |
+//! | [`text`] | one canonical form out and in, tables, errors that point into the file; hand-written YAML with `factory` | |
+//! | [`attitude`] | eq. (3), (4): A, E, Ã | |
+//! | [`coefficients`] | eq. (5), (9)-(13): n, ω_3, Δ, B, C | |
+//! | [`earth`] | Earth rate, gravity, deflection, geodesics | |
+//! | [`site`], [`stand`] | a place of delivery; a stand and its certified deviations | |
+//! | [`gyro`], [`laboratory`] | eq. (2): parameters and currents, types of gyro; the meter and the seat | |
+//! | [`statistics`] | least squares, distributions; random streams with `monte-carlo`: no gyro in it | |
+//! | [`calibration`] | from currents to parameters, their uncertainty, the fit | |
+//! | [`uncertainty`] | the budget of the uncertainty; 95 % intervals with `monte-carlo` | |
+//! | [`simulation`] | the paper's table and its Fig. 4 | `monte-carlo` |
+//! | [`selftest`] | the reference cases of the mathematics, found again on the user's own machine | `monte-carlo` |
+//! | [`trust`] | signatures, allowed signers, revocation: bytes and time in, a verdict out; private keys with `factory` | |
+//! | [`document`] | a signed text: split, checked, parsed, joined | |
+//! | [`revocation`] | the signed list of withdrawn passports | |
+//! | [`passport`] | content and verification; issue and re-issue with `factory` | |
+//! | [`register`] | what is in force among many | |
+//! | [`certification`] | readings of the angles to a stand, and whether it is still the same one | `factory` |
+//! | [`files`], [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports | `factory` |
+//! | [`batch`] | many passports at once | `factory` |
+//! | [`report`] | what people read | `report` |
+//! | [`schema`] | JSON Schemas of the formats | `cli` |
+//! | [`demonstration`] | the whole story on a built-in example | `cli` |
 //!
-//! Only `files`, `signing`, `folder`, `batch` and `demonstration` touch the file system or start a program; nothing reads the
+//! The feature `cli`, which has all the others and is the default, builds the program. Only `files`, `signing`, `folder`,
+//! `batch` and `demonstration` touch the file system or start a program; nothing reads the
 //! clock, prints, or looks at the environment (`ssh-keygen`, where it signs, looks for its agent there).
 //!
 //! # What it refuses
@@ -80,26 +82,36 @@
 #![deny(missing_docs)]
 
 pub mod attitude;
+#[cfg(feature = "factory")]
 pub mod batch;
 pub mod bibliography;
 pub mod calibration;
+#[cfg(feature = "factory")]
 pub mod certification;
 pub mod coefficients;
+#[cfg(feature = "cli")]
 pub mod demonstration;
 pub mod document;
 pub mod earth;
+#[cfg(feature = "factory")]
 pub mod files;
+#[cfg(feature = "factory")]
 pub mod folder;
 pub mod gyro;
 pub mod laboratory;
 pub mod parallel;
 pub mod passport;
 pub mod register;
+#[cfg(feature = "report")]
 pub mod report;
 pub mod revocation;
+#[cfg(feature = "cli")]
 pub mod schema;
+#[cfg(feature = "monte-carlo")]
 pub mod selftest;
+#[cfg(feature = "factory")]
 pub mod signing;
+#[cfg(feature = "monte-carlo")]
 pub mod simulation;
 pub mod site;
 pub mod stand;

@@ -335,7 +335,7 @@ impl Series {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "factory"))]
 mod tests {
     use super::*;
     use crate::trust::SigningKey;

@@ -4,7 +4,7 @@ use crate::coefficients::EarthRate;
 use crate::earth::{self, LaplaceCorrection, Place};
 use crate::text::scalar::Identifier;
 use crate::text::sink::Sink;
-use crate::text::{Field, Node, Path, Problems, Unreadable, node, record};
+use crate::text::{Field, Node, Path, Problems, record};
 use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};
 
 /// The format of a site file.
@@ -101,13 +101,13 @@ record! {
 }
 
 /// A site file: `format`, then the keys of [`Site`].
-#[derive(Debug, Clone, PartialEq, schemars::JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 pub struct SiteFile {
     /// Always "dtg-site/1".
     pub format: String,
     /// The site itself, its keys beside `format`.
-    #[schemars(flatten)]
+    #[cfg_attr(feature = "cli", schemars(flatten))]
     pub site: Site,
 }
 
@@ -171,10 +171,11 @@ impl Site {
     /// Reads a `dtg-site/1` file; `name` is its name in messages.
     ///
     /// # Errors
-    /// Every mistake with its line, column and field: see [`Unreadable`].
-    pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
+    /// Every mistake with its line, column and field: see [`crate::text::Unreadable`].
+    #[cfg(feature = "factory")]
+    pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
         let check = |file: &SiteFile, problems: &mut Problems| file.site.check(&Path::Root, problems);
-        Ok(node::read_document(name, bytes, SITE_FORMAT, check)?.site)
+        Ok(crate::text::yaml::read_document(name, bytes, SITE_FORMAT, check)?.site)
     }
 
     /// The rules of a site's content.

@@ -3,7 +3,7 @@
 use crate::attitude::Deviation;
 use crate::coefficients::{EIGHT_POSITIONS, Position, PositionIndex, SingularPositions, StandGeometry};
 use crate::text::scalar::Identifier;
-use crate::text::{Path, Problems, Unreadable, node, record};
+use crate::text::{Path, Problems, record};
 use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
 use jiff::civil::Date;
 use std::collections::BTreeSet;
@@ -162,9 +162,10 @@ impl Stand {
     /// Reads a `dtg-stand/1` file; `name` is its name in messages.
     ///
     /// # Errors
-    /// Every mistake with its line, column and field: see [`Unreadable`].
-    pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        let mut stand = node::read_document(name, bytes, STAND_FORMAT, |stand: &Self, problems| {
+    /// Every mistake with its line, column and field: see [`crate::text::Unreadable`].
+    #[cfg(feature = "factory")]
+    pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
+        let mut stand = crate::text::yaml::read_document(name, bytes, STAND_FORMAT, |stand: &Self, problems| {
             check(&stand.certificate, &stand.positions, problems);
         })?;
         stand.positions.sort_by_key(CertifiedPosition::index);

@@ -1,5 +1,7 @@
 //! Calibration against independent figures: the reference cases, and what docs/model.md says inputs cost.
 
+#![cfg(feature = "cli")]
+
 mod support;
 
 use dtg_passport::calibration::iterative::{self, StopRule};

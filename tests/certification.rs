@@ -1,5 +1,7 @@
 //! Certification: simulated stands whose components are known come back with the uncertainty stated.
 
+#![cfg(feature = "cli")]
+
 use dtg_passport::attitude;
 use dtg_passport::certification::comparison::compare;
 use dtg_passport::certification::{AngleReadings, Certification, Header, NotCertified, certify};

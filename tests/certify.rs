@@ -1,5 +1,7 @@
 //! `certify` on the command line: what it writes, and every way in which its input is refused.
 
+#![cfg(feature = "cli")]
+
 use assert_cmd::Command;
 use std::fs;
 use std::path::{Path, PathBuf};

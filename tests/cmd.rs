@@ -7,6 +7,8 @@
 //!
 //! `TRANSCRIPTS=write cargo test --test cmd` writes what comes back into the transcripts: read the difference.
 
+#![cfg(feature = "cli")]
+
 mod tools;
 
 use std::fs;

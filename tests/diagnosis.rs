@@ -1,5 +1,7 @@
 //! What residuals tell and what they do not; whether uncertainties are honest.
 
+#![cfg(feature = "cli")]
+
 mod support;
 
 use dtg_passport::attitude::Deviation;

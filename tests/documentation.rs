@@ -3,6 +3,8 @@
 //! In a block ```` ```console ```` a line `$ …` is a command of a POSIX shell, run in a folder that holds copies of `passports/`,
 //! `sites/` and `docs/`; what follows is what it prints on both outputs, `…` standing for any text within a line.
 
+#![cfg(feature = "cli")]
+
 mod tools;
 
 use std::fs;

@@ -3,6 +3,8 @@
 //! `UPDATE_EXAMPLES=1 cargo test --test examples` writes the passports again after a change of the format; nothing writes
 //! tests/golden again.
 
+#![cfg(feature = "cli")]
+
 mod tools;
 
 use dtg_passport::document::join;

@@ -3,6 +3,8 @@
 //! The forger has no key, a key that is trusted for something else, stock `ssh-keygen`, or a rightly trusted key and
 //! wrong words. Where stock `ssh-keygen -Y verify` accepts what is refused here, the case says so, and a test asks it.
 
+#![cfg(feature = "cli")]
+
 mod made;
 mod tools;
 

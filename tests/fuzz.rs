@@ -2,6 +2,8 @@
 //!
 //! With coverage to guide it, `tests/fuzz/run` goes on from here; see `tests/fuzz/README.md`.
 
+#![cfg(feature = "cli")]
+
 #[path = "fuzz/mutation.rs"]
 mod mutation;
 #[path = "fuzz/properties.rs"]

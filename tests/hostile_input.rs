@@ -2,6 +2,8 @@
 //!
 //! A signature is no help against them: anybody has a key of his own, and with it comes as far as the parser.
 
+#![cfg(feature = "cli")]
+
 mod made;
 
 use dtg_passport::passport::{read, verify};

@@ -1,6 +1,8 @@
 //! The keys of every JSON result and of a passport, in their order, as programs rely on them; and the numbers of
 //! `show --format json` against those that PyYAML finds in the file.
 
+#![cfg(feature = "cli")]
+
 mod tools;
 
 use serde::de::{MapAccess, SeqAccess, Visitor};

@@ -1,5 +1,7 @@
 //! The noise of a stand against NumPy: the same ratio from a design matrix written down anew in Python.
 
+#![cfg(feature = "cli")]
+
 mod tools;
 
 use dtg_passport::calibration::prediction::noise_growth;

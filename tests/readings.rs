@@ -1,5 +1,7 @@
 //! Currents in CSV: what is read, and every way in which a file is refused.
 
+#![cfg(feature = "cli")]
+
 mod support;
 
 use dtg_passport::calibration::{Readings, Setup};

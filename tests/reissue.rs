@@ -1,6 +1,8 @@
 //! What a re-issue takes over from an old passport whose key nobody trusts any more: its id and its hash, and nothing
 //! that whoever signed it could have put there.
 
+#![cfg(feature = "cli")]
+
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::accuracy::Stated;

@@ -1,5 +1,7 @@
 //! The report of a calibration against the result that programs get, and what it must say large.
 
+#![cfg(feature = "cli")]
+
 mod tools;
 
 use serde_json::Value;

@@ -1,5 +1,7 @@
 //! No reading, however absurd, makes the library panic, or gives a number that is none.
 
+#![cfg(feature = "cli")]
+
 mod support;
 
 use dtg_passport::calibration::inputs::MeterUncertainty;

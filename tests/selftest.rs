@@ -1,5 +1,7 @@
 //! The self-test passes, says so, and fails where it should.
 
+#![cfg(feature = "cli")]
+
 use assert_cmd::Command;
 use dtg_passport::report::selftest::{text, to_json};
 use dtg_passport::selftest::Case;

@@ -1,5 +1,7 @@
 //! The paper's table and Fig. 4 against the independent figures of docs/model.md. Full size: it takes seconds.
 
+#![cfg(feature = "cli")]
+
 use dtg_passport::attitude::Deviation;
 use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::{MeterUncertainty, Method, analytic, least_squares};

@@ -1,5 +1,7 @@
 //! A site: latitude, rates, gravity, radius, mark, and the check of place. Expected values by hand or from the sources named.
 
+#![cfg(feature = "cli")]
+
 use dtg_passport::earth::{Place, place_at};
 use dtg_passport::passport::checks::{CheckName, Code};
 use dtg_passport::passport::{Question, Trust, Verification, issue, verify};

@@ -2,6 +2,8 @@
 //! platform, seat, base with level and azimuth, latitude, meter. The simulation turns matrices by finite rotations and
 //! knows nothing of the sensitivities.
 
+#![cfg(feature = "cli")]
+
 mod support;
 
 use dtg_passport::attitude::{self, Deviation};

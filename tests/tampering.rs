@@ -1,5 +1,7 @@
 //! Whoever has no key changes a passport: each byte, each bit, each line, each length. Nothing may be accepted.
 
+#![cfg(feature = "cli")]
+
 mod made;
 
 use dtg_passport::passport::{Question, Trust, verify};

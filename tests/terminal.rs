@@ -1,6 +1,8 @@
 //! What a terminal gets and a pipe does not: emphasis, and never where NO_COLOR is set. The terminal is a real one, of
 //! util-linux's `script`.
 
+#![cfg(feature = "cli")]
+
 use std::process::Command;
 
 const SHOW: [&str; 4] = ["show", "passports/SPS-2/0017/moscow-bmstu-1.yaml", "--trust", "docs/allowed_signers"];

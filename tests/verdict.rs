@@ -1,5 +1,7 @@
 //! Verdicts against hand-made figures, the JSON of results, and the inputs that the files state.
 
+#![cfg(feature = "cli")]
+
 mod support;
 
 use dtg_passport::calibration::document::CalibrationDocument;

@@ -3,11 +3,14 @@
 //! The readers are the real ones, each called by a small program in `tests/readers/` which tells what it read as one
 //! JSON array a line: `["number", "3ff0000000000000"]`, `["text", "61"]`, `["list"]` … `["end"]`.
 
+#![cfg(feature = "cli")]
+
 mod tools;
 
 use dtg_passport::text::Node;
 use dtg_passport::text::canonical;
 use dtg_passport::text::rule::{self, allowed_in_string};
+use dtg_passport::text::yaml;
 use std::collections::HashSet;
 use std::path::Path;
 use std::process::Command;
@@ -164,7 +167,7 @@ fn goes_through_every_reader(name: &str, document: &Node) {
     });
     assert_eq!(rule::check(name, text.as_bytes()).map_err(|error| error.to_string()), Ok(text.as_str()));
 
-    let (own, _) = Node::from_yaml(name, text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+    let (own, _) = yaml::tree(name, text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
     let (mut expected, mut found) = (Vec::new(), Vec::new());
     Seen::list(document, &mut expected);
     Seen::list(&own, &mut found);

@@ -169,7 +169,7 @@ pub(crate) fn standard_deviations(spread: &DMatrix<f64>) -> Vec<f64> {
     squares.into_iter().map(f64::sqrt).collect()
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "monte-carlo"))]
 mod tests {
     use super::*;
     use crate::attitude::Deviation;

@@ -2,7 +2,7 @@
 
 use crate::coefficients::PositionIndex;
 use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity, STAND_FORMAT, Stand};
-use crate::text::{Path, Problems, Unreadable, node, record};
+use crate::text::{Path, Problems, Unreadable, record, yaml};
 
 record! {
     /// One position to be certified: its nominal angles alone.
@@ -71,7 +71,7 @@ impl Header {
     /// # Errors
     /// Every mistake with its line, column and field: those of a stand file, and numbers that certification finds itself.
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        let mut header = node::read_document(name, bytes, STAND_FORMAT, |header: &Self, problems| {
+        let mut header = yaml::read_document(name, bytes, STAND_FORMAT, |header: &Self, problems| {
             let positions: Vec<_> = header.positions.iter().map(|at| at.with_angles([0.0; 3])).collect();
             stand::check(&header.certificate, &positions, problems);
             check_not_measured(&header.certificate, problems);

@@ -3,6 +3,7 @@
 use super::accuracy::{NoAccuracy, Stated};
 use super::annotations::{self, absences};
 use super::content::{Content, Header, PASSPORT_FORMAT, Predecessor, REFERENCE_GYRO, derive_from, passport_id};
+use super::recomputed::SELF_CHECK_LIMIT;
 use super::{NAMESPACE, read};
 use crate::calibration::prediction::{NoiseGrowth, noise_growth};
 use crate::coefficients::{SingularPositions, StandGeometry};
@@ -16,9 +17,6 @@ use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, rule};
 use crate::trust::{Message, SignatureError};
 use jiff::Timestamp;
 use jiff::civil::Date;
-
-/// The self-check, calibrated again, may be off by this much of each parameter.
-pub const SELF_CHECK_LIMIT: f64 = 1e-9;
 
 /// A signature in its armor takes a quarter of this many bytes; one by a token, which names its application, less than all.
 const LONGEST_SIGNATURE: usize = 2000;
@@ -290,7 +288,7 @@ pub struct Remarks {
     pub absences: Vec<String>,
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "factory"))]
 mod tests {
     use super::*;
     use crate::passport::content::derive;

@@ -15,10 +15,12 @@ pub mod accuracy;
 pub mod annotations;
 pub mod checks;
 pub mod content;
+#[cfg(feature = "factory")]
 pub mod issue;
 pub mod place;
 pub mod read;
 pub mod recomputed;
+#[cfg(feature = "factory")]
 pub mod reissue;
 pub mod verification;
 

@@ -22,11 +22,11 @@ pub fn unverified(name: &str, bytes: &[u8]) -> Result<Content, Unreadable> {
     content(name, text.unverified_payload())
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "factory"))]
 mod tests {
     use super::*;
     use crate::passport::annotations;
-    use crate::text::{Field, Node, Path, Problems, canonical, rule};
+    use crate::text::{Field, Path, Problems, canonical, rule, yaml};
 
     const PASSPORTS: [&str; 2] = [
         include_str!("../../passports/SPS-1/0203/moscow-bmstu-1.yaml"),
@@ -77,7 +77,7 @@ uncertainty: {}
 
     /// What a general reader of YAML makes of the text, when its content, written again, gives the same lines.
     fn general(text: &str) -> Option<Content> {
-        let (node, _) = Node::from_yaml("t", text.as_bytes()).ok()?;
+        let (node, _) = yaml::tree("t", text.as_bytes()).ok()?;
         let mut problems = Problems::new();
         let content = Content::read(&node, &Path::Root, &mut problems)?;
         content.check(&mut problems);

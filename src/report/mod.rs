@@ -3,11 +3,11 @@
 //! * [`budget`]: where the uncertainty comes from.
 //! * [`verdict`]: the answer of `verify`.
 //! * [`calibration`]: the result of a calibration.
-//! * [`certification`]: a certified stand, and a check run.
+//! * `certification`: a certified stand, and a check run.
 //! * [`columns`]: text in columns.
 //! * [`deviations`]: the certified deviations, drawn in block characters.
 //! * [`monte_carlo`]: intervals, and whether first order is valid.
-//! * [`issued`]: what became of an order, and what the factory should know about it.
+//! * `issued`: what became of an order, and what the factory should know about it.
 //! * [`page`]: pages for print and screen, in several languages.
 //! * [`passport_table`]: a passport in a terminal.
 //! * [`picture`]: what a document says, drawn.
@@ -18,9 +18,11 @@
 
 pub mod budget;
 pub mod calibration;
+#[cfg(feature = "factory")]
 pub mod certification;
 pub mod columns;
 pub mod deviations;
+#[cfg(feature = "factory")]
 pub mod issued;
 pub mod monte_carlo;
 pub mod page;

@@ -1,7 +1,7 @@
 //! Sine, cosine and logarithm without branches, so that many trials run side by side. Only sums, products, quotients and
 //! bits: the same result on every platform. Everywhere else the crate uses `libm`.
 
-use std::f64::consts::{FRAC_PI_4, LN_2};
+use std::f64::consts::LN_2;
 
 /// Beyond this angle [`small_sin`] and [`small_cos_less_one`] are not used: about 4,100 arcseconds.
 pub const SMALL_RAD: f64 = 0.02;
@@ -75,8 +75,9 @@ pub fn ln(x: f64) -> f64 {
 
 /// (sin, cos) of π/4 · `share`, `share` in [0, 1), in the octant whose number is the lowest three bits of `octant`.
 #[inline(always)]
+#[cfg(feature = "monte-carlo")]
 pub(crate) fn on_circle(share: f64, octant: u64) -> (f64, f64) {
-    let (sin, cos) = octant_sin_cos(FRAC_PI_4 * share);
+    let (sin, cos) = octant_sin_cos(std::f64::consts::FRAC_PI_4 * share);
     let (sin, cos) = (sin.to_bits(), cos.to_bits());
     let exchanged = (sin ^ cos) & 0_u64.wrapping_sub(octant & 1);
     let sign = |bit: u64| (octant << bit) & (1 << 63);
@@ -100,7 +101,7 @@ mod tests {
             let x = SMALL_RAD * f64::from(step) / 20_000.0;
             assert!(x == 0.0 || units(small_sin(x), libm::sin(x)) <= 1.0, "{x}");
             assert!(units(1.0 + small_cos_less_one(x), libm::cos(x)) <= 1.0, "{x}");
-            let x = FRAC_PI_4 * f64::from(step.abs()) / 20_000.0;
+            let x = std::f64::consts::FRAC_PI_4 * f64::from(step.abs()) / 20_000.0;
             let (sin, cos) = octant_sin_cos(x);
             assert!(x == 0.0 || units(sin, libm::sin(x)) <= 2.0, "{x}");
             assert!(units(cos, libm::cos(x)) <= 2.0, "{x}");

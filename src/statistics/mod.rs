@@ -10,12 +10,15 @@
 //! * [`summary`]: largest, mean, deviation, percentile, and what a share of a sample is worth.
 
 pub mod beta;
+#[cfg(feature = "monte-carlo")]
 pub mod bins;
 pub mod distributions;
 pub mod elementary;
+#[cfg(feature = "monte-carlo")]
 pub mod lanes;
 pub mod least_squares;
 pub mod outlier;
 pub mod propagation;
+#[cfg(feature = "monte-carlo")]
 pub mod random;
 pub mod summary;

@@ -4,10 +4,11 @@
 //! * [`number`]: how a number is written.
 //! * [`canonical`]: the one form that content is written in, and its reader.
 //! * [`sink`]: what a document is written into.
-//! * [`node`]: YAML to a tree, with the place of every value found again when an error needs it.
+//! * [`node`]: a document as a tree.
 //! * [`mod@record`]: from that tree to a Rust struct and back, every mistake reported, not only the first.
 //! * [`scalar`]: identifiers, dates and times.
 //! * [`table`]: tables of numbers (CSV).
+//! * `yaml`: hand-written YAML to a tree, with the place of every value found again when an error needs it.
 //! * [`problem`]: what is wrong, where, what was expected, what to do.
 
 pub mod canonical;
@@ -19,6 +20,8 @@ pub mod rule;
 pub mod scalar;
 pub mod sink;
 pub mod table;
+#[cfg(feature = "factory")]
+pub mod yaml;
 
 pub use node::Node;
 pub use problem::{Path, Problems, Unreadable};

@@ -73,7 +73,7 @@ fn may_be_midway(value: f64, shortest: &str) -> bool {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "monte-carlo"))]
 mod tests {
     use super::*;
 

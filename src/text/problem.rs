@@ -117,6 +117,7 @@ pub const MOST_PROBLEMS: usize = 50;
 
 /// How much is read again to find those places, once the text for each: of a text so large that it comes to more, fewer
 /// mistakes are reported. A hostile text of a hundred thousand mistakes must not keep its reader busy for hours.
+#[cfg(feature = "factory")]
 const READ_AGAIN_BYTES: usize = 1 << 22;
 
 /// What is found where a key is missing.
@@ -173,6 +174,7 @@ impl Problems {
     }
 
     /// Says of the key `field`, where it was found missing, what belongs there and what to do.
+    #[cfg(feature = "factory")]
     pub(crate) fn expect_missing(&mut self, field: &str, expected: &str, advice: &str) {
         let missing = self.found.iter_mut().find(|(_, problem)| problem.field == field && problem.found == MISSING);
         if let Some((_, problem)) = missing {
@@ -210,19 +212,26 @@ impl Problems {
         self.found.push((Some(target), Problem { location: None, field, found, expected, advice }));
     }
 
-    /// The refusal of the document `name` whose text is `text`: the first mistakes with their lines and columns, in the
-    /// order of the text, and that there are more when there are.
+    /// Returns the refusal of the hand-written document `name` whose text is `text`: the first mistakes with their lines
+    /// and columns, in the order of the text, and that there are more when there are.
+    #[cfg(feature = "factory")]
     pub fn refuse(self, name: &str, text: &str) -> Unreadable {
         let affordable = (READ_AGAIN_BYTES / text.len().max(1)).max(1);
+        self.refused(name, affordable, |target| super::yaml::locate(text, target))
+    }
+
+    /// Returns the refusal of the signed document `name`: its mistakes by their fields.
+    pub(crate) fn refuse_by_field(self, name: &str) -> Unreadable {
+        self.refused(name, MOST_PROBLEMS, |_| None)
+    }
+
+    fn refused(self, name: &str, affordable: usize, locate: impl Fn(&Target) -> Option<Location>) -> Unreadable {
         let more = self.more || self.found.len() > affordable;
         let mut problems: Vec<Problem> = self
             .found
             .into_iter()
             .take(affordable)
-            .map(|(target, problem)| Problem {
-                location: target.and_then(|target| super::node::locate(text, &target)),
-                ..problem
-            })
+            .map(|(target, problem)| Problem { location: target.and_then(|target| locate(&target)), ..problem })
             .collect();
         problems.sort_by_key(|problem| problem.location.map(|at| (at.line, at.column)));
         if more {

@@ -50,8 +50,8 @@ pub trait Field: Sized + Clone + Send + Sync + 'static {
 macro_rules! record {
     ($(#[$about:meta])* pub struct $name:ident { $($(#[$doc:meta])* pub $field:ident : $type:ty,)* }) => {
         $(#[$about])*
-        #[derive(Debug, Clone, PartialEq, schemars::JsonSchema)]
-        #[schemars(deny_unknown_fields)]
+        #[derive(Debug, Clone, PartialEq)]
+        #[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
         pub struct $name { $($(#[$doc])* pub $field: $type,)* }
 
         impl $crate::text::Field for $name {

@@ -8,9 +8,11 @@ use jiff::tz::TimeZone;
 use std::fmt;
 
 /// A name that becomes a folder or file name: `[A-Za-z0-9][A-Za-z0-9._-]{0,63}` without `..`.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, schemars::JsonSchema)]
-#[schemars(transparent)]
-pub struct Identifier(#[schemars(regex(pattern = r"^[A-Za-z0-9](?!.*\.\.)[A-Za-z0-9._-]{0,63}$"))] String);
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(transparent))]
+pub struct Identifier(
+    #[cfg_attr(feature = "cli", schemars(regex(pattern = r"^[A-Za-z0-9](?!.*\.\.)[A-Za-z0-9._-]{0,63}$")))] String,
+);
 
 impl Identifier {
     /// The identifier `text`, or in words what is wrong with it.

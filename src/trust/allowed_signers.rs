@@ -162,7 +162,7 @@ impl NotAuthorised {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "factory"))]
 mod tests {
     use super::*;
     use crate::trust::SigningKey;

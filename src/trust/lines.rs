@@ -82,7 +82,7 @@ pub(super) fn of<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Line<'a>>, Unrea
     Ok(lines.filter(|line| !line.text.trim().is_empty() && !line.text.trim_start().starts_with('#')).collect())
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "factory"))]
 mod tests {
     use super::*;
 

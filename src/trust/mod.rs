@@ -22,6 +22,7 @@ mod pattern;
 pub mod public_key;
 pub mod revoked_keys;
 mod signer_line;
+#[cfg(feature = "factory")]
 pub mod signing_key;
 pub mod sshsig;
 mod validity;
@@ -31,13 +32,14 @@ pub use allowed_signers::{AllowedSigners, NotAuthorised};
 pub use error::{KeyError, SignatureError};
 pub use public_key::PublicKey;
 pub use revoked_keys::RevokedKeys;
+#[cfg(feature = "factory")]
 pub use signing_key::SigningKey;
 pub use sshsig::{KeyPoint, Message, Signature};
 
 /// The largest trust file (allowed signers, revoked keys) that is read at all, in bytes: room for 100,000 keys.
 pub const LARGEST_TRUST_FILE_BYTES: usize = 1 << 24;
 
-#[cfg(test)]
+#[cfg(all(test, feature = "factory"))]
 mod tests {
     use super::*;
     use proptest::prelude::*;

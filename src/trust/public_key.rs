@@ -5,7 +5,7 @@ use super::wire::{Truncated, Wire};
 use base64ct::{Base64, Encoding};
 use sha2::{Digest, Sha256};
 use ssh_key::Algorithm;
-use ssh_key::public::{Ed25519PublicKey, KeyData};
+use ssh_key::public::KeyData;
 
 /// Every key type that OpenSSH writes into a public key line, with the number of its fields after the type.
 /// Certificates are not among them: this project trusts keys, not authorities.
@@ -76,7 +76,8 @@ impl PublicKey {
     }
 
     /// The public half of a key that is held here.
-    pub(super) fn of_ed25519(key: Ed25519PublicKey) -> Self {
+    #[cfg(feature = "factory")]
+    pub(super) fn of_ed25519(key: ssh_key::public::Ed25519PublicKey) -> Self {
         let field = |bytes: &[u8]| [&(bytes.len() as u32).to_be_bytes()[..], bytes].concat();
         let blob = [field(KEY_TYPES[0].0.as_bytes()), field(&key.0)].concat();
         Self { data: key.into(), blob }

@@ -82,7 +82,7 @@ fn text(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
     if problems.is_empty() { Ok(revoked) } else { Err(Unreadable::of(name, problems)) }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "factory"))]
 mod tests {
     use super::*;
     use crate::trust::SigningKey;

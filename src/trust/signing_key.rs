@@ -219,7 +219,7 @@ fn header(bytes: &[u8]) -> Result<(String, String), Truncated> {
     Ok((cipher, text(public_key.string()?)))
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "factory"))]
 mod tests {
     use super::*;
 

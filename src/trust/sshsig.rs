@@ -11,7 +11,7 @@ use ed25519_dalek::VerifyingKey;
 use sha2::{Digest, Sha256};
 use ssh_encoding::{Decode, Encode};
 use ssh_key::public::KeyData;
-use ssh_key::{HashAlg, LineEnding, SshSig};
+use ssh_key::{HashAlg, SshSig};
 
 /// The longest armor that is read, in bytes: that of a security key with an unusually long application string.
 const LONGEST_ARMOR: usize = 4096;
@@ -76,8 +76,9 @@ impl Signature {
     }
 
     /// Writes a block as OpenSSH does.
+    #[cfg(feature = "factory")]
     pub(super) fn of(inner: SshSig) -> Result<Self, SignatureError> {
-        let armor = inner.to_pem(LineEnding::LF).map_err(refusal)?;
+        let armor = inner.to_pem(ssh_key::LineEnding::LF).map_err(refusal)?;
         Self::checked(inner, armor)
     }
 
@@ -223,6 +224,7 @@ impl KeyPoint {
         VerifyingKey::from_bytes(point_bytes(key)?).ok().map(Self)
     }
 
+    #[cfg(feature = "factory")]
     pub(super) fn of_ed25519(key: VerifyingKey) -> Self {
         Self(key)
     }
@@ -254,7 +256,7 @@ fn refusal(error: ssh_key::Error) -> SignatureError {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "factory"))]
 mod tests {
     use super::*;
     use crate::trust::SigningKey;

@@ -9,13 +9,20 @@
 //! * [`picture`]: the contributions as bars (SVG).
 
 pub mod budget;
+#[cfg(feature = "monte-carlo")]
 pub mod document;
+#[cfg(feature = "monte-carlo")]
 pub mod engine;
+#[cfg(feature = "monte-carlo")]
 pub mod entries;
+#[cfg(feature = "monte-carlo")]
 pub mod monte_carlo;
+#[cfg(feature = "monte-carlo")]
 pub mod picture;
 pub mod remedy;
+#[cfg(feature = "monte-carlo")]
 pub mod tally;
 
 pub use budget::Budget;
+#[cfg(feature = "monte-carlo")]
 pub use monte_carlo::{MonteCarlo, monte_carlo};

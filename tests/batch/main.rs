@@ -1,6 +1,8 @@
 //! Many passports at once, by the program itself: what is named and how, what is bad and what it costs, and that nothing
 //! is ever lost.
 
+#![cfg(feature = "cli")]
+
 #[path = "../tools/mod.rs"]
 mod tools;
 

@@ -3,6 +3,8 @@
 //! Needs `ssh-keygen`, `ssh-add`, `ssh-agent` (Debian: openssh-client) and, for the token in software, gcc and OpenSSL's
 //! headers (gcc, libssl-dev). What is missing fails its tests: nothing is skipped.
 
+#![cfg(feature = "cli")]
+
 mod agent;
 mod allowed_signers;
 mod keys;

@@ -5,6 +5,8 @@
 //! the pages, and what was printed, stay in `target/tmp/page` and `target/tmp/report` to look at. What is missing fails the
 //! tests: nothing is skipped.
 
+#![cfg(feature = "cli")]
+
 #[path = "../made/mod.rs"]
 mod made;
 #[path = "../tools/mod.rs"]

@@ -1,5 +1,7 @@
 //! Uncertainty against independent programs and against itself: budgets, passport accuracy, Monte Carlo.
 
+#![cfg(feature = "cli")]
+
 #[path = "../support/mod.rs"]
 mod support;
 #[path = "../tools/mod.rs"]

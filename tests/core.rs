@@ -1,0 +1,49 @@
+//! Without any feature: bytes, keys and a time in, an answer out.
+
+use dtg_passport::calibration::parameter::Parameter;
+use dtg_passport::calibration::{Options, Readings, Setup, calibrate};
+use dtg_passport::laboratory::Laboratory;
+use dtg_passport::passport::{CheckName, Code, Question, Trust, verify};
+use dtg_passport::trust::AllowedSigners;
+use std::fs;
+
+fn read(path: &str) -> Vec<u8> {
+    fs::read(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+fn trust() -> Trust {
+    Trust::of(AllowedSigners::parse("allowed_signers", &read("docs/allowed_signers")).unwrap())
+}
+
+fn question() -> Question {
+    Question::at("2026-12-01T00:00:00Z".parse().unwrap())
+}
+
+#[test]
+fn a_signed_passport_is_verified_and_an_altered_one_refused() {
+    let good = read("passports/SPS-2/0017/moscow-bmstu-1.yaml");
+    let answer = verify("good", &good, &trust(), &question());
+    assert!(answer.valid(), "{:#?}", answer.checks());
+
+    let altered = String::from_utf8(good).unwrap().replacen("SPS-2", "SPS-3", 1);
+    let answer = verify("altered", altered.as_bytes(), &trust(), &question());
+    assert_eq!(answer.code(CheckName::Signature), Some(Code::Altered));
+    assert!(answer.passport().is_none());
+}
+
+/// Expected: the gyro of docs/currents.csv is the paper's, K_x = 95 °/h/mA, read with the paper's meter.
+#[test]
+fn readings_in_the_laboratory_give_the_parameters() {
+    let answer = verify("good", &read("passports/SPS-2/0017/moscow-bmstu-1.yaml"), &trust(), &question());
+    let passport = answer.passport().unwrap();
+    let content = passport.content();
+    let laboratory = Laboratory::paper();
+    let (setup, _) = Setup::stated(&content.certificate, &content.positions, &content.site, &laboratory).unwrap();
+    let currents = read("docs/currents.csv");
+    let range_ma = laboratory.meter.range_ma;
+    let readings = Readings::from_csv("currents.csv", &currents, setup.coefficients(), range_ma).unwrap();
+    let calibration = calibrate(&setup, &readings, &Options::default()).unwrap();
+    let result = calibration.answer().unwrap();
+    let (k_x, u) = (result.value(Parameter::Kx).unwrap(), result.standard_uncertainty(Parameter::Kx).unwrap());
+    assert!((k_x - 95.0).abs() < 3.0 * u && u < 0.02, "{k_x}, u {u}");
+}
