@@ -21,7 +21,7 @@ use crate::site::Site;
 use crate::stand::Stand;
 use crate::statistics::random::Stream;
 use crate::text::scalar::day;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, shown};
 use crate::trust::{AllowedSigners, KeyError, SigningKey};
 use jiff::Timestamp;
 use std::path::{Path, PathBuf};
@@ -36,7 +36,7 @@ const IDENTITY: &str = "factory@example.org";
 #[non_exhaustive]
 pub enum Stopped {
     /// The folder has files in it.
-    #[error("{}: is there already and not an empty folder; give another one with --out", .0.display())]
+    #[error("{}: is there already and not an empty folder; give another one with --out", shown(.0))]
     NotEmpty(PathBuf),
     /// A file could not be read or written.
     #[error(transparent)]
@@ -127,9 +127,9 @@ impl Stage<'_> {
         self.calibrated(&there, &trust)?;
         self.altered(&there, &trust)?;
         self.line("")?;
-        self.line(&format!("Look at the files in {}; verify them yourself:", self.folder.display()))?;
-        let (signers, passport) = (self.path("allowed_signers"), there.path.display());
-        self.line(&format!("  dtg-passport verify {passport} --trust {} --serial 0203", signers.display()))
+        self.line(&format!("Look at the files in {}; verify them yourself:", shown(self.folder)))?;
+        let (signers, passport) = (self.path("allowed_signers"), shown(&there.path));
+        self.line(&format!("  dtg-passport verify {passport} --trust {} --serial 0203", shown(&signers)))
     }
 
     fn path(&self, name: &str) -> PathBuf {
@@ -147,7 +147,7 @@ impl Stage<'_> {
         files::write_new(&self.path("allowed_signers"), signers.as_bytes(), Access::Shared)?;
         self.line("THE FACTORY")?;
         self.line("1. makes a signing key and gives every laboratory its public half, once:")?;
-        self.line(&format!("   {}", self.path("allowed_signers").display()))?;
+        self.line(&format!("   {}", shown(&self.path("allowed_signers"))))?;
         Ok((key, Trust::of(AllowedSigners::parse("allowed_signers", signers.as_bytes())?)))
     }
 
@@ -168,7 +168,7 @@ impl Stage<'_> {
             &order,
             Seal { signer: key, trust: None },
         )?;
-        self.line(&format!("   {}", issued.path.display()))?;
+        self.line(&format!("   {}", shown(&issued.path)))?;
         if let Some(growth) = issued.remarks.noise {
             let worst = growth.worst();
             self.line(&format!("   A calibration on this stand is {worst:.2} times as noisy as on a perfect one."))?;
@@ -215,7 +215,7 @@ impl Stage<'_> {
         };
         let issued =
             self.passports().reissue(&successor(&bytes, &old, &order)?, Seal { signer: key, trust: Some(trust) })?;
-        self.line(&format!("   {}", issued.path.display()))?;
+        self.line(&format!("   {}", shown(&issued.path)))?;
         let bytes = files::read(&issued.path, LARGEST_DOCUMENT_BYTES)?;
         let question = Question::at(self.now);
         let answer = verify(&issued.id, &bytes, trust, &question);
@@ -224,7 +224,7 @@ impl Stage<'_> {
         let path = self.path("passport.html");
         let languages = Languages::new(Language::English, [Language::Russian]);
         files::write_new(&path, page.html(&languages).as_bytes(), Access::Shared)?;
-        self.line(&format!("   To print, in English and Russian: {}", path.display()))?;
+        self.line(&format!("   To print, in English and Russian: {}", shown(&path)))?;
         Ok(issued)
     }
 
@@ -243,7 +243,7 @@ impl Stage<'_> {
         let (setup, _) = Setup::stated(&content.certificate, &content.positions, &content.site, &laboratory)?;
         let path = self.path("currents.csv");
         files::write_new(&path, simulated_currents(&setup).as_bytes(), Access::Shared)?;
-        self.line(&format!("   {}", path.display()))?;
+        self.line(&format!("   {}", shown(&path)))?;
         let csv = files::read(&path, LARGEST_DOCUMENT_BYTES)?;
         let readings = Readings::from_csv("currents.csv", &csv, setup.coefficients(), laboratory.meter.range_ma)?;
         let calibration = calibration::calibrate(&setup, &readings, &Options::default())?;

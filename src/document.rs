@@ -6,7 +6,7 @@
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::canonical::{self, NotCanonical};
 use crate::text::problem::{Location, Unreadable};
-use crate::text::{Field, Problems, rule};
+use crate::text::{Field, Printable, Problems, rule};
 use crate::trust::{AllowedSigners, KeyPoint, Message, PublicKey, Signature, SignatureError};
 #[cfg(feature = "factory")]
 use crate::trust::{KeyError, SigningKey};
@@ -42,7 +42,7 @@ pub trait Signer {
 
 /// There is no signature.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{0}")]
+#[error("{}", Printable(.0))]
 pub struct SigningFailed(pub String);
 
 #[cfg(feature = "factory")]

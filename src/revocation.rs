@@ -5,7 +5,7 @@
 
 use crate::document::{self, Malformed, SignedText, Signer, SigningFailed};
 use crate::text::problem::Unreadable;
-use crate::text::{Path, Problems, canonical, record, rule};
+use crate::text::{Path, Printable, Problems, canonical, record, rule};
 use crate::trust::{AllowedSigners, Message, NotAuthorised, RevokedKeys, SignatureError};
 use jiff::Timestamp;
 use std::collections::BTreeSet;
@@ -61,7 +61,7 @@ pub enum ListRefused {
     #[error("{}", .0.fault)]
     Malformed(Malformed),
     /// The text is not the one that was signed.
-    #[error("{name}: {error}")]
+    #[error("{}: {error}", Printable(name))]
     Altered {
         /// The file.
         name: String,
@@ -72,7 +72,7 @@ pub enum ListRefused {
     #[error(transparent)]
     Content(#[from] Unreadable),
     /// Its key does not count for its issuer.
-    #[error("{name}: {miss}")]
+    #[error("{}: {miss}", Printable(name))]
     NotAuthorised {
         /// The file.
         name: String,
@@ -80,7 +80,7 @@ pub enum ListRefused {
         miss: NotAuthorised,
     },
     /// Its key was revoked.
-    #[error("{name}: its signing key was revoked: {why}")]
+    #[error("{}: its signing key was revoked: {}", Printable(name), Printable(why))]
     KeyRevoked {
         /// The file.
         name: String,
@@ -88,7 +88,7 @@ pub enum ListRefused {
         why: String,
     },
     /// It was issued later than now.
-    #[error("{name}: issued at {issued_at}, which is after {now}: is the clock right?")]
+    #[error("{}: issued at {issued_at}, which is after {now}: is the clock right?", Printable(name))]
     FromTheFuture {
         /// The file.
         name: String,
@@ -104,7 +104,7 @@ pub enum ListRefused {
 #[non_exhaustive]
 pub enum NoNewList {
     /// The passport is on the list already.
-    #[error("{id}: was withdrawn already, at {revoked_at}: {reason}")]
+    #[error("{id}: was withdrawn already, at {revoked_at}: {}", Printable(reason))]
     AlreadyRevoked {
         /// The passport.
         id: String,

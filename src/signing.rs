@@ -3,6 +3,7 @@
 use crate::document::{Signer, SigningFailed};
 use crate::files::{self, FileError};
 use crate::passport::NAMESPACE;
+use crate::text::{Printable, rule, shown};
 use crate::trust::{KeyError, PublicKey, Signature, SigningKey};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -21,7 +22,7 @@ pub enum KeyFileError {
     #[error(transparent)]
     File(#[from] FileError),
     /// It holds no key that signs.
-    #[error("{}: {error}", path.display())]
+    #[error("{}: {error}", shown(path))]
     Key {
         /// Which file.
         path: PathBuf,
@@ -29,7 +30,7 @@ pub enum KeyFileError {
         error: KeyError,
     },
     /// Others can read the private key.
-    #[error("{}: mode {mode:04o} lets others read the private key; make it yours alone: chmod 600", path.display())]
+    #[error("{}: mode {mode:04o} lets others read the private key; make it yours alone: chmod 600", shown(path))]
     Exposed {
         /// Which file.
         path: PathBuf,
@@ -37,7 +38,7 @@ pub enum KeyFileError {
         mode: u32,
     },
     /// There is no passphrase.
-    #[error("{}: the key is encrypted: {reason}", path.display())]
+    #[error("{}: the key is encrypted: {}", shown(path), Printable(reason))]
     Passphrase {
         /// Which file.
         path: PathBuf,
@@ -45,7 +46,7 @@ pub enum KeyFileError {
         reason: String,
     },
     /// The file is not text.
-    #[error("{}: no text, expected a private key in OpenSSH format or a .pub file", path.display())]
+    #[error("{}: no text, expected a private key in OpenSSH format or a .pub file", shown(path))]
     NotText {
         /// Which file.
         path: PathBuf,
@@ -116,7 +117,9 @@ fn refuse_exposed(_: &Path) -> Result<(), KeyFileError> {
 /// An identity that cannot stand in allowed_signers as itself.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the identity {0:?} is empty or holds a blank, a quote or one of , * ? ! #: allowed_signers would read it as a pattern"
+    "the identity \"{}\" is empty, or holds a blank, a quote or one of , * ? ! #, which allowed_signers would read as a \
+     pattern, or a character that no passport can name",
+    Printable(.0)
 )]
 pub struct BadIdentity(String);
 
@@ -125,7 +128,7 @@ pub struct BadIdentity(String);
 /// # Errors
 /// [`BadIdentity`] when the identity would be read as a pattern of several.
 pub fn allowed_signers_line(identity: &str, key: &PublicKey) -> Result<String, BadIdentity> {
-    let plain = |c: char| !c.is_whitespace() && !c.is_control() && !"\"',*?!#".contains(c);
+    let plain = |c: char| rule::allowed_in_string(c) && !" \"',*?!#".contains(c);
     if identity.is_empty() || !identity.chars().all(plain) {
         return Err(BadIdentity(identity.to_owned()));
     }
@@ -149,7 +152,7 @@ impl SshKeygen {
 impl Signer for SshKeygen {
     fn sign(&self, namespace: &str, message: &[u8]) -> Result<Signature, SigningFailed> {
         let failed =
-            |what: String| SigningFailed(format!("ssh-keygen could not sign with {}: {what}", self.key.display()));
+            |what: String| SigningFailed(format!("ssh-keygen could not sign with {}: {what}", shown(&self.key)));
         let _turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
         let mut child = Command::new("ssh-keygen")
             .args(["-Y", "sign", "-q", "-n", namespace, "-f"])

@@ -6,7 +6,7 @@ use crate::files;
 use crate::passport::issue::PreparedStand;
 use crate::site::Site;
 use crate::stand::Stand;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of, shown};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -165,7 +165,7 @@ impl<T: Listed> File<T> {
 /// A file and its hash.
 fn read<T: Listed>(path: &Path) -> Result<(T, [u8; 32]), Failure> {
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
-    let value = T::parse(&path.display().to_string(), &bytes);
+    let value = T::parse(&name_of(path), &bytes);
     let value = value.map_err(|error| Failure::unusable(path, error.to_string()))?;
     Ok((value, Sha256::digest(&bytes).into()))
 }
@@ -186,7 +186,7 @@ struct Seen<T> {
 
 impl<T: Listed> Draft<T> {
     fn add(&mut self, path: PathBuf, value: T, hash: [u8; 32], tell: Listener) {
-        let file = path.display().to_string();
+        let file = name_of(&path);
         let id = value.id();
         match self.by_id.get(&id) {
             Some(&first) if self.listed[first].hash == hash => {
@@ -213,10 +213,10 @@ impl<T: Listed> Draft<T> {
                 catalogue.by_id.insert(id, catalogue.files.len());
                 catalogue.files.push(File { path: seen.path, kept: seen.kept });
             } else {
-                let others: Vec<_> = seen.others.iter().map(|path| path.display().to_string()).collect();
+                let others: Vec<_> = seen.others.iter().map(|path| shown(path).to_string()).collect();
                 let (what, others) = (T::NAME, others.join(", "));
                 let why =
-                    format!("{}: is {what} {id}, as is {others}, with other content: keep one", seen.path.display());
+                    format!("{}: is {what} {id}, as is {others}, with other content: keep one", shown(&seen.path));
                 self.failures.push(Failure::refused(&seen.path, why));
             }
         }

@@ -21,6 +21,7 @@ use crate::files::{FileError, leftovers};
 use crate::folder::{Folder, FolderRefused, Issued, Next, Seal, Visited};
 use crate::parallel;
 use crate::passport::issue::Remarks;
+use crate::text::name_of;
 use shard::Shard;
 use std::convert::Infallible;
 use std::path::{Path, PathBuf};
@@ -121,7 +122,7 @@ pub struct Failure {
 impl Failure {
     /// A verdict on a document.
     pub fn refused(path: &Path, why: String) -> Self {
-        Self { what: path.display().to_string(), why, unusable: false, passports: None }
+        Self { what: name_of(path), why, unusable: false, passports: None }
     }
 
     /// A file that cannot be used.

@@ -3,6 +3,7 @@
 use super::{Failure, Purpose};
 use crate::files::walk::{Entry, Walk};
 use crate::files::{FileError, reason};
+use crate::text::{Printable, shown};
 use glob::MatchOptions;
 use std::ffi::OsStr;
 use std::io::{self, BufRead};
@@ -68,7 +69,7 @@ fn in_folder(folder: PathBuf, purpose: Purpose) -> Box<dyn Iterator<Item = Resul
     };
     let mut found = walk.map(found).peekable();
     if found.peek().is_none() {
-        let what = format!("{}: there is no {what} in this folder", folder.display());
+        let what = format!("{}: there is no {what} in this folder", shown(&folder));
         return Box::new(std::iter::once(Err(Failure::unusable(&folder, what))));
     }
     Box::new(found)
@@ -79,10 +80,10 @@ pub fn found(entry: Result<Entry, FileError>) -> Result<PathBuf, Failure> {
     match entry {
         Ok(Entry::File(path)) => Ok(path),
         Ok(Entry::Special(path)) => {
-            Err(Failure::unusable(&path, format!("{}: a pipe, a device or a socket is not read", path.display())))
+            Err(Failure::unusable(&path, format!("{}: a pipe, a device or a socket is not read", shown(&path))))
         }
         Ok(Entry::Link(path)) => {
-            let why = format!("{}: is a link, which is not followed: it may lead out of the folder", path.display());
+            let why = format!("{}: is a link, which is not followed: it may lead out of the folder", shown(&path));
             Err(Failure::refused(&path, why))
         }
         Err(error) => Err(Failure::file(error)),
@@ -106,7 +107,7 @@ fn pattern(argument: &Path) -> Option<&str> {
 /// As the shell would have done it: what begins with a dot must be asked for.
 fn matches(pattern: &str) -> Box<dyn Iterator<Item = Result<Named, Failure>>> {
     let failed = |why: String| -> Box<dyn Iterator<Item = Result<Named, Failure>>> {
-        Box::new(std::iter::once(Err(Failure::unusable(Path::new(pattern), format!("{pattern}: {why}")))))
+        Box::new(std::iter::once(Err(Failure::unusable(Path::new(pattern), format!("{}: {why}", Printable(pattern))))))
     };
     let options = MatchOptions { require_literal_leading_dot: true, ..MatchOptions::new() };
     let paths = match glob::glob_with(pattern, options) {

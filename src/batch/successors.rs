@@ -16,7 +16,7 @@ use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
 use crate::passport::{Question, Trust, verify};
 use crate::register::{self, Line, State, examine, examined};
 use crate::site::Site;
-use crate::text::LARGEST_DOCUMENT_BYTES;
+use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use jiff::Timestamp;
 use std::collections::{BTreeMap, HashMap};
 use std::io::BufRead;
@@ -184,7 +184,7 @@ impl Run<'_> {
         if !alarms.is_empty() {
             tell(Event::Lost(passports));
             let words: Vec<_> = alarms.into_iter().map(|alarm| alarm.words).collect();
-            let why = format!("{}: what was withdrawn is not certain: {}", root.display(), words.join("; "));
+            let why = format!("{}: what was withdrawn is not certain: {}", shown(root), words.join("; "));
             return Err(Failure { passports: Some(passports), ..Failure::refused(root, why) });
         }
         let chains = self.chains(root, &trust, &no_lists);
@@ -255,7 +255,7 @@ impl Run<'_> {
 
     fn examine(&self, candidate: &Candidate) -> Result<Examined, Failure> {
         let path = &candidate.path;
-        let name = path.display().to_string();
+        let name = name_of(path);
         let change = &self.change;
         let refused = |why: String| Failure::refused(path, why);
         let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(|error| match error {
@@ -375,7 +375,7 @@ impl Chains {
 fn link(path: &Path, trust: &Trust, time: Timestamp) -> Option<(Digest, Follower)> {
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).ok()?;
     memchr::memmem::find(&bytes, SUPERSEDES)?;
-    let examined = examine(&path.display().to_string(), &bytes, trust, time, None);
+    let examined = examine(&name_of(path), &bytes, trust, time, None);
     let (superseded, line) = (digest(examined.supersedes()?)?, examined.line());
     let id = line.id.clone()?.into();
     Some((

@@ -18,7 +18,7 @@ use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::{Content, Question, Trust, Verification};
 use dtg_passport::report::calibration as report;
 use dtg_passport::report::page::{CalibrationPage, PassportPage, UsedPassport};
-use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
+use dtg_passport::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use dtg_passport::uncertainty::document::WholeDocument;
 use jiff::Timestamp;
 use std::path::{Path, PathBuf};
@@ -80,7 +80,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let stated = Setup::stated(&content.certificate, &content.positions, &content.site, &laboratory);
     let (setup, missing) = stated.map_err(Failure::refused)?;
     let bytes = files::read(&options.currents, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-    let name = options.currents.display().to_string();
+    let name = name_of(&options.currents);
     let readings = Readings::from_csv(&name, &bytes, setup.coefficients(), laboratory.meter.range_ma);
     let readings = readings.map_err(Failure::unusable)?;
     let asked = CalibrationOptions {
@@ -127,7 +127,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
             monte_carlo: uncertainty.monte_carlo(),
         };
         output::file(path, &page.html(&languages(&options.lang)), options.uncertainty.force)?;
-        output::say(&format!("wrote {}", path.display()));
+        output::say(&format!("wrote {}", shown(path)));
     }
     match options.format {
         Format::Json => {
@@ -175,14 +175,14 @@ fn used<'a>(
 pub fn read_laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
     let Some(path) = path else { return Ok(Laboratory::paper()) };
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-    Laboratory::from_yaml(&path.display().to_string(), &bytes).map_err(Failure::unusable)
+    Laboratory::from_yaml(&name_of(path), &bytes).map_err(Failure::unusable)
 }
 
 fn earlier(options: &Options) -> Result<Option<calibration::verdict::Found>, Failure> {
     let Some(path) = &options.previous else { return Ok(None) };
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-    let name = path.display().to_string();
+    let name = name_of(path);
     let document = CalibrationDocument::from_json(&name, &bytes).map_err(Failure::unusable)?;
-    let found = document.answer().ok_or_else(|| Failure::unusable(format!("{name}: holds no result")))?;
+    let found = document.answer().ok_or_else(|| Failure::unusable(format!("{}: holds no result", shown(path))))?;
     Ok(Some(found))
 }

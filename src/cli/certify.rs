@@ -8,7 +8,7 @@ use dtg_passport::certification::comparison::compare;
 use dtg_passport::certification::{AngleReadings, Header, certify};
 use dtg_passport::files;
 use dtg_passport::report::certification as report;
-use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
+use dtg_passport::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
 use std::path::PathBuf;
 
 /// Certify a stand from repeated readings of its angles, or check that it is still the same
@@ -39,13 +39,13 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let header = match (&options.stand, &against) {
         (Some(path), _) => {
             let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-            Header::from_yaml(&path.display().to_string(), &bytes).map_err(Failure::unusable)?
+            Header::from_yaml(&name_of(path), &bytes).map_err(Failure::unusable)?
         }
         (None, Some(stand)) => Header::from(stand),
         (None, None) => return Err(Failure::unusable("--stand or --against is needed")),
     };
     let bytes = files::read(&options.readings, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-    let name = options.readings.display().to_string();
+    let name = name_of(&options.readings);
     let readings = AngleReadings::from_csv(&name, &bytes, &header.positions).map_err(Failure::unusable)?;
     let certified = certify(&header, &readings);
     let comparison = against.as_ref().map(|stand| compare(stand, &header, &readings, certified.as_ref().ok()));
@@ -54,12 +54,12 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let (certified, refused) = match certified {
         Ok(certified) => (Some(certified), None),
         Err(refused) if options.output.is_none() => (None, Some(refused)),
-        Err(refused) => return Err(Failure::refused(format!("{name}: {refused}"))),
+        Err(refused) => return Err(Failure::refused(format!("{}: {refused}", Printable(name)))),
     };
     if let (Some(path), Some(certified)) = (&options.output, &certified) {
-        let text = certified.to_yaml(&path.display().to_string()).map_err(Failure::refused)?;
+        let text = certified.to_yaml(&name_of(path)).map_err(Failure::refused)?;
         output::file(path, &text, options.force)?;
-        output::say(&format!("wrote {}", path.display()));
+        output::say(&format!("wrote {}", shown(path)));
     }
     match options.format {
         Format::Json => output::json(&report::to_json(certified.as_ref(), refused.as_ref(), comparison.as_ref()))?,

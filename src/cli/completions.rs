@@ -14,6 +14,6 @@ pub struct Options {
 pub fn run(options: &Options) -> Result<Code, Failure> {
     let mut script = Vec::new();
     clap_complete::generate(options.shell, &mut Cli::command(), "dtg-passport", &mut script);
-    output::result(&String::from_utf8_lossy(&script))?;
+    output::own(&String::from_utf8_lossy(&script))?;
     Ok(0)
 }

@@ -11,7 +11,7 @@ use dtg_passport::passport::accuracy::Stated;
 use dtg_passport::passport::issue::Issue;
 use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
-use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
+use dtg_passport::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use std::path::{Path, PathBuf};
@@ -78,15 +78,15 @@ fn stated(options: &Options) -> Result<Stated, Failure> {
 /// Reads a stand file.
 pub fn read_stand(path: &Path) -> Result<Stand, Failure> {
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-    Stand::from_yaml(&path.display().to_string(), &bytes).map_err(Failure::unusable)
+    Stand::from_yaml(&name_of(path), &bytes).map_err(Failure::unusable)
 }
 
 /// Reads a site file.
 pub fn read_site(path: &Path) -> Result<Site, Failure> {
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-    let site = Site::from_yaml(&path.display().to_string(), &bytes).map_err(Failure::unusable)?;
+    let site = Site::from_yaml(&name_of(path), &bytes).map_err(Failure::unusable)?;
     if path.file_stem().is_some_and(|stem| stem != site.id.as_str()) {
-        output::say(&format!("{}: the file's name is not its id, {}", path.display(), site.id));
+        output::say(&format!("{}: the file's name is not its id, {}", shown(path), site.id));
     }
     Ok(site)
 }

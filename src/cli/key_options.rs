@@ -4,6 +4,7 @@ use super::Failure;
 use clap::Args;
 use dtg_passport::document::Signer;
 use dtg_passport::signing;
+use dtg_passport::text::shown;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use zeroize::Zeroizing;
@@ -35,7 +36,7 @@ pub fn signer_of(key: &Path) -> Result<Box<dyn Signer + Sync>, Failure> {
 
 /// The passphrase of an existing key.
 fn ask(key: &Path) -> Result<Zeroizing<String>, String> {
-    passphrase(&format!("Passphrase of {}: ", key.display()))
+    passphrase(&format!("Passphrase of {}: ", shown(key)))
 }
 
 /// A passphrase from the environment, or from the terminal.

@@ -5,6 +5,7 @@ use super::{Code, Failure, output};
 use clap::Args;
 use dtg_passport::files::{self, Access};
 use dtg_passport::signing::{allowed_signers_line, forbid_core_dumps};
+use dtg_passport::text::shown;
 use dtg_passport::trust::SigningKey;
 use std::path::{Path, PathBuf};
 use zeroize::Zeroizing;
@@ -42,8 +43,8 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     write(&public_path, public.as_bytes(), Access::Shared)?;
     output::say(&format!(
         "wrote {} (keep it secret) and {}; put this line into allowed_signers:",
-        options.key.display(),
-        public_path.display()
+        shown(&options.key),
+        shown(&public_path)
     ));
     output::result(&(line + "\n"))?;
     Ok(0)

@@ -27,6 +27,8 @@ mod verify;
 
 use clap::{Parser, Subcommand};
 use dtg_passport::files::FileError;
+use dtg_passport::text::printable;
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// Signed passports that let a cheap test stand calibrate a dynamically tuned gyro as well as an expensive one.
@@ -90,9 +92,29 @@ impl Failure {
     }
 }
 
+/// Reads the arguments, or tells why they cannot be read.
+///
+/// clap repeats them to the letter; so what is told is what it says of them when they are printable.
+fn parse(arguments: Vec<OsString>) -> Result<Cli, ExitCode> {
+    let error = match Cli::try_parse_from(&arguments) {
+        Ok(cli) => return Ok(cli),
+        Err(error) => error,
+    };
+    match Cli::try_parse_from(arguments.iter().map(|argument| printable(argument.to_string_lossy()))) {
+        Err(error) => error.exit(),
+        Ok(_) => output::say(&printable(error)),
+    }
+    Err(ExitCode::from(UNUSABLE))
+}
+
 /// Parses the arguments and runs the verb.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    // What a broken invariant quotes may be anybody's words.
+    std::panic::set_hook(Box::new(|panic| output::say(&format!("internal error: {}", printable(panic)))));
+    let cli = match parse(std::env::args_os().collect()) {
+        Ok(cli) => cli,
+        Err(code) => return code,
+    };
     let result = match cli.verb {
         Verb::Demo(options) => demo::run(&options),
         Verb::Keygen(options) => keygen::run(&options),

@@ -3,7 +3,8 @@
 use super::Failure;
 use clap::ValueEnum;
 use dtg_passport::files;
-use dtg_passport::text::printable;
+use dtg_passport::report::style;
+use dtg_passport::text::printable::{self, printable};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -27,8 +28,13 @@ pub enum TableFormat {
     Csv,
 }
 
-/// Writes a result.
+/// Writes a result: nothing of what a terminal obeys but its line feeds and emphasis.
 pub fn result(text: &str) -> Result<(), Failure> {
+    own(&style::outgoing(text))
+}
+
+/// Writes to the byte what holds nobody's words but the program's.
+pub fn own(text: &str) -> Result<(), Failure> {
     // Emphasis goes to a terminal alone, and never where NO_COLOR is set.
     let mut stdout = anstream::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
@@ -41,7 +47,7 @@ pub fn result(text: &str) -> Result<(), Failure> {
 
 /// Writes a result as JSON.
 pub fn json(value: &impl serde::Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(value).map_err(Failure::unusable)?;
+    let text = printable::json(value).map_err(Failure::unusable)?;
     result(&(text + "\n"))
 }
 

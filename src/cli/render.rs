@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use dtg_passport::files;
 use dtg_passport::report::page::{Language, Languages, PassportPage};
 use dtg_passport::report::{style, verdict};
-use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
+use dtg_passport::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use std::path::PathBuf;
 
 /// Write the printable passport: one HTML file for paper, screen and telephone
@@ -59,13 +59,13 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let (register, trust) = register::asked(options.register.as_deref(), trust, &question)?;
     let bytes = files::read(&options.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-    let name = options.passport.display().to_string();
+    let name = name_of(&options.passport);
     let page = PassportPage::verified(&name, &bytes, &trust, &question, register.as_ref()).map_err(|refused| {
         let words = style::plain(&verdict::text(&[verdict::Verdict::of(&name, &refused)]));
         Failure { message: format!("no page was written\n{words}"), code: REFUSED }
     })?;
     output::file(&options.output, &page.html(&languages(&options.lang)), options.force)?;
-    output::say(&format!("wrote {}", options.output.display()));
+    output::say(&format!("wrote {}", shown(&options.output)));
     if !page.verification().valid() {
         output::say(&style::plain(&verdict::text(&[verdict::Verdict::of(&name, page.verification())])));
     }

@@ -10,7 +10,7 @@ use dtg_passport::folder::Folder;
 use dtg_passport::folder::search::{self, Found};
 use dtg_passport::passport::{CheckName, Code as Verdict, verify};
 use dtg_passport::revocation::{Entry, RevocationList, Series};
-use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
+use dtg_passport::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use std::path::{Path, PathBuf};
 
 /// Withdraw passports: adds them to the signed list in a folder
@@ -41,7 +41,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         if options.list.exists() { search::find(&options.list).map_err(Failure::unusable)? } else { Found::default() };
     for path in &found.revocation_lists {
         let bytes = read(path)?;
-        let name = path.display().to_string();
+        let name = name_of(path);
         let list = RevocationList::verify(&name, &bytes, &trust.signers, &trust.revoked, question.time);
         lists.push(list.map_err(Failure::refused)?);
     }
@@ -54,17 +54,14 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     for id in &options.ids {
         let path = file_of(id, &options.passports);
         let bytes = read(&path)?;
-        let verification = verify(&path.display().to_string(), &bytes, &trust, &question);
+        let verification = verify(&name_of(&path), &bytes, &trust, &question);
         // A passport with wrong numbers, or past its time, can be withdrawn; one of another signer cannot: its id may be
         // that of a good passport.
         let signed = verification.code(CheckName::Signer) == Some(Verdict::Ok);
         let Some(content) = verification.content().filter(|_| signed) else {
             let failed = verification.checks().iter().find(|check| check.passed() == Some(false));
             let words = failed.map_or_else(String::new, |check| check.detail.clone());
-            return Err(Failure::refused(format!(
-                "{}: is no passport that could be withdrawn: {words}",
-                path.display()
-            )));
+            return Err(Failure::refused(format!("{}: is no passport that could be withdrawn: {words}", shown(&path))));
         };
         let (id, sha256) = (content.passport.id.clone(), sha256_hex(&bytes));
         entries.push(Entry { id, sha256, revoked_at: now(), reason: options.reason.clone() });
@@ -74,16 +71,11 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let text = list.sign(options.key.signer()?.as_ref()).map_err(Failure::refused)?;
     let path = options.list.join(list.file_name());
     // A list that nobody can verify would withdraw nothing.
-    RevocationList::verify(
-        &path.display().to_string(),
-        text.as_bytes(),
-        &trust.signers,
-        &trust.revoked,
-        list.issued_at,
-    )
-    .map_err(|refused| Failure::refused(format!("the new list would not count ({refused}); nothing was written")))?;
+    RevocationList::verify(&name_of(&path), text.as_bytes(), &trust.signers, &trust.revoked, list.issued_at).map_err(
+        |refused| Failure::refused(format!("the new list would not count ({refused}); nothing was written")),
+    )?;
     files::write_new(&path, text.as_bytes(), Access::Shared).map_err(Failure::file)?;
-    output::result(&format!("revoked    passports in all: {}  {}\n", list.entries.len(), path.display()))?;
+    output::result(&format!("revoked    passports in all: {}  {}\n", list.entries.len(), shown(&path)))?;
     Ok(0)
 }
 

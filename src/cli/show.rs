@@ -7,7 +7,7 @@ use clap::{ArgGroup, Args};
 use dtg_passport::files;
 use dtg_passport::passport::{Content, Question, Trust, Verification, read, verify};
 use dtg_passport::report::{passport_table, style, verdict};
-use dtg_passport::text::{Field, LARGEST_DOCUMENT_BYTES};
+use dtg_passport::text::{Field, LARGEST_DOCUMENT_BYTES, name_of};
 use std::path::PathBuf;
 
 /// Show a passport as tables, or the whole of it as JSON for tools that read no YAML
@@ -52,7 +52,7 @@ impl PassportOptions {
     /// Reads the passport; one that fails a check is refused with its verdict.
     pub fn read(&self) -> Result<Read, Failure> {
         let bytes = files::read(&self.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-        let name = self.passport.display().to_string();
+        let name = name_of(&self.passport);
         let Some(signers) = &self.trust else {
             output::say("NOT VERIFIED (--no-verify): anybody may have written these numbers");
             let content = read::unverified(&name, &bytes).map_err(Failure::unusable)?;

@@ -15,7 +15,7 @@ use dtg_passport::simulation::draw::CurrentError;
 use dtg_passport::simulation::picture::convergence_svg;
 use dtg_passport::stand::{CertifiedPosition, LARGEST_DEVIATION_DEG};
 use dtg_passport::statistics::random::Run;
-use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
+use dtg_passport::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -200,7 +200,7 @@ fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
 pub fn read_gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
     let Some(path) = path else { return Ok(None) };
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-    GyroType::from_yaml(&path.display().to_string(), &bytes).map(Some).map_err(Failure::unusable)
+    GyroType::from_yaml(&name_of(path), &bytes).map(Some).map_err(Failure::unusable)
 }
 
 /// Runs a simulation with a progress bar on a terminal (none in a pipe); Ctrl-C ends it with what is known.

@@ -6,6 +6,7 @@ use dtg_passport::earth::Place;
 use dtg_passport::files;
 use dtg_passport::passport::{Question, Trust};
 use dtg_passport::revocation::{RevocationList, Series, claims_to_be_a_list};
+use dtg_passport::text::name_of;
 use dtg_passport::text::scalar::day;
 use dtg_passport::trust::{AllowedSigners, LARGEST_TRUST_FILE_BYTES, RevokedKeys};
 use jiff::Timestamp;
@@ -67,7 +68,7 @@ impl Asked {
 /// Reads the trust files. Lists of withdrawn passports are verified at `time`; the newest of them counts.
 pub fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Result<Trust, Failure> {
     let read = |path: &Path| files::read(path, LARGEST_TRUST_FILE_BYTES).map_err(Failure::unusable);
-    let name = |path: &Path| path.display().to_string();
+    let name = |path: &Path| name_of(path);
     let mut trust = Trust::of(AllowedSigners::parse(&name(signers), &read(signers)?).map_err(Failure::unusable)?);
     let mut lists = Vec::new();
     for path in revoked {

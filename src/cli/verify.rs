@@ -8,7 +8,7 @@ use dtg_passport::files;
 use dtg_passport::passport::verification::unreadable;
 use dtg_passport::passport::verify;
 use dtg_passport::report::verdict;
-use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
+use dtg_passport::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use std::path::PathBuf;
 
 /// Answer: may I use this passport, on this stand, here, now?
@@ -33,7 +33,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let mut code = 0;
     let mut verdicts = Vec::new();
     for path in &options.passports {
-        let name = path.display().to_string();
+        let name = name_of(path);
         // One byte more than a passport can have is enough to see that it is none: a verdict like any other.
         match files::read_first(path, LARGEST_DOCUMENT_BYTES + 1) {
             Ok(bytes) => {

@@ -6,6 +6,7 @@
 pub mod leftovers;
 pub mod walk;
 
+use crate::text::{Printable, shown};
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -16,7 +17,7 @@ use tempfile::{NamedTempFile, PersistError};
 #[non_exhaustive]
 pub enum FileError {
     /// It cannot be opened or read.
-    #[error("{}: cannot be read: {}", path.display(), reason(error))]
+    #[error("{}: cannot be read: {}", shown(path), Printable(reason(error)))]
     Read {
         /// Which file.
         path: PathBuf,
@@ -24,13 +25,13 @@ pub enum FileError {
         error: io::Error,
     },
     /// It is a folder.
-    #[error("{}: is a folder, expected a file", path.display())]
+    #[error("{}: is a folder, expected a file", shown(path))]
     Folder {
         /// Which.
         path: PathBuf,
     },
     /// It is larger than any such file can be.
-    #[error("{}: more than {limit} bytes: is this the right file?", path.display())]
+    #[error("{}: more than {limit} bytes: is this the right file?", shown(path))]
     TooLarge {
         /// Which file.
         path: PathBuf,
@@ -38,7 +39,7 @@ pub enum FileError {
         limit: usize,
     },
     /// It exists, and is not replaced.
-    #[error("{}: exists and was left as it is{}", path.display(), if *replaceable { "; --force replaces it" } else { "" })]
+    #[error("{}: exists and was left as it is{}", shown(path), if *replaceable { "; --force replaces it" } else { "" })]
     Exists {
         /// Which file.
         path: PathBuf,
@@ -46,7 +47,7 @@ pub enum FileError {
         replaceable: bool,
     },
     /// It cannot be written.
-    #[error("{}: cannot be written: {}; nothing was left behind", path.display(), reason(error))]
+    #[error("{}: cannot be written: {}; nothing was left behind", shown(path), Printable(reason(error)))]
     Write {
         /// Which file.
         path: PathBuf,

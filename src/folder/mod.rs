@@ -17,8 +17,8 @@ use crate::passport::verification::{Question, Trust, verify};
 use crate::passport::{NAMESPACE, read};
 use crate::site::Site;
 use crate::stand::{Identity, Stand};
-use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::scalar::Identifier;
+use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use jiff::civil::Date;
 use std::collections::BTreeSet;
 use std::io;
@@ -100,8 +100,8 @@ pub enum FolderRefused {
     /// A passport with other content has the name.
     #[error(
         "{}: exists with other content ({changed}); what has changed is re-issued: `reissue {}`",
-        path.display(),
-        path.display()
+        shown(path),
+        shown(path)
     )]
     OtherContent {
         /// The file that is there.
@@ -112,20 +112,23 @@ pub enum FolderRefused {
     /// The old passport has another successor already.
     #[error(
         "{}: is already a successor of the same passport for this site, with other content; re-issue that one",
-        path.display()
+        shown(path)
     )]
     OtherSuccessor {
         /// The successor that is there.
         path: PathBuf,
     },
     /// The next revision is there, made from another passport.
-    #[error("{}: is already the next revision for this site, made from another passport; re-issue that one", path.display())]
+    #[error(
+        "{}: is already the next revision for this site, made from another passport; re-issue that one",
+        shown(path)
+    )]
     LaterRevision {
         /// The revision that is there.
         path: PathBuf,
     },
     /// What has the name is no passport.
-    #[error("{}: exists and is no passport that can be compared ({reason}); move it away", path.display())]
+    #[error("{}: exists and is no passport that can be compared ({reason}); move it away", shown(path))]
     NotComparable {
         /// The file that is there.
         path: PathBuf,
@@ -135,7 +138,7 @@ pub enum FolderRefused {
     /// A link stands in its way.
     #[error(
         "{}: is a link, and nothing is written through links: they may lead out of the folder; give the real one with --out",
-        path.display()
+        shown(path)
     )]
     Link {
         /// The link.
@@ -356,7 +359,7 @@ impl Folder {
 /// A passport that nobody could verify is worse than none.
 fn check_verifiable(path: &Path, text: &str, draft: &Draft, trust: &Trust) -> Result<(), FolderRefused> {
     let question = Question::at(draft.content().passport.issued_at);
-    let verification = verify(&path.display().to_string(), text.as_bytes(), trust, &question);
+    let verification = verify(&name_of(path), text.as_bytes(), trust, &question);
     match verification.checks().iter().find(|check| check.passed() != Some(true)) {
         None => Ok(()),
         Some(failed) => {
@@ -374,7 +377,7 @@ struct Existing {
 
 impl Existing {
     fn of(path: &Path, bytes: &[u8]) -> Result<Self, FolderRefused> {
-        let name = path.display().to_string();
+        let name = name_of(path);
         let incomparable = |reason: String| FolderRefused::NotComparable { path: path.to_owned(), reason };
         let text = SignedText::split(&name, bytes, NAMESPACE)
             .map_err(|malformed| incomparable(malformed.fault.to_string()))?;

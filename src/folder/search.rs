@@ -6,7 +6,7 @@ use crate::parallel;
 use crate::passport::{Question, Trust};
 use crate::register::{Alarm, Register, examine};
 use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
-use crate::text::LARGEST_DOCUMENT_BYTES;
+use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use jiff::Timestamp;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -59,7 +59,7 @@ pub fn withdraw(lists: &[PathBuf], trust: &mut Trust, time: Timestamp) -> Withdr
     let mut good: Vec<RevocationList> = trust.withdrawn.take().into_iter().collect();
     let mut withdrawn = Withdrawn::default();
     for path in lists {
-        let name = path.display().to_string();
+        let name = name_of(path);
         match files::read(path, LARGEST_DOCUMENT_BYTES) {
             Ok(bytes) if !claims_to_be_a_list(&bytes) => withdrawn.no_lists.push(path.clone()),
             Ok(bytes) => match RevocationList::verify(&name, &bytes, &trust.signers, &trust.revoked, time) {
@@ -93,7 +93,7 @@ pub fn register(
     threads: usize,
 ) -> Result<(Register, Trust), FileError> {
     let found = find(root)?;
-    let name = |path: &Path| path.display().to_string();
+    let name = |path: &Path| name_of(path);
     let mut alarms: Vec<Alarm> = found.unreadable.iter().map(unreadable).collect();
     alarms.extend(found.links.iter().map(|path| Alarm::link(&name(path))));
     alarms.extend(found.special.iter().map(|path| Alarm::special(&name(path))));
@@ -116,9 +116,9 @@ pub fn register(
 
 fn unreadable(error: &FileError) -> Alarm {
     match error {
-        FileError::TooLarge { path, .. } => Alarm::too_large(&path.display().to_string()),
+        FileError::TooLarge { path, .. } => Alarm::too_large(&name_of(path)),
         FileError::Read { path, error } => {
-            Alarm::unreadable(&format!("cannot be read: {}", files::reason(error)), &path.display().to_string())
+            Alarm::unreadable(&format!("cannot be read: {}", files::reason(error)), &name_of(path))
         }
         other => Alarm::unreadable(&other.to_string(), ""),
     }

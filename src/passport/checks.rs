@@ -1,5 +1,8 @@
 //! The checks of a verification: their names and verdicts, in words and for programs.
 
+use crate::text::printable;
+use std::fmt::Display;
+
 /// The checks, in their order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum CheckName {
@@ -126,11 +129,16 @@ pub struct Check {
     pub name: CheckName,
     /// Its verdict.
     pub code: Code,
-    /// One line that a laboratory engineer understands.
+    /// One line that a laboratory engineer understands, or one for each mistake in the content.
     pub detail: String,
 }
 
 impl Check {
+    /// The verdict of a check in one line; whatever is in `detail`, it stays one.
+    pub fn new(name: CheckName, code: Code, detail: impl Display) -> Self {
+        Self { name, code, detail: printable(detail) }
+    }
+
     /// Whether it passed; `None` when it was not run.
     pub fn passed(&self) -> Option<bool> {
         match self.code {

@@ -14,6 +14,7 @@ use crate::revocation::{Entry, RevocationList};
 use crate::text::scalar::day;
 use crate::trust::{AllowedSigners, NotAuthorised, PublicKey, RevokedKeys};
 use jiff::Timestamp;
+use std::fmt::Display;
 
 /// Whom to trust.
 #[derive(Debug, Clone)]
@@ -190,8 +191,8 @@ struct Run {
 }
 
 impl Run {
-    fn note(&mut self, name: CheckName, code: Code, detail: impl Into<String>) {
-        self.checks.push(Check { name, code, detail: detail.into() });
+    fn note(&mut self, name: CheckName, code: Code, detail: impl Display) {
+        self.checks.push(Check::new(name, code, detail));
     }
 
     fn grammar<'a>(&mut self, name: &str, bytes: &'a [u8]) -> Option<SignedText<'a>> {
@@ -202,7 +203,7 @@ impl Run {
             }
             Err(Malformed { fault, other_namespace }) => {
                 let code = if other_namespace.is_some() { Code::WrongNamespace } else { Code::Malformed };
-                self.note(CheckName::Grammar, code, fault.to_string());
+                self.note(CheckName::Grammar, code, fault);
                 None
             }
         }
@@ -233,7 +234,9 @@ impl Run {
                 Some(content)
             }
             Err(error) => {
-                self.note(CheckName::Schema, Code::BadContent, error.to_string());
+                // A line for each mistake.
+                let (name, detail) = (CheckName::Schema, error.to_string());
+                self.checks.push(Check { name, code: Code::BadContent, detail });
                 None
             }
         }

@@ -3,8 +3,10 @@
 use super::successors::Successor;
 use super::{Examined, Line};
 use crate::revocation::{ListRefused, RevocationList, SeriesAlarm};
+use crate::text::Printable;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::fmt::{self, Display};
 
 /// What needs a person to look at it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -100,10 +102,10 @@ impl Alarm {
     }
 }
 
-impl std::fmt::Display for Alarm {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+impl Display for Alarm {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let files = if self.files.is_empty() { String::new() } else { format!(": {}", self.files.join(", ")) };
-        write!(f, "ALARM ({}): {}{files}", self.kind.key(), self.words)
+        Printable(format_args!("ALARM ({}): {}{files}", self.kind.key(), self.words)).fmt(f)
     }
 }
 

@@ -235,7 +235,7 @@ impl Register {
             Some(Some(by)) => (Code::Superseded, format!("superseded by {} ({}): use that one", by.id, by.file)),
             Some(None) => (Code::Ok, format!("not superseded by any of {} files", self.passports.len())),
         };
-        verification.with(Check { name: CheckName::Register, code, detail })
+        verification.with(Check::new(CheckName::Register, code, detail))
     }
 
     /// Whether a person must look at it: an alarm, or a passport that does not verify.

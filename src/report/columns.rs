@@ -54,21 +54,26 @@ pub fn table(out: &mut String, names: &[&str], rows: &[Vec<String>]) {
     }
 }
 
-/// A row of CSV as RFC 4180 has it, but for its line feed; every cell is on one line.
+/// A row of CSV as RFC 4180 has it, but for its line feed; every cell is a text, on one line.
 ///
 /// Spreadsheets take a text for a formula by its first character, and whoever signs with a key of his own may choose
-/// that: an apostrophe before it makes it a text.
+/// that: an apostrophe before it makes it a text. So it does after a semicolon, at which spreadsheets of many countries
+/// begin another cell whatever the quotes say.
 pub fn csv_row<'a>(cells: impl Iterator<Item = &'a str>) -> String {
     let quoted = |cell: &str| {
-        let cell = printable(cell);
-        let apostrophe = if cell.starts_with(['=', '+', '-', '@']) { "'" } else { "" };
-        if cell.contains([',', '"']) {
-            format!("\"{apostrophe}{}\"", cell.replace('"', "\"\""))
-        } else {
-            apostrophe.to_owned() + &cell
-        }
+        let cell = neutral(&printable(cell));
+        if cell.contains([',', '"', ';']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell }
     };
     cells.map(quoted).collect::<Vec<_>>().join(",") + "\n"
+}
+
+/// A text with an apostrophe wherever a spreadsheet would begin a formula (full-width signs begin one too).
+fn neutral(cell: &str) -> String {
+    const FORMULA: [char; 10] = ['=', '+', '-', '@', '"', ';', '＝', '＋', '－', '＠'];
+    let parts =
+        cell.split(';').map(|part| if part.starts_with(FORMULA) { format!("'{part}") } else { part.to_owned() });
+    let neutral = parts.collect::<Vec<_>>().join(";");
+    if cell.starts_with(';') { format!("'{neutral}") } else { neutral }
 }
 
 /// Decimals that show a standard uncertainty with two significant digits (GUM, 7.2.6), at most 12.
@@ -101,6 +106,23 @@ mod tests {
     fn an_uncertainty_has_two_digits() {
         for (u, decimals_due) in [(0.0123, 3), (0.0996, 2), (1.5, 1), (15.0, 0), (150.0, 0), (2.0e-5, 6)] {
             assert_eq!(decimals(u), decimals_due, "{u}");
+        }
+    }
+
+    #[test]
+    fn no_cell_is_a_formula() {
+        for (cell, written) in [
+            ("=1+1", "'=1+1"),
+            ("-1", "'-1"),
+            ("@a, b", "\"'@a, b\""),
+            (";=1", "\"';'=1\""),
+            ("a; b", "\"a; b\""),
+            ("a;\"=1", "\"a;'\"\"=1\""),
+            ("\t=1", "\\t=1"),
+            ("＝1", "'＝1"),
+            ("a-b", "a-b"),
+        ] {
+            assert_eq!(csv_row([cell].into_iter()), format!("{written}\n"));
         }
     }
 

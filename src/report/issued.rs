@@ -8,6 +8,8 @@ use crate::batch::{Failure, Outcome};
 use crate::calibration::prediction::NoiseGrowth;
 use crate::folder::Issued;
 use crate::passport::issue::{NOISE_WARNING, Remarks};
+use crate::text::printable::json;
+use crate::text::{Printable, name_of, printable};
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -71,7 +73,7 @@ impl Report {
     /// A passport that is there now, new or as before.
     pub fn of(issued: &Issued) -> Self {
         Self {
-            file: Some(issued.path.display().to_string()),
+            file: Some(name_of(&issued.path)),
             sha256: Some(issued.sha256.clone()),
             ..Self::new(issued.id.clone(), if issued.new { "issued" } else { "unchanged" }).with(&issued.remarks)
         }
@@ -82,14 +84,12 @@ impl Report {
         match outcome {
             Outcome::There(issued) => Self::of(issued),
             Outcome::Planned(planned) => Self {
-                file: Some(planned.path.display().to_string()),
+                file: Some(name_of(&planned.path)),
                 ..Self::new(planned.id.clone(), "planned").with(&planned.remarks)
             },
-            Outcome::Skipped { id, file, why } => Self {
-                file: Some(file.display().to_string()),
-                reason: Some(why.clone()),
-                ..Self::new(id.clone(), "skipped")
-            },
+            Outcome::Skipped { id, file, why } => {
+                Self { file: Some(name_of(file)), reason: Some(why.clone()), ..Self::new(id.clone(), "skipped") }
+            }
             Outcome::Failed(Failure { what, why, passports, .. }) => {
                 Self { reason: Some(why.clone()), passports: *passports, ..Self::new(what.clone(), "refused") }
             }
@@ -104,6 +104,7 @@ impl Report {
 /// What failed, in words: with its name, unless the reason begins with it, and with what it costs.
 pub fn failure(failure: &Failure) -> String {
     let Failure { what, why, passports, .. } = failure;
+    let what = Printable(what);
     let named = if why.starts_with(&format!("{what}:")) { why.clone() } else { format!("{what}: {why}") };
     match passports {
         None | Some(0 | 1) => named,
@@ -149,14 +150,14 @@ fn text(report: &Report) -> String {
         );
     }
     if let (Some(why), "skipped") = (&report.reason, report.state) {
-        let _ = writeln!(text, "           {why}");
+        let _ = writeln!(text, "           {}", Printable(why));
     }
     text
 }
 
 fn line(report: &Report) -> String {
     let file = report.file.as_deref().unwrap_or("nothing was written");
-    format!("{:<9}  {}  {file}\n", report.state, report.id)
+    format!("{:<9}  {}  {}\n", report.state, Printable(&report.id), Printable(file))
 }
 
 /// A number with commas between its thousands.
@@ -244,7 +245,7 @@ impl Reports {
         self.count += 1;
         match self.form {
             Form::Json => {
-                let json = serde_json::to_string_pretty(&report).unwrap_or_default().replace('\n', "\n  ");
+                let json = json(&report).unwrap_or_default().replace('\n', "\n  ");
                 format!("{}\n  {json}", if self.count == 1 { "[" } else { "," })
             }
             Form::Csv => self.csv(&report),
@@ -307,7 +308,7 @@ impl Told {
             count => format!("{first} and {} more: {words}", grouped(count - 1)),
         });
         let others = (self.others > 0).then(|| format!("and {} other remarks", grouped(self.others)));
-        told.chain(others).collect()
+        told.chain(others).map(printable).collect()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::register::{Register, State};
 use crate::report::columns;
-use crate::text::printable;
+use crate::text::{Printable, printable};
 use std::fmt::Write;
 
 impl State {
@@ -26,11 +26,11 @@ pub fn text(register: &Register) -> String {
     let mut out = String::new();
     for line in &register.passports {
         let id = line.id.as_deref().unwrap_or("(nothing of it may be believed)");
-        let _ = writeln!(out, "{:<13}  {id}  {}", line.state.words(), printable(&line.file));
+        let _ = writeln!(out, "{:<13}  {id}  {}", line.state.words(), Printable(&line.file));
         columns::paragraph(&mut out, "               ", &printable(&line.why));
     }
     for alarm in &register.alarms {
-        columns::paragraph(&mut out, "", &printable(&alarm.to_string()));
+        columns::paragraph(&mut out, "", &alarm.to_string());
     }
     let counts: Vec<String> =
         register.counts().into_iter().map(|(state, count)| format!("{count} {}", state.words())).collect();

@@ -1,6 +1,7 @@
 //! Emphasis in a terminal: ANSI codes about whole words and lines, which whoever prints takes out again where nobody
 //! wants them ([`plain`]).
 
+use crate::text::printable;
 use anstyle::{AnsiColor, Style};
 
 /// A heading.
@@ -23,9 +24,29 @@ pub fn bad(words: &str) -> String {
     styled(AnsiColor::Red.on_default().bold(), words)
 }
 
+/// What stands behind the escape character in every code of these; and [`outgoing`] lets no other out.
+const CODES: [&str; 5] = ["[0m", "[1m", "[2m", "[31m", "[32m"];
+
+/// The text as it may go to a terminal.
+pub fn outgoing(text: &str) -> String {
+    printable::outgoing(text, &CODES)
+}
+
 /// The text without any emphasis.
 pub fn plain(text: &str) -> String {
     anstream::adapter::strip_str(text).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_emphasis_goes_out() {
+        for text in [heading("a"), faint("b"), good("c"), bad("d")] {
+            assert_eq!(outgoing(&text), text);
+        }
+    }
 }
 
 fn styled(style: Style, words: &str) -> String {

@@ -2,7 +2,7 @@
 
 use super::style;
 use crate::passport::Verification;
-use crate::text::printable;
+use crate::text::Printable;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -52,7 +52,7 @@ pub fn text(verdicts: &[Verdict]) -> String {
     for verdict in verdicts {
         let answer = if verdict.valid { style::good("VALID") } else { style::bad("REFUSED") };
         let id = verdict.id.as_deref().unwrap_or("(nothing of it may be believed)");
-        let _ = writeln!(text, "{answer}  {id}  {}", printable(&verdict.file));
+        let _ = writeln!(text, "{answer}  {id}  {}", Printable(&verdict.file));
         for check in &verdict.checks {
             let mark = match check.passed {
                 Some(true) => style::good("ok    "),

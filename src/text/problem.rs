@@ -1,5 +1,6 @@
 //! What is wrong in a document, where, what was expected there, and what to do.
 
+use super::Printable;
 use std::fmt::{self, Display, Formatter};
 
 /// The way from the top of a document to one of its values, such as `positions[3].alpha_arcsec`.
@@ -101,14 +102,9 @@ pub struct Problem {
 
 impl Display for Problem {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        if !self.field.is_empty() {
-            write!(f, "{}: ", self.field)?;
-        }
-        write!(f, "found {}, expected {}", self.found, self.expected)?;
-        if !self.advice.is_empty() {
-            write!(f, "; {}", self.advice)?;
-        }
-        Ok(())
+        let Self { field, found, expected, advice, .. } = self;
+        let (colon, semicolon) = (if field.is_empty() { "" } else { ": " }, if advice.is_empty() { "" } else { "; " });
+        Printable(format_args!("{field}{colon}found {found}, expected {expected}{semicolon}{advice}")).fmt(f)
     }
 }
 
@@ -244,7 +240,7 @@ impl Problems {
 
 /// A document that cannot be read as what it should be: its name and every mistake found.
 ///
-/// Displayed as one line a mistake, `name:line:column: field: found …, expected …; what to do`. Of very many mistakes the
+/// Displayed as one line a mistake, text of others escaped, `name:line:column: field: found …, expected …; what to do`. Of very many mistakes the
 /// first ones are shown, and that there are more: then it is mostly another file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unreadable {
@@ -290,17 +286,18 @@ impl Unreadable {
 impl Display for Unreadable {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         const SHOWN: usize = 20;
+        let name = Printable(&self.name);
         for (index, problem) in self.problems.iter().take(SHOWN).enumerate() {
             if index > 0 {
                 writeln!(f)?;
             }
             match problem.location {
-                Some(at) => write!(f, "{}:{}:{}: {problem}", self.name, at.line, at.column)?,
-                None => write!(f, "{}: {problem}", self.name)?,
+                Some(at) => write!(f, "{name}:{}:{}: {problem}", at.line, at.column)?,
+                None => write!(f, "{name}: {problem}")?,
             }
         }
         if self.problems.len() > SHOWN {
-            write!(f, "\n{}: found {FURTHER}, expected none; {CORRECT_FIRST}", self.name)?;
+            write!(f, "\n{name}: found {FURTHER}, expected none; {CORRECT_FIRST}")?;
         }
         Ok(())
     }

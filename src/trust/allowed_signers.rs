@@ -8,8 +8,8 @@ use super::lines;
 use super::pattern::matches_list;
 use super::signer_line::{self, SignerLine};
 use super::sshsig::KeyPoint;
-use crate::text::Unreadable;
 use crate::text::problem::MOST_PROBLEMS;
+use crate::text::{Printable, Unreadable};
 use jiff::Timestamp;
 use thiserror::Error;
 
@@ -27,13 +27,13 @@ pub enum NotAuthorised {
     #[error("the signing key is not in the list of allowed signers")]
     UnknownKey,
     /// The key belongs to somebody else.
-    #[error("the signing key belongs to {}, not to the issuer that the document names", allowed.join(" or "))]
+    #[error("the signing key belongs to {}, not to the issuer that the document names", Printable(allowed.join(" or ")))]
     WrongPrincipal {
         /// The patterns of principals that the key is trusted for.
         allowed: Vec<String>,
     },
     /// The key is trusted for other purposes.
-    #[error("the signing key is trusted only for {allowed}, not for this kind of document")]
+    #[error("the signing key is trusted only for {}, not for this kind of document", Printable(allowed))]
     WrongNamespace {
         /// The patterns of namespaces that the key is trusted for.
         allowed: String,

@@ -1,5 +1,6 @@
 //! What can be wrong with a key or a signature, in words that say what to do.
 
+use crate::text::Printable;
 use thiserror::Error;
 
 /// Why a key cannot be used.
@@ -7,16 +8,16 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum KeyError {
     /// Not a line of OpenSSH's public key format.
-    #[error("found {found}, expected a public key in one line, such as `ssh-ed25519 AAAA… comment`")]
+    #[error("found {}, expected a public key in one line, such as `ssh-ed25519 AAAA… comment`", Printable(found))]
     NotAPublicKey {
         /// What was found instead.
         found: String,
     },
     /// A public key whose base64 or its content does not hold together.
-    #[error("the public key is damaged: {0}; copy its line again, whole")]
+    #[error("the public key is damaged: {}; copy its line again, whole", Printable(.0))]
     DamagedPublicKey(String),
     /// A good key of a type that signs no passport.
-    #[error("found a key of type {found}, expected ssh-ed25519 or sk-ssh-ed25519@openssh.com")]
+    #[error("found a key of type {}, expected ssh-ed25519 or sk-ssh-ed25519@openssh.com", Printable(found))]
     OtherKeyType {
         /// The type as OpenSSH names it.
         found: String,
@@ -46,14 +47,15 @@ pub enum KeyError {
     EmptyPassphrase,
     /// The private key is encrypted in a way that is not read here.
     #[error(
-        "the private key is encrypted with {found}, which is not read here; `ssh-keygen -p -f KEY` encrypts it anew"
+        "the private key is encrypted with {}, which is not read here; `ssh-keygen -p -f KEY` encrypts it anew",
+        Printable(found)
     )]
     Encryption {
         /// The cipher, or what is unusual about the encryption.
         found: String,
     },
     /// A private key file whose content does not hold together.
-    #[error("the private key file is damaged: {0}; restore it from a copy")]
+    #[error("the private key file is damaged: {}; restore it from a copy", Printable(.0))]
     DamagedPrivateKey(String),
     /// A comment that would not stay on the line of the public key.
     #[error("the comment of a key holds a control character; write it as one line of plain text")]
@@ -71,7 +73,7 @@ pub enum KeyError {
 #[non_exhaustive]
 pub enum SignatureError {
     /// The text is not OpenSSH's armor, or what it holds does not hold together.
-    #[error("the signature block is not OpenSSH's or is damaged: {0}")]
+    #[error("the signature block is not OpenSSH's or is damaged: {}", Printable(.0))]
     Damaged(String),
     /// Another version of the format; the version is not signed, so only one can be accepted.
     #[error("the signature block has format version {found}, expected 1")]
@@ -86,19 +88,19 @@ pub enum SignatureError {
         length: usize,
     },
     /// The message was hashed in another way.
-    #[error("the signed text was hashed with {found}, expected sha512")]
+    #[error("the signed text was hashed with {}, expected sha512", Printable(found))]
     HashAlgorithm {
         /// The algorithm found.
         found: String,
     },
     /// Signed with a key of a type that signs no passport.
-    #[error("signed with {found}, expected a key of type ssh-ed25519 or sk-ssh-ed25519@openssh.com")]
+    #[error("signed with {}, expected a key of type ssh-ed25519 or sk-ssh-ed25519@openssh.com", Printable(found))]
     KeyType {
         /// The type found.
         found: String,
     },
     /// The signature is of another algorithm than its key.
-    #[error("the key is of type {key}, its signature of type {signature}")]
+    #[error("the key is of type {}, its signature of type {}", Printable(key), Printable(signature))]
     Algorithm {
         /// The key's type.
         key: String,
@@ -109,7 +111,7 @@ pub enum SignatureError {
     #[error("the signature block is written in another way than OpenSSH writes it (line length, line ends or padding)")]
     NotCanonical,
     /// A signature made for another purpose.
-    #[error("the signature was made for the namespace {found:?}, expected {expected:?}")]
+    #[error("the signature was made for the namespace \"{}\", expected {expected:?}", Printable(found))]
     WrongNamespace {
         /// The namespace of the signature.
         found: String,

@@ -2,6 +2,7 @@
 
 use super::language::Languages;
 use crate::report::picture;
+use crate::text::printable;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::fmt::Write;
 
@@ -37,7 +38,7 @@ pub fn document(languages: &Languages, title: &str, margins: &Margins, body: &Ma
             body { (body) }
         }
     };
-    page.into_string() + "\n"
+    printable::page(&page.into_string()) + "\n"
 }
 
 impl Margins {
