@@ -169,11 +169,15 @@ pub fn write_new_as(path: &Path, bytes: &[u8], access: Access, durability: Durab
     write(path, bytes, access, durability, persist, false)
 }
 
-/// The same, replacing what is there when `force` says so.
+/// The same, replacing a file that is there when `force` says so. A folder, a device, a pipe and a link to one stay: a new
+/// file renamed to the name of a device would take its place.
 ///
 /// # Errors
 /// As [`write_new`].
 pub fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
+    if path.metadata().is_ok_and(|there| !there.is_file()) {
+        return Err(FileError::Exists { path: path.to_owned(), replaceable: false });
+    }
     let persist = |temporary: NamedTempFile| match force {
         true => temporary.persist(path),
         false => temporary.persist_noclobber(path),
