@@ -160,9 +160,15 @@ const K: f64 = 0.001_931_852_652_41;
 /// WGS 84: m = ω² a² b / GM.
 const M: f64 = 0.003_449_786_506_84;
 
-/// Standard uncertainty of normal gravity as an estimate of gravity, m/s²: 50 mGal, the size of gravity anomalies
+/// Standard uncertainty of normal gravity at a known height as an estimate of gravity, m/s²: 50 mGal, the size of gravity anomalies
 /// outside high mountains ([Heiskanen and Moritz](crate::bibliography::Bibliography::HeiskanenMoritz67), chapter 7).
 pub const NORMAL_GRAVITY_U_M_PER_S2: f64 = 5e-4;
+
+/// Standard uncertainty of normal gravity at 0 m as an estimate of gravity where the height is unknown, m/s².
+///
+/// Gravity is 3.086e-6 m/s² smaller for each metre of height: 1.23e-2 at 4,000 m. Where every height from 0 m to there is
+/// equally probable, the root mean square of what the value at 0 m is out by is 1.23e-2/√3.
+pub const NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2: f64 = 7.1e-3;
 
 /// Standard gravity, m/s², the g of a gyro type that names none.
 pub const STANDARD_GRAVITY_M_PER_S2: f64 = 9.80665;

@@ -297,12 +297,13 @@ impl Site {
         Some(earth::astronomic_azimuth(mark.pillar(), mark.mark(), laplace, mark.position_u_m))
     }
 
-    /// Standard uncertainty of the gravity of [`Site::earth`]: as measured, or that of normal gravity; `None` where it was
-    /// measured and that is not stated.
+    /// Standard uncertainty of the gravity of [`Site::earth`]: as measured, or that of normal gravity, which is larger
+    /// where the height is unknown; `None` where gravity was measured and its uncertainty is not stated.
     pub fn gravity_u_m_per_s2(&self) -> Option<f64> {
-        match self.gravity_m_per_s2 {
-            Some(_) => self.gravity_u_m_per_s2,
-            None => Some(earth::NORMAL_GRAVITY_U_M_PER_S2),
+        match (self.gravity_m_per_s2, self.height_m) {
+            (Some(_), _) => self.gravity_u_m_per_s2,
+            (None, Some(_)) => Some(earth::NORMAL_GRAVITY_U_M_PER_S2),
+            (None, None) => Some(earth::NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2),
         }
     }
 

@@ -9,8 +9,10 @@ use dtg_passport::calibration::least_squares::{self, NoLeastSquares};
 use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::{InputUncertainty, Method, MethodResult, Options, Readings, Setup, calibrate};
 use dtg_passport::coefficients::{EarthRate, Position, PositionIndex};
+use dtg_passport::statistics::least_squares::condition;
+use dtg_passport::statistics::random::Stream;
 use dtg_passport::units::{arcseconds_from_radians, radians_from_arcseconds};
-use nalgebra::Vector2;
+use nalgebra::{DMatrix, Vector2};
 use support::*;
 
 /// Expected: the gyro of the reference cases, each parameter to 1e-10 of its own size. Prints the figure of
@@ -285,7 +287,7 @@ fn noise_grows_with_the_deviations() {
     assert!(
         [perfect.k, perfect.omega0, perfect.omega_g, perfect.omega_k].iter().all(|ratio| (ratio - 1.0).abs() < 1e-12)
     );
-    let mut stream = dtg_passport::statistics::random::Stream::new(7);
+    let mut stream = Stream::new(7);
     for (limit_deg, expected) in [(5.0, 0.01474), (15.0, 0.01527)] {
         let stands: Vec<_> = (0..2000).map(|_| drawn_stand(&mut stream, limit_deg)).collect();
         let squares = stands.iter().map(|stand| {
@@ -297,5 +299,41 @@ fn noise_grows_with_the_deviations() {
         let mean = (squares.sum::<f64>() / 2000.0).sqrt() * (0.015 / 3.0_f64.sqrt() / 0.0087);
         assert!((mean / expected - 1.0).abs() < 0.02, "{limit_deg}: {mean}");
         assert!(stands.iter().all(|stand| (0.9..4.0).contains(&growth(stand).worst())));
+    }
+}
+
+/// The largest condition of the paper's eight positions among stands within ±`limit_deg`: columns in units of the largest
+/// current, 1 °/h and 1 g.
+fn largest_condition(stands: usize, limit_deg: f64) -> f64 {
+    let mut stream = Stream::new(31);
+    let each = (0..stands).map(|_| {
+        let setup = setup(&drawn_stand(&mut stream, limit_deg), LATITUDE_DEG);
+        let currents = currents(&setup, &gvk_6());
+        let unit = currents.iter().fold(0.0, |most: f64, j| most.max(j.amax()));
+        let mut design = DMatrix::zeros(16, 8);
+        for (place, (at, j)) in setup.coefficients().positions.iter().zip(&currents).enumerate() {
+            let (j, n) = (j / unit, at.specific_force_g);
+            let rows = [[j.x, j.y, 0.0, 0.0, 1.0, 0.0, n.x, -n.y], [0.0, 0.0, j.x, j.y, 0.0, 1.0, n.y, n.x]];
+            rows.iter().enumerate().for_each(|(axis, row)| design.row_mut(2 * place + axis).copy_from_slice(row));
+        }
+        condition(&design, 1e6).unwrap().number
+    });
+    each.fold(0.0, f64::max)
+}
+
+/// Expected: 12.0732 without deviations, by NumPy; no stand that can be certified comes near the limit.
+#[test]
+fn positions_are_far_from_the_largest_condition() {
+    assert!((largest_condition(1, 0.0) - 12.0732).abs() < 1e-3);
+    assert!((12.0..25.0).contains(&largest_condition(500, 15.0)));
+    assert!(largest_condition(500, 45.0) < least_squares::LARGEST_CONDITION);
+}
+
+/// The figures of the documentation of `LARGEST_CONDITION`.
+#[test]
+#[ignore = "a figure: 80,000 singular value decompositions"]
+fn condition_of_forty_thousand_stands() {
+    for limit_deg in [15.0, 45.0] {
+        println!("within {limit_deg} degrees: at most {:.1}", largest_condition(40_000, limit_deg));
     }
 }

@@ -6,9 +6,12 @@ mod support;
 
 use dtg_passport::attitude::Deviation;
 use dtg_passport::calibration::diagnosis::Explanation;
+use dtg_passport::calibration::mistake::{CurrentsMistaken, Mistake};
 use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::{Calibration, InputUncertainty, Options, Setup, calibrate};
 use dtg_passport::coefficients::{EarthRate, Position};
+use dtg_passport::earth::{STANDARD_GRAVITY_M_PER_S2, normal_gravity_m_per_s2};
+use dtg_passport::gyro::{GyroParameters, GyroType};
 use dtg_passport::statistics::random::{Run, Stream};
 use nalgebra::Vector2;
 use support::*;
@@ -251,4 +254,140 @@ fn a_wrong_reading_is_named_with_its_size() {
             assert!(hint.to_string().contains(&format!("position {index} did not repeat: by ")), "{hint}");
         }
     }
+}
+
+/// What explains currents that were calibrated with the passport of this stand for this latitude, where the type is the
+/// paper's, and what it is called without a type.
+fn explained(stand: &[Position], latitude_deg: f64, currents_ma: &[Vector2<f64>]) -> [Option<Mistake>; 2] {
+    let calibration = solve(&setup(stand, latitude_deg), currents_ma);
+    let found = calibration.results[0].found(normal_gravity_m_per_s2(latitude_deg, 0.0), 7.1e-3);
+    let rate = EarthRate::at_astronomic_latitude(latitude_deg);
+    let explaining = |gyro_type| Mistake::explaining(&calibration, &found, &rate, gyro_type, &gvk_6());
+    [explaining(Some(&GyroType::gvk_6())), explaining(None)]
+}
+
+/// A gyro within the paper's tolerance, its drifts per the g of a latitude at 100 m.
+fn good_gyro(stream: &mut Stream, latitude_deg: f64) -> GyroParameters {
+    let tolerance = [0.0475, 0.0475, 0.0475, 0.0475, 0.01, 0.01, 0.01, 0.01];
+    let per_g = normal_gravity_m_per_s2(latitude_deg, 100.0) / STANDARD_GRAVITY_M_PER_S2;
+    let mut values = gvk_6().to_vector();
+    for (place, (value, limit)) in values.iter_mut().zip(tolerance).enumerate() {
+        *value = (*value + stream.within(limit)) * if place < 6 { 1.0 } else { per_g };
+    }
+    GyroParameters::from_vector(&values)
+}
+
+/// The noisy currents of a gyro within tolerance on a stand at a latitude.
+fn good_currents(stream: &mut Stream, stand: &[Position], latitude_deg: f64) -> Vec<Vector2<f64>> {
+    let gyro = good_gyro(stream, latitude_deg);
+    noisy(stream, &currents(&setup(stand, latitude_deg), &gyro))
+}
+
+const AS_THEY_ARE: CurrentsMistaken =
+    CurrentsMistaken { exchanged: false, x_reversed: false, y_reversed: false, power_of_ten: 0 };
+
+/// Exchanged and reversed channels, other units, and both at once: each is named, whatever the stand and the noise.
+#[test]
+fn mistaken_currents_are_recognised() {
+    type Mistaken = fn(&Vector2<f64>) -> Vector2<f64>;
+    let cases: [(Mistaken, CurrentsMistaken); 12] = [
+        (|j| Vector2::new(j.y, j.x), CurrentsMistaken { exchanged: true, ..AS_THEY_ARE }),
+        (|j| Vector2::new(-j.x, j.y), CurrentsMistaken { x_reversed: true, ..AS_THEY_ARE }),
+        (|j| Vector2::new(j.x, -j.y), CurrentsMistaken { y_reversed: true, ..AS_THEY_ARE }),
+        (|j| -j, CurrentsMistaken { x_reversed: true, y_reversed: true, ..AS_THEY_ARE }),
+        (|j| Vector2::new(-j.y, j.x), CurrentsMistaken { exchanged: true, x_reversed: true, ..AS_THEY_ARE }),
+        (|j| Vector2::new(j.y, -j.x), CurrentsMistaken { exchanged: true, y_reversed: true, ..AS_THEY_ARE }),
+        (
+            |j| Vector2::new(-j.y, -j.x),
+            CurrentsMistaken { exchanged: true, x_reversed: true, y_reversed: true, ..AS_THEY_ARE },
+        ),
+        (|j| j * 1e3, CurrentsMistaken { power_of_ten: 3, ..AS_THEY_ARE }),
+        (|j| j * 1e-3, CurrentsMistaken { power_of_ten: -3, ..AS_THEY_ARE }),
+        (|j| j * 10.0, CurrentsMistaken { power_of_ten: 1, ..AS_THEY_ARE }),
+        (|j| j * 1e6, CurrentsMistaken { power_of_ten: 6, ..AS_THEY_ARE }),
+        (|j| Vector2::new(j.y, j.x) * 1e3, CurrentsMistaken { exchanged: true, power_of_ten: 3, ..AS_THEY_ARE }),
+    ];
+    let mut stream = Stream::new(21);
+    for (mistake, due) in cases {
+        for _ in 0..50 {
+            let stand = drawn_stand(&mut stream, 3.0);
+            let good = good_currents(&mut stream, &stand, LATITUDE_DEG);
+            let currents: Vec<_> = good.iter().map(mistake).collect();
+            let [by_type, by_size] = explained(&stand, LATITUDE_DEG, &currents);
+            assert_eq!(by_type, Some(Mistake::Currents(due)));
+            // Without a type only what is thousands of times off is no gyro's.
+            let size = (due.power_of_ten.abs() >= 3)
+                .then_some(Mistake::Currents(CurrentsMistaken { power_of_ten: due.power_of_ten, ..AS_THEY_ARE }));
+            assert_eq!(by_size, size);
+        }
+    }
+    // As the laboratory sees it: K_x 9.5, K_xy 95; and K_x −95.
+    let stand = drawn_stand(&mut stream, 3.0);
+    let honest = setup(&stand, LATITUDE_DEG);
+    let good = currents(&honest, &gvk_6());
+    let crossed: Vec<_> = good.iter().map(|j| Vector2::new(j.y, j.x)).collect();
+    let k = solve(&honest, &crossed).results[0].parameters.k_deg_per_h_per_ma;
+    assert!((k.m11 - 9.5).abs() < 1e-9 && (k.m12 - 95.0).abs() < 1e-9, "{k}");
+    let reversed: Vec<_> = good.iter().map(|j| -j).collect();
+    let k = solve(&honest, &reversed).results[0].parameters.k_deg_per_h_per_ma;
+    assert!((k.m11 + 95.0).abs() < 1e-9, "{k}");
+}
+
+/// The passport of another place, in both hemispheres, near the equator and near a pole: the latitude of the stand is found.
+///
+/// Expected: K as docs/model.md has it, sK with s = cos 10.6°/cos 55.7658° = 0.98294/0.56258 = 1.7472, so 166 for 95.
+#[test]
+fn the_passport_of_another_place_is_recognised() {
+    let mut stream = Stream::new(22);
+    let places =
+        [(55.7658, 10.6), (55.7658, -33.78), (55.7658, 78.93), (55.7658, 48.0), (1.2956, 55.7658), (-33.78, 55.7658)];
+    for (there, used) in places {
+        for _ in 0..100 {
+            let stand = drawn_stand(&mut stream, 3.0);
+            let currents = good_currents(&mut stream, &stand, there);
+            match explained(&stand, used, &currents) {
+                [Some(Mistake::OtherPlace { latitude_deg }), None] => {
+                    assert!((latitude_deg - there).abs() < 0.3, "{latitude_deg} for {there}");
+                }
+                other => panic!("{other:?} for the passport of {used} at {there}"),
+            }
+        }
+    }
+    let stand = drawn_stand(&mut stream, 3.0);
+    let exact = currents(&setup(&stand, 55.7658), &gvk_6());
+    let k = solve(&setup(&stand, 10.6), &exact).results[0].parameters.k_deg_per_h_per_ma;
+    assert!((k.m11 - 95.0 * 1.7472).abs() < 0.01, "{k}");
+}
+
+/// Nothing is explained away: good gyros, gyros out of tolerance in one parameter or in all, a meter with a wrong gain, and
+/// readings that do not fit at all get no word of a mistake.
+#[test]
+fn what_is_no_mistake_is_not_called_one() {
+    let blocks = Run::new(trials(), 23).blocks(|stream, trials| {
+        let mut false_words = 0;
+        for _ in 0..trials {
+            let stand = drawn_stand(stream, 3.0);
+            let good = good_gyro(stream, LATITUDE_DEG);
+            let mut one = good.to_vector();
+            let place = stream.below(8);
+            // Up to half of its size, small ones as probable as large ones.
+            one[place] *= 1.0 + 0.5 * stream.within(1.0).powi(5);
+            let mut all = good.to_vector();
+            all.iter_mut().for_each(|value| *value *= 1.0 + 0.03 * stream.within(1.0).powi(3));
+            let mut scaled = good;
+            scaled.k_deg_per_h_per_ma *= 1.0 + 0.3 * stream.within(1.0).powi(3);
+            for gyro in [good, GyroParameters::from_vector(&one), GyroParameters::from_vector(&all), scaled] {
+                let currents = noisy(stream, &currents(&setup(&stand, LATITUDE_DEG), &gyro));
+                false_words += explained(&stand, LATITUDE_DEG, &currents).iter().flatten().count();
+            }
+        }
+        false_words
+    });
+    let false_words: usize = blocks.into_iter().sum();
+    println!("called a mistake: {false_words} of {}", 4 * trials());
+    assert_eq!(false_words, 0);
+    let mut stream = Stream::new(24);
+    let (stand, other) = (drawn_stand(&mut stream, 1.0), drawn_stand(&mut stream, 1.0));
+    let crossed: Vec<_> = currents(&setup(&other, LATITUDE_DEG), &gvk_6()).iter().map(|j| j.yx()).collect();
+    assert_eq!(explained(&stand, LATITUDE_DEG, &crossed), [None, None]);
 }

@@ -94,6 +94,64 @@ fn what_is_known_of_gravity_enters_with_the_types_g() {
     assert!((expanded(&at(10.0), Some(&elsewhere)) - due).abs() < 1e-9);
 }
 
+/// Deviation = value − reference of the numbers shown, in the unit shown: drifts at the type's g, scale factors in percent of
+/// the nominal value. Expected by hand: 10 °/h/g under 9.8 m/s² are 10 · 9.80665/9.8 = 10.006786 under the type's.
+#[test]
+fn the_deviation_is_the_difference_of_the_numbers_shown() {
+    let gyro = GyroType::gvk_6();
+    let here = Found { gravity_m_per_s2: 9.8, ..found(|v| v[0] += 0.02, SMALL) };
+    let earlier = Found { gravity_m_per_s2: 9.79, ..found(|v| v[7] += 0.5, SMALL) };
+    for verdict in [against_type(&here, &gyro), against_earlier(&here, &earlier, &gyro)] {
+        assert_eq!(verdict.gravity_m_per_s2, G);
+        for (row, nominal) in verdict.parameters.iter().zip([95.0, 95.0, 9.5, 9.5, 20.0, 20.0, 10.0, 10.0]) {
+            let unit = if row.unit == "%" { nominal / 100.0 } else { 1.0 };
+            assert!((row.value - row.reference_value - row.deviation * unit).abs() < 1e-12, "{row:?}");
+            assert!((row.standard_uncertainty * 2.0 - row.expanded_uncertainty * unit).abs() < 1e-12, "{row:?}");
+        }
+        assert!((verdict.parameters[6].value - 10.006_786).abs() < 5e-7, "{verdict:?}");
+    }
+    let verdict = against_earlier(&here, &earlier, &gyro);
+    assert!((verdict.parameters[7].reference_value - 10.5 * 9.80665 / 9.79).abs() < 1e-12);
+    assert_eq!(against_type(&here, &gyro).parameters[0].reference_value, 95.0);
+}
+
+const HOLLOMAN: &str = "format: \"dtg-site/1\"\nid: \"holloman\"\nlatitude_deg: 32.8525\nlongitude_deg: -106.1064\n";
+
+/// What is said of a gyro with these drifts under the type's g, measured at Holloman under the local g that is there, with the
+/// uncertainty of a good meter.
+fn at_holloman(site: &str, omega_g: f64) -> dtg_passport::calibration::verdict::ParameterVerdict {
+    // By hand: sin²(32.8525°) = 0.294283; Somigliana 9.7803253359 (1 + 0.00193185265 · 0.294283)/√(1 − 0.00669438 · 0.294283)
+    // = 9.795539; less 3.0855e-6 for each of 1,225 m: 9.791759.
+    const LOCAL_G: f64 = 9.791_759;
+    let site = Site::from_yaml("holloman.yaml", site.as_bytes()).unwrap();
+    let measured = Found {
+        gravity_m_per_s2: site.earth().gravity_m_per_s2,
+        gravity_u_m_per_s2: site.gravity_u_m_per_s2().unwrap(),
+        ..found(|values| values[6] = omega_g * LOCAL_G / G, [0.01, 0.01, 0.01, 0.01, 0.003, 0.003, 0.0013, 0.0013])
+    };
+    against_type(&measured, &GyroType::gvk_6()).parameters[6].clone()
+}
+
+/// Gravity at 0 m is out by 3.8e-3 m/s² there, in ω_g 0.0039 °/h/g. So a nominal gyro does not pass for certain, and one that
+/// is out of tolerance does not either. With the height it is decided, rightly.
+#[test]
+fn an_unknown_height_leaves_drifts_undecided() {
+    for omega_g in [10.0, 10.0115, 9.9885] {
+        let row = at_holloman(HOLLOMAN, omega_g);
+        assert!((row.deviation - (omega_g - 10.0) + 0.0039).abs() < 1e-4, "{row:?}");
+        // 10 · 7.1e-3/9.8 = 0.00724, and the readings' 0.0013: 0.00736.
+        assert!((row.expanded_uncertainty - 2.0 * 0.00736).abs() < 5e-5, "{row:?}");
+        assert!(row.guarded == Decision::Undecided && row.specific_risk > 0.1, "{row:?}");
+        assert!(row.is_mostly_from_gravity());
+    }
+    let known = format!("{HOLLOMAN}height_m: 1225.0\n");
+    let nominal = at_holloman(&known, 10.0);
+    assert!(nominal.deviation.abs() < 1e-5 && nominal.guarded == Decision::Pass, "{nominal:?}");
+    assert!(!nominal.is_mostly_from_gravity());
+    let shipped = at_holloman(include_str!("../sites/holloman-cigtf.yaml"), 10.0);
+    assert!(shipped.deviation.abs() < 1e-4 && shipped.guarded == Decision::Pass, "{shipped:?}");
+}
+
 /// A standard uncertainty that is negative or no number, and degrees of freedom that are none, are refused by name.
 #[test]
 fn uncertainties_that_are_none_are_refused() {
@@ -117,9 +175,7 @@ fn uncertainties_that_are_none_are_refused() {
 }
 
 #[test]
-fn microamperes_and_earlier_results() {
-    let thousand = found(|v| v[..4].iter_mut().for_each(|k| *k /= 1000.0), SMALL);
-    assert!(against_type(&thousand, &GyroType::gvk_6()).remark.unwrap().contains("microamperes"));
+fn changes_since_an_earlier_result() {
     let earlier = found(|_| {}, SMALL);
     let now = found(|v| v[5] += 0.02, SMALL);
     let verdict = against_earlier(&now, &earlier, &GyroType::gvk_6());

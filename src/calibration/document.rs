@@ -1,6 +1,7 @@
 //! A result for machines: the JSON of `calibrate`, which is also what a later calibration compares itself with.
 
 use super::iterative::{LARGEST_NUMBER_OF_STEPS, StepChange};
+use super::mistake::Mistake;
 use super::parameter::Parameter;
 use super::result::{Calibration, MethodResult};
 use super::stated::NotStated;
@@ -36,6 +37,9 @@ pub struct CalibrationDocument {
     /// What may be wrong, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hint: Option<String>,
+    /// The mistake that explains the result, when readings fit and the parameters are not the gyro's.
+    #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
+    pub mistake: Option<Mistake>,
     /// Against the gyro's type.
     #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
     pub verdict: Option<Verdict>,
@@ -187,8 +191,8 @@ pub struct ResidualDocument {
     pub u_y: Option<f64>,
 }
 
-/// A verdict of an earlier result is not read again: it is judged anew.
-fn left_aside<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Verdict>, D::Error> {
+/// The judgement of an earlier result is not read again: it is judged anew.
+fn left_aside<'de, T, D: Deserializer<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
     IgnoredAny::deserialize(deserializer).map(|_| None)
 }
 
@@ -221,6 +225,7 @@ impl CalibrationDocument {
                 variance_factor: scatter.variance_factor,
             }),
             hint: calibration.hint.as_ref().map(ToString::to_string),
+            mistake: None,
             verdict: None,
             change: None,
             budget: (),

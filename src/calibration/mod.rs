@@ -8,6 +8,7 @@
 //! * [`scatter`]: whether repeated readings agree.
 //! * [`diagnosis`]: what may be wrong where readings do not fit.
 //! * [`verdict`]: against a type's specification and against an earlier calibration.
+//! * [`mistake`]: mistakes that leave readings fitting, recognised by what the gyro should be.
 //! * [`document`]: a result for machines.
 //! * [`prediction`]: what a calibration on this stand will be worth, before there is a reading.
 //! * [`causes`]: everything that is uncertain, by name; what budgets are made of.
@@ -43,6 +44,7 @@ pub mod document;
 pub mod inputs;
 pub mod iterative;
 pub mod least_squares;
+pub mod mistake;
 pub mod parameter;
 pub mod prediction;
 pub mod procedure;

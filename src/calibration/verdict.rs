@@ -11,6 +11,9 @@ use serde::Serialize;
 /// Expanded uncertainty is this many standard uncertainties.
 pub const COVERAGE_FACTOR: f64 = 2.0;
 
+/// The parameters that are drifts per g.
+const PER_G: [Parameter; 2] = [Parameter::OmegaG, Parameter::OmegaK];
+
 /// A decision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -28,11 +31,10 @@ pub enum Decision {
 pub struct Verdict {
     /// Fail when a parameter fails by guarded acceptance, pass when all pass so, else undecided.
     pub overall: Decision,
+    /// The type's g, at which drifts are compared, m/s².
+    pub gravity_m_per_s2: f64,
     /// Parameter by parameter.
     pub parameters: Vec<ParameterVerdict>,
-    /// Said when the scale factors are a thousand times off: currents in microamperes where milliamperes belong.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub remark: Option<&'static str>,
 }
 
 /// One parameter against its tolerance.
@@ -40,7 +42,13 @@ pub struct Verdict {
 pub struct ParameterVerdict {
     /// Which one.
     pub parameter: &'static str,
-    /// Unit of the three numbers that follow: percent of the nominal value for scale factors.
+    /// Value found, in the parameter's own unit, drifts at the type's g.
+    pub value: f64,
+    /// Nominal or earlier value, likewise.
+    pub reference_value: f64,
+    /// Standard uncertainty of their difference, likewise.
+    pub standard_uncertainty: f64,
+    /// Unit of the four numbers that follow: percent of the nominal value for scale factors.
     pub unit: &'static str,
     /// Found less nominal, or found less earlier.
     pub deviation: f64,
@@ -48,12 +56,24 @@ pub struct ParameterVerdict {
     pub tolerance: f64,
     /// Two standard uncertainties of the deviation.
     pub expanded_uncertainty: f64,
+    /// Part of the expanded uncertainty that comes from the local g, by which drifts were brought to the type's g;
+    /// absent where none does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub expanded_uncertainty_from_gravity: Option<f64>,
     /// By simple acceptance: whether the deviation is within the tolerance.
     pub simple: Decision,
     /// By guarded acceptance: whether it is within, or outside, by more than the expanded uncertainty.
     pub guarded: Decision,
     /// Probability that the simple decision is wrong.
     pub specific_risk: f64,
+}
+
+impl ParameterVerdict {
+    /// Returns `true` if more than half of the variance comes from the local g.
+    pub fn is_mostly_from_gravity(&self) -> bool {
+        let of_gravity = self.expanded_uncertainty_from_gravity.unwrap_or(0.0);
+        2.0 * of_gravity * of_gravity > self.expanded_uncertainty * self.expanded_uncertainty
+    }
 }
 
 /// Values and standard uncertainties of the eight parameters at one place.
@@ -77,14 +97,20 @@ impl Found {
         let ratio = gravity_m_per_s2 / self.gravity_m_per_s2;
         let mut values = self.parameters.to_vector();
         let mut standard_uncertainty = self.standard_uncertainty;
-        for parameter in [Parameter::OmegaG, Parameter::OmegaK] {
+        for parameter in PER_G {
             let place = parameter.place();
-            let of_gravity = values[place] * self.gravity_u_m_per_s2 / self.gravity_m_per_s2;
+            standard_uncertainty[place] =
+                ratio * libm::hypot(standard_uncertainty[place], self.from_gravity(parameter));
             values[place] *= ratio;
-            standard_uncertainty[place] = ratio * libm::hypot(standard_uncertainty[place], of_gravity);
         }
         let parameters = GyroParameters::from_vector(&values);
         Self { parameters, standard_uncertainty, gravity_m_per_s2, gravity_u_m_per_s2: 0.0 }
+    }
+
+    /// The standard uncertainty that the local g adds to a parameter which is brought to another g; 0 where it has no part.
+    fn from_gravity(&self, parameter: Parameter) -> f64 {
+        let value = if PER_G.contains(&parameter) { self.parameters.to_vector()[parameter.place()] } else { 0.0 };
+        value.abs() * self.gravity_u_m_per_s2 / self.gravity_m_per_s2
     }
 
     /// The same with the local g taken as exact: a change between two results under the same g does not depend on it.
@@ -96,16 +122,13 @@ impl Found {
 
 /// A result against the specification of a type.
 pub fn against_type(found: &Found, gyro_type: &GyroType) -> Verdict {
-    let found = found.at_gravity(gyro_type.gravity());
-    let nominal = gyro_type.nominal.to_model();
-    let parameters = Parameter::AS_IN_THE_PAPER.map(|parameter| {
-        let place = parameter.place();
-        let deviation = found.parameters.to_vector()[place] - nominal.to_vector()[place];
-        judge(parameter, deviation, found.standard_uncertainty[place], gyro_type)
-    });
-    let mut verdict = Verdict::of(parameters.into());
-    verdict.remark = thousandfold(&found.parameters, &nominal);
-    verdict
+    let nominal = Found {
+        parameters: gyro_type.nominal.to_model(),
+        standard_uncertainty: [0.0; 8],
+        gravity_m_per_s2: gyro_type.gravity(),
+        gravity_u_m_per_s2: 0.0,
+    };
+    compare(found, &nominal, gyro_type)
 }
 
 /// The change since an earlier result, against the tolerance of the type: the paper's tolerance is an instability.
@@ -113,18 +136,22 @@ pub fn against_type(found: &Found, gyro_type: &GyroType) -> Verdict {
 /// The two results count as independent. Where they share a stand, its part in both uncertainties is the same and does
 /// not change: what is said here is then on the cautious side.
 pub fn against_earlier(found: &Found, earlier: &Found, gyro_type: &GyroType) -> Verdict {
-    let gravity = gyro_type.gravity();
-    let brought = |one: &Found, other: &Found| one.under_the_same_gravity(other).at_gravity(gravity);
-    let (found, earlier) = (brought(found, earlier), brought(earlier, found));
+    compare(&found.under_the_same_gravity(earlier), &earlier.under_the_same_gravity(found), gyro_type)
+}
+
+/// Compares two results, brought to the type's g, in the order of the paper's table.
+fn compare(found: &Found, reference: &Found, gyro_type: &GyroType) -> Verdict {
+    let gravity_m_per_s2 = gyro_type.gravity();
+    let sides = [found, reference];
+    let at_type = sides.map(|side| side.at_gravity(gravity_m_per_s2));
     let parameters = Parameter::AS_IN_THE_PAPER.map(|parameter| {
-        let place = parameter.place();
-        let change = found.parameters.to_vector()[place] - earlier.parameters.to_vector()[place];
-        let u = libm::hypot(found.standard_uncertainty[place], earlier.standard_uncertainty[place]);
-        judge(parameter, change, u, gyro_type)
+        let values = at_type.map(|side| side.parameters.to_vector()[parameter.place()]);
+        let [u, other] = at_type.map(|side| side.standard_uncertainty[parameter.place()]);
+        let from_gravity = sides.map(|side| side.from_gravity(parameter) * gravity_m_per_s2 / side.gravity_m_per_s2);
+        let from_gravity = libm::hypot(from_gravity[0], from_gravity[1]);
+        judge(parameter, values, [libm::hypot(u, other), from_gravity], gyro_type)
     });
-    let mut verdict = Verdict::of(parameters.into());
-    verdict.remark = thousandfold(&found.parameters, &earlier.parameters);
-    verdict
+    Verdict::of(gravity_m_per_s2, parameters.into())
 }
 
 /// The change of each parameter since an earlier result, in units of the change's standard uncertainty, in the order of
@@ -141,7 +168,7 @@ pub fn change_in_uncertainties(found: &Found, earlier: &Found) -> [f64; 8] {
 }
 
 impl Verdict {
-    fn of(parameters: Vec<ParameterVerdict>) -> Self {
+    fn of(gravity_m_per_s2: f64, parameters: Vec<ParameterVerdict>) -> Self {
         let all = |decision| parameters.iter().all(|parameter| parameter.guarded == decision);
         let overall = if parameters.iter().any(|parameter| parameter.guarded == Decision::Fail) {
             Decision::Fail
@@ -150,12 +177,18 @@ impl Verdict {
         } else {
             Decision::Undecided
         };
-        Self { overall, parameters, remark: None }
+        Self { overall, gravity_m_per_s2, parameters }
     }
 }
 
-/// Judges a deviation with the standard uncertainty `u`, both in the parameter's own unit.
-fn judge(parameter: Parameter, deviation: f64, u: f64, gyro_type: &GyroType) -> ParameterVerdict {
+/// Judges a value against a reference value; of their difference, the standard uncertainty `u` and what the local g has in
+/// it; all in the parameter's own unit.
+fn judge(
+    parameter: Parameter,
+    [value, reference_value]: [f64; 2],
+    [u, from_gravity]: [f64; 2],
+    gyro_type: &GyroType,
+) -> ParameterVerdict {
     let tolerance = &gyro_type.tolerance;
     let limit = match parameter {
         Parameter::Kx | Parameter::Ky => tolerance.k_main_percent,
@@ -172,10 +205,26 @@ fn judge(parameter: Parameter, deviation: f64, u: f64, gyro_type: &GyroType) -> 
         (true, true) => (parameter.unit(), 0.0, 1.0),
         (false, _) => (parameter.unit(), limit, 1.0),
     };
-    decide(parameter, unit, deviation * scale, u * scale, limit)
+    let deviation = (value - reference_value) * scale;
+    let (simple, guarded, specific_risk) = decide(deviation, u * scale, limit);
+    ParameterVerdict {
+        parameter: parameter.key(),
+        value,
+        reference_value,
+        standard_uncertainty: u,
+        unit,
+        deviation,
+        tolerance: limit,
+        expanded_uncertainty: COVERAGE_FACTOR * u * scale,
+        expanded_uncertainty_from_gravity: (from_gravity > 0.0).then_some(COVERAGE_FACTOR * from_gravity),
+        simple,
+        guarded,
+        specific_risk,
+    }
 }
 
-fn decide(parameter: Parameter, unit: &'static str, deviation: f64, u: f64, limit: f64) -> ParameterVerdict {
+/// Decides by simple and by guarded acceptance, with the probability that the simple decision is wrong.
+fn decide(deviation: f64, u: f64, limit: f64) -> (Decision, Decision, f64) {
     let expanded_uncertainty = COVERAGE_FACTOR * u;
     let within = deviation.abs() <= limit;
     let guarded = if deviation.abs() + expanded_uncertainty <= limit {
@@ -197,25 +246,5 @@ fn decide(parameter: Parameter, unit: &'static str, deviation: f64, u: f64, limi
         (true, true) => outside,
         (true, false) => inside,
     };
-    ParameterVerdict {
-        parameter: parameter.key(),
-        unit,
-        deviation,
-        tolerance: limit,
-        expanded_uncertainty,
-        simple: if within { Decision::Pass } else { Decision::Fail },
-        guarded,
-        specific_risk,
-    }
-}
-
-/// Said when scale factors are about a thousand times too small or too large.
-pub fn thousandfold(found: &GyroParameters, expected: &GyroParameters) -> Option<&'static str> {
-    let ratio = found.k_deg_per_h_per_ma.norm() / expected.k_deg_per_h_per_ma.norm();
-    if (3e-4..3e-3).contains(&ratio) {
-        return Some("the scale factors are a thousand times too small: are the currents in microamperes?");
-    }
-    (3e2..3e3)
-        .contains(&ratio)
-        .then_some("the scale factors are a thousand times too large: are the currents in amperes?")
+    (if within { Decision::Pass } else { Decision::Fail }, guarded, specific_risk)
 }

@@ -8,8 +8,9 @@ use super::{Code, Failure, REFUSED, output, uncertainty};
 use clap::Args;
 use dtg_passport::calibration::document::CalibrationDocument;
 use dtg_passport::calibration::iterative::StopRule;
+use dtg_passport::calibration::mistake::Mistake;
 use dtg_passport::calibration::stated::temperature_remark;
-use dtg_passport::calibration::verdict::{Decision, against_earlier, against_type, thousandfold};
+use dtg_passport::calibration::verdict::{Decision, against_earlier, against_type};
 use dtg_passport::calibration::{self, Method, Options as CalibrationOptions, Readings, Setup};
 use dtg_passport::document::sha256_hex;
 use dtg_passport::files;
@@ -102,11 +103,10 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
             calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key())).collect();
         return Err(Failure { message: words.join("\n"), code: REFUSED });
     };
-    // Without a type the paper's tells at least a thousandfold error.
-    let usual = gyro_type.is_none().then(|| GyroType::gvk_6().nominal.to_model());
-    if let Some(remark) = usual.and_then(|usual| thousandfold(&found.parameters, &usual)) {
-        output::say(&format!("WARNING: {remark}"));
-    }
+    // Without a type or an earlier result, the size of the paper's gyro tells at least a thousandfold error.
+    let usual = earlier.map_or_else(|| GyroType::gvk_6().nominal.to_model(), |earlier| earlier.parameters);
+    let rate = content.earth.rate();
+    document.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type.as_ref(), &usual);
     document.verdict = gyro_type.as_ref().map(|gyro_type| against_type(&found, gyro_type));
     let judged_change = earlier.as_ref().zip(gyro_type.as_ref());
     document.change = judged_change.map(|(earlier, gyro_type)| against_earlier(&found, earlier, gyro_type));
@@ -142,6 +142,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
                     passport_verified: verified,
                     gravity_m_per_s2: gravity,
                     missing: &missing,
+                    mistake: document.mistake.as_ref(),
                     verdict: gyro_type
                         .as_ref()
                         .map(|gyro_type| gyro_type.r#type.as_str())

@@ -233,14 +233,13 @@ fn comments(content: &Content, path: &str) -> Vec<String> {
 
 fn of_the_earth(content: &Content) -> Vec<String> {
     let site = &content.site;
-    let gravity = match (site.gravity_m_per_s2, site.gravity_u_m_per_s2) {
+    let gravity = match (site.gravity_m_per_s2, site.gravity_u_m_per_s2()) {
         (Some(_), Some(u)) => format!("Gravity was measured, standard uncertainty {u} m/s2."),
-        (Some(_), None) => "Gravity was measured; its uncertainty is not stated.".to_owned(),
-        (None, _) => format!(
-            "Gravity is normal gravity (WGS 84) at {} m, standard uncertainty {} m/s2.",
+        (None, Some(u)) => format!(
+            "Gravity is normal gravity (WGS 84) at {} m, standard uncertainty {u} m/s2.",
             site.height_m.unwrap_or(0.0),
-            earth::NORMAL_GRAVITY_U_M_PER_S2,
         ),
+        (_, None) => "Gravity was measured; its uncertainty is not stated.".to_owned(),
     };
     let mut lines = vec![
         "Earth rate at the astronomic latitude: horizontal = rate cos(latitude), vertical = rate sin(latitude), eq. (5)."

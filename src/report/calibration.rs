@@ -2,11 +2,13 @@
 
 use crate::calibration::diagnosis::CANNOT_TELL;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
+use crate::calibration::mistake::Mistake;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, Found, Verdict, change_in_uncertainties};
 use crate::calibration::{Calibration, MethodResult};
-use crate::report::columns;
+use crate::report::page::Language;
+use crate::report::{columns, mistake};
 use std::fmt::Write;
 
 /// What is said of a calibration besides its numbers.
@@ -20,6 +22,8 @@ pub struct Context<'a> {
     pub gravity_m_per_s2: (f64, Option<f64>),
     /// Uncertainties that nobody stated.
     pub missing: &'a [NotStated],
+    /// The mistake that explains the result.
+    pub mistake: Option<&'a Mistake>,
     /// Against the gyro's type, by its name.
     pub verdict: Option<(&'a str, &'a Verdict)>,
     /// An earlier result, and the change since then against the same tolerance.
@@ -38,12 +42,16 @@ pub fn text(calibration: &Calibration, context: &Context) -> String {
         let words = "WARNING: these readings do not fit this stand. Until that is explained (below), the parameters mean nothing.";
         columns::paragraph(&mut out, "", words);
     }
+    if let Some(mistake) = context.mistake {
+        columns::paragraph(&mut out, "", &format!("WARNING: {}", mistake::words(mistake, Language::English)));
+    }
     parameters(&mut out, calibration);
     methods(&mut out, calibration);
     fit(&mut out, calibration, context.missing);
     if let Some((name, verdict)) = context.verdict {
-        let _ = writeln!(out, "\nAgainst the type {name}, with expanded uncertainty U = {COVERAGE_FACTOR} u:");
-        verdict_table(&mut out, verdict, "deviation");
+        let _ = writeln!(out, "\nAgainst the type {name}, with expanded uncertainty U = {COVERAGE_FACTOR} u;");
+        let _ = writeln!(out, "drifts per g of {} m/s2, the type's:", verdict.gravity_m_per_s2);
+        verdict_table(&mut out, verdict, "nominal", "deviation");
     }
     if let Some((earlier, verdict)) = context.change {
         change(&mut out, calibration, context.gravity_m_per_s2, earlier, verdict);
@@ -159,7 +167,8 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
     }
 }
 
-fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
+/// The lines of a verdict; `reference` names what values are compared with, `deviation` what they differ by.
+fn verdict_table(out: &mut String, verdict: &Verdict, reference: &str, deviation: &str) {
     let decision = |decision: Decision| match decision {
         Decision::Pass => "pass",
         Decision::Fail => "FAIL",
@@ -170,25 +179,35 @@ fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
         .iter()
         .map(|row| {
             let digits = columns::decimals(row.expanded_uncertainty / COVERAGE_FACTOR);
+            let places = columns::decimals(row.standard_uncertainty);
             vec![
                 row.parameter.to_owned(),
-                row.unit.to_owned(),
+                format!("{:.places$}", row.reference_value),
+                format!("{:.places$}", row.value),
                 format!("{:+.digits$}", row.deviation),
                 format!("{:.digits$}", row.expanded_uncertainty),
                 format!("{}", row.tolerance),
+                row.unit.to_owned(),
                 decision(row.simple).to_owned(),
                 columns::probability(row.specific_risk),
                 decision(row.guarded).to_owned(),
             ]
         })
         .collect();
-    columns::table(out, &["", "unit", deviation, "U", "tolerance", "simple", "risk", "guarded"], &rows);
+    let names = ["", reference, "found", deviation, "U", "tolerance", "unit", "simple", "risk", "guarded"];
+    columns::table(out, &names, &rows);
     let _ = writeln!(out, "  Overall, by guarded acceptance: {}", decision(verdict.overall).to_uppercase());
     if verdict.overall == Decision::Undecided {
         columns::paragraph(out, "  ", "undecided: it cannot be decided with this uncertainty.");
     }
-    if let Some(remark) = verdict.remark {
-        columns::paragraph(out, "  ", &format!("WARNING: {remark}."));
+    for row in verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()) {
+        let words = format!(
+            "U of {} is mostly from the local g: {:.1e} {}; gravity measured, or the site's height, makes it smaller.",
+            row.parameter,
+            row.expanded_uncertainty_from_gravity.unwrap_or(0.0),
+            row.unit,
+        );
+        columns::paragraph(out, "  ", &words);
     }
 }
 
@@ -214,6 +233,6 @@ fn change(
     if let Some(verdict) = verdict {
         let _ =
             writeln!(out, "The same change against the type's tolerance, which the paper states as an instability:");
-        verdict_table(out, verdict, "change");
+        verdict_table(out, verdict, "earlier", "change");
     }
 }

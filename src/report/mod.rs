@@ -6,6 +6,7 @@
 //! * `certification`: a certified stand, and a check run.
 //! * [`columns`]: text in columns.
 //! * [`deviations`]: the certified deviations, drawn in block characters.
+//! * [`mistake`]: what explains a result that is not the gyro's.
 //! * [`monte_carlo`]: intervals, and whether first order is valid.
 //! * `issued`: what became of an order, and what the factory should know about it.
 //! * [`page`]: pages for print and screen, in several languages.
@@ -24,6 +25,7 @@ pub mod columns;
 pub mod deviations;
 #[cfg(feature = "factory")]
 pub mod issued;
+pub mod mistake;
 pub mod monte_carlo;
 pub mod page;
 pub mod passport_table;

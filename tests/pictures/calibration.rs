@@ -59,10 +59,14 @@ fn row(
     let (unit, simple) = ("%", Decision::Pass);
     ParameterVerdict {
         parameter,
+        value: 1.0,
+        reference_value: 1.0,
+        standard_uncertainty: 1.0,
         unit,
         deviation,
         tolerance,
         expanded_uncertainty,
+        expanded_uncertainty_from_gravity: None,
         simple,
         guarded,
         specific_risk: 0.0,
@@ -73,7 +77,7 @@ fn row(
 #[test]
 fn an_arrow_points_to_what_the_axis_does_not_reach() {
     let parameters = vec![row("k_x", 0.5, 0.02, 0.05, Decision::Fail), row("k_y", -0.45, 0.02, 0.05, Decision::Fail)];
-    let verdict = Verdict { overall: Decision::Fail, parameters, remark: None };
+    let verdict = Verdict { overall: Decision::Fail, gravity_m_per_s2: 9.8, parameters };
     let text = whole(&[tolerances::tolerances(&english(), "tolerances", &verdict)]);
     let page = Document::parse(&text).unwrap();
     let svg = svgs(&page)[0];
@@ -94,7 +98,7 @@ fn parameters_stand_where_they_are_in_their_tolerance() {
         row("k_xy", 0.7, 0.1, 0.5, Decision::Fail),
         row("k_yx", 0.1, 0.1, 0.0, Decision::Fail),
     ];
-    let verdict = Verdict { overall: Decision::Fail, parameters, remark: None };
+    let verdict = Verdict { overall: Decision::Fail, gravity_m_per_s2: 9.8, parameters };
     let text = whole(&[tolerances::tolerances(&both(), "tolerances", &verdict)]);
     let page = Document::parse(&text).unwrap();
     let svg = svgs(&page)[0];

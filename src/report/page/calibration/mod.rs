@@ -29,6 +29,7 @@ use crate::calibration::{Calibration, Method};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
+use crate::report::mistake;
 use crate::uncertainty::{Budget, MonteCarlo};
 use jiff::Timestamp;
 use maud::{Markup, html};
@@ -189,6 +190,10 @@ impl CalibrationPage<'_> {
         html! {
             @if !self.verified() { (warning(languages, texts::NOT_VERIFIED, texts::NOT_VERIFIED_WORDS)) }
             @if !self.fits() { (warning(languages, texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS)) }
+            @if let Some(mistake) = &self.result().mistake {
+                @let words = languages.paragraph_with(|language| html! { (mistake::words(mistake, language)) });
+                (boxed("verdict refused", languages.label(texts::MISTAKE), words))
+            }
             (self.verdict(languages))
         }
     }
@@ -207,10 +212,7 @@ impl CalibrationPage<'_> {
             Decision::Fail => ("verdict refused", texts::CONFORMS_NOT),
         };
         let name = |language: Language| text.filled(language, &[("type", &gyro.r#type)]);
-        html! {
-            (boxed(class, languages.label_with(name), languages.paragraph(texts::RULE)))
-            @if verdict.remark.is_some() { div.statement { (languages.paragraph(texts::THOUSANDFOLD)) } }
-        }
+        boxed(class, languages.label_with(name), languages.paragraph(texts::RULE))
     }
 }
 

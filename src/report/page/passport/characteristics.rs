@@ -2,7 +2,6 @@
 
 use super::PassportPage;
 use super::figures::{Slot, figure};
-use crate::earth;
 use crate::report::page::language::Languages;
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{
@@ -183,10 +182,7 @@ fn mark(site: &Site, languages: &Languages) -> Markup {
 
 fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
     let rate = |value: f64| quantity(languages, &Number::fixed(value, 9), units::DEG_PER_H);
-    let u = match site.gravity_m_per_s2 {
-        Some(_) => site.gravity_u_m_per_s2,
-        None => Some(earth::NORMAL_GRAVITY_U_M_PER_S2),
-    };
+    let u = site.gravity_u_m_per_s2();
     let within = quantity(languages, &Number::exact(earth.valid_within_deg_per_h), units::DEG_PER_H);
     let azimuth = earth.azimuth_deg.map(|azimuth| match earth.azimuth_u_arcsec {
         Some(u) => html! {

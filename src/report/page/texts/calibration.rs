@@ -37,10 +37,32 @@ texts! {
         en: "No type of gyro was named: nothing is said of conformity.",
         ru: "Тип гироскопа не указан: о соответствии ничего не утверждается."
     }
-    THOUSANDFOLD {
-        en: "The scale factors are a thousand times off: are the currents in milliamperes?",
-        ru: "Масштабные коэффициенты отличаются в тысячу раз: указаны ли токи в миллиамперах?"
+    MISTAKE { en: "These are not the parameters of this gyro", ru: "Это не параметры данного гироскопа" }
+    MISTAKE_CURRENTS {
+        en: "The readings fit, but the parameters are not those of this gyro. One mistake explains it: {causes}. Check the cables of \
+             the torquers, the signs and the unit of the currents, and calibrate again.",
+        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: {causes}. Следует \
+             проверить кабели датчиков момента, знаки и единицу токов и повторить калибровку."
     }
+    MISTAKE_PLACE {
+        en: "The readings fit, but the parameters are not those of this gyro. One mistake explains it: the passport is for another \
+             place, and the stand is at a latitude of about {latitude}°. Check where the stand is, and calibrate again with the \
+             passport for that place.",
+        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: паспорт выдан для \
+             другого места, а стенд находится на широте около {latitude}°. Следует проверить место установки стенда и повторить \
+             калибровку по паспорту для этого места."
+    }
+    MISTAKE_AND { en: ", and ", ru: ", и " }
+    MISTAKE_EXCHANGED { en: "the columns of x and y are exchanged", ru: "столбцы x и y переставлены" }
+    MISTAKE_X_REVERSED { en: "the sign of the column of x is reversed", ru: "знак столбца x изменён" }
+    MISTAKE_Y_REVERSED { en: "the sign of the column of y is reversed", ru: "знак столбца y изменён" }
+    MISTAKE_REVERSED { en: "the signs of both columns are reversed", ru: "знаки обоих столбцов изменены" }
+    MISTAKE_MICROAMPERES {
+        en: "the currents are in microamperes instead of milliamperes",
+        ru: "токи указаны в микроамперах, а не в миллиамперах"
+    }
+    MISTAKE_TOO_LARGE { en: "every current is {factor} times too large", ru: "все токи завышены в {factor} раз" }
+    MISTAKE_TOO_SMALL { en: "every current is {factor} times too small", ru: "все токи занижены в {factor} раз" }
 
     SUBJECT { en: "What was calibrated, where, and with what", ru: "Что, где и по чему калибровалось" }
     GYRO { en: "Gyro", ru: "Гироскоп" }
@@ -105,16 +127,27 @@ texts! {
 
     CONFORMITY { en: "Against the type {type}", ru: "Сравнение с типом {type}" }
     VERDICT_CAPTION {
-        en: "Deviation from the nominal value with expanded uncertainty U = 2u; drifts at the type's g",
-        ru: "Отклонение от номинального значения с расширенной неопределённостью U = 2u; составляющие дрейфа при g типа"
+        en: "Deviation from the nominal value with expanded uncertainty U = 2u; values of the drifts at the type's g",
+        ru: "Отклонение от номинального значения с расширенной неопределённостью U = 2u; значения составляющих дрейфа при g типа"
     }
     CHANGE { en: "Change since the earlier calibration", ru: "Изменение с прежней калибровки" }
     CHANGE_CAPTION {
-        en: "Change with expanded uncertainty U = 2u, against the same tolerance, which is one of instability",
-        ru: "Изменение с расширенной неопределённостью U = 2u в сравнении с тем же допуском, то есть с нестабильностью"
+        en: "Change with expanded uncertainty U = 2u, against the same tolerance, which is one of instability; values of the drifts at \
+             the type's g",
+        ru: "Изменение с расширенной неопределённостью U = 2u в сравнении с тем же допуском, то есть с нестабильностью; значения \
+             составляющих дрейфа при g типа"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     UNIT { en: "Unit", ru: "Единица" }
+    NOMINAL { en: "Nominal", ru: "Номинальное значение" }
+    EARLIER { en: "Earlier", ru: "Прежнее значение" }
+    FOUND { en: "Found", ru: "Найденное значение" }
+    FROM_GRAVITY {
+        en: "Of U, {gravity} in {parameter} comes from the local g, whose uncertainty is {u}. Gravity measured, or the height of the \
+             site in its file, makes it smaller.",
+        ru: "Из U для {parameter} на местное g, неопределённость которого {u}, приходится {gravity}. Измеренное ускорение свободного \
+             падения или высота места в его файле уменьшат эту составляющую."
+    }
     DEVIATION { en: "Deviation", ru: "Отклонение" }
     CHANGED_BY { en: "Change", ru: "Изменение" }
     TOLERANCE { en: "Tolerance", ru: "Допуск" }

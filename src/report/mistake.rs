@@ -1,0 +1,46 @@
+//! Words about a mistake that explains a result, in a terminal and on pages.
+
+use super::page::Number;
+use super::page::language::{Language, Text};
+use super::page::texts::calibration as texts;
+use crate::calibration::mistake::{CurrentsMistaken, Mistake};
+
+/// The power of ten by which microamperes are more than milliamperes.
+const MICROAMPERES: i32 = 3;
+
+/// Returns what is found, what explains it, and what to do; whole sentences.
+pub fn words(mistake: &Mistake, language: Language) -> String {
+    match mistake {
+        Mistake::Currents(mistaken) => {
+            let causes = causes(mistaken, language).join(texts::MISTAKE_AND.of(language));
+            texts::MISTAKE_CURRENTS.filled(language, &[("causes", &causes)])
+        }
+        Mistake::OtherPlace { latitude_deg } => {
+            let latitude = Number::fixed(*latitude_deg, 1).text(language);
+            texts::MISTAKE_PLACE.filled(language, &[("latitude", &latitude)])
+        }
+    }
+}
+
+fn causes(mistaken: &CurrentsMistaken, language: Language) -> Vec<String> {
+    let mut causes = Vec::new();
+    let mut add = |text: Text| causes.push(text.of(language).to_owned());
+    if mistaken.exchanged {
+        add(texts::MISTAKE_EXCHANGED);
+    }
+    match (mistaken.x_reversed, mistaken.y_reversed) {
+        (true, true) => add(texts::MISTAKE_REVERSED),
+        (true, false) => add(texts::MISTAKE_X_REVERSED),
+        (false, true) => add(texts::MISTAKE_Y_REVERSED),
+        (false, false) => {}
+    }
+    let factor = Number::fixed(libm::pow(10.0, f64::from(mistaken.power_of_ten.abs())), 0).text(language);
+    let factor = [("factor", factor.as_str())];
+    match mistaken.power_of_ten {
+        0 => {}
+        MICROAMPERES => add(texts::MISTAKE_MICROAMPERES),
+        power if power > 0 => causes.push(texts::MISTAKE_TOO_LARGE.filled(language, &factor)),
+        _ => causes.push(texts::MISTAKE_TOO_SMALL.filled(language, &factor)),
+    }
+    causes
+}
