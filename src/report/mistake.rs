@@ -12,7 +12,7 @@ const MICROAMPERES: i32 = 3;
 pub fn words(mistake: &Mistake, language: Language) -> String {
     match mistake {
         Mistake::Currents(mistaken) => {
-            let causes = causes(mistaken, language).join(texts::MISTAKE_AND.of(language));
+            let causes = causes(mistaken, language).join(&format!(", {} ", texts::MISTAKE_AND.of(language)));
             texts::MISTAKE_CURRENTS.filled(language, &[("causes", &causes)])
         }
         Mistake::OtherPlace { latitude_deg } => {

@@ -52,7 +52,7 @@ texts! {
              другого места, а стенд находится на широте около {latitude}°. Следует проверить место установки стенда и повторить \
              калибровку по паспорту для этого места."
     }
-    MISTAKE_AND { en: ", and ", ru: ", и " }
+    MISTAKE_AND { en: "and", ru: "и" }
     MISTAKE_EXCHANGED { en: "the columns of x and y are exchanged", ru: "столбцы x и y переставлены" }
     MISTAKE_X_REVERSED { en: "the sign of the column of x is reversed", ru: "знак столбца x изменён" }
     MISTAKE_Y_REVERSED { en: "the sign of the column of y is reversed", ru: "знак столбца y изменён" }
