@@ -6,7 +6,7 @@
 pub mod leftovers;
 pub mod walk;
 
-use crate::text::{Printable, shown};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, shown};
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -169,13 +169,13 @@ pub fn write_new_as(path: &Path, bytes: &[u8], access: Access, durability: Durab
     write(path, bytes, access, durability, persist, false)
 }
 
-/// The same, replacing a file that is there when `force` says so. A folder, a device, a pipe and a link to one stay: a new
-/// file renamed to the name of a device would take its place.
+/// The same, replacing a file that is there when `force` says so. Passports, lists of withdrawn ones and private keys stay;
+/// so does all that is no file: a new file renamed to the name of a device would take its place.
 ///
 /// # Errors
 /// As [`write_new`].
 pub fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
-    if path.metadata().is_ok_and(|there| !there.is_file()) {
+    if path.metadata().is_ok_and(|there| !there.is_file()) || (force && is_irreplaceable(path)) {
         return Err(FileError::Exists { path: path.to_owned(), replaceable: false });
     }
     let persist = |temporary: NamedTempFile| match force {
@@ -183,6 +183,15 @@ pub fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Result<(), F
         false => temporary.persist_noclobber(path),
     };
     write(path, bytes, Access::Shared, Durability::Named, persist, true)
+}
+
+/// Whether a file is a passport, a list of withdrawn ones or a private key, by its content.
+fn is_irreplaceable(path: &Path) -> bool {
+    const DOCUMENTS: [&[u8]; 2] = [b"format: \"dtg-passport/", b"format: \"dtg-revocation/"];
+    let bytes = read_first(path, LARGEST_DOCUMENT_BYTES).unwrap_or_default();
+    let mut lines = bytes.split(|&byte| byte == b'\n');
+    let key = lines.clone().next().is_some_and(|line| line.trim_ascii_end().ends_with(b"PRIVATE KEY-----"));
+    key || lines.any(|line| DOCUMENTS.iter().any(|format| line.starts_with(format)))
 }
 
 fn write(
