@@ -85,7 +85,7 @@ impl Job {
         let batch = Batch { folder: &folder, seal, shard: Shard::WHOLE, threads, cancel: None };
         let (mut issued, stands, sites) = (0, [self.inputs.join("stands")], [self.inputs.join("sites")]);
         let time = timed(|| {
-            batch.issue(&stands, &sites, &mut std::io::empty(), &fleet::order(), &mut |event| {
+            batch.issue(&stands, &sites, &mut std::io::empty(), &fleet::order(), None, &mut |event| {
                 issued += usize::from(matches!(event, Event::Done(Some(Outcome::There(_)))));
             });
         });

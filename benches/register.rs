@@ -7,9 +7,9 @@
 mod fleet;
 
 use dtg_passport::folder::search;
+use dtg_passport::passport::Trust;
 use dtg_passport::passport::issue::PreparedStand;
-use dtg_passport::passport::{Question, Trust};
-use dtg_passport::register::State;
+use dtg_passport::register::{Asked, State};
 use dtg_passport::signing::allowed_signers_line;
 use dtg_passport::trust::{AllowedSigners, SigningKey};
 use ed25519_dalek::{Signature, Signer as _, VerifyingKey};
@@ -38,10 +38,10 @@ fn main() {
     let files = issue(&root, &key, &secret);
     let line = allowed_signers_line(fleet::ISSUER, &key.public_key()).expect("a line");
     let trust = Trust::of(AllowedSigners::parse("allowed_signers", line.as_bytes()).expect("a list"));
-    let question = Question::at("2027-06-01T00:00:00Z".parse().expect("a time"));
+    let asked = Asked::at("2027-06-01T00:00:00Z".parse().expect("a time"));
     let ours = || {
         timed(|| {
-            let register = search::register(&root, trust.clone(), &question, None, threads).expect("a register").0;
+            let register = search::register(&root, trust.clone(), &asked, threads).expect("a register").0;
             assert!(register.alarms.is_empty() && register.counts()[&State::InForce] == files.len());
         })
     };

@@ -34,6 +34,11 @@ pub trait Signer {
         self.sign(message.namespace(), message.bytes())
     }
 
+    /// Returns the key that verifies what it signs, or `None` if that is not known before it has signed.
+    fn public_key(&self) -> Option<PublicKey> {
+        None
+    }
+
     /// The point of the key that signs, where it is at hand: what was signed is checked sooner with it.
     fn point(&self) -> Option<KeyPoint> {
         None
@@ -60,6 +65,10 @@ impl Signer for SigningKey {
 
     fn sign_message(&self, message: &Message) -> Result<Signature, SigningFailed> {
         Ok(SigningKey::sign_message(self, message)?)
+    }
+
+    fn public_key(&self) -> Option<PublicKey> {
+        Some(SigningKey::public_key(self))
     }
 
     fn point(&self) -> Option<KeyPoint> {

@@ -132,6 +132,20 @@ pub enum NoNewList {
     BadSignature(#[from] SignatureError),
 }
 
+impl ListRefused {
+    /// Returns `true` if the file is no whole list (steps 1 to 5), so that nobody can tell what it withdraws; `false` if it
+    /// is one that does not count.
+    pub fn is_damage(&self) -> bool {
+        matches!(self, Self::Malformed(_) | Self::Altered { .. } | Self::Content(_))
+    }
+}
+
+impl std::fmt::Display for Entry {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        write!(f, "{} was withdrawn at {}: {}", self.id, self.revoked_at, self.reason)
+    }
+}
+
 impl RevocationList {
     /// Verifies the bytes of a list as those of a passport are verified, and reads it.
     ///
@@ -181,9 +195,10 @@ impl RevocationList {
         }
     }
 
-    /// The entry of a passport, by its id or by the SHA-256 of its file.
-    pub fn entry(&self, id: &str, sha256: &str) -> Option<&Entry> {
-        self.entries.iter().find(|entry| entry.id == id || entry.sha256 == sha256)
+    /// Returns the entry of a passport by the SHA-256 of its file, or `None` if it is not withdrawn. Another file of the
+    /// same id is another passport: of two, one can be withdrawn and the other one stay.
+    pub fn entry(&self, sha256: &str) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.sha256 == sha256)
     }
 
     /// Whether every entry of `other` is in it.
@@ -210,7 +225,7 @@ impl RevocationList {
         }
         let mut entries = last.map(|list| list.entries.clone()).unwrap_or_default();
         for entry in new {
-            if let Some(there) = entries.iter().find(|there| there.id == entry.id) {
+            if let Some(there) = entries.iter().find(|there| there.sha256 == entry.sha256) {
                 let Entry { id, revoked_at, reason, .. } = there.clone();
                 return Err(NoNewList::AlreadyRevoked { id, revoked_at, reason });
             }

@@ -2,9 +2,9 @@
 
 use crate::document::{Signer, SigningFailed};
 use crate::files::{self, FileError};
-use crate::passport::NAMESPACE;
+use crate::passport::{NAMESPACE, Trust};
 use crate::text::{Printable, rule, shown};
-use crate::trust::{KeyError, PublicKey, Signature, SigningKey};
+use crate::trust::{AllowedSigners, KeyError, PublicKey, Signature, SigningKey};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -81,8 +81,8 @@ pub fn signer(path: &Path, ask: AskPassphrase) -> Result<Box<dyn Signer + Sync>,
     let text = std::str::from_utf8(&bytes).map_err(|_| KeyFileError::NotText { path: path.to_owned() })?;
     let key_error = |error| KeyFileError::Key { path: path.to_owned(), error };
     if path.extension().is_some_and(|extension| extension == "pub") {
-        PublicKey::from_openssh(text.trim_end()).map_err(key_error)?;
-        return Ok(Box::new(SshKeygen::of(path)));
+        let public_key = PublicKey::from_openssh(text.trim_end()).map_err(key_error)?;
+        return Ok(Box::new(SshKeygen { public_key: Some(public_key), ..SshKeygen::of(path) }));
     }
     refuse_exposed(path)?;
     match SigningKey::from_openssh(text, None) {
@@ -135,21 +135,32 @@ pub fn allowed_signers_line(identity: &str, key: &PublicKey) -> Result<String, B
     Ok(format!("{identity} namespaces=\"{NAMESPACE},dtg-revocation\" {}", key.to_openssh()))
 }
 
+/// Returns the trust of an issuer in what its own key signs, or `None` if that key is not known.
+pub fn own_trust(identity: &str, signer: &dyn Signer) -> Option<Trust> {
+    let line = allowed_signers_line(identity, &signer.public_key()?).ok()?;
+    AllowedSigners::parse("own key", line.as_bytes()).ok().map(Trust::of)
+}
+
 /// Signs through `ssh-keygen -Y sign`, which speaks to ssh-agent and to FIDO tokens.
 #[derive(Debug)]
 pub struct SshKeygen {
     key: PathBuf,
+    public_key: Option<PublicKey>,
     /// A token makes one signature at a time.
     turn: Mutex<()>,
 }
 
 impl SshKeygen {
     fn of(key: &Path) -> Self {
-        Self { key: key.to_owned(), turn: Mutex::new(()) }
+        Self { key: key.to_owned(), public_key: None, turn: Mutex::new(()) }
     }
 }
 
 impl Signer for SshKeygen {
+    fn public_key(&self) -> Option<PublicKey> {
+        self.public_key.clone()
+    }
+
     fn sign(&self, namespace: &str, message: &[u8]) -> Result<Signature, SigningFailed> {
         let failed =
             |what: String| SigningFailed(format!("ssh-keygen could not sign with {}: {what}", shown(&self.key)));

@@ -4,9 +4,11 @@ use super::catalogue::{Catalogue, Listed};
 use super::paths;
 use super::{Batch, Event, Failure, Listener, Outcome, Purpose, Sweeper, parallel};
 use crate::files::folder_of;
+use crate::passport::Trust;
 use crate::passport::content::passport_id;
 use crate::passport::issue::{Issue, PreparedStand};
 use crate::site::Site;
+use jiff::Timestamp;
 use std::io::BufRead;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -15,6 +17,15 @@ use std::sync::Arc;
 /// Stands and sites that are in memory at a time, where there are more than a catalogue keeps.
 const STANDS_AT_ONCE: usize = 64;
 const SITES_AT_ONCE: usize = 1024;
+
+/// By whose trust, and at what time, the passports that are there already are believed.
+#[derive(Debug, Clone, Copy)]
+pub struct Known<'a> {
+    /// The trust.
+    pub trust: &'a Trust,
+    /// The time.
+    pub time: Timestamp,
+}
 
 /// One passport to be issued.
 struct Pair {
@@ -27,7 +38,16 @@ impl Batch<'_> {
     ///
     /// `stands` and `sites` are files, folders and patterns as [`paths`] has them. They are all read first, so that every
     /// mistake in them is told before anything is signed; one that cannot be used costs its own passports and no more.
-    pub fn issue(&self, stands: &[PathBuf], sites: &[PathBuf], list: &mut dyn BufRead, order: &Issue, tell: Listener) {
+    /// A stand that by what is `known` has another certificate already is remarked upon.
+    pub fn issue(
+        &self,
+        stands: &[PathBuf],
+        sites: &[PathBuf],
+        list: &mut dyn BufRead,
+        order: &Issue,
+        known: Option<Known>,
+        tell: Listener,
+    ) {
         let (stands, bad_stands) = self.catalogue(stands, list, Purpose::Stands, tell);
         let (sites, bad_sites) = self.catalogue(sites, list, Purpose::Sites, tell);
         let bad_files = bad_sites.iter().filter(|failure| failure.passports.is_none()).count();
@@ -35,7 +55,7 @@ impl Batch<'_> {
         fail(bad_stands, all_sites, tell);
         fail(bad_sites, stands.len() as u64, tell);
         tell(Event::Planned(self.shard.share((stands.len() * sites.len()) as u64)));
-        let mut run = Run { batch: self, order, sweeper: Sweeper::default(), pairs: Vec::new() };
+        let mut run = Run { batch: self, order, known, sweeper: Sweeper::default(), pairs: Vec::new() };
         run.sweep_root();
         run.all(&stands, &sites, tell);
     }
@@ -62,6 +82,7 @@ fn fail(failures: Vec<Failure>, passports: u64, tell: Listener) {
 struct Run<'a> {
     batch: &'a Batch<'a>,
     order: &'a Issue,
+    known: Option<Known<'a>>,
     sweeper: Sweeper,
     pairs: Vec<Pair>,
 }
@@ -77,6 +98,7 @@ impl Run<'_> {
     fn all(&mut self, stands: &Catalogue<PreparedStand>, sites: &Catalogue<Site>, tell: Listener) {
         for some_stands in ranges(stands.len(), STANDS_AT_ONCE) {
             let loaded_stands = self.load(stands, some_stands, sites.len(), tell);
+            self.remark_on_certificates(&loaded_stands, tell);
             for some_sites in ranges(sites.len(), SITES_AT_ONCE) {
                 let loaded_sites = self.load(sites, some_sites, loaded_stands.len(), tell);
                 for stand in &loaded_stands {
@@ -94,6 +116,17 @@ impl Run<'_> {
             }
         }
         self.chunk(tell);
+    }
+
+    /// Says under which other certificates these stands have passports.
+    fn remark_on_certificates(&self, stands: &[Arc<PreparedStand>], tell: Listener) {
+        let Some(Known { trust, time }) = self.known else { return };
+        let remarks = parallel::map(stands, self.batch.threads, |stand| {
+            self.batch.folder.against_certificate(stand.stand(), trust, time)
+        });
+        for (stand, remarks) in stands.iter().zip(remarks) {
+            remarks.into_iter().for_each(|words| tell(Event::Remark { file: stand.stand().stand.id(), words }));
+        }
     }
 
     /// What was a good file when it was first read may be one no more.

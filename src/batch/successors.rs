@@ -7,24 +7,18 @@ use super::catalogue::Catalogue;
 use super::paths::{self, Named};
 use super::{Batch, Event, Failure, Listener, Outcome, Purpose, Sweeper, parallel};
 use crate::document::sha256_hex;
-use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError, folder_of};
-use crate::folder::Issued;
-use crate::folder::search::{self, Withdrawn, is_numbered, is_revocation_list};
+use crate::folder::{Issued, Superseding, search};
 use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
 use crate::passport::{Question, Trust, verify};
-use crate::register::{self, Line, State, examine, examined};
+use crate::register::{Alarm, AlarmKind, Asked, Line, Register, State};
 use crate::site::Site;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
-use jiff::Timestamp;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::io::BufRead;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// The line without which a passport supersedes none. Its one form makes it stand on a line of its own.
-const SUPERSEDES: &[u8] = b"\n  supersedes: true\n";
 
 const FORKED: &str = "comes from a passport that several supersede: `register` names them; withdraw with `revoke` what \
                       does not count";
@@ -46,42 +40,15 @@ pub struct Change<'a> {
 /// A passport to be looked at.
 struct Candidate {
     path: PathBuf,
-    /// The folder in which it was found; `None` when it was named itself.
-    folder: Option<Arc<Searched>>,
+    /// The folder in which it was found, and its line in the register; `None` when it was named itself.
+    found: Option<(Arc<Searched>, usize)>,
 }
 
 /// What is known of a folder as a whole.
 struct Searched {
-    /// With the revocation lists that stand there.
+    /// With the revocation lists that count there.
     trust: Trust,
-    chains: Chains,
-    /// Passports of a site that is called as revocation lists are.
-    no_lists: Vec<PathBuf>,
-}
-
-/// Whether a file is a revocation list by its name, and none of those that are not.
-fn is_list(path: &Path, no_lists: &[PathBuf]) -> bool {
-    is_revocation_list(path) && !no_lists.iter().any(|other| other == path)
-}
-
-/// What supersedes what.
-#[derive(Default)]
-struct Chains {
-    followers: HashMap<Digest, Follower>,
-    /// Of those, each with the one that it supersedes.
-    superseded: HashMap<Digest, Digest>,
-}
-
-/// The first half of a SHA-256.
-type Digest = u128;
-
-/// What supersedes a passport.
-struct Follower {
-    id: Box<str>,
-    digest: Digest,
-    /// Whether another one that was not withdrawn does too.
-    forked: bool,
-    withdrawn: bool,
+    register: Register,
 }
 
 /// A candidate that was looked at.
@@ -106,7 +73,16 @@ impl Batch<'_> {
             tell(Event::Done(Some(Outcome::Failed(Failure { passports: Some(0), ..failure }))));
         }
         let sweeper = Sweeper::default();
-        let mut run = Run { batch: self, change, stands, sites, sites_missing, sweeper, candidates: Vec::new() };
+        let mut run = Run {
+            batch: self,
+            change,
+            stands,
+            sites,
+            sites_missing,
+            sweeper,
+            superseding: Superseding::default(),
+            candidates: Vec::new(),
+        };
         if self.seal.is_some() {
             run.sweeper.sweep(self.folder.root());
         }
@@ -116,7 +92,7 @@ impl Batch<'_> {
                 Ok(Named::File(path)) => {
                     tell(Event::Planned(1));
                     if self.shard.has_file(&path) {
-                        run.push(Ok(Candidate { path, folder: None }), tell);
+                        run.push(Ok(Candidate { path, found: None }), tell);
                     } else {
                         tell(Event::Done(None));
                     }
@@ -139,6 +115,7 @@ struct Run<'a> {
     /// Whether a file of a site could not be read: whose it is, nobody knows.
     sites_missing: bool,
     sweeper: Sweeper,
+    superseding: Superseding,
     candidates: Vec<Result<Candidate, Failure>>,
 }
 
@@ -150,63 +127,34 @@ impl Run<'_> {
         }
     }
 
-    /// The passports of a folder, in three walks: its names, the chains, the passports themselves.
+    /// The passports of a folder, in the order of their names, by its register.
     fn folder(&mut self, root: &Path, tell: Listener) {
-        let searched = match self.search(root, tell) {
-            Ok(searched) => Arc::new(searched),
-            Err(failure) => return self.push(Err(failure), tell),
+        let asked = Asked::at(self.change.question.time);
+        let found = search::register(root, self.change.trust.clone(), &asked, self.batch.threads);
+        let (register, trust) = match found {
+            Ok(found) => found,
+            Err(error) => return self.push(Err(Failure::file(error)), tell),
         };
-        for entry in Walk::deep(root, is_numbered) {
-            let path = match paths::found(entry) {
-                Ok(path) if is_list(&path, &searched.no_lists) || !self.batch.shard.has_file(&path) => continue,
-                path => path,
-            };
-            self.push(path.map(|path| Candidate { path, folder: Some(Arc::clone(&searched)) }), tell);
+        let mut here: Vec<(PathBuf, usize)> =
+            register.passports.iter().enumerate().map(|(index, line)| (PathBuf::from(&line.file), index)).collect();
+        here.retain(|(path, _)| self.batch.shard.has_file(path));
+        here.sort();
+        let passports = here.len() as u64;
+        tell(Event::Planned(passports));
+        if let Some(alarm) = register.uncertain() {
+            tell(Event::Lost(passports));
+            let why = format!("{}: what was withdrawn is not certain: {}", shown(root), alarm.words);
+            return self.push(Err(Failure { passports: Some(passports), ..Failure::refused(root, why) }), tell);
+        }
+        for failure in register.alarms.iter().filter_map(not_looked_at) {
+            self.push(Err(failure), tell);
+        }
+        let searched = Arc::new(Searched { trust, register });
+        for (path, index) in here {
+            self.push(Ok(Candidate { path, found: Some((Arc::clone(&searched), index)) }), tell);
             if self.batch.cancelled() {
                 return;
             }
-        }
-    }
-
-    fn search(&self, root: &Path, tell: Listener) -> Result<Searched, Failure> {
-        let mut lists = Vec::new();
-        let mut passports = 0;
-        for entry in Walk::deep(root, is_numbered) {
-            match entry {
-                Ok(Entry::File(path)) if is_revocation_list(&path) => lists.push(path),
-                Ok(Entry::File(path)) if self.batch.shard.has_file(&path) => passports += 1,
-                _ => {}
-            }
-        }
-        tell(Event::Planned(passports));
-        let mut trust = self.change.trust.clone();
-        let Withdrawn { alarms, no_lists } = search::withdraw(&lists, &mut trust, self.change.question.time);
-        if !alarms.is_empty() {
-            tell(Event::Lost(passports));
-            let words: Vec<_> = alarms.into_iter().map(|alarm| alarm.words).collect();
-            let why = format!("{}: what was withdrawn is not certain: {}", shown(root), words.join("; "));
-            return Err(Failure { passports: Some(passports), ..Failure::refused(root, why) });
-        }
-        let chains = self.chains(root, &trust, &no_lists);
-        Ok(Searched { trust, chains, no_lists })
-    }
-
-    /// What supersedes what, by the word of every passport that says so and counts.
-    fn chains(&self, root: &Path, trust: &Trust, no_lists: &[PathBuf]) -> Chains {
-        let mut chains = Chains::default();
-        // What cannot be read is told when its turn comes.
-        let mut files = Walk::deep(root, is_numbered).flatten().filter_map(|entry| match entry {
-            Entry::File(path) if !is_list(&path, no_lists) => Some(path),
-            _ => None,
-        });
-        loop {
-            let some: Vec<PathBuf> = files.by_ref().take(self.batch.chunk()).collect();
-            if some.is_empty() || self.batch.cancelled() {
-                return chains;
-            }
-            let time = self.change.question.time;
-            let links = parallel::map(&some, self.batch.threads, |path| link(path, trust, time));
-            links.into_iter().flatten().for_each(|(superseded, follower)| chains.add(superseded, follower));
         }
     }
 
@@ -258,21 +206,17 @@ impl Run<'_> {
         let name = name_of(path);
         let change = &self.change;
         let refused = |why: String| Failure::refused(path, why);
-        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(|error| match error {
-            FileError::TooLarge { .. } if candidate.folder.is_some() => refused(error.to_string()),
-            _ => Failure::unusable(path, error.to_string()),
-        })?;
-        let trust = candidate.folder.as_ref().map_or(&change.trust, |folder| &folder.trust);
-        let verification = verify(&name, &bytes, trust, &change.question);
-        if let Some(folder) = &candidate.folder
-            && let Some(done) = self.settled_by_folder(
-                path,
-                folder,
-                &examined(&name, &bytes, &verification, change.question.time, None),
-            )?
+        if let Some((folder, index)) = &candidate.found
+            && let Some(done) = self.settled_by_folder(path, &folder.register, &folder.register.passports[*index])?
         {
             return Ok(Examined::Done(done));
         }
+        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(|error| match error {
+            FileError::TooLarge { .. } if candidate.found.is_some() => refused(error.to_string()),
+            _ => Failure::unusable(path, error.to_string()),
+        })?;
+        let trust = candidate.found.as_ref().map_or(&change.trust, |(folder, _)| &folder.trust);
+        let verification = verify(&name, &bytes, trust, &change.question);
         let order = self.order(candidate, verification.content())?;
         let changed = order.stand.is_some() || order.site.is_some();
         let next = successor(&bytes, &verification, &order).map_err(|error| match error {
@@ -280,42 +224,62 @@ impl Run<'_> {
             _ => refused(error.to_string()),
         })?;
         let done = next.says_the_same() && (changed || next.for_the_same_reason());
-        if candidate.folder.is_some() && done {
+        if candidate.found.is_some() && done {
             let id = verification.id().unwrap_or_default().to_owned();
             let remarks = next.draft(next.first_revision()).map_err(|error| refused(error.to_string()))?.remarks();
             let there = Issued { id, path: path.clone(), sha256: sha256_hex(&bytes), new: false, remarks };
             return Ok(Examined::Done(Some(Outcome::There(there))));
         }
-        Ok(Examined::Next(name, Box::new(next)))
+        let rival = self.rival(path, &next, trust);
+        Ok(Examined::Next(name, Box::new(next.beside(rival))))
+    }
+
+    /// Another passport that supersedes the same one, beside it or where the new one is to stand.
+    fn rival(&self, old: &Path, next: &Successor, trust: &Trust) -> Option<PathBuf> {
+        let new = self.batch.folder.path_of(&next.stand().stand, &next.site().id, next.first_revision());
+        let asked = Asked::at(self.change.question.time);
+        let folders = [folder_of(old), folder_of(&new)];
+        let mut rivals = folders
+            .into_iter()
+            .filter_map(|folder| self.superseding.of(folder, next.old_sha256(), &new, trust, &asked));
+        rivals.next().filter(|_| next.supersedes())
     }
 
     /// What becomes of a passport by what else its folder holds; `None` when it is to be issued anew.
     fn settled_by_folder(
         &self,
         path: &Path,
-        folder: &Searched,
-        examined: &register::Examined,
+        register: &Register,
+        line: &Line,
     ) -> Result<Option<Option<Outcome>>, Failure> {
-        let refused = |why: String| Failure::refused(path, why);
-        let line = examined.line();
+        let refused = |why: String| Err(Failure::refused(path, why));
         let of_another_stand = |stand: &String| !self.change.stands.is_empty() && !self.stands.has(stand);
         if line.stand.as_ref().is_some_and(of_another_stand) {
             return Ok(Some(None));
         }
-        if line.state == State::Broken {
-            return Err(refused(format!("the passport does not hold ({})", line.why)));
-        }
-        if let Some(words) = examined.misplaced() {
-            return Err(refused(format!("is in the wrong folder: {words}")));
-        }
-        if let Some(why) = folder.chains.why_not(line) {
+        let skipped = |why: String| {
             let id = line.id.clone().unwrap_or_default();
-            return Ok(Some(Some(Outcome::Skipped { id, file: path.to_owned(), why })));
+            Ok(Some(Some(Outcome::Skipped { id, file: path.to_owned(), why })))
+        };
+        if line.state == State::Broken {
+            return refused(format!("the passport does not hold ({})", line.why));
         }
-        if examined.supersedes().is_some_and(|old| folder.chains.forked(old)) {
-            return Err(refused(FORKED.to_owned()));
+        if let Some(words) = line.misplaced() {
+            return refused(format!("is in the wrong folder: {words}"));
         }
-        Ok(None)
+        let doubt = register.doubt(line.stand.as_deref().unwrap_or(""));
+        if let (State::Unknown | State::Expired, Some(alarm)) = (line.state, doubt) {
+            return refused(format!("whether it is superseded is not known: {}", alarm.reason()));
+        }
+        match line.state {
+            State::Revoked => return skipped(format!("revoked: {}", line.why)),
+            State::Superseded | State::Moved if register.has_several(line) => {
+                return refused(format!("there is more than one file of its id, {}", line.why));
+            }
+            State::Superseded | State::Moved => return skipped(format!("superseded {}", line.why)),
+            _ => {}
+        }
+        if register.is_of_a_fork(&line.sha256) { refused(FORKED.to_owned()) } else { Ok(None) }
     }
 
     /// The order for one passport: with the files that are for its stand and site.
@@ -341,49 +305,13 @@ impl Run<'_> {
     }
 }
 
-impl Chains {
-    fn add(&mut self, superseded: Digest, follower: Follower) {
-        self.superseded.insert(follower.digest, superseded);
-        match self.followers.get_mut(&superseded) {
-            // A copy of the same file is one successor, not two.
-            Some(known) if known.digest == follower.digest => {}
-            // One that was withdrawn still supersedes, but leaves no doubt which of the two counts.
-            Some(known) if known.withdrawn => *known = follower,
-            Some(known) => known.forked |= !follower.withdrawn,
-            None => drop(self.followers.insert(superseded, follower)),
-        }
+/// Of what the register could not look at, a failure each; of passports that it did, their line tells.
+fn not_looked_at(alarm: &Alarm) -> Option<Failure> {
+    let path = Path::new(alarm.files.first()?);
+    let why = format!("{}: {}", shown(path), alarm.words);
+    match alarm.kind {
+        AlarmKind::Unreadable | AlarmKind::Special => Some(Failure::unusable(path, why)),
+        AlarmKind::Link | AlarmKind::TooLarge => Some(Failure::refused(path, why)),
+        _ => None,
     }
-
-    /// Why a passport is not issued anew.
-    fn why_not(&self, line: &Line) -> Option<String> {
-        let follower = digest(&line.sha256).and_then(|digest| self.followers.get(&digest));
-        match (line.state, follower) {
-            (State::Revoked, _) => Some(format!("revoked: {}", line.why)),
-            (State::InForce | State::Expiring | State::Expired, Some(by)) => Some(format!("superseded by {}", by.id)),
-            _ => None,
-        }
-    }
-
-    /// Whether a passport comes from one that several supersede.
-    fn forked(&self, superseded: &str) -> bool {
-        let ancestors = std::iter::successors(digest(superseded), |digest| self.superseded.get(digest).copied());
-        ancestors.filter_map(|digest| self.followers.get(&digest)).any(|follower| follower.forked)
-    }
-}
-
-/// What a file supersedes, and as what.
-fn link(path: &Path, trust: &Trust, time: Timestamp) -> Option<(Digest, Follower)> {
-    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).ok()?;
-    memchr::memmem::find(&bytes, SUPERSEDES)?;
-    let examined = examine(&name_of(path), &bytes, trust, time, None);
-    let (superseded, line) = (digest(examined.supersedes()?)?, examined.line());
-    let id = line.id.clone()?.into();
-    Some((
-        superseded,
-        Follower { id, digest: digest(&line.sha256)?, forked: false, withdrawn: line.state == State::Revoked },
-    ))
-}
-
-fn digest(sha256: &str) -> Option<Digest> {
-    Digest::from_str_radix(sha256.get(..32)?, 16).ok()
 }

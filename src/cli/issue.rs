@@ -5,10 +5,12 @@ use super::calibrate::read_laboratory;
 use super::simulate::read_gyro;
 use super::{Code, Failure, output, trust_options};
 use clap::Args;
+use dtg_passport::batch::first::Known;
 use dtg_passport::files;
 use dtg_passport::gyro::GyroType;
 use dtg_passport::passport::accuracy::Stated;
 use dtg_passport::passport::issue::Issue;
+use dtg_passport::signing::own_trust;
 use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
 use dtg_passport::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
@@ -63,8 +65,11 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         accuracy: options.accuracy.then(|| stated(options)).transpose()?,
         ..Issue::first(&options.batch.identity, options.issued_at.unwrap_or(now))
     };
+    let own = || own_trust(&options.batch.identity, signer.as_deref()?);
+    let believed = trust.clone().or_else(own);
+    let known = believed.as_ref().map(|trust| Known { trust, time: now.max(order.issued_at) });
     options.batch.run(signer.as_deref(), trust.as_ref(), |batch, tell| {
-        batch.issue(&options.stands, &options.sites, &mut std::io::stdin().lock(), &order, tell);
+        batch.issue(&options.stands, &options.sites, &mut std::io::stdin().lock(), &order, known, tell);
     })
 }
 

@@ -7,14 +7,14 @@ use clap::{Args, ValueEnum};
 use dtg_passport::folder::search;
 use dtg_passport::parallel;
 use dtg_passport::passport::{Question, Trust};
-use dtg_passport::register::Register;
+use dtg_passport::register::{Asked, Register};
 use dtg_passport::report::register as report;
 use std::path::{Path, PathBuf};
 
 /// List every passport under a folder: in force, superseded, moved, expired, revoked, broken
 #[derive(Args)]
 pub struct Options {
-    /// The folder; revocation lists in it count too
+    /// The folder; revocation lists in it, and in the folders up to two levels above, count too
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     #[command(flatten)]
@@ -39,7 +39,8 @@ enum By {
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
-    let register = search::register(&options.folder, trust, &question, options.within, parallel::processors());
+    let asked = Asked { question, within_days: options.within };
+    let register = search::register(&options.folder, trust, &asked, parallel::processors());
     let (mut register, _) = register.map_err(Failure::unusable)?;
     match options.by {
         By::Stand => {}
@@ -61,8 +62,8 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
 /// The register that a passport is asked about in, and the trust that knows what the lists in its folder withdraw.
 pub fn asked(folder: Option<&Path>, trust: Trust, question: &Question) -> Result<(Option<Register>, Trust), Failure> {
     let Some(folder) = folder else { return Ok((None, trust)) };
-    let (register, trust) =
-        search::register(folder, trust, question, None, parallel::processors()).map_err(Failure::unusable)?;
+    let (register, trust) = search::register(folder, trust, &Asked::at(question.time), parallel::processors())
+        .map_err(Failure::unusable)?;
     register.alarms.iter().for_each(|alarm| output::say(&alarm.to_string()));
     Ok((Some(register), trust))
 }

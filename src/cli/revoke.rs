@@ -7,9 +7,9 @@ use clap::Args;
 use dtg_passport::document::sha256_hex;
 use dtg_passport::files::{self, Access};
 use dtg_passport::folder::Folder;
-use dtg_passport::folder::search::{self, Found};
+use dtg_passport::folder::search::{self, NoNewestList};
 use dtg_passport::passport::{CheckName, Code as Verdict, verify};
-use dtg_passport::revocation::{Entry, RevocationList, Series};
+use dtg_passport::revocation::{Entry, RevocationList};
 use dtg_passport::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use std::path::{Path, PathBuf};
 
@@ -36,20 +36,10 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
-    let mut lists = Vec::new();
-    let found =
-        if options.list.exists() { search::find(&options.list).map_err(Failure::unusable)? } else { Found::default() };
-    for path in &found.revocation_lists {
-        let bytes = read(path)?;
-        let name = name_of(path);
-        let list = RevocationList::verify(&name, &bytes, &trust.signers, &trust.revoked, question.time);
-        lists.push(list.map_err(Failure::refused)?);
-    }
-    let series = Series::of(lists);
-    if !series.alarms.is_empty() {
-        let alarms: Vec<String> = series.alarms.iter().map(ToString::to_string).collect();
-        return Err(Failure::refused(alarms.join("\n")));
-    }
+    let newest = search::newest_list(&options.list, &trust, question.time).map_err(|error| match error {
+        NoNewestList::File(error) => Failure::unusable(error),
+        refused => Failure::refused(refused),
+    })?;
     let mut entries = Vec::new();
     for id in &options.ids {
         let path = file_of(id, &options.passports);
@@ -66,7 +56,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         let (id, sha256) = (content.passport.id.clone(), sha256_hex(&bytes));
         entries.push(Entry { id, sha256, revoked_at: now(), reason: options.reason.clone() });
     }
-    let list = RevocationList::following(series.newest.as_ref(), &options.key.identity, now(), entries);
+    let list = RevocationList::following(newest.as_ref(), &options.key.identity, now(), entries);
     let list = list.map_err(Failure::refused)?;
     let text = list.sign(options.key.signer()?.as_ref()).map_err(Failure::refused)?;
     let path = options.list.join(list.file_name());

@@ -5,6 +5,7 @@
 //! do not reach from machine to machine, a living run may lose a temporary file to another one: it finds that out when
 //! it renames the file, and writes it again.
 
+use std::ffi::OsStr;
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::Path;
@@ -21,12 +22,16 @@ pub(super) const SUFFIX: &str = ".tmp";
 pub fn remove(folder: &Path) -> usize {
     let Ok(entries) = fs::read_dir(folder) else { return 0 };
     let ours = entries.flatten().filter(|entry| {
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
         // A link or a folder of that name is not ours.
-        name.starts_with(PREFIX) && name.ends_with(SUFFIX) && entry.file_type().is_ok_and(|kind| kind.is_file())
+        !is_lasting(&entry.file_name()) && entry.file_type().is_ok_and(|kind| kind.is_file())
     });
     ours.filter(|entry| remove_unless_in_use(&entry.path()).is_ok()).count()
+}
+
+/// Returns `true` if a file is not named as the temporary files of a run are.
+pub fn is_lasting(name: &OsStr) -> bool {
+    let name = name.to_string_lossy();
+    !(name.starts_with(PREFIX) && name.ends_with(SUFFIX))
 }
 
 fn remove_unless_in_use(path: &Path) -> io::Result<()> {

@@ -2,9 +2,12 @@
 //!
 //! * [`search`]: what is there.
 
+mod claim;
 pub mod search;
+mod superseding;
 mod visited;
 
+pub(crate) use superseding::Superseding;
 pub(crate) use visited::Visited;
 
 use crate::document::sha256_hex;
@@ -15,10 +18,12 @@ use crate::passport::issue::{Draft, Issue, IssueRefused, PreparedStand, Remarks}
 use crate::passport::reissue::{Successor, changes};
 use crate::passport::verification::{Question, Trust, verify};
 use crate::passport::{NAMESPACE, read};
+use crate::register::Asked;
 use crate::site::Site;
 use crate::stand::{Identity, Stand};
 use crate::text::scalar::Identifier;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
+use jiff::Timestamp;
 use jiff::civil::Date;
 use std::collections::BTreeSet;
 use std::io;
@@ -118,6 +123,15 @@ pub enum FolderRefused {
         /// The successor that is there.
         path: PathBuf,
     },
+    /// The old passport is superseded already, by a passport for another site or in another folder.
+    #[error(
+        "{}: supersedes the same passport already; a second successor would be a fork: re-issue that one",
+        shown(path)
+    )]
+    Fork {
+        /// The successor that is there.
+        path: PathBuf,
+    },
     /// The next revision is there, made from another passport.
     #[error(
         "{}: is already the next revision for this site, made from another passport; re-issue that one",
@@ -203,6 +217,20 @@ impl Folder {
         Some(self.root.join(model.as_str()).join(serial.as_str()).join(format!("{site}-{revision}.yaml")))
     }
 
+    /// Returns in words what speaks against one more passport from the certificate of `stand`, by the passports of the stand
+    /// that are there and count by `trust`: that the certificate was replaced, or that another one is in force.
+    pub fn against_certificate(&self, stand: &Stand, trust: &Trust, time: Timestamp) -> Vec<String> {
+        let folder = self.root.join(stand.stand.model.as_str()).join(stand.stand.serial.as_str());
+        let number = &stand.certificate.number;
+        if !superseding::has_other_certificate(&folder, number) {
+            return Vec::new();
+        }
+        match search::register(&folder, trust.clone(), &Asked::at(time), 1) {
+            Ok((register, _)) => register.against_certificate(&stand.stand.id(), number),
+            Err(_) => Vec::new(),
+        }
+    }
+
     /// Issues revision 1 of a stand for a site.
     ///
     /// An equal passport (its time, program and signature aside) is left as it is; another one of that name is never
@@ -255,7 +283,12 @@ impl Folder {
         loop {
             let draft = Box::new(successor.draft(revision)?);
             let path = self.path_of(&successor.stand().stand, &successor.site().id, revision);
-            let Some(there) = self.existing(&path)? else { return Ok(Next::New(Unwritten { path, draft })) };
+            let Some(there) = self.existing(&path)? else {
+                return match successor.rival() {
+                    Some(rival) => Err(FolderRefused::Fork { path: rival.to_owned() }),
+                    None => Ok(Next::New(Unwritten { path, draft })),
+                };
+            };
             let of_the_same = there.predecessor_sha256() == Some(successor.old_sha256());
             if same(&there.content, draft.content()) {
                 return Ok(Next::There(there.left(&draft)));

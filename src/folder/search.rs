@@ -1,43 +1,50 @@
-//! What a folder holds that a register reads, and the register of it.
+//! What a folder holds that a register reads, and the register of it. What is a passport or a list of withdrawn ones is
+//! told by content, never by a file's name.
 
+use super::claim::{Claim, is_yaml};
+use crate::files::leftovers::is_lasting;
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
 use crate::parallel;
-use crate::passport::{Question, Trust};
-use crate::register::{Alarm, Register, examine};
-use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
+use crate::passport::Trust;
+use crate::register::{Alarm, Asked, Concern, Examined, Register, examine};
+use crate::revocation::{ListRefused, RevocationList, Series, claims_to_be_a_list};
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use jiff::Timestamp;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-/// What a folder holds that a register reads.
+/// Number of bytes by which a file in a folder above is known as a list.
+const BEGINNING_BYTES: usize = 4096;
+
+/// Number of folders above a register whose lists count: it may be that of a model, or of a stand.
+const LEVELS_ABOVE: usize = 2;
+
+/// What a folder holds.
 #[derive(Debug, Default)]
 pub struct Found {
-    /// Files named as passports are, `<site id>-<revision>.yaml`, sorted.
-    pub passports: Vec<PathBuf>,
-    /// Files named `revocation-<sequence>.yaml`, sorted.
-    pub revocation_lists: Vec<PathBuf>,
-    /// Links to folders, or named so: they may lead out of the folder, and were not followed.
+    /// Files, sorted; the temporary files of runs are left out.
+    pub files: Vec<PathBuf>,
+    /// Links to folders, or named as YAML: they may lead out of the folder, and were not followed.
     pub links: Vec<PathBuf>,
-    /// Pipes, devices and sockets named so: to open one may wait for ever.
+    /// Pipes, devices and sockets named as YAML: to open one may wait for ever.
     pub special: Vec<PathBuf>,
     /// Folders below that cannot be read, and why.
     pub unreadable: Vec<FileError>,
 }
 
-/// Finds the passports and revocation lists under `root`, at any depth; links are not followed.
+/// Finds the files under `root`, at any depth; links are not followed.
 ///
 /// # Errors
 /// [`FileError::Read`] when `root` cannot be read; of a folder below it is told in what is found.
 pub fn find(root: &Path) -> Result<Found, FileError> {
     let mut found = Found::default();
-    for entry in Walk::deep(root, is_numbered) {
+    for entry in Walk::deep(root, is_lasting) {
         match entry {
-            Ok(Entry::Link(path)) => found.links.push(path),
-            Ok(Entry::Special(path)) => found.special.push(path),
-            Ok(Entry::File(path)) if is_revocation_list(&path) => found.revocation_lists.push(path),
-            Ok(Entry::File(path)) => found.passports.push(path),
+            Ok(Entry::Link(path)) if is_yaml(&path) || path.is_dir() => found.links.push(path),
+            Ok(Entry::Special(path)) if is_yaml(&path) => found.special.push(path),
+            Ok(Entry::Link(_) | Entry::Special(_)) => {}
+            Ok(Entry::File(path)) => found.files.push(path),
             Err(error) if error.path() == root => return Err(error),
             Err(error) => found.unreadable.push(error),
         }
@@ -45,97 +52,192 @@ pub fn find(root: &Path) -> Result<Found, FileError> {
     Ok(found)
 }
 
-/// What the files named as revocation lists are say, when taken into account.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Withdrawn {
-    /// What a person should look at.
-    pub alarms: Vec<Alarm>,
-    /// Files that are no lists: a site may be called so.
-    pub no_lists: Vec<PathBuf>,
-}
-
-/// Takes the revocation lists of a folder into account: of them and the one that is trusted already the newest counts.
-pub fn withdraw(lists: &[PathBuf], trust: &mut Trust, time: Timestamp) -> Withdrawn {
-    let mut good: Vec<RevocationList> = trust.withdrawn.take().into_iter().collect();
-    let mut withdrawn = Withdrawn::default();
-    for path in lists {
-        let name = name_of(path);
-        match files::read(path, LARGEST_DOCUMENT_BYTES) {
-            Ok(bytes) if !claims_to_be_a_list(&bytes) => withdrawn.no_lists.push(path.clone()),
-            Ok(bytes) => match RevocationList::verify(&name, &bytes, &trust.signers, &trust.revoked, time) {
-                Ok(list) => {
-                    if path.file_name().is_none_or(|name| *name != *list.file_name()) {
-                        withdrawn.alarms.push(Alarm::misnamed_list(&list, &name));
-                    }
-                    good.push(list);
-                }
-                Err(error) => withdrawn.alarms.push(Alarm::refused_list(&error, &name)),
-            },
-            Err(error) => withdrawn.alarms.push(unreadable(&error)),
-        }
-    }
-    let series = Series::of(good);
-    withdrawn.alarms.extend(series.alarms.into_iter().map(Alarm::series));
-    trust.withdrawn = series.newest;
-    withdrawn
-}
-
-/// The register of a folder: its revocation lists first, then every passport. The trust that comes back knows what those
-/// lists withdraw. So many threads do the work.
+/// Returns the register of a folder, and the trust that knows what the lists there withdraw, and those in the folders up
+/// to two levels above. So many threads do the work.
 ///
 /// # Errors
 /// [`FileError::Read`] when `root` cannot be read; one file or folder below it hides none of the others.
-pub fn register(
-    root: &Path,
-    mut trust: Trust,
-    question: &Question,
-    within_days: Option<u32>,
-    threads: usize,
-) -> Result<(Register, Trust), FileError> {
+pub fn register(root: &Path, trust: Trust, asked: &Asked, threads: usize) -> Result<(Register, Trust), FileError> {
     let found = find(root)?;
-    let name = |path: &Path| name_of(path);
-    let mut alarms: Vec<Alarm> = found.unreadable.iter().map(unreadable).collect();
-    alarms.extend(found.links.iter().map(|path| Alarm::link(&name(path))));
-    alarms.extend(found.special.iter().map(|path| Alarm::special(&name(path))));
-    let withdrawn = withdraw(&found.revocation_lists, &mut trust, question.time);
-    alarms.extend(withdrawn.alarms);
-    let passports: Vec<PathBuf> = found.passports.into_iter().chain(withdrawn.no_lists).collect();
-    let read = parallel::map_with(&passports, threads, Vec::new, |bytes, path| {
-        files::read_into(bytes, path, LARGEST_DOCUMENT_BYTES)?;
-        Ok(examine(&name(path), bytes, &trust, question.time, within_days))
+    let mut alarms: Vec<Alarm> = found.unreadable.iter().map(|error| unreadable(root, error)).collect();
+    alarms.extend(found.links.iter().map(|path| Alarm::link(&name_of(path))));
+    alarms.extend(found.special.iter().map(|path| Alarm::special(&name_of(path))));
+    let seen = parallel::map_with(&found.files, threads, Vec::new, |bytes, path| {
+        Seen::of(root, path, bytes, |bytes| examine(&name_of(path), bytes, &trust, asked))
     });
-    let mut examined = Vec::with_capacity(passports.len());
-    for file in read {
-        match file {
-            Ok(file) => examined.push(file),
-            Err(error) => alarms.push(unreadable(&error)),
+    let (mut examined, mut lists) = (Vec::with_capacity(seen.len()), Vec::new());
+    for seen in seen {
+        match seen {
+            Seen::Passport(passport) => examined.push(*passport),
+            Seen::Damaged(passport, alarm) => {
+                examined.push(*passport);
+                alarms.push(alarm);
+            }
+            Seen::List(list) => lists.push(list),
+            Seen::Alarm(alarm) => alarms.push(alarm),
+            Seen::Nothing => {}
         }
     }
-    Ok((Register::of(examined, alarms), trust))
+    let trust = withdraw(lists, lists_above(root), trust, asked.question.time, &mut alarms);
+    let register = Register::of(examined, trust.withdrawn.as_ref(), alarms);
+    Ok((register, trust))
 }
 
-fn unreadable(error: &FileError) -> Alarm {
-    match error {
-        FileError::TooLarge { path, .. } => Alarm::too_large(&name_of(path)),
-        FileError::Read { path, error } => {
-            Alarm::unreadable(&format!("cannot be read: {}", files::reason(error)), &name_of(path))
+/// What claims to be a list: a file's name and bytes.
+type Claimed = (PathBuf, Vec<u8>);
+
+/// What was seen in a file.
+enum Seen {
+    Passport(Box<Examined>),
+    Damaged(Box<Examined>, Alarm),
+    List(Claimed),
+    Alarm(Alarm),
+    Nothing,
+}
+
+impl Seen {
+    fn of(root: &Path, path: &Path, bytes: &mut Vec<u8>, examine: impl FnOnce(&[u8]) -> Examined) -> Self {
+        let read = files::read_into(bytes, path, LARGEST_DOCUMENT_BYTES);
+        if let Err(error @ (FileError::Read { .. } | FileError::Folder { .. })) = read {
+            return Self::Alarm(unreadable(root, &error));
         }
-        other => Alarm::unreadable(&other.to_string(), ""),
+        // Of a file that is too large the beginning was read.
+        let examined = Box::new(examine(bytes));
+        if examined.is_readable() {
+            return Self::Passport(examined);
+        }
+        match Claim::of(path, bytes) {
+            Some(Claim::List) => Self::List((path.to_owned(), bytes.clone())),
+            Some(Claim::Passport) => {
+                let what = if bytes.is_empty() { "an empty file" } else { "a damaged passport or list" };
+                let words = format!("{what}, which may supersede or withdraw other passports");
+                Self::Damaged(examined, Alarm::damaged(&words, &name_of(path), concern(root, path)))
+            }
+            None if !path.file_name().is_some_and(is_numbered) => Self::Nothing,
+            None if read.is_err() => Self::Alarm(Alarm::too_large(&name_of(path))),
+            None => Self::Passport(examined),
+        }
     }
 }
 
-/// Whether a file is named as passports and revocation lists are, `<name>-<number>.yaml`.
+/// The passports that a file of unknown content concerns: in `<model>/<serial>/` those of that stand.
+fn concern(root: &Path, path: &Path) -> Concern {
+    let folders = path.parent().and_then(|folder| folder.strip_prefix(root).ok());
+    let mut folders = folders.into_iter().flat_map(Path::components);
+    match (folders.next(), folders.next(), folders.next()) {
+        (Some(model), Some(serial), None) => {
+            let part = |part: std::path::Component| part.as_os_str().to_string_lossy().into_owned();
+            Concern::Stand(format!("{}/{}", part(model), part(serial)))
+        }
+        _ => Concern::Everything,
+    }
+}
+
+/// Takes lists into account: of those in the folder, those above it, and the one that is trusted already the newest
+/// counts. What stands above is not of this register: of it only what a damaged list would withdraw is missed.
+fn withdraw(
+    lists: Vec<Claimed>,
+    above: Vec<Claimed>,
+    mut trust: Trust,
+    time: Timestamp,
+    alarms: &mut Vec<Alarm>,
+) -> Trust {
+    let verify =
+        |(path, bytes): &Claimed| RevocationList::verify(&name_of(path), bytes, &trust.signers, &trust.revoked, time);
+    let mut good: Vec<RevocationList> = trust.withdrawn.iter().cloned().collect();
+    for claimed in &lists {
+        match verify(claimed) {
+            Ok(list) => {
+                if claimed.0.file_name().is_none_or(|name| *name != *list.file_name()) {
+                    alarms.push(Alarm::misnamed_list(&list, &name_of(&claimed.0)));
+                }
+                good.push(list);
+            }
+            Err(error) => alarms.push(Alarm::refused_list(&error, &name_of(&claimed.0))),
+        }
+    }
+    alarms.extend(Series::of(good.clone()).alarms.into_iter().map(Alarm::series));
+    for claimed in &above {
+        match verify(claimed) {
+            Ok(list) => good.push(list),
+            Err(error) if error.is_damage() => alarms.push(Alarm::refused_list(&error, &name_of(&claimed.0))),
+            Err(_) => {}
+        }
+    }
+    trust.withdrawn = Series::of(good).newest;
+    trust
+}
+
+/// The files in the folders above that say that they are lists.
+fn lists_above(root: &Path) -> Vec<Claimed> {
+    let Ok(root) = root.canonicalize() else { return Vec::new() };
+    let folders = root.ancestors().skip(1).take(LEVELS_ABOVE);
+    // What cannot be read there is not of this register.
+    let entries = folders.flat_map(|folder| Walk::flat(folder, is_lasting)).flatten();
+    let lists = entries.filter_map(|entry| match entry {
+        Entry::File(path) => {
+            let beginning = files::read_first(&path, BEGINNING_BYTES).ok()?;
+            let bytes = claims_to_be_a_list(&beginning).then(|| files::read_first(&path, LARGEST_DOCUMENT_BYTES + 1));
+            Some((path, bytes?.ok()?))
+        }
+        _ => None,
+    });
+    lists.collect()
+}
+
+/// Why no list follows those in a folder.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoNewestList {
+    /// Something cannot be read that may be a list.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A list does not count.
+    #[error(transparent)]
+    Refused(#[from] ListRefused),
+    /// The lists contradict each other, or some are missing.
+    #[error("{0}")]
+    Series(String),
+}
+
+/// Returns the newest list of withdrawn passports under a folder, which a new one continues, or `None` if there is none.
+///
+/// # Errors
+/// See [`NoNewestList`]: nothing may be added to lists of which one is damaged, missing, contradictory, or of a signer who
+/// is not trusted.
+pub fn newest_list(folder: &Path, trust: &Trust, time: Timestamp) -> Result<Option<RevocationList>, NoNewestList> {
+    if !folder.exists() {
+        return Ok(None);
+    }
+    let found = find(folder)?;
+    if let Some(error) = found.unreadable.into_iter().next() {
+        return Err(error.into());
+    }
+    let mut lists = Vec::new();
+    for path in found.files {
+        let bytes = files::read_first(&path, LARGEST_DOCUMENT_BYTES + 1)?;
+        if Claim::of(&path, &bytes) == Some(Claim::List) {
+            lists.push(RevocationList::verify(&name_of(&path), &bytes, &trust.signers, &trust.revoked, time)?);
+        }
+    }
+    let series = Series::of(lists);
+    if series.alarms.is_empty() {
+        return Ok(series.newest);
+    }
+    let alarms: Vec<String> = series.alarms.iter().map(ToString::to_string).collect();
+    Err(NoNewestList::Series(alarms.join("\n")))
+}
+
+fn unreadable(root: &Path, error: &FileError) -> Alarm {
+    let why = match error {
+        FileError::Read { error, .. } => format!("cannot be read: {}", files::reason(error)),
+        other => other.to_string(),
+    };
+    Alarm::unreadable(&why, &name_of(error.path()), concern(root, error.path()))
+}
+
+/// Returns `true` if a file is named as passports and lists are, `<name>-<number>.yaml`.
 pub fn is_numbered(name: &OsStr) -> bool {
-    numbered(name).is_some()
-}
-
-/// Whether it is named as a revocation list is, `revocation-<sequence>.yaml`.
-pub fn is_revocation_list(path: &Path) -> bool {
-    path.file_name().and_then(numbered) == Some("revocation")
-}
-
-/// What stands before the number in `<name>-<number>.yaml`.
-fn numbered(name: &OsStr) -> Option<&str> {
-    let (name, number) = name.to_str()?.strip_suffix(".yaml")?.rsplit_once('-')?;
-    (!number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())).then_some(name)
+    let numbered = || name.to_str()?.strip_suffix(".yaml")?.rsplit_once('-');
+    numbered().is_some_and(|(_, number)| !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit()))
 }

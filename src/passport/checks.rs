@@ -92,6 +92,8 @@ pub enum Code {
     WrongPlace,
     /// A successor counts in its place.
     Superseded,
+    /// Something in the register that may supersede or withdraw it cannot be read.
+    RegisterUnknown,
 }
 
 impl Code {
@@ -118,6 +120,7 @@ impl Code {
             Self::WrongStand => "wrong_stand",
             Self::WrongPlace => "wrong_place",
             Self::Superseded => "superseded",
+            Self::RegisterUnknown => "register_unknown",
         }
     }
 }

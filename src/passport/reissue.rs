@@ -11,6 +11,7 @@ use crate::stand::{STAND_FORMAT, Stand};
 use crate::text::{Field, Node, number, rule};
 use jiff::Timestamp;
 use jiff::civil::Date;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What is to be issued anew, and by whom.
@@ -94,6 +95,7 @@ pub struct Successor {
     issue: Issue,
     says_the_same: bool,
     for_the_same_reason: bool,
+    rival: Option<PathBuf>,
 }
 
 /// Decides what follows from the old passport: everything, when every check passed; its id and hash alone, when its key
@@ -161,7 +163,16 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         && issue.valid_until.or(stand.certificate.valid_until) == old.passport.valid_until;
     let for_the_same_reason = old.passport.reissued_from.as_ref().is_some_and(|from| from.reason == order.reason);
     let old_revision = old.passport.revision;
-    Ok(Successor { stand: prepared, site, same_site, old_revision, issue, says_the_same, for_the_same_reason })
+    Ok(Successor {
+        stand: prepared,
+        site,
+        same_site,
+        old_revision,
+        issue,
+        says_the_same,
+        for_the_same_reason,
+        rival: None,
+    })
 }
 
 /// How much of an old passport may be used.
@@ -211,6 +222,21 @@ impl Successor {
     /// Whether the old passport was itself issued anew, and for the reason given now.
     pub fn for_the_same_reason(&self) -> bool {
         self.for_the_same_reason
+    }
+
+    /// Returns `true` if the old passport will no longer be used.
+    pub fn supersedes(&self) -> bool {
+        self.issue.predecessor.as_ref().is_some_and(|(_, supersedes)| *supersedes)
+    }
+
+    /// Returns the same successor beside `rival`, the file of a passport that supersedes the same old one.
+    pub fn beside(self, rival: Option<PathBuf>) -> Self {
+        Self { rival, ..self }
+    }
+
+    /// Returns the file of another passport that supersedes the same old one, or `None` if none is known.
+    pub fn rival(&self) -> Option<&Path> {
+        self.rival.as_deref()
     }
 
     /// The stand it is of.

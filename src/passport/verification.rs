@@ -10,7 +10,7 @@ use crate::coefficients::Coefficients;
 use crate::document::sha256_hex;
 use crate::document::{Malformed, SignedText};
 use crate::earth::Place;
-use crate::revocation::{Entry, RevocationList};
+use crate::revocation::RevocationList;
 use crate::text::scalar::day;
 use crate::trust::{AllowedSigners, NotAuthorised, PublicKey, RevokedKeys};
 use jiff::Timestamp;
@@ -51,6 +51,18 @@ impl Question {
     /// Only whether the passport is good and in force at `time`.
     pub fn at(time: Timestamp) -> Self {
         Self { time, issuer: None, serial: None, place: None }
+    }
+
+    /// Returns `true` if it asks for no issuer, stand or place.
+    pub fn is_open(&self) -> bool {
+        self.issuer.is_none() && self.serial.is_none() && self.place.is_none()
+    }
+
+    /// Returns `true` if a passport with this content is of the issuer, the stand and the place asked for.
+    pub fn concerns(&self, content: &Content) -> bool {
+        self.issuer.as_ref().is_none_or(|issuer| content.passport.issuer == *issuer)
+            && self.serial.as_ref().is_none_or(|serial| content.stand.serial.as_str() == serial)
+            && self.place.is_none_or(|place| place::verdict(content, place).0 == Code::Ok)
     }
 }
 
@@ -161,7 +173,7 @@ pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> V
         verification.key = Some(text.key().clone());
         if let Some(payload) = run.signature(&text, trust) {
             verification.content = run.schema(name, payload).map(Box::new);
-            run.revocation(bytes, text.key(), verification.content.as_deref(), trust);
+            run.revocation(bytes, text.key(), trust);
             if let Some(content) = &verification.content {
                 run.signer(text.key(), content, trust);
                 run.recomputed(content);
@@ -242,16 +254,14 @@ impl Run {
         }
     }
 
-    fn revocation(&mut self, bytes: &[u8], key: &PublicKey, content: Option<&Content>, trust: &Trust) {
+    fn revocation(&mut self, bytes: &[u8], key: &PublicKey, trust: &Trust) {
         if let Some(why) = trust.revoked.iter().find_map(|list| list.revokes(key)) {
             let detail = format!("the signing key {} was revoked: {why}", key.fingerprint());
             return self.note(CheckName::Revocation, Code::KeyRevoked, detail);
         }
-        let id = content.map_or("", |content| &content.passport.id);
-        let entry = trust.withdrawn.as_ref().and_then(|list| list.entry(id, &sha256_hex(bytes)));
-        if let Some(Entry { id, revoked_at, reason, .. }) = entry {
-            let detail = format!("{id} was withdrawn at {revoked_at}: {reason}");
-            return self.note(CheckName::Revocation, Code::PassportRevoked, detail);
+        let entry = trust.withdrawn.as_ref().and_then(|list| list.entry(&sha256_hex(bytes)));
+        if let Some(entry) = entry {
+            return self.note(CheckName::Revocation, Code::PassportRevoked, entry.to_string());
         }
         let detail = match (&trust.withdrawn, trust.revoked.is_empty()) {
             (Some(list), _) => format!("not revoked; list {} of {} names it not", list.sequence, list.issued_at),

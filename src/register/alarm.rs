@@ -1,11 +1,11 @@
 //! What in a folder of passports needs a person to look at it.
 
 use super::successors::Successor;
-use super::{Examined, Line};
+use super::{Examined, Line, series_of};
 use crate::revocation::{ListRefused, RevocationList, SeriesAlarm};
-use crate::text::Printable;
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable};
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Display};
 
 /// What needs a person to look at it.
@@ -17,6 +17,18 @@ pub struct Alarm {
     pub words: String,
     /// The files.
     pub files: Vec<String>,
+    /// The passports that may be superseded or withdrawn by what cannot be read; `None` if everything can be read.
+    #[serde(skip)]
+    pub concern: Option<Concern>,
+}
+
+/// The passports whose state is not known.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Concern {
+    /// All.
+    Everything,
+    /// Those of one stand, `<model>/<serial>`.
+    Stand(String),
 }
 
 /// Kinds of alarm.
@@ -27,8 +39,12 @@ pub enum AlarmKind {
     Forked,
     /// Two files with one id.
     DuplicateId,
-    /// A revision is missing from a chain whose ends are there.
+    /// A passport is missing that another one was made from, or a revision between two others.
     Missing,
+    /// A stand is in force under two certificates, or under one that was replaced.
+    Certificates,
+    /// A file of a passport or of a list that is altered, cut, empty or in another encoding.
+    Damaged,
     /// A file is not where its content belongs.
     Misplaced,
     /// A link, which may lead out of the folder.
@@ -50,6 +66,8 @@ impl AlarmKind {
             Self::Forked => "forked",
             Self::DuplicateId => "duplicate_id",
             Self::Missing => "missing",
+            Self::Certificates => "certificates",
+            Self::Damaged => "damaged",
             Self::Misplaced => "misplaced",
             Self::Link => "link",
             Self::Special => "special",
@@ -63,7 +81,7 @@ impl AlarmKind {
 impl Alarm {
     /// A link, which may lead out of the folder.
     pub fn link(file: &str) -> Self {
-        Self::of_file(AlarmKind::Link, "a link is not followed", file)
+        Self::of_file(AlarmKind::Link, "is a link, which is not followed: it may lead out of the folder", file)
     }
 
     /// A file that only looks like one.
@@ -73,17 +91,24 @@ impl Alarm {
 
     /// A file larger than any passport.
     pub fn too_large(file: &str) -> Self {
-        Self::of_file(AlarmKind::TooLarge, "larger than any passport", file)
+        let words = format!("more than {LARGEST_DOCUMENT_BYTES} bytes, larger than any passport");
+        Self::of_file(AlarmKind::TooLarge, &words, file)
     }
 
-    /// A file or a folder that cannot be read, and why.
-    pub fn unreadable(why: &str, file: &str) -> Self {
-        Self::of_file(AlarmKind::Unreadable, why, file)
+    /// A file or a folder that the system refuses to read, and why.
+    pub fn unreadable(why: &str, file: &str, concern: Concern) -> Self {
+        Self::of_file(AlarmKind::Unreadable, why, file).concerning(concern)
     }
 
-    /// A list of withdrawn passports that does not count.
+    /// A file that has something of a passport or of a list and cannot be read as one.
+    pub fn damaged(why: &str, file: &str, concern: Concern) -> Self {
+        Self::of_file(AlarmKind::Damaged, why, file).concerning(concern)
+    }
+
+    /// A list of withdrawn passports that does not count. One that cannot be read might withdraw any passport.
     pub fn refused_list(error: &ListRefused, file: &str) -> Self {
-        Self::of_file(AlarmKind::Revocation, &error.to_string(), file)
+        let alarm = Self::of_file(AlarmKind::Revocation, &error.to_string(), file);
+        if error.is_damage() { alarm.concerning(Concern::Everything) } else { alarm }
     }
 
     /// A good list of withdrawn passports in a file of another name than its own.
@@ -94,11 +119,39 @@ impl Alarm {
 
     /// Something about several lists.
     pub fn series(alarm: SeriesAlarm) -> Self {
-        Self { kind: AlarmKind::Revocation, words: alarm.to_string(), files: Vec::new() }
+        Self::of_files(AlarmKind::Revocation, alarm.to_string(), Vec::new())
+    }
+
+    /// Returns `true` if what cannot be read may supersede or withdraw passports of a stand, `<model>/<serial>`.
+    pub fn concerns(&self, stand: &str) -> bool {
+        match &self.concern {
+            None => false,
+            Some(Concern::Everything) => true,
+            // Some file systems do not keep the case of names.
+            Some(Concern::Stand(concerned)) => concerned.eq_ignore_ascii_case(stand),
+        }
+    }
+
+    /// Returns the words behind the names of the files.
+    pub fn reason(&self) -> String {
+        match self.files.first() {
+            Some(first) if !self.words.starts_with(first.as_str()) => {
+                format!("{}: {}", self.files.join(", "), self.words)
+            }
+            _ => self.words.clone(),
+        }
+    }
+
+    fn concerning(self, concern: Concern) -> Self {
+        Self { concern: Some(concern), ..self }
     }
 
     fn of_file(kind: AlarmKind, words: &str, file: &str) -> Self {
-        Self { kind, words: words.to_owned(), files: vec![file.to_owned()] }
+        Self::of_files(kind, words.to_owned(), vec![file.to_owned()])
+    }
+
+    pub(super) fn of_files(kind: AlarmKind, words: String, files: Vec<String>) -> Self {
+        Self { kind, words, files, concern: None }
     }
 }
 
@@ -109,20 +162,36 @@ impl Display for Alarm {
     }
 }
 
-/// An alarm until all successors but one have been withdrawn.
-pub(super) fn forked(line: &Line, by: &[Successor]) -> Option<Alarm> {
-    if by.iter().filter(|successor| !successor.withdrawn).count() < 2 {
-        return None;
-    }
+/// Several successors of the passport `id`.
+pub(super) fn forked(id: &str, by: &[Successor]) -> Alarm {
     let ids: Vec<&str> = by.iter().map(|successor| successor.id.as_str()).collect();
-    let id = line.id.as_deref().unwrap_or("?");
     let words = format!("{id} has {} successors that all supersede it: {}", by.len(), ids.join(", "));
     let files = by.iter().map(|successor| successor.file.clone()).collect();
-    Some(Alarm { kind: AlarmKind::Forked, words, files })
+    Alarm::of_files(AlarmKind::Forked, words, files)
 }
 
-/// Revisions between two that are there: somebody took them away, or did not pass them on.
-pub(super) fn missing(files: &[Examined]) -> Vec<Alarm> {
+/// Passports that others were made from, and of which no file is there: what else they supersede, or who else supersedes
+/// them, is not known.
+pub(super) fn absent_predecessors(files: &[Examined]) -> Vec<Alarm> {
+    let made_from = |file: &&Examined| file.counts && file.predecessor.is_some();
+    if !files.iter().any(|file| made_from(&file)) {
+        return Vec::new();
+    }
+    let present: BTreeSet<&str> = files.iter().map(|file| file.line.sha256.as_str()).collect();
+    let absent = files.iter().filter(made_from).filter_map(|file| {
+        let from = file.predecessor.as_ref().filter(|from| !present.contains(from.sha256.as_str()))?;
+        let id = file.line.id.as_deref().unwrap_or("?");
+        let words = format!("{id} was made from {}, which is not there (SHA-256 {})", from.id, from.sha256);
+        let alarm = Alarm::of_file(AlarmKind::Missing, &words, &file.line.file);
+        Some(alarm.concerning(Concern::Stand(file.line.stand.clone().unwrap_or_default())))
+    });
+    absent.collect()
+}
+
+/// Revisions between two that are there: somebody took them away, or did not pass them on. Those that the later one was
+/// made from are among the `absent` already.
+pub(super) fn gaps(files: &[Examined], absent: &[Alarm]) -> Vec<Alarm> {
+    let named: BTreeSet<&str> = absent.iter().flat_map(|alarm| &alarm.files).map(String::as_str).collect();
     let mut of_series: BTreeMap<&str, BTreeMap<u32, &str>> = BTreeMap::new();
     for file in files.iter().filter(|file| file.counts) {
         of_series.entry(&file.series).or_default().insert(file.revision, &file.line.file);
@@ -132,26 +201,34 @@ pub(super) fn missing(files: &[Examined]) -> Vec<Alarm> {
         let revisions: Vec<(u32, &str)> = revisions.into_iter().collect();
         for pair in revisions.windows(2) {
             let [(from, before), (to, after)] = pair else { continue };
-            if to - from > 1 {
+            if to - from > 1 && !named.contains(after) {
                 let words = format!("between {series}/{from} and {series}/{to} a revision is missing");
                 let files = vec![(*before).to_owned(), (*after).to_owned()];
-                alarms.push(Alarm { kind: AlarmKind::Missing, words, files });
+                alarms.push(Alarm::of_files(AlarmKind::Missing, words, files));
             }
         }
     }
     alarms
 }
 
-/// Of lines sorted by id.
-pub(super) fn duplicate_ids(passports: &[Line]) -> Vec<Alarm> {
-    let several = passports.chunk_by(|a, b| a.id.is_some() && a.id == b.id).filter(|lines| lines.len() > 1);
+/// Files with one id, of files sorted by id: copies, or different files until all but one have been withdrawn.
+pub(super) fn duplicate_ids(files: &[Examined]) -> Vec<Alarm> {
+    let files: Vec<&Examined> = files.iter().filter(|file| file.counts).collect();
+    let several = files.chunk_by(|a, b| a.line.id == b.line.id).filter(|files| files.len() > 1);
     several
-        .map(|lines| {
-            let id = lines[0].id.as_deref().unwrap_or("?");
-            let alike = lines.windows(2).all(|pair| pair[0].sha256 == pair[1].sha256);
-            let what = if alike { "the same file, copied" } else { "different files" };
-            let words = format!("{id} is there {} times: {what}", lines.len());
-            Alarm { kind: AlarmKind::DuplicateId, words, files: lines.iter().map(|line| line.file.clone()).collect() }
+        .filter_map(|files| {
+            let originals: BTreeSet<&str> =
+                files.iter().filter(|file| !file.is_withdrawn()).map(|file| file.line.sha256.as_str()).collect();
+            let alike = files.windows(2).all(|pair| pair[0].line.sha256 == pair[1].line.sha256);
+            let what = match (alike, originals.len()) {
+                (true, _) => "the same file, copied",
+                (false, 0 | 1) => return None,
+                (false, _) => "different files, none of them in force until all but one are withdrawn",
+            };
+            let id = files[0].line.id.as_deref().unwrap_or("?");
+            let words = format!("{id} is there {} times: {what}", files.len());
+            let names = files.iter().map(|file| file.line.file.clone()).collect();
+            Some(Alarm::of_files(AlarmKind::DuplicateId, words, names))
         })
         .collect()
 }
@@ -159,14 +236,11 @@ pub(super) fn duplicate_ids(passports: &[Line]) -> Vec<Alarm> {
 /// A passport whose file is not where its id says.
 pub(super) fn misplaced(line: &Line) -> Option<Alarm> {
     let id = line.id.as_deref()?;
-    let (folder, revision) = id.rsplit_once('/')?;
+    let (folder, revision) = series_of(id);
     let file = line.file.replace('\\', "/");
-    let before = file.strip_suffix(".yaml").and_then(|name| name.strip_suffix(revision)?.strip_suffix('-'));
+    let before = file.strip_suffix(&format!("-{revision}.yaml"));
     let above = before.and_then(|name| name.strip_suffix(folder));
     let there = above.is_some_and(|above| above.is_empty() || above.ends_with('/'));
-    (!there).then(|| Alarm {
-        kind: AlarmKind::Misplaced,
-        words: format!("{id} belongs into {folder}-{revision}.yaml"),
-        files: vec![line.file.clone()],
-    })
+    let words = || format!("{id} belongs into {folder}-{revision}.yaml");
+    (!there).then(|| Alarm::of_file(AlarmKind::Misplaced, &words(), &line.file))
 }

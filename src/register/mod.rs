@@ -3,19 +3,22 @@
 //! It is a function of verified passports, trust and a time; [`crate::folder`] finds the files.
 
 mod alarm;
+mod certificates;
 mod successors;
 
-pub use alarm::{Alarm, AlarmKind};
+pub use alarm::{Alarm, AlarmKind, Concern};
 
 use crate::document::sha256_hex;
 use crate::passport::checks::{Check, CheckName, Code};
 use crate::passport::content::Content;
 use crate::passport::verification::{Question, Trust, Verification, verify};
-use alarm::{duplicate_ids, forked, misplaced, missing};
+use crate::revocation::RevocationList;
+use alarm::{absent_predecessors, duplicate_ids, gaps, misplaced};
+use certificates::Certificates;
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use successors::Successors;
 
 /// What is to be said of a passport.
@@ -36,6 +39,8 @@ pub enum State {
     NotYetValid,
     /// It was withdrawn, or its key was revoked.
     Revoked,
+    /// It would be in force, but something in the register that may supersede or withdraw it cannot be read.
+    Unknown,
     /// It does not verify.
     Broken,
 }
@@ -57,6 +62,8 @@ pub struct Line {
     pub site: Option<String>,
     /// Issuer.
     pub issuer: Option<String>,
+    /// Number of the certificate of the stand.
+    pub certificate: Option<String>,
     /// Last day of validity.
     pub valid_until: Option<Date>,
     /// Why it is in this state: the successor, the failed check, the reason of withdrawal.
@@ -74,6 +81,7 @@ impl State {
             Self::Expired => "expired",
             Self::NotYetValid => "not_yet_valid",
             Self::Revoked => "revoked",
+            Self::Unknown => "unknown",
             Self::Broken => "broken",
         }
     }
@@ -82,12 +90,22 @@ impl State {
 /// The register of a folder.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Register {
-    /// Every file, sorted by id, then by name.
+    /// The files that were asked about, sorted by id, then by name.
     pub passports: Vec<Line>,
-    /// What needs a person.
+    /// What needs a person, whatever was asked about.
     pub alarms: Vec<Alarm>,
+    /// Number of passports, asked about or not.
+    #[serde(skip)]
+    files: usize,
+    /// The alarms that leave the state of passports unknown.
+    #[serde(skip)]
+    doubts: Vec<Alarm>,
     #[serde(skip)]
     successors: Successors,
+    #[serde(skip)]
+    originals: Originals,
+    #[serde(skip)]
+    certificates: Certificates,
 }
 
 /// What a register keeps of one file: a few hundred bytes, whatever the passport's size.
@@ -100,48 +118,60 @@ pub struct Examined {
     predecessor: Option<Predecessor>,
     /// Whether its word counts: text, signature, numbers and signer hold, and its key is not revoked.
     counts: bool,
+    issued_at: Option<Timestamp>,
+    /// Whether it was issued by the time asked about.
+    issued: bool,
+    /// Whether its issuer, stand and place are those asked about.
+    asked: bool,
+    /// The first check that failed.
+    failed: Option<CheckName>,
 }
 
 /// The passport that one was made from.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Predecessor {
+    id: String,
     sha256: String,
-    series: String,
-    revision: u32,
     superseded: bool,
 }
 
-/// Verifies one file; `within_days` sets from when on it counts as expiring.
-pub fn examine(file: &str, bytes: &[u8], trust: &Trust, time: Timestamp, within_days: Option<u32>) -> Examined {
-    let verification = verify(file, bytes, trust, &Question::at(time));
-    examined(file, bytes, &verification, time, within_days)
+/// Files that count as the passport of an id, each by its SHA-256 and name. Several have no precedence.
+type Originals = HashMap<String, Vec<(String, String)>>;
+
+/// What is asked of a register.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Asked {
+    /// The time; issuer, stand and place choose the passports that are listed.
+    pub question: Question,
+    /// Number of days before its end from which a passport counts as expiring; `None` for no such state.
+    pub within_days: Option<u32>,
 }
 
-/// What a register keeps of a file that was verified at `time`.
-pub fn examined(
-    file: &str,
-    bytes: &[u8],
-    verification: &Verification,
-    time: Timestamp,
-    within_days: Option<u32>,
-) -> Examined {
+impl Asked {
+    /// Every passport at `time`.
+    pub fn at(time: Timestamp) -> Self {
+        Self { question: Question::at(time), within_days: None }
+    }
+}
+
+/// Verifies one file.
+pub fn examine(file: &str, bytes: &[u8], trust: &Trust, asked: &Asked) -> Examined {
+    let time = asked.question.time;
+    let verification = verify(file, bytes, trust, &Question::at(time));
     let content = verification.content();
     let failed = verification.checks().iter().find(|check| check.passed() == Some(false));
     let (state, why) = match failed.map(|check| (check.code, check)) {
-        None => in_force(content, time, within_days),
+        None => in_force(content, time, asked.within_days),
         Some((Code::Expired, check)) => (State::Expired, check.detail.clone()),
         Some((Code::NotYetValid, check)) => (State::NotYetValid, check.detail.clone()),
         Some((Code::KeyRevoked | Code::PassportRevoked, check)) => (State::Revoked, check.detail.clone()),
         Some((_, check)) => (State::Broken, format!("{}: {}", check.name.as_str(), check.detail)),
     };
-    let counts = verification.authentic().is_some();
     let predecessor = content.and_then(|content| {
         let from = content.passport.reissued_from.as_ref()?;
-        let (series, revision) = series_of(&from.id);
         let superseded = content.passport.supersedes == Some(true);
-        Some(Predecessor { sha256: from.sha256.clone(), series, revision, superseded })
+        Some(Predecessor { id: from.id.clone(), sha256: from.sha256.clone(), superseded })
     });
-    let series = content.map_or_else(String::new, |content| series_of(&content.passport.id).0);
     let line = Line {
         file: file.to_owned(),
         state,
@@ -150,16 +180,27 @@ pub fn examined(
         stand: content.map(|content| format!("{}/{}", content.stand.model, content.stand.serial)),
         site: content.map(|content| content.site.id.to_string()),
         issuer: content.map(|content| content.passport.issuer.clone()),
+        certificate: content.map(|content| content.certificate.number.clone()),
         valid_until: content.and_then(Content::last_day).map(|(day, _)| day),
         why,
     };
-    Examined { line, series, revision: content.map_or(0, |content| content.passport.revision), predecessor, counts }
+    Examined {
+        line,
+        series: content.map_or_else(String::new, |content| series_of(&content.passport.id).0.to_owned()),
+        revision: content.map_or(0, |content| content.passport.revision),
+        predecessor,
+        counts: verification.authentic().is_some(),
+        issued_at: content.map(|content| content.passport.issued_at),
+        issued: content.is_some_and(|content| content.passport.issued_at <= time),
+        asked: asked.question.is_open() || content.is_some_and(|content| asked.question.concerns(content)),
+        failed: failed.map(|check| check.name),
+    }
 }
 
 /// What an id counts revisions for, and the revision.
-fn series_of(id: &str) -> (String, u32) {
+fn series_of(id: &str) -> (&str, u32) {
     let (series, revision) = id.rsplit_once('/').unwrap_or((id, ""));
-    (series.to_owned(), revision.parse().unwrap_or(0))
+    (series, revision.parse().unwrap_or(0))
 }
 
 fn in_force(content: Option<&Content>, time: Timestamp, within_days: Option<u32>) -> (State, String) {
@@ -176,79 +217,184 @@ fn in_force(content: Option<&Content>, time: Timestamp, within_days: Option<u32>
     }
 }
 
+impl Line {
+    /// Returns `true` if nothing but other files can keep the passport from being used.
+    fn is_usable(&self) -> bool {
+        matches!(self.state, State::InForce | State::Expiring)
+    }
+
+    /// Returns where the file belongs by the passport's id, or `None` if it is there.
+    pub fn misplaced(&self) -> Option<String> {
+        misplaced(self).map(|alarm| alarm.words)
+    }
+}
+
 impl Examined {
-    /// What the register says of the file while no other file is known.
+    /// Returns what the register says of the file while no other file is known.
     pub fn line(&self) -> &Line {
         &self.line
     }
 
-    /// The SHA-256 of the file that it supersedes, when it says so and its word counts: also when it has itself been
-    /// withdrawn or has expired since.
-    pub fn supersedes(&self) -> Option<&str> {
-        let predecessor = self.predecessor.as_ref().filter(|predecessor| self.counts && predecessor.superseded);
-        predecessor.map(|predecessor| predecessor.sha256.as_str())
+    /// Returns `true` if the file can be read as a passport: form, signature and content are good, whoever signed it.
+    pub fn is_readable(&self) -> bool {
+        self.failed.is_none_or(|failed| failed > CheckName::Schema)
     }
 
-    /// Where the file belongs by the passport's id, when it is not there.
-    pub fn misplaced(&self) -> Option<String> {
-        misplaced(&self.line).map(|alarm| alarm.words)
+    /// Returns the SHA-256 of the file that it supersedes, or `None` if it supersedes none or its word does not count. It
+    /// supersedes also when it has been withdrawn or has expired since.
+    pub fn supersedes(&self) -> Option<&str> {
+        self.superseding().map(|predecessor| predecessor.sha256.as_str())
+    }
+
+    fn superseding(&self) -> Option<&Predecessor> {
+        self.predecessor.as_ref().filter(|predecessor| self.counts && predecessor.superseded)
+    }
+
+    /// Returns `true` if it was withdrawn, or its key was revoked.
+    pub fn is_withdrawn(&self) -> bool {
+        self.line.state == State::Revoked
+    }
+
+    /// Returns `true` if it is one of those that may be the passport of its id.
+    fn is_original(&self) -> bool {
+        self.counts && self.issued && !self.is_withdrawn()
+    }
+
+    /// Heeds a list that was not known when the file was verified.
+    fn heed(&mut self, withdrawn: &RevocationList) {
+        let is_reached = self.failed.is_none_or(|failed| failed > CheckName::Revocation);
+        if let Some(entry) = withdrawn.entry(&self.line.sha256).filter(|_| is_reached) {
+            self.line.state = State::Revoked;
+            self.line.why = entry.to_string();
+        }
     }
 }
 
 impl Register {
     /// Follows the chains of all files examined.
     ///
-    /// A passport is superseded by one that names its file's SHA-256 and says so, or says so of a later revision, when
-    /// that one's word counts; also by one that has itself been withdrawn or has expired since: the older numbers do not
-    /// come back.
+    /// A passport is superseded by one that was issued by the time asked about, counts, says so, and names its file's
+    /// SHA-256, its id, or a later revision; also by one that has itself been withdrawn or has expired since: the older
+    /// numbers do not come back. Of several files with one id none is in force until all but one are withdrawn. Where
+    /// something cannot be read, nothing that it concerns is in force.
     ///
-    /// `alarms` are those that were raised while the files were found.
-    pub fn of(mut files: Vec<Examined>, mut alarms: Vec<Alarm>) -> Self {
+    /// `withdrawn` is heeded for every file; `alarms` are those that were raised while the files were found.
+    pub fn of(mut files: Vec<Examined>, withdrawn: Option<&RevocationList>, mut alarms: Vec<Alarm>) -> Self {
+        if let Some(withdrawn) = withdrawn {
+            files.iter_mut().for_each(|file| file.heed(withdrawn));
+        }
         files.sort_by(|a, b| (&a.line.id, a.revision, &a.line.file).cmp(&(&b.line.id, b.revision, &b.line.file)));
         let successors = Successors::of(&files);
-        for file in &mut files {
-            let line = &mut file.line;
-            let by = successors.by(&line.sha256, &file.series, file.revision);
-            if let (Some(by), State::InForce | State::Expiring | State::Expired) = (by, line.state) {
-                line.state = if by.series == file.series { State::Superseded } else { State::Moved };
-                line.why = format!("by {} ({})", by.id, by.file);
-            }
-            alarms.extend(forked(line, successors.of_file(&line.sha256)));
-        }
-        let missing = missing(&files);
-        let passports: Vec<Line> = files.into_iter().map(|file| file.line).collect();
-        alarms.extend(duplicate_ids(&passports));
-        alarms.extend(missing);
-        alarms.extend(passports.iter().filter_map(misplaced));
-        Self { passports, alarms, successors }
+        alarms.extend(successors.forks());
+        alarms.extend(duplicate_ids(&files));
+        let absent = absent_predecessors(&files);
+        alarms.extend(gaps(&files, &absent));
+        alarms.extend(absent);
+        alarms.extend(files.iter().filter_map(|file| misplaced(&file.line)));
+        let mut register = Self {
+            passports: Vec::new(),
+            doubts: alarms.iter().filter(|alarm| alarm.concern.is_some()).cloned().collect(),
+            alarms,
+            files: files.len(),
+            successors,
+            originals: originals(&files),
+            certificates: Certificates::default(),
+        };
+        files.iter_mut().for_each(|file| register.settle(file));
+        register.certificates = Certificates::of(&files);
+        register.alarms.extend(register.certificates.alarms());
+        register.passports = files.into_iter().filter(|file| file.asked).map(|file| file.line).collect();
+        register
     }
 
-    /// Adds to the answer about a passport whether a successor counts in its place; `bytes` is its whole file, which need
-    /// not be one of the register's.
+    /// The state of a file by what else is there.
+    fn settle(&self, file: &mut Examined) {
+        let line = &mut file.line;
+        if !line.is_usable() && line.state != State::Expired {
+            return;
+        }
+        if let Some(by) = self.successors.by(&line.sha256, &file.series, file.revision) {
+            line.state = if by.series == file.series { State::Superseded } else { State::Moved };
+            line.why = format!("by {} ({})", by.id, by.file);
+        } else if let Some(other) = line.id.as_deref().and_then(|id| self.other_original(id, &line.sha256)) {
+            line.state = State::Superseded;
+            line.why = format!("another file has the same id ({other}): withdraw all but one");
+        } else if line.is_usable()
+            && let Some(alarm) = self.doubt(line.stand.as_deref().unwrap_or(""))
+        {
+            line.state = State::Unknown;
+            line.why = alarm.reason();
+        }
+    }
+
+    /// Another file with this id, which contends with the one of this SHA-256.
+    fn other_original(&self, id: &str, sha256: &str) -> Option<&str> {
+        let others = self.originals.get(id)?;
+        others.iter().find(|(other, _)| other != sha256).map(|(_, file)| file.as_str())
+    }
+
+    /// Returns the alarm that leaves it unknown whether passports of a stand, `<model>/<serial>`, are superseded or
+    /// withdrawn; `None` if all that concerns them can be read.
+    pub fn doubt(&self, stand: &str) -> Option<&Alarm> {
+        self.doubts.iter().find(|alarm| alarm.concerns(stand))
+    }
+
+    /// Adds to the answer about a passport whether it counts beside all that is there; `bytes` is its whole file, which
+    /// need not be one of the register's.
     pub fn asked(&self, verification: Verification, bytes: &[u8]) -> Verification {
-        let by = verification.content().map(|content| {
-            let (series, revision) = series_of(&content.passport.id);
-            self.successors.by(&sha256_hex(bytes), &series, revision)
+        let not_run = || (Code::NotRun, "not run: an earlier check failed".to_owned());
+        let (code, detail) = verification.content().map_or_else(not_run, |content| {
+            let (id, sha256) = (content.passport.id.as_str(), sha256_hex(bytes));
+            let (series, revision) = series_of(id);
+            if let Some(by) = self.successors.by(&sha256, series, revision) {
+                (Code::Superseded, format!("superseded by {} ({}): use that one", by.id, by.file))
+            } else if let Some(other) = self.other_original(id, &sha256) {
+                let advice = "neither counts until all but one are withdrawn";
+                (Code::Superseded, format!("another file has the same id ({other}): {advice}"))
+            } else if let Some(alarm) = self.doubt(&content.stand.id()) {
+                let advice = "get what is damaged or missing from the issuer again";
+                (Code::RegisterUnknown, format!("not known: {}; {advice}", alarm.reason()))
+            } else {
+                (Code::Ok, format!("not superseded by any of {} files", self.files))
+            }
         });
-        let (code, detail) = match by {
-            None => (Code::NotRun, "not run: an earlier check failed".to_owned()),
-            Some(Some(by)) => (Code::Superseded, format!("superseded by {} ({}): use that one", by.id, by.file)),
-            Some(None) => (Code::Ok, format!("not superseded by any of {} files", self.passports.len())),
-        };
         verification.with(Check::new(CheckName::Register, code, detail))
     }
 
-    /// Whether a person must look at it: an alarm, or a passport that does not verify.
+    /// Returns `true` if the file of this line is one of several with its id, of which none is in force.
+    pub fn has_several(&self, line: &Line) -> bool {
+        let superseded = self.successors.has(&line.sha256);
+        !superseded && line.id.as_deref().is_some_and(|id| self.other_original(id, &line.sha256).is_some())
+    }
+
+    /// Returns `true` if the passport of this SHA-256 comes from one that several supersede.
+    pub fn is_of_a_fork(&self, sha256: &str) -> bool {
+        self.successors.is_of_a_fork(sha256)
+    }
+
+    /// Returns the alarm that makes it uncertain which passports were withdrawn, or `None` if that is certain.
+    pub fn uncertain(&self) -> Option<&Alarm> {
+        let uncertain = |alarm: &&Alarm| alarm.kind == AlarmKind::Revocation || alarm.concerns("");
+        self.alarms.iter().find(uncertain)
+    }
+
+    /// Returns in words what speaks against issuing from the certificate `number` of a stand: that it was replaced, or that
+    /// the stand is in force under another one.
+    pub fn against_certificate(&self, stand: &str, number: &str) -> Vec<String> {
+        self.certificates.against(stand, number)
+    }
+
+    /// Returns `true` if a person must look at it: an alarm, or a passport that does not verify.
     pub fn needs_attention(&self) -> bool {
         !self.alarms.is_empty() || self.passports.iter().any(|line| line.state == State::Broken)
     }
 
-    /// Whether something could not be read at all: then more may be wrong than the register says.
+    /// Returns `true` if the system refused to read something: then more may be wrong than the register says.
     pub fn is_incomplete(&self) -> bool {
         self.alarms.iter().any(|alarm| alarm.kind == AlarmKind::Unreadable)
     }
 
-    /// How many are in each state.
+    /// Returns how many are in each state.
     pub fn counts(&self) -> BTreeMap<State, usize> {
         let mut counts = BTreeMap::new();
         for line in &self.passports {
@@ -256,4 +402,16 @@ impl Register {
         }
         counts
     }
+}
+
+/// Of copies of one file the first.
+fn originals(files: &[Examined]) -> Originals {
+    let mut originals = Originals::with_capacity(files.len());
+    for file in files.iter().filter(|file| file.is_original()) {
+        let known = originals.entry(file.line.id.clone().unwrap_or_default()).or_default();
+        if known.iter().all(|(sha256, _)| *sha256 != file.line.sha256) {
+            known.push((file.line.sha256.clone(), file.line.file.clone()));
+        }
+    }
+    originals
 }

@@ -16,6 +16,7 @@ impl State {
             Self::Expired => "expired",
             Self::NotYetValid => "not yet valid",
             Self::Revoked => "revoked",
+            Self::Unknown => "not known",
             Self::Broken => "BROKEN",
         }
     }

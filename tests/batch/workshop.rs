@@ -2,7 +2,7 @@
 
 use crate::tools;
 use dtg_passport::document::sha256_hex;
-use dtg_passport::folder::search::find;
+use dtg_passport::folder::search::{find, is_numbered};
 use dtg_passport::parallel;
 use dtg_passport::passport::{Question, Trust, verify};
 use dtg_passport::trust::AllowedSigners;
@@ -87,7 +87,10 @@ impl Workshop {
         let signers = fs::read(self.path("allowed_signers")).unwrap();
         let trust = Trust::of(AllowedSigners::parse("allowed_signers", &signers).unwrap());
         let question = Question::at("2027-01-01T00:00:00Z".parse().unwrap());
-        let passports = find(&root).unwrap().passports;
+        let mut passports = find(&root).unwrap().files;
+        passports.retain(|path| {
+            path.file_name().is_some_and(|name| is_numbered(name) && !name.to_string_lossy().starts_with("revocation-"))
+        });
         let sound = parallel::map(&passports, 4, |path| {
             let bytes = fs::read(path).unwrap();
             let hash = sha256_hex(&bytes);

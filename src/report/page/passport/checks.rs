@@ -104,13 +104,14 @@ fn words(page: &PassportPage, check: &Check, language: Language) -> String {
         CheckName::Stand => stand(page, check.code, language),
         CheckName::Place => place(page, language),
         CheckName::Register if check.code == Code::Ok => plain(texts::REGISTER_OK),
+        CheckName::Register if check.code == Code::RegisterUnknown => plain(texts::REGISTER_UNKNOWN),
         CheckName::Register => plain(texts::REGISTER_SUPERSEDED),
     }
 }
 
 fn revocation(page: &PassportPage, language: Language) -> String {
     let list = page.trust.withdrawn.as_ref();
-    if let Some(entry) = list.and_then(|list| list.entry(&page.content.passport.id, &page.sha256)) {
+    if let Some(entry) = list.and_then(|list| list.entry(&page.sha256)) {
         let time = time_text(language, entry.revoked_at);
         return texts::REVOCATION_WITHDRAWN.filled(language, &[("time", &time), ("reason", &entry.reason)]);
     }

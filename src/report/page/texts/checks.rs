@@ -102,5 +102,9 @@ texts! {
         en: "superseded by another passport in the folder asked about: use that one",
         ru: "в указанной папке есть заменяющий его паспорт: применяйте тот"
     }
+    REGISTER_UNKNOWN {
+        en: "not known: a file in the folder asked about is damaged or missing",
+        ru: "неизвестно: в указанной папке повреждён или отсутствует файл"
+    }
     NOT_RUN { en: "not run", ru: "не проводилась" }
 }

@@ -1,0 +1,90 @@
+//! Under which certificates the passports of a stand were issued. A certificate is superseded when a passport made from it
+//! was issued again under another one; a stand in force under two has two sets of deviations.
+
+use super::{Alarm, AlarmKind, Examined, State};
+use std::collections::{BTreeMap, HashMap};
+
+/// What is known of the certificates of each stand, `<model>/<serial>`, for which there is more than one.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(super) struct Certificates(BTreeMap<String, OfStand>);
+
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+struct OfStand {
+    /// The passports in force under each number: ids and files.
+    in_force: BTreeMap<String, Vec<(String, String)>>,
+    /// The number that took the place of each, and the passport that shows it.
+    replaced: BTreeMap<String, (String, String)>,
+}
+
+impl Certificates {
+    /// Of files sorted by id whose states are settled.
+    pub(super) fn of(files: &[Examined]) -> Self {
+        let counted: Vec<&Examined> = files.iter().filter(|file| file.counts && file.issued).collect();
+        let of_stand = counted.chunk_by(|a, b| a.line.stand == b.line.stand);
+        let several =
+            of_stand.filter(|files| files.windows(2).any(|pair| pair[0].certificate() != pair[1].certificate()));
+        let several = several.map(|files| (files[0].line.stand.clone().unwrap_or_default(), OfStand::of(files)));
+        Self(several.collect())
+    }
+
+    pub(super) fn alarms(&self) -> Vec<Alarm> {
+        self.0.iter().filter_map(|(stand, known)| known.alarm(stand)).collect()
+    }
+
+    /// What speaks against one more passport of a stand under the certificate `number`.
+    pub(super) fn against(&self, stand: &str, number: &str) -> Vec<String> {
+        let Some(known) = self.0.get(stand) else { return Vec::new() };
+        let replaced = known.replaced.get(number).map(|by| replaced(number, by));
+        let others = known.in_force.iter().filter(|(other, _)| *other != number);
+        let others = others.map(|(other, passports)| {
+            let ids: Vec<&str> = passports.iter().map(|(id, _)| id.as_str()).collect();
+            format!("the stand is also in force under certificate {other}: {}", ids.join(", "))
+        });
+        replaced.into_iter().chain(others).collect()
+    }
+}
+
+impl OfStand {
+    fn of(files: &[&Examined]) -> Self {
+        let mut known = Self::default();
+        let by_sha256: HashMap<&str, &str> =
+            files.iter().map(|file| (file.line.sha256.as_str(), file.certificate())).collect();
+        // In the order of issue: a certificate that came back is replaced no more.
+        let mut in_order = files.to_vec();
+        in_order.sort_by_key(|file| file.issued_at);
+        for file in in_order {
+            let (id, number) = (file.line.id.clone().unwrap_or_default(), file.certificate());
+            let old = file.superseding().and_then(|from| by_sha256.get(from.sha256.as_str()));
+            if let Some(old) = old.filter(|old| **old != number) {
+                known.replaced.remove(number);
+                known.replaced.insert((*old).to_owned(), (number.to_owned(), id.clone()));
+            }
+            if matches!(file.line.state, State::InForce | State::Expiring | State::Unknown) {
+                known.in_force.entry(number.to_owned()).or_default().push((id, file.line.file.clone()));
+            }
+        }
+        known
+    }
+
+    fn alarm(&self, stand: &str) -> Option<Alarm> {
+        let outdated = self.in_force.keys().filter_map(|number| Some(replaced(number, self.replaced.get(number)?)));
+        let mut words: Vec<String> = outdated.collect();
+        let numbers: Vec<&str> = self.in_force.keys().map(String::as_str).collect();
+        if words.is_empty() && numbers.len() < 2 {
+            return None;
+        }
+        words.insert(0, format!("{stand} is in force under {}", numbers.join(" and ")));
+        let files = self.in_force.values().flatten().map(|(_, file)| file.clone()).collect();
+        Some(Alarm::of_files(AlarmKind::Certificates, words.join("; "), files))
+    }
+}
+
+fn replaced(number: &str, (by, id): &(String, String)) -> String {
+    format!("certificate {number} was replaced by {by} ({id})")
+}
+
+impl Examined {
+    fn certificate(&self) -> &str {
+        self.line.certificate.as_deref().unwrap_or("")
+    }
+}
