@@ -6,11 +6,11 @@
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::canonical::{self, NotCanonical};
 use crate::text::problem::{Location, Unreadable};
+pub use crate::text::scalar::{is_sha256_hex, sha256_hex};
 use crate::text::{Field, Printable, Problems, rule};
 use crate::trust::{AllowedSigners, KeyPoint, Message, PublicKey, Signature, SignatureError};
 #[cfg(feature = "factory")]
 use crate::trust::{KeyError, SigningKey};
-use sha2::{Digest, Sha256};
 
 /// The line that ends the payload.
 const SIGNATURE_LINE: &str = "signature: |\n";
@@ -181,18 +181,6 @@ pub fn parse<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut Proble
     let mut problems = Problems::new();
     check(&content, &mut problems);
     if problems.is_empty() { Ok(content) } else { Err(problems.refuse_by_field(name)) }
-}
-
-/// SHA-256 of a file, lower-case hexadecimal.
-pub fn sha256_hex(bytes: &[u8]) -> String {
-    const DIGITS: [char; 16] = ['0', '1', '2', '3', '4', '5', '6', '7', '8', '9', 'a', 'b', 'c', 'd', 'e', 'f'];
-    let halves = |byte: u8| [byte >> 4, byte & 0xF].map(|half| DIGITS[usize::from(half)]);
-    Sha256::digest(bytes).into_iter().flat_map(halves).collect()
-}
-
-/// Whether a text has the form that [`sha256_hex`] gives.
-pub fn is_sha256_hex(text: &str) -> bool {
-    text.len() == 64 && text.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte))
 }
 
 /// Where the payload ends: at the first line `signature: |`.

@@ -1,5 +1,9 @@
 //! A test stand and what its factory certified of it: the file `stand.yaml` (`dtg-stand/1`).
 
+pub mod type_b;
+
+pub use type_b::{ActsOn, Evidence, TypeB};
+
 use crate::attitude::Deviation;
 use crate::coefficients::{EIGHT_POSITIONS, Position, PositionIndex, SingularPositions, StandGeometry};
 use crate::text::scalar::Identifier;
@@ -78,6 +82,10 @@ record! {
         pub common_platform_arcsec: Option<f64>,
         /// Shared by all positions, per axis of the base (turned from the right).
         pub common_base_arcsec: Option<f64>,
+        /// Contributions that repeated measurements cannot show; u_* and common_* contain them.
+        pub type_b: Option<Vec<TypeB>>,
+        /// The readings that the certificate was made from; written by `certify`.
+        pub evidence: Option<Evidence>,
     }
 }
 
@@ -193,6 +201,7 @@ pub fn geometry(positions: &[CertifiedPosition]) -> Result<StandGeometry, Singul
 /// The rules of a certificate and its positions, at the top of a stand file or of a passport alike.
 pub(crate) fn check(certificate: &Certificate, positions: &[CertifiedPosition], problems: &mut Problems) {
     check_certificate(certificate, problems);
+    type_b::check(certificate, positions, problems);
     let at = Path::Root.key("positions");
     if positions.is_empty() {
         problems.at(&at, "an empty list", "at least one position", "");

@@ -204,6 +204,19 @@ struct Group {
 }
 
 impl Variance {
+    /// Returns the variance of a sum of independent parts, with degrees of freedom by Welch and Satterthwaite:
+    /// [GUM](crate::bibliography::Bibliography::Gum), eq. (G.2b).
+    pub(crate) fn sum(parts: impl IntoIterator<Item = Self>) -> Self {
+        let (mut value, mut squares) = (0.0, 0.0);
+        for part in parts {
+            value += part.value;
+            squares += part.value * part.value / part.degrees_of_freedom;
+        }
+        // No part that varies, or none whose variance is not known exactly.
+        let degrees_of_freedom = if squares > 0.0 { value * value / squares } else { f64::INFINITY };
+        Self { value, degrees_of_freedom }
+    }
+
     /// With the degrees of freedom of so many runs more than one.
     fn over(self, changes: f64) -> Self {
         Self { degrees_of_freedom: self.degrees_of_freedom * changes, ..self }

@@ -82,12 +82,26 @@ impl Header {
 }
 
 impl From<&Stand> for Header {
-    /// What a certificate was made from, to measure the same positions again.
+    /// Returns the header that measures the positions of a certified stand again. What the earlier measurement found and when it
+    /// was made is left out; number and day of issue, which every header has, are still those of the earlier certificate.
     fn from(stand: &Stand) -> Self {
+        let certificate = Certificate {
+            performed: None,
+            received: None,
+            valid_until: None,
+            valid_until_basis: None,
+            temperature_c: None,
+            repeatability_arcsec: None,
+            repeatability_degrees_of_freedom: None,
+            common_platform_arcsec: None,
+            common_base_arcsec: None,
+            evidence: None,
+            ..stand.certificate.clone()
+        };
         Self {
             format: stand.format.clone(),
             stand: stand.stand.clone(),
-            certificate: stand.certificate.clone(),
+            certificate,
             datum: stand.datum.clone(),
             positions: stand.positions.iter().map(NominalPosition::from).collect(),
         }
@@ -97,15 +111,16 @@ impl From<&Stand> for Header {
 /// What the readings will say must not stand in the header: it would be lost, or be taken for measured.
 fn check_not_measured(certificate: &Certificate, problems: &mut Problems) {
     let at = Path::Root.key("certificate");
-    for (key, value) in [
+    let measured = [
         ("repeatability_arcsec", certificate.repeatability_arcsec),
         ("repeatability_degrees_of_freedom", certificate.repeatability_degrees_of_freedom),
         ("common_platform_arcsec", certificate.common_platform_arcsec),
         ("common_base_arcsec", certificate.common_base_arcsec),
-    ] {
-        if let Some(value) = value {
-            let advice = "leave it out: the readings give it";
-            problems.at(&at.key(key), format!("{value}"), "a header without measured numbers", advice);
-        }
+    ];
+    let measured = measured.into_iter().filter_map(|(key, value)| Some((key, format!("{}", value?))));
+    let evidence = certificate.evidence.iter().map(|_| ("evidence", "a mapping".to_owned()));
+    for (key, found) in measured.chain(evidence) {
+        let advice = "leave it out: the readings give it";
+        problems.at(&at.key(key), found, "a header without measured numbers", advice);
     }
 }

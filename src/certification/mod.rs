@@ -20,7 +20,7 @@ pub use header::{Header, NominalPosition};
 pub use readings::AngleReadings;
 
 use crate::calibration::inputs::Turn;
-use crate::stand::{CertifiedPosition, Stand};
+use crate::stand::{ActsOn, Certificate, CertifiedPosition, Evidence, Stand};
 use components::{Common, Components, Variance, case_turn, turns_at};
 use nalgebra::{DVector, Matrix3, Vector3};
 use suspects::Suspects;
@@ -113,16 +113,23 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     let each = header.positions.iter().zip(readings.means_arcsec()).zip(&turns).enumerate();
     stand.positions = each
         .map(|(place, ((nominal, mean), turn))| {
-            let own = own_scatter.then(|| components.of_positions[place]);
-            certified(nominal, &mean, turn, &components.own_arcsec2.map(|v| divided(v, number)), own)
+            let scatter = own_scatter.then(|| components.of_positions[place]);
+            let own = components.own_arcsec2.map(|axis| of_mean(axis, scatter, number, &header.certificate));
+            certified(nominal, &mean, turn, &own)
         })
         .collect();
     let certificate = &mut stand.certificate;
     certificate.repeatability_arcsec = Some(rounded(components.pooled_arcsec2.value.sqrt()));
     certificate.repeatability_degrees_of_freedom = Some(freedom(components.pooled_arcsec2.degrees_of_freedom));
-    let of_mean = |common: &Common| rounded((common.between_runs_arcsec2 / number).sqrt());
-    certificate.common_platform_arcsec = Some(of_mean(&components.platform));
-    certificate.common_base_arcsec = components.base.as_ref().map(of_mean);
+    let common = |seen: Option<&Common>, on: ActsOn| {
+        let type_b = header.certificate.type_b_arcsec2(on);
+        let seen = seen.map(|common| common.between_runs_arcsec2 / number).or((type_b > 0.0).then_some(0.0));
+        seen.map(|seen| rounded((seen + type_b).sqrt()))
+    };
+    certificate.common_platform_arcsec = common(Some(&components.platform), ActsOn::Platform);
+    certificate.common_base_arcsec = common(components.base.as_ref(), ActsOn::Base);
+    let of_readings = |sha256: &str| Evidence { readings_sha256: sha256.to_owned(), runs: runs.len() as u32 };
+    certificate.evidence = readings.sha256().map(of_readings);
     let mut warnings = suspects.warnings();
     warnings.extend(remarks(&components, runs.len(), &stand.positions));
     let (runs, repeated_rows) = (runs.to_vec(), readings.repeated_rows());
@@ -156,32 +163,33 @@ fn differences(turns: &[Turn], readings: &AngleReadings) -> Vec<DVector<f64>> {
     (0..readings.runs().len()).map(of_run).collect()
 }
 
-fn divided(variance: Variance, number: f64) -> Variance {
-    Variance { value: variance.value / number, ..variance }
+/// Returns the variance of a certified mean about one axis of the case: of one return over the `number` of runs, times the
+/// `scatter` of the position over that of all, and what `certificate` states that repeating cannot show.
+fn of_mean(axis: Variance, scatter: Option<Variance>, number: f64, certificate: &Certificate) -> Variance {
+    let of_position = scatter.unwrap_or(Variance { value: 1.0, ..axis });
+    let repeated = Variance { value: axis.value * of_position.value / number, ..of_position };
+    let type_b = certificate.type_b_on(ActsOn::Position).map(|line| Variance {
+        value: line.u_arcsec * line.u_arcsec,
+        degrees_of_freedom: line.degrees_of_freedom.unwrap_or(f64::INFINITY),
+    });
+    Variance::sum(std::iter::once(repeated).chain(type_b))
 }
 
 /// A position with the means `mean` (α, β, γ) whose turns have the variances `own`, per axis of the case.
-fn certified(
-    nominal: &NominalPosition,
-    mean: &Vector3<f64>,
-    turn: &Turn,
-    own: &[Variance; 3],
-    scatter: Option<Variance>,
-) -> CertifiedPosition {
+fn certified(nominal: &NominalPosition, mean: &Vector3<f64>, turn: &Turn, own: &[Variance; 3]) -> CertifiedPosition {
     // The angles are what the axes of α, β, γ must turn by; between ±45° these are never in one plane.
     let to_angles = Matrix3::from_columns(&turn.axes).try_inverse().unwrap_or_else(Matrix3::identity);
-    let share = scatter.map_or(1.0, |scatter| scatter.value);
     let u = |angle: usize| {
         let variance =
             (0..3).map(|axis| to_angles[(angle, axis)] * to_angles[(angle, axis)] * own[axis].value).sum::<f64>();
-        (variance * share).sqrt()
+        variance.sqrt()
     };
-    let pooled = own.iter().map(|variance| variance.degrees_of_freedom).fold(f64::INFINITY, f64::min);
+    let least = own.iter().map(|variance| variance.degrees_of_freedom).fold(f64::INFINITY, f64::min);
     let mut position = nominal.with_angles([0, 1, 2].map(|angle| to_digits_of(mean[angle], u(angle))));
     position.u_alpha_arcsec = Some(rounded(u(0)));
     position.u_beta_arcsec = Some(rounded(u(1)));
     position.u_gamma_arcsec = Some(rounded(u(2)));
-    position.degrees_of_freedom = Some(freedom(scatter.map_or(pooled, |scatter| scatter.degrees_of_freedom)));
+    position.degrees_of_freedom = Some(freedom(least));
     position
 }
 

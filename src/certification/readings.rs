@@ -5,6 +5,7 @@ use crate::coefficients::PositionIndex;
 use crate::stand::LARGEST_DEVIATION_DEG;
 use crate::text::Unreadable;
 use crate::text::problem::{MOST_PROBLEMS, Problem};
+use crate::text::scalar::sha256_hex;
 use crate::text::table::{Row, Table};
 use crate::units::ARCSECONDS_PER_DEGREE;
 use nalgebra::Vector3;
@@ -22,6 +23,7 @@ pub struct AngleReadings {
     runs: Vec<u32>,
     each_arcsec: Vec<Vec<Vector3<f64>>>,
     repeated_rows: usize,
+    sha256: Option<String>,
 }
 
 /// Readings that do not hold every position in every run.
@@ -40,7 +42,7 @@ impl AngleReadings {
     pub fn new(runs: Vec<u32>, each_arcsec: Vec<Vec<Vector3<f64>>>) -> Result<Self, NotBalanced> {
         let balanced = !runs.is_empty() && !each_arcsec.is_empty();
         if balanced && each_arcsec.iter().all(|position| position.len() == runs.len()) {
-            Ok(Self { runs, each_arcsec, repeated_rows: 0 })
+            Ok(Self { runs, each_arcsec, repeated_rows: 0, sha256: None })
         } else {
             Err(NotBalanced)
         }
@@ -73,7 +75,11 @@ impl AngleReadings {
         if problems.is_empty() {
             problems = slips(&table, &rows);
         }
-        if problems.is_empty() { Ok(Self::averaged(positions, &rows)) } else { Err(table.refuse(problems)) }
+        if problems.is_empty() {
+            Ok(Self { sha256: Some(sha256_hex(bytes)), ..Self::averaged(positions, &rows) })
+        } else {
+            Err(table.refuse(problems))
+        }
     }
 
     fn averaged(positions: &[NominalPosition], rows: &[(Place, Vector3<f64>, &Row)]) -> Self {
@@ -87,7 +93,7 @@ impl AngleReadings {
         let mean = |at: &NominalPosition, run: &u32| sums.get(&(at.index(), *run)).map(|(sum, count)| sum / *count);
         let of_position = |at: &NominalPosition| runs.iter().filter_map(|run| mean(at, run)).collect();
         let each_arcsec: Vec<Vec<_>> = positions.iter().map(of_position).collect();
-        Self { runs: runs.into_iter().collect(), each_arcsec, repeated_rows: rows.len() - sums.len() }
+        Self { runs: runs.into_iter().collect(), each_arcsec, repeated_rows: rows.len() - sums.len(), sha256: None }
     }
 
     /// The runs' numbers, ascending.
@@ -103,6 +109,11 @@ impl AngleReadings {
     /// How many rows read a return again that had been read already.
     pub fn repeated_rows(&self) -> usize {
         self.repeated_rows
+    }
+
+    /// Returns the SHA-256 of the file in lower-case hexadecimal, or `None` if the readings come from no file.
+    pub fn sha256(&self) -> Option<&str> {
+        self.sha256.as_deref()
     }
 
     /// Means over the runs, arcseconds.

@@ -3,6 +3,7 @@
 use crate::passport::Content;
 use crate::passport::content::Rows;
 use crate::report::{columns, deviations, style};
+use crate::stand::{Evidence, TypeB};
 use crate::text::number;
 use std::fmt::{Display, Write};
 
@@ -75,6 +76,13 @@ fn stand(out: &mut String, content: &Content) {
     option(out, "its degrees of freedom", certificate.repeatability_degrees_of_freedom);
     option(out, "common platform, arcsec", certificate.common_platform_arcsec);
     option(out, "common base, arcsec", certificate.common_base_arcsec);
+    for TypeB { source, acts_on, u_arcsec, degrees_of_freedom } in certificate.type_b.iter().flatten() {
+        let known = degrees_of_freedom.map_or_else(String::new, |known| format!(" ({known} degrees of freedom)"));
+        line(out, &format!("type B, {}, arcsec", acts_on.word()), format!("{u_arcsec}{known}: {source}"));
+    }
+    if let Some(Evidence { readings_sha256, runs }) = &certificate.evidence {
+        line(out, "readings", format!("{runs} runs, sha256 {readings_sha256}"));
+    }
     if let Some(datum) = &content.datum {
         heading(out, "Datum");
         option(out, "level", datum.level.as_ref());

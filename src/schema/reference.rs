@@ -76,6 +76,14 @@ impl Section<'_> {
 
     /// What a value is, in words.
     fn value(&self, property: &Map<String, Value>) -> String {
+        if let Some(choices) = property.get("oneOf").and_then(Value::as_array) {
+            return choices
+                .iter()
+                .filter_map(Value::as_object)
+                .map(|one| self.value(one))
+                .collect::<Vec<_>>()
+                .join(" or ");
+        }
         if let Some(constant) = property.get("const") {
             return format!("`{constant}`");
         }

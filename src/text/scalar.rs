@@ -1,10 +1,11 @@
-//! Texts with a form of their own: identifiers, dates, times.
+//! Texts with a form of their own: identifiers, dates, times, digests.
 
 use super::sink::Sink;
 use super::{Field, Node, Path, Problems};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use jiff::tz::TimeZone;
+use sha2::{Digest, Sha256};
 use std::fmt;
 
 /// A name that becomes a folder or file name: `[A-Za-z0-9][A-Za-z0-9._-]{0,63}` without `..`.
@@ -134,6 +135,18 @@ pub fn day(date: Date) -> (Timestamp, Timestamp) {
     let start = TimeZone::UTC.to_timestamp(date.at(0, 0, 0, 0)).unwrap_or(beyond);
     let end = start.as_second().saturating_add(86_399);
     (start, Timestamp::from_second(end).unwrap_or(Timestamp::MAX))
+}
+
+/// SHA-256 of a file, lower-case hexadecimal.
+pub fn sha256_hex(bytes: &[u8]) -> String {
+    const DIGITS: [char; 16] = ['0', '1', '2', '3', '4', '5', '6', '7', '8', '9', 'a', 'b', 'c', 'd', 'e', 'f'];
+    let halves = |byte: u8| [byte >> 4, byte & 0xF].map(|half| DIGITS[usize::from(half)]);
+    Sha256::digest(bytes).into_iter().flat_map(halves).collect()
+}
+
+/// Whether a text has the form that [`sha256_hex`] gives.
+pub fn is_sha256_hex(text: &str) -> bool {
+    text.len() == 64 && text.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte))
 }
 
 #[cfg(test)]

@@ -106,10 +106,18 @@ fn full(name: &'static str, languages: &[Language]) -> Case {
     };
     let stand = made::ARC_MINUTES
         .replace("name: \"Two-axis", "customer: \"Gyro laboratory, Moscow\", name: \"Two-axis")
-        .replace("  number:", "  received: \"2026-10-20\"\n  address: \"1, Example Street, Exampleton\"\n  authorized_by: \"A. N. Other, head of laboratory\"\n  accreditation: \"example accreditation 000\"\n  number:");
+        .replace("  number:", "  received: \"2026-10-20\"\n  address: \"1, Example Street, Exampleton\"\n  authorized_by: \"A. N. Other, head of laboratory\"\n  accreditation: \"example accreditation 000\"\n  number:")
+        .replace("datum:", TYPE_B);
     let site = made::SITE.replace("height_m", "gravity_m_per_s2: 9.81563\ngravity_u_m_per_s2: 2.5e-05\nheight_m");
     issued(name, &stand, &site, &order, languages)
 }
+
+const TYPE_B: &str = r#"  type_b:
+    - {source: "autocollimator, calibration C-17", acts_on: "position", u_arcsec: 0.31}
+    - {source: "mirror cube, calibration C-18", acts_on: "platform", u_arcsec: 0.25, degrees_of_freedom: 12.5}
+    - {source: "theodolite <T2>, calibration C-19", acts_on: "base", u_arcsec: 0.42}
+  evidence: {readings_sha256: "9c56cc51b374c3ba189210d5b6d4bf57790d351c96c47c02190ecf1e430635ab", runs: 5}
+datum:"#;
 
 /// Words that would be markup, styles or scripts anywhere else, words without a blank, words in other scripts.
 fn hostile(stand: &str) -> String {

@@ -9,7 +9,7 @@ use crate::report::page::parts::{
 };
 use crate::report::page::texts::{passport as texts, units};
 use crate::site::{Earth, Site};
-use crate::stand::{Certificate, CertifiedPosition};
+use crate::stand::{ActsOn, Certificate, CertifiedPosition, TypeB};
 use crate::units::ARCSECONDS_PER_DEGREE;
 use maud::{Markup, html};
 
@@ -23,6 +23,7 @@ pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
         (figure(Slot::Deviations, content, languages))
         (heading(languages, texts::COMMON))
         (common(&content.certificate, languages))
+        (type_b(&content.certificate, languages))
         (heading(languages, texts::DATUM))
         (datum(page, languages))
         (heading(languages, texts::SITE))
@@ -98,6 +99,38 @@ fn common(certificate: &Certificate, languages: &Languages) -> Markup {
         field(languages, texts::COMMON_PLATFORM, certificate.common_platform_arcsec.map(arcsec)),
         field(languages, texts::COMMON_BASE, certificate.common_base_arcsec.map(arcsec)),
     ])
+}
+
+/// Contributions that repeated measurements cannot show, and the readings; nothing where the certificate states neither.
+fn type_b(certificate: &Certificate, languages: &Languages) -> Markup {
+    let exact = |number: f64| Number::exact(number).markup(languages);
+    let row = |line: &TypeB| {
+        let acts_on = match line.acts_on {
+            ActsOn::Position => texts::TYPE_B_POSITION,
+            ActsOn::Platform => texts::TYPE_B_PLATFORM,
+            ActsOn::Base => texts::TYPE_B_BASE,
+        };
+        let freedom = line.degrees_of_freedom.map_or_else(|| html! { "∞" }, exact);
+        vec![given(&line.source), languages.label(acts_on), exact(line.u_arcsec), freedom]
+    };
+    let lines = certificate.type_b.as_ref().map(|lines| {
+        let headings = vec![
+            languages.label(texts::TYPE_B_SOURCE),
+            languages.label(texts::TYPE_B_ACTS_ON),
+            symbol_and_unit(languages, &symbol("u", ""), units::ARCSEC),
+            symbol("ν", ""),
+        ];
+        let caption = Some(languages.label(texts::TYPE_B));
+        let rows = lines.iter().map(row).collect();
+        Table { caption, headings, rows, row_headings: 1, ..Table::default() }.markup(languages.spoken(texts::TYPE_B))
+    });
+    let evidence = certificate.evidence.as_ref().map(|evidence| {
+        fields([
+            field(languages, texts::EVIDENCE_RUNS, Some(html! { (evidence.runs) })),
+            wide_field(languages, texts::EVIDENCE_SHA256, Some(html! { code { (evidence.readings_sha256) } })),
+        ])
+    });
+    html! { @if let Some(lines) = lines { (lines) } @if let Some(evidence) = evidence { (evidence) } }
 }
 
 fn datum(page: &PassportPage, languages: &Languages) -> Markup {

@@ -1,0 +1,134 @@
+//! Uncertainty that repeated measurements cannot show ([GUM](crate::bibliography::Bibliography::Gum), 4.3), and the
+//! readings that a certificate was made from.
+
+use super::{Certificate, CertifiedPosition};
+use crate::text::scalar::is_sha256_hex;
+use crate::text::sink::Sink;
+use crate::text::{Field, Node, Path, Problems, record};
+
+/// What a contribution of type B turns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, schemars::JsonSchema)]
+#[schemars(rename_all = "snake_case")]
+pub enum ActsOn {
+    /// Each position by itself, per axis of the platform; part of u_alpha_arcsec, u_beta_arcsec and u_gamma_arcsec.
+    Position,
+    /// All positions together, per axis of the platform; part of common_platform_arcsec.
+    Platform,
+    /// All positions together, per axis of the base; part of common_base_arcsec.
+    Base,
+}
+
+impl ActsOn {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Position, Self::Platform, Self::Base];
+
+    /// The word in a file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Position => "position",
+            Self::Platform => "platform",
+            Self::Base => "base",
+        }
+    }
+}
+
+impl Field for ActsOn {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        let found = Self::ALL.into_iter().find(|on| matches!(node, Node::Text(text) if text == on.word()));
+        if found.is_none() {
+            problems.at(at, node.describe(), Self::expected(""), "");
+        }
+        found
+    }
+
+    fn expected(_: &str) -> String {
+        "\"position\", \"platform\" or \"base\"".to_owned()
+    }
+
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.text(self.word());
+    }
+}
+
+record! {
+    /// A contribution to the uncertainty that repeated measurements cannot show (type B), such as an instrument's calibration.
+    pub struct TypeB {
+        /// Source of the contribution.
+        pub source: String,
+        /// The uncertainty that it is part of: "position" for u_*, "platform" or "base" for common_*.
+        pub acts_on: ActsOn,
+        /// Standard uncertainty per axis.
+        pub u_arcsec: f64,
+        /// Its degrees of freedom; infinite when absent.
+        pub degrees_of_freedom: Option<f64>,
+    }
+}
+
+record! {
+    /// The readings that a certificate was made from.
+    pub struct Evidence {
+        /// SHA-256 of the file of readings, in lower-case hexadecimal.
+        pub readings_sha256: String,
+        /// Number of runs.
+        pub runs: u32,
+    }
+}
+
+impl Certificate {
+    /// Returns the contributions of type B to the uncertainty that `on` names, in the order of the file.
+    pub fn type_b_on(&self, on: ActsOn) -> impl Iterator<Item = &TypeB> {
+        self.type_b.iter().flatten().filter(move |line| line.acts_on == on)
+    }
+
+    /// Returns the sum of the squares of these contributions, in arcsec².
+    pub fn type_b_arcsec2(&self, on: ActsOn) -> f64 {
+        // An empty sum of floats is -0.0.
+        self.type_b_on(on).map(|line| line.u_arcsec * line.u_arcsec).sum::<f64>() + 0.0
+    }
+}
+
+/// An uncertainty counts as smaller than its type B part when it is smaller by more than this share: certificates give four
+/// digits.
+const ROUNDING: f64 = 5e-4;
+
+/// Checks the contributions themselves, and that the certified uncertainties contain them.
+pub(super) fn check(certificate: &Certificate, positions: &[CertifiedPosition], problems: &mut Problems) {
+    let at = Path::Root.key("certificate");
+    let of_type_b = at.key("type_b");
+    if certificate.type_b.as_ref().is_some_and(Vec::is_empty) {
+        problems.at(&of_type_b, "an empty list", "at least one contribution", "leave the key out when there is none");
+    }
+    for (index, line) in certificate.type_b.iter().flatten().enumerate() {
+        let at = of_type_b.item(index);
+        problems.within(&at.key("u_arcsec"), Some(line.u_arcsec), 0.0, f64::MAX);
+        super::check_degrees_of_freedom(line.degrees_of_freedom, &at.key("degrees_of_freedom"), problems);
+    }
+    if let Some(evidence) = &certificate.evidence {
+        let at = at.key("evidence");
+        if !is_sha256_hex(&evidence.readings_sha256) {
+            let found = format!("{:?}", evidence.readings_sha256);
+            problems.at(&at.key("readings_sha256"), found, "64 hexadecimal digits in lower case", "");
+        }
+        if evidence.runs < 2 {
+            let advice = "a certificate is made from two runs or more";
+            problems.at(&at.key("runs"), format!("{}", evidence.runs), "2 or more", advice);
+        }
+    }
+    let mut contains = |at: &Path, key: &'static str, u: Option<f64>, on: ActsOn| {
+        let root = certificate.type_b_arcsec2(on).sqrt();
+        if let Some(u) = u.filter(|u| *u < root * (1.0 - ROUNDING)) {
+            let expected = format!("at least {root:.4}, the root of the sum of the squares of its type_b lines");
+            let advice = format!("add the {} lines of type_b to it, or correct them", on.word());
+            problems.at(&at.key(key), format!("{u}"), expected, advice);
+        }
+    };
+    contains(&at, "common_platform_arcsec", certificate.common_platform_arcsec, ActsOn::Platform);
+    contains(&at, "common_base_arcsec", certificate.common_base_arcsec, ActsOn::Base);
+    let of_positions = Path::Root.key("positions");
+    for (index, position) in positions.iter().enumerate() {
+        let at = of_positions.item(index);
+        contains(&at, "u_alpha_arcsec", position.u_alpha_arcsec, ActsOn::Position);
+        contains(&at, "u_beta_arcsec", position.u_beta_arcsec, ActsOn::Position);
+        contains(&at, "u_gamma_arcsec", position.u_gamma_arcsec, ActsOn::Position);
+    }
+}
