@@ -42,6 +42,9 @@ pub enum Bibliography {
     /// W. Stefansky, "Rejecting outliers in factorial designs", Technometrics 14, 1972, 469-479,
     /// <https://doi.org/10.1080/00401706.1972.10488930>: the maximum normed residual.
     Stefansky72,
+    /// B. Rosner, "Percentage points for a generalized ESD many-outlier procedure", Technometrics 25, 1983, 165-172,
+    /// <https://doi.org/10.1080/00401706.1983.10487848>.
+    Rosner83,
     /// ISO 5725-2:1994, Accuracy (trueness and precision) of measurement methods and results, part 2, 7.3: what is out at
     /// 1 % is an outlier, what is out at 5 % alone a straggler.
     Iso5725,

@@ -1,5 +1,6 @@
 //! A test stand and what its factory certified of it: the file `stand.yaml` (`dtg-stand/1`).
 
+pub mod remarks;
 pub mod type_b;
 
 pub use type_b::{ActsOn, Evidence, TypeB};

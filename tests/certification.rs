@@ -2,92 +2,16 @@
 
 #![cfg(feature = "cli")]
 
+mod simulated;
+
 use dtg_passport::attitude;
-use dtg_passport::certification::comparison::compare;
-use dtg_passport::certification::{AngleReadings, Certification, Header, NotCertified, certify};
+use dtg_passport::certification::{AngleReadings, Header, NotCertified, certify};
 use dtg_passport::coefficients::EIGHT_POSITIONS;
 use dtg_passport::stand::Stand;
 use dtg_passport::statistics::beta::student_factor;
 use dtg_passport::statistics::random::Stream;
-use nalgebra::{Matrix3, Vector3};
-
-const HEADER: &str = r#"format: "dtg-stand/1"
-stand: {model: "SPS-2", serial: "0017"}
-certificate: {number: "C-1", issued: "2026-11-02", laboratory: "Example"}
-positions:
-  - {i: 1, j: 1, theta_deg: 0, phi_deg: 0}
-  - {i: 1, j: 2, theta_deg: 0, phi_deg: 90}
-  - {i: 1, j: 3, theta_deg: 0, phi_deg: 180}
-  - {i: 1, j: 4, theta_deg: 0, phi_deg: 270}
-  - {i: 2, j: 1, theta_deg: 90, phi_deg: 0}
-  - {i: 2, j: 2, theta_deg: 90, phi_deg: 90}
-  - {i: 2, j: 3, theta_deg: 90, phi_deg: 180}
-  - {i: 2, j: 4, theta_deg: 90, phi_deg: 270}
-"#;
-
-fn header() -> Header {
-    Header::from_yaml("header.yaml", HEADER.as_bytes()).unwrap()
-}
-
-/// Standard deviations of a simulated measurement, arcsec.
-#[derive(Clone, Copy)]
-struct Truth {
-    angles_arcsec: [Vector3<f64>; 8],
-    own: [f64; 3],
-    platform: f64,
-    base: f64,
-}
-
-impl Truth {
-    /// Deviations up to a degree, so that rotations are not just numbers added.
-    fn new(own: [f64; 3], platform: f64, base: f64) -> Self {
-        let mut stream = Stream::new(7);
-        let angles_arcsec = [(); 8].map(|()| Vector3::from([(); 3].map(|()| stream.within(3600.0).round())));
-        Self { angles_arcsec, own, platform, base }
-    }
-
-    /// Readings by exact rotations: the base turned, then the platform, then the angles of the product taken.
-    fn measured(&self, stream: &mut Stream, runs: usize) -> AngleReadings {
-        let mut each = vec![Vec::new(); 8];
-        for _ in 0..runs {
-            let platform = normal(stream, [self.platform; 3]);
-            let base = normal(stream, [self.base; 3]);
-            for (place, (_, theta, phi)) in EIGHT_POSITIONS.iter().enumerate() {
-                let own = normal(stream, self.own);
-                each[place].push(self.read(place, *theta, *phi, platform + own, base));
-            }
-        }
-        AngleReadings::new((1..=runs as u32).collect(), each).unwrap()
-    }
-
-    fn read(&self, place: usize, theta: f64, phi: f64, case: Vector3<f64>, base: Vector3<f64>) -> Vector3<f64> {
-        let nominal = attitude::nominal(theta, phi);
-        let deviation = turn(case) * turn(self.angles_arcsec[place]) * nominal * turn(base) * nominal.transpose();
-        angles(&deviation)
-    }
-}
-
-const ARCSEC: f64 = std::f64::consts::PI / 648_000.0;
-
-/// Rz(γ)·Ry(β)·Rx(α) of three angles in arcsec.
-fn turn(angles_arcsec: Vector3<f64>) -> Matrix3<f64> {
-    let a = angles_arcsec * ARCSEC;
-    attitude::deviation(&attitude::Deviation { alpha_rad: a.x, beta_rad: a.y, gamma_rad: a.z })
-}
-
-/// The angles of E, from its elements: sin β, −sin α cos β, −cos β sin γ (see the matrix above eq. (4)).
-fn angles(e: &Matrix3<f64>) -> Vector3<f64> {
-    let beta = libm::asin(e[(2, 0)]);
-    Vector3::new(libm::atan2(-e[(2, 1)], e[(2, 2)]), beta, libm::atan2(-e[(1, 0)], e[(0, 0)])) / ARCSEC
-}
-
-fn normal(stream: &mut Stream, sigma: [f64; 3]) -> Vector3<f64> {
-    Vector3::from(sigma.map(|sigma| sigma * stream.normal()))
-}
-
-fn certified(truth: &Truth, stream: &mut Stream, runs: usize) -> Certification {
-    certify(&header(), &truth.measured(stream, runs)).unwrap()
-}
+use nalgebra::{DMatrix, Matrix3};
+use simulated::{HEADER, Truth, certified, header, normal};
 
 /// The mean of the estimated variances is the true one, for every component, at 3 and 6 runs.
 #[test]
@@ -180,7 +104,8 @@ fn what_cannot_be_told_apart_is_said() {
     assert_eq!(certify(&one, &readings), Err(NotCertified::TooFewPositions));
 }
 
-/// Good stands: Bartlett's and Grubbs' tests at 5 % name something in about 5 % of them.
+/// Good stands: Cochran's and Grubbs' tests at 5 % name something in about 5 % of them; fewer positions, for where a reading is
+/// suspect they are not compared.
 #[test]
 fn tests_have_their_level() {
     let (mut worse, mut out) = (0, 0);
@@ -188,11 +113,11 @@ fn tests_have_their_level() {
     let mut stream = Stream::new(21);
     for _ in 0..1000 {
         let found = certified(&truth, &mut stream, 5);
-        worse += u32::from(found.suspects.worse.is_some());
+        worse += u32::from(!found.suspects.worse.is_empty());
         out += u32::from(!found.suspects.outliers.is_empty());
     }
     println!("of 1000 good stands {worse} have a worse position, {out} a reading that is out");
-    assert!((30..80).contains(&worse) && (30..80).contains(&out), "{worse} {out}");
+    assert!((15..70).contains(&worse) && (30..80).contains(&out), "{worse} {out}");
 }
 
 /// One reading moved, one position made worse: both are named, and nothing is dropped.
@@ -214,9 +139,8 @@ fn suspects_are_named() {
     let mut stream = Stream::new(9);
     each[6].iter_mut().for_each(|run| *run += normal(&mut stream, [6.0; 3]));
     let found = certify(&header(), &AngleReadings::new(good.runs().to_vec(), each).unwrap()).unwrap();
-    let worse = found.suspects.worse.unwrap();
-    assert_eq!((worse.index.i, worse.index.j), (2, 3));
-    assert!(found.own_scatter);
+    let worse: Vec<_> = found.suspects.worse.iter().map(|at| (at.index.i, at.index.j)).collect();
+    assert_eq!(worse, [(2, 3)]);
     let u = |place: usize| found.stand.positions[place].u_alpha_arcsec.unwrap();
     assert!(u(6) > 2.0 * u(0), "{} {}", u(6), u(0));
 }
@@ -257,66 +181,15 @@ fn the_stand_file_reads_back() {
     }
 }
 
-/// Check runs of the same stand: about 1 % are refused. A moved position is named; a turned stand is told from it.
+/// docs/certification.md: the turns of platform and base together have the condition 1 + √2. By hand: their normal matrix is 8 on the
+/// diagonal and the sum of the eight attitudes beside it, whose only row is (0, −4, 4), of length 4 √2.
 #[test]
-fn a_check_run() {
-    let truth = Truth::new([1.0; 3], 2.0, 2.0);
-    let mut stream = Stream::new(31);
-    let certificate = certified(&truth, &mut stream, 5).stand;
-    let header = header();
-    let against = |readings: &AngleReadings| {
-        let again = certify(&header, readings).ok();
-        compare(&certificate, &header, readings, again.as_ref()).unwrap()
-    };
-    let good = |stream: &mut Stream, runs: usize| {
-        let certificate = certified(&truth, stream, 5).stand;
-        let readings = truth.measured(stream, runs);
-        let again = certify(&header, &readings).ok();
-        compare(&certificate, &header, &readings, again.as_ref()).unwrap().same_stand
-    };
-    let refused = (0..400).filter(|_| !good(&mut stream, 1)).count();
-    println!("of 400 check runs of the same stand {refused} are refused");
-    assert!(refused <= 20, "{refused}");
-    let mut moved = truth;
-    moved.angles_arcsec[5].z += 12.0;
-    let found = against(&moved.measured(&mut stream, 1));
-    assert!(!found.same_stand);
-    let out: Vec<_> = found.positions.iter().filter(|at| !at.repeats).map(|at| (at.index.i, at.index.j)).collect();
-    assert_eq!(out, [(2, 2)]);
-    assert!((found.positions[5].turn_arcsec[2] - 12.0).abs() < 5.0, "{:?}", found.positions[5]);
-    assert!(found.common.test.is_none() && found.words.iter().any(|words| words.contains("two runs of the check")));
-    let mut turned = truth;
-    turned.angles_arcsec.iter_mut().for_each(|angles| angles.z += 60.0);
-    let found = against(&turned.measured(&mut stream, 5));
-    assert!(!found.same_stand && found.positions.iter().all(|at| at.repeats), "{found:?}");
-    assert!(found.words.iter().any(|words| words.contains("turned together")));
-    assert!((found.common.platform_arcsec[2] - 60.0).abs() < 10.0);
-    let other = Truth::new([1.0; 3], 2.0, 2.0).measured(&mut stream, 1);
-    let backwards: Vec<_> = other.each_arcsec().iter().rev().cloned().collect();
-    let found = against(&AngleReadings::new(vec![1], backwards).unwrap());
-    assert!(found.words.iter().any(|words| words.contains("another stand")), "{:?}", found.words);
-    let again = (0..200).filter(|_| !good(&mut stream, 3)).count();
-    println!("of 200 checks of three runs {again} are refused");
-    assert!(again <= 14, "{again}");
-}
-
-#[test]
-fn a_check_needs_the_same_stand_and_an_uncertainty() {
-    let truth = Truth::new([1.0; 3], 2.0, 2.0);
-    let mut stream = Stream::new(41);
-    let certificate = certified(&truth, &mut stream, 5).stand;
-    let one = truth.measured(&mut stream, 1);
-    let other = Header::from_yaml("h.yaml", HEADER.replace("0017", "0018").as_bytes()).unwrap();
-    let error = compare(&certificate, &other, &one, None).unwrap_err().to_string();
-    assert!(error.contains("SPS-2 0017") && error.contains("SPS-2 0018"), "{error}");
-    let mut fewer = header();
-    fewer.positions.pop();
-    assert!(compare(&certificate, &fewer, &one, None).unwrap_err().to_string().contains("(2, 4)"));
-    let mut bare = certificate.clone();
-    bare.certificate.repeatability_arcsec = None;
-    assert!(compare(&bare, &header(), &one, None).unwrap_err().to_string().contains("no repeatability"));
-    let mut exact = certificate;
-    exact.positions[0].u_alpha_arcsec = None;
-    let found = compare(&exact, &header(), &one, None).unwrap();
-    assert!(found.words.iter().any(|words| words.contains("taken as exact")));
+fn platform_and_base_can_be_told_apart() {
+    let mut both = DMatrix::zeros(24, 6);
+    for (place, (_, theta, phi)) in EIGHT_POSITIONS.iter().enumerate() {
+        both.fixed_view_mut::<3, 3>(3 * place, 0).copy_from(&Matrix3::identity());
+        both.fixed_view_mut::<3, 3>(3 * place, 3).copy_from(&attitude::nominal(*theta, *phi));
+    }
+    let values = both.singular_values();
+    assert!((values.max() / values.min() - (1.0 + 2.0_f64.sqrt())).abs() < 1e-12, "{values}");
 }

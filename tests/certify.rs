@@ -133,7 +133,11 @@ fn form_does_not_matter() {
     assert_eq!(code, 0, "{said}");
     assert!(text.contains("averaged with it: 1."), "{text}");
     assert_eq!(run(&folder, "angles.csv --stand header.yaml -o stand.yaml").0, 0);
-    let read = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
+    // The digest alone tells that it was another file.
+    let read = |name: &str| {
+        let text = fs::read_to_string(folder.join(name)).unwrap();
+        text.lines().filter(|line| !line.contains("readings_sha256")).map(str::to_owned).collect::<Vec<_>>()
+    };
     assert_eq!(read("other.yaml"), read("stand.yaml"));
 }
 
@@ -168,4 +172,101 @@ fn a_check_has_an_exit_code() {
     fs::write(folder.join("header.yaml"), example("header.yaml").replace("0017", "0018")).unwrap();
     let (code, _, said) = run(&folder, "check.csv --stand header.yaml --against stand.yaml");
     assert!(code == 1 && said.contains("SPS-2 0017") && said.contains("SPS-2 0018"), "{said}");
+}
+
+/// The cells of every line of a run, changed.
+fn run_changed(run: &str, change: impl Fn(Vec<String>) -> Vec<String>) -> String {
+    let lines = example("angles.csv");
+    let lines = lines.lines().map(|line| {
+        let cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        let changed = cells.len() == 6 && cells[2] == run;
+        (if changed { change(cells) } else { cells }).join(",") + "\n"
+    });
+    lines.collect()
+}
+
+fn scaled(run: &str, factor: f64) -> String {
+    run_changed(run, |mut cells| {
+        cells[3..].iter_mut().for_each(|cell| *cell = format!("{:.4}", cell.parse::<f64>().unwrap() * factor));
+        cells
+    })
+}
+
+#[test]
+fn mistakes_of_a_whole_run_are_named() {
+    let folder = folder("runs");
+    let good = example("angles.csv");
+    let copy_as = |from: &str, to: &str| -> String {
+        let copied = good.lines().filter(|line| line.split(',').nth(2) == Some(from));
+        let renamed = copied.map(|line| {
+            let mut cells: Vec<&str> = line.split(',').collect();
+            cells[2] = to;
+            cells.join(",") + "\n"
+        });
+        renamed.collect()
+    };
+    let identical: String =
+        good.lines().filter(|line| line.split(',').nth(2) != Some("3")).map(|line| format!("{line}\n")).collect();
+    let two = good.lines().filter(|line| line.starts_with(['#', 'i']) || line.split(',').nth(2) == Some("1"));
+    let two: String = two.map(|line| format!("{line}\n")).collect();
+    let cases: Vec<(String, &[&str])> = vec![
+        (good.clone() + &copy_as("2", "6"), &["r.csv:43:5: run", "run 6 with every angle of run 2", "delete the copy"]),
+        (identical + &copy_as("5", "3"), &["run 5 with every angle of run 3"]),
+        (two + &copy_as("1", "2"), &["run 2 with every angle of run 1"]),
+        (scaled("3", 1.0 / 60.0), &["r.csv:19:5: run", "run 3", "divided by 60", "arcminutes"]),
+        (scaled("1", 1.0 / 3600.0), &["run 1", "divided by 3600", "degrees"]),
+        (scaled("4", 60.0), &["run 4", "60 times those of the other runs"]),
+        (scaled("2", -1.0), &["run 2", "opposite sign", "correct the sign"]),
+    ];
+    for (readings, words) in cases {
+        let (code, said) = with_readings(&folder, &readings);
+        assert_eq!(code, 2, "{said}");
+        words.iter().for_each(|word| assert!(said.contains(word), "{said:?} without {word:?}"));
+        assert_eq!(said.matches("r.csv:").count(), 1, "one run is named: {said}");
+    }
+}
+
+/// Other angles never go under a number that is there, --force or not.
+#[test]
+fn a_number_keeps_its_angles() {
+    let folder = folder("number");
+    assert_eq!(run(&folder, "angles.csv --stand header.yaml -o stand.yaml").0, 0);
+    let old = fs::read(folder.join("stand.yaml")).unwrap();
+    fs::write(folder.join("new.csv"), replaced("1,1,", 3, |text| format!("{}", text.parse::<f64>().unwrap() + 3.0)))
+        .unwrap();
+    for arguments in [
+        "new.csv --against stand.yaml -o new.yaml",
+        "new.csv --against stand.yaml --stand header.yaml -o new.yaml",
+        "new.csv --against stand.yaml --stand header.yaml -o new.yaml --force",
+        "new.csv --stand header.yaml -o stand.yaml --force",
+    ] {
+        let (code, _, said) = run(&folder, arguments);
+        assert_eq!(code, 1, "{arguments}: {said}");
+        assert!(said.contains("certificate C-2026-0142") && said.contains("position (1, 1)"), "{said}");
+        assert!(
+            !folder.join("new.yaml").exists() && fs::read(folder.join("stand.yaml")).unwrap() == old,
+            "{arguments}"
+        );
+    }
+    // The same angles under the old number, and no header that says when: nothing to write.
+    let (code, _, said) = run(&folder, "angles.csv --against stand.yaml -o new.yaml");
+    assert!(code == 2 && said.contains("--stand HEADER.yaml"), "{said}");
+    let header = example("header.yaml").replace("C-2026-0142", "C-2027-0007");
+    fs::write(folder.join("header.yaml"), header).unwrap();
+    let (code, _, said) = run(&folder, "new.csv --against stand.yaml --stand header.yaml -o new.yaml");
+    assert!(said.contains("wrote new.yaml"), "{code} {said}");
+}
+
+#[test]
+fn what_is_odd_is_said() {
+    let folder = folder("odd");
+    let header = example("header.yaml").replace("temperature_c: 20.0", "temperature_c: 293.15");
+    fs::write(folder.join("header.yaml"), header).unwrap();
+    let (code, text, _) = run(&folder, "angles.csv --stand header.yaml -o stand.yaml");
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(code == 0 && text.contains("WARNING: temperature_c is 293.15") && text.contains("in kelvin"), "{text}");
+    let shifted = replaced("2,1,", 3, |text| format!("{:.1}", text.parse::<f64>().unwrap() + 67_833.0));
+    fs::write(folder.join("r.csv"), shifted).unwrap();
+    let (code, text, _) = run(&folder, "r.csv --stand header.yaml -o odd.yaml");
+    assert!(code == 0 && text.contains("alpha_arcsec of position (2, 1) is 678"), "{text}");
 }

@@ -1,5 +1,7 @@
 //! Uncertainty of type B in a certificate, and the readings it was made from: read, written, added once, printed.
 
+#![cfg(feature = "cli")]
+
 mod made;
 
 use dtg_passport::certification::{AngleReadings, Certification, Header, certify};

@@ -10,7 +10,7 @@ use super::suspects::{OUTLIER, STRAGGLER};
 use super::{AngleReadings, Certification, Header};
 use crate::calibration::inputs::Turn;
 use crate::coefficients::PositionIndex;
-use crate::stand::{CertifiedPosition, Stand};
+use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
 use crate::statistics::beta::f_larger;
 use crate::statistics::least_squares::Factorised;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -74,8 +74,8 @@ pub struct CommonTurn {
     pub platform_arcsec: [f64; 3],
     /// Of the base, about east, north, up, arcsec; what cannot be told from the platform is there.
     pub base_arcsec: [f64; 3],
-    /// Whether it is more than what was stated; `None` when that is not known.
-    pub test: Option<Test>,
+    /// Whether it is more than runs vary by, or why that is not known, in words.
+    pub test: Result<Test, &'static str>,
 }
 
 /// A check run against a certificate.
@@ -89,7 +89,7 @@ pub struct Comparison {
     pub all: Test,
     /// Each position.
     pub positions: Vec<ComparedPosition>,
-    /// What all share that repeat.
+    /// The turn shared by all positions that repeat.
     pub common: CommonTurn,
     /// Whether it is still the same stand.
     pub same_stand: bool,
@@ -134,12 +134,15 @@ pub fn compare(
             Some(ComparedPosition { index, turn_arcsec: turn, u_arcsec: u, test, repeats })
         })
         .collect();
-    let common = differences.common(&repeating, certificate, again).ok_or(NotCompared::TooFewPositions)?;
-    let moved = common.test.is_some_and(|test| test.probability < OUTLIER);
+    let runs = readings.runs().len();
+    let between = Between::new(&certificate.certificate, runs, again);
+    let between = between.as_ref().map_err(|why| *why);
+    let common = differences.common(&repeating, certificate, between).ok_or(NotCompared::TooFewPositions)?;
+    let moved = common.test.is_ok_and(|test| test.probability < OUTLIER);
     let same_stand = repeating.len() == places.len() && all.probability >= OUTLIER && !moved;
     let mut found = Comparison {
         certificate: certificate.certificate.number.clone(),
-        runs: readings.runs().len(),
+        runs,
         all,
         positions,
         common,
@@ -151,6 +154,11 @@ pub fn compare(
         let missing = "the certificate states no uncertainty of some angles (u_alpha_arcsec and so on): taken as exact, \
                        which makes differences look larger than they are";
         found.words.push(missing.to_owned());
+    }
+    let evidence = certificate.certificate.evidence.as_ref();
+    if evidence.is_some_and(|evidence| readings.sha256() == Some(&evidence.readings_sha256)) {
+        let same = "these are the readings that the certificate was made from: they show nothing about the stand today";
+        found.words.push(same.to_owned());
     }
     Ok(found)
 }
@@ -290,11 +298,20 @@ impl Differences {
     }
 
     /// What the `repeating` positions share (all, when none repeat), and whether that was to be expected.
-    fn common(&self, repeating: &[usize], certificate: &Stand, again: Option<&Certification>) -> Option<CommonTurn> {
+    fn common(
+        &self,
+        repeating: &[usize],
+        certificate: &Stand,
+        between: Result<&Between, &'static str>,
+    ) -> Option<CommonTurn> {
         let every: Vec<usize> = (0..certificate.positions.len()).collect();
         let (shared, r_inverse, _) = self.shared(if repeating.is_empty() { &every } else { repeating })?;
         let base = &self.base_axes * shared.rows(3, shared.len() - 3);
-        let test = self.common_test(&shared, &r_inverse, certificate, again);
+        let certificate = &certificate.certificate;
+        let test = between.and_then(|between| {
+            let test = self.common_test(&shared, &r_inverse, certificate, between);
+            test.ok_or("the certificate does not state common_platform_arcsec and common_base_arcsec")
+        });
         Some(CommonTurn {
             platform_arcsec: [shared[0], shared[1], shared[2]],
             base_arcsec: [base[0], base[1], base[2]],
@@ -302,33 +319,77 @@ impl Differences {
         })
     }
 
-    /// A check of one run does not know what its own set-up adds; then there is no test.
+    /// Judges the turn that all share by what whole runs vary by; `None` when that is not known.
     fn common_test(
         &self,
         shared: &DVector<f64>,
         r_inverse: &DMatrix<f64>,
-        certificate: &Stand,
-        again: Option<&Certification>,
+        certificate: &Certificate,
+        between: &Between,
     ) -> Option<Test> {
-        let components = &again?.components;
-        let runs = again?.runs.len() as f64;
-        let platform = certificate.certificate.common_platform_arcsec?;
-        let base = match &components.base {
-            Some(base) => {
-                let stated = certificate.certificate.common_base_arcsec?;
-                stated * stated + base.between_runs_arcsec2 / runs
-            }
-            None => 0.0,
+        let platform = square(certificate.common_platform_arcsec?) + between.platform_arcsec2 / between.runs;
+        let base = match shared.len() {
+            3 => 0.0,
+            _ => square(certificate.common_base_arcsec?) + between.base_arcsec2 / between.runs,
         };
+        // The positions' own scatter, certificate and check, has its part in what all seem to share.
         let mut covariance = r_inverse * r_inverse.transpose();
         for at in 0..shared.len() {
-            let of_platform = platform * platform + components.platform.between_runs_arcsec2 / runs;
-            covariance[(at, at)] += if at < 3 { of_platform } else { base };
+            covariance[(at, at)] += if at < 3 { platform } else { base };
         }
         let chi_square = shared.dot(&covariance.cholesky()?.solve(shared));
-        let freedom = components.platform.degrees_of_freedom.min(3.0 * (runs - 1.0)).min(self.degrees_of_freedom);
+        let freedom = between.degrees_of_freedom.min(self.degrees_of_freedom);
         let probability = f_larger(chi_square / shared.len() as f64, shared.len(), freedom);
         Some(Test { chi_square, degrees_of_freedom: shared.len(), probability })
+    }
+}
+
+fn square(value: f64) -> f64 {
+    value * value
+}
+
+/// What runs vary by as a whole, per axis, and how many runs the check averages.
+struct Between {
+    runs: f64,
+    platform_arcsec2: f64,
+    base_arcsec2: f64,
+    /// Three axes in each run but one. Both sides enter the test, so those of the side that has fewer.
+    degrees_of_freedom: f64,
+}
+
+impl Between {
+    /// Of the check itself when it has several runs, else of the readings that the certificate was made from.
+    ///
+    /// # Errors
+    /// Why neither shows it, in words.
+    fn new(certificate: &Certificate, runs: usize, again: Option<&Certification>) -> Result<Self, &'static str> {
+        let evidence = certificate.evidence.as_ref().map(|evidence| f64::from(evidence.runs));
+        let degrees_of_freedom = |runs: f64| 3.0 * (runs - 1.0);
+        let of_certificate = evidence.map_or(f64::INFINITY, degrees_of_freedom);
+        if runs > 1 {
+            let components = &again.ok_or("the check's runs do not show what they vary by")?.components;
+            let runs = runs as f64;
+            return Ok(Self {
+                runs,
+                platform_arcsec2: components.platform.between_runs_arcsec2,
+                base_arcsec2: components.base.map_or(0.0, |base| base.between_runs_arcsec2),
+                degrees_of_freedom: degrees_of_freedom(runs).min(of_certificate),
+            });
+        }
+        let evidence = evidence.ok_or(
+            "one run does not show how far set-ups differ, and the certificate has no evidence of how many runs its \
+             common_* are from; measure two runs or more",
+        )?;
+        let of_one_run = |common: Option<f64>, on: ActsOn| {
+            let of_mean = square(common.unwrap_or(0.0)) - certificate.type_b_arcsec2(on);
+            of_mean.max(0.0) * evidence
+        };
+        Ok(Self {
+            runs: 1.0,
+            platform_arcsec2: of_one_run(certificate.common_platform_arcsec, ActsOn::Platform),
+            base_arcsec2: of_one_run(certificate.common_base_arcsec, ActsOn::Base),
+            degrees_of_freedom: of_certificate,
+        })
     }
 }
 
@@ -364,12 +425,17 @@ fn words(found: &Comparison, moved: bool) -> Vec<String> {
             "all positions have turned together: a datum has changed (gyro seat, level, azimuth), not single positions"
                 .to_owned(),
         );
-    } else if found.common.test.is_none() {
-        said.push(
-            "whether the stand has turned as a whole is not judged: it takes two runs of the check, whose set-up then shows \
-             itself, and a certificate that states common_platform_arcsec and common_base_arcsec"
-                .to_owned(),
-        );
+    } else {
+        match found.common.test {
+            Err(why) => said.push(format!("whether the stand has turned as a whole is not judged: {why}")),
+            Ok(test) if test.probability < STRAGGLER => {
+                said.push(
+                    "all positions have turned together a little farther than chance explains: measure more runs"
+                        .to_owned(),
+                );
+            }
+            Ok(_) => {}
+        }
     }
     said
 }

@@ -61,8 +61,6 @@ pub struct Components {
     pub own_arcsec2: [Variance; 3],
     /// The same, one for all axes: what a certificate calls repeatability.
     pub pooled_arcsec2: Variance,
-    /// Scatter of each position's returns over that of all, and its degrees of freedom.
-    pub of_positions: Vec<Variance>,
     /// Mean squares of the residuals of each axis, arcsec²: what tests compare. They are less certain of which axis it
     /// is than [`Components::own_arcsec2`], but scatter less themselves.
     pub axis_squares_arcsec2: [Variance; 3],
@@ -78,8 +76,8 @@ pub struct Components {
     pub run_turns: Vec<RunTurn>,
     /// What is left of every reading, `[run][3 position + axis]`, arcsec along x, y, z of the case.
     pub(crate) residuals: Vec<DVector<f64>>,
-    /// Share of its own variance that a residual keeps, `[3 position + axis]`.
-    pub(crate) kept: Vec<f64>,
+    /// How much of each row's scatter the residual of a row of the same run contains: rows × rows, `[3 position + axis]`.
+    pub(crate) keeps: DMatrix<f64>,
 }
 
 /// How platform and base of a run act on the turns of every position.
@@ -155,8 +153,7 @@ pub(crate) fn estimate(turns: &[Turn], runs: &[u32], differences: &[DVector<f64>
     let effects: Vec<DVector<f64>> = differences.iter().map(|run| &model.solve * run).collect();
     let residuals: Vec<DVector<f64>> =
         differences.iter().zip(&effects).map(|(run, effect)| run - &model.design * effect).collect();
-    let squares =
-        DVector::from_fn(rows, |row, _| residuals.iter().map(|run| run[row] * run[row]).sum::<f64>() / changes);
+    let squares = mean_squares(&residuals);
     let axis = |row: usize| row % 3;
     let own = grouped(&squares, &keeps, 3, axis, &|_| 1.0).ok_or(NotCertified::TooFewPositions)?;
     let own_arcsec2 = [0, 1, 2].map(|a| own[a].own.over(changes));
@@ -169,8 +166,7 @@ pub(crate) fn estimate(turns: &[Turn], runs: &[u32], differences: &[DVector<f64>
     let scale = |row: usize| own_arcsec2[axis(row)].value;
     let of_positions =
         grouped(&squares, &keeps, rows / 3, |row| row / 3, &scale).ok_or(NotCertified::TooFewPositions)?;
-    let (of_positions, position_squares) =
-        of_positions.into_iter().map(|group| (group.own.over(changes), group.mean_square.over(changes))).unzip();
+    let position_squares = of_positions.into_iter().map(|group| group.mean_square.over(changes)).collect();
     let of_effect = |at: usize| {
         let seen = effects.iter().map(|effect| effect[at] * effect[at]).sum::<f64>() / changes;
         let of_scatter = (0..rows).map(|row| model.solve[(at, row)] * model.solve[(at, row)] * scale(row)).sum::<f64>();
@@ -180,7 +176,6 @@ pub(crate) fn estimate(turns: &[Turn], runs: &[u32], differences: &[DVector<f64>
     Ok(Components {
         own_arcsec2,
         pooled_arcsec2,
-        of_positions,
         axis_squares_arcsec2,
         position_squares,
         platform: common(0, 3),
@@ -188,8 +183,35 @@ pub(crate) fn estimate(turns: &[Turn], runs: &[u32], differences: &[DVector<f64>
         base_axes: columns - 3,
         run_turns: runs.iter().zip(&effects).map(|(run, effect)| run_turn(*run, effect, &model)).collect(),
         residuals,
-        kept: keeps.diagonal().iter().copied().collect(),
+        keeps,
     })
+}
+
+impl Components {
+    /// Returns the sum of squares of the residuals of an axis over their mean square.
+    pub(crate) fn kept(&self, axis: usize) -> f64 {
+        let rows = (axis..self.keeps.nrows()).step_by(3);
+        rows.map(|row| self.keeps[(row, row)]).sum::<f64>() * (self.residuals.len() as f64 - 1.0)
+    }
+
+    /// Returns the scatter of the returns to each position over that of all, and its degrees of freedom: of the positions
+    /// `worse` each by itself, of all others together.
+    pub(crate) fn scatter_of_positions(&self, worse: &[usize]) -> Option<Vec<Variance>> {
+        let rows = self.keeps.nrows();
+        let changes = self.residuals.len() as f64 - 1.0;
+        let squares = mean_squares(&self.residuals);
+        let group = |place: usize| worse.iter().position(|at| *at == place).unwrap_or(worse.len());
+        let scale = |row: usize| self.own_arcsec2[row % 3].value;
+        let groups = grouped(&squares, &self.keeps, worse.len() + 1, |row| group(row / 3), &scale)?;
+        Some((0..rows / 3).map(|place| groups[group(place)].own.over(changes)).collect())
+    }
+}
+
+/// The mean squares of the residuals of every row over the runs.
+fn mean_squares(residuals: &[DVector<f64>]) -> DVector<f64> {
+    let changes = residuals.len() as f64 - 1.0;
+    let rows = residuals.first().map_or(0, DVector::len);
+    DVector::from_fn(rows, |row, _| residuals.iter().map(|run| run[row] * run[row]).sum::<f64>() / changes)
 }
 
 fn run_turn(run: u32, effect: &DVector<f64>, model: &RunModel) -> RunTurn {

@@ -1,7 +1,7 @@
 //! The certified stand file as text: canonical, with comments on how its numbers came about.
 
 use super::Certification;
-use crate::stand::Stand;
+use crate::stand::{ActsOn, Stand};
 use crate::text::{Unreadable, canonical};
 
 impl Certification {
@@ -57,12 +57,15 @@ impl Certification {
     }
 
     fn of_the_positions(&self) -> Vec<String> {
-        let scatter = if self.own_scatter {
-            "each position's own scatter (Bartlett's test: they differ)"
+        let worse: Vec<String> = self.suspects.worse.iter().map(|at| at.index.to_string()).collect();
+        let scatter = if worse.is_empty() {
+            "the scatter of all positions together, axis by axis".to_owned()
         } else {
-            "the scatter of all positions together, axis by axis"
+            format!("its own scatter for position {} (Cochran's test), that of the others together", worse.join(", "))
         };
-        let mut said = vec![format!("Means of {} runs. u_*: {scatter}, over the root of the runs.", self.runs.len())];
+        let type_b = if self.stand.certificate.type_b_arcsec2(ActsOn::Position) > 0.0 { ", and type_b" } else { "" };
+        let runs = self.runs.len();
+        let mut said = vec![format!("Means of {runs} runs. u_*: {scatter}, over the root of the runs{type_b}.")];
         said.extend(self.warnings.iter().map(|warning| format!("Warning: {warning}.")));
         said
     }

@@ -3,7 +3,7 @@
 //! * [`header`]: the stand file before the measurement.
 //! * [`readings`]: the angles read, every position in every run.
 //! * [`components`]: what scatters, and what all positions of a run share.
-//! * [`suspects`]: a position that is worse (Bartlett), a reading that is out (Grubbs).
+//! * [`suspects`]: a position that is worse (Cochran), a reading that is out (Grubbs), runs that agree too well.
 //! * [`comparison`]: a later check run against the certificate.
 //! * [`document`]: the stand file as text, with how its numbers came about.
 //!
@@ -11,6 +11,7 @@
 
 pub mod comparison;
 pub mod components;
+mod deletion;
 pub mod document;
 pub mod header;
 pub mod readings;
@@ -20,7 +21,8 @@ pub use header::{Header, NominalPosition};
 pub use readings::AngleReadings;
 
 use crate::calibration::inputs::Turn;
-use crate::stand::{ActsOn, Certificate, CertifiedPosition, Evidence, Stand};
+use crate::coefficients::PositionIndex;
+use crate::stand::{self, ActsOn, Certificate, CertifiedPosition, Evidence, Stand};
 use components::{Common, Components, Variance, case_turn, turns_at};
 use nalgebra::{DVector, Matrix3, Vector3};
 use suspects::Suspects;
@@ -63,6 +65,44 @@ pub enum NotCertified {
     NoScatter,
 }
 
+/// A certificate's number that already stands for other angles.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "certificate {number} already gives other angles for this stand, first for position {index}; give the new certificate a \
+     number and dates of its own in the header (--stand)"
+)]
+pub struct NumberInUse {
+    /// The number.
+    pub number: String,
+    /// The first position with other angles.
+    pub index: PositionIndex,
+}
+
+impl Certification {
+    /// Checks that the new certificate does not put other angles under the number of one that is `there`.
+    ///
+    /// # Errors
+    /// [`NumberInUse`] if it does.
+    pub fn check_number(&self, there: &Stand) -> Result<(), NumberInUse> {
+        let number = &self.stand.certificate.number;
+        let digest =
+            |stand: &Stand| stand.certificate.evidence.as_ref().map(|evidence| evidence.readings_sha256.clone());
+        let same_readings = digest(there).is_some() && digest(there) == digest(&self.stand);
+        if *number != there.certificate.number || same_readings {
+            return Ok(());
+        }
+        let angles = |at: &CertifiedPosition| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec];
+        let kept = |at: &CertifiedPosition, among: &[CertifiedPosition]| {
+            among.iter().any(|other| other.index() == at.index() && angles(other) == angles(at))
+        };
+        let new = self.stand.positions.iter().find(|at| !kept(at, &there.positions));
+        match new.or_else(|| there.positions.iter().find(|at| !kept(at, &self.stand.positions))) {
+            Some(at) => Err(NumberInUse { number: number.clone(), index: at.index() }),
+            None => Ok(()),
+        }
+    }
+}
+
 /// A certified stand and where its numbers come from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Certification {
@@ -76,8 +116,6 @@ pub struct Certification {
     pub components: Components,
     /// Positions that are worse, readings that are out.
     pub suspects: Suspects,
-    /// Whether every position states its own scatter, because Bartlett's test finds that they differ.
-    pub own_scatter: bool,
     /// What who signs the certificate should know, a sentence each.
     pub warnings: Vec<String>,
 }
@@ -100,8 +138,9 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     }
     let turns = turns_of(header, readings);
     let components = components::estimate(&turns, runs, &differences(&turns, readings))?;
-    let suspects = Suspects::of(header, runs, &components);
-    let own_scatter = suspects.worse.is_some();
+    let suspects = Suspects::of(header, readings, &components);
+    let worse: Vec<usize> = suspects.worse.iter().map(|at| at.place).collect();
+    let scatter = components.scatter_of_positions(&worse).filter(|_| !worse.is_empty());
     let mut stand = Stand {
         format: header.format.clone(),
         stand: header.stand.clone(),
@@ -113,8 +152,8 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     let each = header.positions.iter().zip(readings.means_arcsec()).zip(&turns).enumerate();
     stand.positions = each
         .map(|(place, ((nominal, mean), turn))| {
-            let scatter = own_scatter.then(|| components.of_positions[place]);
-            let own = components.own_arcsec2.map(|axis| of_mean(axis, scatter, number, &header.certificate));
+            let of_position = scatter.as_ref().map(|scatter| scatter[place]);
+            let own = components.own_arcsec2.map(|axis| of_mean(axis, of_position, number, &header.certificate));
             certified(nominal, &mean, turn, &own)
         })
         .collect();
@@ -130,10 +169,11 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     certificate.common_base_arcsec = common(components.base.as_ref(), ActsOn::Base);
     let of_readings = |sha256: &str| Evidence { readings_sha256: sha256.to_owned(), runs: runs.len() as u32 };
     certificate.evidence = readings.sha256().map(of_readings);
-    let mut warnings = suspects.warnings();
+    let mut warnings = suspects.warnings(runs);
     warnings.extend(remarks(&components, runs.len(), &stand.positions));
+    warnings.extend(stand::remarks::of(&stand.certificate, &stand.positions));
     let (runs, repeated_rows) = (runs.to_vec(), readings.repeated_rows());
-    Ok(Certification { stand, runs, repeated_rows, components, suspects, own_scatter, warnings })
+    Ok(Certification { stand, runs, repeated_rows, components, suspects, warnings })
 }
 
 /// An angle that never changes from run to run.

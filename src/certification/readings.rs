@@ -1,5 +1,7 @@
 //! The angles read in every position and run: CSV `i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec`.
 
+mod whole_runs;
+
 use super::header::NominalPosition;
 use crate::coefficients::PositionIndex;
 use crate::stand::LARGEST_DEVIATION_DEG;
@@ -22,6 +24,8 @@ pub const LARGEST_SCATTER_ARCSEC: f64 = 600.0;
 pub struct AngleReadings {
     runs: Vec<u32>,
     each_arcsec: Vec<Vec<Vector3<f64>>>,
+    /// `[position][run]`, of the first row of each; empty when the readings come from no file.
+    lines: Vec<Vec<usize>>,
     repeated_rows: usize,
     sha256: Option<String>,
 }
@@ -34,6 +38,9 @@ pub struct NotBalanced;
 /// Where a reading stands: its position and its run.
 type Place = (PositionIndex, u32);
 
+/// A row of the file: where it stands, and the angles in arcsec.
+type Reading<'t> = (Place, Vector3<f64>, &'t Row);
+
 impl AngleReadings {
     /// `each_arcsec[position][run]` holds (α, β, γ) of a position in a run; `runs` are the runs' numbers.
     ///
@@ -42,7 +49,7 @@ impl AngleReadings {
     pub fn new(runs: Vec<u32>, each_arcsec: Vec<Vec<Vector3<f64>>>) -> Result<Self, NotBalanced> {
         let balanced = !runs.is_empty() && !each_arcsec.is_empty();
         if balanced && each_arcsec.iter().all(|position| position.len() == runs.len()) {
-            Ok(Self { runs, each_arcsec, repeated_rows: 0, sha256: None })
+            Ok(Self { runs, each_arcsec, lines: Vec::new(), repeated_rows: 0, sha256: None })
         } else {
             Err(NotBalanced)
         }
@@ -57,7 +64,7 @@ impl AngleReadings {
     pub fn from_csv(name: &str, bytes: &[u8], positions: &[NominalPosition]) -> Result<Self, Unreadable> {
         let table = Table::read(name, bytes, &COLUMNS)?;
         let mut problems = Vec::new();
-        let mut rows: Vec<(Place, Vector3<f64>, &Row)> = Vec::new();
+        let mut rows: Vec<Reading> = Vec::new();
         for row in &table.rows {
             if problems.len() >= MOST_PROBLEMS {
                 break;
@@ -73,7 +80,11 @@ impl AngleReadings {
             problems = incomplete(positions, &rows);
         }
         if problems.is_empty() {
-            problems = slips(&table, &rows);
+            let others = other_runs(&rows);
+            problems = whole_runs::problems(&table, &rows, &others);
+            if problems.is_empty() {
+                problems = slips(&table, &rows, &others);
+            }
         }
         if problems.is_empty() {
             Ok(Self { sha256: Some(sha256_hex(bytes)), ..Self::averaged(positions, &rows) })
@@ -82,18 +93,22 @@ impl AngleReadings {
         }
     }
 
-    fn averaged(positions: &[NominalPosition], rows: &[(Place, Vector3<f64>, &Row)]) -> Self {
-        let mut sums: BTreeMap<Place, (Vector3<f64>, f64)> = BTreeMap::new();
-        for (place, angles, _) in rows {
-            let (sum, count) = sums.entry(*place).or_insert((Vector3::zeros(), 0.0));
-            *sum += angles;
-            *count += 1.0;
-        }
+    fn averaged(positions: &[NominalPosition], rows: &[Reading]) -> Self {
+        let averages = averages(rows);
         let runs: BTreeSet<u32> = rows.iter().map(|((_, run), ..)| *run).collect();
-        let mean = |at: &NominalPosition, run: &u32| sums.get(&(at.index(), *run)).map(|(sum, count)| sum / *count);
-        let of_position = |at: &NominalPosition| runs.iter().filter_map(|run| mean(at, run)).collect();
-        let each_arcsec: Vec<Vec<_>> = positions.iter().map(of_position).collect();
-        Self { runs: runs.into_iter().collect(), each_arcsec, repeated_rows: rows.len() - sums.len(), sha256: None }
+        let of_position = |at: &NominalPosition| -> Vec<_> {
+            runs.iter().filter_map(|run| averages.get(&(at.index(), *run))).collect()
+        };
+        let each: Vec<_> = positions.iter().map(of_position).collect();
+        let angles = |runs: &Vec<&(Vector3<f64>, usize)>| runs.iter().map(|(angles, _)| *angles).collect();
+        let lines = |runs: &Vec<&(Vector3<f64>, usize)>| runs.iter().map(|(_, line)| *line).collect();
+        Self {
+            runs: runs.into_iter().collect(),
+            each_arcsec: each.iter().map(angles).collect(),
+            lines: each.iter().map(lines).collect(),
+            repeated_rows: rows.len() - averages.len(),
+            sha256: None,
+        }
     }
 
     /// The runs' numbers, ascending.
@@ -104,6 +119,12 @@ impl AngleReadings {
     /// (α, β, γ) in arcseconds: `[position][run]`, positions in the order they were asked for.
     pub fn each_arcsec(&self) -> &[Vec<Vector3<f64>>] {
         &self.each_arcsec
+    }
+
+    /// Returns the line of the file on which a position (by its place in the order asked for) is read in a run (by its place
+    /// among the runs), or `None` if the readings come from no file.
+    pub fn line(&self, position: usize, run: usize) -> Option<usize> {
+        self.lines.get(position)?.get(run).copied()
     }
 
     /// How many rows read a return again that had been read already.
@@ -121,6 +142,18 @@ impl AngleReadings {
         let runs = self.runs.len() as f64;
         self.each_arcsec.iter().map(|position| position.iter().sum::<Vector3<f64>>() / runs).collect()
     }
+}
+
+/// The means of rows that read one return again, arcsec, and the line of the first.
+fn averages(rows: &[Reading]) -> BTreeMap<Place, (Vector3<f64>, usize)> {
+    let mut sums: BTreeMap<Place, (Vector3<f64>, f64, usize)> = BTreeMap::new();
+    for (place, angles, row) in rows {
+        let first = row.cells[0].location.line;
+        let (sum, count, _) = sums.entry(*place).or_insert((Vector3::zeros(), 0.0, first));
+        *sum += angles;
+        *count += 1.0;
+    }
+    sums.into_iter().map(|(place, (sum, count, line))| (place, (sum / count, line))).collect()
 }
 
 fn position(
@@ -154,7 +187,7 @@ fn angle(table: &Table, row: &Row, column: usize, problems: &mut Vec<Problem>) -
 }
 
 /// Positions without any reading, and positions missing from a run.
-fn incomplete(positions: &[NominalPosition], rows: &[(Place, Vector3<f64>, &Row)]) -> Vec<Problem> {
+fn incomplete(positions: &[NominalPosition], rows: &[Reading]) -> Vec<Problem> {
     let runs: BTreeSet<u32> = rows.iter().map(|((_, run), ..)| *run).collect();
     let there: BTreeSet<Place> = rows.iter().map(|(place, ..)| *place).collect();
     let mut problems = Vec::new();
@@ -183,13 +216,13 @@ fn incomplete(positions: &[NominalPosition], rows: &[(Place, Vector3<f64>, &Row)
 }
 
 /// Readings that are no scatter: too far from the other runs, or of another unit.
-fn slips(table: &Table, rows: &[(Place, Vector3<f64>, &Row)]) -> Vec<Problem> {
-    let others = other_runs(rows);
+fn slips(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
     let mut problems = Vec::new();
     for ((index, run), angles, row) in rows {
         for axis in 0..3 {
-            let Some([least, usual, most]) = others.get(&((*index, *run), axis)) else { continue };
-            let Some(advice) = slip(angles[axis], *usual, most - least) else { continue };
+            let Some(others) = others.get(&((*index, *run), axis)) else { continue };
+            let usual = others.nearest_middle(angles[axis]);
+            let Some(advice) = slip(angles[axis], usual, others.most - others.least) else { continue };
             if problems.len() >= MOST_PROBLEMS {
                 return problems;
             }
@@ -201,10 +234,28 @@ fn slips(table: &Table, rows: &[(Place, Vector3<f64>, &Row)]) -> Vec<Problem> {
     problems
 }
 
-/// For every place and axis the least, the middle and the largest angle that other runs have at its position.
+/// By place and axis.
+type OtherRuns = BTreeMap<(Place, usize), Others>;
+
+/// The angle that the other runs have at a position, arcsec.
+struct Others {
+    least: f64,
+    middle: [f64; 2],
+    most: f64,
+}
+
+impl Others {
+    /// Returns what of their middle is nearest to `value`. Of two other runs that differ each may be right, so neither is held
+    /// against it.
+    fn nearest_middle(&self, value: f64) -> f64 {
+        value.clamp(self.middle[0], self.middle[1])
+    }
+}
+
+/// For every place and axis the angles that other runs have at its position.
 ///
 /// Sorted once for each position and axis: sorting for each row anew would take minutes for a file of 10,000 runs.
-fn other_runs(rows: &[(Place, Vector3<f64>, &Row)]) -> BTreeMap<(Place, usize), [f64; 3]> {
+fn other_runs(rows: &[Reading]) -> OtherRuns {
     let mut of_position: BTreeMap<(PositionIndex, usize), Vec<(f64, u32)>> = BTreeMap::new();
     for ((index, run), angles, _) in rows {
         for axis in 0..3 {
@@ -225,7 +276,8 @@ fn other_runs(rows: &[(Place, Vector3<f64>, &Row)]) -> BTreeMap<(Place, usize), 
             }
             // The n-th of the others: the run's own up to there are passed over.
             let nth = |n: usize| values[own.iter().fold(n, |at, place| at + usize::from(*place <= at))].0;
-            others.insert(((index, run), axis), [nth(0), nth(count / 2), nth(count - 1)]);
+            let middle = [nth((count - 1) / 2), nth(count / 2)];
+            others.insert(((index, run), axis), Others { least: nth(0), middle, most: nth(count - 1) });
         }
     }
     others

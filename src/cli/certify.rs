@@ -57,6 +57,15 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         Err(refused) => return Err(Failure::refused(format!("{}: {refused}", Printable(name)))),
     };
     if let (Some(path), Some(certified)) = (&options.output, &certified) {
+        // What stands at the place of the output need not be a stand file; --force replaces it then.
+        let there = read_stand(path).ok();
+        for stand in against.iter().chain(&there) {
+            certified.check_number(stand).map_err(Failure::refused)?;
+        }
+        if options.stand.is_none() {
+            let words = "-o needs --stand HEADER.yaml: a new certificate has a number and dates of its own";
+            return Err(Failure::unusable(words));
+        }
         let text = certified.to_yaml(&name_of(path)).map_err(Failure::refused)?;
         output::file(path, &text, options.force)?;
         output::say(&format!("wrote {}", shown(path)));

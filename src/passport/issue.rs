@@ -11,7 +11,7 @@ use crate::document::{Signer, SigningFailed, join};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::site::Site;
-use crate::stand::{CertifiedPosition, Stand};
+use crate::stand::{self, CertifiedPosition, Stand};
 use crate::text::scalar::day;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, rule};
 use crate::trust::{Message, SignatureError};
@@ -273,7 +273,8 @@ impl Draft {
         let meter = (&Laboratory::paper().meter).into();
         let gyro = GyroType::gvk_6().nominal.to_model();
         let noise = noise_growth(&positions, content.earth.rate(), &gyro, meter);
-        Remarks { noise, uncertainty_growth: content.site.uncertainty_growth(), absences: absences(content) }
+        let odd = stand::remarks::of(&content.certificate, &content.positions);
+        Remarks { noise, uncertainty_growth: content.site.uncertainty_growth(), odd, absences: absences(content) }
     }
 }
 
@@ -284,6 +285,8 @@ pub struct Remarks {
     pub noise: Option<NoiseGrowth>,
     /// 1/cos Φ.
     pub uncertainty_growth: f64,
+    /// What is odd in the certificate, a sentence each.
+    pub odd: Vec<String>,
     /// What is not known, and what that costs.
     pub absences: Vec<String>,
 }

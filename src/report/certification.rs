@@ -2,7 +2,7 @@
 
 use crate::certification::comparison::{Comparison, Test};
 use crate::certification::components::{Common, Variance};
-use crate::certification::suspects::AXES;
+use crate::certification::suspects::{AXES, WorsePosition};
 use crate::certification::{Certification, NotCertified};
 use crate::report::columns;
 use crate::statistics::outlier::Bartlett;
@@ -37,10 +37,11 @@ fn certification_json(found: &Certification) -> Value {
     let bartlett = |test: &Bartlett| json!({"statistic": test.statistic, "degrees_of_freedom": test.degrees_of_freedom, "probability": test.probability});
     let out = found.suspects.outliers.iter().map(|out| {
         json!({
-            "i": out.index.i, "j": out.index.j, "run": out.run, "axis": AXES[out.axis],
+            "i": out.index.i, "j": out.index.j, "run": out.run, "line": out.line, "axis": AXES[out.axis],
             "residual_arcsec": out.residual_arcsec, "probability": out.probability,
         })
     });
+    let worse = |at: &WorsePosition| json!({"i": at.index.i, "j": at.index.j, "ratio": at.ratio, "probability": at.probability});
     let turns = components.run_turns.iter();
     let turns =
         turns.map(|t| json!({"run": t.run, "platform_arcsec": t.platform_arcsec, "base_arcsec": t.base_arcsec}));
@@ -57,8 +58,10 @@ fn certification_json(found: &Certification) -> Value {
             "positions": found.suspects.positions.as_ref().map(bartlett),
             "axes": found.suspects.axes.as_ref().map(bartlett),
         },
-        "worse_position": found.suspects.worse.map(|at| json!({"i": at.index.i, "j": at.index.j, "ratio": at.ratio})),
+        "worse_position": found.suspects.worse.first().map(worse),
+        "worse_positions": found.suspects.worse.iter().map(worse).collect::<Vec<_>>(),
         "outliers": out.collect::<Vec<_>>(),
+        "twins": found.suspects.twins,
         "warnings": found.warnings,
     })
 }
@@ -85,7 +88,7 @@ fn comparison_json(found: &Comparison) -> Value {
         "common": {
             "platform_arcsec": found.common.platform_arcsec,
             "base_arcsec": found.common.base_arcsec,
-            "test": found.common.test.as_ref().map(test_json),
+            "test": found.common.test.as_ref().ok().map(test_json),
         },
         "words": found.words,
     })
@@ -179,7 +182,7 @@ fn tests(out: &mut String, found: &Certification) {
             columns::probability(test.probability)
         );
     }
-    let readings = found.runs.len() * found.components.kept.len();
+    let readings = found.runs.len() * found.components.keeps.nrows();
     let named = found.suspects.outliers.len();
     let _ = writeln!(out, "Grubbs' test of {readings} angles: {named} out at 5 %");
 }
@@ -224,7 +227,7 @@ pub fn comparison(found: &Comparison) -> String {
     let names = ["i", "j", "x, arcsec", "u", "y, arcsec", "u", "z, arcsec", "u", "chi-square", "probability", ""];
     columns::table(&mut out, &names, &rows);
     let turned = |turn: &[f64; 3]| turn.map(|value| format!("{value:+.2}")).join(", ");
-    let judged = found.common.test.as_ref().map_or_else(|| "not judged".to_owned(), line);
+    let judged = found.common.test.as_ref().map_or_else(|_| "not judged".to_owned(), line);
     let words = format!(
         "All together: platform {} about x, y, z, base {} about east, north, up, arcsec; {judged}",
         turned(&found.common.platform_arcsec),

@@ -132,6 +132,7 @@ pub fn warnings(remarks: &Remarks) -> Vec<String> {
             remarks.uncertainty_growth
         ));
     }
+    words.extend(remarks.odd.iter().map(|odd| format!("WARNING: {odd}")));
     words.extend(remarks.absences.iter().cloned());
     words
 }

@@ -7,8 +7,8 @@ use crate::text::sink::Sink;
 use crate::text::{Field, Node, Path, Problems, record};
 
 /// What a contribution of type B turns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, schemars::JsonSchema)]
-#[schemars(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(rename_all = "snake_case"))]
 pub enum ActsOn {
     /// Each position by itself, per axis of the platform; part of u_alpha_arcsec, u_beta_arcsec and u_gamma_arcsec.
     Position,
@@ -116,7 +116,7 @@ pub(super) fn check(certificate: &Certificate, positions: &[CertifiedPosition], 
     }
     let mut contains = |at: &Path, key: &'static str, u: Option<f64>, on: ActsOn| {
         let root = certificate.type_b_arcsec2(on).sqrt();
-        if let Some(u) = u.filter(|u| *u < root * (1.0 - ROUNDING)) {
+        if let Some(u) = u.filter(|u| (0.0..root * (1.0 - ROUNDING)).contains(u)) {
             let expected = format!("at least {root:.4}, the root of the sum of the squares of its type_b lines");
             let advice = format!("add the {} lines of type_b to it, or correct them", on.word());
             problems.at(&at.key(key), format!("{u}"), expected, advice);

@@ -1,6 +1,6 @@
 //! Tests for a group that scatters more (Bartlett) and for a value that is out (Grubbs).
 
-use super::beta::{student_beyond, student_factor};
+use super::beta::{incomplete_beta, student_beyond};
 use super::distributions::chi_square_larger;
 
 /// The result of Bartlett's test that several variances are equal.
@@ -35,37 +35,37 @@ pub fn bartlett(groups: &[(f64, f64)]) -> Option<Bartlett> {
     Some(Bartlett { statistic, degrees_of_freedom, probability: chi_square_larger(statistic, degrees_of_freedom) })
 }
 
-/// The probability, by Bonferroni's bound, that any of `values` residuals of a linear model with `degrees_of_freedom`
-/// is as far out as `g` times its standard deviation: |residual| / (s √(1 − leverage)).
+/// Returns the probability, by Bonferroni's bound, that the variance of any group exceeds the others' as much as that of the
+/// group `at` does: Cochran's test of the largest variance, for groups given as variance and degrees of freedom.
 ///
-/// For a single sample of n values g is Grubbs' G times √(n/(n − 1)), and this is
-/// [Grubbs'](crate::bibliography::Bibliography::Grubbs69) two-sided test; for residuals of several means it is Stefansky's
-/// ([maximum normed residual](crate::bibliography::Bibliography::Stefansky72)). The bound is the exact probability
-/// where no two residuals can be so far out together, as at the usual critical values, and never too small elsewhere.
-///
-/// NaN with fewer than 2 degrees of freedom: one residual alone then says nothing.
-pub fn grubbs_probability(g: f64, values: usize, degrees_of_freedom: f64) -> f64 {
-    if degrees_of_freedom.is_nan() || degrees_of_freedom <= 1.0 {
-        return f64::NAN;
-    }
-    // t² = g² (ν − 1)/(ν − g²) has Student's distribution with ν − 1 degrees of freedom.
-    let rest = degrees_of_freedom - g * g;
-    if rest <= 0.0 {
-        return 0.0;
-    }
-    let t = g * ((degrees_of_freedom - 1.0) / rest).sqrt();
-    (values as f64 * student_beyond(t, degrees_of_freedom - 1.0)).min(1.0)
+/// Source: [ISO 5725-2](crate::bibliography::Bibliography::Iso5725), 7.3.3, whose critical values are those of this bound. NaN
+/// for fewer than two groups or when the others do not vary.
+pub fn cochran_probability(groups: &[(f64, f64)], at: usize) -> f64 {
+    let Some(&(variance, own)) = groups.get(at) else { return f64::NAN };
+    let others = groups.iter().enumerate().filter(|(place, _)| *place != at).map(|(_, group)| group);
+    let (sum, rest) = others.fold((0.0, 0.0), |(sum, rest), (variance, nu)| (sum + variance * nu, rest + nu));
+    // P(F > f) = I_x(ν₂/2, ν₁/2) with x = ν₂/(ν₂ + ν₁ f), and ν₂/f is the others' sum over the variance.
+    let beyond = incomplete_beta(sum / (sum + own * variance), rest / 2.0, own / 2.0);
+    (groups.len() as f64 * beyond).clamp(0.0, 1.0)
 }
 
-/// The g that [`grubbs_probability`] gives `probability`.
-pub fn grubbs_critical(probability: f64, values: usize, degrees_of_freedom: f64) -> f64 {
-    let t = student_factor(probability / values as f64, degrees_of_freedom - 1.0);
-    t * (degrees_of_freedom / (degrees_of_freedom - 1.0 + t * t)).sqrt()
+/// Returns the probability, by Bonferroni's bound, that any of `values` residuals of a linear model is as far out as `t`: the
+/// deviation from what all other values say, over its standard deviation from their residuals alone, which have so many
+/// degrees of freedom.
+///
+/// For a single sample of n values and n − 2 degrees of freedom this is
+/// [Grubbs'](crate::bibliography::Bibliography::Grubbs69) two-sided test with G = (n − 1) t / √(n (n − 2 + t²)); for residuals of
+/// several means it is Stefansky's ([maximum normed residual](crate::bibliography::Bibliography::Stefansky72)). The bound is
+/// the exact probability where no two residuals can be so far out together, as at the usual critical values, and never too
+/// small elsewhere. NaN without degrees of freedom.
+pub fn bonferroni_student(t: f64, values: usize, degrees_of_freedom: f64) -> f64 {
+    (values as f64 * student_beyond(t, degrees_of_freedom)).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::statistics::beta::student_factor;
 
     /// Expected: gear diameters, ten batches of ten: NIST/SEMATECH e-Handbook, 1.3.5.7 with the data of 1.3.5.8.1
     /// (GEAR.DAT): T = 20.78587 with 9 degrees of freedom, critical value at 5 % 16.919.
@@ -117,13 +117,33 @@ mod tests {
         for (n, at_5, at_1) in table {
             for (probability, expected) in [(0.05, at_5), (0.01, at_1)] {
                 let values = f64::from(n);
-                let g = grubbs_critical(probability, n as usize, values - 1.0);
-                let found = g * ((values - 1.0) / values).sqrt();
+                let t = student_factor(probability / values, values - 2.0);
+                let found = (values - 1.0) * t / (values * (values - 2.0 + t * t)).sqrt();
                 assert!((found - expected).abs() < 1e-3, "{n}: {found}, not {expected}");
-                assert!((grubbs_probability(g, n as usize, values - 1.0) - probability).abs() < 1e-9);
+                assert!((bonferroni_student(t, n as usize, values - 2.0) - probability).abs() < 1e-9);
             }
         }
-        assert!(grubbs_probability(1.0, 2, 1.0).is_nan());
-        assert_eq!(grubbs_probability(10.0, 5, 4.0), 0.0);
+        assert!(bonferroni_student(1.0, 2, 0.0).is_nan());
+        assert_eq!(bonferroni_student(0.0, 5, 4.0), 1.0);
+    }
+
+    /// Expected: ISO 5725-2:1994, table 4: critical values of Cochran's C, eight groups of n values, 5 % and 1 %; the last with the
+    /// four digits of C. Eisenhart, M. Hastay and W. Wallis, Techniques of Statistical Analysis, 1947, for 0.3595 is a tie.
+    #[test]
+    fn cochran_table() {
+        let table = [(2, 0.680, 0.794), (3, 0.516, 0.615), (4, 0.438, 0.521), (5, 0.391, 0.463), (6, 0.3595, 0.4226)];
+        for (n, at_5, at_1) in table {
+            for (expected, c) in [(0.05, at_5), (0.01, at_1)] {
+                let of = |c: f64| {
+                    let groups: Vec<_> =
+                        (0..8).map(|at| (if at == 3 { c } else { (1.0 - c) / 7.0 }, f64::from(n - 1))).collect();
+                    cochran_probability(&groups, 3)
+                };
+                // The table has three digits.
+                assert!(of(c - 0.0005) > expected && of(c + 0.0005) < expected, "{n}: {} at {c}", of(c));
+            }
+        }
+        assert!(cochran_probability(&[(1.0, 5.0)], 0).is_nan());
+        assert_eq!(cochran_probability(&[(1.0, 5.0), (1.0, 5.0)], 0), 1.0);
     }
 }

@@ -1,0 +1,94 @@
+//! Mistakes of a whole run: a copy of another run, another unit, the other sign.
+
+use super::{OtherRuns, Reading, averages};
+use crate::text::problem::Problem;
+use crate::text::table::Table;
+use std::collections::BTreeMap;
+
+/// Factors by which the angles of a run in another unit are too small, and the unit's name.
+const UNITS: [(f64, &str); 3] =
+    [(60.0, "arcminutes"), (crate::units::ARCSECONDS_PER_DEGREE, "degrees"), (206.264_806, "milliradians")];
+
+/// How far a ratio may be from such a factor, as a factor itself.
+const FACTOR_MARGIN: f64 = 1.5;
+
+/// From this correlation on, a run has the angles of the others but for a factor.
+const SAME_ANGLES: f64 = 0.9;
+
+/// Returns a problem for every run that cannot be what it claims, at the line on which it begins.
+pub(super) fn problems(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
+    let copies = copies(table, rows);
+    if copies.is_empty() { other_scales(table, rows, others) } else { copies }
+}
+
+/// A problem with the `run`, at its first row.
+fn at_run(table: &Table, rows: &[Reading], run: u32, found: String, expected: &str, advice: &str) -> Option<Problem> {
+    let (.., row) = rows.iter().find(|((_, of), ..)| *of == run)?;
+    Some(table.problem(&row.cells[2], 2, found, expected, advice))
+}
+
+/// Runs whose angles are those of an earlier one, to the last digit.
+fn copies(table: &Table, rows: &[Reading]) -> Vec<Problem> {
+    let mut of_run: BTreeMap<u32, Vec<u64>> = BTreeMap::new();
+    for ((_, run), (angles, _)) in averages(rows) {
+        of_run.entry(run).or_default().extend(angles.iter().map(|angle| angle.to_bits()));
+    }
+    let mut first: BTreeMap<Vec<u64>, u32> = BTreeMap::new();
+    let mut problems = Vec::new();
+    for (run, angles) in of_run {
+        let Some(earlier) = first.insert(angles.clone(), run) else { continue };
+        first.insert(angles, earlier);
+        let found = format!("run {run} with every angle of run {earlier}");
+        let advice = "delete the copy; if both were measured, record more digits than they scatter by";
+        problems.extend(at_run(table, rows, run, found, "readings of its own", advice));
+    }
+    problems
+}
+
+/// Runs whose angles are those of the others times a factor.
+fn other_scales(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
+    // Of each run the sums of squares of its angles, of the others', and of the products.
+    let mut sums: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
+    for ((index, run), angles, _) in rows {
+        for axis in 0..3 {
+            let Some(others) = others.get(&((*index, *run), axis)) else { continue };
+            let usual = others.nearest_middle(angles[axis]);
+            let sums = sums.entry(*run).or_default();
+            sums[0] += angles[axis] * angles[axis];
+            sums[1] += usual * usual;
+            sums[2] += angles[axis] * usual;
+        }
+    }
+    let (mut small, mut large) = (Vec::new(), Vec::new());
+    for (run, [own, usual, both]) in sums {
+        let correlation = both / (own * usual).sqrt();
+        if correlation.is_nan() || correlation.abs() < SAME_ANGLES {
+            continue;
+        }
+        let ratio = (own / usual).sqrt();
+        let near = |factor: f64| (1.0 / FACTOR_MARGIN..FACTOR_MARGIN).contains(&(ratio * factor));
+        let problem = |words: String, advice: &str| {
+            at_run(
+                table,
+                rows,
+                run,
+                format!("run {run}, whose angles are {words}"),
+                "about those of the other runs",
+                advice,
+            )
+        };
+        let too_small = UNITS.into_iter().find(|(factor, _)| near(*factor));
+        let too_large = UNITS.into_iter().find(|(factor, _)| near(1.0 / factor));
+        if let Some((factor, unit)) = too_small {
+            let words = format!("those of the other runs divided by {factor:.0}");
+            small.extend(problem(words, &format!("the run is in {unit}; convert it to arcseconds")));
+        } else if let Some((factor, unit)) = too_large {
+            let words = format!("{factor:.0} times those of the other runs");
+            large.extend(problem(words, &format!("convert it only once, or the other runs are in {unit}")));
+        } else if correlation < 0.0 && near(1.0) {
+            small.extend(problem("those of the other runs with the opposite sign".to_owned(), "correct the sign"));
+        }
+    }
+    // Beside a run that is too small all others look too large.
+    if small.is_empty() { large } else { small }
+}

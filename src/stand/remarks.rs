@@ -1,0 +1,114 @@
+//! What is odd in a certificate: possible, and so not refused, but usually a mistake.
+
+use super::{Certificate, CertifiedPosition};
+
+/// Temperatures of a room in which stands are measured and used, °C.
+const ROOM_C: std::ops::RangeInclusive<f64> = 0.0..=45.0;
+
+/// 0 °C in kelvin.
+const ZERO_CELSIUS_K: f64 = 273.15;
+
+/// An angle is odd when it is so many times as large as the larger ones of the other positions.
+const FAR_OUT: f64 = 20.0;
+
+/// Below this an angle is never odd, arcsec.
+const SMALL_ARCSEC: f64 = 60.0;
+
+/// Returns a sentence for everything that is odd in a certificate and its positions.
+pub fn of(certificate: &Certificate, positions: &[CertifiedPosition]) -> Vec<String> {
+    let mut said = temperatures(certificate);
+    let angles: [(&str, fn(&CertifiedPosition) -> f64); 3] = [
+        ("alpha_arcsec", |at| at.alpha_arcsec),
+        ("beta_arcsec", |at| at.beta_arcsec),
+        ("gamma_arcsec", |at| at.gamma_arcsec),
+    ];
+    for (key, angle) in angles {
+        let mut sizes: Vec<f64> = positions.iter().map(|at| angle(at).abs()).collect();
+        sizes.sort_by(f64::total_cmp);
+        // Where more than a quarter of the positions have large angles, the stand may be built so.
+        let Some(usual) = sizes.len().checked_sub(1 + (sizes.len() / 4).max(1)).map(|place| sizes[place]) else {
+            continue;
+        };
+        let odd = |at: &&CertifiedPosition| angle(at).abs() > f64::max(SMALL_ARCSEC, FAR_OUT * usual);
+        said.extend(positions.iter().filter(odd).map(|at| {
+            format!(
+                "{key} of position {} is {}, more than {FAR_OUT} times the {usual} of the other positions: check the digits, the \
+                 unit and the position",
+                at.index(),
+                angle(at)
+            )
+        }));
+    }
+    said
+}
+
+fn temperatures(certificate: &Certificate) -> Vec<String> {
+    let range = certificate.temperature_range_c;
+    let kelvin = |value: f64| {
+        let celsius = value - ZERO_CELSIUS_K;
+        if ROOM_C.contains(&celsius) { format!("; in kelvin it would be {celsius:.2} deg C") } else { String::new() }
+    };
+    let mut said = Vec::new();
+    let ends = range.map(|[low, high]| [("temperature_range_c", low), ("temperature_range_c", high)]);
+    let measured = certificate.temperature_c.map(|value| ("temperature_c", value));
+    for (key, value) in
+        measured.into_iter().chain(ends.into_iter().flatten()).filter(|(_, value)| !ROOM_C.contains(value))
+    {
+        let (low, high) = (ROOM_C.start(), ROOM_C.end());
+        said.push(format!("{key} is {value} deg C, outside {low} to {high} deg C as in a room{}", kelvin(value)));
+    }
+    if let (Some(value), Some([low, high])) = (certificate.temperature_c, range)
+        && !(low..=high).contains(&value)
+    {
+        said.push(format!(
+            "temperature_c is {value} deg C, outside the certified temperature_range_c, {low} to {high} deg C: the deviations \
+             were measured where they are not certified"
+        ));
+    }
+    said
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::stand::Stand;
+
+    const STAND: &str = include_str!("../../passports/SPS-2/0017/stand.yaml");
+
+    fn said_of(from: &str, to: &str) -> Vec<String> {
+        assert!(STAND.contains(from));
+        let stand = Stand::from_yaml("stand.yaml", STAND.replace(from, to).as_bytes()).unwrap();
+        super::of(&stand.certificate, &stand.positions)
+    }
+
+    #[test]
+    fn a_good_certificate_is_not_odd() {
+        assert_eq!(said_of("a", "a"), Vec::<String>::new());
+        for stand in
+            [include_str!("../../passports/SPS-1/0203/stand.yaml"), include_str!("../../tests/cmd/files/stand.yaml")]
+        {
+            let stand = Stand::from_yaml("stand.yaml", stand.as_bytes()).unwrap();
+            assert_eq!(super::of(&stand.certificate, &stand.positions), Vec::<String>::new());
+        }
+    }
+
+    #[test]
+    fn temperatures_that_cannot_be_are_said() {
+        let kelvin = said_of("temperature_c: 20.0", "temperature_c: 293.15");
+        assert!(kelvin[0].contains("293.15") && kelvin[0].contains("in kelvin it would be 20.00 deg C"), "{kelvin:?}");
+        assert!(kelvin[1].contains("18 to 22 deg C"), "{kelvin:?}");
+        let warm = said_of("temperature_c: 20.0", "temperature_c: 25.5");
+        assert!(warm.len() == 1 && warm[0].contains("25.5") && warm[0].contains("18 to 22 deg C"), "{warm:?}");
+        let range = said_of("[18.0, 22.0]", "[18.0, 295.0]");
+        assert!(range.len() == 1 && range[0].contains("temperature_range_c is 295"), "{range:?}");
+    }
+
+    #[test]
+    fn an_angle_far_out_is_said_with_its_position() {
+        let odd = said_of("alpha_arcsec: -48.9", "alpha_arcsec: 67833.0");
+        assert!(odd.len() == 1 && odd[0].contains("alpha_arcsec of position (1, 2) is 67833"), "{odd:?}");
+        // Half of the positions, as a frame that is not square to its axis makes them.
+        let mut stand = Stand::from_yaml("stand.yaml", STAND.as_bytes()).unwrap();
+        stand.positions[4..].iter_mut().for_each(|at| at.gamma_arcsec += 5400.0);
+        assert_eq!(super::of(&stand.certificate, &stand.positions), Vec::<String>::new());
+    }
+}
