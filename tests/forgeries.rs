@@ -544,6 +544,11 @@ fn numbers_that_do_not_follow() {
     recompute(&mut uneven);
     assert!(verify("uneven", written(&uneven, &bench.key).as_bytes(), &trust(&bench.key), &question()).valid());
     uneven.self_check.as_mut().unwrap().currents[3].jy_ma += 3e-12;
+    // Seven positions determine the parameters by least squares: their self-check counts, and may be wrong.
+    let mut unlike = seven.clone();
+    unlike.self_check.as_mut().unwrap().currents[3].jy_ma += 1e-9;
+    let mut other_gyro = seven.clone();
+    other_gyro.self_check.as_mut().unwrap().omega_k_deg_per_h_per_g += 1e-9;
     // No calibration needs the self-check: a passport may be without.
     let without = bench.rewritten(|content| content.self_check = None);
     assert!(verify("without", without.as_bytes(), &trust(&bench.key), &question()).valid());
@@ -563,6 +568,8 @@ fn numbers_that_do_not_follow() {
             ("matrices without the eight", dressed(true, false)),
             ("a self-check without the eight", dressed(false, true)),
             ("both without the eight", dressed(true, true)),
+            ("a wrong current of seven positions", written(&unlike, &bench.key)),
+            ("another gyro than that of the currents of seven positions", written(&other_gyro, &bench.key)),
             wrong("a gyro without K", &|content| {
                 content.self_check.as_mut().unwrap().k_deg_per_h_per_ma = [[0.0, 0.0], [0.0, 0.0]];
             }),

@@ -87,9 +87,7 @@ impl Absence {
             Self::Datum => {
                 "No datum is stated: which surfaces to level, to turn north and to seat the gyro on is unknown."
             }
-            Self::EightPositions => {
-                "Not all of the eight positions are certified: no matrices, no self-check, least squares alone."
-            }
+            Self::EightPositions => "Not all of the eight positions are certified: no matrices, least squares alone.",
             Self::Deflection { cost_deg_per_h } => {
                 return format!(
                     "The deflection of the vertical is unknown: taken as 0 with u = {UNKNOWN_DEFLECTION_U_ARCSEC} \

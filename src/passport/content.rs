@@ -1,12 +1,13 @@
 //! What a passport says (`dtg-passport/1`), and how its numbers follow from the stand and the site.
 
 use super::accuracy::Accuracy;
-use crate::calibration::analytic;
+use crate::calibration::{analytic, least_squares};
 use crate::coefficients::{
     Coefficients, Matrices, PositionCoefficients, PositionIndex, SingularPositions, StandGeometry,
 };
 use crate::document::is_sha256_hex;
 use crate::gyro::{GyroParameters, Parameters};
+use crate::laboratory::Laboratory;
 use crate::site::{Earth, Site};
 use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity};
 use crate::text::scalar::{Identifier, day};
@@ -148,12 +149,15 @@ record! {
         pub matrices: Option<MatrixRows>,
         /// What least squares needs, for every position.
         pub vectors: Vec<PositionVectors>,
-        /// A test of laboratory software; absent without the paper's eight positions.
+        /// A test of laboratory software; absent where the positions do not determine the eight parameters.
         pub self_check: Option<SelfCheck>,
         /// What the stand is good for; only when asked for.
         pub accuracy: Option<Accuracy>,
     }
 }
+
+/// Largest |found/stated − 1| of a parameter when the self-check is calibrated again.
+pub const SELF_CHECK_LIMIT: f64 = 1e-9;
 
 /// Gyro of the self-check of every passport that is issued: no two parameters alike or of opposite sign, so that software
 /// that exchanges or transposes any of them finds others. Earlier passports state the GVK-6 of the paper.
@@ -195,7 +199,9 @@ pub fn derive_at(geometry: &StandGeometry, earth: Earth, gyro: &Parameters) -> D
     let coefficients = geometry.at(earth.rate());
     let vectors = coefficients.positions.iter().map(PositionVectors::from_model).collect();
     let matrices = coefficients.matrices.as_ref().map(MatrixRows::from_model);
-    let self_check = matrices.is_some().then(|| SelfCheck::of(gyro, &coefficients)).flatten();
+    // Other positions than the eight may not determine all parameters: then there is nothing to check software with.
+    let determined = |check: &SelfCheck| matrices.is_some() || check.error(&coefficients) <= SELF_CHECK_LIMIT;
+    let self_check = SelfCheck::of(gyro, &coefficients).filter(determined);
     Derived { earth, matrices, vectors, self_check }
 }
 
@@ -289,14 +295,17 @@ impl SelfCheck {
         }
     }
 
-    /// Calibrates the currents again by the paper's closed solution: how far the worst parameter is off, relative to
-    /// its own size; infinite when there is no solution.
+    /// Calibrates the currents again, by the paper's closed solution or, without its eight positions, by least squares.
+    /// Returns how far the worst parameter is off, relative to its own size; infinite when there is no solution.
     pub fn error(&self, coefficients: &Coefficients) -> f64 {
         let currents: Vec<_> = self.currents.iter().map(|at| Vector2::new(at.jx_ma, at.jy_ma)).collect();
-        match analytic::solve(coefficients, &currents) {
-            Ok(found) => largest_relative_difference(&found.parameters, &self.parameters().to_model()),
-            Err(_) => f64::INFINITY,
-        }
+        let found = if coefficients.matrices.is_some() {
+            analytic::solve(coefficients, &currents).ok().map(|found| found.parameters)
+        } else {
+            let meter = (&Laboratory::paper().meter).into();
+            least_squares::solve(coefficients, &currents, &meter, false).ok().map(|found| found.parameters)
+        };
+        found.map_or(f64::INFINITY, |found| largest_relative_difference(&found, &self.parameters().to_model()))
     }
 }
 

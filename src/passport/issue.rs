@@ -2,8 +2,9 @@
 
 use super::accuracy::{NoAccuracy, Stated};
 use super::annotations::{self, absences};
-use super::content::{Content, Header, PASSPORT_FORMAT, Predecessor, REFERENCE_GYRO, derive_from, passport_id};
-use super::recomputed::SELF_CHECK_LIMIT;
+use super::content::{
+    Content, Header, PASSPORT_FORMAT, Predecessor, REFERENCE_GYRO, SELF_CHECK_LIMIT, derive_from, passport_id,
+};
 use super::{NAMESPACE, read};
 use crate::calibration::prediction::{NoiseGrowth, noise_growth};
 use crate::coefficients::{SingularPositions, StandGeometry};

@@ -1,15 +1,14 @@
 //! Every number of a passport that follows from its inputs, computed again and compared.
 
 use super::accuracy::Stated;
-use super::content::{Content, Derived, PositionCurrents, PositionVectors, REFERENCE_GYRO, SelfCheck, derive};
+use super::content::{
+    Content, Derived, PositionCurrents, PositionVectors, REFERENCE_GYRO, SELF_CHECK_LIMIT, SelfCheck, derive,
+};
 use crate::earth::{AZIMUTH_QUANTUM_DEG, LENGTH_QUANTUM_M};
 use crate::text::{Field, Node};
 
 /// The largest difference allowed, relative to the largest element of each matrix, each set of vectors, each number.
 pub const LIMIT: f64 = 1e-12;
-
-/// The self-check, calibrated again, may be off by this much of each parameter.
-pub const SELF_CHECK_LIMIT: f64 = 1e-9;
 
 /// A number that does not follow from the passport's own inputs.
 #[derive(Debug, Clone, PartialEq)]

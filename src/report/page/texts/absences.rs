@@ -33,8 +33,8 @@ texts! {
              устанавливать гироскоп."
     }
     EIGHT_POSITIONS {
-        en: "Not all of the eight positions are certified: no matrices, no self-check, least squares alone.",
-        ru: "Аттестованы не все восемь положений: нет матриц и контрольного примера, применим только метод наименьших \
+        en: "Not all of the eight positions are certified: no matrices, least squares alone.",
+        ru: "Аттестованы не все восемь положений: нет матриц, применим только метод наименьших \
              квадратов."
     }
     DEFLECTION {

@@ -197,9 +197,9 @@ texts! {
     DRIFT_G { en: "Drift that depends on g", ru: "Составляющие дрейфа, зависящие от g" }
     VALUE { en: "Value", ru: "Значение" }
     NO_MATRICES {
-        en: "Not all of the eight positions are certified: there are no matrices and no self-check. A calibration is by \
+        en: "Not all of the eight positions are certified: there are no matrices. A calibration is by \
              least squares, from the vectors below.",
-        ru: "Аттестованы не все восемь положений: матриц и контрольного примера нет. Калибровка — методом наименьших \
+        ru: "Аттестованы не все восемь положений: матриц нет. Калибровка — методом наименьших \
              квадратов по приведённым ниже векторам."
     }
 
