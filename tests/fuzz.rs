@@ -160,7 +160,7 @@ fn many_runs_are_read_soon() {
     let mut table = "i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec\n".to_owned();
     for run in 1..=5_000 {
         for (i, j) in [(1, 1), (1, 2), (1, 3), (1, 4), (2, 1), (2, 2), (2, 3), (2, 4)] {
-            table += &format!("{i},{j},{run},{},{},0\n", run % 7, run % 11);
+            table += &format!("{i},{j},{run},{},.{run:05},{}\n", run % 7, run % 11);
         }
     }
     let target = TARGETS.iter().find(|target| target.name == "angles").unwrap();

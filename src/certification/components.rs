@@ -23,6 +23,9 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 /// Directions of the base weaker than 1/this of the strongest cannot be told from a turn of the platform.
 const CONDITION_LIMIT: f64 = 30.0;
 
+/// Below this variance readings do not scatter: what is left is the rounding of computations.
+const LEAST_SCATTER_ARCSEC2: f64 = 1e-12;
+
 /// A variance with its degrees of freedom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Variance {
@@ -160,7 +163,7 @@ pub(crate) fn estimate(turns: &[Turn], runs: &[u32], differences: &[DVector<f64>
     let axis_squares_arcsec2 = [0, 1, 2].map(|a| own[a].mean_square.over(changes));
     let pooled_arcsec2 =
         pooled(&[0, 1, 2].map(|a| Variance { value: axis_squares_arcsec2[a].value, ..own_arcsec2[a] }));
-    if own_arcsec2.iter().any(|variance| variance.value.is_nan() || variance.value <= 0.0) {
+    if own_arcsec2.iter().any(|variance| variance.value.is_nan() || variance.value < LEAST_SCATTER_ARCSEC2) {
         return Err(NotCertified::NoScatter);
     }
     let scale = |row: usize| own_arcsec2[axis(row)].value;

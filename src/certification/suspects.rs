@@ -21,6 +21,9 @@ pub const MOST_OUTLIERS: usize = 4;
 /// Two runs agree too well when the square of their difference is less than this share of that of pairs usually.
 const TOO_WELL: f64 = 1e-3;
 
+/// Of more runs no pairs are compared: there are too many, and one copy among them matters little.
+const MOST_PAIRED: usize = 100;
+
 /// A position that is worse than the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WorsePosition {
@@ -190,7 +193,9 @@ fn outliers(header: &Header, readings: &AngleReadings, components: &Components) 
             suspect = Some(next.clone());
         }
     }
-    let Some(suspect) = suspect else { return Vec::new() };
+    let Some(suspect) = suspect.and_then(|suspect| improbable(components, suspect, &probability)) else {
+        return Vec::new();
+    };
     let out = |n: usize| {
         let (run, row) = suspect.angles[n];
         let (place, residual_arcsec) = (row / 3, suspect.shifts_arcsec[n]);
@@ -217,10 +222,27 @@ fn outliers(header: &Header, readings: &AngleReadings, components: &Components) 
     found
 }
 
+/// The readings among those taken out that are still improbable beside the others, taken out alone.
+fn improbable(
+    components: &Components,
+    suspect: Deletion,
+    probability: &impl Fn(&Deletion, usize) -> f64,
+) -> Option<Deletion> {
+    let out = suspect.angles.iter().enumerate().filter(|(n, _)| probability(&suspect, *n) < STRAGGLER);
+    let angles: Vec<_> = out.map(|(_, angle)| *angle).collect();
+    if angles.len() == suspect.angles.len() {
+        return Some(suspect);
+    }
+    improbable(components, Deletion::of(components, angles)?, probability)
+}
+
 /// Pairs of runs that agree far better than others do, by the median of their squared differences: a reading that is out does
 /// not touch it.
 fn twins(runs: &[u32], components: &Components) -> Vec<(u32, u32)> {
     let mut pairs = Vec::new();
+    if runs.len() > MOST_PAIRED {
+        return Vec::new();
+    }
     for (one, of_one) in runs.iter().zip(&components.residuals) {
         let later = runs.iter().zip(&components.residuals).filter(|(other, _)| *other > one);
         pairs.extend(later.map(|(other, of_other)| {
