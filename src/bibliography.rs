@@ -36,6 +36,14 @@ pub enum Bibliography {
     /// M. S. Bartlett, "Properties of sufficiency and statistical tests", Proceedings of the Royal Society A 160, 1937,
     /// 268-282, <https://doi.org/10.1098/rspa.1937.0109>.
     Bartlett37,
+    /// A. R. Didonato and A. H. Morris, "Algorithm 708: significant digit computation of the incomplete beta function
+    /// ratios", ACM Transactions on Mathematical Software 18, 1992, 360-373, <https://doi.org/10.1145/131766.131776>.
+    DidonatoMorris92,
+    /// C. Loader, "Fast and accurate computation of binomial probabilities", 2000: deviance and Stirling's remainder.
+    Loader00,
+    /// M. G. Kenward and J. H. Roger, "Small sample inference for fixed effects from restricted maximum likelihood",
+    /// Biometrics 53, 1997, 983-997, <https://doi.org/10.2307/2533558>: a Wald statistic as a scaled F.
+    KenwardRoger97,
     /// F. E. Grubbs, "Procedures for detecting outlying observations in samples", Technometrics 11, 1969, 1-21,
     /// <https://doi.org/10.1080/00401706.1969.10490657>.
     Grubbs69,

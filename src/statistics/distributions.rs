@@ -1,13 +1,15 @@
 //! Chi-square and normal probabilities.
 
+use super::saddle_point::poisson_term;
 use std::f64::consts::SQRT_2;
 
 /// The probability that chi-square with `degrees_of_freedom` is larger than `value`.
 ///
 /// 1 without degrees of freedom or at a value of 0 and below, 0 at infinity, NaN where `value` is NaN.
 ///
-/// Q(k/2, x/2) for whole k is a finite sum of positive terms: Q(a + 1, t) = Q(a, t) + tᵃ e⁻ᵗ/Γ(a + 1), from
-/// Q(1, t) = e⁻ᵗ or Q(1/2, t) = erfc √t. So no digits are lost however far out in the tail.
+/// Above the mean, Q(k/2, x/2) for whole k is a finite sum of positive terms: Q(a + 1, t) = Q(a, t) + tᵃ e⁻ᵗ/Γ(a + 1),
+/// from Q(1, t) = e⁻ᵗ or Q(1/2, t) = erfc √t. So no digits are lost however far out in the tail. Below the mean, where
+/// the probability is never small, it is 1 less the series DLMF 8.11.4.
 pub fn chi_square_larger(value: f64, degrees_of_freedom: usize) -> f64 {
     if value.is_nan() || value == f64::INFINITY {
         return if value.is_nan() { f64::NAN } else { 0.0 };
@@ -15,15 +17,34 @@ pub fn chi_square_larger(value: f64, degrees_of_freedom: usize) -> f64 {
     if degrees_of_freedom == 0 || value <= 0.0 {
         return 1.0;
     }
-    let t = value / 2.0;
-    let odd = degrees_of_freedom % 2 == 1;
-    let (mut a, mut sum) = if odd { (0.5, libm::erfc(t.sqrt())) } else { (1.0, libm::exp(-t)) };
-    // tᵃ e⁻ᵗ/Γ(a + 1), through logarithms: the power alone may overflow where the product does not.
-    while a < degrees_of_freedom as f64 / 2.0 {
-        sum += libm::exp(a * libm::log(t) - t - libm::lgamma(a + 1.0));
-        a += 1.0;
+    let (t, a) = (value / 2.0, degrees_of_freedom as f64 / 2.0);
+    if t < a { 1.0 - gamma_below(a, t) } else { gamma_above(a, t) }
+}
+
+/// P(a, t) for t < a: the terms fall.
+fn gamma_below(a: f64, t: f64) -> f64 {
+    let (mut term, mut sum, mut next) = (poisson_term(a, t), 0.0, a);
+    while term > f64::EPSILON * sum {
+        sum += term;
+        next += 1.0;
+        term *= t / next;
     }
-    sum.min(1.0)
+    sum
+}
+
+/// Q(a, t) for t ≥ a and a whole 2 a, from the largest term down.
+fn gamma_above(a: f64, t: f64) -> f64 {
+    let (mut next, mut sum) = (a - 1.0, 0.0);
+    let mut term = if next >= 0.0 { poisson_term(next, t) } else { 0.0 };
+    while next >= 0.0 {
+        sum += term;
+        if term <= f64::EPSILON * sum {
+            return sum;
+        }
+        term *= next / t;
+        next -= 1.0;
+    }
+    if a.fract() == 0.0 { sum } else { sum + libm::erfc(t.sqrt()) }
 }
 
 /// The probability that a standard normal variable is below `x`.

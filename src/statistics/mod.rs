@@ -1,7 +1,9 @@
 //! Least squares, distributions, random streams: statistics without a gyro in it.
 //!
 //! * [`least_squares`]: a weighted linear model through QR, its rank and condition through the SVD.
-//! * [`distributions`]: chi-square and normal probabilities; [`beta`]: Student's t and Fisher's F.
+//! * [`distributions`]: chi-square and normal probabilities; [`beta`]: Student's t and Fisher's F; `saddle_point`: what
+//!   both need of large parameters.
+//! * `scaled_f`: of a chi-square whose covariance was partly estimated.
 //! * [`outlier`]: Bartlett's test for a group that scatters more, Grubbs' for a value that is out.
 //! * [`propagation`]: the law of propagation of uncertainty for any model with its gradient.
 //! * [`random`]: streams of random numbers that do not depend on the number of threads or on the platform.
@@ -21,4 +23,6 @@ pub mod outlier;
 pub mod propagation;
 #[cfg(feature = "monte-carlo")]
 pub mod random;
+pub(crate) mod saddle_point;
+pub(crate) mod scaled_f;
 pub mod summary;

@@ -2,6 +2,7 @@
 
 use super::beta::{incomplete_beta, student_beyond};
 use super::distributions::chi_square_larger;
+use super::saddle_point::deviance;
 
 /// The result of Bartlett's test that several variances are equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,7 +29,9 @@ pub fn bartlett(groups: &[(f64, f64)]) -> Option<Bartlett> {
     }
     let total: f64 = groups.iter().map(|(_, nu)| nu).sum();
     let pooled = groups.iter().map(|(variance, nu)| variance * nu).sum::<f64>() / total;
-    let logarithms: f64 = groups.iter().map(|(variance, nu)| nu * libm::log(pooled / variance)).sum();
+    // Σ ν ln(pooled/variance), as a sum of positive terms: Σ ν (variance − pooled) is 0.
+    let logarithms: f64 =
+        groups.iter().map(|&(variance, nu)| nu * (deviance(pooled, variance, pooled - variance) / pooled)).sum();
     let reciprocals: f64 = groups.iter().map(|(_, nu)| 1.0 / nu).sum();
     let degrees_of_freedom = groups.len() - 1;
     let statistic = logarithms / (1.0 + (reciprocals - 1.0 / total) / (3.0 * degrees_of_freedom as f64));
