@@ -47,7 +47,7 @@ struct Case {
 fn case() -> Option<Case> {
     let positions = draw::stand(&mut Stream::new(1), Deviations::Uniform, 5.0);
     let reading = READING_LIMIT / 3.0_f64.sqrt();
-    let meter = MeterUncertainty { reading, floor_ma: 1e-12, gain: 0.0, offset_ma: 0.0 };
+    let meter = MeterUncertainty { reading, floor_ma: 1e-12, noise_ma: 0.0, gain: 0.0, offset_ma: 0.0 };
     let uncertainty = InputUncertainty {
         angles_rad: vec![[radians_from_arcseconds(U_ANGLE_ARCSEC); 3]; 8],
         ..InputUncertainty::of_meter(meter)

@@ -10,14 +10,17 @@ record! {
     pub struct Meter {
         /// The largest current that it reads, either way.
         pub range_ma: f64,
-        /// Of every reading by itself, in percent of the reading.
+        /// Of the meter's specification, in percent of the reading: own of each position and channel, and not made smaller by
+        /// reading again.
         pub reading_percent: f64,
         /// Of the gain that all readings share, in percent.
         pub gain_percent: f64,
         /// Of the offset that all readings share.
         pub offset_ma: f64,
-        /// Of every reading by itself, whatever its size; never 0, or a zero current would count without limit.
+        /// Of the specification too, whatever the size of the reading; never 0, or a zero current would count without limit.
         pub floor_ma: f64,
+        /// Noise of every single reading. Absent: 0, and repeated rows show what it is.
+        pub noise_ma: Option<f64>,
     }
 }
 
@@ -97,7 +100,14 @@ impl Laboratory {
         Self {
             format: LABORATORY_FORMAT.to_owned(),
             name: None,
-            meter: Meter { range_ma: 1.0, reading_percent: 0.0087, gain_percent: 0.0, offset_ma: 0.0, floor_ma: 1e-6 },
+            meter: Meter {
+                range_ma: 1.0,
+                reading_percent: 0.0087,
+                gain_percent: 0.0,
+                offset_ma: 0.0,
+                floor_ma: 1e-6,
+                noise_ma: None,
+            },
             seating_arcsec: None,
             base: None,
             temperature_c: None,
@@ -123,6 +133,7 @@ impl Meter {
         ] {
             problems.within(&at.key(key), Some(value), 0.0, f64::MAX);
         }
+        problems.within(&at.key("noise_ma"), self.noise_ma, 0.0, f64::MAX);
     }
 }
 

@@ -7,7 +7,7 @@ mod support;
 use dtg_passport::calibration::iterative::{self, StopRule};
 use dtg_passport::calibration::least_squares::{self, NoLeastSquares};
 use dtg_passport::calibration::parameter::Parameter;
-use dtg_passport::calibration::{InputUncertainty, Method, MethodResult, Options, Readings, Setup, calibrate};
+use dtg_passport::calibration::{InputUncertainty, Method, MethodResult, Options, Setup, calibrate};
 use dtg_passport::coefficients::{EarthRate, Position, PositionIndex};
 use dtg_passport::statistics::least_squares::condition;
 use dtg_passport::statistics::random::Stream;
@@ -112,8 +112,13 @@ fn propagation_agrees_with_finite_differences() {
     let positions = drawn_stand(&mut stream, 10.0);
     let step = radians_from_arcseconds(2.0);
     let earth = EarthRate::at_astronomic_latitude(LATITUDE_DEG);
-    let tiny =
-        dtg_passport::calibration::MeterUncertainty { reading: 1e-12, floor_ma: 1e-12, gain: 0.0, offset_ma: 0.0 };
+    let tiny = dtg_passport::calibration::MeterUncertainty {
+        reading: 1e-12,
+        floor_ma: 1e-12,
+        noise_ma: 0.0,
+        gain: 0.0,
+        offset_ma: 0.0,
+    };
     let true_currents = currents(&setup(&positions, LATITUDE_DEG), &gvk_6());
     let solve = |positions: &[Position], earth: EarthRate, currents: &[Vector2<f64>]| {
         let setup = Setup::new(positions, earth, InputUncertainty::of_meter(tiny)).unwrap();
@@ -233,46 +238,6 @@ fn successive_approximation_knows_what_it_lacks() {
     }
     assert!(refused > 5 && refused < 60, "{refused}");
     assert!(predicted_well * 10 > solved * 8, "{predicted_well} of {solved}");
-}
-
-/// Repeated readings average, and scatter beyond the meter's is said and used.
-#[test]
-fn repeated_readings() {
-    let setup = setup(&eight([[1e-3; 3]; 8]), LATITUDE_DEG);
-    let currents = currents(&setup, &gvk_6());
-    let repeated = |spread: f64| {
-        let each = setup.coefficients().positions.iter().zip(&currents);
-        let each = each
-            .flat_map(|(at, current)| [-1.0, 0.0, 1.0, 0.0].map(|sign| (at.index, current * (1.0 + sign * spread))));
-        let readings = Readings::new(setup.coefficients(), &each.collect::<Vec<_>>()).unwrap();
-        calibrate(&setup, &readings, &Options::default()).unwrap()
-    };
-    let once = calibrate(&setup, &readings(&setup, &currents), &Options::default()).unwrap();
-    assert_eq!(once.scatter, None);
-    let u = |calibration: &dtg_passport::calibration::Calibration| {
-        calibration.results.last().unwrap().standard_uncertainty(Parameter::Kx).unwrap()
-    };
-    let quiet = repeated(1e-4);
-    assert_eq!(quiet.scatter.unwrap().variance_factor, 1.0);
-    assert_eq!(quiet.scatter.unwrap().degrees_of_freedom, 48);
-    assert!((u(&quiet) / u(&once) - 0.5).abs() < 1e-6);
-    let noisy = repeated(1e-3);
-    // By hand: -1, 0, 1, 0 have standard deviation sqrt(2/3).
-    let setup_readings: Vec<_> = setup
-        .coefficients()
-        .positions
-        .iter()
-        .zip(&currents)
-        .flat_map(|(at, current)| [-1.0, 0.0, 1.0, 0.0].map(|sign| (at.index, current * (1.0 + sign * 1e-3))))
-        .collect();
-    let first = Readings::new(setup.coefficients(), &setup_readings).unwrap().positions()[0].clone();
-    let expected = currents[0].abs() * 1e-3 * (2.0_f64 / 3.0).sqrt();
-    assert!((first.standard_deviation_ma().unwrap() - expected).amax() < 1e-12);
-    let scatter = noisy.scatter.unwrap();
-    // By hand: each current scatters with variance (2/3)·(1e-3)² where (0.87e-4)² is stated.
-    let factor = 2.0 / 3.0 * (1e-3_f64 / 0.87e-4).powi(2);
-    assert!((scatter.variance_factor / factor - 1.0).abs() < 1e-2 && scatter.probability < 1e-3, "{scatter:?}");
-    assert!((u(&noisy) / u(&quiet) - factor.sqrt()).abs() < 0.1);
 }
 
 /// Expected: docs/model.md: standard deviations of the analytic method at 5° and at 15° are 0.01474 and 0.01527 % of K_x;

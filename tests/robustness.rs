@@ -61,7 +61,7 @@ proptest! {
 /// A meter without any uncertainty would weigh without limit: refused, in words.
 #[test]
 fn a_meter_without_uncertainty() {
-    let none = MeterUncertainty { reading: 0.0, floor_ma: 0.0, gain: 0.0, offset_ma: 0.0 };
+    let none = MeterUncertainty { reading: 0.0, floor_ma: 0.0, noise_ma: 0.0, gain: 0.0, offset_ma: 0.0 };
     let setup = with_uncertainty(&eight([[1e-3; 3]; 8]), LATITUDE_DEG, InputUncertainty::of_meter(none));
     let currents = currents(&setup, &gvk_6());
     let error = calibrate(&setup, &readings(&setup, &currents), &Options::default()).unwrap_err();

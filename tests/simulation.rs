@@ -196,7 +196,7 @@ fn the_picture_reads_without_colour() {
 /// are coupled by K_xy, hence the 0.03.
 #[test]
 fn unweighted_least_squares() {
-    let equal = MeterUncertainty { reading: 0.0, floor_ma: 1e-5, gain: 0.0, offset_ma: 0.0 };
+    let equal = MeterUncertainty { reading: 0.0, floor_ma: 1e-5, noise_ma: 0.0, gain: 0.0, offset_ma: 0.0 };
     let nominal = GyroType::gvk_6().nominal.to_model();
     for (limit_deg, expected) in [(5.0, [0.84, 0.83, 1.00]), (15.0, [0.82, 0.81, 0.97])] {
         let blocks = Run::new(20_000, 12).blocks(|stream, trials| {

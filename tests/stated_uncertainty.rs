@@ -8,8 +8,9 @@ mod support;
 
 use dtg_passport::attitude::{self, Deviation};
 use dtg_passport::calibration::parameter::Parameter;
+use dtg_passport::calibration::readings::Reading;
 use dtg_passport::calibration::{InputUncertainty, Method, Options, Readings, calibrate};
-use dtg_passport::coefficients::{EarthRate, Position, PositionIndex};
+use dtg_passport::coefficients::{EarthRate, Position};
 use dtg_passport::statistics::random::{Run, Stream};
 use dtg_passport::statistics::summary::Summary;
 use dtg_passport::units::{degrees_from_radians, radians_from_arcseconds};
@@ -36,9 +37,13 @@ fn normal(stream: &mut Stream, u: [f64; 3]) -> Vector3<f64> {
     Vector3::from(u.map(|u| u * stream.normal()))
 }
 
-/// One set of readings, two for each position, of the paper's gyro on a stand that is not quite what its certificate
+/// Visits of each position, and readings of each visit.
+const VISITS: u32 = 2;
+const ROWS: u32 = 3;
+
+/// One set of readings, [`ROWS`] in each of [`VISITS`] visits, of the paper's gyro on a stand that is not quite what its certificate
 /// says, at a place that is not quite where it should be, through a meter that is not quite right.
-fn read(stream: &mut Stream, certified: &[Position], u: &InputUncertainty) -> Vec<(PositionIndex, Vector2<f64>)> {
+fn read(stream: &mut Stream, certified: &[Position], u: &InputUncertainty) -> Vec<Reading> {
     let platform = turned(normal(stream, [u.common_platform_rad; 3])) * turned(normal(stream, u.seating_rad));
     let base = turned(normal(stream, [u.common_base_rad; 3]))
         * turned(normal(stream, [u.level_rad, u.level_rad, u.azimuth_rad]));
@@ -52,13 +57,20 @@ fn read(stream: &mut Stream, certified: &[Position], u: &InputUncertainty) -> Ve
         real.deviation.beta_rad += error.y;
         real.deviation.gamma_rad += error.z;
         let real = attitude::actual(real.theta_deg, real.phi_deg, &real.deviation);
-        for _ in 0..2 {
+        // The meter's specification: the same error whenever this current is read.
+        let of_meter = Vector2::from_fn(|_, _| stream.normal());
+        for visit in 1..=VISITS {
             let returned = turned(normal(stream, [u.repeatability_rad; 3]));
             let attitude = returned * platform * real * base;
             let there = [with_attitude(position, &attitude)];
             let exact = currents(&setup(&there, latitude_deg), &gvk_6())[0];
-            let noisy = exact.map(|j| j * gain + offset + u.meter.own_variance_ma2(j).sqrt() * stream.normal());
-            readings.push((position.index, noisy));
+            for _ in 0..ROWS {
+                let current_ma = exact.zip_map(&of_meter, |j, error| {
+                    let own = u.meter.own_variance_ma2(j).sqrt() * error + u.meter.noise_ma * stream.normal();
+                    j * gain + offset + own
+                });
+                readings.push(Reading { visit: Some(visit), ..Reading::new(position.index, current_ma) });
+            }
         }
     }
     readings
@@ -79,7 +91,7 @@ fn uncertainties_cover_what_they_state() {
         ..InputUncertainty::of_meter(paper_meter())
     };
     let u = InputUncertainty {
-        meter: dtg_passport::calibration::MeterUncertainty { gain: 5e-5, offset_ma: 2e-5, ..u.meter },
+        meter: dtg_passport::calibration::MeterUncertainty { gain: 5e-5, offset_ma: 2e-5, noise_ma: 2e-5, ..u.meter },
         ..u
     };
     let certified = drawn_stand(&mut Stream::new(21), 5.0);
@@ -88,13 +100,13 @@ fn uncertainties_cover_what_they_state() {
     let trials = 10_000;
     let options = Options { methods: vec![Method::Analytic, Method::LeastSquares], ..Options::default() };
     // Errors in units of their uncertainty, by method and parameter; chi-square below its 5 % point; false alarms;
-    // scatter of the pairs below its 5 % point.
+    // scatter of visits and of rows below its 5 % point.
     let blocks = Run::new(trials, 22).blocks(|stream, trials| {
         let mut errors = [[Summary::default(); 8]; 2];
-        let (mut improbable, mut scattered) = (0_u64, 0_u64);
+        let (mut improbable, mut scattered, mut noisy) = (0_u64, 0_u64, 0_u64);
         let (mut residuals, mut differences) = (Summary::default(), Summary::default());
         for _ in 0..trials {
-            let readings = Readings::new(setup.coefficients(), &read(stream, &certified, &u)).unwrap();
+            let readings = Readings::of_rows(setup.coefficients(), &read(stream, &certified, &u)).unwrap();
             let found = calibrate(&setup, &readings, &options).unwrap();
             for (errors, result) in errors.iter_mut().zip(&found.results) {
                 let nominal = gvk_6().to_vector();
@@ -107,8 +119,9 @@ fn uncertainties_cover_what_they_state() {
             found.results[0].from_least_squares.unwrap().iter().for_each(|value| differences.add(*value));
             improbable += u64::from(found.results[0].chi_square.probability < 0.05);
             scattered += u64::from(found.scatter.unwrap().probability < 0.05);
+            noisy += u64::from(found.row_scatter.unwrap().against_stated.unwrap().probability < 0.05);
         }
-        (errors, improbable, scattered, residuals, differences)
+        (errors, [improbable, scattered, noisy], residuals, differences)
     });
     for (method, name) in ["analytic", "least squares"].iter().enumerate() {
         for parameter in Parameter::EIGHT {
@@ -121,11 +134,10 @@ fn uncertainties_cover_what_they_state() {
         }
     }
     let percent = |count: u64| 100.0 * count as f64 / trials as f64;
-    let improbable = percent(blocks.iter().map(|block| block.1).sum());
-    let scattered = percent(blocks.iter().map(|block| block.2).sum());
-    assert!((improbable - 5.0).abs() < 0.7 && (scattered - 5.0).abs() < 0.7, "{improbable} {scattered}");
-    let residuals = blocks.iter().fold(Summary::default(), |sum, block| sum.with(&block.3));
+    let shares = [0, 1, 2].map(|which| percent(blocks.iter().map(|block| block.1[which]).sum()));
+    assert!(shares.iter().all(|share| (share - 5.0).abs() < 0.7), "{shares:?}");
+    let residuals = blocks.iter().fold(Summary::default(), |sum, block| sum.with(&block.2));
     assert!((residuals.standard_deviation() - 1.0).abs() < 0.02, "{residuals:?}");
-    let differences = blocks.iter().fold(Summary::default(), |sum, block| sum.with(&block.4));
+    let differences = blocks.iter().fold(Summary::default(), |sum, block| sum.with(&block.3));
     assert!((differences.standard_deviation() - 1.0).abs() < 0.02, "{differences:?}");
 }

@@ -4,7 +4,9 @@
 //! uncertainty. A fit needs them only summed (each position's own part as one 2×2 block); here no two causes share
 //! a column.
 
+use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
+use super::scatter::Repeats;
 use super::sensitivity::{Sensitivity, Shared};
 use super::unknowns::Unknowns;
 use crate::coefficients::PositionIndex;
@@ -17,10 +19,12 @@ pub enum Cause {
     Angle(PositionIndex, usize),
     /// The return to a position, about axis x, y or z of the case.
     Return(PositionIndex, usize),
-    /// A reading's share of itself, J_x or J_y.
+    /// The meter's specification in a position, as a share of the reading of J_x or J_y.
     Reading(PositionIndex, usize),
-    /// A reading's part that does not depend on its size, J_x or J_y.
+    /// The part of the specification that does not depend on the size of J_x or J_y.
     Floor(PositionIndex, usize),
+    /// The noise of the readings of J_x or J_y in a position, in their mean.
+    Noise(PositionIndex, usize),
     /// The platform, about its axis x, y or z.
     Platform(usize),
     /// The gyro's seat, about axis x, y or z of the case.
@@ -54,6 +58,7 @@ impl Cause {
             Self::Return(index, axis) => format!("return to {index} about {}", XYZ[axis]),
             Self::Reading(index, axis) => format!("reading of J_{} in {index}", XYZ[axis]),
             Self::Floor(index, axis) => format!("floor of J_{} in {index}", XYZ[axis]),
+            Self::Noise(index, axis) => format!("noise of J_{} in {index}", XYZ[axis]),
             _ => self.kind(),
         }
     }
@@ -63,8 +68,9 @@ impl Cause {
         match self {
             Self::Angle(..) => "certified angles".to_owned(),
             Self::Return(..) => "returns to the positions".to_owned(),
-            Self::Reading(..) => "meter, each reading".to_owned(),
+            Self::Reading(..) => "meter, specification".to_owned(),
             Self::Floor(..) => "meter, floor".to_owned(),
+            Self::Noise(..) => "meter, noise".to_owned(),
             Self::Platform(axis) => format!("platform about {}", XYZ[axis]),
             Self::Seat(axis) => format!("seat about {}", XYZ[axis]),
             Self::Base(axis) => format!("stand's base about {}", EAST_NORTH_UP[axis]),
@@ -84,8 +90,21 @@ impl Cause {
             (Self::Angle(..), Self::Angle(..))
             | (Self::Return(..), Self::Return(..))
             | (Self::Reading(..), Self::Reading(..))
-            | (Self::Floor(..), Self::Floor(..)) => true,
+            | (Self::Floor(..), Self::Floor(..))
+            | (Self::Noise(..), Self::Noise(..)) => true,
             (one, other) => one == other,
+        }
+    }
+
+    /// The position that it changes; `None` where it changes all of them.
+    pub(crate) fn position(self) -> Option<PositionIndex> {
+        match self {
+            Self::Angle(index, _)
+            | Self::Return(index, _)
+            | Self::Reading(index, _)
+            | Self::Floor(index, _)
+            | Self::Noise(index, _) => Some(index),
+            _ => None,
         }
     }
 
@@ -98,6 +117,7 @@ impl Cause {
             Self::Base(_) => "certificate: common_base_arcsec",
             Self::Reading(..) => "laboratory: meter.reading_percent",
             Self::Floor(..) => "laboratory: meter.floor_ma",
+            Self::Noise(..) => "laboratory: meter.noise_ma, or repeated rows",
             Self::Gain => "laboratory: meter.gain_percent",
             Self::Offset => "laboratory: meter.offset_ma",
             Self::Seat(_) => "laboratory: seating_arcsec",
@@ -113,7 +133,7 @@ impl Cause {
     pub fn unit(self) -> &'static str {
         match self {
             Self::Reading(..) | Self::Gain => "%",
-            Self::Floor(..) | Self::Offset => "mA",
+            Self::Floor(..) | Self::Noise(..) | Self::Offset => "mA",
             _ => "arcsec",
         }
     }
@@ -131,23 +151,14 @@ impl Cause {
 /// A cause, how uncertain it is, and how well that is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Input {
-    /// Which.
+    /// Cause of the uncertainty.
     pub cause: Cause,
     /// Standard uncertainty of the mean of all readings: rad, a share of the reading, or mA.
     pub standard_uncertainty: f64,
-    /// Of that uncertainty; infinite where it is taken as known.
+    /// Degrees of freedom of that uncertainty; infinite where it is taken as known.
     pub degrees_of_freedom: f64,
-}
-
-/// How often every position was read, and what that says of one reading.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Repeats {
-    /// Readings of each position.
-    pub(crate) counts: Vec<usize>,
-    /// By how much the variance of one reading is enlarged.
-    pub(crate) variance_factor: f64,
-    /// Degrees of freedom of an enlarged variance; infinite where it is as stated.
-    pub(crate) degrees_of_freedom: f64,
+    /// Estimates of variances that it rests on: inputs may share them.
+    pub basis: Basis,
 }
 
 /// All inputs with a positive uncertainty, and F: a column for each (two rows a position, °/h), being the change of
@@ -159,8 +170,9 @@ pub(crate) fn inputs(
     repeats: &Repeats,
 ) -> (Vec<Input>, DMatrix<f64>) {
     let sensitivity = Sensitivity::new(setup, unknowns);
-    let mut inputs = of_stand_and_site(setup);
-    inputs.extend(of_gyro_and_meter(setup, repeats));
+    let estimates = Estimates::new(setup, repeats);
+    let mut inputs = stand_and_site(setup, &estimates);
+    inputs.extend(of_gyro_and_meter(setup, repeats, &estimates));
     let mut columns = DMatrix::zeros(2 * currents_ma.len(), inputs.len());
     for (column, input) in inputs.iter().enumerate() {
         for (place, current_ma) in currents_ma.iter().enumerate() {
@@ -174,16 +186,20 @@ pub(crate) fn inputs(
 
 /// Inputs with a positive uncertainty that stand and site bring, and with them the numbers of a passport.
 pub(crate) fn of_stand_and_site(setup: &Setup) -> Vec<Input> {
+    stand_and_site(setup, &Estimates::of_stand(setup))
+}
+
+fn stand_and_site(setup: &Setup, estimates: &Estimates) -> Vec<Input> {
     let u = setup.uncertainty();
+    let input = |cause, u, basis| Input::new(cause, u, basis, estimates.degrees_of_freedom(basis));
     let mut inputs = Vec::new();
     for (place, at) in setup.coefficients().positions.iter().enumerate() {
-        let known = u.angles_degrees_of_freedom.get(place).copied().unwrap_or(f64::INFINITY);
         let angles = u.angles_rad.get(place).copied().unwrap_or_default();
-        inputs.extend((0..3).filter_map(|angle| Input::new(Cause::Angle(at.index, angle), angles[angle], known)));
+        let basis = estimates.angles[place];
+        inputs.extend((0..3).filter_map(|angle| input(Cause::Angle(at.index, angle), angles[angle], basis[angle])));
     }
-    let known = |cause, u| Input::new(cause, u, f64::INFINITY);
-    inputs.extend((0..3).filter_map(|axis| known(Cause::Platform(axis), u.common_platform_rad)));
-    inputs.extend((0..3).filter_map(|axis| known(Cause::Base(axis), u.common_base_rad)));
+    inputs.extend((0..3).filter_map(|axis| input(Cause::Platform(axis), u.common_platform_rad, estimates.platform)));
+    inputs.extend((0..3).filter_map(|axis| input(Cause::Base(axis), u.common_base_rad, estimates.base)));
     let others = [
         (Cause::Level(0), u.level_rad),
         (Cause::Level(1), u.level_rad),
@@ -192,26 +208,26 @@ pub(crate) fn of_stand_and_site(setup: &Setup) -> Vec<Input> {
         (Cause::Latitude, u.latitude_rad),
         (Cause::Deflection, u.deflection_rad),
     ];
-    inputs.extend(others.into_iter().filter_map(|(cause, u)| known(cause, u)));
+    inputs.extend(others.into_iter().filter_map(|(cause, u)| input(cause, u, Basis::Known)));
     inputs
 }
 
 /// Inputs with a positive uncertainty that a calibration adds: returns, seat, currents.
-fn of_gyro_and_meter(setup: &Setup, repeats: &Repeats) -> Vec<Input> {
+fn of_gyro_and_meter(setup: &Setup, repeats: &Repeats, estimates: &Estimates) -> Vec<Input> {
     let u = setup.uncertainty();
+    let input = |cause, u, basis| Input::new(cause, u, basis, estimates.degrees_of_freedom(basis));
+    let known = |cause, u| input(cause, u, Basis::Known);
     let mut inputs = Vec::new();
-    let enlarged = repeats.degrees_of_freedom;
-    for (at, count) in setup.coefficients().positions.iter().zip(&repeats.counts) {
-        let of_mean = (repeats.variance_factor / (*count).max(1) as f64).sqrt();
-        let known = u.repeatability_degrees_of_freedom.min(enlarged);
-        let of_return = u.repeatability_rad * of_mean;
-        inputs.extend((0..3).filter_map(|axis| Input::new(Cause::Return(at.index, axis), of_return, known)));
+    for (place, at) in setup.coefficients().positions.iter().enumerate() {
+        let of_returns = u.repeatability_rad * repeats.return_share(place).sqrt();
+        inputs.extend((0..3).filter_map(|axis| input(Cause::Return(at.index, axis), of_returns, estimates.returns)));
+        let noise = repeats.noise_variance_ma2(place).sqrt();
         for axis in 0..2 {
-            inputs.extend(Input::new(Cause::Reading(at.index, axis), u.meter.reading * of_mean, enlarged));
-            inputs.extend(Input::new(Cause::Floor(at.index, axis), u.meter.floor_ma * of_mean, enlarged));
+            inputs.extend(known(Cause::Reading(at.index, axis), u.meter.reading));
+            inputs.extend(known(Cause::Floor(at.index, axis), u.meter.floor_ma));
+            inputs.extend(input(Cause::Noise(at.index, axis), noise, estimates.noise));
         }
     }
-    let known = |cause, u| Input::new(cause, u, f64::INFINITY);
     inputs.extend((0..3).filter_map(|axis| known(Cause::Seat(axis), u.seating_rad[axis])));
     inputs.extend(known(Cause::Gain, u.meter.gain));
     inputs.extend(known(Cause::Offset, u.meter.offset_ma));
@@ -220,8 +236,9 @@ fn of_gyro_and_meter(setup: &Setup, repeats: &Repeats) -> Vec<Input> {
 
 impl Input {
     /// `None` where nothing is uncertain.
-    fn new(cause: Cause, standard_uncertainty: f64, degrees_of_freedom: f64) -> Option<Self> {
-        (standard_uncertainty > 0.0).then_some(Self { cause, standard_uncertainty, degrees_of_freedom })
+    fn new(cause: Cause, standard_uncertainty: f64, basis: Basis, degrees_of_freedom: f64) -> Option<Self> {
+        let input = Self { cause, standard_uncertainty, degrees_of_freedom, basis };
+        (standard_uncertainty > 0.0).then_some(input)
     }
 }
 
@@ -241,15 +258,11 @@ fn effect(
     let column = |axis: usize| -sensitivity.k_deg_per_h_per_ma().column(axis).into_owned();
     let shared = |input: Shared| sensitivity.to_shared(place, current_ma, &input);
     match cause {
-        Cause::Angle(index, _) | Cause::Return(index, _) | Cause::Reading(index, _) | Cause::Floor(index, _)
-            if index != here =>
-        {
-            Vector2::zeros()
-        }
+        _ if cause.position().is_some_and(|index| index != here) => Vector2::zeros(),
         Cause::Angle(_, angle) => sensitivity.to_case_turn(place, &setup.turns()[place].axes[angle]),
         Cause::Return(_, axis) => sensitivity.to_case_turn(place, &unit_vector(axis)),
         Cause::Reading(_, axis) => column(axis) * current_ma[axis],
-        Cause::Floor(_, axis) => column(axis),
+        Cause::Floor(_, axis) | Cause::Noise(_, axis) => column(axis),
         Cause::Platform(axis) | Cause::Seat(axis) => shared(Shared::Case(unit_vector(axis))),
         Cause::Base(axis) | Cause::Level(axis) => shared(Shared::Base(unit_vector(axis))),
         Cause::Azimuth | Cause::Mark => shared(Shared::Base(Vector3::z())),

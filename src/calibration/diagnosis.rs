@@ -147,7 +147,7 @@ fn single_positions(setup: &Setup, data: &Data, suspects: &[usize]) -> Vec<(f64,
     let possible = suspects.iter().filter_map(|&place| {
         let (rest, others) = (setup.without(place), data.without(place));
         let fit = others.fit(&rest, false).ok()?;
-        let found = ChiSquare::new(propagation::chi_square(&rest, &fit, &others.currents_ma));
+        let found = ChiSquare::new(propagation::chi_square(&rest, &fit, &others));
         if found.degrees_of_freedom == 0 || found.probability <= POSSIBLE {
             return None;
         }
@@ -177,7 +177,7 @@ fn turns(sensitivity: &Sensitivity, place: usize) -> Matrix2x3<f64> {
 
 fn chi_square(setup: &Setup, data: &Data) -> Option<ChiSquare> {
     let fit = data.fit(setup, false).ok().filter(|fit| fit.settled)?;
-    let found = ChiSquare::new(propagation::chi_square(setup, &fit, &data.currents_ma));
+    let found = ChiSquare::new(propagation::chi_square(setup, &fit, data));
     found.value.is_finite().then_some(found)
 }
 

@@ -4,6 +4,7 @@ use super::iterative::{LARGEST_NUMBER_OF_STEPS, StepChange};
 use super::mistake::Mistake;
 use super::parameter::Parameter;
 use super::result::{Calibration, MethodResult};
+use super::scatter::RowScatter;
 use super::stated::NotStated;
 use super::verdict::{Found, Verdict};
 use crate::gyro::GyroParameters;
@@ -31,9 +32,12 @@ pub struct CalibrationDocument {
     /// What certificate, site and laboratory do not state: the uncertainties are without it.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub not_stated: Vec<String>,
-    /// Whether repeated readings agree, when there are any.
+    /// Whether the visits of a position agree, when there are several.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scatter: Option<ScatterDocument>,
+    /// How the rows of a visit scatter, when there are several.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub row_scatter: Option<RowScatterDocument>,
     /// What may be wrong, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hint: Option<String>,
@@ -100,7 +104,8 @@ pub struct ResultDocument {
     pub from_least_squares: Option<[f64; 8]>,
     /// Whether the readings fit.
     pub chi_square: ChiSquareDocument,
-    /// What is left of each equation.
+    /// What is left of each equation; absent where nothing can be left.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub residuals_deg_per_h: Vec<ResidualDocument>,
 }
 
@@ -153,22 +158,45 @@ pub struct ChiSquareDocument {
     pub value: f64,
     /// Readings less parameters.
     pub degrees_of_freedom: usize,
-    /// Probability of a larger value when nothing is wrong.
-    pub probability: f64,
+    /// Probability of a larger value when nothing is wrong; absent without degrees of freedom.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub probability: Option<f64>,
+    /// Degrees of freedom of the uncertainties that it is made with; absent when infinite.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub uncertainty_degrees_of_freedom: Option<f64>,
 }
 
-/// Scatter of repeated readings.
+/// Scatter of the visits of a position.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ScatterDocument {
     /// Sum of squares in units of the stated variance.
     pub chi_square: f64,
-    /// Two for each reading beyond a position's first.
+    /// Two for each visit beyond a position's first.
     pub degrees_of_freedom: usize,
-    /// Probability of more when what is stated holds.
+    /// Probability of more when what is stated holds; close to 1 when there is less than stated.
     pub probability: f64,
-    /// By how much the variance of one reading was enlarged.
+    /// By how much the variance of a visit was enlarged.
     pub variance_factor: f64,
+}
+
+/// Scatter of the rows of a visit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RowScatterDocument {
+    /// Standard deviation of one reading.
+    pub standard_deviation_ma: f64,
+    /// Two for each row beyond a visit's first.
+    pub degrees_of_freedom: usize,
+    /// Sum of squares in units of the stated variance; absent where no noise is stated.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub chi_square: Option<f64>,
+    /// Probability of more when what is stated holds; close to 1 when there is less than stated.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub probability: Option<f64>,
+    /// By how much the variance of a reading was enlarged.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub variance_factor: Option<f64>,
 }
 
 /// The residuals of one position.
@@ -224,6 +252,7 @@ impl CalibrationDocument {
                 probability: scatter.probability,
                 variance_factor: scatter.variance_factor,
             }),
+            row_scatter: calibration.row_scatter.as_ref().map(RowScatterDocument::new),
             hint: calibration.hint.as_ref().map(ToString::to_string),
             mistake: None,
             verdict: None,
@@ -266,7 +295,7 @@ impl ResultDocument {
         let parameters = &result.parameters;
         let iteration = result.iteration.as_ref();
         let chi_square = &result.chi_square;
-        let residuals = result.residuals.iter().map(|residual| {
+        let residuals = result.residuals.iter().filter(|_| chi_square.judges()).map(|residual| {
             let (index, value) = (residual.index, residual.residual_deg_per_h);
             let u = residual.standard_uncertainty_deg_per_h;
             ResidualDocument { i: index.i, j: index.j, x: value.x, y: value.y, u_x: Some(u.x), u_y: Some(u.y) }
@@ -296,7 +325,8 @@ impl ResultDocument {
             chi_square: ChiSquareDocument {
                 value: chi_square.value,
                 degrees_of_freedom: chi_square.degrees_of_freedom,
-                probability: chi_square.probability,
+                probability: chi_square.judges().then_some(chi_square.probability),
+                uncertainty_degrees_of_freedom: finite(chi_square.of_uncertainties),
             },
             residuals_deg_per_h: residuals.collect(),
         }
@@ -326,6 +356,23 @@ impl ResultDocument {
             ],
             gravity_m_per_s2,
             gravity_u_m_per_s2: gravity_u_m_per_s2.unwrap_or(0.0),
+        }
+    }
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+impl RowScatterDocument {
+    fn new(rows: &RowScatter) -> Self {
+        let stated = rows.against_stated;
+        Self {
+            standard_deviation_ma: rows.standard_deviation_ma,
+            degrees_of_freedom: rows.degrees_of_freedom,
+            chi_square: stated.map(|stated| stated.chi_square),
+            probability: stated.map(|stated| stated.probability),
+            variance_factor: stated.map(|stated| stated.variance_factor),
         }
     }
 }

@@ -15,14 +15,18 @@ pub struct InputUncertainty {
     pub angles_rad: Vec<[f64; 3]>,
     /// Degrees of freedom of the three uncertainties of every position; positions beyond its end have infinitely many.
     pub angles_degrees_of_freedom: Vec<f64>,
-    /// Of one return to a position, per axis of the platform; every reading returns once.
+    /// Of one return to a position, per axis of the platform; every visit returns once.
     pub repeatability_rad: f64,
     /// Degrees of freedom of that one estimate.
     pub repeatability_degrees_of_freedom: f64,
     /// Shared by all positions, per axis of the platform (turns E·A from the left).
     pub common_platform_rad: f64,
+    /// Degrees of freedom of that one estimate.
+    pub common_platform_degrees_of_freedom: f64,
     /// Shared by all positions, per axis of the base (turns it from the right).
     pub common_base_rad: f64,
+    /// Degrees of freedom of that one estimate.
+    pub common_base_degrees_of_freedom: f64,
     /// Of the latitude as stated.
     pub latitude_rad: f64,
     /// Of ξ, through which a geodetic latitude becomes the astronomic one.
@@ -42,10 +46,13 @@ pub struct InputUncertainty {
 /// Standard uncertainties of the currents.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeterUncertainty {
-    /// Of every reading by itself, as a share of the reading.
+    /// The meter's specification, own of each position and channel, as a share of the reading. Reading again does not
+    /// make it smaller.
     pub reading: f64,
-    /// Of every reading by itself, whatever its size; positive.
+    /// The part of the specification that does not depend on the size of the reading, mA; positive.
     pub floor_ma: f64,
+    /// Noise of every single reading, mA; 0 where it is not stated.
+    pub noise_ma: f64,
     /// Of the gain that all readings share.
     pub gain: f64,
     /// Of the offset that all readings share.
@@ -57,6 +64,7 @@ impl From<&Meter> for MeterUncertainty {
         Self {
             reading: meter.reading_percent / 100.0,
             floor_ma: meter.floor_ma,
+            noise_ma: meter.noise_ma.unwrap_or(0.0),
             gain: meter.gain_percent / 100.0,
             offset_ma: meter.offset_ma,
         }
@@ -64,7 +72,7 @@ impl From<&Meter> for MeterUncertainty {
 }
 
 impl MeterUncertainty {
-    /// Variance of one reading of the current `current_ma` by itself, mA².
+    /// Returns the variance that the specification gives the current `current_ma` of one position and channel, mA².
     pub fn own_variance_ma2(&self, current_ma: f64) -> f64 {
         let share = self.reading * current_ma;
         share * share + self.floor_ma * self.floor_ma
@@ -80,7 +88,9 @@ impl InputUncertainty {
             repeatability_rad: 0.0,
             repeatability_degrees_of_freedom: f64::INFINITY,
             common_platform_rad: 0.0,
+            common_platform_degrees_of_freedom: f64::INFINITY,
             common_base_rad: 0.0,
+            common_base_degrees_of_freedom: f64::INFINITY,
             latitude_rad: 0.0,
             deflection_rad: 0.0,
             azimuth_rad: 0.0,
@@ -144,6 +154,7 @@ impl InputUncertainty {
             ("the level", self.level_rad),
             ("a reading", self.meter.reading),
             ("the meter's floor", self.meter.floor_ma),
+            ("the meter's noise", self.meter.noise_ma),
             ("the meter's gain", self.meter.gain),
             ("the meter's offset", self.meter.offset_ma),
         ];
@@ -152,7 +163,11 @@ impl InputUncertainty {
             return Err(NoSetup::Uncertainty(what, u));
         }
         let known = self.angles_degrees_of_freedom.iter().map(|known| ("a certified angle", *known));
-        let known = known.chain([("the returns", self.repeatability_degrees_of_freedom)]);
+        let known = known.chain([
+            ("the returns", self.repeatability_degrees_of_freedom),
+            ("the platform", self.common_platform_degrees_of_freedom),
+            ("the stand's base", self.common_base_degrees_of_freedom),
+        ]);
         match known.into_iter().find(|(_, known)| known.is_nan() || *known <= 0.0) {
             Some((what, known)) => Err(NoSetup::DegreesOfFreedom(what, known)),
             None => Ok(()),

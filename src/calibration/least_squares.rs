@@ -115,7 +115,8 @@ pub fn expected_uncertainties(
 fn own_covariance_of(meter: &MeterUncertainty) -> impl Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64> {
     |_, unknowns, current| {
         let k = unknowns.parameters.k_deg_per_h_per_ma;
-        let variance = current.map(|current| meter.own_variance_ma2(current));
+        let noise = meter.noise_ma * meter.noise_ma;
+        let variance = current.map(|current| meter.own_variance_ma2(current) + noise);
         k * Matrix2::from_diagonal(&variance) * k.transpose()
     }
 }

@@ -5,12 +5,13 @@
 //! * [`iterative`]: the paper's successive approximation, eq. (17)-(19).
 //! * [`least_squares`]: all readings of any positions, weighted.
 //! * [`procedure`]: all of them side by side; [`result`]: with uncertainties, residuals and chi-square.
-//! * [`scatter`]: whether repeated readings agree.
+//! * [`scatter`]: whether rows of a visit and visits of a position agree.
 //! * [`diagnosis`]: what may be wrong where readings do not fit.
 //! * [`verdict`]: against a type's specification and against an earlier calibration.
 //! * [`mistake`]: mistakes that leave readings fitting, recognised by what the gyro should be.
 //! * [`document`]: a result for machines.
 //! * [`prediction`]: what a calibration on this stand will be worth, before there is a reading.
+//! * [`estimates`]: which uncertainties rest on the same estimate.
 //! * [`causes`]: everything that is uncertain, by name; what budgets are made of.
 //! * [`inputs`]: what is known of stand, site, seat and meter, and how well; [`stated`]: as the files state it.
 //!
@@ -41,6 +42,7 @@ pub mod analytic;
 pub mod causes;
 pub mod diagnosis;
 pub mod document;
+pub mod estimates;
 pub mod inputs;
 pub mod iterative;
 pub mod least_squares;

@@ -1,7 +1,6 @@
 //! One calibration: every method asked for, its uncertainty, its fit.
 
 use super::analytic::{self, AnalyticMap, NoAnalyticSolution};
-use super::causes::Repeats;
 use super::diagnosis;
 use super::inputs::Setup;
 use super::iterative::{self, NoIterativeSolution, StopRule};
@@ -10,7 +9,7 @@ use super::parameter::Parameter;
 use super::propagation::{Propagation, chi_square, covariance, standard_deviations};
 use super::readings::Readings;
 use super::result::{Calibration, ChiSquare, Iteration, Method, MethodRefusal, MethodResult, Residual};
-use super::scatter::Scatter;
+use super::scatter::{Observed, Repeats};
 use super::sensitivity::Sensitivity;
 use super::unknowns::Unknowns;
 use crate::gyro::GyroParameters;
@@ -43,25 +42,21 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
     if !indices.eq(setup.coefficients().positions.iter().map(|at| at.index)) {
         return Err(NoLeastSquares::OtherPositions);
     }
-    let mut data = Data::new(readings);
+    let mut data = Data::new(setup, readings);
     let mut fit = data.fit(setup, false)?;
-    let scatter = Scatter::of(setup, readings, &fit);
-    if let Some(found) = scatter.filter(|found| found.variance_factor > 1.0) {
-        data.variance_factor = found.variance_factor;
-        fit = data.fit(setup, false)?;
-    }
-    let currents_ma = &data.currents_ma;
-    let evaluation = Evaluation::new(setup, currents_ma, &fit);
+    let Observed { rows, visits } = data.observe(setup, readings, &mut fit)?;
+    let evaluation = Evaluation::new(setup, &data, &fit);
     let hint = diagnosis::hint(setup, &data, &evaluation.chi_square);
     let settled = fit.settled;
-    let mut calibration = Calibration { results: Vec::new(), refused: Vec::new(), scatter, settled, hint };
+    let (results, refused) = (Vec::new(), Vec::new());
+    let mut calibration = Calibration { results, refused, scatter: visits, row_scatter: rows, settled, hint };
     for &method in &options.methods {
         let result = match method {
             Method::Analytic => evaluation.analytic().map_err(MethodRefusal::from),
             Method::Iterative => evaluation.iterative(&options.stop_rule),
             Method::LeastSquares if options.anisoelasticity => data
                 .fit(setup, true)
-                .map(|fit| Evaluation::new(setup, currents_ma, &fit).least_squares())
+                .map(|fit| Evaluation::new(setup, &data, &fit).least_squares())
                 .map_err(MethodRefusal::from),
             Method::LeastSquares => Ok(evaluation.least_squares()),
         };
@@ -93,12 +88,13 @@ pub(crate) fn linearise(
     method: Method,
     anisoelasticity: bool,
 ) -> Result<Linearised, MethodRefusal> {
-    let mut data = Data::new(readings);
+    let mut data = Data::new(setup, readings);
     let anisoelasticity = anisoelasticity && method == Method::LeastSquares;
-    let plain = data.fit(setup, false)?;
-    let scatter = Scatter::of(setup, readings, &plain).filter(|found| found.variance_factor > 1.0);
-    data.variance_factor = scatter.map_or(1.0, |found| found.variance_factor);
-    let fit = data.fit(setup, anisoelasticity)?;
+    let mut fit = data.fit(setup, false)?;
+    data.observe(setup, readings, &mut fit)?;
+    if anisoelasticity {
+        fit = data.fit(setup, true)?;
+    }
     let propagation = Propagation::new(setup, &fit);
     let (found, response) = match method {
         Method::LeastSquares => (fit.unknowns, propagation.response_of_least_squares()),
@@ -113,9 +109,7 @@ pub(crate) fn linearise(
             (found, propagation.response_of_analytic(&map))
         }
     };
-    let degrees_of_freedom = scatter.map_or(f64::INFINITY, |found| found.degrees_of_freedom as f64);
-    let repeats = Repeats { counts: data.counts, variance_factor: data.variance_factor, degrees_of_freedom };
-    Ok(Linearised { found, repeats, response, fit })
+    Ok(Linearised { found, repeats: data.repeats, response, fit })
 }
 
 /// Mean currents as a fit takes them.
@@ -123,23 +117,30 @@ pub(crate) fn linearise(
 pub(crate) struct Data {
     /// Means (J_x, J_y), in the order of the coefficients.
     pub(crate) currents_ma: Vec<Vector2<f64>>,
-    /// How many readings each is the mean of.
-    counts: Vec<usize>,
-    /// By how much the variance of one reading is enlarged.
-    variance_factor: f64,
+    /// How many visits and readings each is the mean of, and how much these scatter.
+    pub(crate) repeats: Repeats,
 }
 
 impl Data {
-    pub(crate) fn new(readings: &Readings) -> Self {
-        let counts = readings.positions().iter().map(|position| position.each_ma.len()).collect();
-        Self { currents_ma: readings.means_ma(), counts, variance_factor: 1.0 }
+    pub(crate) fn new(setup: &Setup, readings: &Readings) -> Self {
+        Self { currents_ma: readings.means_ma(), repeats: Repeats::stated(setup, readings) }
+    }
+
+    /// Takes in what repeated readings say of themselves, and fits again where that is not what was stated.
+    fn observe(&mut self, setup: &Setup, readings: &Readings, fit: &mut Fit) -> Result<Observed, NoLeastSquares> {
+        let stated = self.repeats.clone();
+        let observed = self.repeats.observe(setup, readings, fit);
+        if self.repeats != stated {
+            *fit = self.fit(setup, false)?;
+        }
+        Ok(observed)
     }
 
     /// Without one position.
     pub(crate) fn without(&self, place: usize) -> Self {
         let mut rest = self.clone();
         rest.currents_ma.remove(place);
-        rest.counts.remove(place);
+        rest.repeats.shares.remove(place);
         rest
     }
 
@@ -147,14 +148,14 @@ impl Data {
     pub(crate) fn exchanged(&self, one: usize, other: usize) -> Self {
         let mut exchanged = self.clone();
         exchanged.currents_ma.swap(one, other);
-        exchanged.counts.swap(one, other);
+        exchanged.repeats.shares.swap(one, other);
         exchanged
     }
 
     /// The weighted fit at `setup`.
     pub(crate) fn fit(&self, setup: &Setup, anisoelasticity: bool) -> Result<Fit, NoLeastSquares> {
         Fit::new(setup.coefficients(), &self.currents_ma, anisoelasticity, |place, unknowns, current| {
-            Sensitivity::new(setup, unknowns).own_covariance(place, current, self.counts[place], self.variance_factor)
+            Sensitivity::new(setup, unknowns).own_covariance(place, current, &self.repeats)
         })
     }
 }
@@ -174,10 +175,10 @@ struct Evaluation<'a> {
 }
 
 impl<'a> Evaluation<'a> {
-    fn new(setup: &'a Setup, currents_ma: &'a [Vector2<f64>], fit: &'a Fit) -> Self {
+    fn new(setup: &'a Setup, data: &'a Data, fit: &'a Fit) -> Self {
         let propagation = Propagation::new(setup, fit);
-        let chi_square = ChiSquare::new(chi_square(setup, fit, currents_ma));
-        Self { setup, currents_ma, fit, propagation, chi_square }
+        let chi_square = ChiSquare::new(chi_square(setup, fit, data));
+        Self { setup, currents_ma: &data.currents_ma, fit, propagation, chi_square }
     }
 
     fn least_squares(&self) -> MethodResult {

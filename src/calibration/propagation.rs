@@ -6,11 +6,17 @@
 //! residuals' (F − X L F)(F − X L F)'.
 
 use super::analytic::AnalyticMap;
+use super::causes::{self, Input};
+use super::estimates::Estimates;
 use super::inputs::Setup;
 use super::least_squares::{Fit, whiten_rows};
+use super::procedure::Data;
 use super::sensitivity::Sensitivity;
 use super::unknowns::design;
+use crate::coefficients::PositionIndex;
+use crate::statistics::scaled_f::{Part, ScaledF};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+use std::collections::BTreeMap;
 
 /// The causes of error at a fit, and what the fit makes of them.
 #[derive(Debug, Clone)]
@@ -116,33 +122,107 @@ impl<'a> Propagation<'a> {
     }
 }
 
-/// Chi-square of the readings `currents_ma` at a fit, and its degrees of freedom.
+/// A chi-square, its degrees of freedom, and its distribution when nothing is wrong.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Misfit {
+    pub(crate) value: f64,
+    pub(crate) degrees_of_freedom: usize,
+    pub(crate) distribution: ScaledF,
+}
+
+/// Chi-square of readings at a fit.
 ///
 /// It is r' C⁻ r with the residuals r of a method, their covariance C from all inputs, and any generalised inverse.
 /// What parameters take up drops out of it, so it is the same for every method that fits exact readings exactly; it is
 /// computed from z = Q₂'W e, whose covariance 1 + B B' has full rank (B = Q₂'W times what all positions share).
-pub(crate) fn chi_square(setup: &Setup, fit: &Fit, currents_ma: &[Vector2<f64>]) -> (f64, usize) {
+pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> Misfit {
     let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma);
     let count = shared.ncols();
     // The misclosures stand behind what is shared, so that one rotation does for both.
     let mut rotated = shared.resize_horizontally(count + 1, 0.0);
     let positions = &setup.coefficients().positions;
-    for (place, ((at, current), whiten)) in positions.iter().zip(currents_ma).zip(&fit.whitening).enumerate() {
+    for (place, ((at, current), whiten)) in positions.iter().zip(&data.currents_ma).zip(&fit.whitening).enumerate() {
         let misclosure = fit.unknowns.misclosure(at, current);
         rotated[(2 * place, count)] = misclosure.x;
         rotated[(2 * place + 1, count)] = misclosure.y;
         whiten_rows(&mut rotated, place, whiten);
     }
+    let whitened = rotated.clone();
     fit.model.rotate(&mut rotated);
     let degrees_of_freedom = fit.model.rows() - fit.model.columns();
+    if degrees_of_freedom == 0 {
+        // As many readings as unknowns: what is left is rounding.
+        return Misfit { value: 0.0, degrees_of_freedom, distribution: ScaledF::new(0, &[]) };
+    }
     let rest = rotated.rows(fit.model.columns(), degrees_of_freedom);
     // Woodbury: z' (1 + B B')⁻¹ z = z'z − (B'z)' (1 + B'B)⁻¹ (B'z).
     let z = rest.column(count);
     let projected = DVector::from_fn(count, |i, _| rest.column(i).dot(&z));
     let inner =
         DMatrix::from_fn(count, count, |i, j| rest.column(i).dot(&rest.column(j)) + if i == j { 1.0 } else { 0.0 });
-    let taken = inner.cholesky().map_or(0.0, |cholesky| projected.dot(&cholesky.solve(&projected)));
-    (z.norm_squared() - taken, degrees_of_freedom)
+    let cholesky = inner.cholesky();
+    let taken = cholesky.as_ref().map_or(0.0, |cholesky| projected.dot(&cholesky.solve(&projected)));
+    let lower = cholesky.map(|cholesky| cholesky.unpack());
+    let parts = parts(setup, fit, data, &whitened.columns(0, count).into_owned(), lower);
+    let distribution = ScaledF::new(degrees_of_freedom, &parts);
+    Misfit { value: z.norm_squared() - taken, degrees_of_freedom, distribution }
+}
+
+/// The parts of the covariance of the residuals that rest on estimates with few degrees of freedom. `shared` is what all
+/// positions share, whitened, and `lower` is L with L L' = 1 + B'B.
+///
+/// χ² is y' M y of the whitened misclosures y with M = 1 − V V', V being Q₁ and Q₂ B L'⁻¹ side by side: Q₁ = W X R⁻¹ is
+/// what parameters take up. A part D of y's covariance enters by tr M D and tr M D M D; columns of D at different
+/// positions have nothing in common, so the cost grows with the number of positions alone.
+fn parts(setup: &Setup, fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Option<DMatrix<f64>>) -> Vec<Part> {
+    let estimates = Estimates::new(setup, &data.repeats);
+    if estimates.degrees_of_freedom.is_empty() {
+        return Vec::new();
+    }
+    let (inputs, mut columns) = causes::inputs(setup, &fit.unknowns, &fit.currents_ma, &data.repeats);
+    let mut taken = design(&setup.coefficients().positions, &fit.currents_ma, fit.model.columns());
+    for (place, whiten) in fit.whitening.iter().enumerate() {
+        whiten_rows(&mut columns, place, whiten);
+        whiten_rows(&mut taken, place, whiten);
+    }
+    taken *= fit.model.r_inverse();
+    let mut inner = shared - &taken * (taken.transpose() * shared);
+    if let Some(inverse) = lower.and_then(|lower| lower.try_inverse()) {
+        inner *= inverse.transpose();
+    }
+    let seen = [taken, inner].map(|v| v.transpose() * &columns);
+    let rows = seen[0].nrows() + seen[1].nrows();
+    // V' of a column.
+    let seen = |column: usize| {
+        DVector::from_iterator(
+            rows,
+            seen.iter().flat_map(|part| part.column(column).iter().copied().collect::<Vec<_>>()),
+        )
+    };
+    let part = |(estimate, &degrees_of_freedom): (usize, &f64)| {
+        let share = |input: &Input| input.basis.shares().find(|(place, _)| *place == estimate).map(|(_, share)| share);
+        let mut part = Part { degrees_of_freedom, trace: 0.0, square: 0.0 };
+        let mut inside = DMatrix::zeros(rows, rows);
+        let mut at: BTreeMap<Option<PositionIndex>, Vec<(usize, f64, DVector<f64>)>> = BTreeMap::new();
+        for (column, input) in inputs.iter().enumerate() {
+            let Some(weight) = share(input) else { continue };
+            let v = seen(column);
+            part.trace += weight * (columns.column(column).norm_squared() - v.norm_squared());
+            inside.ger(weight, &v, &v, 1.0);
+            at.entry(input.cause.position()).or_default().push((column, weight, v));
+        }
+        for here in at.values() {
+            for ((one, weight, v), (other, other_weight, w)) in
+                here.iter().flat_map(|a| here.iter().map(move |b| (a, b)))
+            {
+                let product = columns.column(*one).dot(&columns.column(*other));
+                part.square += weight * other_weight * product * (product - 2.0 * v.dot(w));
+            }
+        }
+        part.square += inside.norm_squared();
+        part
+    };
+    estimates.degrees_of_freedom.iter().enumerate().map(part).collect()
 }
 
 /// Covariance S S' of a spread S (parameters × causes).
@@ -175,7 +255,7 @@ mod tests {
     use crate::attitude::Deviation;
     use crate::calibration::inputs::{InputUncertainty, MeterUncertainty};
     use crate::calibration::unknowns::Unknowns;
-    use crate::calibration::{analytic, procedure::Data, readings::Readings};
+    use crate::calibration::{analytic, readings::Readings};
     use crate::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
     use crate::gyro::GyroType;
     use crate::statistics::random::Stream;
@@ -194,6 +274,7 @@ mod tests {
             ..InputUncertainty::of_meter(MeterUncertainty {
                 reading: 1e-4,
                 floor_ma: 1e-6,
+                noise_ma: 0.0,
                 gain: 1e-4,
                 offset_ma: 1e-5,
             })
@@ -208,9 +289,9 @@ mod tests {
         let mut currents: Vec<_> = positions.iter().map(|at| gyro.currents_ma(at).unwrap()).collect();
         currents.iter_mut().for_each(|current| *current = current.map(|j| j * (1.0 + stream.within(2e-4))));
         let each: Vec<_> = positions.iter().map(|at| at.index).zip(currents.clone()).collect();
-        let data = Data::new(&Readings::new(setup.coefficients(), &each).unwrap());
+        let data = Data::new(&setup, &Readings::new(setup.coefficients(), &each).unwrap());
         let fit = data.fit(&setup, false).unwrap();
-        let (expected, degrees_of_freedom) = chi_square(&setup, &fit, &currents);
+        let Misfit { value: expected, degrees_of_freedom, .. } = chi_square(&setup, &fit, &data);
         assert_eq!(degrees_of_freedom, 8);
         let propagation = Propagation::new(&setup, &fit);
         let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma).unwrap();

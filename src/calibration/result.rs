@@ -5,10 +5,10 @@ use super::diagnosis::Hint;
 use super::iterative::{NoIterativeSolution, StepChange, StopRule};
 use super::least_squares::NoLeastSquares;
 use super::parameter::Parameter;
-use super::scatter::Scatter;
+use super::propagation::Misfit;
+use super::scatter::{RowScatter, Scatter};
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroParameters;
-use crate::statistics::distributions::chi_square_larger;
 use nalgebra::{DMatrix, Matrix2, Vector2};
 
 /// A method of calibration.
@@ -43,8 +43,10 @@ pub struct Calibration {
     pub results: Vec<MethodResult>,
     /// Methods that gave nothing, and why.
     pub refused: Vec<(Method, MethodRefusal)>,
-    /// Whether repeated readings agree; absent where nothing was repeated.
+    /// Whether the visits of a position agree; absent where every position was visited once.
     pub scatter: Option<Scatter>,
+    /// How the rows of a visit scatter; absent where every visit has one.
+    pub row_scatter: Option<RowScatter>,
     /// Whether the fit settled. If not, the readings are far from any gyro's on this stand.
     pub settled: bool,
     /// What may be wrong, when the readings do not fit.
@@ -142,17 +144,28 @@ pub struct Iteration {
 /// Chi-square of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChiSquare {
-    /// Its value.
+    /// Chi-square; 0 where there are no degrees of freedom.
     pub value: f64,
-    /// Readings less parameters.
+    /// Number of readings less number of parameters; with 0 a fit cannot be judged.
     pub degrees_of_freedom: usize,
     /// Probability of a larger value when nothing is wrong.
+    ///
+    /// Where uncertainties rest on estimates with few degrees of freedom, this is that of a scaled F.
     pub probability: f64,
+    /// Degrees of freedom of the denominator of that F; infinite where every uncertainty is known.
+    pub of_uncertainties: f64,
 }
 
 impl ChiSquare {
-    pub(crate) fn new((value, degrees_of_freedom): (f64, usize)) -> Self {
-        Self { value, degrees_of_freedom, probability: chi_square_larger(value, degrees_of_freedom) }
+    pub(crate) fn new(misfit: Misfit) -> Self {
+        let Misfit { value, degrees_of_freedom, distribution } = misfit;
+        let probability = if degrees_of_freedom == 0 { 1.0 } else { distribution.larger(value) };
+        Self { value, degrees_of_freedom, probability, of_uncertainties: distribution.denominator }
+    }
+
+    /// Returns `false` if there are as many unknowns as readings, which any readings fit.
+    pub fn judges(&self) -> bool {
+        self.degrees_of_freedom > 0
     }
 }
 

@@ -5,6 +5,7 @@
 //! v × δ; when the base turns by δ, Ã w changes by Ã (w × δ).
 
 use super::inputs::Setup;
+use super::scatter::Repeats;
 use super::unknowns::Unknowns;
 use nalgebra::{DMatrix, Matrix2, Vector2, Vector3};
 
@@ -77,34 +78,30 @@ impl<'a> Sensitivity<'a> {
         self.of_vectors(place, &self.setup.case_turned(place, axis))
     }
 
-    /// Covariance, 2×2, of what is each position's own: its meter readings, its returns, its certified angles.
-    ///
-    /// `readings` is how many the position has: what is own of every reading averages, the certified mean does not.
-    /// `variance_factor` enlarges what is own of every reading.
-    pub(crate) fn own_covariance(
-        &self,
-        place: usize,
-        current_ma: &Vector2<f64>,
-        readings: usize,
-        variance_factor: f64,
-    ) -> Matrix2<f64> {
-        let one_reading = self.of_one_reading(place, current_ma) * variance_factor;
-        one_reading / readings.max(1) as f64 + self.of_certified_angles(place)
+    /// Covariance, 2×2, of what is each position's own: the meter's specification, its returns and the noise of its
+    /// readings as `repeats` says, its certified angles.
+    pub(crate) fn own_covariance(&self, place: usize, current_ma: &Vector2<f64>, repeats: &Repeats) -> Matrix2<f64> {
+        let meter = self.setup.uncertainty().meter;
+        let noise = repeats.noise_variance_ma2(place);
+        let k = &self.unknowns.parameters.k_deg_per_h_per_ma;
+        let currents = current_ma.map(|current| meter.own_variance_ma2(current) + noise);
+        let meter = k * Matrix2::from_diagonal(&currents) * k.transpose();
+        self.with_return(meter, place, repeats.return_share(place)) + self.of_certified_angles(place)
     }
 
-    /// Covariance, 2×2, of one reading and one return.
-    pub(crate) fn of_one_reading(&self, place: usize, current_ma: &Vector2<f64>) -> Matrix2<f64> {
-        let uncertainty = self.setup.uncertainty();
-        let k = &self.unknowns.parameters.k_deg_per_h_per_ma;
-        let meter = current_ma.map(|current| uncertainty.meter.own_variance_ma2(current));
-        let mut covariance = k * Matrix2::from_diagonal(&meter) * k.transpose();
-        if uncertainty.repeatability_rad > 0.0 {
-            for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
-                let change = self.to_case_turn(place, &axis) * uncertainty.repeatability_rad;
-                covariance += change * change.transpose();
-            }
-        }
-        covariance
+    /// Covariance, 2×2, of one return.
+    pub(crate) fn of_return(&self, place: usize) -> Matrix2<f64> {
+        self.with_return(Matrix2::zeros(), place, 1.0)
+    }
+
+    /// `covariance` and that of a return, of whose variance `share` is kept.
+    fn with_return(&self, covariance: Matrix2<f64>, place: usize, share: f64) -> Matrix2<f64> {
+        let u = self.setup.uncertainty().repeatability_rad * share.sqrt();
+        let axes = if u > 0.0 { vec![Vector3::x(), Vector3::y(), Vector3::z()] } else { Vec::new() };
+        axes.iter().fold(covariance, |sum, axis| {
+            let change = self.to_case_turn(place, axis) * u;
+            sum + change * change.transpose()
+        })
     }
 
     fn of_certified_angles(&self, place: usize) -> Matrix2<f64> {

@@ -3,7 +3,8 @@
 use super::inputs::{InputUncertainty, MeterUncertainty, NoSetup, Setup};
 use crate::laboratory::{Base, Laboratory};
 use crate::site::{Site, SiteUncertainty, UNKNOWN_DEFLECTION_U_ARCSEC};
-use crate::stand::{Certificate, CertifiedPosition};
+use crate::stand::{ActsOn, Certificate, CertifiedPosition};
+use crate::statistics::propagation::effective_degrees_of_freedom;
 use crate::units::radians_from_arcseconds;
 
 /// What nobody states: the uncertainty of a result is without it.
@@ -89,6 +90,12 @@ impl Stated {
             angles_degrees_of_freedom: positions.iter().map(|at| degrees_of_freedom(at.degrees_of_freedom)).collect(),
             repeatability_degrees_of_freedom: degrees_of_freedom(certificate.repeatability_degrees_of_freedom),
             repeatability_rad: angle(certificate.repeatability_arcsec, NotStated::Return),
+            common_platform_degrees_of_freedom: of_common(
+                certificate,
+                ActsOn::Platform,
+                certificate.common_platform_arcsec,
+            ),
+            common_base_degrees_of_freedom: of_common(certificate, ActsOn::Base, certificate.common_base_arcsec),
             common_platform_rad: angle(certificate.common_platform_arcsec, NotStated::Platform),
             common_base_rad: angle(certificate.common_base_arcsec, NotStated::Base),
             latitude_rad: angle(base.latitude_arcsec, NotStated::Latitude),
@@ -121,6 +128,18 @@ impl Setup {
         let positions: Vec<_> = positions.iter().map(CertifiedPosition::to_model).collect();
         Ok((Self::new(&positions, site.earth().rate(), uncertainty)?, missing))
     }
+}
+
+/// The degrees of freedom of what all positions share: of what R runs showed, 3 (R − 1); of a line of type B its own.
+fn of_common(certificate: &Certificate, on: ActsOn, common_arcsec: Option<f64>) -> f64 {
+    let Some((evidence, common_arcsec)) = certificate.evidence.as_ref().zip(common_arcsec) else {
+        return f64::INFINITY;
+    };
+    let shown = (common_arcsec * common_arcsec - certificate.type_b_arcsec2(on)).max(0.0).sqrt();
+    let mut parts = vec![(shown, 3.0 * (f64::from(evidence.runs) - 1.0))];
+    let type_b = certificate.type_b_on(on);
+    parts.extend(type_b.map(|line| (line.u_arcsec, line.degrees_of_freedom.unwrap_or(f64::INFINITY))));
+    effective_degrees_of_freedom(&parts)
 }
 
 /// Words, when the laboratory's temperature is outside the range for which the deviations are certified.

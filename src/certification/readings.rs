@@ -28,6 +28,7 @@ pub struct AngleReadings {
     lines: Vec<Vec<usize>>,
     repeated_rows: usize,
     sha256: Option<String>,
+    remark: Option<String>,
 }
 
 /// Readings that do not hold every position in every run.
@@ -49,7 +50,7 @@ impl AngleReadings {
     pub fn new(runs: Vec<u32>, each_arcsec: Vec<Vec<Vector3<f64>>>) -> Result<Self, NotBalanced> {
         let balanced = !runs.is_empty() && !each_arcsec.is_empty();
         if balanced && each_arcsec.iter().all(|position| position.len() == runs.len()) {
-            Ok(Self { runs, each_arcsec, lines: Vec::new(), repeated_rows: 0, sha256: None })
+            Ok(Self { runs, each_arcsec, lines: Vec::new(), repeated_rows: 0, sha256: None, remark: None })
         } else {
             Err(NotBalanced)
         }
@@ -62,7 +63,7 @@ impl AngleReadings {
     /// [`Unreadable`] with every mistake at its line and column: form, numbers, positions unknown or missing from a run,
     /// angles beyond 45°, angles that are no scatter (another unit, another position).
     pub fn from_csv(name: &str, bytes: &[u8], positions: &[NominalPosition]) -> Result<Self, Unreadable> {
-        let table = Table::read(name, bytes, &COLUMNS)?;
+        let table = Table::read(name, bytes, &COLUMNS, &[])?;
         let mut problems = Vec::new();
         let mut rows: Vec<Reading> = Vec::new();
         for row in &table.rows {
@@ -87,7 +88,7 @@ impl AngleReadings {
             }
         }
         if problems.is_empty() {
-            Ok(Self { sha256: Some(sha256_hex(bytes)), ..Self::averaged(positions, &rows) })
+            Ok(Self { sha256: Some(sha256_hex(bytes)), remark: table.remark(), ..Self::averaged(positions, &rows) })
         } else {
             Err(table.refuse(problems))
         }
@@ -108,7 +109,13 @@ impl AngleReadings {
             lines: each.iter().map(lines).collect(),
             repeated_rows: rows.len() - averages.len(),
             sha256: None,
+            remark: None,
         }
+    }
+
+    /// Returns what is to be said of the file: which of its columns were left out of account.
+    pub fn remark(&self) -> Option<&str> {
+        self.remark.as_deref()
     }
 
     /// The runs' numbers, ascending.

@@ -29,7 +29,8 @@ use std::path::{Path, PathBuf};
 pub struct Options {
     #[command(flatten)]
     passport: PassportOptions,
-    /// Currents: CSV with the header i,j,jx_ma,jy_ma; several rows for a position are repeated readings
+    /// Currents: CSV with the header i,j,jx_ma,jy_ma, and if present cycle, visit, time_s; rows of a position that follow
+    /// each other are readings of one visit
     #[arg(value_name = "CURRENTS.csv")]
     currents: PathBuf,
     /// Methods; least squares is the answer
@@ -84,6 +85,9 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let name = name_of(&options.currents);
     let readings = Readings::from_csv(&name, &bytes, setup.coefficients(), laboratory.meter.range_ma);
     let readings = readings.map_err(Failure::unusable)?;
+    if let Some(remark) = readings.remark() {
+        output::say(remark);
+    }
     let asked = CalibrationOptions {
         methods: options.method.iter().copied().map(Method::from).collect(),
         stop_rule: StopRule { delta1_percent: options.delta1_percent, delta2_deg_per_h: options.delta2_deg_per_h },

@@ -47,6 +47,9 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let bytes = files::read(&options.readings, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
     let name = name_of(&options.readings);
     let readings = AngleReadings::from_csv(&name, &bytes, &header.positions).map_err(Failure::unusable)?;
+    if let Some(remark) = readings.remark() {
+        output::say(remark);
+    }
     let certified = certify(&header, &readings);
     let comparison = against.as_ref().map(|stand| compare(stand, &header, &readings, certified.as_ref().ok()));
     let comparison = comparison.transpose().map_err(Failure::refused)?;

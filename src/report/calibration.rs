@@ -4,6 +4,7 @@ use crate::calibration::diagnosis::CANNOT_TELL;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::mistake::Mistake;
 use crate::calibration::parameter::Parameter;
+use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, Found, Verdict, change_in_uncertainties};
 use crate::calibration::{Calibration, MethodResult};
@@ -116,40 +117,15 @@ fn methods(out: &mut String, calibration: &Calibration) {
 
 fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
     let Some(answer) = calibration.answer() else { return };
-    let chi_square = &answer.chi_square;
-    let _ = writeln!(
-        out,
-        "\nFit: chi-square {:.2} with {} degrees of freedom; a larger one has probability {}",
-        chi_square.value,
-        chi_square.degrees_of_freedom,
-        columns::probability(chi_square.probability)
-    );
-    let rows: Vec<Vec<String>> = answer
-        .residuals
-        .iter()
-        .map(|residual| {
-            let (value, normalised) = (residual.residual_deg_per_h, residual.normalised);
-            let mut row = vec![residual.index.i.to_string(), residual.index.j.to_string()];
-            row.extend([value.x, value.y].map(|x| format!("{x:+.5}")));
-            row.extend([normalised.x, normalised.y].map(|x| format!("{x:+.1}")));
-            row
-        })
-        .collect();
-    columns::table(out, &["i", "j", "x, deg/h", "y, deg/h", "x / u", "y / u"], &rows);
-    if let Some(scatter) = &calibration.scatter {
-        let words = format!(
-            "Repeated readings scatter with chi-square {:.2} of {} degrees of freedom (probability of more: {}); {}.",
-            scatter.chi_square,
-            scatter.degrees_of_freedom,
-            columns::probability(scatter.probability),
-            if scatter.variance_factor > 1.0 {
-                format!("more than stated: their variance was enlarged {:.1} times", scatter.variance_factor)
-            } else {
-                "as stated".to_owned()
-            }
-        );
-        columns::paragraph(out, "  ", &words);
+    if answer.chi_square.judges() {
+        residuals(out, answer);
+    } else {
+        let words = "The fit cannot be judged: there are as many unknowns as readings (0 degrees of freedom), so any \
+                     readings would fit. Read more positions.";
+        let _ = writeln!(out);
+        columns::paragraph(out, "", words);
     }
+    scatter(out, calibration);
     if !calibration.settled {
         columns::paragraph(
             out,
@@ -165,6 +141,73 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
         let words = format!("Not stated by anybody, and so missing from every u: {}.", missing.join("; "));
         columns::paragraph(out, "", &words);
     }
+}
+
+fn residuals(out: &mut String, answer: &MethodResult) {
+    let chi_square = &answer.chi_square;
+    let _ = writeln!(
+        out,
+        "\nFit: chi-square {:.2} with {} degrees of freedom; a larger one has probability {}",
+        chi_square.value,
+        chi_square.degrees_of_freedom,
+        columns::probability(chi_square.probability)
+    );
+    if chi_square.of_uncertainties < 1000.0 {
+        let words = format!(
+            "The uncertainties that it is made with have {:.0} degrees of freedom themselves; the probability takes that \
+             into account.",
+            chi_square.of_uncertainties
+        );
+        columns::paragraph(out, "  ", &words);
+    }
+    let rows: Vec<Vec<String>> = answer
+        .residuals
+        .iter()
+        .map(|residual| {
+            let (value, normalised) = (residual.residual_deg_per_h, residual.normalised);
+            let mut row = vec![residual.index.i.to_string(), residual.index.j.to_string()];
+            row.extend([value.x, value.y].map(|x| format!("{x:+.5}")));
+            row.extend([normalised.x, normalised.y].map(|x| format!("{x:+.1}")));
+            row
+        })
+        .collect();
+    columns::table(out, &["i", "j", "x, deg/h", "y, deg/h", "x / u", "y / u"], &rows);
+}
+
+fn scatter(out: &mut String, calibration: &Calibration) {
+    if let Some(rows) = &calibration.row_scatter {
+        let (deviation, freedom) = (rows.standard_deviation_ma * 1000.0, rows.degrees_of_freedom);
+        let words = match &rows.against_stated {
+            Some(stated) => agreement("The readings of a visit", stated, "are they copies of one reading?"),
+            None => format!(
+                "The readings of a visit have a standard deviation of {deviation:.2e} uA ({freedom} degrees of freedom), \
+                 which was taken for the meter's noise: no noise_ma is stated."
+            ),
+        };
+        columns::paragraph(out, "  ", &words);
+    }
+    if let Some(visits) = &calibration.scatter {
+        let less =
+            "were these readings taken without leaving the position? Then give them one number in the column visit";
+        columns::paragraph(out, "  ", &agreement("The visits of a position", visits, less));
+    }
+}
+
+/// How something scatters in comparison with what was stated of it; `less` is what to think of when that is less.
+fn agreement(what: &str, found: &Scatter, less: &str) -> String {
+    let verdict = match found.agreement() {
+        Agreement::More => {
+            format!("more than stated: their variance was enlarged {:.1} times", found.variance_factor)
+        }
+        Agreement::AsStated => "as stated".to_owned(),
+        Agreement::Less => format!("less than stated: {less}"),
+    };
+    format!(
+        "{what} scatter with chi-square {:.2} of {} degrees of freedom (probability of more: {}); {verdict}.",
+        found.chi_square,
+        found.degrees_of_freedom,
+        columns::probability(found.probability)
+    )
 }
 
 /// The lines of a verdict; `reference` names what values are compared with, `deviation` what they differ by.

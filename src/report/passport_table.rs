@@ -210,8 +210,9 @@ fn accuracy(out: &mut String, content: &Content) {
     line(out, "gyro type", &gyro.r#type);
     option(out, "laboratory", laboratory.name.as_ref());
     let meter = &laboratory.meter;
+    let noise = meter.noise_ma.map_or_else(String::new, |noise| format!(", {noise} mA noise of a reading"));
     let words = format!(
-        "{} % of reading, {} % gain, {} mA offset, {} mA floor",
+        "{} % of reading, {} % gain, {} mA offset, {} mA floor{noise}",
         meter.reading_percent, meter.gain_percent, meter.offset_ma, meter.floor_ma
     );
     line(out, "meter", words);

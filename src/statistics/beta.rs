@@ -65,7 +65,7 @@ pub fn student_beyond(value: f64, degrees_of_freedom: f64) -> f64 {
 
 /// Returns the probability that F with `numerator` and `denominator` degrees of freedom, both finite, is larger than
 /// `value`; NaN where one of the three is NaN or a number of degrees of freedom is not positive.
-fn f_beyond(value: f64, numerator: f64, denominator: f64) -> f64 {
+pub fn f_beyond(value: f64, numerator: f64, denominator: f64) -> f64 {
     if value.is_nan() || !(numerator > 0.0 && denominator > 0.0) {
         return f64::NAN;
     }

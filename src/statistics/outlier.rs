@@ -1,6 +1,6 @@
 //! Tests for a group that scatters more (Bartlett) and for a value that is out (Grubbs).
 
-use super::beta::{incomplete_beta, student_beyond};
+use super::beta::{f_beyond, student_beyond};
 use super::distributions::chi_square_larger;
 use super::saddle_point::deviance;
 
@@ -47,8 +47,7 @@ pub fn cochran_probability(groups: &[(f64, f64)], at: usize) -> f64 {
     let Some(&(variance, own)) = groups.get(at) else { return f64::NAN };
     let others = groups.iter().enumerate().filter(|(place, _)| *place != at).map(|(_, group)| group);
     let (sum, rest) = others.fold((0.0, 0.0), |(sum, rest), (variance, nu)| (sum + variance * nu, rest + nu));
-    // P(F > f) = I_x(ν₂/2, ν₁/2) with x = ν₂/(ν₂ + ν₁ f), and ν₂/f is the others' sum over the variance.
-    let beyond = incomplete_beta(sum / (sum + own * variance), rest / 2.0, own / 2.0);
+    let beyond = f_beyond(variance * (rest / sum), own, rest);
     (groups.len() as f64 * beyond).clamp(0.0, 1.0)
 }
 

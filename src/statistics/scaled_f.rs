@@ -108,8 +108,7 @@ mod tests {
         let mut improbable = [0, 0];
         for (factors, factor) in draws {
             let shared = (common / 8.0_f64).sqrt() * stream.normal();
-            let z: Vec<f64> =
-                (0..8).map(|place| (known + shares(place).1).sqrt() * stream.normal() + shared).collect();
+            let z: Vec<f64> = (0..8).map(|place| (known + shares(place).1).sqrt() * stream.normal() + shared).collect();
             let own = |place: usize| shares(place).1 * factors[shares(place).0];
             let value = form(&z, &own, common * factor);
             // Parts at the estimates, as a calibration takes them: S by its elements.

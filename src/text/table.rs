@@ -1,8 +1,9 @@
 //! Tables of numbers (CSV): a header of column names in any order, `#` comments, every mistake with its place.
 //!
 //! A table comes from a meter's software or a spreadsheet and is signed by nobody: CR LF and a byte order mark, which
-//! those write, are taken as they are. Semicolons and decimal commas are refused and named, for what they mean depends
-//! on the reader's country.
+//! those write, are taken as they are. A column that nobody asked for is left out of account and named, unless its name
+//! looks like a slip. Semicolons and decimal commas are refused and named, for what they mean depends on the reader's
+//! country.
 
 use super::node::plain_text;
 use super::problem::{Location, MOST_PROBLEMS, Problem, Unreadable};
@@ -12,58 +13,77 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table<'a> {
     name: &'a str,
-    columns: &'a [&'a str],
+    columns: Vec<&'a str>,
     /// Rows in the order of the text.
     pub rows: Vec<Row>,
+    left_out: Vec<String>,
 }
 
 /// A row of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// One cell for each column asked for.
+    /// One cell for each column asked for that is there.
     pub cells: Vec<Cell>,
 }
 
 /// A cell: its text, blanks around it removed, and its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Cell {
-    /// What stands there.
+    /// What stands there, without the quotes of a quoted cell.
     pub text: String,
     /// Where.
     pub location: Location,
 }
 
 impl<'a> Table<'a> {
-    /// Reads the table `name` that must have exactly the `columns`, in any order.
+    /// Reads the table `name` that must have the `required` columns and may have the `optional` ones, in any order.
     ///
     /// # Errors
     /// [`Unreadable`] with every mistake in form; what the cells mean is the caller's.
-    pub fn read(name: &'a str, bytes: &[u8], columns: &'a [&'a str]) -> Result<Self, Unreadable> {
+    pub fn read(name: &'a str, bytes: &[u8], required: &[&'a str], optional: &[&'a str]) -> Result<Self, Unreadable> {
         let text = decoded(name, bytes)?;
         let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line)).filter(|(_, line)| {
             let line = line.trim();
             !line.is_empty() && !line.starts_with('#')
         });
         let Some((line, header)) = lines.next() else {
-            let expected = format!("the header {}", columns.join(","));
+            let expected = format!("the header {}", required.join(","));
             return Err(Unreadable::whole(name, None, "nothing but blanks and comments", expected, ""));
         };
-        let order = order_of_columns(name, line, header, columns)?;
+        let header = Header::read(name, line, header, required, optional)?;
         let mut problems = Vec::new();
         let mut rows = Vec::new();
         for (line, text) in lines {
-            let found = text.split(',').count();
-            if found == columns.len() {
-                let cells = cells(line, text);
-                rows.push(Row { cells: order.iter().map(|&place| cells[place].clone()).collect() });
-            } else {
-                problems.push(wrong_number_of_cells(line, text, found, columns.len()));
+            match cells(line, text) {
+                Ok(cells) if cells.len() == header.width => {
+                    rows.push(Row { cells: header.order.iter().map(|&place| cells[place].clone()).collect() });
+                }
+                Ok(cells) => problems.push(wrong_number_of_cells(line, text, cells.len(), header.width)),
+                Err(problem) => problems.push(problem),
             }
             if problems.len() >= MOST_PROBLEMS {
                 break;
             }
         }
-        if problems.is_empty() { Ok(Self { name, columns, rows }) } else { Err(Unreadable::of(name, problems)) }
+        let Header { columns, left_out, .. } = header;
+        if problems.is_empty() {
+            Ok(Self { name, columns, rows, left_out })
+        } else {
+            Err(Unreadable::of(name, problems))
+        }
+    }
+
+    /// Names the columns that are left out of account, in words; `None` when there are none.
+    pub fn remark(&self) -> Option<String> {
+        let names: Vec<String> = self.left_out.iter().map(|name| format!("{name:?}")).collect();
+        let (words, are) = if names.len() == 1 { ("column", "is") } else { ("columns", "are") };
+        let name = self.name;
+        (!names.is_empty()).then(|| format!("{name}: the {words} {} {are} left out of account", names.join(", ")))
+    }
+
+    /// The place of a column among the cells of a row; `None` for an optional one that is not there.
+    pub fn place(&self, column: &str) -> Option<usize> {
+        self.columns.iter().position(|name| *name == column)
     }
 
     /// A finite number in a cell; a mistake is added to `problems`.
@@ -151,72 +171,145 @@ fn decoded(name: &str, bytes: &[u8]) -> Result<String, Unreadable> {
     plain_text(name, &plain).map(str::to_owned)
 }
 
-fn cells(line: usize, text: &str) -> Vec<Cell> {
-    let mut column = 1;
-    text.split(',')
-        .map(|cell| {
-            let blanks = cell.chars().take_while(|c| c.is_whitespace()).count();
-            let location = Location { line, column: column + blanks };
-            column += cell.chars().count() + 1;
-            Cell { text: cell.trim().to_owned(), location }
-        })
-        .collect()
+/// The cells of a line; one that begins with a quote ends with one and may hold commas, and quotes doubled (RFC 4180).
+fn cells(line: usize, text: &str) -> Result<Vec<Cell>, Problem> {
+    let mut cells = Vec::new();
+    let mut rest = Some(text);
+    while let Some(here) = rest {
+        let start = here.trim_start();
+        let column = text[..text.len() - start.len()].chars().count() + 1;
+        let location = Location { line, column };
+        let (cell, after) = match start.strip_prefix('"') {
+            Some(quoted) => unquoted(quoted).ok_or_else(|| bad_quotes(location))?,
+            None => {
+                let end = start.find(',').unwrap_or(start.len());
+                (start[..end].trim_end().to_owned(), &start[end..])
+            }
+        };
+        cells.push(Cell { text: cell, location });
+        rest = after.strip_prefix(',');
+    }
+    Ok(cells)
 }
 
-/// Where each of the `columns` stands in the header.
-fn order_of_columns(name: &str, line: usize, header: &str, columns: &[&str]) -> Result<Vec<usize>, Unreadable> {
-    let at = Location { line, column: 1 };
-    let expected = || format!("the header {}, its columns in any order", columns.join(","));
-    for (separator, words) in [(';', "semicolons"), ('\t', "tabs")] {
-        if header.contains(separator) {
-            let found = format!("columns separated by {words}");
-            let advice = "save as CSV with commas between the columns and points in the numbers";
-            return Err(Unreadable::whole(name, Some(at), found, expected(), advice));
+/// The text of a quoted cell, behind its first quote, and what follows the cell: nothing, or a comma and more. `None`
+/// when it has no last quote, or something else follows that.
+fn unquoted(quoted: &str) -> Option<(String, &str)> {
+    let (mut text, mut rest) = (String::new(), quoted);
+    loop {
+        let end = rest.find('"')?;
+        text.push_str(&rest[..end]);
+        rest = &rest[end + 1..];
+        match rest.strip_prefix('"') {
+            Some(more) => rest = more,
+            None => break,
         }
+        text.push('"');
     }
-    if header.split(',').nth(MOST_PROBLEMS).is_some() {
-        let found = format!("{} columns", header.split(',').count());
-        return Err(Unreadable::whole(name, Some(at), found, expected(), "is this the right file?"));
+    let after = rest.trim_start();
+    (after.is_empty() || after.starts_with(',')).then(|| (text.trim().to_owned(), after))
+}
+
+fn bad_quotes(location: Location) -> Problem {
+    Problem {
+        location: Some(location),
+        field: String::new(),
+        found: "a quoted cell that does not end before a comma or the end of the line".to_owned(),
+        expected: "\"…\", with a quote inside written twice".to_owned(),
+        advice: String::new(),
     }
-    let cells = cells(line, header);
-    if cells.iter().all(|cell| cell.text.parse::<f64>().is_ok()) {
-        return Err(Unreadable::whole(name, Some(at), "numbers where the header is due", expected(), "add the header"));
-    }
-    let mut problems = Vec::new();
-    for (index, cell) in cells.iter().enumerate() {
-        let problem = |found: String, advice: String| Problem {
-            location: Some(cell.location),
-            field: String::new(),
-            found,
-            expected: expected(),
-            advice,
-        };
-        if !columns.contains(&cell.text.as_str()) {
-            let nearest = columns.iter().map(|column| (strsim::damerau_levenshtein(column, &cell.text), column)).min();
-            let advice = match nearest {
-                Some((distance, column)) if distance <= 3 => format!("did you mean {column}?"),
-                _ => String::new(),
+}
+
+/// The header of a table.
+struct Header<'a> {
+    /// The columns asked for that are there.
+    columns: Vec<&'a str>,
+    /// Where each of them stands in a line.
+    order: Vec<usize>,
+    left_out: Vec<String>,
+    /// Cells of a line.
+    width: usize,
+}
+
+impl<'a> Header<'a> {
+    fn read(
+        name: &str,
+        line: usize,
+        header: &str,
+        required: &[&'a str],
+        optional: &[&'a str],
+    ) -> Result<Self, Unreadable> {
+        let at = Location { line, column: 1 };
+        let expected = || format!("the header {}, its columns in any order", required.join(","));
+        for (separator, words) in [(';', "semicolons"), ('\t', "tabs")] {
+            if header.contains(separator) {
+                let found = format!("columns separated by {words}");
+                let advice = "save as CSV with commas between the columns and points in the numbers";
+                return Err(Unreadable::whole(name, Some(at), found, expected(), advice));
+            }
+        }
+        if header.split(',').nth(MOST_PROBLEMS).is_some() {
+            let found = format!("{} columns", header.split(',').count());
+            return Err(Unreadable::whole(name, Some(at), found, expected(), "is this the right file?"));
+        }
+        let cells = cells(line, header).map_err(|problem| Unreadable::of(name, vec![problem]))?;
+        if cells.iter().all(|cell| cell.text.parse::<f64>().is_ok()) {
+            let found = "numbers where the header is due";
+            return Err(Unreadable::whole(name, Some(at), found, expected(), "add the header"));
+        }
+        let known: Vec<&str> = required.iter().chain(optional).copied().collect();
+        let mut problems = Vec::new();
+        let mut left_out = Vec::new();
+        for (index, cell) in cells.iter().enumerate() {
+            let mut problem = |found: String, advice: String| {
+                let (location, field, expected) = (Some(cell.location), String::new(), expected());
+                problems.push(Problem { location, field, found, expected, advice });
             };
-            problems.push(problem(format!("the column {:?}", cell.text), advice));
-        } else if cells[..index].iter().any(|earlier| earlier.text == cell.text) {
-            problems.push(problem(format!("the column {:?} a second time", cell.text), String::new()));
+            if known.contains(&cell.text.as_str()) {
+                if cells[..index].iter().any(|earlier| earlier.text == cell.text) {
+                    problem(format!("the column {:?} a second time", cell.text), String::new());
+                }
+            } else if let Some(column) = meant(&known, &cell.text) {
+                problem(format!("the column {:?}", cell.text), format!("did you mean {column}?"));
+            } else {
+                left_out.push(cell.text.clone());
+            }
         }
+        let place = |column: &&str| cells.iter().position(|cell| cell.text == *column);
+        for column in required.iter().filter(|column| place(column).is_none()) {
+            problems.push(Problem {
+                location: Some(at),
+                field: String::new(),
+                found: format!("no column {column}"),
+                expected: expected(),
+                advice: String::new(),
+            });
+        }
+        if !problems.is_empty() {
+            return Err(Unreadable::of(name, problems));
+        }
+        let (columns, order) = known.into_iter().filter_map(|column| Some((column, place(&column)?))).unzip();
+        Ok(Self { columns, order, left_out, width: cells.len() })
     }
-    let place = |column: &&str| cells.iter().position(|cell| cell.text == **column);
-    for column in columns.iter().filter(|column| place(column).is_none()) {
-        problems.push(Problem {
-            location: Some(at),
-            field: String::new(),
-            found: format!("no column {column}"),
-            expected: expected(),
-            advice: String::new(),
-        });
-    }
-    if problems.is_empty() {
-        Ok(columns.iter().filter_map(place).collect())
-    } else {
-        Err(Unreadable::of(name, problems))
-    }
+}
+
+/// Units that a column's name may end with.
+const UNITS: [&str; 22] = [
+    "s", "ms", "us", "ns", "min", "h", "a", "ma", "ua", "na", "v", "mv", "uv", "deg", "rad", "mrad", "urad", "arcsec",
+    "arcmin", "gon", "ppm", "percent",
+];
+
+/// The known column that `found` is a slip of: two letters off at most, or with another unit or none.
+fn meant<'a>(known: &[&'a str], found: &str) -> Option<&'a str> {
+    let found = found.to_lowercase();
+    let distance = |column: &str| strsim::damerau_levenshtein(column, &found);
+    let nearest = known.iter().map(|&column| (distance(column), column)).min()?;
+    let stem = match found.rsplit_once('_') {
+        Some((stem, unit)) if UNITS.contains(&unit) => stem,
+        _ => found.as_str(),
+    };
+    let other_unit = known.iter().find(|column| column.rsplit_once('_').is_some_and(|(known, _)| known == stem));
+    if nearest.0 <= 2 { Some(nearest.1) } else { other_unit.copied() }
 }
 
 fn wrong_number_of_cells(line: usize, text: &str, found: usize, columns: usize) -> Problem {

@@ -5,6 +5,7 @@
 //! results).
 
 use crate::calibration::causes::{self, Cause, Input};
+use crate::calibration::estimates::{Basis, Estimates};
 use crate::calibration::parameter::Parameter;
 use crate::calibration::procedure::linearise;
 use crate::calibration::result::MethodRefusal;
@@ -88,8 +89,10 @@ impl Budget {
         let spread = product(&linear.response, &columns);
         let mut values = linear.found.parameters.to_vector().to_vec();
         values.push(linear.found.anisoelasticity_deg_per_h_per_g2);
+        let estimates = Estimates::new(setup, &linear.repeats).degrees_of_freedom;
         let each = Parameter::NINE.into_iter().zip(values).take(spread.nrows());
-        let parameters = each.map(|(parameter, value)| of_parameter(parameter, value, &inputs, &spread)).collect();
+        let of = |(parameter, value)| of_parameter(parameter, value, &inputs, &spread, &estimates);
+        let parameters = each.map(of).collect();
         Ok(Self { method, inputs, spread, parameters })
     }
 
@@ -112,7 +115,13 @@ pub(crate) fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     product
 }
 
-fn of_parameter(parameter: Parameter, value: f64, inputs: &[Input], spread: &DMatrix<f64>) -> ParameterBudget {
+fn of_parameter(
+    parameter: Parameter,
+    value: f64,
+    inputs: &[Input],
+    spread: &DMatrix<f64>,
+    estimates: &[f64],
+) -> ParameterBudget {
     let row = parameter.place();
     let changes: Vec<f64> = (0..inputs.len()).map(|column| spread[(row, column)]).collect();
     let variance: f64 = changes.iter().map(|change| change * change).sum();
@@ -138,7 +147,7 @@ fn of_parameter(parameter: Parameter, value: f64, inputs: &[Input], spread: &DMa
         line.contribution = line.contribution.sqrt();
     }
     contributions.sort_by(|a, b| b.contribution.total_cmp(&a.contribution));
-    let effective_degrees_of_freedom = effective_degrees_of_freedom(inputs, &changes);
+    let effective_degrees_of_freedom = effective_degrees_of_freedom(inputs, &changes, estimates);
     ParameterBudget {
         parameter,
         value,
@@ -149,33 +158,19 @@ fn of_parameter(parameter: Parameter, value: f64, inputs: &[Input], spread: &DMa
     }
 }
 
-/// What an input's uncertainty rests on.
-#[derive(Clone, Copy, PartialEq)]
-enum Estimate {
-    /// The one scatter of all returns to positions.
-    Returns,
-    /// The scatter of repeated readings, by which the variance of all readings was enlarged.
-    Readings,
-    /// One of its own, by its place among the inputs.
-    Own(usize),
-}
-
-/// By Welch and Satterthwaite (JCGM 100, G.4.1), not rounded; what rests on one estimate is one term.
-fn effective_degrees_of_freedom(inputs: &[Input], changes: &[f64]) -> f64 {
-    // Estimate, its degrees of freedom, the variance that rests on it.
-    let mut terms: Vec<(Estimate, f64, f64)> = Vec::new();
-    for (place, (input, change)) in inputs.iter().zip(changes).enumerate() {
-        let (known, square) = (input.degrees_of_freedom, change * change);
-        let estimate = match input.cause {
-            Cause::Return(..) => Estimate::Returns,
-            Cause::Reading(..) | Cause::Floor(..) => Estimate::Readings,
-            _ => Estimate::Own(place),
-        };
-        match terms.iter_mut().find(|(other, nu, _)| *other == estimate && *nu == known) {
-            Some((.., sum)) => *sum += square,
-            None => terms.push((estimate, known, square)),
+/// By Welch and Satterthwaite (JCGM 100, G.4.1), not rounded; what rests on one estimate is one term, and a mean of
+/// estimates is divided among them.
+fn effective_degrees_of_freedom(inputs: &[Input], changes: &[f64], estimates: &[f64]) -> f64 {
+    let mut terms: Vec<(f64, f64)> = estimates.iter().map(|known| (0.0, *known)).collect();
+    for (input, change) in inputs.iter().zip(changes) {
+        let square = change * change;
+        if input.basis == Basis::Known {
+            terms.push((square, f64::INFINITY));
+        }
+        for (place, share) in input.basis.shares() {
+            terms[place].0 += share * square;
         }
     }
-    let contributions: Vec<(f64, f64)> = terms.into_iter().map(|(_, known, square)| (square.sqrt(), known)).collect();
+    let contributions: Vec<(f64, f64)> = terms.into_iter().map(|(square, known)| (square.sqrt(), known)).collect();
     propagation::effective_degrees_of_freedom(&contributions)
 }

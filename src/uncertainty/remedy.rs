@@ -129,6 +129,7 @@ fn what_to_do(cause: Cause, limit: f64) -> String {
         Cause::Latitude | Cause::Deflection => format!("find the {} to {to}", cause.kind()),
         Cause::Reading(..) => format!("read the currents to {to}"),
         Cause::Floor(..) => format!("read the currents to {to} at zero"),
+        Cause::Noise(..) => format!("lower the noise of the mean reading to {to}"),
         Cause::Gain => format!("calibrate the meter's gain to {to}"),
         Cause::Offset => format!("calibrate the meter's offset to {to}"),
     }

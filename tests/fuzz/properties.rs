@@ -8,6 +8,7 @@ use base64ct::{Base64, Encoding};
 use dtg_passport::calibration::document::CalibrationDocument;
 use dtg_passport::calibration::{Options, Readings, Setup, calibrate};
 use dtg_passport::certification::{AngleReadings, Header, certify};
+use dtg_passport::coefficients::PositionIndex;
 use dtg_passport::document::{SignedText, join};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
@@ -333,13 +334,17 @@ fn currents(bytes: &[u8]) -> bool {
         Ok(readings) => readings,
         Err(error) => return refused(&error, bytes),
     };
-    let mut written = "i,j,jx_ma,jy_ma\n".to_owned();
+    let mut written = "i,j,cycle,visit,jx_ma,jy_ma\n".to_owned();
     for position in readings.positions() {
-        for current in &position.each_ma {
-            written += &format!("{},{},{},{}\n", position.index.i, position.index.j, current.x, current.y);
+        let PositionIndex { i, j } = position.index;
+        for visit in &position.visits {
+            for current in &visit.each_ma {
+                written += &format!("{i},{j},{},{},{},{}\n", visit.cycle, visit.number, current.x, current.y);
+            }
         }
     }
-    assert_eq!(read(written.as_bytes()), Ok(readings.clone()));
+    let again = read(written.as_bytes()).expect("what was read");
+    assert_eq!(again.positions(), readings.positions());
     if let Ok(calibration) = calibrate(setup, &readings, &Options::default()) {
         for result in &calibration.results {
             assert!(result.parameters.to_vector().iter().all(|value| value.is_finite()), "{result:?}");

@@ -33,7 +33,7 @@ pub fn everything(stream: &mut Stream, known: f64) -> InputUncertainty {
         azimuth_rad: arcsec(10.0),
         level_rad: arcsec(3.0),
         seating_rad: [arcsec(4.0), arcsec(5.0), arcsec(20.0)],
-        meter: MeterUncertainty { reading: 8.7e-5, floor_ma: 1e-6, gain: 2e-5, offset_ma: 2e-6 },
+        meter: MeterUncertainty { reading: 8.7e-5, floor_ma: 1e-6, noise_ma: 0.0, gain: 2e-5, offset_ma: 2e-6 },
         ..InputUncertainty::of_meter(paper_meter())
     }
 }

@@ -44,14 +44,16 @@ struct Place {
     returns: [Scaled; 3],
     means_ma: Vector2<f64>,
     currents: [Scaled; 2],
+    noise: [Scaled; 2],
 }
 
 /// All positions.
 #[derive(Debug, Clone)]
 pub struct Kernel {
     places: Vec<Place>,
-    case: [Scaled; 3],
-    base: [Scaled; 3],
+    /// Of each axis: what is known, and what an estimate with few degrees of freedom gives.
+    case: [[Scaled; 2]; 3],
+    base: [[Scaled; 2]; 3],
     latitude: Scaled,
     gain: Scaled,
     offset: Scaled,
@@ -84,18 +86,22 @@ impl Kernel {
                     returns: [0, 1, 2].map(|axis| plan.slot(Drawn::Return(place, axis))),
                     means_ma: *means_ma,
                     currents: [0, 1].map(|axis| plan.slot(Drawn::Current(place, axis))),
+                    noise: [0, 1].map(|axis| plan.slot(Drawn::Noise(place, axis))),
                 }
             })
             .collect();
-        let case = [0, 1, 2].map(|axis| plan.slot(Drawn::Case(axis)));
-        let base = [0, 1, 2].map(|axis| plan.slot(Drawn::Base(axis)));
+        let case = [0, 1, 2].map(|axis| [Drawn::Case(axis), Drawn::Platform(axis)].map(|what| plan.slot(what)));
+        let base = [0, 1, 2].map(|axis| [Drawn::Base(axis), Drawn::StandBase(axis)].map(|what| plan.slot(what)));
         let latitude = plan.slot(Drawn::Latitude);
         let drawn = |inputs: &[Scaled]| inputs.iter().any(|(slot, _)| *slot > 0);
-        let case_turns = drawn(&case) || places.iter().any(|place| drawn(&place.returns));
-        let base_turns = drawn(&base) || drawn(&[latitude]);
+        let case_turns = drawn(case.as_flattened()) || places.iter().any(|place| drawn(&place.returns));
+        let base_turns = drawn(base.as_flattened()) || drawn(&[latitude]);
         // A turn's vector is at most the sum of its parts; each part is √3 of its largest component or less.
-        let largest =
-            places.iter().flat_map(|place| place.angles.iter().chain(&place.returns)).chain(&case).chain(&base);
+        let largest = places
+            .iter()
+            .flat_map(|place| place.angles.iter().chain(&place.returns))
+            .chain(case.as_flattened())
+            .chain(base.as_flattened());
         let largest = largest.chain([&latitude]).fold(0.0, |largest: f64, (_, u)| largest.max(*u));
         let may_be_large = plan.has_long_tails() || 4.0 * LARGEST_NORMAL * largest > SMALL_RAD;
         let (gain, offset) = (plan.slot(Drawn::Gain), plan.slot(Drawn::Offset));
@@ -124,7 +130,8 @@ impl Kernel {
     #[inline(never)]
     fn has_large(&self, deviates: &[Column]) -> bool {
         let angles = self.places.iter().flat_map(|place| place.angles.iter().chain(&place.returns));
-        let all = angles.chain(&self.case).chain(&self.base).chain([&self.latitude]);
+        let shared = self.case.as_flattened().iter().chain(self.base.as_flattened());
+        let all = angles.chain(shared).chain([&self.latitude]);
         let largest = all.fold(0.0, |largest: f64, (slot, u)| {
             deviates[*slot].iter().fold(largest, |largest, deviate| largest.max((deviate * u).abs()))
         });
@@ -141,8 +148,9 @@ impl Kernel {
     #[inline(always)]
     fn run_as<const EXACT: bool, const CASE: bool, const BASE: bool>(&self, deviates: &[Column], positions: &mut [At]) {
         let base = if BASE { self.base_vectors::<EXACT>(deviates) } else { [[[0.0; WIDTH]; 3]; 2] };
+        let case = if CASE { turn(&self.case, deviates) } else { [[0.0; WIDTH]; 3] };
         for (place, at) in self.places.iter().zip(positions) {
-            place.vectors::<EXACT, CASE, BASE>(&self.case, &base, deviates, at);
+            place.vectors::<EXACT, CASE, BASE>(&case, &base, deviates, at);
             self.currents(place, deviates, at);
         }
     }
@@ -150,11 +158,11 @@ impl Kernel {
     /// Vertical and Earth rate in the axes of the base as it really stands.
     #[inline(always)]
     fn base_vectors<const EXACT: bool>(&self, deviates: &[Column]) -> [[Column; 3]; 2] {
-        let [x, y, z] = self.base.map(|(slot, u)| (&deviates[slot], u));
+        let [x, y, z] = turn(&self.base, deviates);
         let latitude = (&deviates[self.latitude.0], self.latitude.1);
         let mut vectors = [[[0.0; WIDTH]; 3]; 2];
         for trial in 0..WIDTH {
-            let turn = [x.1 * x.0[trial], y.1 * y.0[trial], z.1 * z.0[trial]];
+            let turn = [x[trial], y[trial], z[trial]];
             let (s1, s2) = turn_factors::<EXACT>(&turn);
             let (sin, less) = sin_cos_less_one::<EXACT>(latitude.1 * latitude.0[trial]);
             let (north, up) = (self.earth.y, self.earth.z);
@@ -174,11 +182,12 @@ impl Kernel {
     fn currents(&self, place: &Place, deviates: &[Column], at: &mut At) {
         let (gain, offset) = (&deviates[self.gain.0], &deviates[self.offset.0]);
         for axis in 0..2 {
-            let (slot, u) = place.currents[axis];
-            let (own, mean) = (&deviates[slot], place.means_ma[axis]);
+            let [(own, u), (noise, u_noise)] =
+                [place.currents[axis], place.noise[axis]].map(|(slot, u)| (&deviates[slot], u));
+            let mean = place.means_ma[axis];
             let mut current = [0.0; WIDTH];
             for trial in 0..WIDTH {
-                let read = mean + u * own[trial];
+                let read = mean + (u * own[trial] + u_noise * noise[trial]);
                 current[trial] = read + (read * (self.gain.1 * gain[trial]) + self.offset.1 * offset[trial]);
             }
             at.current[axis] = current;
@@ -190,14 +199,13 @@ impl Place {
     #[inline(always)]
     fn vectors<const EXACT: bool, const CASE: bool, const BASE: bool>(
         &self,
-        case: &[Scaled; 3],
+        case: &[Column; 3],
         base: &[[Column; 3]; 2],
         deviates: &[Column],
         at: &mut At,
     ) {
         let angle = |place: usize| (&deviates[self.angles[place].0], self.angles[place].1);
         let ((alpha, u_alpha), (beta, u_beta), (gamma, u_gamma)) = (angle(0), angle(1), angle(2));
-        let shared = case.map(|(slot, u)| (&deviates[slot], u));
         let own = self.returns.map(|(slot, u)| (&deviates[slot], u));
         let (mut n, mut omega) = ([[0.0; WIDTH]; 2], [[0.0; WIDTH]; 2]);
         for trial in 0..WIDTH {
@@ -212,7 +220,7 @@ impl Place {
             };
             let mut seen = [deviated(&vertical, a, b, g), deviated(&earth, a, b, g)];
             if CASE {
-                let part = |axis: usize| shared[axis].1 * shared[axis].0[trial] + own[axis].1 * own[axis].0[trial];
+                let part = |axis: usize| case[axis][trial] + own[axis].1 * own[axis].0[trial];
                 let turn = [part(0), part(1), part(2)];
                 let (s1, s2) = turn_factors::<EXACT>(&turn);
                 seen = [turned(&seen[0], &turn, s1, s2), turned(&seen[1], &turn, s1, s2)];
@@ -236,6 +244,19 @@ impl Place {
         let (small, less) = (small_sin(change_rad), small_cos_less_one(change_rad));
         (sin + (cos * small + sin * less), cos + (cos * less - sin * small))
     }
+}
+
+/// The turn that all positions share, about each axis, rad.
+#[inline(always)]
+fn turn(of: &[[Scaled; 2]; 3], deviates: &[Column]) -> [Column; 3] {
+    of.map(|[(one, u), (other, v)]| {
+        let (one, other) = (&deviates[one], &deviates[other]);
+        let mut sum = [0.0; WIDTH];
+        for trial in 0..WIDTH {
+            sum[trial] = u * one[trial] + v * other[trial];
+        }
+        sum
+    })
 }
 
 /// E v = Rz(γ) Ry(β) Rx(α) v (paper, above eq. (4)), one axis after the other.

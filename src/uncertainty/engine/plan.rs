@@ -5,7 +5,8 @@
 
 use super::{ReadingShape, student};
 use crate::calibration::Setup;
-use crate::calibration::causes::Repeats;
+use crate::calibration::estimates::{Basis, Estimates};
+use crate::calibration::scatter::Repeats;
 use crate::statistics::lanes::{Column, Lanes, WIDTH};
 use nalgebra::Vector2;
 
@@ -20,12 +21,18 @@ pub enum Drawn {
     Angle(usize, usize),
     /// The return to the position of that place, about axis 0, 1, 2 of the case.
     Return(usize, usize),
-    /// The own error of a current of the position of that place, 0 or 1.
+    /// The meter's specification for a current of the position of that place, 0 or 1.
     Current(usize, usize),
+    /// The noise of the readings of that current, in their mean.
+    Noise(usize, usize),
     /// Platform and seat, about axis 0, 1, 2 of the case.
     Case(usize),
+    /// The platform alone, where its uncertainty is an estimate with few degrees of freedom.
+    Platform(usize),
     /// Base, level, azimuth and mark, about axis 0, 1, 2 of the base.
     Base(usize),
+    /// The stand's base alone, where its uncertainty is an estimate with few degrees of freedom.
+    StandBase(usize),
     /// Latitude and deflection.
     Latitude,
     /// The meter's gain.
@@ -41,8 +48,9 @@ pub struct DrawnInput {
     pub what: Drawn,
     /// rad, mA, or a share.
     pub standard_uncertainty: f64,
-    /// Of that uncertainty.
+    /// Degrees of freedom of that uncertainty.
     pub degrees_of_freedom: f64,
+    basis: Basis,
     shape: ReadingShape,
 }
 
@@ -50,55 +58,56 @@ pub struct DrawnInput {
 #[derive(Debug, Clone)]
 pub struct Plan {
     inputs: Vec<DrawnInput>,
-    /// Columns that are divided by the root of the same chi-square over its degrees of freedom.
-    estimated: Vec<(f64, Vec<Slot>)>,
+    /// Degrees of freedom of the estimates that some of them rest on.
+    estimates: Vec<f64>,
 }
 
 impl Plan {
     pub(crate) fn new(setup: &Setup, means_ma: &[Vector2<f64>], repeats: &Repeats, shape: ReadingShape) -> Self {
         let u = setup.uncertainty();
+        let estimates = Estimates::new(setup, repeats);
         let mut inputs = Vec::new();
-        let mut add = |what, standard_uncertainty: f64, degrees_of_freedom, shape| {
+        let mut add = |what, standard_uncertainty: f64, basis, shape| {
             if standard_uncertainty > 0.0 {
-                inputs.push(DrawnInput { what, standard_uncertainty, degrees_of_freedom, shape });
+                let degrees_of_freedom = estimates.degrees_of_freedom(basis);
+                inputs.push(DrawnInput { what, standard_uncertainty, degrees_of_freedom, basis, shape });
             }
         };
-        let (normal, infinite) = (ReadingShape::Normal, f64::INFINITY);
+        let normal = ReadingShape::Normal;
         for place in 0..means_ma.len() {
-            let known = u.angles_degrees_of_freedom.get(place).copied().unwrap_or(infinite);
             for (angle, u_rad) in u.angles_rad.get(place).copied().unwrap_or_default().into_iter().enumerate() {
-                add(Drawn::Angle(place, angle), u_rad, known, normal);
+                add(Drawn::Angle(place, angle), u_rad, estimates.angles[place][angle], normal);
             }
         }
-        let of_mean: Vec<f64> =
-            repeats.counts.iter().map(|count| (repeats.variance_factor / (*count).max(1) as f64).sqrt()).collect();
-        for (place, share) in of_mean.iter().enumerate() {
-            let known = u.repeatability_degrees_of_freedom.min(repeats.degrees_of_freedom);
+        for place in 0..means_ma.len() {
+            let of_mean = u.repeatability_rad * repeats.return_share(place).sqrt();
             for axis in 0..3 {
-                add(Drawn::Return(place, axis), u.repeatability_rad * share, known, normal);
+                add(Drawn::Return(place, axis), of_mean, estimates.returns, normal);
             }
         }
-        let hypot = |parts: [f64; 3]| libm::hypot(libm::hypot(parts[0], parts[1]), parts[2]);
+        // A part that is known is drawn together with what acts alike.
+        let known = |u: f64, basis| if basis == Basis::Known { (u, 0.0) } else { (0.0, u) };
+        let (platform, platform_alone) = known(u.common_platform_rad, estimates.platform);
+        let (base, base_alone) = known(u.common_base_rad, estimates.base);
         for axis in 0..3 {
-            let case = libm::hypot(u.common_platform_rad, u.seating_rad[axis]);
-            add(Drawn::Case(axis), case, infinite, normal);
-            let base = match axis {
-                2 => hypot([u.common_base_rad, u.azimuth_rad, u.mark_rad]),
-                _ => libm::hypot(u.common_base_rad, u.level_rad),
-            };
-            add(Drawn::Base(axis), base, infinite, normal);
+            add(Drawn::Case(axis), libm::hypot(platform, u.seating_rad[axis]), Basis::Known, normal);
+            add(Drawn::Platform(axis), platform_alone, estimates.platform, normal);
+            let own = if axis == 2 { libm::hypot(u.azimuth_rad, u.mark_rad) } else { u.level_rad };
+            add(Drawn::Base(axis), libm::hypot(base, own), Basis::Known, normal);
+            add(Drawn::StandBase(axis), base_alone, estimates.base, normal);
         }
-        add(Drawn::Latitude, libm::hypot(u.latitude_rad, u.deflection_rad), infinite, normal);
-        add(Drawn::Gain, u.meter.gain, infinite, normal);
-        add(Drawn::Offset, u.meter.offset_ma, infinite, normal);
-        for (place, (current_ma, share)) in means_ma.iter().zip(&of_mean).enumerate() {
+        add(Drawn::Latitude, libm::hypot(u.latitude_rad, u.deflection_rad), Basis::Known, normal);
+        add(Drawn::Gain, u.meter.gain, Basis::Known, normal);
+        add(Drawn::Offset, u.meter.offset_ma, Basis::Known, normal);
+        for (place, current_ma) in means_ma.iter().enumerate() {
+            let noise = repeats.noise_variance_ma2(place).sqrt();
             for axis in 0..2 {
-                let own = u.meter.own_variance_ma2(current_ma[axis]).sqrt() * share;
-                add(Drawn::Current(place, axis), own, repeats.degrees_of_freedom, shape);
+                let own = u.meter.own_variance_ma2(current_ma[axis]).sqrt();
+                add(Drawn::Current(place, axis), own, Basis::Known, shape);
+                add(Drawn::Noise(place, axis), noise, estimates.noise, normal);
             }
         }
-        let estimated = estimated(&inputs);
-        Self { inputs, estimated }
+        Self { inputs, estimates: estimates.degrees_of_freedom }
     }
 
     /// The inputs, in the order of their columns.
@@ -106,9 +115,9 @@ impl Plan {
         &self.inputs
     }
 
-    /// Columns of standard deviates, the column of zeros among them.
+    /// Columns of standard deviates, the column of zeros among them; then one for each estimate.
     pub(crate) fn columns(&self) -> usize {
-        self.inputs.len() + 1
+        self.inputs.len() + 1 + self.estimates.len()
     }
 
     /// Where the deviates of an input are, and its standard uncertainty; zeros for one that is not drawn.
@@ -119,7 +128,7 @@ impl Plan {
 
     /// Whether an input's deviates have no bound that matters: t has long tails.
     pub(crate) fn has_long_tails(&self) -> bool {
-        !self.estimated.is_empty()
+        !self.estimates.is_empty()
     }
 
     /// New standard deviates: variance 1, or of Student's t.
@@ -146,32 +155,31 @@ impl Plan {
             let mut spare = [0.0; WIDTH];
             lanes.normals(&mut deviates[last], &mut spare);
         }
-        for (degrees_of_freedom, slots) in &self.estimated {
-            student::scale(lanes, deviates, *degrees_of_freedom, slots);
+        if self.has_long_tails() {
+            self.scale(lanes, deviates);
         }
     }
-}
 
-/// Which columns rest on the same estimate of a standard uncertainty: all returns on one, all readings whose variance was
-/// enlarged on one, every certified angle on its own.
-fn estimated(inputs: &[DrawnInput]) -> Vec<(f64, Vec<Slot>)> {
-    let mut groups: Vec<(f64, Vec<Slot>)> = Vec::new();
-    let mut shared: [Option<usize>; 2] = [None; 2];
-    for (place, input) in inputs.iter().enumerate().filter(|(_, input)| input.degrees_of_freedom.is_finite()) {
-        let common = match input.what {
-            Drawn::Return(..) => Some(0),
-            Drawn::Current(..) => Some(1),
-            _ => None,
-        };
-        match common.and_then(|kind| shared[kind]) {
-            Some(group) => groups[group].1.push(place + 1),
-            None => {
-                if let Some(kind) = common {
-                    shared[kind] = Some(groups.len());
+    /// Makes Student's t of what rests on estimates, one χ² a trial for all that rests on one.
+    #[inline(always)]
+    fn scale(&self, lanes: &mut Lanes, deviates: &mut [Column]) {
+        let (drawn, factors) = deviates.split_at_mut(self.inputs.len() + 1);
+        for (factor, degrees_of_freedom) in factors.iter_mut().zip(&self.estimates) {
+            student::variance(lanes, factor, *degrees_of_freedom);
+        }
+        for (deviates, input) in drawn[1..].iter_mut().zip(&self.inputs) {
+            if input.basis == Basis::Known {
+                continue;
+            }
+            let mut variance = [0.0; WIDTH];
+            for (place, share) in input.basis.shares() {
+                for trial in 0..WIDTH {
+                    variance[trial] += share * factors[place][trial];
                 }
-                groups.push((input.degrees_of_freedom, vec![place + 1]));
+            }
+            for trial in 0..WIDTH {
+                deviates[trial] *= variance[trial].sqrt();
             }
         }
     }
-    groups
 }

@@ -1,7 +1,6 @@
 //! Student's t from normal deviates: what rests on an estimate with few degrees of freedom ([JCGM 101,
 //! 6.4.9](crate::bibliography::Bibliography::Jcgm101)).
 
-use super::plan::Slot;
 use crate::statistics::elementary::ln;
 use crate::statistics::lanes::{Column, Lanes, WIDTH};
 
@@ -9,21 +8,16 @@ use crate::statistics::lanes::{Column, Lanes, WIDTH};
 /// below 2⁻⁵², is far from the smallest number of binary64.
 const MOST_WITHOUT_BRANCHES: f64 = 38.0;
 
-/// Makes t = z/√(χ²/ν) of the columns `slots`, one χ² a trial for all of them.
+/// Draws ν/χ² of every trial: the variance that is behind an estimate of 1 with ν degrees of freedom.
 #[inline(always)]
-pub(crate) fn scale(lanes: &mut Lanes, deviates: &mut [Column], degrees_of_freedom: f64, slots: &[Slot]) {
-    let mut factor = if degrees_of_freedom <= MOST_WITHOUT_BRANCHES && degrees_of_freedom.fract() == 0.0 {
+pub(crate) fn variance(lanes: &mut Lanes, factor: &mut Column, degrees_of_freedom: f64) {
+    *factor = if degrees_of_freedom <= MOST_WITHOUT_BRANCHES && degrees_of_freedom.fract() == 0.0 {
         whole(lanes, degrees_of_freedom)
     } else {
         any(lanes, degrees_of_freedom)
     };
-    for value in &mut factor {
-        *value = (degrees_of_freedom / *value).sqrt();
-    }
-    for slot in slots {
-        for trial in 0..WIDTH {
-            deviates[*slot][trial] *= factor[trial];
-        }
+    for value in factor {
+        *value = degrees_of_freedom / *value;
     }
 }
 

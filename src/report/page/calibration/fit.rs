@@ -4,10 +4,11 @@ use super::conformity::probability;
 use super::{CalibrationPage, Section};
 use crate::calibration::diagnosis::{Explanation, Hint};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
+use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{self, Number};
-use crate::report::page::parts::{Table, field, fields, figure, heading, symbol, symbol_and_unit};
+use crate::report::page::parts::{Table, field, fields, figure, heading, quantity, symbol, symbol_and_unit};
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::residuals::residuals;
 use maud::{Markup, html};
@@ -18,9 +19,15 @@ pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
     let fit = html! {
         @if let Some(hint) = &page.calibration.hint { (what_may_be_wrong(hint, languages)) }
         @if let Some(result) = answer {
-            (chi_square(page, result, languages))
-            (table(result, languages))
-            (figure(languages, "residuals", &residuals(languages, result), texts::RESIDUALS_FIGURE))
+            @if result.chi_square.degrees_of_freedom == 0 {
+                (languages.paragraph(texts::NOT_JUDGED))
+                (scatter(page, languages))
+            } @else {
+                (chi_square(result, languages))
+                (scatter(page, languages))
+                (table(result, languages))
+                (figure(languages, "residuals", &residuals(languages, result), texts::RESIDUALS_FIGURE))
+            }
         }
     };
     let blind = html! {
@@ -38,28 +45,57 @@ pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
     }
 }
 
-fn chi_square(page: &CalibrationPage, result: &ResultDocument, languages: &Languages) -> Markup {
-    let whole = |count: usize| html! { data value=(count) { (count) } };
-    let value = |value: f64| Number::fixed(value, 2).markup(languages);
+fn whole(count: usize) -> Markup {
+    html! { data value=(count) { (count) } }
+}
+
+fn chi_square(result: &ResultDocument, languages: &Languages) -> Markup {
     let found = &result.chi_square;
+    let value = Number::fixed(found.value, 2).markup(languages);
+    let mut each = vec![
+        field(languages, texts::CHI_SQUARE, Some(value)),
+        field(languages, texts::FREEDOM, Some(whole(found.degrees_of_freedom))),
+        field(languages, texts::PROBABILITY, found.probability.map(|p| probability(languages, p))),
+    ];
+    if let Some(of_uncertainties) = found.uncertainty_degrees_of_freedom.filter(|known| *known < 1000.0) {
+        let value = Number::fixed(of_uncertainties, 0).markup(languages);
+        each.push(field(languages, texts::OF_UNCERTAINTIES, Some(value)));
+    }
+    fields(each)
+}
+
+fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
+    let calibration = page.calibration;
+    let rows = calibration.row_scatter.as_ref();
+    html! {
+        @match rows.map(|rows| (rows, &rows.against_stated)) {
+            Some((_, Some(stated))) => { (agreement(stated, texts::ROW_SCATTER, languages)) }
+            Some((rows, None)) => {
+                (fields([
+                    field(
+                        languages,
+                        texts::ROW_DEVIATION,
+                        Some(quantity(languages, &Number::scientific(rows.standard_deviation_ma, 2), units::MILLIAMPERES)),
+                    ),
+                    field(languages, texts::FREEDOM, Some(whole(rows.degrees_of_freedom))),
+                ]))
+            }
+            None => {}
+        }
+        @if let Some(visits) = &calibration.scatter { (agreement(visits, texts::SCATTER, languages)) }
+    }
+}
+
+/// How something scatters in comparison with what was stated of it.
+fn agreement(found: &Scatter, what: Text, languages: &Languages) -> Markup {
     html! {
         (fields([
-            field(languages, texts::CHI_SQUARE, Some(value(found.value))),
+            field(languages, what, Some(Number::fixed(found.chi_square, 2).markup(languages))),
             field(languages, texts::FREEDOM, Some(whole(found.degrees_of_freedom))),
             field(languages, texts::PROBABILITY, Some(probability(languages, found.probability))),
+            field(languages, texts::ENLARGED, Some(Number::significant(found.variance_factor, 2).markup(languages))),
         ]))
-        @if let Some(scatter) = &page.result().scatter {
-            (fields([
-                field(languages, texts::SCATTER, Some(value(scatter.chi_square))),
-                field(languages, texts::FREEDOM, Some(whole(scatter.degrees_of_freedom))),
-                field(languages, texts::PROBABILITY, Some(probability(languages, scatter.probability))),
-                field(
-                    languages,
-                    texts::ENLARGED,
-                    Some(Number::significant(scatter.variance_factor, 2).markup(languages)),
-                ),
-            ]))
-        }
+        @if found.agreement() == Agreement::Less { (languages.paragraph(texts::LESS_THAN_STATED)) }
     }
 }
 

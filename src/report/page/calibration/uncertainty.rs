@@ -152,6 +152,7 @@ fn cause(cause: Cause, language: Language) -> String {
         Cause::Return(..) => plain(texts::CAUSE_RETURN),
         Cause::Reading(..) => plain(texts::CAUSE_READING),
         Cause::Floor(..) => plain(texts::CAUSE_FLOOR),
+        Cause::Noise(..) => plain(texts::CAUSE_NOISE),
         Cause::Platform(axis) => about(texts::CAUSE_PLATFORM, case(axis)),
         Cause::Seat(axis) => about(texts::CAUSE_SEAT, case(axis)),
         Cause::Base(axis) => about(texts::CAUSE_BASE, base(axis)),

@@ -68,10 +68,14 @@ pub fn meter(laboratory: &StatedLaboratory, languages: &Languages) -> Markup {
         ("range", meter.range_ma),
     ];
     let values = values.map(|(name, value)| (name, Number::exact(value).markup(languages)));
+    let noise = meter.noise_ma.map(|noise| [("noise", Number::exact(noise).markup(languages))]);
     html! {
         @for (index, language) in languages.iter().enumerate() {
             @if index > 0 { br; }
-            span lang=(language.tag()) { (texts::METER_WORDS.marked_up(language, &values)) }
+            span lang=(language.tag()) {
+                (texts::METER_WORDS.marked_up(language, &values))
+                @if let Some(noise) = &noise { (texts::METER_NOISE.marked_up(language, noise)) }
+            }
         }
     }
 }

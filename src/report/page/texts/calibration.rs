@@ -170,8 +170,25 @@ texts! {
     CHI_SQUARE { en: "Chi-square", ru: "Хи-квадрат" }
     FREEDOM { en: "Degrees of freedom", ru: "Число степеней свободы" }
     PROBABILITY { en: "Probability of a larger value", ru: "Вероятность большего значения" }
-    SCATTER { en: "Scatter of repeated readings, chi-square", ru: "Рассеяние повторных показаний, хи-квадрат" }
-    ENLARGED { en: "Variance of a reading enlarged, times", ru: "Дисперсия показания увеличена, раз" }
+    NOT_JUDGED {
+        en: "The fit cannot be judged: there are as many unknowns as readings, so any readings would fit.",
+        ru: "Согласие оценить нельзя: число неизвестных равно числу показаний, и им соответствуют любые показания."
+    }
+    OF_UNCERTAINTIES {
+        en: "Degrees of freedom of the uncertainties, taken into account",
+        ru: "Число степеней свободы неопределённостей, учтено"
+    }
+    SCATTER { en: "Scatter of the visits of a position, chi-square", ru: "Рассеяние установок в положение, хи-квадрат" }
+    ROW_SCATTER { en: "Scatter of the readings of a visit, chi-square", ru: "Рассеяние показаний одной установки, хи-квадрат" }
+    ROW_DEVIATION {
+        en: "Standard deviation of a reading within a visit",
+        ru: "Стандартное отклонение показания в одной установке"
+    }
+    ENLARGED { en: "Variance enlarged, times", ru: "Дисперсия увеличена, раз" }
+    LESS_THAN_STATED {
+        en: "This is less scatter than stated. Readings taken without leaving the position belong to one visit: column visit.",
+        ru: "Рассеяние меньше указанного. Показания, снятые без ухода из положения, — одна установка: столбец visit."
+    }
     RESIDUALS_CAPTION {
         en: "Residuals of the equations with their standard uncertainty",
         ru: "Остатки уравнений и их стандартная неопределённость"
@@ -260,8 +277,9 @@ texts! {
     INPUT { en: "{input}: u\u{a0}=\u{a0}{u}", ru: "{input}: u\u{a0}=\u{a0}{u}" }
     CAUSE_ANGLE { en: "certified angles", ru: "аттестованные углы" }
     CAUSE_RETURN { en: "returns to the positions", ru: "возвращения в положения" }
-    CAUSE_READING { en: "meter, each reading", ru: "измеритель, каждое показание" }
-    CAUSE_FLOOR { en: "meter, floor", ru: "измеритель, порог" }
+    CAUSE_READING { en: "meter, specification", ru: "измеритель, погрешность показания" }
+    CAUSE_FLOOR { en: "meter, floor", ru: "измеритель, постоянная часть" }
+    CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
     CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа вокруг {axis}" }
     CAUSE_SEAT { en: "seat about {axis}", ru: "посадка вокруг {axis}" }
     CAUSE_BASE { en: "stand's base about {axis}", ru: "основание стенда вокруг {axis}" }

@@ -224,6 +224,7 @@ texts! {
         en: "of a reading {reading} %, of the gain {gain} %, of the offset {offset} mA, floor {floor} mA; range {range} mA",
         ru: "показания {reading} %, усиления {gain} %, смещения {offset} мА, порог {floor} мА; диапазон {range} мА"
     }
+    METER_NOISE { en: "; noise of a reading {noise} mA", ru: "; шум показания {noise} мА" }
     SEATING { en: "u of the seat about x, y, z", ru: "u установки вокруг x, y, z" }
     BASE_AZIMUTH_U { en: "u of the base's azimuth there", ru: "u азимута основания там" }
     BASE_LEVEL_U { en: "u of the base's level there", ru: "u уровня основания там" }

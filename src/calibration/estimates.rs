@@ -1,0 +1,131 @@
+//! Which standard uncertainties rest on the same estimate of a variance, and with how many degrees of freedom.
+//!
+//! `certify` finds the scatter of returns from the readings of all positions together, one variance for each axis. So the
+//! certified angles of all positions, and the repeatability that is the mean of the three, are three estimates and not
+//! one for each number. They are recognised by what the certificate states: the same degrees of freedom and the
+//! same size for every position.
+
+use super::inputs::{InputUncertainty, Setup};
+use super::scatter::Repeats;
+
+/// Positions whose angles rest on one estimate have the same Σ u², but for the axes of α and γ, which are not quite at right
+/// angles.
+const SAME_SIZE: f64 = 0.1;
+
+/// What degrees of freedom may differ by: a certificate states them to a tenth.
+const ROUNDING: f64 = 0.5;
+
+/// What a standard uncertainty rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Basis {
+    /// It is taken as known.
+    Known,
+    /// The estimate of that number.
+    Estimate(usize),
+    /// The mean of the variances of the first three estimates, those of the axes.
+    Axes,
+}
+
+/// Every estimate with few degrees of freedom, and what rests on it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Estimates {
+    /// Of each estimate.
+    pub(crate) degrees_of_freedom: Vec<f64>,
+    /// Of α, β, γ of each position.
+    pub(crate) angles: Vec<[Basis; 3]>,
+    pub(crate) returns: Basis,
+    pub(crate) noise: Basis,
+    pub(crate) platform: Basis,
+    pub(crate) base: Basis,
+}
+
+impl Estimates {
+    /// Estimates behind stand and site.
+    pub(crate) fn of_stand(setup: &Setup) -> Self {
+        let u = setup.uncertainty();
+        let mut all = Self {
+            degrees_of_freedom: Vec::new(),
+            angles: Vec::new(),
+            returns: Basis::Known,
+            noise: Basis::Known,
+            platform: Basis::Known,
+            base: Basis::Known,
+        };
+        // First position, Σ u² and estimates of those that share.
+        let mut pools: Vec<(usize, f64, [Basis; 3])> = Vec::new();
+        for place in 0..setup.coefficients().positions.len() {
+            let known = degrees_of_freedom_of(u, place);
+            let size = size_of(u, place);
+            let pool = pools.iter().find(|(first, sum, _)| {
+                degrees_of_freedom_of(u, *first) == known && (sum - size).abs() <= SAME_SIZE * sum
+            });
+            let basis = match pool {
+                _ if known == f64::INFINITY => [Basis::Known; 3],
+                Some((.., basis)) => *basis,
+                None => {
+                    let basis = [(); 3].map(|()| all.add(known));
+                    pools.push((place, size, basis));
+                    basis
+                }
+            };
+            all.angles.push(basis);
+        }
+        let axes = pools.len() == 1 && all.angles.len() > 1 && all.angles.iter().all(|basis| *basis == all.angles[0]);
+        let of_axis = all.degrees_of_freedom.first().copied().unwrap_or(f64::INFINITY);
+        let of_all = of_axis - ROUNDING..=3.0 * of_axis + ROUNDING;
+        let rests_on_axes = axes && of_all.contains(&u.repeatability_degrees_of_freedom);
+        all.returns = if rests_on_axes { Basis::Axes } else { all.add(u.repeatability_degrees_of_freedom) };
+        all.platform = all.add(u.common_platform_degrees_of_freedom);
+        all.base = all.add(u.common_base_degrees_of_freedom);
+        all
+    }
+
+    /// Those, and what a calibration's readings say of themselves.
+    pub(crate) fn new(setup: &Setup, repeats: &Repeats) -> Self {
+        let mut all = Self::of_stand(setup);
+        all.noise = all.add(repeats.noise_degrees_of_freedom);
+        if repeats.visit_degrees_of_freedom.is_finite() {
+            // An enlarged variance of a visit is what its scatter says, whatever was stated of its parts.
+            all.returns = all.add(repeats.visit_degrees_of_freedom);
+            all.noise = all.returns;
+        }
+        all
+    }
+
+    fn add(&mut self, degrees_of_freedom: f64) -> Basis {
+        if degrees_of_freedom == f64::INFINITY {
+            return Basis::Known;
+        }
+        self.degrees_of_freedom.push(degrees_of_freedom);
+        Basis::Estimate(self.degrees_of_freedom.len() - 1)
+    }
+
+    /// The degrees of freedom of a basis: of the mean of three variances, those of all three.
+    pub(crate) fn degrees_of_freedom(&self, basis: Basis) -> f64 {
+        match basis {
+            Basis::Known => f64::INFINITY,
+            Basis::Estimate(place) => self.degrees_of_freedom[place],
+            Basis::Axes => self.degrees_of_freedom.iter().take(3).sum(),
+        }
+    }
+}
+
+impl Basis {
+    /// The estimates that a variance on this basis is made of, and their shares.
+    pub(crate) fn shares(self) -> impl Iterator<Item = (usize, f64)> {
+        let (range, share) = match self {
+            Self::Known => (0..0, 0.0),
+            Self::Estimate(place) => (place..place + 1, 1.0),
+            Self::Axes => (0..3, 1.0 / 3.0),
+        };
+        range.map(move |place| (place, share))
+    }
+}
+
+fn degrees_of_freedom_of(u: &InputUncertainty, place: usize) -> f64 {
+    u.angles_degrees_of_freedom.get(place).copied().unwrap_or(f64::INFINITY)
+}
+
+fn size_of(u: &InputUncertainty, place: usize) -> f64 {
+    u.angles_rad.get(place).copied().unwrap_or_default().map(|u| u * u).iter().sum()
+}
