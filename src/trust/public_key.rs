@@ -157,6 +157,15 @@ pub(super) fn shortened(word: &str) -> String {
     }
 }
 
+/// Checks that bytes are a key of a type that OpenSSH knows, as SSH transmits it.
+pub(super) fn check_blob(blob: &[u8]) -> Result<(), String> {
+    let named = Wire::new(blob).string().map_err(|error| error.to_string())?;
+    match KEY_TYPES.iter().find(|(name, _)| name.as_bytes() == named) {
+        Some((algorithm, fields)) => check_fields(blob, algorithm, *fields),
+        None => Err(format!("`{}`, which is no key type", shortened(&String::from_utf8_lossy(named)))),
+    }
+}
+
 /// Checks that a key is its type's name and as many strings as the type has fields.
 fn check_fields(blob: &[u8], algorithm: &str, fields: usize) -> Result<(), String> {
     let short = |error: Truncated| error.to_string();

@@ -119,20 +119,63 @@ mod tests {
         let sha256 = Sha256::digest(key.blob());
         assert_eq!(why(section(5, &[&sha256])).as_deref(), Some("its SHA-256 fingerprint is in krl"));
         assert_eq!(why(section(2, &[other.blob()])), None);
-        assert_eq!(why(section(1, &[key.blob(), b"", b"anything"])), None);
+        // A section of certificates of one authority, and none of them: it revokes no plain key.
+        assert_eq!(why(section(1, &[key.blob(), b""])), None);
         let lines = format!("# lost\n{} bench\r\n", key.to_openssh());
         let lines = RevokedKeys::parse("keys", lines.as_bytes()).unwrap();
         assert_eq!((lines.revokes(&key).as_deref(), lines.revokes(&other)), (Some("named in keys"), None));
     }
 
     #[test]
-    fn sections_that_are_passed_over() {
+    fn extensions_that_need_not_be_understood_are_passed_over() {
         let key = key();
-        let signature = [section(4, &[key.blob()]), string(b"signature")].concat();
-        let optional = [vec![255], string(&[string(b"note@here"), vec![0], string(b"x")].concat())].concat();
-        let good = list(&[optional, section(2, &[key.blob()]), signature.clone(), signature.clone()]);
-        assert!(RevokedKeys::parse("krl", &good).unwrap().revokes(&key).is_some());
-        assert!(refused(&list(&[signature, section(2, &[])])).contains("a section behind the signature, at byte"));
+        let optional = [string(b"note@here"), vec![0], string(b"x")].concat();
+        let of_certificates = [string(b""), string(b""), vec![0x39], string(&optional)].concat();
+        let sections = [
+            [vec![255], string(&optional)].concat(),
+            [vec![1], string(&of_certificates)].concat(),
+            section(2, &[key.blob()]),
+        ];
+        assert!(RevokedKeys::parse("krl", &list(&sections)).unwrap().revokes(&key).is_some());
+    }
+
+    /// Expected: OpenSSH's krl.c, `parse_revoked_certs`.
+    #[test]
+    fn certificates_are_read_to_their_last_byte() {
+        let certificates = |parts: &[(u8, Vec<u8>)]| {
+            let parts: Vec<u8> = parts.iter().flat_map(|(kind, part)| [vec![*kind], string(part)].concat()).collect();
+            list(&[[vec![1], string(&[string(b""), string(b""), parts].concat())].concat()])
+        };
+        let numbers = |numbers: &[u64]| numbers.iter().flat_map(|number| number.to_be_bytes()).collect::<Vec<u8>>();
+        let bitmap = |first: u64, bits: &[u8]| [numbers(&[first]), string(bits)].concat();
+        let last = u64::MAX;
+        for good in [
+            (0x20, numbers(&[1, 5, last])),
+            (0x21, numbers(&[5, 5])),
+            (0x22, bitmap(7, &[0, 0x80])),
+            (0x22, bitmap(0, &[2])),
+            (0x22, bitmap(last - 1, &[3])),
+            (0x23, [string(b"id"), string(b"other\0")].concat()),
+        ] {
+            assert!(RevokedKeys::parse("krl", &certificates(std::slice::from_ref(&good))).is_ok(), "{good:x?}");
+        }
+        for (part, words) in [
+            ((0x20, numbers(&[0])), "impossible serial numbers at byte 60"),
+            ((0x20, vec![1; 7]), "an item of 8 bytes"),
+            ((0x21, numbers(&[6, 5])), "impossible serial numbers"),
+            ((0x21, numbers(&[1, 2, 3])), "8 unread bytes"),
+            ((0x22, bitmap(7, &[0x80])), "impossible serial numbers"),
+            ((0x22, bitmap(0, &[1])), "impossible serial numbers"),
+            ((0x22, bitmap(last - 1, &[4])), "impossible serial numbers"),
+            ((0x22, bitmap(1, &[1; 2049])), "impossible serial numbers"),
+            ((0x23, string(b"a\0b")), "a NUL inside the text"),
+            ((0x24, vec![]), "a section of type 36 at byte 60"),
+        ] {
+            let refused = refused(&certificates(&[part]));
+            assert!(refused.contains(words), "{refused}");
+        }
+        let authority = refused(&list(&[section(1, &[b"\0\0\0\x03ssh", b""])]));
+        assert!(authority.contains("a certificate authority at byte 52: `ssh`, which is no key type"), "{authority}");
     }
 
     #[test]
@@ -141,6 +184,8 @@ mod tests {
         let longer = [vec![255], string(&[string(b"note@here"), vec![0], string(b""), vec![7]].concat())].concat();
         for (bytes, words) in [
             (list(&[section(6, &[])]), "a section of type 6 at byte 47"),
+            (list(&[[section(4, &[]), string(b"signature")].concat()]), "a section of type 4 at byte 47"),
+            (list(&[section(1, &[&[0; 20]])]), "a certificate authority at byte 52"),
             (list(&[section(3, &[&[0; 32]])]), "a fingerprint of 32 bytes at byte 52, expected 20 bytes"),
             (list(&[section(5, &[&[0; 20]])]), "a fingerprint of 20 bytes at byte 52, expected 32 bytes"),
             (list(&[critical]), "the critical extension `must@here`"),
