@@ -30,6 +30,12 @@ pub enum FileError {
         /// Which.
         path: PathBuf,
     },
+    /// It is a pipe, a device or a socket: its reader might wait for ever.
+    #[error("{}: found a pipe, a device or a socket, expected a file; save what it gives to a file first", path.display())]
+    Special {
+        /// Which.
+        path: PathBuf,
+    },
     /// It is larger than any such file can be.
     #[error("{}: more than {limit} bytes: is this the right file?", shown(path))]
     TooLarge {
@@ -62,6 +68,7 @@ impl FileError {
         match self {
             Self::Read { path, .. }
             | Self::Folder { path }
+            | Self::Special { path }
             | Self::TooLarge { path, .. }
             | Self::Exists { path, .. }
             | Self::Write { path, .. } => path,
@@ -83,7 +90,7 @@ pub fn reason(error: &io::Error) -> String {
 /// Reads a file of at most `limit` bytes; no more than that is ever held.
 ///
 /// # Errors
-/// [`FileError::Read`], [`FileError::Folder`], [`FileError::TooLarge`].
+/// [`FileError::Read`], [`FileError::Folder`], [`FileError::Special`], [`FileError::TooLarge`].
 pub fn read(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     read_into(&mut bytes, path, limit)?;
@@ -105,7 +112,7 @@ pub fn read_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(), F
 /// The first `limit` bytes of a file, or all of it when it is shorter.
 ///
 /// # Errors
-/// [`FileError::Read`], [`FileError::Folder`].
+/// [`FileError::Read`], [`FileError::Folder`], [`FileError::Special`].
 pub fn read_first(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     read_first_into(&mut bytes, path, limit)?;
@@ -114,10 +121,13 @@ pub fn read_first(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
 
 fn read_first_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(), FileError> {
     let failed = |error| FileError::Read { path: path.to_owned(), error };
-    let file = File::open(path).map_err(failed)?;
+    let file = open(path).map_err(failed)?;
     let found = file.metadata().map_err(failed)?;
     if found.is_dir() {
         return Err(FileError::Folder { path: path.to_owned() });
+    }
+    if !found.is_file() {
+        return Err(FileError::Special { path: path.to_owned() });
     }
     // With one byte more than there are, the end is seen without another look.
     let length = usize::try_from(found.len()).unwrap_or(limit).min(limit);
@@ -125,6 +135,22 @@ fn read_first_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(),
     bytes.reserve_exact(length.saturating_add(1));
     file.take(limit as u64).read_to_end(bytes).map_err(failed)?;
     Ok(())
+}
+
+/// Opens a file without waiting: a pipe that nobody writes to would keep its reader for ever. The opened file
+/// itself tells afterwards what it is, so that nothing can be exchanged in between.
+#[cfg(unix)]
+fn open(path: &Path) -> io::Result<File> {
+    use rustix::fs::OFlags;
+    use std::os::unix::fs::OpenOptionsExt;
+    let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
+    File::options().read(true).custom_flags(flags.bits().cast_signed()).open(path)
+}
+
+/// Opens a file.
+#[cfg(not(unix))]
+fn open(path: &Path) -> io::Result<File> {
+    File::open(path)
 }
 
 /// Who may read a new file.
