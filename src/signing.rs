@@ -11,6 +11,10 @@ use std::process::{Command, Stdio};
 use std::sync::{Mutex, PoisonError};
 use zeroize::Zeroizing;
 
+/// The variable from which the program takes a passphrase where no terminal asks for it. No program that is started here
+/// inherits it.
+pub const PASSPHRASE_VARIABLE: &str = "DTG_PASSPORT_PASSPHRASE";
+
 /// The largest key file that is read, in bytes.
 const LARGEST_KEY_FILE_BYTES: usize = 1 << 16;
 
@@ -45,6 +49,27 @@ pub enum KeyFileError {
         /// Why there is none.
         reason: String,
     },
+    /// The private half of a public key is nowhere.
+    #[error(
+        "{}: found only the public half, expected the private one in ssh-agent or in {}; \
+         is ssh-agent running with this key (ssh-add -L)?",
+        path.display(),
+        private.display()
+    )]
+    NoPrivateHalf {
+        /// The public key.
+        path: PathBuf,
+        /// Where its private half would be.
+        private: PathBuf,
+    },
+    /// The private key beside a public key is another one.
+    #[error("{}: is not the private half of {}; give the key file that belongs to it", private.display(), path.display())]
+    OtherPrivateHalf {
+        /// The public key.
+        path: PathBuf,
+        /// The private key.
+        private: PathBuf,
+    },
     /// The file is not text.
     #[error("{}: no text, expected a private key in OpenSSH format or a .pub file", shown(path))]
     NotText {
@@ -74,28 +99,73 @@ pub fn forbid_core_dumps() {
 
 /// The signer for a key file: the key itself, or `ssh-keygen` for a `.pub` whose private half is in the agent or a token.
 ///
+/// Where the private half is, and that it can be used, is found out here, once: `ssh-keygen` would ask for a passphrase
+/// at every signature.
+///
 /// # Errors
 /// See [`KeyFileError`]. A private key that others can read is refused, as OpenSSH does.
 pub fn signer(path: &Path, ask: AskPassphrase) -> Result<Box<dyn Signer + Sync>, KeyFileError> {
-    let bytes = Zeroizing::new(files::read(path, LARGEST_KEY_FILE_BYTES)?);
-    let text = std::str::from_utf8(&bytes).map_err(|_| KeyFileError::NotText { path: path.to_owned() })?;
-    let key_error = |error| KeyFileError::Key { path: path.to_owned(), error };
-    if path.extension().is_some_and(|extension| extension == "pub") {
-        let public_key = PublicKey::from_openssh(text.trim_end()).map_err(key_error)?;
-        return Ok(Box::new(SshKeygen { public_key: Some(public_key), ..SshKeygen::of(path) }));
+    let ssh_keygen = |public_key, in_agent| -> Box<dyn Signer + Sync> {
+        Box::new(SshKeygen { key: path.to_owned(), public_key, in_agent, turn: Mutex::new(()) })
+    };
+    if path.extension().is_none_or(|extension| extension != "pub") {
+        return Ok(private_key(path, ask)?.map_or_else(|| ssh_keygen(None, false), |key| Box::new(key)));
     }
+    let public = PublicKey::from_openssh(text(path)?.trim_end());
+    let public = public.map_err(|error| KeyFileError::Key { path: path.to_owned(), error })?;
+    if is_in_agent(&public) {
+        return Ok(ssh_keygen(Some(public), true));
+    }
+    let private = path.with_extension("");
+    if !private.exists() {
+        return Err(KeyFileError::NoPrivateHalf { path: path.to_owned(), private });
+    }
+    match private_key(&private, ask)? {
+        Some(key) if key.public_key() != public => {
+            Err(KeyFileError::OtherPrivateHalf { path: path.to_owned(), private })
+        }
+        Some(key) => Ok(Box::new(key)),
+        None => Ok(ssh_keygen(Some(public), false)),
+    }
+}
+
+/// The key of a private key file; `None` when the file is only the handle of a key in a token.
+fn private_key(path: &Path, ask: AskPassphrase) -> Result<Option<SigningKey>, KeyFileError> {
+    let text = text(path)?;
     refuse_exposed(path)?;
-    match SigningKey::from_openssh(text, None) {
-        Ok(key) => Ok(Box::new(key)),
-        // The file of a token's key holds only a handle: ssh-keygen asks the token.
-        Err(KeyError::SecurityKey) => Ok(Box::new(SshKeygen::of(path))),
+    let key = match SigningKey::from_openssh(&text, None) {
         Err(KeyError::Encrypted) => {
             let asked = ask(path);
             let passphrase = asked.map_err(|reason| KeyFileError::Passphrase { path: path.to_owned(), reason })?;
-            Ok(Box::new(SigningKey::from_openssh(text, Some(&passphrase)).map_err(key_error)?))
+            SigningKey::from_openssh(&text, Some(&passphrase))
         }
-        Err(error) => Err(key_error(error)),
+        key => key,
+    };
+    match key {
+        Ok(key) => Ok(Some(key)),
+        Err(KeyError::SecurityKey) => Ok(None),
+        Err(error) => Err(KeyFileError::Key { path: path.to_owned(), error }),
     }
+}
+
+fn text(path: &Path) -> Result<Zeroizing<String>, KeyFileError> {
+    let bytes = Zeroizing::new(files::read(path, LARGEST_KEY_FILE_BYTES)?);
+    let text = std::str::from_utf8(&bytes).map_err(|_| KeyFileError::NotText { path: path.to_owned() })?;
+    Ok(Zeroizing::new(text.to_owned()))
+}
+
+/// Whether ssh-agent has the private half of a key. Without an agent, or without OpenSSH, it has none.
+fn is_in_agent(public: &PublicKey) -> bool {
+    let listed = openssh("ssh-add").arg("-L").stdin(Stdio::null()).output();
+    let lines = listed.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default();
+    lines.lines().any(|line| PublicKey::from_openssh(line).is_ok_and(|key| key == *public))
+}
+
+/// A program of OpenSSH, which is not told the passphrase.
+fn openssh(program: &str) -> Command {
+    let mut command = Command::new(program);
+    command.env_remove(PASSPHRASE_VARIABLE);
+    command
 }
 
 #[cfg(unix)]
@@ -146,14 +216,9 @@ pub fn own_trust(identity: &str, signer: &dyn Signer) -> Option<Trust> {
 pub struct SshKeygen {
     key: PathBuf,
     public_key: Option<PublicKey>,
+    in_agent: bool,
     /// A token makes one signature at a time.
     turn: Mutex<()>,
-}
-
-impl SshKeygen {
-    fn of(key: &Path) -> Self {
-        Self { key: key.to_owned(), public_key: None, turn: Mutex::new(()) }
-    }
 }
 
 impl Signer for SshKeygen {
@@ -165,9 +230,11 @@ impl Signer for SshKeygen {
         let failed =
             |what: String| SigningFailed(format!("ssh-keygen could not sign with {}: {what}", shown(&self.key)));
         let _turn = self.turn.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut child = Command::new("ssh-keygen")
+        let mut child = openssh("ssh-keygen")
             .args(["-Y", "sign", "-q", "-n", namespace, "-f"])
             .arg(&self.key)
+            // The agent or nothing: a key that it loses is not looked for in files, whose passphrase would be asked for.
+            .args(self.in_agent.then_some("-U"))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())

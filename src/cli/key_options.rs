@@ -4,13 +4,11 @@ use super::Failure;
 use clap::Args;
 use dtg_passport::document::Signer;
 use dtg_passport::signing;
+pub use dtg_passport::signing::PASSPHRASE_VARIABLE;
 use dtg_passport::text::shown;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use zeroize::Zeroizing;
-
-/// The variable that holds a passphrase where no terminal asks for it.
-pub const PASSPHRASE_VARIABLE: &str = "DTG_PASSPORT_PASSPHRASE";
 
 #[derive(Args)]
 pub struct KeyOptions {

@@ -36,6 +36,12 @@ pub enum KeyError {
          through the token"
     )]
     SecurityKey,
+    /// The file beside a security key, encrypted: `ssh-keygen` would ask for its passphrase at every signature.
+    #[error(
+        "the private half of this key is in a security key (FIDO token), and the file is encrypted; add it to ssh-agent \
+         (`ssh-add KEY`) and give the .pub file"
+    )]
+    EncryptedSecurityKey,
     /// The private key is encrypted and no passphrase was given.
     #[error("the private key is encrypted; its passphrase is needed")]
     Encrypted,

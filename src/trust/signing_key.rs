@@ -198,7 +198,9 @@ fn check_header(pem: &str) -> Result<(), KeyError> {
     let (cipher, key_type) = header(rest).map_err(|error: Truncated| KeyError::DamagedPrivateKey(error.to_string()))?;
     match key_type.as_str() {
         "ssh-ed25519" => {}
-        "sk-ssh-ed25519@openssh.com" | "sk-ecdsa-sha2-nistp256@openssh.com" => return Err(KeyError::SecurityKey),
+        "sk-ssh-ed25519@openssh.com" | "sk-ecdsa-sha2-nistp256@openssh.com" => {
+            return Err(if cipher == "none" { KeyError::SecurityKey } else { KeyError::EncryptedSecurityKey });
+        }
         other => return Err(KeyError::OtherKeyType { found: shortened(other) }),
     }
     match cipher.parse::<Cipher>() {

@@ -4,8 +4,30 @@ use crate::agent::Agent;
 use crate::token::provider;
 use crate::{Bench, Finished};
 use dtg_passport::trust::PublicKey;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+
+/// A folder of programs that stand before those of OpenSSH, and tell `told` how they are called and with what
+/// environment; then the real ones do the work.
+fn watched(bench: &Bench) -> PathBuf {
+    let folder = bench.path("watched");
+    std::fs::create_dir(&folder).unwrap();
+    for program in ["ssh-keygen", "ssh-add"] {
+        let told = bench.path("told");
+        let script = format!(
+            "#!/bin/sh\nPATH=/usr/local/bin:/usr/bin:/bin\n{{ echo \"called {program} $*\"; env; }} >>'{}'\nexec {program} \"$@\"\n",
+            told.display()
+        );
+        let path = bench.write(&format!("watched/{program}"), script);
+        assert!(Command::new("chmod").arg("755").arg(path).status().unwrap().success());
+    }
+    folder
+}
+
+/// How often a program was called to sign, of those that were watched.
+fn signatures(bench: &Bench) -> usize {
+    bench.read("told").lines().filter(|line| line.starts_with("called ssh-keygen -Y sign")).count()
+}
 
 /// `issue` with a key, in an environment, then `verify` with its public half.
 fn issue(bench: &Bench, key: &str, environment: &[(&str, &Path)]) -> Finished {
@@ -67,4 +89,76 @@ fn an_encrypted_key_of_openssh_signs_with_its_passphrase() {
     let wrong = issue(&bench, "key", &[("DTG_PASSPORT_PASSPHRASE", Path::new("wrong horse"))]);
     assert!(!wrong.good && wrong.errors.contains("passphrase"), "{}", wrong.errors);
     assert_issued(&bench, &issue(&bench, "key", &[("DTG_PASSPORT_PASSPHRASE", Path::new("correct horse"))]));
+}
+
+#[test]
+fn no_program_that_is_started_inherits_the_passphrase() {
+    let bench = Bench::new();
+    bench.new_key("key");
+    let agent = Agent::start(&bench);
+    let added = bench.run(Command::new("ssh-add").env("SSH_AUTH_SOCK", &agent.socket).args(["-q", "key"]), b"");
+    assert!(added.good, "{}", added.errors);
+    std::fs::remove_file(bench.path("key")).unwrap();
+    let (passphrase, path) = (Path::new("correct horse"), watched(&bench));
+    let environment =
+        [("SSH_AUTH_SOCK", agent.socket.as_path()), ("DTG_PASSPORT_PASSPHRASE", passphrase), ("PATH", &path)];
+    assert_issued(&bench, &issue(&bench, "key.pub", &environment));
+    assert_eq!(signatures(&bench), 1);
+    let told = bench.read("told");
+    assert!(told.contains("SSH_AUTH_SOCK=") && !told.contains("horse"), "{told}");
+}
+
+#[test]
+fn of_a_public_key_the_private_half_beside_it_is_opened_once_for_a_whole_batch() {
+    let bench = Bench::new();
+    let made = bench.keygen(&["-q", "-t", "ed25519", "-N", "correct horse", "-C", "factory", "-f", "key"]);
+    assert!(made.good, "{}", made.errors);
+    let path = watched(&bench);
+    let environment = [("DTG_PASSPORT_PASSPHRASE", Path::new("correct horse")), ("PATH", &path)];
+    assert_issued(&bench, &issue(&bench, "key.pub", &environment));
+    // ssh-keygen would have asked for the passphrase at every passport.
+    assert_eq!(signatures(&bench), 0);
+}
+
+#[test]
+fn a_public_key_without_its_private_half_is_refused_before_anything_is_signed() {
+    let bench = Bench::new();
+    let (path, agent) = (watched(&bench), Agent::start(&bench));
+    let environment = [("SSH_AUTH_SOCK", agent.socket.as_path()), ("PATH", &path)];
+    for (name, key) in [("key", None), ("other", Some("other"))] {
+        bench.new_key(name);
+        std::fs::remove_file(bench.path(name)).unwrap();
+        if let Some(key) = key {
+            bench.write_key(key, &dtg_passport::trust::SigningKey::generate().unwrap().to_openssh("", None).unwrap());
+        }
+        let issued = issue(&bench, &format!("{name}.pub"), &environment);
+        let words = if key.is_some() { "is not the private half of other.pub" } else { "found only the public half" };
+        assert!(!issued.good && issued.errors.contains(words), "{}", issued.errors);
+    }
+    assert_eq!(signatures(&bench), 0);
+    assert!(!bench.path("out").exists());
+}
+
+#[test]
+fn an_encrypted_handle_of_a_token_belongs_into_the_agent() {
+    let bench = Bench::new();
+    let mut keygen = Command::new("ssh-keygen");
+    keygen.env("SSH_SK_PROVIDER", provider()).args(["-q", "-t", "ed25519-sk", "-N", "correct horse", "-f", "key"]);
+    let made = bench.run(&mut keygen, b"");
+    assert!(made.good, "{}{}", made.output, made.errors);
+    let passphrase = Path::new("correct horse");
+    for key in ["key", "key.pub"] {
+        let issued = issue(&bench, key, &[("SSH_SK_PROVIDER", provider()), ("DTG_PASSPORT_PASSPHRASE", passphrase)]);
+        assert!(!issued.good && issued.errors.contains("add it to ssh-agent"), "{}", issued.errors);
+    }
+    // Then it signs without asking.
+    let agent = Agent::start(&bench);
+    let askpass = bench.write("askpass", "#!/bin/sh\necho 'correct horse'\n");
+    assert!(Command::new("chmod").arg("755").arg(&askpass).status().unwrap().success());
+    let mut add = Command::new("ssh-add");
+    add.args(["-q", "-S"]).arg(provider()).arg("key").env("SSH_AUTH_SOCK", &agent.socket);
+    add.env("SSH_SK_PROVIDER", provider()).env("SSH_ASKPASS_REQUIRE", "force").env("SSH_ASKPASS", &askpass);
+    let added = crate::run(add.current_dir(bench.path("")), b"");
+    assert!(added.good, "{}", added.errors);
+    assert_issued(&bench, &issue(&bench, "key.pub", &[("SSH_AUTH_SOCK", &agent.socket)]));
 }
