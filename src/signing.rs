@@ -53,8 +53,8 @@ pub enum KeyFileError {
     #[error(
         "{}: found only the public half, expected the private one in ssh-agent or in {}; \
          is ssh-agent running with this key (ssh-add -L)?",
-        path.display(),
-        private.display()
+        shown(path),
+        shown(private)
     )]
     NoPrivateHalf {
         /// The public key.
@@ -63,7 +63,7 @@ pub enum KeyFileError {
         private: PathBuf,
     },
     /// The private key beside a public key is another one.
-    #[error("{}: is not the private half of {}; give the key file that belongs to it", private.display(), path.display())]
+    #[error("{}: is not the private half of {}; give the key file that belongs to it", shown(private), shown(path))]
     OtherPrivateHalf {
         /// The public key.
         path: PathBuf,

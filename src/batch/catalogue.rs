@@ -87,7 +87,7 @@ impl<T: Listed> Catalogue<T> {
         threads: usize,
         tell: Listener,
     ) -> (Self, Vec<Failure>) {
-        let mut draft = Draft { listed: Vec::new(), by_id: BTreeMap::new(), failures: Vec::new() };
+        let mut draft = Draft { listed: Vec::new(), names: BTreeMap::new(), failures: Vec::new() };
         let mut paths = paths.fuse();
         loop {
             let some: Vec<_> = paths.by_ref().take(READ_AT_ONCE).collect();
@@ -173,12 +173,14 @@ fn read<T: Listed>(path: &Path) -> Result<(T, [u8; 32]), Failure> {
 /// A catalogue in the making.
 struct Draft<T> {
     listed: Vec<Seen<T>>,
-    by_id: BTreeMap<String, usize>,
+    /// By every name that becomes a folder or a file, in lower case: the name as it was first spelled, and by which file.
+    names: BTreeMap<String, (String, usize)>,
     failures: Vec<Failure>,
 }
 
 struct Seen<T> {
     path: PathBuf,
+    id: String,
     kept: Option<Arc<T>>,
     hash: [u8; 32],
     others: Vec<PathBuf>,
@@ -188,33 +190,48 @@ impl<T: Listed> Draft<T> {
     fn add(&mut self, path: PathBuf, value: T, hash: [u8; 32], tell: Listener) {
         let file = name_of(&path);
         let id = value.id();
-        match self.by_id.get(&id) {
-            Some(&first) if self.listed[first].hash == hash => {
+        if let Some(why) = self.differs_in_case(&path, &id) {
+            return self.failures.push(Failure::refused(&path, why));
+        }
+        match self.names.get(&id.to_ascii_lowercase()) {
+            Some(&(_, first)) if self.listed[first].hash == hash => {
                 tell(Event::Remark { file, words: format!("the {} {id} a second time, taken once", T::NAME) });
             }
-            Some(&first) => self.listed[first].others.push(path),
+            Some(&(_, first)) => self.listed[first].others.push(path),
             None => {
                 if let Some(words) = value.remark(&path) {
                     tell(Event::Remark { file, words });
                 }
+                for name in names(&id) {
+                    self.names.entry(name.to_ascii_lowercase()).or_insert((name.to_owned(), self.listed.len()));
+                }
                 let kept = (self.listed.len() < KEPT).then(|| Arc::new(value));
-                self.by_id.insert(id, self.listed.len());
-                self.listed.push(Seen { path, kept, hash, others: Vec::new() });
+                self.listed.push(Seen { path, id, kept, hash, others: Vec::new() });
             }
         }
     }
 
+    /// Why an id cannot stand beside another one that is equal to it but for case.
+    fn differs_in_case(&self, path: &Path, id: &str) -> Option<String> {
+        let known = |name: &str| self.names.get(&name.to_ascii_lowercase()).cloned();
+        let (name, (other, first)) =
+            names(id).find_map(|name| Some((name, known(name).filter(|(other, _)| other != name)?)))?;
+        let (path, first, what) = (shown(path), shown(&self.listed[first].path), T::NAME);
+        Some(format!(
+            "{path}: {what} {id}: found {name}, but {other} in {first}; Windows and macOS take the two for one: spell them \
+             alike, or rename one"
+        ))
+    }
+
     fn finished(mut self) -> (Catalogue<T>, Vec<Failure>) {
-        let mut ids = vec![String::new(); self.listed.len()];
-        self.by_id.into_iter().for_each(|(id, place)| ids[place] = id);
         let mut catalogue = Catalogue::empty();
-        for (seen, id) in self.listed.into_iter().zip(ids) {
+        for seen in self.listed {
             if seen.others.is_empty() {
-                catalogue.by_id.insert(id, catalogue.files.len());
+                catalogue.by_id.insert(seen.id, catalogue.files.len());
                 catalogue.files.push(File { path: seen.path, kept: seen.kept });
             } else {
                 let others: Vec<_> = seen.others.iter().map(|path| shown(path).to_string()).collect();
-                let (what, others) = (T::NAME, others.join(", "));
+                let (what, id, others) = (T::NAME, seen.id, others.join(", "));
                 let why =
                     format!("{}: is {what} {id}, as is {others}, with other content: keep one", shown(&seen.path));
                 self.failures.push(Failure::refused(&seen.path, why));
@@ -222,4 +239,9 @@ impl<T: Listed> Draft<T> {
         }
         (catalogue, self.failures)
     }
+}
+
+/// The names that become folders, or a file, each with those above it: of a stand `<model>` and `<model>/<serial>`.
+fn names(id: &str) -> impl Iterator<Item = &str> {
+    id.match_indices('/').map(|(end, _)| &id[..end]).chain([id])
 }

@@ -31,7 +31,7 @@ pub enum FileError {
         path: PathBuf,
     },
     /// It is a pipe, a device or a socket: its reader might wait for ever.
-    #[error("{}: found a pipe, a device or a socket, expected a file; save what it gives to a file first", path.display())]
+    #[error("{}: found a pipe, a device or a socket, expected a file; save what it gives to a file first", shown(path))]
     Special {
         /// Which.
         path: PathBuf,

@@ -3,6 +3,7 @@
 //! * [`search`]: what is there.
 
 mod claim;
+mod names;
 pub mod search;
 mod superseding;
 mod visited;
@@ -25,6 +26,7 @@ use crate::text::scalar::Identifier;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use jiff::Timestamp;
 use jiff::civil::Date;
+use names::{Names, Of};
 use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -36,6 +38,9 @@ pub struct Folder {
     durability: Durability,
     /// Folders below that are no links.
     no_links: Visited,
+    /// Names of models and serial numbers, and of sites.
+    folders: Names,
+    sites: Names,
 }
 
 /// Who signs, and by whose trust a new passport must hold before it is written.
@@ -158,6 +163,18 @@ pub enum FolderRefused {
         /// The link.
         path: PathBuf,
     },
+    /// A name that differs only in case is there already.
+    #[error(
+        "{}: found {}, which differs only in case; Windows and macOS take the two for one: spell them alike, or rename one",
+        shown(path),
+        shown(there)
+    )]
+    OtherCase {
+        /// The folder or the file that would stand beside it.
+        path: PathBuf,
+        /// What is there.
+        there: PathBuf,
+    },
     /// By the trust given, nobody could verify it.
     #[error("the new passport would not verify ({check}: {detail}); nothing was written")]
     NotVerifiable {
@@ -188,7 +205,8 @@ impl FolderRefused {
 impl Folder {
     /// The folder `root`, which need not exist yet. What is written to it is safe from a loss of power at once.
     pub fn new(root: impl Into<PathBuf>) -> Self {
-        Self { root: root.into(), durability: Durability::Named, no_links: Visited::default() }
+        let (folders, sites) = (Names::new(Of::Folders), Names::new(Of::Passports));
+        Self { root: root.into(), durability: Durability::Named, no_links: Visited::default(), folders, sites }
     }
 
     /// The same folder; what is written to it is as safe from a loss of power as `durability` says.
@@ -365,9 +383,21 @@ impl Folder {
         })
     }
 
+    /// Whether model, serial number and site have no neighbours that a system without case would take for them.
+    fn check_case(&self, path: &Path) -> Result<(), FolderRefused> {
+        let stand = files::folder_of(path);
+        for (names, path) in [(&self.folders, files::folder_of(stand)), (&self.folders, stand), (&self.sites, path)] {
+            if let Some(there) = names.add(path)? {
+                return Err(FolderRefused::OtherCase { path: path.to_owned(), there });
+            }
+        }
+        Ok(())
+    }
+
     /// The passport that is there already.
     fn existing(&self, path: &Path) -> Result<Option<Existing>, FolderRefused> {
         self.check_for_links(files::folder_of(path))?;
+        self.check_case(path)?;
         let found = match path.symlink_metadata() {
             Ok(found) => found,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),

@@ -8,12 +8,31 @@ use jiff::tz::TimeZone;
 use sha2::{Digest, Sha256};
 use std::fmt;
 
-/// A name that becomes a folder or file name: `[A-Za-z0-9][A-Za-z0-9._-]{0,63}` without `..`.
+/// A name that becomes a folder or file name on every system: `[A-Za-z0-9][A-Za-z0-9._-]{0,63}` without `..`, without a dot
+/// at the end, and not one that Windows reserves.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(transparent))]
-pub struct Identifier(
-    #[cfg_attr(feature = "cli", schemars(regex(pattern = r"^[A-Za-z0-9](?!.*\.\.)[A-Za-z0-9._-]{0,63}$")))] String,
+pub struct Identifier(#[cfg_attr(feature = "cli", schemars(regex(pattern = PATTERN)))] String);
+
+/// The same as a regular expression.
+#[cfg(feature = "cli")]
+const PATTERN: &str = concat!(
+    r"^(?!.*\.\.)(?!.*\.$)",
+    r"(?!([Cc][Oo][Nn]|[Pp][Rr][Nn]|[Aa][Uu][Xx]|[Nn][Uu][Ll]|([Cc][Oo][Mm]|[Ll][Pp][Tt])[0-9])(\.|$))",
+    r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}$"
 );
+
+/// Names of devices that Windows finds in every folder, whatever follows them after a dot ("Naming Files, Paths, and
+/// Namespaces", learn.microsoft.com); those of ports end with a digit more.
+const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
+const PORTS: [&str; 2] = ["com", "lpt"];
+
+/// Whether Windows takes a name for a device.
+fn is_device(text: &str) -> bool {
+    let name = text.split('.').next().unwrap_or_default().to_ascii_lowercase();
+    let is_port = |port: &&str| name.strip_prefix(*port).is_some_and(|rest| matches!(rest.as_bytes(), [b'0'..=b'9']));
+    DEVICES.contains(&name.as_str()) || PORTS.iter().any(is_port)
+}
 
 impl Identifier {
     /// The identifier `text`, or in words what is wrong with it.
@@ -29,7 +48,9 @@ impl Identifier {
             None => Err("an empty text".to_owned()),
             Some(first) if !first.is_ascii_alphanumeric() => Err(format!("{first:?} at the beginning of {text:?}")),
             _ if text.len() > 64 => Err(format!("{} characters", text.len())),
-            _ if text.as_bytes().windows(2).any(|pair| pair == b"..") => Err(format!("\"..\" in {text:?}")),
+            _ if text.contains("..") => Err(format!("\"..\" in {text:?}")),
+            _ if text.ends_with('.') => Err(format!("a dot at the end of {text:?}")),
+            _ if is_device(text) => Err(format!("{text:?}, the name of a device under Windows")),
             _ => Ok(Self(text.to_owned())),
         }
     }
@@ -75,7 +96,7 @@ impl Field for Identifier {
     }
 
     fn expected(_: &str) -> String {
-        "1 to 64 of the ASCII letters, digits, '.', '_', '-', a letter or digit first, no '..'".to_owned()
+        "1 to 64 of the ASCII letters, digits, '.', '_', '-', a letter or digit first, no '..', no dot last, no device's name".to_owned()
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {
@@ -155,11 +176,16 @@ mod tests {
 
     #[test]
     fn identifiers_are_safe_file_names() {
-        for good in ["a", "SPS-2", "0017", "moscow-bmstu", "A.b_c-9"] {
+        for good in ["a", "SPS-2", "0017", "moscow-bmstu", "A.b_c-9", "con-1", "COM", "COM10", "lpt-1", "a.con", "nul1"]
+        {
             assert!(Identifier::new(good).is_ok(), "{good}");
         }
         let long = "a".repeat(65);
         for bad in ["", "../x", "a..b", ".a", "-a", "a b", "а", "a/b", "a\\b", "a\0", &long, "é"] {
+            assert!(Identifier::new(bad).is_err(), "{bad}");
+        }
+        // Expected: Windows stores none of them under its own name.
+        for bad in ["CON", "con.1", "Prn", "aux.a.b", "NUL", "COM1", "com9.x", "LPT0", "a.", "a.b."] {
             assert!(Identifier::new(bad).is_err(), "{bad}");
         }
         assert!(Identifier::new("SPS-2А").unwrap_err().contains("Cyrillic"));

@@ -256,3 +256,102 @@ fn progress_is_shown_on_a_terminal_and_nowhere_else() {
     assert!(seen.contains("of 300 passports, "), "{seen:?}");
     assert!(seen.contains("left") && seen.contains("issued 300, unchanged 0, refused 0"), "{seen:?}");
 }
+
+#[test]
+fn a_pipe_or_a_device_is_refused_at_once_wherever_a_file_is_named() {
+    let workshop = Workshop::new(1, 1);
+    workshop.run(&format!("issue stands --site sites {SIGN}"), 0);
+    fs::rename(workshop.path("passports/SPS-2/0000/site-00000-1.yaml"), workshop.path("good.yaml")).unwrap();
+    workshop.write("currents.csv", include_str!("../cmd/files/currents.csv"));
+    let header = "format: \"dtg-stand/1\"\nstand: {model: \"SPS-2\", serial: \"0000\"}\n\
+                  certificate: {number: \"1\", issued: \"2026-01-01\", laboratory: \"x\"}\n\
+                  positions:\n  - {i: 1, j: 1, theta_deg: 0, phi_deg: 0}\n";
+    workshop.write("header.yaml", header);
+    assert!(workshop.shell("mkfifo pipe").status().unwrap().success());
+    let trust = "--trust allowed_signers --time 2026-12-01";
+    let sign = "--key key --identity factory --reason why";
+    let named = [
+        format!("verify FILE {trust}"),
+        "verify good.yaml --trust FILE".to_owned(),
+        format!("verify good.yaml {trust} --revoked FILE"),
+        format!("show FILE {trust}"),
+        "show FILE --no-verify".to_owned(),
+        format!("render FILE -o page.html {trust}"),
+        format!("calibrate FILE currents.csv {trust}"),
+        format!("calibrate good.yaml FILE {trust}"),
+        format!("calibrate good.yaml currents.csv {trust} --gyro FILE"),
+        format!("calibrate good.yaml currents.csv {trust} --laboratory FILE"),
+        format!("calibrate good.yaml currents.csv {trust} --previous FILE"),
+        "certify FILE --stand header.yaml -o new.yaml".to_owned(),
+        "certify currents.csv --stand FILE -o new.yaml".to_owned(),
+        format!("issue FILE --site sites {SIGN} --out out"),
+        format!("issue stands --site FILE {SIGN} --out out"),
+        "issue stands --site sites --key FILE --identity factory --out out".to_owned(),
+        format!("reissue FILE {sign} {trust} --out out"),
+        format!("reissue good.yaml {sign} {trust} --out out --stand FILE"),
+        format!("reissue good.yaml {sign} {trust} --out out --site FILE"),
+        format!("revoke FILE --list lists {sign} {trust}"),
+        "simulate accuracy --trials 1 --stand FILE --site sites/site-00000.yaml".to_owned(),
+    ];
+    for arguments in named {
+        for file in ["pipe", "/dev/zero", "sites"] {
+            let of_a_folder = arguments.starts_with("issue FILE --site") || arguments.contains("--site FILE -");
+            if file == "sites" && of_a_folder {
+                continue;
+            }
+            let arguments = arguments.replace("FILE", file);
+            let mut child = workshop.command(&arguments).stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+            // Without a writer a pipe keeps its reader for ever.
+            let deadline = std::time::Instant::now() + std::time::Duration::from_secs(60);
+            while child.try_wait().unwrap().is_none() {
+                if std::time::Instant::now() > deadline {
+                    child.kill().unwrap();
+                    panic!("{arguments}: waits for ever");
+                }
+                std::thread::sleep(std::time::Duration::from_millis(2));
+            }
+            let said = Said::of(child.wait_with_output().unwrap(), 2);
+            let expected =
+                if file == "sites" { "is a folder" } else { "found a pipe, a device or a socket, expected a file" };
+            assert!(said.words.contains(expected), "{arguments}: {}", said.words);
+        }
+    }
+    assert!(!workshop.path("out").exists() && !workshop.path("lists").exists());
+}
+
+#[test]
+fn names_that_differ_only_in_case_do_not_stand_side_by_side() {
+    let workshop = Workshop::new(2, 2);
+    let stand = |model: &str, serial: &str| {
+        let text = include_str!("../cmd/files/stand.yaml");
+        text.replace("\"SPS-2\"", &format!("\"{model}\"")).replace("\"0017\"", &format!("\"{serial}\""))
+    };
+    workshop.write("stands/0003/stand.yaml", &stand("SPS-2", "a1"));
+    workshop.write("stands/0004/stand.yaml", &stand("SPS-2", "A1"));
+    workshop.write("stands/0005/stand.yaml", &stand("sps-2", "0005"));
+    workshop.write("sites/twice.yaml", &site("SITE-00001", 7));
+    // In a batch the first of the two counts.
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
+    for words in [
+        "stands/0004/stand.yaml: stand SPS-2/A1: found SPS-2/A1, but SPS-2/a1 in stands/0003/stand.yaml",
+        "stands/0005/stand.yaml: stand sps-2/0005: found sps-2, but SPS-2 in stands/0000/stand.yaml",
+        "sites/twice.yaml: site SITE-00001: found SITE-00001, but site-00001 in sites/site-00001.yaml",
+    ] {
+        assert!(said.words.contains(words), "{}", said.words);
+    }
+    assert_eq!(workshop.sound("passports").len(), 3 * 2);
+    // And beside what is there already, nothing is written.
+    let before = snapshot(&workshop.path("passports"));
+    for (arguments, words) in [
+        ("stands/0004/stand.yaml --site sites/site-00000.yaml", "passports/SPS-2/A1: found passports/SPS-2/a1"),
+        ("stands/0005/stand.yaml --site sites/site-00000.yaml", "passports/sps-2: found passports/SPS-2"),
+        (
+            "stands/0003/stand.yaml --site sites/twice.yaml",
+            "passports/SPS-2/a1/SITE-00001-1.yaml: found passports/SPS-2/a1/site-00001",
+        ),
+    ] {
+        let said = workshop.run(&format!("issue {arguments} {SIGN}"), 1);
+        assert!(said.words.contains(words), "{}", said.words);
+    }
+    assert_eq!(snapshot(&workshop.path("passports")), before);
+}
