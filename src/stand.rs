@@ -19,6 +19,10 @@ pub const STAND_FORMAT: &str = "dtg-stand/1";
 /// The largest deviation that can be certified, either way.
 pub const LARGEST_DEVIATION_DEG: f64 = 45.0;
 
+/// The most positions that a stand may have: the uncertainties of all of them are computed together, in memory that grows
+/// with the square of their number.
+pub const MOST_POSITIONS: usize = 256;
+
 record! {
     /// Which stand it is.
     pub struct Identity {
@@ -162,7 +166,8 @@ record! {
         pub certificate: Certificate,
         /// The surfaces that realise its axes.
         pub datum: Option<Datum>,
-        /// Its positions, sorted by (i, j) once read.
+        /// Its positions, sorted by (i, j) once read; at most 256.
+        #[schemars(length(max = 256))]
         pub positions: Vec<CertifiedPosition>,
     }
 }
@@ -207,6 +212,10 @@ pub(crate) fn check(certificate: &Certificate, positions: &[CertifiedPosition], 
     if positions.is_empty() {
         problems.at(&at, "an empty list", "at least one position", "");
     }
+    // Of a list that is too long no item is worth a word.
+    if !check_length(positions, &at, problems) {
+        return;
+    }
     let mut seen = BTreeSet::new();
     for (index, position) in positions.iter().enumerate() {
         let at = at.item(index);
@@ -216,6 +225,15 @@ pub(crate) fn check(certificate: &Certificate, positions: &[CertifiedPosition], 
             problems.at(&at, format!("position {} a second time", position.index()), "every position once", advice);
         }
     }
+}
+
+/// Checks that a list has no more items than a stand may have positions; returns `true` if so.
+pub(crate) fn check_length<T>(list: &[T], at: &Path, problems: &mut Problems) -> bool {
+    let fits = list.len() <= MOST_POSITIONS;
+    if !fits {
+        problems.at(at, format!("{} positions", list.len()), format!("at most {MOST_POSITIONS}"), "");
+    }
+    fits
 }
 
 fn check_certificate(certificate: &Certificate, problems: &mut Problems) {

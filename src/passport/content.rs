@@ -114,6 +114,7 @@ record! {
     /// Currents, and the parameters that correct laboratory software finds from them.
     pub struct SelfCheck {
         /// In every position.
+        #[schemars(length(max = 256))]
         pub currents: Vec<PositionCurrents>,
         /// K.
         pub k_deg_per_h_per_ma: Rows,
@@ -139,7 +140,8 @@ record! {
         pub certificate: Certificate,
         /// The surfaces that realise its axes.
         pub datum: Option<Datum>,
-        /// Its positions, sorted by (i, j).
+        /// Its positions, sorted by (i, j); at most 256.
+        #[schemars(length(max = 256))]
         pub positions: Vec<CertifiedPosition>,
         /// The place of delivery.
         pub site: Site,
@@ -148,6 +150,7 @@ record! {
         /// The paper's matrices; absent without the paper's eight positions.
         pub matrices: Option<MatrixRows>,
         /// What least squares needs, for every position.
+        #[schemars(length(max = 256))]
         pub vectors: Vec<PositionVectors>,
         /// A test of laboratory software; absent where the positions do not determine the eight parameters.
         pub self_check: Option<SelfCheck>,
@@ -357,6 +360,10 @@ impl Content {
         }
         if let Some(accuracy) = &self.accuracy {
             accuracy.check(&at.key("accuracy"), problems);
+        }
+        stand::check_length(&self.vectors, &at.key("vectors"), problems);
+        if let Some(self_check) = &self.self_check {
+            stand::check_length(&self_check.currents, &at.key("self_check").key("currents"), problems);
         }
         let header = at.key("passport");
         if self.passport.id != self.id_of_parts() {

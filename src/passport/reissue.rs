@@ -110,7 +110,7 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         return Err(ReissueRefused::BadReason);
     }
     let usable = usable(verification)?;
-    let Some(old) = verification.unauthorised_content() else {
+    let Some(old) = verification.content() else {
         return Err(ReissueRefused::OldDoesNotHold { check: "schema", detail: "it has no content".to_owned() });
     };
     if let (Usable::NameOnly { check, detail }, false) = (&usable, order.stand.is_some() && order.site.is_some()) {
@@ -188,7 +188,8 @@ fn usable(verification: &Verification) -> Result<Usable, ReissueRefused> {
     for check in verification.checks() {
         let (name, detail) = (check.name.as_str(), check.detail.clone());
         match (check.name, check.code) {
-            (_, Code::Ok) => {}
+            // What is not computed of a signer who is no longer trusted is not needed to name the passport.
+            (_, Code::Ok) | (CheckName::Recomputed | CheckName::InForce, Code::NotRun) => {}
             (CheckName::Signer, Code::UnknownKey)
             | (CheckName::Revocation, Code::KeyRevoked)
             | (CheckName::InForce, Code::Expired) => usable = Usable::NameOnly { check: name, detail },
