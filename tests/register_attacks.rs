@@ -10,7 +10,7 @@ use dtg_passport::folder::search;
 use dtg_passport::passport::content::{Content, Predecessor};
 use dtg_passport::passport::{CheckName, Question, Trust, Verification, verify};
 use dtg_passport::register::{Asked, Register, State};
-use dtg_passport::revocation::{Entry, RevocationList};
+use dtg_passport::revocation::{Entry, Series};
 use dtg_passport::text::scalar::Identifier;
 use dtg_passport::trust::SigningKey;
 use jiff::Timestamp;
@@ -128,7 +128,7 @@ impl Factory {
             reason: "wrong latitude".to_owned(),
         };
         let entries = passports.iter().map(entry).collect();
-        RevocationList::following(None, ISSUER, day(1), entries).unwrap().sign(key).unwrap()
+        Series::default().following(ISSUER, day(1), entries).unwrap().sign(key).unwrap()
     }
 
     /// `here/1`, withdrawn, and `there/1`, in force; the text of the list.
@@ -628,17 +628,19 @@ fn a_site_that_is_called_revocation_blocks_no_list() {
     let factory = Factory::new();
     let first = factory.passport("revocation", 1, day(0), |_| {});
     factory.put(&first);
-    let newest = || search::newest_list(&factory.path("passports"), &factory.trust, now());
+    let lists = || search::lists(&factory.path("passports"), &factory.trust, now());
+    let newest = || lists().map(|lists| lists.newest().map(|list| list.sequence));
     assert_eq!(newest().unwrap(), None);
     assert!(factory.verify(&first).valid());
     let list = factory.list_of(&factory.key, &[&first]);
     factory.write("passports/revocation-1.yaml", &list);
-    assert_eq!(newest().unwrap().unwrap().sequence, 1);
+    assert_eq!(newest().unwrap(), Some(1));
     // Whatever the lists are called; but none is continued where one of them is damaged.
     factory.remove("passports/revocation-1.yaml");
     factory.write("passports/old.txt", &list);
-    assert_eq!(newest().unwrap().unwrap().sequence, 1);
+    assert_eq!(newest().unwrap(), Some(1));
     factory.write("passports/older.txt", list.replace("latitude", "longitude"));
     newest().unwrap_err();
-    assert_eq!(search::newest_list(Path::new("no such folder"), &factory.trust, now()).unwrap(), None);
+    let none = search::lists(Path::new("no such folder"), &factory.trust, now()).unwrap();
+    assert_eq!(none.newest(), None);
 }

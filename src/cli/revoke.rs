@@ -36,7 +36,7 @@ pub struct Options {
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
-    let newest = search::newest_list(&options.list, &trust, question.time).map_err(|error| match error {
+    let lists = search::lists(&options.list, &trust, question.time).map_err(|error| match error {
         NoNewestList::File(error) => Failure::unusable(error),
         refused => Failure::refused(refused),
     })?;
@@ -56,8 +56,8 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         let (id, sha256) = (content.passport.id.clone(), sha256_hex(&bytes));
         entries.push(Entry { id, sha256, revoked_at: now(), reason: options.reason.clone() });
     }
-    let list = RevocationList::following(newest.as_ref(), &options.key.identity, now(), entries);
-    let list = list.map_err(Failure::refused)?;
+    let count = lists.count() + entries.len();
+    let list = lists.following(&options.key.identity, now(), entries).map_err(Failure::refused)?;
     let text = list.sign(options.key.signer()?.as_ref()).map_err(Failure::refused)?;
     let path = options.list.join(list.file_name());
     // A list that nobody can verify would withdraw nothing.
@@ -65,7 +65,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         |refused| Failure::refused(format!("the new list would not count ({refused}); nothing was written")),
     )?;
     files::write_new(&path, text.as_bytes(), Access::Shared).map_err(Failure::file)?;
-    output::result(&format!("revoked    passports in all: {}  {}\n", list.entries.len(), shown(&path)))?;
+    output::result(&format!("revoked    passports in all: {}  {}\n", count, shown(&path)))?;
     Ok(0)
 }
 

@@ -83,10 +83,13 @@ pub fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Result<Trus
         RevocationList::verify(name, bytes, &trust.signers, &trust.revoked, time).map_err(Failure::unusable)
     });
     let series = Series::of(verified.collect::<Result<_, _>>()?);
-    for alarm in series.alarms.iter().filter(|alarm| alarm.is_contradiction()) {
+    for alarm in series.alarms().iter().filter(|alarm| alarm.is_contradiction()) {
         output::say(&format!("ALARM: {alarm}; what any of the lists given withdraws counts as withdrawn"));
     }
-    trust.withdrawn = series.newest;
+    if let Some(alarm) = series.alarms().iter().find(|alarm| alarm.is_unknown()) {
+        return Err(Failure::unusable(format!("{alarm}; give it too, with --revoked")));
+    }
+    trust.withdrawn = series;
     Ok(trust)
 }
 

@@ -79,7 +79,7 @@ pub fn register(root: &Path, trust: Trust, asked: &Asked, threads: usize) -> Res
         }
     }
     let trust = withdraw(lists, lists_above(root), trust, asked.question.time, &mut alarms);
-    let register = Register::of(examined, trust.withdrawn.as_ref(), alarms);
+    let register = Register::of(examined, &trust.withdrawn, alarms);
     Ok((register, trust))
 }
 
@@ -144,27 +144,35 @@ fn withdraw(
 ) -> Trust {
     let verify =
         |(path, bytes): &Claimed| RevocationList::verify(&name_of(path), bytes, &trust.signers, &trust.revoked, time);
-    let mut good: Vec<RevocationList> = trust.withdrawn.iter().cloned().collect();
+    let mut good = trust.withdrawn.clone().into_lists();
     for claimed in &lists {
         match verify(claimed) {
-            Ok(list) => {
+            Ok(verified) => {
+                let list = &verified.list;
                 if claimed.0.file_name().is_none_or(|name| *name != *list.file_name()) {
-                    alarms.push(Alarm::misnamed_list(&list, &name_of(&claimed.0)));
+                    alarms.push(Alarm::misnamed_list(list, &name_of(&claimed.0)));
                 }
-                good.push(list);
+                good.push(verified);
             }
             Err(error) => alarms.push(Alarm::refused_list(&error, &name_of(&claimed.0))),
         }
     }
-    alarms.extend(Series::of(good.clone()).alarms.into_iter().map(Alarm::series));
+    let raise = |series: &Series, unknown: bool, alarms: &mut Vec<Alarm>| {
+        let raised = series.alarms().iter().filter(|alarm| alarm.is_unknown() == unknown);
+        alarms.extend(raised.copied().map(Alarm::series));
+    };
+    raise(&Series::of(good.clone()), false, alarms);
     for claimed in &above {
         match verify(claimed) {
-            Ok(list) => good.push(list),
+            Ok(verified) => good.push(verified),
             Err(error) if error.is_damage() => alarms.push(Alarm::refused_list(&error, &name_of(&claimed.0))),
             Err(_) => {}
         }
     }
-    trust.withdrawn = Series::of(good).newest;
+    // A list that is continued may be in a folder above.
+    let series = Series::of(good);
+    raise(&series, true, alarms);
+    trust.withdrawn = series;
     trust
 }
 
@@ -200,14 +208,14 @@ pub enum NoNewestList {
     Series(String),
 }
 
-/// Returns the newest list of withdrawn passports under a folder, which a new one continues, or `None` if there is none.
+/// Returns the lists of withdrawn passports under a folder, which a new one may follow.
 ///
 /// # Errors
 /// See [`NoNewestList`]: nothing may be added to lists of which one is damaged, missing, contradictory, or of a signer who
 /// is not trusted.
-pub fn newest_list(folder: &Path, trust: &Trust, time: Timestamp) -> Result<Option<RevocationList>, NoNewestList> {
+pub fn lists(folder: &Path, trust: &Trust, time: Timestamp) -> Result<Series, NoNewestList> {
     if !folder.exists() {
-        return Ok(None);
+        return Ok(Series::default());
     }
     let found = find(folder)?;
     if let Some(error) = found.unreadable.into_iter().next() {
@@ -221,10 +229,10 @@ pub fn newest_list(folder: &Path, trust: &Trust, time: Timestamp) -> Result<Opti
         }
     }
     let series = Series::of(lists);
-    if series.alarms.is_empty() {
-        return Ok(series.newest);
+    if series.alarms().is_empty() {
+        return Ok(series);
     }
-    let alarms: Vec<String> = series.alarms.iter().map(ToString::to_string).collect();
+    let alarms: Vec<String> = series.alarms().iter().map(ToString::to_string).collect();
     Err(NoNewestList::Series(alarms.join("\n")))
 }
 
@@ -238,6 +246,11 @@ fn unreadable(root: &Path, error: &FileError) -> Alarm {
 
 /// Returns `true` if a file is named as passports and lists are, `<name>-<number>.yaml`.
 pub fn is_numbered(name: &OsStr) -> bool {
-    let numbered = || name.to_str()?.strip_suffix(".yaml")?.rsplit_once('-');
-    numbered().is_some_and(|(_, number)| !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit()))
+    numbered(name).is_some()
+}
+
+/// Returns what stands before the number in `<name>-<number>.yaml`, or `None` if a file is not named so.
+pub(super) fn numbered(name: &OsStr) -> Option<&str> {
+    let (name, number) = name.to_str()?.strip_suffix(".yaml")?.rsplit_once('-')?;
+    (!number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())).then_some(name)
 }

@@ -10,7 +10,7 @@ use crate::coefficients::Coefficients;
 use crate::document::sha256_hex;
 use crate::document::{Malformed, SignedText};
 use crate::earth::Place;
-use crate::revocation::RevocationList;
+use crate::revocation::Series;
 use crate::text::scalar::day;
 use crate::trust::{AllowedSigners, NotAuthorised, PublicKey, RevokedKeys};
 use jiff::Timestamp;
@@ -23,14 +23,14 @@ pub struct Trust {
     pub signers: AllowedSigners,
     /// Keys that no longer count, whatever they signed and when.
     pub revoked: Vec<RevokedKeys>,
-    /// The newest list of withdrawn passports, itself verified.
-    pub withdrawn: Option<RevocationList>,
+    /// The lists of withdrawn passports, themselves verified.
+    pub withdrawn: Series,
 }
 
 impl Trust {
     /// These signers, nothing revoked and nothing withdrawn.
     pub fn of(signers: AllowedSigners) -> Self {
-        Self { signers, revoked: Vec::new(), withdrawn: None }
+        Self { signers, revoked: Vec::new(), withdrawn: Series::default() }
     }
 }
 
@@ -259,11 +259,10 @@ impl Run {
             let detail = format!("the signing key {} was revoked: {why}", key.fingerprint());
             return self.note(CheckName::Revocation, Code::KeyRevoked, detail);
         }
-        let entry = trust.withdrawn.as_ref().and_then(|list| list.entry(&sha256_hex(bytes)));
-        if let Some(entry) = entry {
+        if let Some(entry) = trust.withdrawn.entry(&sha256_hex(bytes)) {
             return self.note(CheckName::Revocation, Code::PassportRevoked, entry.to_string());
         }
-        let detail = match (&trust.withdrawn, trust.revoked.is_empty()) {
+        let detail = match (trust.withdrawn.newest(), trust.revoked.is_empty()) {
             (Some(list), _) => format!("not revoked; list {} of {} names it not", list.sequence, list.issued_at),
             (None, false) => "the signing key is not revoked; no list of withdrawn passports was given".to_owned(),
             (None, true) => "no revocation list was given (--revoked)".to_owned(),

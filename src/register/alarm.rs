@@ -117,9 +117,10 @@ impl Alarm {
         Self::of_file(AlarmKind::Misplaced, &words, file)
     }
 
-    /// Something about several lists.
+    /// Something about several lists. One that is missing might withdraw any passport.
     pub fn series(alarm: SeriesAlarm) -> Self {
-        Self::of_files(AlarmKind::Revocation, alarm.to_string(), Vec::new())
+        let raised = Self::of_files(AlarmKind::Revocation, alarm.to_string(), Vec::new());
+        if alarm.is_unknown() { raised.concerning(Concern::Everything) } else { raised }
     }
 
     /// Returns `true` if what cannot be read may supersede or withdraw passports of a stand, `<model>/<serial>`.

@@ -12,7 +12,7 @@ use crate::document::sha256_hex;
 use crate::passport::checks::{Check, CheckName, Code};
 use crate::passport::content::Content;
 use crate::passport::verification::{Question, Trust, Verification, verify};
-use crate::revocation::RevocationList;
+use crate::revocation::Series;
 use alarm::{absent_predecessors, duplicate_ids, gaps, misplaced};
 use certificates::Certificates;
 use jiff::Timestamp;
@@ -260,8 +260,8 @@ impl Examined {
         self.counts && self.issued && !self.is_withdrawn()
     }
 
-    /// Heeds a list that was not known when the file was verified.
-    fn heed(&mut self, withdrawn: &RevocationList) {
+    /// Heeds lists that were not known when the file was verified.
+    fn heed(&mut self, withdrawn: &Series) {
         let is_reached = self.failed.is_none_or(|failed| failed > CheckName::Revocation);
         if let Some(entry) = withdrawn.entry(&self.line.sha256).filter(|_| is_reached) {
             self.line.state = State::Revoked;
@@ -279,10 +279,8 @@ impl Register {
     /// something cannot be read, nothing that it concerns is in force.
     ///
     /// `withdrawn` is heeded for every file; `alarms` are those that were raised while the files were found.
-    pub fn of(mut files: Vec<Examined>, withdrawn: Option<&RevocationList>, mut alarms: Vec<Alarm>) -> Self {
-        if let Some(withdrawn) = withdrawn {
-            files.iter_mut().for_each(|file| file.heed(withdrawn));
-        }
+    pub fn of(mut files: Vec<Examined>, withdrawn: &Series, mut alarms: Vec<Alarm>) -> Self {
+        files.iter_mut().for_each(|file| file.heed(withdrawn));
         files.sort_by(|a, b| (&a.line.id, a.revision, &a.line.file).cmp(&(&b.line.id, b.revision, &b.line.file)));
         let successors = Successors::of(&files);
         alarms.extend(successors.forks());

@@ -228,7 +228,9 @@ fn revocation(bytes: &[u8]) -> bool {
     let Some(payload) = payload(bytes) else { return false };
     let Bench { key, trust, question, .. } = &*BENCH;
     let file = join(payload, &key.sign(REVOCATION_NAMESPACE, payload.as_bytes()).unwrap());
-    let verify = |file: &str| RevocationList::verify("f", file.as_bytes(), &trust.signers, &[], question.time);
+    let verify = |file: &str| {
+        RevocationList::verify("f", file.as_bytes(), &trust.signers, &[], question.time).map(|verified| verified.list)
+    };
     let list = match verify(&file) {
         Ok(list) => list,
         Err(error) => {

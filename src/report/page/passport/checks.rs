@@ -110,12 +110,12 @@ fn words(page: &PassportPage, check: &Check, language: Language) -> String {
 }
 
 fn revocation(page: &PassportPage, language: Language) -> String {
-    let list = page.trust.withdrawn.as_ref();
-    if let Some(entry) = list.and_then(|list| list.entry(&page.sha256)) {
+    let withdrawn = &page.trust.withdrawn;
+    if let Some(entry) = withdrawn.entry(&page.sha256) {
         let time = time_text(language, entry.revoked_at);
         return texts::REVOCATION_WITHDRAWN.filled(language, &[("time", &time), ("reason", &entry.reason)]);
     }
-    match list {
+    match withdrawn.newest() {
         Some(list) => {
             let (sequence, time) = (list.sequence.to_string(), time_text(language, list.issued_at));
             texts::REVOCATION_LIST.filled(language, &[("sequence", &sequence), ("time", &time)])

@@ -1,0 +1,369 @@
+//! All lists of withdrawn passports together: what they withdraw, what is wrong with them, and which comes next.
+
+use super::{Continued, Entry, NoNewList, REVOCATION_FORMAT, RevocationList, VerifiedList};
+use crate::text::rule;
+use jiff::Timestamp;
+use std::collections::{BTreeSet, HashMap};
+
+/// Verified lists in the order of their sequence numbers, and what is wrong with the series.
+///
+/// A gap, two lists of one number, an entry that was lost again, or a time that steps back means that somebody shows old
+/// lists for new ones: an alarm. What any of the lists withdraws is withdrawn: nobody can tell which of contradicting lists
+/// is right, and what was withdrawn once must not come back in silence.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Series {
+    lists: Vec<VerifiedList>,
+    /// By SHA-256, the place of the list, and of the entry in it.
+    withdrawn: HashMap<String, (usize, usize)>,
+    alarms: Vec<SeriesAlarm>,
+}
+
+/// What is wrong with a series of lists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum SeriesAlarm {
+    /// Its beginning is not there.
+    #[error("the series of revocation lists begins with {first}, not with 1: a gap")]
+    Beginning {
+        /// The first list that is there.
+        first: u32,
+    },
+    /// Lists in between are not there.
+    #[error("after revocation list {from} comes {to}: a gap")]
+    Gap {
+        /// The last list before it.
+        from: u32,
+        /// The first list after it.
+        to: u32,
+    },
+    /// A list that another one continues is not there: what it withdraws is unknown.
+    #[error(
+        "revocation list {list} continues list {missing}, which is missing; what list {missing} withdraws is unknown"
+    )]
+    Missing {
+        /// The list that continues it.
+        list: u32,
+        /// The list that is continued.
+        missing: u32,
+    },
+    /// Two lists have one number.
+    #[error("two different revocation lists have the number {0}: a fork")]
+    Fork(u32),
+    /// A later list was issued earlier.
+    #[error("revocation list {to} is older than list {from}: a step back in time")]
+    StepBack {
+        /// The earlier list.
+        from: u32,
+        /// The later list.
+        to: u32,
+    },
+    /// A later list has lost an entry.
+    #[error("revocation list {to} has lost an entry of list {from}")]
+    LostEntry {
+        /// The earlier list.
+        from: u32,
+        /// The later list.
+        to: u32,
+    },
+}
+
+impl SeriesAlarm {
+    /// Returns `true` if the lists contradict each other; otherwise some are only missing, as when single lists are shown.
+    pub fn is_contradiction(self) -> bool {
+        !matches!(self, Self::Beginning { .. } | Self::Gap { .. } | Self::Missing { .. })
+    }
+
+    /// Returns `true` if entries are missing that no list at hand repeats: then nobody can say that a passport is not
+    /// withdrawn.
+    pub fn is_unknown(self) -> bool {
+        matches!(self, Self::Missing { .. })
+    }
+}
+
+impl Series {
+    /// Puts lists in order.
+    pub fn of(mut lists: Vec<VerifiedList>) -> Self {
+        lists.sort_by(|a, b| {
+            let key = |at: &VerifiedList| (at.list.sequence, at.list.issued_at);
+            key(a).cmp(&key(b)).then_with(|| a.sha256.cmp(&b.sha256))
+        });
+        lists.dedup_by(|a, b| a.list == b.list);
+        let alarms = alarms(&lists);
+        let mut withdrawn = HashMap::new();
+        for (place, verified) in lists.iter().enumerate() {
+            for (index, entry) in verified.list.entries.iter().enumerate() {
+                // The last word on a passport is that of the newest list.
+                withdrawn.insert(entry.sha256.clone(), (place, index));
+            }
+        }
+        Self { lists, withdrawn, alarms }
+    }
+
+    /// Returns the lists, so that others can be put in order with them.
+    pub fn into_lists(self) -> Vec<VerifiedList> {
+        self.lists
+    }
+
+    /// What is wrong.
+    pub fn alarms(&self) -> &[SeriesAlarm] {
+        &self.alarms
+    }
+
+    /// Returns the list with the highest number, or `None` if there is no list.
+    pub fn newest(&self) -> Option<&RevocationList> {
+        self.lists.last().map(|verified| &verified.list)
+    }
+
+    /// How many passports are withdrawn.
+    pub fn count(&self) -> usize {
+        self.withdrawn.len()
+    }
+
+    /// Returns the entry of a passport by the SHA-256 of its file, or `None` if it is not withdrawn. Another file of the
+    /// same id is another passport: of two, one can be withdrawn and the other one stay.
+    pub fn entry(&self, sha256: &str) -> Option<&Entry> {
+        let &(place, index) = self.withdrawn.get(sha256)?;
+        self.lists.get(place)?.list.entries.get(index)
+    }
+
+    /// Returns the list that follows: the entries of the newest one, and these. Where that would be too large to be read
+    /// again it has these alone, and continues the newest one. Without any list it is the first.
+    ///
+    /// # Errors
+    /// See [`NoNewList`].
+    pub fn following(&self, issuer: &str, now: Timestamp, new: Vec<Entry>) -> Result<RevocationList, NoNewList> {
+        let texts = new.iter().flat_map(|entry| [&entry.id, &entry.reason]).map(String::as_str).chain([issuer]);
+        for text in texts {
+            if text.is_empty() || !text.chars().all(rule::allowed_in_string) {
+                return Err(NoNewList::BadText(text.to_owned()));
+            }
+        }
+        for (index, entry) in new.iter().enumerate() {
+            let twice = new[..index].iter().find(|other| other.sha256 == entry.sha256);
+            if let Some(there) = twice.or_else(|| self.entry(&entry.sha256)) {
+                let Entry { id, revoked_at, reason, .. } = there.clone();
+                return Err(NoNewList::AlreadyRevoked { id, revoked_at, reason });
+            }
+        }
+        let last = self.lists.last();
+        if let Some(last) = last.map(|last| last.list.issued_at).filter(|last| *last > now) {
+            return Err(NoNewList::BeforeLast { now, last });
+        }
+        let list = |continues: Option<Continued>, entries: Vec<Entry>| RevocationList {
+            format: REVOCATION_FORMAT.to_owned(),
+            sequence: last.map_or(1, |last| last.list.sequence.saturating_add(1)),
+            issued_at: now,
+            issuer: issuer.to_owned(),
+            continues,
+            entries,
+        };
+        let count = new.len();
+        let Some(VerifiedList { list: newest, sha256 }) = last else {
+            return Some(list(None, new)).filter(RevocationList::fits).ok_or(NoNewList::TooMany(count));
+        };
+        let longer = list(newest.continues.clone(), [&newest.entries[..], &new[..]].concat());
+        if longer.fits() {
+            return Ok(longer);
+        }
+        let continued = Continued { sequence: newest.sequence, sha256: sha256.clone() };
+        Some(list(Some(continued), new)).filter(RevocationList::fits).ok_or(NoNewList::TooMany(count))
+    }
+}
+
+/// What is wrong with lists in the order of their numbers.
+fn alarms(lists: &[VerifiedList]) -> Vec<SeriesAlarm> {
+    let first = lists.first().map(|first| first.list.sequence).filter(|first| *first != 1);
+    let mut alarms: Vec<SeriesAlarm> = first.map(|first| SeriesAlarm::Beginning { first }).into_iter().collect();
+    for pair in lists.windows(2) {
+        let [VerifiedList { list: earlier, .. }, VerifiedList { list: later, .. }] = pair else { continue };
+        let (from, to) = (earlier.sequence, later.sequence);
+        if from == to {
+            alarms.push(SeriesAlarm::Fork(from));
+        } else if to - from > 1 {
+            alarms.push(SeriesAlarm::Gap { from, to });
+        }
+        if later.issued_at < earlier.issued_at {
+            alarms.push(SeriesAlarm::StepBack { from, to });
+        }
+        if from != to && has_lost(lists, earlier, later) {
+            alarms.push(SeriesAlarm::LostEntry { from, to });
+        }
+    }
+    let mut missing: Vec<SeriesAlarm> = Vec::new();
+    for list in lists.iter().map(|verified| &verified.list) {
+        if let Some(continued) = &list.continues
+            && continued_by(lists, list).is_none()
+        {
+            missing.push(SeriesAlarm::Missing { list: list.sequence, missing: continued.sequence });
+        }
+    }
+    alarms.extend(missing);
+    alarms
+}
+
+/// The list that another one continues, if it is there.
+fn continued_by<'l>(lists: &'l [VerifiedList], list: &RevocationList) -> Option<&'l RevocationList> {
+    let Continued { sequence, sha256 } = list.continues.as_ref()?;
+    let there = lists.iter().find(|other| other.list.sequence == *sequence && other.sha256 == *sha256)?;
+    Some(&there.list)
+}
+
+/// Whether an entry of an earlier list is nowhere in the chain of a later one. Of a chain that is not whole nobody knows.
+fn has_lost(lists: &[VerifiedList], earlier: &RevocationList, later: &RevocationList) -> bool {
+    // The numbers of a chain only fall, so that it has an end.
+    let chain = std::iter::successors(Some(later), |list| continued_by(lists, list));
+    let (mut entries, mut whole) = (BTreeSet::new(), true);
+    for list in chain {
+        entries.extend(&list.entries);
+        whole = list.continues.is_none();
+    }
+    whole && !earlier.entries.iter().all(|entry| entries.contains(entry))
+}
+
+#[cfg(all(test, feature = "factory"))]
+mod tests {
+    use super::*;
+    use crate::text::LARGEST_DOCUMENT_BYTES;
+    use crate::trust::{AllowedSigners, SigningKey};
+
+    fn entry(id: &str) -> Entry {
+        let revoked_at = Timestamp::from_second(100).unwrap();
+        Entry { id: id.to_owned(), sha256: format!("{id:0>64}"), revoked_at, reason: "wrong site".to_owned() }
+    }
+
+    fn list(sequence: u32, second: i64, ids: &[&str]) -> VerifiedList {
+        let issued_at = Timestamp::from_second(second).unwrap();
+        let entries = ids.iter().map(|id| entry(id)).collect();
+        let (format, issuer) = (REVOCATION_FORMAT.to_owned(), "f".to_owned());
+        let list = RevocationList { format, sequence, issued_at, issuer, continues: None, entries };
+        VerifiedList { list, sha256: format!("{sequence:0>32}{second:0>32}") }
+    }
+
+    /// The same, with the entries of an earlier list.
+    fn continuing(mut list: VerifiedList, earlier: &VerifiedList) -> VerifiedList {
+        let (sequence, sha256) = (earlier.list.sequence, earlier.sha256.clone());
+        list.list.continues = Some(Continued { sequence, sha256 });
+        list
+    }
+
+    fn alarms(lists: Vec<VerifiedList>) -> Vec<String> {
+        Series::of(lists).alarms().iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn a_series_that_only_grows_is_good() {
+        let series = Series::of(vec![list(2, 300, &["a", "b"]), list(1, 200, &["a"]), list(1, 200, &["a"])]);
+        assert_eq!(series.newest().unwrap().sequence, 2);
+        assert!(series.alarms().is_empty());
+    }
+
+    #[test]
+    fn gaps_forks_and_steps_back_are_alarms() {
+        let cases = [
+            (vec![list(2, 200, &["a"])], "begins with 2"),
+            (vec![list(1, 200, &["a"]), list(3, 300, &["a"])], "a gap"),
+            (vec![list(1, 200, &["a"]), list(1, 200, &["b"])], "a fork"),
+            (vec![list(1, 300, &["a"]), list(2, 200, &["a"])], "a step back"),
+            (vec![list(1, 200, &["a"]), list(2, 300, &["b"])], "lost an entry"),
+        ];
+        for (lists, words) in cases {
+            let alarms = alarms(lists);
+            assert!(alarms.iter().any(|alarm| alarm.contains(words)), "{alarms:?}");
+        }
+    }
+
+    #[test]
+    fn what_was_withdrawn_once_does_not_come_back() {
+        let withdraws = |lists: Vec<VerifiedList>, ids: &[&str]| {
+            let series = Series::of(lists);
+            assert_eq!(series.count(), ids.len());
+            for id in ids {
+                assert_eq!(series.entry(&entry(id).sha256), Some(&entry(id)));
+            }
+            assert_eq!(series.entry(&entry("d").sha256), None);
+        };
+        withdraws(vec![list(1, 200, &["a"]), list(1, 250, &["b"])], &["a", "b"]);
+        withdraws(vec![list(1, 200, &["a", "c"]), list(2, 300, &["a"]), list(3, 300, &["b"])], &["a", "b", "c"]);
+        withdraws(vec![list(1, 200, &["a"]), list(2, 300, &["a", "b"])], &["a", "b"]);
+    }
+
+    #[test]
+    fn single_lists_are_no_contradiction() {
+        let alarms = |lists| Series::of(lists).alarms().iter().filter(|alarm| alarm.is_contradiction()).count();
+        assert_eq!(alarms(vec![list(2, 200, &["a"]), list(5, 300, &["a", "b"])]), 0);
+        assert_eq!(alarms(vec![list(2, 200, &["a"]), list(2, 300, &["b"])]), 1);
+    }
+
+    #[test]
+    fn the_entries_of_a_whole_chain_count() {
+        let first = list(1, 100, &["a"]);
+        let second = continuing(list(2, 200, &["b"]), &first);
+        let third = continuing(list(3, 300, &["b", "c"]), &first);
+        let fourth = continuing(list(4, 400, &["d"]), &third);
+        let series = Series::of(vec![fourth.clone(), first.clone(), third.clone(), second.clone()]);
+        assert_eq!(series.alarms(), []);
+        assert_eq!(series.count(), 4);
+        assert!(["a", "b", "c", "d"].iter().all(|id| series.entry(&entry(id).sha256).is_some()));
+        // A list of a chain that nothing continues is missed as little as one of a series is.
+        let single = Series::of(vec![fourth.clone(), first.clone(), third.clone()]);
+        assert!(!single.alarms().iter().any(|alarm| alarm.is_contradiction() || alarm.is_unknown()));
+    }
+
+    #[test]
+    fn a_list_that_is_continued_and_absent_makes_the_answer_unknown() {
+        let first = list(1, 100, &["a"]);
+        let second = continuing(list(2, 200, &["b"]), &first);
+        let third = continuing(list(3, 300, &["c"]), &second);
+        // A list of the same number is not the one that is named.
+        let other = VerifiedList { sha256: "f".repeat(64), ..first.clone() };
+        for lists in [
+            vec![second.clone()],
+            vec![third.clone(), second],
+            vec![third, first],
+            vec![continuing(list(2, 200, &["b"]), &list(1, 100, &["a"])), other],
+        ] {
+            let series = Series::of(lists);
+            assert!(series.alarms().iter().any(|alarm| alarm.is_unknown()), "{:?}", series.alarms());
+        }
+    }
+
+    #[test]
+    fn a_chain_that_lost_an_entry_is_an_alarm() {
+        let first = list(1, 100, &["a"]);
+        let second = list(2, 200, &["a", "b"]);
+        let third = continuing(list(3, 300, &["c"]), &first);
+        assert_eq!(alarms(vec![first, second, third]), ["revocation list 3 has lost an entry of list 2"]);
+    }
+
+    #[test]
+    fn a_list_that_would_be_too_large_begins_anew_and_continues_the_last() {
+        let key = SigningKey::generate().unwrap();
+        let line = format!("f {}", key.public_key().to_openssh());
+        let signers = AllowedSigners::parse("signers", line.as_bytes()).unwrap();
+        let now = Timestamp::from_second(1_000).unwrap();
+        let verified = |list: &RevocationList| {
+            let text = list.sign(&key).unwrap();
+            assert!(text.len() <= LARGEST_DOCUMENT_BYTES, "{} bytes", text.len());
+            RevocationList::verify("list", text.as_bytes(), &signers, &[], now).unwrap()
+        };
+        // Four lines of an entry have 150 bytes or more, with a long reason 1 kB.
+        let batch = |names: std::ops::Range<usize>| -> Vec<Entry> {
+            names.map(|name| Entry { reason: "why ".repeat(240), ..entry(&format!("{name}")) }).collect()
+        };
+        let mut lists = Vec::new();
+        let mut sizes = Vec::new();
+        for step in 0..5 {
+            let series = Series::of(lists.clone());
+            let next = series.following("f", now, batch(400 * step..400 * (step + 1))).unwrap();
+            sizes.push((next.entries.len(), next.continues.as_ref().map(|continued| continued.sequence)));
+            lists.push(verified(&next));
+        }
+        // Of entries of 1.2 kB fewer than 900 fit into 1 MiB.
+        assert_eq!(sizes, [(400, None), (800, None), (400, Some(2)), (800, Some(2)), (400, Some(4))]);
+        let series = Series::of(lists);
+        assert_eq!((series.alarms(), series.count()), (&[][..], 2000));
+        let again = series.following("f", now, batch(0..1)).unwrap_err();
+        assert!(matches!(again, NoNewList::AlreadyRevoked { .. }), "{again}");
+        let many = series.following("f", now, batch(2000..3000)).unwrap_err();
+        assert!(matches!(many, NoNewList::TooMany(1000)), "{many}");
+    }
+}
