@@ -52,7 +52,7 @@ pub enum KeyFileError {
     /// The private half of a public key is nowhere.
     #[error(
         "{}: found only the public half, expected the private one in ssh-agent or in {}; \
-         is ssh-agent running with this key (ssh-add -L)?",
+         is OpenSSH installed, and ssh-agent running with this key (ssh-add -L)?",
         shown(path),
         shown(private)
     )]

@@ -167,7 +167,7 @@ record! {
         /// The surfaces that realise its axes.
         pub datum: Option<Datum>,
         /// Its positions, sorted by (i, j) once read; at most 256.
-        #[schemars(length(max = 256))]
+        #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
         pub positions: Vec<CertifiedPosition>,
     }
 }

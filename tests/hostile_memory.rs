@@ -2,6 +2,8 @@
 //!
 //! `cargo test --release --test hostile_memory -- --nocapture` prints the figures of docs/figures.md.
 
+#![cfg(feature = "cli")]
+
 mod made;
 
 use dtg_passport::folder::search::register;
@@ -11,7 +13,7 @@ use dtg_passport::passport::accuracy::{Accuracy, StatedGyro};
 use dtg_passport::passport::annotations::payload;
 use dtg_passport::passport::content::{Content, PositionVectors};
 use dtg_passport::passport::{CheckName, Code, Trust, verify};
-use dtg_passport::register::State;
+use dtg_passport::register::{Asked, State};
 use dtg_passport::stand::{CertifiedPosition, MOST_POSITIONS};
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
 use dtg_passport::trust::SigningKey;
@@ -107,17 +109,23 @@ fn a_hostile_file_costs_little_memory_alone_and_in_a_folder() {
     in_a_folder(&files, &factory, &trust);
 }
 
-/// All of them beside a good passport, by two threads.
+/// All of them in the folder of one stand, beside a good passport in that of another, by two threads.
 fn in_a_folder(files: &[(&str, String)], factory: &SigningKey, trust: &Trust) {
     let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    };
     for (index, (_, file)) in files.iter().enumerate() {
-        fs::write(folder.path().join(format!("hostile-{index}.yaml")), file).unwrap();
+        write(&format!("SPS-9/0001/hostile-{index}.yaml"), file);
     }
     let good = made::content(&made::stand(made::DEGREES), &made::site(made::SITE));
-    fs::write(folder.path().join("bench-1.yaml"), made::written(&good, factory)).unwrap();
-    let (found, most) = peak("a folder of them", || register(folder.path(), trust.clone(), &made::question(), None, 2));
+    write("SPS-1/0203/bench-1.yaml", &made::written(&good, factory));
+    let asked = Asked::at(made::question().time);
+    let (found, most) = peak("a folder of them", || register(folder.path(), trust.clone(), &asked, 2));
     let (register, _) = found.unwrap();
     assert!(most <= 2 * bound(LARGEST_DOCUMENT_BYTES), "{most} bytes");
-    assert_eq!(register.counts().get(&State::InForce), Some(&1));
+    assert_eq!(register.counts().get(&State::InForce), Some(&1), "{:?}", register.alarms);
     assert_eq!(register.passports.len(), files.len() + 1);
 }

@@ -1,5 +1,7 @@
 //! Lists of withdrawn passports that are more than one file can hold, by the program itself.
 
+#![cfg(feature = "cli")]
+
 mod made;
 mod tools;
 
@@ -21,14 +23,14 @@ impl Office {
         assert!(Command::new("chmod").arg("600").arg(office.path("key")).status().unwrap().success());
         office.write("allowed_signers", &format!("{} {}\n", made::ISSUER, key.public_key().to_openssh()));
         let mut content = made::content(&made::stand(made::DEGREES), &made::site(made::SITE));
-        for (name, revision) in [("one.yaml", 1), ("two.yaml", 2)] {
+        for (name, revision) in [("bench-1.yaml", 1), ("bench-2.yaml", 2)] {
             content.passport.revision = revision;
             content.passport.id = content.id_of_parts();
             office.write(name, &made::written(&content, &key));
         }
         let now = made::at("2020-01-01T00:00:00Z");
         let entry = |index| Entry {
-            id: format!("SPS-1/{index:04}/bench/1"),
+            id: format!("SPS-9/{index:04}/bench/1"),
             sha256: format!("{index:064}"),
             revoked_at: now,
             reason: "x".repeat(1320),
@@ -54,7 +56,7 @@ impl Office {
         let output = command.args(arguments.split(' ')).current_dir(self.0.path()).output().unwrap();
         let said = [output.stdout, output.stderr].concat();
         let said = String::from_utf8(said).unwrap();
-        assert_eq!(output.status.code(), Some(code), "{arguments}: {said}");
+        assert_eq!(output.status.code(), Some(code), "{}", said.chars().take(500).collect::<String>());
         said
     }
 
@@ -67,31 +69,32 @@ impl Office {
 #[test]
 fn a_list_that_is_full_is_continued_and_the_whole_chain_counts() {
     let office = Office::new();
-    office.revoke("one.yaml", &"y".repeat(40_000));
-    office.revoke("two.yaml", "z");
+    office.revoke("bench-1.yaml", &"y".repeat(40_000));
+    office.revoke("bench-2.yaml", "z");
     let second = fs::read_to_string(office.path("lists/revocation-2.yaml")).unwrap();
     let third = fs::read_to_string(office.path("lists/revocation-3.yaml")).unwrap();
     let first = fs::read(office.path("lists/revocation-1.yaml")).unwrap();
     let continued =
         format!("continues:\n  sequence: 1\n  sha256: \"{}\"\n", dtg_passport::document::sha256_hex(&first));
     assert!(second.contains(&continued) && third.contains(&continued), "{}", &second[..600]);
-    assert_eq!((second.matches("  - id: ").count(), third.matches("  - id: ").count()), (1, 2), "{}", &second[..600]);
+    assert_eq!((second.matches("  - {id: ").count(), third.matches("  - {id: ").count()), (1, 2), "{}", &second[..600]);
 
     // With all that counts, whichever list withdraws it.
     let lists = "--revoked lists/revocation-3.yaml --revoked lists/revocation-1.yaml";
-    for file in ["one.yaml", "two.yaml"] {
+    for file in ["bench-1.yaml", "bench-2.yaml"] {
         let said = office.run(&format!("verify {file} --trust allowed_signers {lists}"), 1);
-        assert!(said.contains("was withdrawn at"), "{said}");
+        assert!(said.contains("was withdrawn at"), "{}", &said[..300]);
     }
     let said = office.run("register . --trust allowed_signers", 1);
-    assert!(said.contains("2 revoked") && !said.contains("ALARM (revocation)"), "{said}");
+    let last = said.lines().last().unwrap();
+    assert!(last.contains("2 revoked") && !said.contains("ALARM (revocation)"), "{last}");
 
     // Without the list that is named nobody knows what is withdrawn.
-    let said = office.run("verify one.yaml --trust allowed_signers --revoked lists/revocation-3.yaml", 2);
+    let said = office.run("verify bench-1.yaml --trust allowed_signers --revoked lists/revocation-3.yaml", 2);
     assert!(said.contains("revocation list 3 continues list 1, which is missing"), "{said}");
     fs::remove_file(office.path("lists/revocation-1.yaml")).unwrap();
     let sign = format!("--key key --identity {} --reason more --trust allowed_signers", made::ISSUER);
-    let said = office.run(&format!("revoke one.yaml --list lists {sign}"), 1);
+    let said = office.run(&format!("revoke bench-1.yaml --list lists {sign}"), 1);
     assert!(said.contains("continues list 1, which is missing"), "{said}");
     let said = office.run("register lists --trust allowed_signers", 1);
     assert!(said.contains("continues list 1, which is missing"), "{said}");

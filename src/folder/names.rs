@@ -55,7 +55,10 @@ impl Names {
     fn list(&self, folder: &Path) -> Result<HashMap<String, String>, FileError> {
         let failed = |error| FileError::Read { path: folder.to_owned(), error };
         let entries = match fs::read_dir(folder) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(HashMap::new()),
+            // A file in the way is told when the passport is looked for.
+            Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
+                return Ok(HashMap::new());
+            }
             entries => entries.map_err(failed)?,
         };
         let mut names = HashMap::new();

@@ -114,7 +114,7 @@ record! {
     /// Currents, and the parameters that correct laboratory software finds from them.
     pub struct SelfCheck {
         /// In every position.
-        #[schemars(length(max = 256))]
+        #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
         pub currents: Vec<PositionCurrents>,
         /// K.
         pub k_deg_per_h_per_ma: Rows,
@@ -141,7 +141,7 @@ record! {
         /// The surfaces that realise its axes.
         pub datum: Option<Datum>,
         /// Its positions, sorted by (i, j); at most 256.
-        #[schemars(length(max = 256))]
+        #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
         pub positions: Vec<CertifiedPosition>,
         /// The place of delivery.
         pub site: Site,
@@ -150,7 +150,7 @@ record! {
         /// The paper's matrices; absent without the paper's eight positions.
         pub matrices: Option<MatrixRows>,
         /// What least squares needs, for every position.
-        #[schemars(length(max = 256))]
+        #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
         pub vectors: Vec<PositionVectors>,
         /// A test of laboratory software; absent where the positions do not determine the eight parameters.
         pub self_check: Option<SelfCheck>,

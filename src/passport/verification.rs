@@ -1,7 +1,8 @@
 //! "May I use this passport, on this stand, here, now?"
 //!
 //! Verification is a function of bytes, trusted keys and a time: no file, no clock, so that it can run anywhere. The
-//! steps come in an order that parses nothing before the signature holds.
+//! steps come in an order that parses nothing before the signature holds, and computes nothing before the signer is
+//! trusted: anybody can sign a file that costs much to compute.
 
 use super::checks::{Check, CheckName, Code};
 use super::content::{Content, PASSPORT_FORMAT};
@@ -135,24 +136,14 @@ impl Verification {
         self.key.as_ref()
     }
 
-    /// The content when text, signature, form and numbers hold, whoever signed it and whenever: enough to name the
-    /// passport and to make a new one, not enough to calibrate with.
-    pub fn unauthorised_content(&self) -> Option<&Content> {
-        const NEEDED: [CheckName; 4] =
-            [CheckName::Grammar, CheckName::Signature, CheckName::Schema, CheckName::Recomputed];
-        let holds = NEEDED.iter().all(|name| self.code(*name) == Some(Code::Ok));
-        self.content.as_deref().filter(|_| holds)
-    }
-
     /// The content and the key that signed it, when it is the issuer's own word: text, signature, numbers and signer
     /// hold, the key is not revoked, and the issuer is the one asked for. Whether it may be used, here and now, the other
     /// checks say.
     pub fn authentic(&self) -> Option<(&Content, &PublicKey)> {
-        let content = self.unauthorised_content()?;
         let issuer = self.code(CheckName::Issuer).is_none_or(|code| code == Code::Ok);
-        let key = self.code(CheckName::Revocation) != Some(Code::KeyRevoked);
-        let signer = self.code(CheckName::Signer) == Some(Code::Ok);
-        (issuer && key && signer).then_some(content).zip(self.key())
+        // They are not computed for a signer who is not trusted, or whose key is revoked.
+        let numbers = self.code(CheckName::Recomputed) == Some(Code::Ok);
+        self.content().filter(|_| issuer && numbers).zip(self.key())
     }
 
     /// The passport, when every check passed; otherwise the checks say what failed.
@@ -165,7 +156,7 @@ impl Verification {
 /// Verifies the bytes of a passport; `name` is the file's name, for messages.
 ///
 /// Steps 1 to 3 are the check `grammar`, 4 `signature`, 5 `schema`, 6 `signer`, `revocation` and `in_force`; then every
-/// number is computed again, and what the question names is compared.
+/// number is computed again, and what the question names is compared. Behind a signer who is not trusted nothing is run.
 pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> Verification {
     let mut run = Run { checks: Vec::new() };
     let mut verification = Verification { checks: Vec::new(), key: None, content: None };
@@ -173,9 +164,11 @@ pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> V
         verification.key = Some(text.key().clone());
         if let Some(payload) = run.signature(&text, trust) {
             verification.content = run.schema(name, payload).map(Box::new);
-            run.revocation(bytes, text.key(), trust);
-            if let Some(content) = &verification.content {
-                run.signer(text.key(), content, trust);
+            let counts = run.revocation(bytes, text.key(), trust);
+            if let Some(content) = &verification.content
+                && run.signer(text.key(), content, trust)
+                && counts
+            {
                 run.recomputed(content);
                 run.in_force(content, question.time);
                 run.asked(content, question);
@@ -254,13 +247,16 @@ impl Run {
         }
     }
 
-    fn revocation(&mut self, bytes: &[u8], key: &PublicKey, trust: &Trust) {
+    /// Returns `true` if the key is not revoked, whatever became of the passport.
+    fn revocation(&mut self, bytes: &[u8], key: &PublicKey, trust: &Trust) -> bool {
         if let Some(why) = trust.revoked.iter().find_map(|list| list.revokes(key)) {
             let detail = format!("the signing key {} was revoked: {why}", key.fingerprint());
-            return self.note(CheckName::Revocation, Code::KeyRevoked, detail);
+            self.note(CheckName::Revocation, Code::KeyRevoked, detail);
+            return false;
         }
         if let Some(entry) = trust.withdrawn.entry(&sha256_hex(bytes)) {
-            return self.note(CheckName::Revocation, Code::PassportRevoked, entry.to_string());
+            self.note(CheckName::Revocation, Code::PassportRevoked, entry.to_string());
+            return true;
         }
         let detail = match (trust.withdrawn.newest(), trust.revoked.is_empty()) {
             (Some(list), _) => format!("not revoked; list {} of {} names it not", list.sequence, list.issued_at),
@@ -268,12 +264,17 @@ impl Run {
             (None, true) => "no revocation list was given (--revoked)".to_owned(),
         };
         self.note(CheckName::Revocation, Code::Ok, detail);
+        true
     }
 
-    fn signer(&mut self, key: &PublicKey, content: &Content, trust: &Trust) {
+    /// Returns `true` if the key is that of the issuer.
+    fn signer(&mut self, key: &PublicKey, content: &Content, trust: &Trust) -> bool {
         let header = &content.passport;
         match trust.signers.authorise(key, &header.issuer, NAMESPACE, header.issued_at) {
-            Ok(()) => self.note(CheckName::Signer, Code::Ok, format!("the key is that of {}", header.issuer)),
+            Ok(()) => {
+                self.note(CheckName::Signer, Code::Ok, format!("the key is that of {}", header.issuer));
+                true
+            }
             Err(miss) => {
                 let code = match miss {
                     NotAuthorised::UnknownKey => Code::UnknownKey,
@@ -285,6 +286,7 @@ impl Run {
                 let (issuer, at) = (&header.issuer, header.issued_at);
                 let detail = format!("{miss} (key {}, issuer {issuer}, issued {at})", key.fingerprint());
                 self.note(CheckName::Signer, code, detail);
+                false
             }
         }
     }

@@ -345,7 +345,7 @@ mod tests {
             assert!(text.len() <= LARGEST_DOCUMENT_BYTES, "{} bytes", text.len());
             RevocationList::verify("list", text.as_bytes(), &signers, &[], now).unwrap()
         };
-        // Four lines of an entry have 150 bytes or more, with a long reason 1 kB.
+        // An entry has some 150 bytes, with this reason 1.1 kB: fewer than 950 fit into 1 MiB.
         let batch = |names: std::ops::Range<usize>| -> Vec<Entry> {
             names.map(|name| Entry { reason: "why ".repeat(240), ..entry(&format!("{name}")) }).collect()
         };
@@ -357,7 +357,6 @@ mod tests {
             sizes.push((next.entries.len(), next.continues.as_ref().map(|continued| continued.sequence)));
             lists.push(verified(&next));
         }
-        // Of entries of 1.2 kB fewer than 900 fit into 1 MiB.
         assert_eq!(sizes, [(400, None), (800, None), (400, Some(2)), (800, Some(2)), (400, Some(4))]);
         let series = Series::of(lists);
         assert_eq!((series.alarms(), series.count()), (&[][..], 2000));

@@ -96,7 +96,7 @@ impl Field for Identifier {
     }
 
     fn expected(_: &str) -> String {
-        "1 to 64 of the ASCII letters, digits, '.', '_', '-', a letter or digit first, no '..', no dot last, no device's name".to_owned()
+        "1 to 64 of the ASCII letters, digits, '.', '_', '-', a letter or digit first, no '..', no '.' at the end, not a device name of Windows".to_owned()
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {

@@ -295,7 +295,8 @@ fn a_pipe_or_a_device_is_refused_at_once_wherever_a_file_is_named() {
     ];
     for arguments in named {
         for file in ["pipe", "/dev/zero", "sites"] {
-            let of_a_folder = arguments.starts_with("issue FILE --site") || arguments.contains("--site FILE -");
+            let of_a_folder =
+                ["issue FILE", "issue stands --site FILE", "reissue"].iter().any(|verb| arguments.starts_with(verb));
             if file == "sites" && of_a_folder {
                 continue;
             }
