@@ -10,6 +10,7 @@
 
 mod fleet;
 
+use dtg_passport::batch::first;
 use dtg_passport::batch::shard::Shard;
 use dtg_passport::batch::{Batch, Event, Outcome};
 use dtg_passport::files::Durability;
@@ -82,10 +83,13 @@ impl Job {
         self.runs.set(self.runs.get() + 1);
         let folder = self.folder().with_durability(durability);
         let seal = Some(Seal { signer: &self.key, trust: None });
-        let batch = Batch { folder: &folder, seal, shard: Shard::WHOLE, threads, cancel: None };
+        let batch = Batch { durability, seal, shard: Shard::WHOLE, threads, cancel: None };
         let (mut issued, stands, sites) = (0, [self.inputs.join("stands")], [self.inputs.join("sites")]);
         let time = timed(|| {
-            batch.issue(&stands, &sites, &mut std::io::empty(), &fleet::order(), None, &mut |event| {
+            let order = fleet::order();
+            let (folder, stands, sites) = (&folder, &stands[..], &sites[..]);
+            let job = first::Job { folder, stands, sites, order: &order, known: None };
+            batch.issue(&job, &mut std::io::empty(), &mut |event| {
                 issued += usize::from(matches!(event, Event::Done(Some(Outcome::There(_)))));
             });
         });

@@ -15,14 +15,14 @@ use crate::passport::issue::{Issue, PreparedStand};
 use crate::passport::reissue::{Order, ReissueRefused, successor};
 use crate::passport::verification::{Question, Trust, Verification, verify};
 use crate::report::page::{Language, Languages, PassportPage};
-use crate::signing::{BadIdentity, allowed_signers_line};
+use crate::signing::allowed_signers_line;
 use crate::simulation::draw::CurrentError;
 use crate::site::Site;
 use crate::stand::Stand;
 use crate::statistics::random::Stream;
 use crate::text::scalar::day;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, shown};
-use crate::trust::{AllowedSigners, KeyError, SigningKey};
+use crate::trust::{AllowedSigners, BadIdentity, KeyError, SigningKey};
 use jiff::Timestamp;
 use std::path::{Path, PathBuf};
 
@@ -212,6 +212,7 @@ impl Stage<'_> {
             issuer: IDENTITY.to_owned(),
             issued_at: self.now,
             valid_until: None,
+            allow_uncalibratable: false,
         };
         let issued =
             self.passports().reissue(&successor(&bytes, &old, &order)?, Seal { signer: key, trust: Some(trust) })?;

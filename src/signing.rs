@@ -3,9 +3,11 @@
 use crate::document::{Signer, SigningFailed};
 use crate::files::{self, FileError};
 use crate::passport::{NAMESPACE, Trust};
-use crate::text::{Printable, rule, shown};
-use crate::trust::{AllowedSigners, KeyError, PublicKey, Signature, SigningKey};
-use std::io::Write;
+use crate::text::{Printable, Unreadable, name_of, shown};
+use crate::trust::{
+    AllowedSigners, BadIdentity, KeyError, LARGEST_TRUST_FILE_BYTES, PublicKey, Signature, SigningKey, check_identity,
+};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::{Mutex, PoisonError};
@@ -184,24 +186,12 @@ fn refuse_exposed(_: &Path) -> Result<(), KeyFileError> {
     Ok(())
 }
 
-/// An identity that cannot stand in allowed_signers as itself.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "the identity \"{}\" is empty, or holds a blank, a quote or one of , * ? ! #, which allowed_signers would read as a \
-     pattern, or a character that no passport can name",
-    Printable(.0)
-)]
-pub struct BadIdentity(String);
-
 /// The line of allowed_signers that trusts `key` as `identity` for passports and their revocation lists.
 ///
 /// # Errors
 /// [`BadIdentity`] when the identity would be read as a pattern of several.
 pub fn allowed_signers_line(identity: &str, key: &PublicKey) -> Result<String, BadIdentity> {
-    let plain = |c: char| rule::allowed_in_string(c) && !" \"',*?!#".contains(c);
-    if identity.is_empty() || !identity.chars().all(plain) {
-        return Err(BadIdentity(identity.to_owned()));
-    }
+    check_identity(identity)?;
     Ok(format!("{identity} namespaces=\"{NAMESPACE},dtg-revocation\" {}", key.to_openssh()))
 }
 
@@ -209,6 +199,46 @@ pub fn allowed_signers_line(identity: &str, key: &PublicKey) -> Result<String, B
 pub fn own_trust(identity: &str, signer: &dyn Signer) -> Option<Trust> {
     let line = allowed_signers_line(identity, &signer.public_key()?).ok()?;
     AllowedSigners::parse("own key", line.as_bytes()).ok().map(Trust::of)
+}
+
+/// Why allowed signers get no further line.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum NotAppended {
+    /// The file cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// With the line it would not be a list of allowed signers.
+    #[error("{0}\nnothing was appended")]
+    Unreadable(#[from] Unreadable),
+}
+
+/// Returns the allowed signers of a file with one line more, after a line feed where the last line has none; a file that
+/// does not exist yet is empty.
+///
+/// # Errors
+/// See [`NotAppended`].
+pub fn with_signer(path: &Path, line: &str) -> Result<Vec<u8>, NotAppended> {
+    let mut text = match files::read(path, LARGEST_TRUST_FILE_BYTES) {
+        Err(FileError::Read { error, .. }) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
+        read => read?,
+    };
+    if text.last().is_some_and(|last| *last != b'\n') {
+        text.push(b'\n');
+    }
+    text.extend_from_slice(line.as_bytes());
+    text.push(b'\n');
+    AllowedSigners::parse(&name_of(path), &text)?;
+    Ok(text)
+}
+
+/// Appends a line to the allowed signers of a file, whole or not at all; one that does not exist yet is made.
+///
+/// # Errors
+/// See [`NotAppended`]; the file then is as it was.
+pub fn append_signer(path: &Path, line: &str) -> Result<(), NotAppended> {
+    let _turn = files::wait_for_turn(files::folder_of(path));
+    Ok(files::rewrite(path, &with_signer(path, line)?)?)
 }
 
 /// Signs through `ssh-keygen -Y sign`, which speaks to ssh-agent and to FIDO tokens.
@@ -252,5 +282,43 @@ impl Signer for SshKeygen {
         }
         let armor = String::from_utf8_lossy(&output.stdout);
         Signature::from_armor(&armor).map_err(|error| failed(error.to_string()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Expected: every line of many at once is there, on a line of its own, after what was there before.
+    #[test]
+    fn lines_are_appended_one_after_the_other() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("allowed_signers");
+        let line = |name: &str| allowed_signers_line(name, &SigningKey::generate().unwrap().public_key()).unwrap();
+        std::fs::write(&path, format!("# ours\r\n{}", line("first"))).unwrap();
+        let before = std::fs::read(&path).unwrap();
+        let lines: Vec<String> = (0..8).map(|number| line(&format!("name-{number}"))).collect();
+        std::thread::scope(|scope| {
+            lines.iter().for_each(|line| drop(scope.spawn(|| append_signer(&path, line).unwrap())));
+        });
+        let text = std::fs::read(&path).unwrap();
+        assert!(text.starts_with(&before) && text[before.len()] == b'\n');
+        let text = String::from_utf8(text).unwrap();
+        assert!(lines.iter().all(|line| text.lines().filter(|there| there == line).count() == 1));
+        assert_eq!(text.lines().count(), 2 + lines.len());
+    }
+
+    #[test]
+    fn nothing_is_appended_to_what_is_no_list_of_signers() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("allowed_signers");
+        let line = allowed_signers_line("factory", &SigningKey::generate().unwrap().public_key()).unwrap();
+        for other in ["id: 1\n".as_bytes(), b"factory ssh-ed25519 AAAAC3Nza", b"\xff\xfea\0"] {
+            std::fs::write(&path, other).unwrap();
+            assert!(matches!(append_signer(&path, &line), Err(NotAppended::Unreadable(_))));
+            assert_eq!(std::fs::read(&path).unwrap(), other);
+        }
+        assert!(matches!(append_signer(folder.path(), &line), Err(NotAppended::File(_))));
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 }

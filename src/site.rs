@@ -1,5 +1,8 @@
 //! A place of delivery: the file `sites/<id>.yaml` (`dtg-site/1`), and what the Earth does there.
 
+#[cfg(feature = "factory")]
+mod consistency;
+
 use crate::coefficients::EarthRate;
 use crate::earth::{self, LaplaceCorrection, Place};
 use crate::text::scalar::Identifier;
@@ -174,11 +177,15 @@ impl Site {
     /// Every mistake with its line, column and field: see [`crate::text::Unreadable`].
     #[cfg(feature = "factory")]
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
-        let check = |file: &SiteFile, problems: &mut Problems| file.site.check(&Path::Root, problems);
+        let check = |file: &SiteFile, problems: &mut Problems| {
+            file.site.check(&Path::Root, problems);
+            file.site.check_consistency(&Path::Root, problems);
+        };
         Ok(crate::text::yaml::read_document(name, bytes, SITE_FORMAT, check)?.site)
     }
 
-    /// The rules of a site's content.
+    /// The rules of a site's content. Passports were signed of sites that break those of [`Site::check_consistency`],
+    /// and stay valid: they are rules of site files and of new passports.
     pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
         self.check_latitude(at, problems);
         problems.within(&at.key("longitude_deg"), self.longitude_deg, -180.0, 180.0);
@@ -208,8 +215,11 @@ impl Site {
     }
 
     fn check_latitude(&self, at: &Path, problems: &mut Problems) {
-        problems.within(&at.key("latitude_deg"), self.latitude_deg, -90.0, 90.0);
-        problems.within(&at.key("astronomic_latitude_deg"), self.astronomic_latitude_deg, -90.0, 90.0);
+        for (key, latitude) in
+            [("latitude_deg", self.latitude_deg), ("astronomic_latitude_deg", self.astronomic_latitude_deg)]
+        {
+            check_latitude_range(&at.key(key), latitude, self.longitude_deg, problems);
+        }
         match (self.latitude_deg, self.astronomic_latitude_deg) {
             (Some(_), Some(_)) => {
                 let advice = "keep the geodetic one, with deflection_arcsec, or the astronomic one";
@@ -323,10 +333,13 @@ impl AzimuthMark {
     }
 
     fn check(&self, at: &Path, problems: &mut Problems) {
-        problems.within(&at.key("latitude_deg"), Some(self.latitude_deg), -90.0, 90.0);
-        problems.within(&at.key("longitude_deg"), Some(self.longitude_deg), -180.0, 180.0);
-        problems.within(&at.key("pillar_latitude_deg"), Some(self.pillar_latitude_deg), -90.0, 90.0);
-        problems.within(&at.key("pillar_longitude_deg"), Some(self.pillar_longitude_deg), -180.0, 180.0);
+        for (latitude_key, latitude, longitude_key, longitude) in [
+            ("latitude_deg", self.latitude_deg, "longitude_deg", self.longitude_deg),
+            ("pillar_latitude_deg", self.pillar_latitude_deg, "pillar_longitude_deg", self.pillar_longitude_deg),
+        ] {
+            check_latitude_range(&at.key(latitude_key), Some(latitude), Some(longitude), problems);
+            problems.within(&at.key(longitude_key), Some(longitude), -180.0, 180.0);
+        }
         problems.within(&at.key("position_u_m"), self.position_u_m, 0.0, LARGEST_POSITION_U_M);
         let inside = |latitude: f64, longitude: f64| latitude.abs() <= 90.0 && longitude.abs() <= 180.0;
         let known = inside(self.latitude_deg, self.longitude_deg)
@@ -335,4 +348,12 @@ impl AzimuthMark {
             problems.at(at, "pillar and mark less than 1 m apart", "two points that give a direction", "");
         }
     }
+}
+
+/// Notes a latitude beyond ±90°, and whether it may be a longitude.
+fn check_latitude_range(at: &Path, latitude_deg: Option<f64>, longitude_deg: Option<f64>, problems: &mut Problems) {
+    let Some(latitude) = latitude_deg.filter(|latitude| !(-90.0..=90.0).contains(latitude)) else { return };
+    let exchanged = latitude.abs() <= 180.0 && longitude_deg.is_some_and(|longitude| longitude.abs() <= 90.0);
+    let advice = if exchanged { "latitude and longitude may be exchanged" } else { "" };
+    problems.at(at, format!("{latitude}"), "a number from -90 to 90", advice);
 }

@@ -327,7 +327,7 @@ fn blocks_of_the_signature() {
         (format!("signed for {purpose:?}"), join(bench.payload(), &signature))
     };
     let list =
-        "format: \"dtg-revocation/1\"\nsequence: 1\nissued_at: \"2027-03-01T08:00:00Z\"\nissuer: \"x\"\nentries:\n";
+        "format: \"dtg-revocation/1\"\nsequence: 1\nissued_at: \"2026-11-09T08:00:00Z\"\nissuer: \"x\"\nentries:\n";
     let shown = join(list, &bench.key.sign("dtg-revocation", list.as_bytes()).unwrap());
     let purposes =
         ["dtg-revocation", "git", "file", "dtg-passport2", "DTG-PASSPORT", "dtg-passport\0", "*", "\u{1B}[2J"];
@@ -422,7 +422,7 @@ fn texts_that_are_not_canonical() {
             ("a leap second", with("08:00:00Z\"", "07:59:60Z\"")),
             ("a day that does not exist", with("valid_until: \"2028-11-01\"", "valid_until: \"2028-02-30\"")),
             ("a day of one digit", with("valid_until: \"2028-11-01\"", "valid_until: \"2028-11-1\"")),
-            ("issued before its certificate", with("2027-03-01T08", "2026-11-01T08")),
+            ("issued before its certificate", with("2026-11-09T08", "2026-11-01T08")),
             ("nothing but comments", signed("# a passport\n", &bench.key)),
             ("a list", signed("- {i: 1}\n", &bench.key)),
             ("a text", signed("\"passport\"\n", &bench.key)),
@@ -766,7 +766,7 @@ fn keys_that_do_not_count() {
         let due = (CheckName::Signer, Code::WrongPrincipal);
         Case::new(&format!("{issuer} by {principals}"), bytes, trust_as(principals, key), question(), due)
     };
-    let now = "20270301080000Z";
+    let now = "20261109080000Z";
     let mut refused = vec![
         signed_by_other("an unknown key", trust(key), Code::UnknownKey),
         signed_by_other("another's key", trust_as("lab@example.org", &other), Code::WrongPrincipal),
@@ -778,10 +778,10 @@ fn keys_that_do_not_count() {
         case("for git", trust_as(&format!("{ISSUER} namespaces=\"git\""), key), Code::WrongNamespace),
         case("for lists", trust_as(&format!("{ISSUER} namespaces=\"dtg-revocation\""), key), Code::WrongNamespace),
         case("for all but", trust_as(&format!("{ISSUER} namespaces=\"*,!dtg-passport\""), key), Code::WrongNamespace),
-        case("a second late", trust_as(&format!("{ISSUER} valid-before=\"20270301075959Z\""), key), Code::KeyExpired),
+        case("a second late", trust_as(&format!("{ISSUER} valid-before=\"20261109075959Z\""), key), Code::KeyExpired),
         case(
             "a second early",
-            trust_as(&format!("{ISSUER} valid-after=\"20270301080001Z\""), key),
+            trust_as(&format!("{ISSUER} valid-after=\"20261109080001Z\""), key),
             Code::KeyNotYetValid,
         ),
         case("expired long ago", trust_as(&format!("{ISSUER} valid-before=\"20200101Z\""), key), Code::KeyExpired),
@@ -807,8 +807,8 @@ fn keys_that_do_not_count() {
     // What differs from these in little is accepted: both ends of a key's validity belong to it.
     for options in [
         "namespaces=\"dtg-*\"".to_owned(),
-        format!("valid-after=\"{now}\",valid-before=\"20270301080001Z\""),
-        format!("valid-after=\"20270301075959Z\",valid-before=\"{now}\""),
+        format!("valid-after=\"{now}\",valid-before=\"20261109080001Z\""),
+        format!("valid-after=\"20261109075959Z\",valid-before=\"{now}\""),
     ] {
         let answer =
             verify("good", bench.good.as_bytes(), &trust_as(&format!("*@example.org {options}"), key), &question());

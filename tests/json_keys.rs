@@ -48,7 +48,7 @@ impl Folder {
 }
 
 const SIGN: &str = "--key key --identity factory";
-const TRUST: &str = "--trust allowed_signers --time 2026-12-01";
+const TRUST: &str = "--trust allowed_signers --time 2026-11-20";
 const PASSPORT: &str = "passports/SPS-2/0017/here-1.yaml";
 
 /// A JSON value with the keys of its objects in the order of the text, which `serde_json` sorts.
@@ -167,7 +167,7 @@ fn issue_and_reissue_report_alike() {
         assert_eq!(report.first().at("state").text(), state);
         assert_eq!(report.first().at("noise_growth").names(), "k omega_0 omega_g omega_k");
     }
-    let reissue = format!("reissue {PASSPORT} --reason x {SIGN} {TRUST} --issued-at 2026-12-01");
+    let reissue = format!("reissue {PASSPORT} --reason x {SIGN} {TRUST} --issued-at 2026-11-20");
     assert_eq!(folder.json(&reissue, 0).first().names(), "id state file sha256 noise_growth");
     let refused = folder.json(&format!("{reissue} --valid-until 2027-01-01"), 1);
     assert_eq!(refused.first().names(), "id state reason");
@@ -179,7 +179,7 @@ fn issue_and_reissue_report_alike() {
 fn show_has_the_keys_of_the_passport_in_their_order() {
     let folder = Folder::new();
     folder.run(&format!("issue stand.yaml --site here.yaml {SIGN} --issued-at 2026-11-03"), 0);
-    folder.run(&format!("reissue {PASSPORT} --reason x {SIGN} {TRUST} --issued-at 2026-12-01"), 0);
+    folder.run(&format!("reissue {PASSPORT} --reason x {SIGN} {TRUST} --issued-at 2026-11-20"), 0);
     let passport = folder.json(&format!("show passports/SPS-2/0017/here-2.yaml {TRUST}"), 0);
     assert_eq!(
         passport.names(),

@@ -36,6 +36,7 @@ fn of_a_passport_that_may_only_be_named_nothing_but_its_id_and_hash_is_taken_ove
         valid_until: Some("2027-11-02".parse().unwrap()),
         revision: 1,
         predecessor: None,
+        allow_uncalibratable: false,
     };
     let (lost, new) = (SigningKey::generate().unwrap(), SigningKey::generate().unwrap());
     let old = issue::draft(&stand, &site, &issue).unwrap().sign(&lost).unwrap();
@@ -45,7 +46,8 @@ fn of_a_passport_that_may_only_be_named_nothing_but_its_id_and_hash_is_taken_ove
         moved: false,
         reason: "the key was lost".to_owned(),
         issuer: "factory".to_owned(),
-        issued_at: time("2026-12-01T00:00:00Z"),
+        issued_at: time("2026-11-20T00:00:00Z"),
+        allow_uncalibratable: false,
         valid_until: None,
     };
     let accuracy_of_successor = |trust: &Trust| {

@@ -14,8 +14,19 @@ use dtg_passport::trust::{AllowedSigners, SigningKey};
 const TENTH_OF_ARCSECOND_DEG: f64 = 0.1 / 3600.0;
 
 fn site(keys: &str) -> Site {
+    read(keys).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn read(keys: &str) -> Result<Site, String> {
     let text = format!("format: \"dtg-site/1\"\nid: \"here\"\n{keys}");
-    Site::from_yaml("here.yaml", text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
+    Site::from_yaml("here.yaml", text.as_bytes()).map_err(|error| error.to_string())
+}
+
+/// Requires that a site file is refused in one line that contains every one of `words`.
+fn refused(keys: &str, words: &[&str]) {
+    let message = read(keys).expect_err(keys);
+    assert_eq!(message.lines().count(), 1, "{message}");
+    assert!(words.iter().all(|word| message.contains(word)), "{words:?}\n{message}");
 }
 
 #[test]
@@ -118,4 +129,88 @@ fn an_astronomic_latitude_without_deflection_allows_thirty_arcseconds() {
         assert_eq!(answer.code(CheckName::Place), Some(code), "{metres}");
         assert!(answer.checks().last().unwrap().detail.contains("30 arcsec"));
     }
+}
+
+/// A site of latitude and longitude with a pillar and, due north of it, a mark.
+fn with_pillar(site: [f64; 2], pillar: [f64; 2], mark_m: f64) -> String {
+    let mark = place_at(Place { latitude_deg: pillar[0], longitude_deg: pillar[1] }, 0.0, mark_m);
+    format!(
+        "latitude_deg: {}\nlongitude_deg: {}\nazimuth_mark: {{latitude_deg: {}, longitude_deg: {}, \
+         pillar_latitude_deg: {}, pillar_longitude_deg: {}}}",
+        site[0], site[1], mark.latitude_deg, mark.longitude_deg, pillar[0], pillar[1]
+    )
+}
+
+/// Expected: a second of latitude at 55.8° is 30.927 m (meridian radius 6,379,200 m there), so 0.044° are 4,899 m and
+/// 0.046° are 5,122 m; the mark's distance is what it was placed at.
+#[test]
+fn the_pillar_is_near_the_site_and_the_mark_within_sight() {
+    let moscow = [55.7658, 37.6856];
+    site(&with_pillar(moscow, [55.7658 + 0.044, 37.6856], 2000.0));
+    refused(&with_pillar(moscow, [55.7658 + 0.046, 37.6856], 2000.0), &["here.yaml:5:", "5122 m", "5000 m", "37.6856"]);
+    site(&with_pillar(moscow, moscow, 49_999.0));
+    refused(&with_pillar(moscow, moscow, 50_001.0), &["here.yaml:5:", "50001 m", "50000 m"]);
+    // Without the site's longitude its latitude alone is compared.
+    let without = |latitude| with_pillar(moscow, [latitude, 37.6856], 2000.0).replace("longitude_deg: 37.6856\na", "a");
+    site(&without(55.7658 + 0.044));
+    refused(&without(55.7658 + 0.046), &["5122 m in latitude", "5000 m"]);
+}
+
+#[test]
+fn exchanged_coordinates_and_wrong_signs_are_named() {
+    let (moscow, rio) = ([55.7658, 37.6856], [-22.8953, -43.2246]);
+    for (given, pillar, words) in [
+        ([37.6856, 55.7658], moscow, "latitude and longitude exchanged"),
+        ([-55.7658, 37.6856], moscow, "the sign of the latitude reversed"),
+        ([-22.8953, 43.2246], rio, "the sign of the longitude reversed"),
+        ([22.8953, 43.2246], rio, "the signs of both reversed"),
+        ([43.2246, 22.8953], rio, "latitude and longitude exchanged and the signs of both reversed"),
+        ([56.7658, 37.6856], moscow, "check both"),
+    ] {
+        refused(&with_pillar(given, pillar, 2000.0), &["azimuth_mark.pillar_latitude_deg: ", words]);
+    }
+    // The mark's own coordinates exchanged, beside a good pillar.
+    let keys = with_pillar(moscow, moscow, 2000.0);
+    let mark = place_at(Place { latitude_deg: 55.7658, longitude_deg: 37.6856 }, 0.0, 2000.0).latitude_deg;
+    let exchanged = keys.replace(
+        &format!("{{latitude_deg: {mark}, longitude_deg: 37.6856"),
+        &format!("{{latitude_deg: 37.6856, longitude_deg: {mark}"),
+    );
+    refused(&exchanged, &["azimuth_mark.latitude_deg: ", "latitude and longitude exchanged"]);
+    // Latitudes that are none, next to longitudes that could be latitudes: Beijing.
+    refused("latitude_deg: 116.3856\nlongitude_deg: 39.9658", &["here.yaml:3:15: latitude_deg: ", "exchanged"]);
+    refused("astronomic_latitude_deg: 116.3856\nlongitude_deg: 39.9658", &["here.yaml:3:", "exchanged"]);
+    let message = read("latitude_deg: 91.5\nlongitude_deg: 139.9").unwrap_err();
+    assert!(!message.contains("exchanged"), "{message}");
+}
+
+/// Expected: normal gravity on the ellipsoid at 45° is 9.8061977694 m/s² (WGS 84), 3.0847e-3 less at 1000 m.
+#[test]
+fn gravity_is_near_normal_gravity() {
+    let at = |height: &str, gravity: f64| format!("latitude_deg: 45.0\n{height}gravity_m_per_s2: {gravity}");
+    for (height, normal, low, high) in [
+        ("height_m: 0.0\n", 9.806_197_8, 5e-3, 5e-3),
+        ("height_m: 1000.0\n", 9.803_113_0, 5e-3, 5e-3),
+        ("", 9.806_197_8, 1.8e-2, 5e-3),
+    ] {
+        site(&at(height, normal - low + 1e-6));
+        site(&at(height, normal + high - 1e-6));
+        for gravity in [normal - low - 1e-6, normal + high + 1e-6] {
+            let (found, normal) = (format!("found {gravity}, "), format!("{normal:.5}"));
+            refused(&at(height, gravity), &["gravity_m_per_s2: ", &found, &normal]);
+        }
+    }
+    // The equator's gravity at 55°: of the longitude as a latitude, too, when that is 10°.
+    refused("latitude_deg: 55.0\ngravity_m_per_s2: 9.7803", &["9.7803", "9.81507"]);
+    refused("latitude_deg: 55.0\nlongitude_deg: 10.0\ngravity_m_per_s2: 9.7819", &["latitude and longitude exchanged"]);
+}
+
+/// A passport that was signed before states such a site: it stays as valid as it was, and no successor is made of it.
+#[test]
+fn no_passport_is_issued_for_a_site_that_contradicts_itself() {
+    let implausible = Site { gravity_m_per_s2: Some(9.7803), ..site("latitude_deg: 55.0") };
+    let stand = Stand::from_yaml("stand.yaml", include_bytes!("../passports/SPS-2/0017/stand.yaml")).unwrap();
+    let order = issue::Issue::first("factory", "2026-11-09T09:00:00Z".parse().unwrap());
+    let refused = issue::draft(&stand, &implausible, &order).unwrap_err().to_string();
+    assert!(refused.contains("site.gravity_m_per_s2: found 9.7803"), "{refused}");
 }

@@ -4,6 +4,7 @@
 #![allow(dead_code)]
 
 use dtg_passport::coefficients::EIGHT_POSITIONS;
+use dtg_passport::earth::normal_gravity_m_per_s2;
 use dtg_passport::passport::issue::Issue;
 use dtg_passport::site::{Deflection, Site, SiteUncertainty};
 use dtg_passport::stand::{Certificate, CertifiedPosition, Datum, Identity, STAND_FORMAT, Stand};
@@ -17,7 +18,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 pub const ISSUER: &str = "factory@example.org";
-pub const ISSUED_AT: &str = "2027-03-01T08:00:00Z";
+pub const ISSUED_AT: &str = "2026-11-09T08:00:00Z";
 
 /// Cheap stands: deviations within 5 arc minutes, read to 0.1 arcseconds, everything certified.
 pub fn stands(count: usize) -> Vec<Stand> {
@@ -96,19 +97,23 @@ pub fn sites(count: usize) -> Vec<Site> {
         .map(|number| {
             let surveyed = number % 4 == 0;
             let degrees = |value: f64| (1e6 * value).round() / 1e6;
+            let latitude_deg = degrees(stream.within(70.0));
+            let longitude_deg = degrees(stream.within(180.0));
+            let height_m = tenths(200.0 + stream.within(200.0));
+            let normal_gravity = normal_gravity_m_per_s2(latitude_deg, height_m);
             Site {
                 id: identifier(&format!("laboratory-{number:05}")),
                 name: Some(format!("Calibration laboratory {number}, building 3, pillar 2")),
-                latitude_deg: Some(degrees(stream.within(70.0))),
+                latitude_deg: Some(latitude_deg),
                 astronomic_latitude_deg: None,
-                longitude_deg: Some(degrees(stream.within(180.0))),
-                height_m: Some(tenths(200.0 + stream.within(200.0))),
+                longitude_deg: Some(longitude_deg),
+                height_m: Some(height_m),
                 deflection_arcsec: surveyed.then(|| Deflection {
                     xi: tenths(stream.within(10.0)),
                     eta: tenths(stream.within(10.0)),
                     u: Some(0.5),
                 }),
-                gravity_m_per_s2: surveyed.then(|| degrees(9.81 + stream.within(0.02))),
+                gravity_m_per_s2: surveyed.then(|| degrees(normal_gravity + stream.within(0.002))),
                 gravity_u_m_per_s2: surveyed.then_some(1e-6),
                 azimuth_mark: None,
                 valid_within_deg_per_h: None,

@@ -49,6 +49,12 @@ impl Listed for PreparedStand {
     fn id(&self) -> String {
         self.stand().stand.id()
     }
+
+    fn remark(&self, path: &Path) -> Option<String> {
+        let name = path.file_name()?;
+        let other = ["stand.yaml", "stand.yml"].iter().any(|usual| name.eq_ignore_ascii_case(usual));
+        (other && name != "stand.yaml").then(|| "is read as stand.yaml, which is the name it should have".to_owned())
+    }
 }
 
 impl Listed for Site {
@@ -63,8 +69,9 @@ impl Listed for Site {
     }
 
     fn remark(&self, path: &Path) -> Option<String> {
-        let other = path.file_stem().is_some_and(|stem| stem != self.id.as_str());
-        other.then(|| format!("the file's name is not its id, {}", self.id))
+        let other_id = path.file_stem().is_some_and(|stem| stem != self.id.as_str());
+        let other_kind = path.extension().is_some_and(|extension| extension != "yaml");
+        (other_id || other_kind).then(|| format!("file name and id differ; expected {}.yaml", self.id))
     }
 }
 

@@ -4,6 +4,7 @@ use super::catalogue::{Catalogue, Listed};
 use super::paths;
 use super::{Batch, Event, Failure, Listener, Outcome, Purpose, Sweeper, parallel};
 use crate::files::folder_of;
+use crate::folder::Folder;
 use crate::passport::Trust;
 use crate::passport::content::passport_id;
 use crate::passport::issue::{Issue, PreparedStand};
@@ -27,6 +28,21 @@ pub struct Known<'a> {
     pub time: Timestamp,
 }
 
+/// What is to be issued, and where.
+#[derive(Debug, Clone, Copy)]
+pub struct Job<'a> {
+    /// The folder of the passports.
+    pub folder: &'a Folder,
+    /// Stands: files, folders and patterns as [`paths`] has them.
+    pub stands: &'a [PathBuf],
+    /// Sites, in the same manner.
+    pub sites: &'a [PathBuf],
+    /// What all have in common.
+    pub order: &'a Issue,
+    /// By whose trust, and at what time, the passports that are there already are believed.
+    pub known: Option<Known<'a>>,
+}
+
 /// One passport to be issued.
 struct Pair {
     stand: Arc<PreparedStand>,
@@ -36,26 +52,17 @@ struct Pair {
 impl Batch<'_> {
     /// Issues a passport of every stand for every site.
     ///
-    /// `stands` and `sites` are files, folders and patterns as [`paths`] has them. They are all read first, so that every
-    /// mistake in them is told before anything is signed; one that cannot be used costs its own passports and no more.
-    /// A stand that by what is `known` has another certificate already is remarked upon.
-    pub fn issue(
-        &self,
-        stands: &[PathBuf],
-        sites: &[PathBuf],
-        list: &mut dyn BufRead,
-        order: &Issue,
-        known: Option<Known>,
-        tell: Listener,
-    ) {
-        let (stands, bad_stands) = self.catalogue(stands, list, Purpose::Stands, tell);
-        let (sites, bad_sites) = self.catalogue(sites, list, Purpose::Sites, tell);
+    /// All files are read first, so that every mistake in them is told before anything is signed; one that cannot be used
+    /// costs its own passports and no more. A stand that by what is known has another certificate already is remarked upon.
+    pub fn issue(&self, job: &Job, list: &mut dyn BufRead, tell: Listener) {
+        let (stands, bad_stands) = self.catalogue(job.stands, list, Purpose::Stands, tell);
+        let (sites, bad_sites) = self.catalogue(job.sites, list, Purpose::Sites, tell);
         let bad_files = bad_sites.iter().filter(|failure| failure.passports.is_none()).count();
         let all_sites = (sites.len() + bad_files) as u64;
         fail(bad_stands, all_sites, tell);
         fail(bad_sites, stands.len() as u64, tell);
         tell(Event::Planned(self.shard.share((stands.len() * sites.len()) as u64)));
-        let mut run = Run { batch: self, order, known, sweeper: Sweeper::default(), pairs: Vec::new() };
+        let mut run = Run { batch: self, job, sweeper: Sweeper::default(), pairs: Vec::new() };
         run.sweep_root();
         run.all(&stands, &sites, tell);
     }
@@ -81,8 +88,7 @@ fn fail(failures: Vec<Failure>, passports: u64, tell: Listener) {
 
 struct Run<'a> {
     batch: &'a Batch<'a>,
-    order: &'a Issue,
-    known: Option<Known<'a>>,
+    job: &'a Job<'a>,
     sweeper: Sweeper,
     pairs: Vec<Pair>,
 }
@@ -90,7 +96,7 @@ struct Run<'a> {
 impl Run<'_> {
     fn sweep_root(&self) {
         if self.batch.seal.is_some() {
-            self.sweeper.sweep(self.batch.folder.root());
+            self.sweeper.sweep(self.job.folder.root());
         }
     }
 
@@ -120,9 +126,9 @@ impl Run<'_> {
 
     /// Says under which other certificates these stands have passports.
     fn remark_on_certificates(&self, stands: &[Arc<PreparedStand>], tell: Listener) {
-        let Some(Known { trust, time }) = self.known else { return };
+        let Some(Known { trust, time }) = self.job.known else { return };
         let remarks = parallel::map(stands, self.batch.threads, |stand| {
-            self.batch.folder.against_certificate(stand.stand(), trust, time)
+            self.job.folder.against_certificate(stand.stand(), trust, time)
         });
         for (stand, remarks) in stands.iter().zip(remarks) {
             remarks.into_iter().for_each(|words| tell(Event::Remark { file: stand.stand().stand.id(), words }));
@@ -158,14 +164,14 @@ impl Run<'_> {
 
     /// One passport: every one of a batch is made here.
     fn one(&self, Pair { stand, site }: &Pair) -> Outcome {
-        let folder = self.batch.folder;
+        let Job { folder, order, .. } = self.job;
         if self.batch.seal.is_some() {
-            self.sweeper.sweep(folder_of(&folder.path_of(&stand.stand().stand, &site.id, self.order.revision)));
+            self.sweeper.sweep(folder_of(&folder.path_of(&stand.stand().stand, &site.id, order.revision)));
         }
         self.batch.settle(
-            || passport_id(&stand.stand().stand, &site.id, self.order.revision),
-            || folder.next_first(stand, site, self.order),
-            |seal| folder.issue(stand, site, self.order, seal),
+            || passport_id(&stand.stand().stand, &site.id, order.revision),
+            || folder.next_first(stand, site, order),
+            |seal| folder.issue(stand, site, order, seal),
         )
     }
 }

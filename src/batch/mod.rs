@@ -17,8 +17,8 @@ pub mod paths;
 pub mod shard;
 pub mod successors;
 
-use crate::files::{FileError, leftovers};
-use crate::folder::{Folder, FolderRefused, Issued, Next, Seal, Visited};
+use crate::files::{Durability, FileError, leftovers};
+use crate::folder::{self, FolderRefused, Issued, Next, Seal, Visited};
 use crate::parallel;
 use crate::passport::issue::Remarks;
 use crate::text::name_of;
@@ -36,17 +36,17 @@ const LARGEST_CHUNK: usize = 4096;
 /// What a folder is searched for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
-    /// Files `stand.yaml`, at any depth.
+    /// Files `stand.yaml` or `stand.yml`, at any depth.
     Stands,
-    /// Files `*.yaml` in the folder itself.
+    /// Files `*.yaml` or `*.yml` in the folder itself.
     Sites,
 }
 
 /// How a batch is done.
 #[derive(Clone, Copy)]
 pub struct Batch<'a> {
-    /// Where the passports stand.
-    pub folder: &'a Folder,
+    /// How safe from a loss of power what was told of is.
+    pub durability: Durability,
     /// Who signs; `None` for a dry run, which computes and checks everything and writes nothing.
     pub seal: Option<Seal<'a>>,
     /// Which part of the job.
@@ -180,7 +180,7 @@ impl Batch<'_> {
             Outcome::There(issued) => Some(issued.path.as_path()),
             _ => None,
         });
-        if let Err(error) = self.folder.sync_names(written) {
+        if let Err(error) = folder::sync_names(self.durability, written) {
             let why = error.to_string();
             for outcome in outcomes.iter_mut().flatten() {
                 if let Outcome::There(issued) = outcome {

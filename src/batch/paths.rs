@@ -90,12 +90,17 @@ pub fn found(entry: Result<Entry, FileError>) -> Result<PathBuf, Failure> {
     }
 }
 
+/// Whether a file is a stand's by its name. Other spellings than `stand.yaml` are read, and remarked upon: a file that was
+/// passed over would be missed late.
 fn is_stand(name: &OsStr) -> bool {
-    name == "stand.yaml"
+    is_yaml(name) && Path::new(name).file_stem().is_some_and(|stem| stem.eq_ignore_ascii_case("stand"))
 }
 
 fn is_yaml(name: &OsStr) -> bool {
-    name.to_str().is_some_and(|name| name.ends_with(".yaml") && !name.starts_with('.'))
+    let extension = Path::new(name).extension();
+    let is_yaml =
+        ["yaml", "yml"].iter().any(|yaml| extension.is_some_and(|extension| extension.eq_ignore_ascii_case(yaml)));
+    is_yaml && !name.as_encoded_bytes().starts_with(b".")
 }
 
 /// An argument that is a pattern, unless a file has just this name.

@@ -8,7 +8,7 @@ use super::paths::{self, Named};
 use super::{Batch, Event, Failure, Listener, Outcome, Purpose, Sweeper, parallel};
 use crate::document::sha256_hex;
 use crate::files::{self, FileError, folder_of};
-use crate::folder::{Issued, Superseding, search};
+use crate::folder::{Folder, Issued, Superseding, search};
 use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
 use crate::passport::{Question, Trust, verify};
@@ -35,6 +35,8 @@ pub struct Change<'a> {
     pub trust: Trust,
     /// What is asked of them.
     pub question: Question,
+    /// Where the successors are written; `None` for each into the root that the path of its predecessor shows.
+    pub folder: Option<Arc<Folder>>,
 }
 
 /// A passport to be looked at.
@@ -55,7 +57,16 @@ struct Searched {
 enum Examined {
     Done(Option<Outcome>),
     /// It is to be followed by this one.
-    Next(String, Box<Successor>),
+    Next(Box<Following>),
+}
+
+/// What follows a passport.
+struct Following {
+    /// The passport's file.
+    name: String,
+    successor: Successor,
+    /// Where the successor is written.
+    folder: Arc<Folder>,
 }
 
 impl Batch<'_> {
@@ -83,9 +94,6 @@ impl Batch<'_> {
             superseding: Superseding::default(),
             candidates: Vec::new(),
         };
-        if self.seal.is_some() {
-            run.sweeper.sweep(self.folder.root());
-        }
         for named in paths::named(passports, list) {
             match named {
                 Err(failure) => run.push(Err(failure), tell),
@@ -169,7 +177,8 @@ impl Run<'_> {
         // Several old passports may have successors of one stand at one site: they come one after the other.
         let mut places: BTreeMap<(String, &str), Vec<usize>> = BTreeMap::new();
         for (index, examined) in examined.iter().enumerate() {
-            if let Examined::Next(_, successor) = examined {
+            if let Examined::Next(next) = examined {
+                let successor = &next.successor;
                 let place = (successor.stand().stand.id(), successor.site().id.as_str());
                 places.entry(place).or_default().push(index);
             }
@@ -181,16 +190,17 @@ impl Run<'_> {
         let mut settled: BTreeMap<usize, Option<Outcome>> = settled.into_iter().flatten().collect();
         let outcomes = examined.into_iter().enumerate().map(|(index, examined)| match examined {
             Examined::Done(outcome) => outcome,
-            Examined::Next(..) => settled.remove(&index).flatten(),
+            Examined::Next(_) => settled.remove(&index).flatten(),
         });
         self.batch.tell(outcomes.collect(), tell);
     }
 
     /// The successor: every one of a batch is made here.
     fn follow(&self, examined: &Examined) -> Option<Outcome> {
-        let Examined::Next(name, successor) = examined else { return None };
-        let folder = self.batch.folder;
+        let Examined::Next(next) = examined else { return None };
+        let Following { name, successor, folder } = &**next;
         if self.batch.seal.is_some() {
+            self.sweeper.sweep(folder.root());
             let path = folder.path_of(&successor.stand().stand, &successor.site().id, successor.first_revision());
             self.sweeper.sweep(folder_of(&path));
         }
@@ -230,13 +240,31 @@ impl Run<'_> {
             let there = Issued { id, path: path.clone(), sha256: sha256_hex(&bytes), new: false, remarks };
             return Ok(Examined::Done(Some(Outcome::There(there))));
         }
-        let rival = self.rival(path, &next, trust);
-        Ok(Examined::Next(name, Box::new(next.beside(rival))))
+        let folder = self.folder_for(path, &next)?;
+        let rival = self.rival(path, &folder, &next, trust);
+        Ok(Examined::Next(Box::new(Following { name, successor: next.beside(rival), folder })))
+    }
+
+    /// Where the successor of the passport at `path` is written.
+    fn folder_for(&self, path: &Path, next: &Successor) -> Result<Arc<Folder>, Failure> {
+        if let Some(folder) = &self.change.folder {
+            return Ok(Arc::clone(folder));
+        }
+        let stand = &next.stand().stand;
+        let Some(root) = Folder::root_of(path, stand) else {
+            let why = format!(
+                "the passport is not in a folder {}, which would show where its successor belongs; \
+                 name the folder of the passports with --out",
+                stand.id()
+            );
+            return Err(Failure::unusable(path, why));
+        };
+        Ok(Arc::new(Folder::new(root).with_durability(self.batch.durability)))
     }
 
     /// Another passport that supersedes the same one, beside it or where the new one is to stand.
-    fn rival(&self, old: &Path, next: &Successor, trust: &Trust) -> Option<PathBuf> {
-        let new = self.batch.folder.path_of(&next.stand().stand, &next.site().id, next.first_revision());
+    fn rival(&self, old: &Path, folder: &Folder, next: &Successor, trust: &Trust) -> Option<PathBuf> {
+        let new = folder.path_of(&next.stand().stand, &next.site().id, next.first_revision());
         let asked = Asked::at(self.change.question.time);
         let folders = [folder_of(old), folder_of(&new)];
         let mut rivals = folders

@@ -1,6 +1,6 @@
 //! What `issue` and `reissue` have in common: how a batch is done, and what is said of it while it goes on.
 
-use super::key_options::signer_of;
+use super::key_options::{self, signer_of};
 use super::output::{self, TableFormat};
 use super::{Code, Failure, REFUSED, UNUSABLE};
 use clap::Args;
@@ -13,7 +13,7 @@ use dtg_passport::parallel;
 use dtg_passport::passport::Trust;
 use dtg_passport::report::issued::{Form, Report, Reports, Told, failure, warnings};
 use indicatif::{ProgressBar, ProgressStyle};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -23,14 +23,14 @@ pub struct BatchOptions {
     #[arg(long, value_name = "KEY", required_unless_present = "dry_run")]
     key: Option<PathBuf>,
     /// The issuer: the principal by which allowed_signers knows the key
-    #[arg(long, value_name = "WHO")]
+    #[arg(long, value_name = "WHO", value_parser = key_options::identity)]
     pub identity: String,
-    /// Folder of the passports
-    #[arg(long, value_name = "DIR", default_value = "passports")]
-    out: PathBuf,
     /// Only the K-th of N parts of the job: the parts are disjoint and complete
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
+    /// Issue even if the stand's positions do not determine the parameters of a gyro
+    #[arg(long)]
+    pub allow_uncalibratable: bool,
     /// Compute and check everything, say what would be issued, write nothing; needs no key
     #[arg(long)]
     dry_run: bool,
@@ -51,6 +51,15 @@ impl BatchOptions {
         self.key.as_deref().filter(|_| !self.dry_run).map(signer_of).transpose()
     }
 
+    /// The folder of passports at `root`.
+    pub fn folder(&self, root: &Path) -> Folder {
+        Folder::new(root).with_durability(self.durability())
+    }
+
+    fn durability(&self) -> Durability {
+        if self.no_sync { Durability::None } else { Durability::NameLater }
+    }
+
     /// Does a batch; what becomes of it is reported as it goes on.
     pub fn run(
         &self,
@@ -61,10 +70,8 @@ impl BatchOptions {
         let cancel = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&cancel);
         ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)).map_err(Failure::unusable)?;
-        let durability = if self.no_sync { Durability::None } else { Durability::NameLater };
-        let folder = Folder::new(&self.out).with_durability(durability);
         let batch = Batch {
-            folder: &folder,
+            durability: self.durability(),
             seal: signer.map(|signer| Seal { signer, trust }),
             shard: self.shard.unwrap_or(Shard::WHOLE),
             threads: self.threads.map_or_else(parallel::processors, usize::from),

@@ -5,11 +5,12 @@ use super::calibrate::read_laboratory;
 use super::simulate::read_gyro;
 use super::{Code, Failure, output, trust_options};
 use clap::Args;
-use dtg_passport::batch::first::Known;
+use dtg_passport::batch::catalogue::Listed;
+use dtg_passport::batch::first::{Job, Known};
 use dtg_passport::files;
 use dtg_passport::gyro::GyroType;
 use dtg_passport::passport::accuracy::Stated;
-use dtg_passport::passport::issue::Issue;
+use dtg_passport::passport::issue::{Issue, time_of_issue};
 use dtg_passport::signing::own_trust;
 use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
@@ -20,7 +21,7 @@ use std::path::{Path, PathBuf};
 
 /// Issue a signed passport for every stand at every site
 ///
-/// STAND and SITE are files, quoted patterns, or folders: every stand.yaml under a folder, every *.yaml in it. A - stands
+/// STAND and SITE are files, quoted patterns, or folders: every stand.yaml under a folder, every *.yaml in it (.yml too). A - stands
 /// for a list of paths on standard input, a path a line or with zero bytes between them.
 #[derive(Args)]
 pub struct Options {
@@ -30,12 +31,15 @@ pub struct Options {
     /// Site files (dtg-site/1; repeatable)
     #[arg(long = "site", required = true, value_name = "SITE")]
     sites: Vec<PathBuf>,
+    /// Folder of the passports
+    #[arg(long, value_name = "DIR", default_value = "passports")]
+    out: PathBuf,
     #[command(flatten)]
     batch: BatchOptions,
     /// Time of issue, RFC 3339 [default: now]
     #[arg(long, value_name = "TIME", value_parser = trust_options::time)]
     issued_at: Option<Timestamp>,
-    /// Last day of the passport [default: the certificate's]
+    /// Last day of the passport, not after the certificate's [default: the certificate's]
     #[arg(long, value_name = "DATE", value_parser = trust_options::date)]
     valid_until: Option<Date>,
     /// State in the passport what the stand is good for
@@ -57,19 +61,23 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     if options.stands.iter().chain(&options.sites).filter(|path| *path == list).count() > 1 {
         return Err(Failure::unusable("standard input can be one list, of stands or of sites"));
     }
-    let signer = options.batch.signer()?;
     let now = trust_options::now();
+    let issued_at = time_of_issue(options.issued_at, now).map_err(Failure::refused)?;
+    let signer = options.batch.signer()?;
     let trust = options.trust.as_deref().map(|path| trust_options::load(path, &[], now)).transpose()?;
     let order = Issue {
         valid_until: options.valid_until,
         accuracy: options.accuracy.then(|| stated(options)).transpose()?,
-        ..Issue::first(&options.batch.identity, options.issued_at.unwrap_or(now))
+        allow_uncalibratable: options.batch.allow_uncalibratable,
+        ..Issue::first(&options.batch.identity, issued_at)
     };
     let own = || own_trust(&options.batch.identity, signer.as_deref()?);
     let believed = trust.clone().or_else(own);
     let known = believed.as_ref().map(|trust| Known { trust, time: now.max(order.issued_at) });
+    let folder = options.batch.folder(&options.out);
+    let job = Job { folder: &folder, stands: &options.stands, sites: &options.sites, order: &order, known };
     options.batch.run(signer.as_deref(), trust.as_ref(), |batch, tell| {
-        batch.issue(&options.stands, &options.sites, &mut std::io::stdin().lock(), &order, known, tell);
+        batch.issue(&job, &mut std::io::stdin().lock(), tell);
     })
 }
 
@@ -90,8 +98,8 @@ pub fn read_stand(path: &Path) -> Result<Stand, Failure> {
 pub fn read_site(path: &Path) -> Result<Site, Failure> {
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
     let site = Site::from_yaml(&name_of(path), &bytes).map_err(Failure::unusable)?;
-    if path.file_stem().is_some_and(|stem| stem != site.id.as_str()) {
-        output::say(&format!("{}: the file's name is not its id, {}", shown(path), site.id));
+    if let Some(words) = site.remark(path) {
+        output::say(&format!("{}: {words}", shown(path)));
     }
     Ok(site)
 }

@@ -6,6 +6,7 @@ use dtg_passport::document::Signer;
 use dtg_passport::signing;
 pub use dtg_passport::signing::PASSPHRASE_VARIABLE;
 use dtg_passport::text::shown;
+use dtg_passport::trust::{BadIdentity, check_identity};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use zeroize::Zeroizing;
@@ -16,7 +17,7 @@ pub struct KeyOptions {
     #[arg(long, value_name = "KEY")]
     pub key: PathBuf,
     /// The issuer: the principal by which allowed_signers knows the key
-    #[arg(long, value_name = "WHO")]
+    #[arg(long, value_name = "WHO", value_parser = identity)]
     pub identity: String,
 }
 
@@ -24,6 +25,11 @@ impl KeyOptions {
     pub fn signer(&self) -> Result<Box<dyn Signer + Sync>, Failure> {
         signer_of(&self.key)
     }
+}
+
+/// An identity as the options take it.
+pub fn identity(text: &str) -> Result<String, BadIdentity> {
+    check_identity(text).map(|()| text.to_owned())
 }
 
 /// The signer for a key file.

@@ -1,16 +1,16 @@
 //! `keygen`: a signing key.
 
-use super::key_options::{PASSPHRASE_VARIABLE, passphrase};
+use super::key_options::{self, PASSPHRASE_VARIABLE, passphrase};
 use super::{Code, Failure, output};
 use clap::Args;
 use dtg_passport::files::{self, Access};
-use dtg_passport::signing::{allowed_signers_line, forbid_core_dumps};
+use dtg_passport::signing::{self, allowed_signers_line, forbid_core_dumps};
 use dtg_passport::text::shown;
 use dtg_passport::trust::SigningKey;
 use std::path::{Path, PathBuf};
 use zeroize::Zeroizing;
 
-/// Make a signing key: KEY (mode 0600) and KEY.pub; prints the line for allowed_signers
+/// Make a signing key: KEY (mode 0600) and KEY.pub; prints the line for allowed_signers, or appends it
 ///
 /// The passphrase is asked for, or taken from DTG_PASSPORT_PASSPHRASE.
 #[derive(Args)]
@@ -19,8 +19,11 @@ pub struct Options {
     /// The new private key file; nothing is replaced
     key: PathBuf,
     /// Whose key it is, as allowed_signers and passports name the issuer [default: the file's name]
-    #[arg(long, value_name = "WHO")]
+    #[arg(long, value_name = "WHO", value_parser = key_options::identity)]
     identity: Option<String>,
+    /// Append the line to this file instead of printing it; nothing is appended when the key exists
+    #[arg(long, value_name = "FILE")]
+    allowed_signers: Option<PathBuf>,
     /// Leave the key unencrypted
     #[arg(long)]
     no_passphrase: bool,
@@ -36,18 +39,26 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     forbid_core_dumps();
     let key = SigningKey::generate().map_err(Failure::unusable)?;
     let line = allowed_signers_line(&identity, &key.public_key()).map_err(Failure::unusable)?;
+    let signers = options.allowed_signers.as_deref();
+    // As above: a file that nothing can be appended to.
+    signers.map(|path| signing::with_signer(path, &line)).transpose().map_err(Failure::unusable)?;
     let passphrase = new_passphrase(options)?;
     let private = key.to_openssh(&identity, passphrase.as_ref().map(|p| p.as_str())).map_err(Failure::unusable)?;
     write(&options.key, private.as_bytes(), Access::Private)?;
     let public = format!("{} {identity}\n", key.public_key().to_openssh());
     write(&public_path, public.as_bytes(), Access::Shared)?;
-    output::say(&format!(
-        "wrote {} (keep it secret) and {}; put this line into allowed_signers:",
-        shown(&options.key),
-        shown(&public_path)
-    ));
-    output::result(&(line + "\n"))?;
-    Ok(0)
+    let wrote = format!("wrote {} (keep it secret) and {}", shown(&options.key), shown(&public_path));
+    match signers.map(|path| (path, signing::append_signer(path, &line))) {
+        Some((path, Ok(()))) => {
+            output::say(&format!("{wrote}; appended its line to {}", shown(path)));
+            Ok(0)
+        }
+        unappended => {
+            output::say(&format!("{wrote}; put this line into allowed_signers:"));
+            output::result(&(line + "\n"))?;
+            unappended.map_or(Ok(0), |(_, failed)| failed.map(|()| 0).map_err(Failure::unusable))
+        }
+    }
 }
 
 fn refuse_existing(path: &Path) -> Result<(), Failure> {

@@ -6,10 +6,12 @@ use super::trust_options::{self, TrustOptions};
 use super::{Code, Failure};
 use clap::Args;
 use dtg_passport::batch::successors::Change;
+use dtg_passport::passport::issue::time_of_issue;
 use dtg_passport::passport::reissue::Order;
 use jiff::Timestamp;
 use jiff::civil::Date;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Verify passports and issue their successors: another site, corrected stands or sites, another key
 ///
@@ -36,6 +38,9 @@ pub struct Options {
     /// Why there is a new passport
     #[arg(long, value_name = "TEXT")]
     reason: String,
+    /// Folder of the passports [default: the root that each old passport's path shows, above <model>/<serial>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     #[command(flatten)]
     batch: BatchOptions,
     #[command(flatten)]
@@ -43,7 +48,8 @@ pub struct Options {
     /// Time of issue, RFC 3339 [default: now]
     #[arg(long, value_name = "TIME", value_parser = trust_options::time)]
     issued_at: Option<Timestamp>,
-    /// Last day of the passport [default: the old passport's, or a new stand's certificate's]
+    /// Last day of the passport, not after the certificate's [default: the old passport's, or a new stand's
+    /// certificate's]
     #[arg(long, value_name = "DATE", value_parser = trust_options::date)]
     valid_until: Option<Date>,
 }
@@ -61,11 +67,13 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         moved: options.moved,
         reason: options.reason.clone(),
         issuer: options.batch.identity.clone(),
-        issued_at: options.issued_at.unwrap_or_else(trust_options::now),
+        issued_at: time_of_issue(options.issued_at, trust_options::now()).map_err(Failure::refused)?,
         valid_until: options.valid_until,
+        allow_uncalibratable: options.batch.allow_uncalibratable,
     };
     let signer = options.batch.signer()?;
-    let change = Change { order, stands: &options.stands, sites: &options.sites, trust, question };
+    let folder = options.out.as_deref().map(|out| Arc::new(options.batch.folder(out)));
+    let change = Change { order, stands: &options.stands, sites: &options.sites, trust, question, folder };
     options.batch.run(signer.as_deref(), None, |batch, tell| {
         batch.reissue(&options.passports, &mut std::io::stdin().lock(), change, tell);
     })

@@ -220,6 +220,36 @@ fn is_irreplaceable(path: &Path) -> bool {
     key || lines.any(|line| DOCUMENTS.iter().any(|format| line.starts_with(format)))
 }
 
+/// Replaces the content of a file, or makes it. Its permissions stay as they were; through a link, the file that it leads
+/// to is replaced.
+///
+/// # Errors
+/// [`FileError::Write`], also for what is no regular file; the old content is then as it was.
+pub fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let permissions = match fs::metadata(&target) {
+        Ok(found) if !found.is_file() => {
+            let error = io::Error::other("not a regular file");
+            return Err(FileError::Write { path: path.to_owned(), error });
+        }
+        found => found.ok().map(|found| found.permissions()),
+    };
+    let persist = |temporary: NamedTempFile| {
+        let kept = permissions.clone().map_or(Ok(()), |kept| temporary.as_file().set_permissions(kept));
+        match kept {
+            Ok(()) => temporary.persist(&target),
+            Err(error) => Err(PersistError { error, file: temporary }),
+        }
+    };
+    write(&target, bytes, Access::Shared, Durability::Named, persist, true)
+}
+
+/// Waits until no other run has its turn in a folder; the turn ends when what is returned is dropped. `None` where the
+/// file system knows no locks of folders.
+pub fn wait_for_turn(folder: &Path) -> Option<File> {
+    File::open(folder).ok().filter(|folder| folder.lock().is_ok())
+}
+
 fn write(
     path: &Path,
     bytes: &[u8],

@@ -196,7 +196,7 @@ impl FolderRefused {
     pub fn is_unusable(&self) -> bool {
         match self {
             Self::File(FileError::Exists { .. }) => false,
-            Self::File(_) | Self::Issue(IssueRefused::Signing(_) | IssueRefused::BadIdentity(_)) => true,
+            Self::File(_) | Self::Issue(IssueRefused::Signing(_) | IssueRefused::Identity(_)) => true,
             _ => false,
         }
     }
@@ -216,7 +216,16 @@ impl Folder {
 
     /// The folder itself.
     pub fn root(&self) -> &Path {
-        &self.root
+        or_here(&self.root)
+    }
+
+    /// Returns the root that the path of a passport of `stand` shows, or `None` unless the two folders above the file are
+    /// `<model>/<serial>`.
+    pub fn root_of<'a>(path: &'a Path, stand: &Identity) -> Option<&'a Path> {
+        let serial = path.parent()?;
+        let model = serial.parent()?;
+        let shows = serial.file_name()? == stand.serial.as_str() && model.file_name()? == stand.model.as_str();
+        model.parent().filter(|_| shows)
     }
 
     /// Where the passport of a stand for a site stands.
@@ -322,26 +331,6 @@ impl Folder {
         }
     }
 
-    /// Makes the names of files safe that were written with [`Durability::NameLater`]: theirs, and those of the folders
-    /// from the root to them.
-    ///
-    /// # Errors
-    /// The first folder that cannot be made safe, with what the system says.
-    pub fn sync_names<'a>(&self, files: impl Iterator<Item = &'a Path>) -> Result<(), FileError> {
-        if self.durability != Durability::NameLater {
-            return Ok(());
-        }
-        let mut folders: BTreeSet<&Path> = BTreeSet::new();
-        for file in files {
-            let above = file.ancestors().skip(1).take_while(|folder| folder.starts_with(&self.root));
-            folders.extend(above.filter(|folder| !folder.as_os_str().is_empty()));
-        }
-        for folder in folders {
-            files::sync_folder(folder).map_err(|error| FileError::Write { path: folder.to_owned(), error })?;
-        }
-        Ok(())
-    }
-
     /// Signs and writes what comes next. When another run writes a file of that name first, what comes next is asked
     /// again.
     fn settle(&self, next: impl Fn() -> Result<Next, FolderRefused>, seal: Seal) -> Result<Issued, FolderRefused> {
@@ -417,6 +406,31 @@ impl Folder {
             Ok(bytes) => Existing::of(path, &bytes).map(Some),
         }
     }
+}
+
+/// The folders from a passport to its root: `<model>/<serial>` and the root itself.
+const FOLDERS_OF_A_PASSPORT: usize = 3;
+
+/// Makes the names of passports safe that were written with [`Durability::NameLater`]: theirs, and those of the folders
+/// from the root to them.
+///
+/// # Errors
+/// The first folder that cannot be made safe, with what the system says.
+pub fn sync_names<'a>(durability: Durability, passports: impl Iterator<Item = &'a Path>) -> Result<(), FileError> {
+    if durability != Durability::NameLater {
+        return Ok(());
+    }
+    let above = passports.flat_map(|file| file.ancestors().skip(1).take(FOLDERS_OF_A_PASSPORT));
+    let folders: BTreeSet<&Path> = above.map(or_here).collect();
+    for folder in folders {
+        files::sync_folder(folder).map_err(|error| FileError::Write { path: folder.to_owned(), error })?;
+    }
+    Ok(())
+}
+
+/// The current folder for the empty path, which is its name in the parents of a relative path.
+fn or_here(folder: &Path) -> &Path {
+    if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
 }
 
 /// A passport that nobody could verify is worse than none.

@@ -1,6 +1,10 @@
 //! From a certified stand and a site to a signed passport.
 
-use super::accuracy::{NoAccuracy, Stated};
+mod refused;
+
+pub use refused::IssueRefused;
+
+use super::accuracy::Stated;
 use super::annotations::{self, absences};
 use super::content::{
     Content, Header, PASSPORT_FORMAT, Predecessor, REFERENCE_GYRO, SELF_CHECK_LIMIT, derive_from, passport_id,
@@ -8,14 +12,14 @@ use super::content::{
 use super::{NAMESPACE, read};
 use crate::calibration::prediction::{NoiseGrowth, noise_growth};
 use crate::coefficients::{SingularPositions, StandGeometry};
-use crate::document::{Signer, SigningFailed, join};
+use crate::document::{Signer, join};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::site::Site;
 use crate::stand::{self, CertifiedPosition, Stand};
 use crate::text::scalar::day;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, rule};
-use crate::trust::{Message, SignatureError};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Path, Problems, Unreadable, rule};
+use crate::trust::{Message, check_identity};
 use jiff::Timestamp;
 use jiff::civil::Date;
 
@@ -40,80 +44,39 @@ pub struct Issue {
     pub predecessor: Option<(Predecessor, bool)>,
     /// For whom the passport states what the stand is good for; nothing when `None`.
     pub accuracy: Option<Stated>,
+    /// Whether a passport is issued even if its positions do not determine the parameters of a gyro.
+    pub allow_uncalibratable: bool,
 }
 
 impl Issue {
     /// Revision 1, to the certificate's last day.
     pub fn first(issuer: &str, issued_at: Timestamp) -> Self {
         let issuer = issuer.to_owned();
-        Self { issuer, issued_at, valid_until: None, revision: 1, predecessor: None, accuracy: None }
+        Self {
+            issuer,
+            issued_at,
+            valid_until: None,
+            revision: 1,
+            predecessor: None,
+            accuracy: None,
+            allow_uncalibratable: false,
+        }
     }
 }
 
-/// Why no passport was issued.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum IssueRefused {
-    /// n_2 has no inverse.
-    #[error(transparent)]
-    Singular(#[from] SingularPositions),
-    /// The issue is dated before the certificate.
-    #[error("issued_at {issued_at} is before the certificate's day of issue, {certified}: is the clock right?")]
-    BeforeCertificate {
-        /// When the passport would be issued.
-        issued_at: Timestamp,
-        /// When the certificate was.
-        certified: Date,
-    },
-    /// The passport would have ended before it began.
-    #[error(
-        "issued_at {issued_at} is after the {document}'s last day, {last}: {}",
-        if *document == "certificate" { "the stand must be certified again" } else { "give a later one" }
-    )]
-    AlreadyExpired {
-        /// When the passport would be issued.
-        issued_at: Timestamp,
-        /// The earlier one of the two last days.
-        last: Date,
-        /// Whose last day that is: "certificate" or "passport".
-        document: &'static str,
-    },
-    /// What the stand is good for cannot be stated.
-    #[error("no accuracy can be stated: {0}")]
-    Accuracy(#[from] NoAccuracy),
-    /// The issuer's name cannot stand in a passport.
-    #[error("the identity {0:?} holds a character that no signed text may hold, or is empty")]
-    BadIdentity(String),
-    /// The self-check does not give its own parameters back.
-    #[error(
-        "the self-check, calibrated again, is off by {error:.1e} of a parameter (limit {SELF_CHECK_LIMIT:e}): \
-         on this stand at this site the eight positions do not determine the gyro \
-         (1/cos(latitude), by which the uncertainty of K grows, is {growth:.4})"
-    )]
-    SelfCheckFails {
-        /// How far the worst parameter is off, relative to its size.
-        error: f64,
-        /// 1/cos Φ, which is large near the poles.
-        growth: f64,
-    },
-    /// The passport would be larger than any verifier reads.
-    #[error(
-        "the passport would have {bytes} bytes, at most {LARGEST_DOCUMENT_BYTES} are read: \
-         the stand has too many positions"
-    )]
-    TooLarge {
-        /// Its size, the signature aside.
-        bytes: usize,
-    },
-    /// The text, read again, is not what was written: a defect of this program.
-    #[error("the text read back differs from what was written; nothing was signed. {0}")]
-    ReadBack(Unreadable),
-    /// The signer gave no signature.
-    #[error(transparent)]
-    Signing(#[from] SigningFailed),
-    /// The signer gave a signature that does not hold.
-    #[error("the signature just made does not hold: {0}")]
-    BadSignature(#[from] SignatureError),
+/// Returns the time of issue: `asked`, or that of the `clock` if no time is asked for.
+///
+/// # Errors
+/// [`IssueRefused::AheadOfClock`] for a time more than a day ahead of the clock: such a passport would not be valid yet,
+/// and would count as later than every passport issued until then.
+pub fn time_of_issue(asked: Option<Timestamp>, clock: Timestamp) -> Result<Timestamp, IssueRefused> {
+    const DAY_S: i64 = 86_400;
+    match asked {
+        Some(issued_at) if issued_at.as_second() - clock.as_second() > DAY_S => {
+            Err(IssueRefused::AheadOfClock { issued_at, clock })
+        }
+        asked => Ok(asked.unwrap_or(clock)),
+    }
 }
 
 /// A passport ready to be signed.
@@ -153,9 +116,13 @@ impl PreparedStand {
     /// See [`IssueRefused`]: nothing is signed whose self-check fails, or that does not read back bit for bit.
     pub fn draft(&self, site: &Site, issue: &Issue) -> Result<Draft, IssueRefused> {
         check_identity(&issue.issuer)?;
+        check_site(site)?;
         let (geometry, text) = self.geometry.as_ref().map_err(|singular| *singular)?;
         let content = content(&self.stand, geometry, site, issue)?;
         check_dates(&content)?;
+        if !issue.allow_uncalibratable && !determines_gyro(&content) {
+            return Err(IssueRefused::Uncalibratable);
+        }
         let payload = annotations::payload_with(&content, text);
         if payload.len() + LONGEST_SIGNATURE > LARGEST_DOCUMENT_BYTES {
             return Err(IssueRefused::TooLarge { bytes: payload.len() });
@@ -211,11 +178,14 @@ fn content(stand: &Stand, geometry: &StandGeometry, site: &Site, issue: &Issue) 
     })
 }
 
-fn check_identity(identity: &str) -> Result<(), IssueRefused> {
-    if identity.is_empty() || !identity.chars().all(rule::allowed_in_string) {
-        return Err(IssueRefused::BadIdentity(identity.to_owned()));
+/// A site that no file was read of, such as that of an earlier passport, obeys the same rules.
+fn check_site(site: &Site) -> Result<(), IssueRefused> {
+    let mut problems = Problems::new();
+    site.check_consistency(&Path::Root.key("site"), &mut problems);
+    if problems.is_empty() {
+        return Ok(());
     }
-    Ok(())
+    Err(IssueRefused::ImplausibleSite(problems.refuse("the new passport", "")))
 }
 
 fn check_dates(content: &Content) -> Result<(), IssueRefused> {
@@ -224,12 +194,29 @@ fn check_dates(content: &Content) -> Result<(), IssueRefused> {
     if issued_at < day(certified).0 {
         return Err(IssueRefused::BeforeCertificate { issued_at, certified });
     }
+    if let (Some(passport), Some(certificate)) = (content.passport.valid_until, content.certificate.valid_until)
+        && passport > certificate
+    {
+        return Err(IssueRefused::BeyondCertificate { passport, certificate });
+    }
     match content.last_day() {
         Some((last, document)) if issued_at > day(last).1 => {
             Err(IssueRefused::AlreadyExpired { issued_at, last, document })
         }
         _ => Ok(()),
     }
+}
+
+/// Whether currents in the passport's positions determine the parameters of a gyro. With matrices they do: n_2 has an
+/// inverse, and the self-check shows the rest.
+fn determines_gyro(content: &Content) -> bool {
+    content.matrices.is_some() || noise(content).is_some()
+}
+
+fn noise(content: &Content) -> Option<NoiseGrowth> {
+    let gyro = GyroType::gvk_6().nominal;
+    let positions: Vec<_> = content.positions.iter().map(CertifiedPosition::to_model).collect();
+    noise_growth(&positions, content.earth.rate(), &gyro.to_model(), (&Laboratory::paper().meter).into())
 }
 
 /// The written text is read again by the verifier's reader, and its content compared with what was written.
@@ -270,12 +257,9 @@ impl Draft {
     /// one, what is not known, and where K grows uncertain.
     pub fn remarks(&self) -> Remarks {
         let content = &self.content;
-        let positions: Vec<_> = content.positions.iter().map(CertifiedPosition::to_model).collect();
-        let meter = (&Laboratory::paper().meter).into();
-        let gyro = GyroType::gvk_6().nominal.to_model();
-        let noise = noise_growth(&positions, content.earth.rate(), &gyro, meter);
+        let uncertainty_growth = content.site.uncertainty_growth();
         let odd = stand::remarks::of(&content.certificate, &content.positions);
-        Remarks { noise, uncertainty_growth: content.site.uncertainty_growth(), odd, absences: absences(content) }
+        Remarks { noise: noise(content), uncertainty_growth, odd, absences: absences(content) }
     }
 }
 
@@ -326,7 +310,7 @@ mod tests {
 
     #[test]
     fn what_a_stand_has_in_common_is_what_each_passport_would_find() {
-        let order = Issue::first("factory@example.org", "2027-03-01T08:00:00Z".parse().unwrap());
+        let order = Issue::first("factory@example.org", "2026-11-09T08:00:00Z".parse().unwrap());
         for stand in stands() {
             let prepared = PreparedStand::new(stand.clone());
             for text in SITES {
@@ -341,6 +325,58 @@ mod tests {
         }
     }
 
+    /// Expected: a day of 86,400 seconds is allowed, a second more is not.
+    #[test]
+    fn nothing_is_issued_more_than_a_day_ahead_of_the_clock() {
+        let clock = "2026-11-09T08:00:00Z".parse().unwrap();
+        assert_eq!(time_of_issue(None, clock), Ok(clock));
+        for good in ["1970-01-01T00:00:07Z", "2026-11-10T08:00:00Z"] {
+            assert_eq!(time_of_issue(Some(good.parse().unwrap()), clock), Ok(good.parse().unwrap()));
+        }
+        for bad in ["2026-11-10T08:00:01Z", "2036-11-09T08:00:00Z"] {
+            let refused = IssueRefused::AheadOfClock { issued_at: bad.parse().unwrap(), clock };
+            assert_eq!(time_of_issue(Some(bad.parse().unwrap()), clock), Err(refused));
+        }
+    }
+
+    #[test]
+    fn no_passport_outlasts_its_certificate() {
+        let site = Site::from_yaml("site", SITES[0].as_bytes()).unwrap();
+        let stand = Stand::from_yaml("stand", STANDS[1].as_bytes()).unwrap();
+        let endless = Stand {
+            certificate: crate::stand::Certificate {
+                valid_until: None,
+                valid_until_basis: None,
+                ..stand.certificate.clone()
+            },
+            ..stand.clone()
+        };
+        let last_day = |day: &str| Issue {
+            valid_until: Some(day.parse().unwrap()),
+            ..Issue::first("a@b", "2026-11-09T08:00:00Z".parse().unwrap())
+        };
+        // The certificate ends on 2028-11-01.
+        draft(&stand, &site, &last_day("2028-11-01")).unwrap();
+        let refused = draft(&stand, &site, &last_day("2028-11-02"));
+        assert!(matches!(refused, Err(IssueRefused::BeyondCertificate { .. })), "{refused:?}");
+        draft(&endless, &site, &last_day("2038-11-02")).unwrap();
+    }
+
+    /// Expected: three positions give six readings, fewer than the eight parameters; seven give fourteen.
+    #[test]
+    fn a_stand_that_determines_no_gyro_is_issued_on_request_alone() {
+        let site = Site::from_yaml("site", SITES[0].as_bytes()).unwrap();
+        let whole = Stand::from_yaml("stand", STANDS[1].as_bytes()).unwrap();
+        let with = |positions: usize| Stand { positions: whole.positions[..positions].to_vec(), ..whole.clone() };
+        let order = Issue::first("a@b", "2026-11-09T08:00:00Z".parse().unwrap());
+        let all_the_same = Issue { allow_uncalibratable: true, ..order.clone() };
+        draft(&with(7), &site, &order).unwrap();
+        for few in [1, 2, 3] {
+            assert_eq!(draft(&with(few), &site, &order), Err(IssueRefused::Uncalibratable), "{few}");
+            draft(&with(few), &site, &all_the_same).unwrap();
+        }
+    }
+
     /// Positions that are all the same orientation: n_2 is zero.
     #[test]
     fn a_stand_without_passports_says_so_for_each() {
@@ -350,7 +386,7 @@ mod tests {
             (position.alpha_arcsec, position.beta_arcsec, position.gamma_arcsec) = (0.0, 0.0, 0.0);
         }
         let site = Site::from_yaml("site", SITES[0].as_bytes()).unwrap();
-        let order = Issue::first("a@b", "2027-03-01T08:00:00Z".parse().unwrap());
+        let order = Issue::first("a@b", "2026-11-09T08:00:00Z".parse().unwrap());
         let prepared = PreparedStand::new(stand);
         for _ in 0..2 {
             assert!(matches!(prepared.draft(&site, &order), Err(IssueRefused::Singular(_))));

@@ -65,7 +65,7 @@ uncertainty: {}
         let order = Issue {
             predecessor: Some((predecessor, true)),
             accuracy: Some(Stated { gyro: GyroType::gvk_6().into(), laboratory: Laboratory::paper().into() }),
-            ..Issue::first("factory@example.org", "2027-03-01T08:00:00Z".parse().unwrap())
+            ..Issue::first("factory@example.org", "2026-11-09T08:00:00Z".parse().unwrap())
         };
         draft(&stand, &site, &order).unwrap().payload().to_owned()
     }

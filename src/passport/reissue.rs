@@ -31,6 +31,8 @@ pub struct Order {
     pub issued_at: Timestamp,
     /// Last day of the passport; when `None` the old passport's, or a new stand's certificate's.
     pub valid_until: Option<Date>,
+    /// Whether a passport is issued even if its positions do not determine the parameters of a gyro.
+    pub allow_uncalibratable: bool,
 }
 
 /// Why a passport is not issued anew.
@@ -155,6 +157,7 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
             Usable::Whole => old.accuracy.as_ref().map(Stated::of),
             Usable::NameOnly { .. } => None,
         },
+        allow_uncalibratable: order.allow_uncalibratable,
     };
     let says_the_same = matches!(usable, Usable::Whole)
         && *stand == stand_of(old)

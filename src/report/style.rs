@@ -37,6 +37,10 @@ pub fn plain(text: &str) -> String {
     anstream::adapter::strip_str(text).to_string()
 }
 
+fn styled(style: Style, words: &str) -> String {
+    format!("{style}{words}{style:#}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -47,8 +51,4 @@ mod tests {
             assert_eq!(outgoing(&text), text);
         }
     }
-}
-
-fn styled(style: Style, words: &str) -> String {
-    format!("{style}{words}{style:#}")
 }

@@ -16,7 +16,7 @@ use crate::document::{self, Malformed, SignedText, Signer, SigningFailed, sha256
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::problem::Unreadable;
 use crate::text::{Path, Printable, Problems, canonical, record};
-use crate::trust::{AllowedSigners, Message, NotAuthorised, RevokedKeys, SignatureError};
+use crate::trust::{AllowedSigners, BadIdentity, Message, NotAuthorised, RevokedKeys, SignatureError};
 use jiff::Timestamp;
 
 /// The format of a list.
@@ -159,8 +159,11 @@ pub enum NoNewList {
     #[error("{0} passports at once: their entries alone are more than a list can hold; withdraw them in several steps")]
     TooMany(usize),
     /// A text that cannot be signed.
-    #[error("{0:?} is empty or holds a character that no signed text may hold")]
+    #[error("{0:?} is empty or contains a character that no signed text may contain")]
     BadText(String),
+    /// The issuer's name is none that allowed signers could give a key to.
+    #[error(transparent)]
+    Identity(#[from] BadIdentity),
     /// The signer gave no signature.
     #[error(transparent)]
     Signing(#[from] SigningFailed),

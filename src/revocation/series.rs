@@ -2,6 +2,7 @@
 
 use super::{Continued, Entry, NoNewList, REVOCATION_FORMAT, RevocationList, VerifiedList};
 use crate::text::rule;
+use crate::trust::check_identity;
 use jiff::Timestamp;
 use std::collections::{BTreeSet, HashMap};
 
@@ -131,7 +132,8 @@ impl Series {
     /// # Errors
     /// See [`NoNewList`].
     pub fn following(&self, issuer: &str, now: Timestamp, new: Vec<Entry>) -> Result<RevocationList, NoNewList> {
-        let texts = new.iter().flat_map(|entry| [&entry.id, &entry.reason]).map(String::as_str).chain([issuer]);
+        check_identity(issuer)?;
+        let texts = new.iter().flat_map(|entry| [&entry.id, &entry.reason]);
         for text in texts {
             if text.is_empty() || !text.chars().all(rule::allowed_in_string) {
                 return Err(NoNewList::BadText(text.to_owned()));

@@ -9,6 +9,7 @@
 //! * [`allowed_signers`]: whose key it is, for what and when (ssh-keygen(1), ALLOWED SIGNERS).
 //! * [`revoked_keys`]: keys that are no longer trusted, as a key revocation list (OpenSSH's PROTOCOL.krl) or as a
 //!   list of public keys.
+//! * [`identity`]: the names by which allowed signers know who signs.
 //! * [`error`]: what can be wrong with a key or a signature.
 //!
 //! A good signature says that the bytes are those that the key signed; [`AllowedSigners`] and [`RevokedKeys`] say
@@ -16,6 +17,7 @@
 
 pub mod allowed_signers;
 pub mod error;
+pub mod identity;
 mod krl;
 mod lines;
 mod pattern;
@@ -30,6 +32,7 @@ mod wire;
 
 pub use allowed_signers::{AllowedSigners, NotAuthorised};
 pub use error::{KeyError, SignatureError};
+pub use identity::{BadIdentity, check_identity};
 pub use public_key::PublicKey;
 pub use revoked_keys::RevokedKeys;
 #[cfg(feature = "factory")]

@@ -43,8 +43,8 @@ impl Job {
 
     fn arguments(&self) -> String {
         if self.issued {
-            let anew = SIGN.replace("2026-11-03", "2026-12-01");
-            let trust = "--trust allowed_signers --time 2026-12-01 --format csv";
+            let anew = SIGN.replace("2026-11-03", "2026-11-20");
+            let trust = "--trust allowed_signers --time 2026-11-20 --format csv";
             format!("reissue passports --stand new --reason recertified {anew} {trust}")
         } else {
             format!("issue stands --site sites {SIGN} --format csv")

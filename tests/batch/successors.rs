@@ -4,9 +4,9 @@ use crate::workshop::{SIGN, Said, Workshop, snapshot};
 use std::collections::BTreeSet;
 use std::fs;
 
-/// A month later.
+/// Weeks later.
 const ANEW: &str =
-    "--key key --identity factory --trust allowed_signers --time 2026-12-01 --issued-at 2026-12-01 --format csv";
+    "--key key --identity factory --trust allowed_signers --time 2026-11-20 --issued-at 2026-11-20 --format csv";
 
 /// Two stands at five sites, revision 1 of each.
 fn issued() -> Workshop {
@@ -21,6 +21,27 @@ fn certified_again(workshop: &Workshop, stand: &str, number: &str) {
     let text = text.replace("C-2026-0142", number).replace("alpha_arcsec: 12.4", "alpha_arcsec: 12.9");
     workshop.write(&format!("new/{stand}/stand.yaml"), &text);
 }
+
+/// The stand file of a certificate so many years before, which is two years long.
+fn years_earlier(workshop: &Workshop, stand: &str, years: i32) -> String {
+    let text = fs::read_to_string(workshop.path(&format!("stands/{stand}/stand.yaml"))).unwrap();
+    let year = |year: i32| format!("\"{}-", year - years);
+    text.replace("\"2026-", &year(2026)).replace("\"2028-", &year(2028))
+}
+
+/// Passports that last until long after the clock's time, which is when lists are made that withdraw them.
+fn issued_for_long() -> Workshop {
+    let workshop = Workshop::new(2, 5);
+    for stand in ["0000", "0001"] {
+        let text = fs::read_to_string(workshop.path(&format!("stands/{stand}/stand.yaml"))).unwrap();
+        workshop.write(&format!("stands/{stand}/stand.yaml"), &text.replace("\"2028-", "\"2098-"));
+    }
+    workshop.run(&format!("issue stands --site sites {SIGN}"), 0);
+    workshop
+}
+
+/// By the clock, as the lists that withdraw passports are.
+const NOW: &str = "--key key --identity factory --trust allowed_signers --format csv";
 
 fn ids(stand: &str, sites: &[u32], revision: u32) -> BTreeSet<String> {
     sites.iter().map(|site| format!("SPS-2/{stand}/site-{site:05}/{revision}")).collect()
@@ -86,14 +107,13 @@ fn parts_of_a_folder_are_disjoint_and_complete() {
 
 #[test]
 fn what_has_expired_is_issued_anew_with_the_factorys_files() {
-    let workshop = issued();
-    let text = fs::read_to_string(workshop.path("stands/0000/stand.yaml")).unwrap();
-    let text = text
-        .replace("2028-11-01", "2030-11-01")
-        .replace("2026-11-02", "2028-11-02")
-        .replace("2026-10-29", "2028-10-29");
-    workshop.write("new.yaml", &text);
-    let later = ANEW.replace("2026-12-01", "2028-11-03");
+    let workshop = Workshop::new(2, 5);
+    for stand in ["0000", "0001"] {
+        workshop.write(&format!("old/{stand}/stand.yaml"), &years_earlier(&workshop, stand, 10));
+    }
+    workshop.run(&format!("issue old --site sites {}", SIGN.replace("2026", "2016")), 0);
+    workshop.write("new.yaml", &years_earlier(&workshop, "0000", 8));
+    let later = ANEW.replace("2026-11-20", "2018-11-03");
     let said = workshop.run(&format!("reissue passports --stand new.yaml --reason recertified {later}"), 1);
     assert_eq!(said.ids("refused").len(), 5);
     assert!(said.words.contains("--sites"), "{}", said.words);
@@ -125,11 +145,10 @@ fn a_site_file_that_cannot_be_read_lets_nothing_be_issued_with_old_numbers() {
 
 #[test]
 fn withdrawn_passports_are_skipped_and_uncertain_lists_stop_the_folder() {
-    let workshop = issued();
+    let workshop = issued_for_long();
     let revoke = "revoke SPS-2/0000/site-00001/1 --list passports --reason wrong --key key --identity factory";
     workshop.run(&format!("{revoke} --trust allowed_signers"), 0);
-    let anew = ANEW.replace("2026-12-01", "2027-12-01");
-    let said = workshop.run(&format!("reissue passports --reason rotated {anew}"), 0);
+    let said = workshop.run(&format!("reissue passports --reason rotated {NOW}"), 0);
     assert_eq!(said.ids("skipped"), ids("0000", &[1], 1));
     assert_eq!(said.ids("issued").len(), 9);
     // The first list is missing.
@@ -137,14 +156,14 @@ fn withdrawn_passports_are_skipped_and_uncertain_lists_stop_the_folder() {
     workshop.run(&format!("{revoke} --trust allowed_signers"), 0);
     fs::remove_file(workshop.path("passports/revocation-1.yaml")).unwrap();
     let before = snapshot(&workshop.path("passports"));
-    let said = workshop.run(&format!("reissue passports --reason otherwise {anew}"), 1);
+    let said = workshop.run(&format!("reissue passports --reason otherwise {NOW}"), 1);
     assert!(said.words.starts_with("dtg-passport: passports: what was withdrawn is not certain: "), "{}", said.words);
     assert_eq!(snapshot(&workshop.path("passports")), before);
 }
 
 #[test]
 fn of_a_fork_neither_branch_goes_on_until_one_is_withdrawn() {
-    let workshop = issued();
+    let workshop = issued_for_long();
     let old = "passports/SPS-2/0000/site-00000-1.yaml";
     workshop.run(&format!("reissue {old} --reason other --out elsewhere {ANEW}"), 0);
     workshop.run(&format!("reissue {old} --reason one {ANEW}"), 0);
@@ -164,15 +183,13 @@ fn of_a_fork_neither_branch_goes_on_until_one_is_withdrawn() {
     assert!(said.words.contains("comes from a passport that several supersede"), "{}", said.words);
     let revoke = "--list passports --reason wrong --key key --identity factory --trust allowed_signers";
     let forked = || {
-        let register =
-            workshop.command("register passports --trust allowed_signers --time 2027-02-01").output().unwrap();
+        let register = workshop.command("register passports --trust allowed_signers").output().unwrap();
         String::from_utf8(register.stdout).unwrap().contains("ALARM (forked): SPS-2/0000/site-00000/1 has 2 successors")
     };
     assert!(forked());
-    workshop.run(&format!("revoke {one} {revoke} --time 2027-01-01"), 0);
+    workshop.run(&format!("revoke {one} {revoke}"), 0);
     assert!(!forked());
-    let anew = ANEW.replace("2026-12-01", "2027-12-01");
-    let said = workshop.run(&format!("reissue passports --reason rotated {anew}"), 0);
+    let said = workshop.run(&format!("reissue passports --reason rotated {NOW}"), 0);
     assert_eq!(said.ids("issued"), ids("0000", &[0], 4));
 }
 
@@ -226,6 +243,28 @@ fn passports_by_pattern_are_named_ones() {
     let list = format!("ls passports/SPS-2/0001/*-2.yaml | \"$DTG\" reissue - --reason listed {ANEW}");
     let said = Said::of(workshop.shell(&list).output().unwrap(), 0);
     assert_eq!(said.ids("issued"), ids("0001", &ALL, 3));
+}
+
+#[test]
+fn a_successor_is_written_into_the_root_that_its_predecessor_shows() {
+    let workshop = Workshop::new(1, 2);
+    for out in ["one", "two/deep"] {
+        workshop.run(&format!("issue stands --site sites {SIGN} --out {out}"), 0);
+    }
+    let said = workshop.run(&format!("reissue one two/deep/SPS-2/0000/site-00001-1.yaml --reason x {ANEW}"), 0);
+    assert_eq!((said.ids("issued").len(), said.results.lines().count()), (2, 4));
+    assert_eq!(workshop.sound("one").len(), 4);
+    assert_eq!(workshop.sound("two/deep").len(), 3);
+    assert!(!workshop.path("passports").exists());
+    // A path that shows no root: nothing is written anywhere until one is named.
+    fs::rename(workshop.path("one/SPS-2/0000"), workshop.path("one/SPS-2/renamed")).unwrap();
+    let before = snapshot(&workshop.path("one"));
+    let moved = "reissue one/SPS-2/renamed/site-00000-2.yaml --reason y";
+    let said = workshop.run(&format!("{moved} {ANEW}"), 2);
+    assert!(said.words.contains("--out"), "{}", said.words);
+    assert_eq!(snapshot(&workshop.path("one")), before);
+    workshop.run(&format!("{moved} --out three {ANEW}"), 0);
+    assert_eq!(workshop.sound("three"), ids("0000", &[0], 3));
 }
 
 /// A key that was stolen takes all that it signed with it: every passport is made anew from the factory's own files.

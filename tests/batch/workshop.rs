@@ -130,7 +130,9 @@ impl Workshop {
 pub fn site(id: &str, number: usize) -> String {
     let here = include_str!("../cmd/files/sites/here.yaml");
     let latitude = format!("{}.{:04}", 1 + number / 1000 % 80, 10 * (number % 1000));
-    here.replace("\"here\"", &format!("\"{id}\"")).replace("55.7658", &latitude).replace("55.776", "88.5")
+    // The mark is 10 m north of the pillar.
+    let mark = format!("{latitude}9");
+    here.replace("\"here\"", &format!("\"{id}\"")).replace("55.7658", &latitude).replace("55.776", &mark)
 }
 
 /// What a run of the program said.

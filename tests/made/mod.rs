@@ -14,7 +14,7 @@ use dtg_passport::trust::{AllowedSigners, RevokedKeys, SigningKey};
 use jiff::Timestamp;
 
 pub const ISSUER: &str = "factory@example.org";
-pub const ISSUED_AT: &str = "2027-03-01T08:00:00Z";
+pub const ISSUED_AT: &str = "2026-11-09T08:00:00Z";
 
 /// Deviations of arc minutes, everything certified.
 pub const ARC_MINUTES: &str = include_str!("../../passports/SPS-2/0017/stand.yaml");
@@ -61,6 +61,7 @@ pub fn content(stand: &Stand, site: &Site) -> Content {
         valid_until: None,
         revision: 1,
         predecessor: None,
+        allow_uncalibratable: false,
     };
     draft(stand, site, &order).unwrap().content().clone()
 }

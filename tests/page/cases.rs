@@ -77,7 +77,7 @@ fn of(languages: &[Language]) -> Languages {
 }
 
 fn case(name: &'static str, stand: &str, site: &str, languages: &[Language]) -> Case {
-    let order = Issue::first(made::ISSUER, made::at(made::ISSUED_AT));
+    let order = Issue { allow_uncalibratable: true, ..Issue::first(made::ISSUER, made::at(made::ISSUED_AT)) };
     issued(name, stand, site, &order, languages)
 }
 

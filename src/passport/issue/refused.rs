@@ -1,0 +1,103 @@
+//! Why a passport is not issued.
+
+use crate::coefficients::SingularPositions;
+use crate::document::SigningFailed;
+use crate::passport::accuracy::NoAccuracy;
+use crate::passport::recomputed::SELF_CHECK_LIMIT;
+use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable};
+use crate::trust::{BadIdentity, SignatureError};
+use jiff::Timestamp;
+use jiff::civil::Date;
+
+/// Why no passport was issued.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum IssueRefused {
+    /// n_2 has no inverse.
+    #[error(transparent)]
+    Singular(#[from] SingularPositions),
+    /// The issue is dated before the certificate.
+    #[error("issued_at {issued_at} is before the certificate's day of issue, {certified}: is the clock right?")]
+    BeforeCertificate {
+        /// When the passport would be issued.
+        issued_at: Timestamp,
+        /// When the certificate was.
+        certified: Date,
+    },
+    /// The issue is dated ahead of the clock.
+    #[error(
+        "issued_at {issued_at} is more than a day ahead of the clock, {clock}; give the time of issue, or leave it out"
+    )]
+    AheadOfClock {
+        /// The time of issue that was asked for.
+        issued_at: Timestamp,
+        /// The time by the clock.
+        clock: Timestamp,
+    },
+    /// The passport would outlast its certificate.
+    #[error("the passport's last day, {passport}, is after the certificate's, {certificate}; give a day until then")]
+    BeyondCertificate {
+        /// The last day of the passport that was asked for.
+        passport: Date,
+        /// The last day of the certificate.
+        certificate: Date,
+    },
+    /// The passport would have ended before it began.
+    #[error(
+        "issued_at {issued_at} is after the {document}'s last day, {last}: {}",
+        if *document == "certificate" { "the stand must be certified again" } else { "give a later one" }
+    )]
+    AlreadyExpired {
+        /// When the passport would be issued.
+        issued_at: Timestamp,
+        /// The earlier one of the two last days.
+        last: Date,
+        /// Whose last day that is: "certificate" or "passport".
+        document: &'static str,
+    },
+    /// The statements of the site contradict each other.
+    #[error("{0}")]
+    ImplausibleSite(Unreadable),
+    /// What the stand is good for cannot be stated.
+    #[error("no accuracy can be stated: {0}")]
+    Accuracy(#[from] NoAccuracy),
+    /// The issuer's name is none that allowed signers could give a key to.
+    #[error(transparent)]
+    Identity(#[from] BadIdentity),
+    /// No set of currents in these positions gives the parameters of a gyro.
+    #[error(
+        "the stand's positions do not determine the parameters of a gyro at this site: no calibration is possible; \
+         certify further positions, or issue it all the same with --allow-uncalibratable"
+    )]
+    Uncalibratable,
+    /// The self-check does not give its own parameters back.
+    #[error(
+        "the self-check, calibrated again, is off by {error:.1e} of a parameter (limit {SELF_CHECK_LIMIT:e}): \
+         on this stand at this site the eight positions do not determine the gyro \
+         (1/cos(latitude), by which the uncertainty of K grows, is {growth:.4})"
+    )]
+    SelfCheckFails {
+        /// How far the worst parameter is off, relative to its size.
+        error: f64,
+        /// 1/cos Φ, which is large near the poles.
+        growth: f64,
+    },
+    /// The passport would be larger than any verifier reads.
+    #[error(
+        "the passport would have {bytes} bytes, at most {LARGEST_DOCUMENT_BYTES} are read: \
+         the stand has too many positions"
+    )]
+    TooLarge {
+        /// Its size, the signature aside.
+        bytes: usize,
+    },
+    /// The text, read again, is not what was written: a defect of this program.
+    #[error("the text read back differs from what was written; nothing was signed. {0}")]
+    ReadBack(Unreadable),
+    /// The signer gave no signature.
+    #[error(transparent)]
+    Signing(#[from] SigningFailed),
+    /// The signer gave a signature that does not hold.
+    #[error("the signature just made does not hold: {0}")]
+    BadSignature(#[from] SignatureError),
+}

@@ -1,0 +1,127 @@
+//! Whether the statements of a site agree with each other: the pillar with the site, the mark with the pillar, gravity
+//! with latitude and height.
+//!
+//! Each of them is a second statement of the place. So they show coordinates that were exchanged, or have a wrong sign.
+
+use super::Site;
+use crate::earth::{self, Place};
+use crate::text::{Path, Problems};
+
+/// Largest distance of the pillar from the site, m.
+const FARTHEST_PILLAR_M: f64 = 5_000.0;
+
+/// Largest distance of the mark from the pillar, m.
+const FARTHEST_MARK_M: f64 = 50_000.0;
+
+/// Largest difference between measured and normal gravity, m/s².
+const LARGEST_ANOMALY_M_PER_S2: f64 = 5e-3;
+
+/// Largest deficit of measured gravity against normal gravity at 0 m where the height is not stated, m/s².
+const LARGEST_DEFICIT_WITHOUT_HEIGHT_M_PER_S2: f64 = 1.8e-2;
+
+/// The usual errors in a pair of coordinates, each with what makes (latitude, longitude) of it.
+type Undo = fn(f64, f64) -> (f64, f64);
+const USUAL_ERRORS: [(&str, Undo); 7] = [
+    ("latitude and longitude exchanged", |latitude, longitude| (longitude, latitude)),
+    ("the sign of the latitude reversed", |latitude, longitude| (-latitude, longitude)),
+    ("the sign of the longitude reversed", |latitude, longitude| (latitude, -longitude)),
+    ("the signs of both reversed", |latitude, longitude| (-latitude, -longitude)),
+    ("latitude and longitude exchanged and the signs of both reversed", |latitude, longitude| (-longitude, -latitude)),
+    ("latitude and longitude exchanged and the sign of the latitude reversed", |latitude, longitude| {
+        (-longitude, latitude)
+    }),
+    ("latitude and longitude exchanged and the sign of the longitude reversed", |latitude, longitude| {
+        (longitude, -latitude)
+    }),
+];
+
+/// Returns the usual error that explains `given`: the one without which `fits`, or `None` if there is none.
+fn usual_error(given: Place, fits: impl Fn(Place) -> bool) -> Option<&'static str> {
+    let undone = |undo: &Undo| {
+        let (latitude_deg, longitude_deg) = undo(given.latitude_deg, given.longitude_deg);
+        Place { latitude_deg, longitude_deg }
+    };
+    let explains = |(_, undo): &&(&str, Undo)| {
+        let place = undone(undo);
+        place.latitude_deg.abs() <= 90.0 && fits(place)
+    };
+    USUAL_ERRORS.iter().find(explains).map(|(name, _)| *name)
+}
+
+impl Site {
+    /// Notes every statement of the place that contradicts another one. Coordinates that are none are passed over.
+    pub(crate) fn check_consistency(&self, at: &Path, problems: &mut Problems) {
+        let latitude = self.latitude_deg.or(self.astronomic_latitude_deg).map(|_| self.geodetic_deg());
+        let Some(latitude_deg) = latitude.filter(|latitude| latitude.abs() <= 90.0) else { return };
+        self.check_pillar(latitude_deg, at, problems);
+        self.check_gravity(latitude_deg, at, problems);
+    }
+
+    fn check_pillar(&self, latitude_deg: f64, at: &Path, problems: &mut Problems) {
+        let Some(mark) = &self.azimuth_mark else { return };
+        let (pillar, mark) = (mark.pillar(), mark.mark());
+        let at = at.key("azimuth_mark");
+        let longitude_deg = self.longitude_deg.unwrap_or(pillar.longitude_deg);
+        let site = Place { latitude_deg, longitude_deg };
+        let in_latitude = if self.longitude_deg.is_some() { "" } else { " in latitude" };
+        if let Some(metres) = farther_than(FARTHEST_PILLAR_M, site, pillar) {
+            let of_site = self.longitude_deg.map_or(format!("latitude {latitude_deg}"), |_| coordinates(site));
+            let found = format!("{}, {metres:.0} m{in_latitude} from the site at {of_site}", coordinates(pillar));
+            let advice = advice("site and pillar", site, |place| earth::distance_m(place, pillar) <= FARTHEST_PILLAR_M);
+            let expected = format!("a pillar within {FARTHEST_PILLAR_M} m of the site");
+            problems.at(&at.key("pillar_latitude_deg"), found, expected, advice);
+        }
+        if let Some(metres) = farther_than(FARTHEST_MARK_M, pillar, mark) {
+            let found = format!("{}, {metres:.0} m from the pillar at {}", coordinates(mark), coordinates(pillar));
+            let advice = advice("pillar and mark", mark, |place| earth::distance_m(place, pillar) <= FARTHEST_MARK_M);
+            let expected = format!("a mark within {FARTHEST_MARK_M} m of the pillar");
+            problems.at(&at.key("latitude_deg"), found, expected, advice);
+        }
+    }
+
+    fn check_gravity(&self, latitude_deg: f64, at: &Path, problems: &mut Problems) {
+        let Some(gravity) = self.gravity_m_per_s2 else { return };
+        let deficit = match self.height_m {
+            Some(_) => LARGEST_ANOMALY_M_PER_S2,
+            None => LARGEST_DEFICIT_WITHOUT_HEIGHT_M_PER_S2,
+        };
+        let height_m = self.height_m.unwrap_or(0.0);
+        let normal = |latitude_deg| earth::normal_gravity_m_per_s2(latitude_deg, height_m);
+        let fits = |latitude_deg| (-deficit..=LARGEST_ANOMALY_M_PER_S2).contains(&(gravity - normal(latitude_deg)));
+        if fits(latitude_deg) {
+            return;
+        }
+        let here = normal(latitude_deg);
+        let expected = format!(
+            "{:.5} to {:.5}: normal gravity at latitude {latitude_deg} and {height_m} m{} is {here:.5}",
+            here - deficit,
+            here + LARGEST_ANOMALY_M_PER_S2,
+            if self.height_m.is_some() { "" } else { " (no height is stated)" },
+        );
+        let exchanged = self.longitude_deg.is_some_and(|longitude| longitude.abs() <= 90.0 && fits(longitude));
+        let advice = match exchanged {
+            true => "check latitude, height and gravity; it would fit with latitude and longitude exchanged",
+            false => "check latitude, height and gravity",
+        };
+        problems.at(&at.key("gravity_m_per_s2"), format!("{gravity}"), expected, advice);
+    }
+}
+
+/// Returns the distance in metres, or `None` where it is within the limit or one of the two is no place.
+fn farther_than(limit_m: f64, from: Place, to: Place) -> Option<f64> {
+    let is_place = |place: Place| place.latitude_deg.abs() <= 90.0 && place.longitude_deg.abs() <= 180.0;
+    let known = is_place(from) && is_place(to);
+    known.then(|| earth::distance_m(from, to)).filter(|metres| *metres > limit_m)
+}
+
+/// Returns what to do about two places that are too far from each other.
+fn advice(both: &str, given: Place, fits: impl Fn(Place) -> bool) -> String {
+    match usual_error(given, fits) {
+        Some(error) => format!("check {both}: they agree with {error} in one of them"),
+        None => "check both".to_owned(),
+    }
+}
+
+fn coordinates(place: Place) -> String {
+    format!("{}, {}", place.latitude_deg, place.longitude_deg)
+}

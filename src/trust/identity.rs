@@ -1,0 +1,68 @@
+//! Identities: the names by which allowed signers know who signs.
+
+use super::pattern::LONGEST_PATTERN;
+use super::public_key::AnyKey;
+use crate::text::{Printable, rule};
+
+/// An identity that allowed signers would not read as itself, or that no signed text may contain.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the identity \"{}\" is empty or too long, names a key type, or contains a space, a quote, one of , * ? ! # or a character \
+     that no signed text may contain: allowed_signers would not read it as one name; \
+     choose another one, such as factory@example.org",
+    Printable(.0)
+)]
+pub struct BadIdentity(String);
+
+/// Checks a name under which a key is to be trusted, or a document to be issued: one rule for both, since a document is
+/// good only if allowed signers give its issuer the key.
+///
+/// # Errors
+/// [`BadIdentity`] if allowed signers would read it as something else than one principal.
+pub fn check_identity(identity: &str) -> Result<(), BadIdentity> {
+    let plain = |c: char| rule::allowed_in_string(c) && !c.is_whitespace() && !"\"',*?!#".contains(c);
+    let good = !identity.is_empty()
+        && identity.len() <= LONGEST_PATTERN
+        && !AnyKey::is_type(identity)
+        && identity.chars().all(plain);
+    if good { Ok(()) } else { Err(BadIdentity(identity.to_owned())) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trust::{AllowedSigners, SigningKey};
+
+    /// Expected: what is accepted is, in a line of allowed signers, the one principal that it is; ssh-keygen(1), ALLOWED
+    /// SIGNERS, gives the meaning of the characters refused.
+    #[test]
+    fn what_is_accepted_is_read_as_one_principal() {
+        let key = SigningKey::generate().unwrap();
+        let at = "2026-11-09T09:00:00Z".parse().unwrap();
+        for good in ["factory@example.org", "Завод-1", "a.b_c", &"a".repeat(LONGEST_PATTERN)] {
+            check_identity(good).unwrap();
+            let line = format!("{good} {}", key.public_key().to_openssh());
+            let signers = AllowedSigners::parse("signers", line.as_bytes()).unwrap();
+            assert_eq!(signers.authorise(&key.public_key(), good, "any", at), Ok(()), "{good}");
+        }
+        let long = "a".repeat(LONGEST_PATTERN + 1);
+        let bad = [
+            "",
+            "a b",
+            "a\u{a0}b",
+            "a\tb",
+            "a,b",
+            "a*",
+            "!a",
+            "#a",
+            "a\"b",
+            "ssh-factory",
+            "a\u{202e}b",
+            "a\nb",
+            &long,
+        ];
+        for bad in bad {
+            assert!(check_identity(bad).is_err(), "{bad:?}");
+        }
+    }
+}
