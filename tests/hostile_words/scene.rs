@@ -56,7 +56,7 @@ pub fn fault(words: &[u8]) -> Option<String> {
     }
     let plain = EMPHASIS.iter().fold(words.to_owned(), |words, code| words.replace(code, ""));
     let forged = plain.lines().find(|line| {
-        let line = line.trim_start_matches(|c: char| c == ' ' || c == '"').trim_start_matches("dtg-passport: ");
+        let line = line.trim_start_matches([' ', '"']).trim_start_matches("dtg-passport: ");
         line.starts_with("VALID  forged")
     });
     if let Some(line) = forged {
@@ -185,6 +185,7 @@ pub fn readings() -> String {
 pub const LINES: &[&str] = &[
     "demo --out >",
     "keygen > --identity =factory --no-passphrase",
+    "keygen > --identity =factory --no-passphrase --allowed-signers @allowed_signers",
     "certify @readings.csv --stand @header.yaml -o >",
     "certify @readings.csv --against @stand.yaml --format text",
     "certify @readings.csv --against @stand.yaml --format json",

@@ -66,16 +66,19 @@ pub fn inverse(matrix: Matrix2<f64>) -> Matrix2<f64> {
     matrix.try_inverse().unwrap_or_else(|| Matrix2::repeat(f64::NAN))
 }
 
+/// A matrix of the positions with θ = 0° and one of those with θ = 90°.
+pub type Pair = [Matrix2<f64>; 2];
+
 /// The steps of the software, in their order.
 pub struct Software {
     /// Changes what was read.
     pub read: fn(&mut Read),
     /// J_1 and J_2, eq. (11).
-    pub pairs: fn(&Read) -> [Matrix2<f64>; 2],
+    pub pairs: fn(&Read) -> Pair,
     /// K, eq. (13).
     pub k: fn(&Read, Matrix2<f64>, Matrix2<f64>) -> Matrix2<f64>,
     /// ω_n from K, J_1 and J_2, eq. (15).
-    pub omega_n: fn(&Read, Matrix2<f64>, [Matrix2<f64>; 2]) -> Matrix2<f64>,
+    pub omega_n: fn(&Read, Matrix2<f64>, Pair) -> Matrix2<f64>,
     /// ω_g and ω_k, eq. (16).
     pub split: fn(Matrix2<f64>) -> [f64; 2],
     /// One position's ω_0 from K and ω_n, eq. (8).
