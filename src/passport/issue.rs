@@ -120,7 +120,8 @@ impl PreparedStand {
         let (geometry, text) = self.geometry.as_ref().map_err(|singular| *singular)?;
         let content = content(&self.stand, geometry, site, issue)?;
         check_dates(&content)?;
-        if !issue.allow_uncalibratable && !determines_gyro(&content) {
+        // There is a self-check wherever the positions determine the gyro.
+        if !issue.allow_uncalibratable && content.self_check.is_none() {
             return Err(IssueRefused::Uncalibratable);
         }
         let payload = annotations::payload_with(&content, text);
@@ -207,18 +208,6 @@ fn check_dates(content: &Content) -> Result<(), IssueRefused> {
     }
 }
 
-/// Whether currents in the passport's positions determine the parameters of a gyro. With matrices they do: n_2 has an
-/// inverse, and the self-check shows the rest.
-fn determines_gyro(content: &Content) -> bool {
-    content.matrices.is_some() || noise(content).is_some()
-}
-
-fn noise(content: &Content) -> Option<NoiseGrowth> {
-    let gyro = GyroType::gvk_6().nominal;
-    let positions: Vec<_> = content.positions.iter().map(CertifiedPosition::to_model).collect();
-    noise_growth(&positions, content.earth.rate(), &gyro.to_model(), (&Laboratory::paper().meter).into())
-}
-
 /// The written text is read again by the verifier's reader, and its content compared with what was written.
 fn read_back(payload: &str, content: &Content) -> Result<Content, IssueRefused> {
     const NAME: &str = "the new passport";
@@ -257,9 +246,12 @@ impl Draft {
     /// one, what is not known, and where K grows uncertain.
     pub fn remarks(&self) -> Remarks {
         let content = &self.content;
-        let uncertainty_growth = content.site.uncertainty_growth();
+        let positions: Vec<_> = content.positions.iter().map(CertifiedPosition::to_model).collect();
+        let meter = (&Laboratory::paper().meter).into();
+        let gyro = GyroType::gvk_6().nominal.to_model();
+        let noise = noise_growth(&positions, content.earth.rate(), &gyro, meter);
         let odd = stand::remarks::of(&content.certificate, &content.positions);
-        Remarks { noise: noise(content), uncertainty_growth, odd, absences: absences(content) }
+        Remarks { noise, uncertainty_growth: content.site.uncertainty_growth(), odd, absences: absences(content) }
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::coefficients::SingularPositions;
 use crate::document::SigningFailed;
 use crate::passport::accuracy::NoAccuracy;
-use crate::passport::recomputed::SELF_CHECK_LIMIT;
+use crate::passport::content::SELF_CHECK_LIMIT;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable};
 use crate::trust::{BadIdentity, SignatureError};
 use jiff::Timestamp;
