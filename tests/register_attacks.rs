@@ -354,7 +354,8 @@ fn lists() -> Vec<Attacked> {
         attacked.push(wanted(format!("list {kind}"), &damage, "register_unknown", alarm));
     }
     let altered = |list: &str| list.replace("latitude", "longitude");
-    let cases: [(&str, &dyn Fn(&Factory, &str), &'static str, &'static str); 6] = [
+    type Damage<'a> = &'a dyn Fn(&Factory, &str);
+    let cases: [(&str, Damage, &'static str, &'static str); 6] = [
         (
             "list damaged and renamed",
             &|factory, list| {
@@ -449,7 +450,8 @@ fn damaged_successors() -> Vec<Attacked> {
 /// Files added by somebody without a trusted key, and what is not yet issued: passports that count stay as they are.
 fn nothing_is_blocked() -> usize {
     let forger = SigningKey::generate().unwrap();
-    let cases: [(&str, &dyn Fn(&Factory, &Passport)); 7] = [
+    type Attack<'a> = &'a dyn Fn(&Factory, &Passport);
+    let cases: [(&str, Attack); 7] = [
         ("junk", &|factory, _| factory.write("passports/junk.bin", b"\x00\x01\xFFnothing of a passport".repeat(99))),
         ("junk called as a passport", &|factory, _| {
             factory.write("passports/SPS-2/0017/here-2.yaml", "not a passport\n")

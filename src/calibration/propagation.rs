@@ -203,7 +203,7 @@ fn parts(setup: &Setup, fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Op
         let share = |input: &Input| input.basis.shares().find(|(place, _)| *place == estimate).map(|(_, share)| share);
         let mut part = Part { degrees_of_freedom, trace: 0.0, square: 0.0 };
         let mut inside = DMatrix::zeros(rows, rows);
-        let mut at: BTreeMap<Option<PositionIndex>, Vec<(usize, f64, DVector<f64>)>> = BTreeMap::new();
+        let mut at: BTreeMap<Option<PositionIndex>, Vec<_>> = BTreeMap::new();
         for (column, input) in inputs.iter().enumerate() {
             let Some(weight) = share(input) else { continue };
             let v = seen(column);

@@ -100,7 +100,7 @@ impl Found {
         for parameter in PER_G {
             let place = parameter.place();
             standard_uncertainty[place] =
-                ratio * libm::hypot(standard_uncertainty[place], self.from_gravity(parameter));
+                ratio * libm::hypot(standard_uncertainty[place], self.u_from_gravity(parameter));
             values[place] *= ratio;
         }
         let parameters = GyroParameters::from_vector(&values);
@@ -108,7 +108,7 @@ impl Found {
     }
 
     /// The standard uncertainty that the local g adds to a parameter which is brought to another g; 0 where it has no part.
-    fn from_gravity(&self, parameter: Parameter) -> f64 {
+    fn u_from_gravity(&self, parameter: Parameter) -> f64 {
         let value = if PER_G.contains(&parameter) { self.parameters.to_vector()[parameter.place()] } else { 0.0 };
         value.abs() * self.gravity_u_m_per_s2 / self.gravity_m_per_s2
     }
@@ -147,7 +147,7 @@ fn compare(found: &Found, reference: &Found, gyro_type: &GyroType) -> Verdict {
     let parameters = Parameter::AS_IN_THE_PAPER.map(|parameter| {
         let values = at_type.map(|side| side.parameters.to_vector()[parameter.place()]);
         let [u, other] = at_type.map(|side| side.standard_uncertainty[parameter.place()]);
-        let from_gravity = sides.map(|side| side.from_gravity(parameter) * gravity_m_per_s2 / side.gravity_m_per_s2);
+        let from_gravity = sides.map(|side| side.u_from_gravity(parameter) * gravity_m_per_s2 / side.gravity_m_per_s2);
         let from_gravity = libm::hypot(from_gravity[0], from_gravity[1]);
         judge(parameter, values, [libm::hypot(u, other), from_gravity], gyro_type)
     });

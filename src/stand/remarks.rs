@@ -17,7 +17,8 @@ const SMALL_ARCSEC: f64 = 60.0;
 /// Returns a sentence for everything that is odd in a certificate and its positions.
 pub fn of(certificate: &Certificate, positions: &[CertifiedPosition]) -> Vec<String> {
     let mut said = temperatures(certificate);
-    let angles: [(&str, fn(&CertifiedPosition) -> f64); 3] = [
+    type Angle = fn(&CertifiedPosition) -> f64;
+    let angles: [(&str, Angle); 3] = [
         ("alpha_arcsec", |at| at.alpha_arcsec),
         ("beta_arcsec", |at| at.beta_arcsec),
         ("gamma_arcsec", |at| at.gamma_arcsec),
