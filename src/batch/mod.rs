@@ -2,7 +2,7 @@
 //!
 //! The work is done in chunks, each by all processors and reported in order before the next one begins. So what is held
 //! does not grow with the number of passports, and what was reported is in the folder: under its name, and safe from a
-//! loss of power as far as [`Durability`](crate::files::Durability) says. A failure is one event; the rest goes on. Run
+//! loss of power as far as [`Durability`] says. A failure is one event; the rest goes on. Run
 //! again, a batch leaves what is done and does what is not.
 //!
 //! * [`paths`]: what a user names: files, folders, patterns, lists.

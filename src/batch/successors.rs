@@ -1,7 +1,7 @@
 //! Passports issued anew: those that were named, and of a folder those that the change concerns.
 //!
 //! Of a folder a passport is issued anew when it is in force or has expired and no other supersedes it, by the rules of
-//! the [`register`]. Those that say already what they would say are left.
+//! the [`register`](crate::register). Those that say already what they would say are left.
 
 use super::catalogue::Catalogue;
 use super::paths::{self, Named};
