@@ -23,7 +23,6 @@ pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
         (figure(Slot::Deviations, content, languages))
         (heading(languages, texts::COMMON))
         (common(&content.certificate, languages))
-        (type_b(&content.certificate, languages))
         (heading(languages, texts::DATUM))
         (datum(page, languages))
         (heading(languages, texts::SITE))
@@ -93,44 +92,34 @@ fn headings(languages: &Languages) -> Vec<Markup> {
 fn common(certificate: &Certificate, languages: &Languages) -> Markup {
     let arcsec = |u| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
     let freedom = certificate.repeatability_degrees_of_freedom;
-    fields([
+    let type_b = certificate.type_b.iter().flatten().map(|line| type_b(line, languages));
+    let evidence = certificate.evidence.as_ref().map(|evidence| {
+        let value = html! { (evidence.runs) ", SHA-256 " code { (evidence.readings_sha256) } };
+        wide_field(languages, texts::EVIDENCE, Some(value))
+    });
+    let common = [
         field(languages, texts::REPEATABILITY, certificate.repeatability_arcsec.map(arcsec)),
         field(languages, texts::REPEATABILITY_DOF, freedom.map(|number| Number::exact(number).markup(languages))),
         field(languages, texts::COMMON_PLATFORM, certificate.common_platform_arcsec.map(arcsec)),
         field(languages, texts::COMMON_BASE, certificate.common_base_arcsec.map(arcsec)),
-    ])
+    ];
+    fields(common.into_iter().chain(type_b).chain(evidence))
 }
 
-/// Contributions that repeated measurements cannot show, and the readings; nothing where the certificate states neither.
-fn type_b(certificate: &Certificate, languages: &Languages) -> Markup {
-    let exact = |number: f64| Number::exact(number).markup(languages);
-    let row = |line: &TypeB| {
-        let acts_on = match line.acts_on {
-            ActsOn::Position => texts::TYPE_B_POSITION,
-            ActsOn::Platform => texts::TYPE_B_PLATFORM,
-            ActsOn::Base => texts::TYPE_B_BASE,
-        };
-        let freedom = line.degrees_of_freedom.map_or_else(|| html! { "∞" }, exact);
-        vec![given(&line.source), languages.label(acts_on), exact(line.u_arcsec), freedom]
+/// A contribution that repeated measurements cannot show.
+fn type_b(line: &TypeB, languages: &Languages) -> Markup {
+    let part = match line.acts_on {
+        ActsOn::Position => texts::TYPE_B_POSITION,
+        ActsOn::Platform => texts::TYPE_B_PLATFORM,
+        ActsOn::Base => texts::TYPE_B_BASE,
     };
-    let lines = certificate.type_b.as_ref().map(|lines| {
-        let headings = vec![
-            languages.label(texts::TYPE_B_SOURCE),
-            languages.label(texts::TYPE_B_ACTS_ON),
-            symbol_and_unit(languages, &symbol("u", ""), units::ARCSEC),
-            symbol("ν", ""),
-        ];
-        let caption = Some(languages.label(texts::TYPE_B));
-        let rows = lines.iter().map(row).collect();
-        Table { caption, headings, rows, row_headings: 1, ..Table::default() }.markup(languages.spoken(texts::TYPE_B))
-    });
-    let evidence = certificate.evidence.as_ref().map(|evidence| {
-        fields([
-            field(languages, texts::EVIDENCE_RUNS, Some(html! { (evidence.runs) })),
-            wide_field(languages, texts::EVIDENCE_SHA256, Some(html! { code { (evidence.readings_sha256) } })),
-        ])
-    });
-    html! { @if let Some(lines) = lines { (lines) } @if let Some(evidence) = evidence { (evidence) } }
+    let freedom = line.degrees_of_freedom.map(|number| Number::exact(number).markup(languages));
+    let value = html! {
+        (quantity(languages, &Number::exact(line.u_arcsec), units::ARCSEC))
+        @if let Some(freedom) = freedom { ", " (symbol("ν", "")) " " (freedom) }
+        ": " (given(&line.source))
+    };
+    field(languages, part, Some(value))
 }
 
 fn datum(page: &PassportPage, languages: &Languages) -> Markup {

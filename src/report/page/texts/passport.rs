@@ -100,17 +100,10 @@ texts! {
         ru: "Общая, по осям платформы"
     }
     COMMON_BASE { en: "Common, per axis of the base", ru: "Общая, по осям основания" }
-    TYPE_B {
-        en: "Type B contributions, which repeated measurements cannot show (k = 1)",
-        ru: "Составляющие, оцениваемые по типу B (k = 1)"
-    }
-    TYPE_B_SOURCE { en: "Source", ru: "Источник" }
-    TYPE_B_ACTS_ON { en: "Part of", ru: "Входит в состав" }
-    TYPE_B_POSITION { en: "u of α, β, γ of each position", ru: "u углов α, β, γ каждого положения" }
-    TYPE_B_PLATFORM { en: "common part of the platform", ru: "общей составляющей платформы" }
-    TYPE_B_BASE { en: "common part of the base", ru: "общей составляющей основания" }
-    EVIDENCE_RUNS { en: "Runs measured", ru: "Число серий измерений" }
-    EVIDENCE_SHA256 { en: "SHA-256 of the readings", ru: "SHA-256 файла показаний" }
+    TYPE_B_POSITION { en: "Type B, part of u(α), u(β), u(γ)", ru: "По типу B, в составе u(α), u(β), u(γ)" }
+    TYPE_B_PLATFORM { en: "Type B, common part of the platform", ru: "По типу B, общая по платформе" }
+    TYPE_B_BASE { en: "Type B, common part of the base", ru: "По типу B, общая по основанию" }
+    EVIDENCE { en: "Runs measured, file of readings", ru: "Число серий, файл показаний" }
     DATUM { en: "Datum surfaces", ru: "Базовые поверхности" }
     DATUM_LEVEL { en: "To level", ru: "Горизонтируется" }
     DATUM_AZIMUTH { en: "To point north", ru: "Направляется на север" }
