@@ -96,6 +96,8 @@ fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
         languages.label(texts::EFFECTIVE_FREEDOM),
         each(&|line| match line.effective_degrees_of_freedom {
             known if known > MANY => html! { "∞" },
+            // Rounded to a place before the point it would no longer be the number of the result.
+            known if known >= 10.0 => Number::fixed(known, 0).markup(languages),
             known => Number::significant(known, 2).markup(languages),
         }),
     ));

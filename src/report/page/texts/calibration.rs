@@ -186,8 +186,8 @@ texts! {
     }
     ENLARGED { en: "Variance enlarged, times", ru: "Дисперсия увеличена, раз" }
     LESS_THAN_STATED {
-        en: "This is less scatter than stated. Readings taken without leaving the position belong to one visit: column visit.",
-        ru: "Рассеяние меньше указанного. Показания, снятые без ухода из положения, — одна установка: столбец visit."
+        en: "This is less scatter than stated. Readings taken without leaving the position belong to one visit.",
+        ru: "Рассеяние меньше указанного. Показания, снятые без ухода из положения, — одна установка."
     }
     RESIDUALS_CAPTION {
         en: "Residuals of the equations with their standard uncertainty",
