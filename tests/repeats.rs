@@ -1,5 +1,7 @@
 //! Rows and visits: what reading again makes smaller, and whether the scatter is what was stated.
 
+#![cfg(feature = "cli")]
+
 mod support;
 
 use dtg_passport::calibration::parameter::Parameter;

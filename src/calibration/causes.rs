@@ -185,6 +185,7 @@ pub(crate) fn inputs(
 }
 
 /// Inputs with a positive uncertainty that stand and site bring, and with them the numbers of a passport.
+#[cfg(feature = "monte-carlo")]
 pub(crate) fn of_stand_and_site(setup: &Setup) -> Vec<Input> {
     stand_and_site(setup, &Estimates::of_stand(setup))
 }

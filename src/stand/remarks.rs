@@ -69,7 +69,7 @@ fn temperatures(certificate: &Certificate) -> Vec<String> {
     said
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "factory"))]
 mod tests {
     use crate::stand::Stand;
 

@@ -62,7 +62,7 @@ impl ScaledF {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "monte-carlo"))]
 mod tests {
     use super::*;
     use crate::statistics::distributions::chi_square_larger;

@@ -28,7 +28,7 @@ pub fn check_identity(identity: &str) -> Result<(), BadIdentity> {
     if good { Ok(()) } else { Err(BadIdentity(identity.to_owned())) }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "factory"))]
 mod tests {
     use super::*;
     use crate::trust::{AllowedSigners, SigningKey};

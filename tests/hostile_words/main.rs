@@ -1,6 +1,8 @@
 //! Text of others in every place where words go out: each argument of every verb in turn becomes a hostile text, the name
 //! of a file that is there, or a file of hostile content. Nothing but what can be seen may come back, no line may be
 //! forged, and JSON gives the very text back.
+
+#![cfg(feature = "cli")]
 #![cfg(all(unix, feature = "cli"))]
 
 mod contents;

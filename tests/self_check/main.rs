@@ -1,5 +1,7 @@
 //! What the self-check of a passport catches: wrong laboratory software, step by step, and what no exact data can tell apart.
 
+#![cfg(feature = "cli")]
+
 mod equivalent;
 mod software;
 mod wrong;
