@@ -125,3 +125,14 @@ pub mod units;
 #[cfg(doctest)]
 #[doc = include_str!("../docs/integrator.md")]
 mod integrator_guide {}
+
+// Tests of `tests/inside` and fuzz targets name the library as its users do.
+#[cfg(any(test, fuzzing))]
+extern crate self as dtg_passport;
+/// What must hold for every reader: for the tests, and where `cargo fuzz` builds the library.
+#[cfg(all(any(test, fuzzing), feature = "cli"))]
+#[path = "../tests/fuzz/properties.rs"]
+pub mod fuzzing;
+#[cfg(test)]
+#[path = "../tests/inside/mod.rs"]
+mod inside;

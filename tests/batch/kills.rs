@@ -2,7 +2,8 @@
 //! changed, and the same command again does the rest and clears up.
 
 use crate::workshop::{Passports, SIGN, Said, Workshop};
-use dtg_passport::statistics::random::Stream;
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::path::PathBuf;
@@ -110,12 +111,13 @@ impl Job {
 
 /// Kills so many runs at random moments.
 fn kill(kills: usize, seed: u64) -> Tally {
-    let mut random = Stream::new(seed);
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let mut below = |end: usize| (random.next_u64() % end as u64) as usize;
     let mut tally = Tally::default();
     let mut job = Job::new();
     while tally.kills < kills {
-        let moment = Duration::from_micros(random.below(5000) as u64);
-        let killed = job.run_and_kill(random.below(PASSPORTS / 3), moment);
+        let moment = Duration::from_micros(below(5000) as u64);
+        let killed = job.run_and_kill(below(PASSPORTS / 3), moment);
         tally.kills += usize::from(killed);
         tally.at_work += usize::from(job.check() > 0 && killed);
         tally.leftovers += job.workshop.leftovers("passports").len();

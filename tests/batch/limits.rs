@@ -1,7 +1,7 @@
 //! No space, no file handles, a folder that cannot be written: what is there verifies, what was reported is there, nothing
 //! is left over, and the job can be run again. And in which order things reach the disk.
 
-use crate::tools;
+use crate::programs;
 use crate::workshop::{SIGN, Said, Workshop};
 use std::collections::BTreeMap;
 use std::fs;
@@ -12,7 +12,7 @@ use std::process::{Command, Stdio};
 fn namespace() -> String {
     for way in ["unshare -m", "unshare -rm"] {
         let words: Vec<&str> = way.split(' ').collect();
-        let mut command = tools::on_path(words[0]);
+        let mut command = programs::on_path(words[0]);
         command.args(&words[1..]).args(["sh", "-c", "mount -t tmpfs none /mnt"]).stderr(Stdio::null());
         if command.status().is_ok_and(|status| status.success()) {
             return way.to_owned();
@@ -131,10 +131,10 @@ fn nothing_is_reported_before_it_is_safe() {
     let issue = format!("{} issue stands --site sites {SIGN} --format csv", env!("CARGO_BIN_EXE_dtg-passport"));
     let calls = "trace=openat,fsync,rename,renameat,renameat2,mkdir,write,close";
     let trace = |more: &str| {
-        let mut strace = tools::on_path("strace");
+        let mut strace = programs::on_path("strace");
         strace.args(["-f", "-y", "-qq", "-s", "200", "-o", "trace", "-e", calls]);
         strace.args(issue.split(' ')).args(more.split(' ')).current_dir(workshop.path("."));
-        tools::output(strace);
+        programs::output(strace);
         fs::read_to_string(workshop.path("trace")).unwrap()
     };
     let mut order = Order::default();
@@ -209,10 +209,10 @@ fn a_key_in_memory_is_kept_out_of_core_dumps() {
 fn peak_kib(workshop: &Workshop, stands: &str, sites: &str) -> u64 {
     let script = "import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, stdout=sys.stderr); \
                   print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)";
-    let mut python = tools::python();
+    let mut python = programs::python();
     python.args(["-c", script, env!("CARGO_BIN_EXE_dtg-passport")]).current_dir(workshop.path("."));
     python.args(format!("issue {stands} --site {sites} {SIGN} --dry-run --format csv").split(' '));
-    tools::output(python).trim().parse().unwrap()
+    programs::output(python).trim().parse().unwrap()
 }
 
 #[test]

@@ -3,8 +3,8 @@
 
 #![cfg(feature = "cli")]
 
-#[path = "../tools/mod.rs"]
-mod tools;
+#[path = "../shared/programs.rs"]
+mod programs;
 
 mod inputs;
 mod kills;

@@ -1,6 +1,6 @@
 //! The jobs that docs/scale.md shows for several machines, each part run as its scheduler would run it.
 
-use crate::tools;
+use crate::programs;
 use crate::workshop::Workshop;
 use std::fs;
 use std::path::Path;
@@ -46,32 +46,32 @@ fn whole(workshop: &Workshop) {
 
 #[test]
 fn gnu_parallel() {
-    let page = fs::read_to_string(tools::project("docs/scale.md")).unwrap();
+    let page = fs::read_to_string(programs::project("docs/scale.md")).unwrap();
     let line = page.lines().find(|line| line.starts_with("parallel ")).unwrap();
     let workshop = fleet();
     // This machine alone, without ssh.
     workshop.write("machines", ":\n");
-    tools::on_path("parallel");
-    tools::output(shell(&workshop, line));
+    programs::on_path("parallel");
+    programs::output(shell(&workshop, line));
     whole(&workshop);
 }
 
 #[test]
 fn slurm_array() {
-    let script = fs::read_to_string(tools::project("docs/fleet.sbatch")).unwrap();
+    let script = fs::read_to_string(programs::project("docs/fleet.sbatch")).unwrap();
     assert!(script.contains(&format!("#SBATCH --array=1-{PARTS}\n")));
     let workshop = fleet();
     for task in 1..=PARTS {
         let mut command = shell(&workshop, &script);
         command.env("SLURM_ARRAY_TASK_ID", task.to_string()).env("SLURM_CPUS_PER_TASK", "2");
-        tools::output(command);
+        programs::output(command);
     }
     whole(&workshop);
 }
 
 #[test]
 fn kubernetes_indexed_job() {
-    let job = fs::read_to_string(tools::project("docs/fleet-job.yaml")).unwrap();
+    let job = fs::read_to_string(programs::project("docs/fleet-job.yaml")).unwrap();
     let job: serde_yaml::Value = serde_yaml::from_str(&job).unwrap();
     let spec = &job["spec"];
     let container = &spec["template"]["spec"]["containers"][0];
@@ -87,7 +87,7 @@ fn kubernetes_indexed_job() {
     for index in 0..PARTS {
         let mut command = shell(&workshop, &script);
         command.env("JOB_COMPLETION_INDEX", index.to_string()).env("PARTS", parts.as_str().unwrap());
-        tools::output(command);
+        programs::output(command);
     }
     whole(&workshop);
 }

@@ -272,7 +272,7 @@ fn a_successor_is_written_into_the_root_that_its_predecessor_shows() {
 fn after_a_theft_all_is_made_anew_from_the_factorys_files() {
     let workshop = issued();
     workshop.run("keygen new --identity factory --no-passphrase", 0);
-    fs::copy(crate::tools::project("tests/keys/examples.pub"), workshop.path("stolen.pub")).unwrap();
+    fs::copy(crate::programs::project("tests/keys/examples.pub"), workshop.path("stolen.pub")).unwrap();
     let signers = fs::read_to_string(workshop.path("allowed_signers")).unwrap();
     let new = fs::read_to_string(workshop.path("new.pub")).unwrap();
     workshop.write("allowed_signers", &format!("{signers}factory {new}"));

@@ -1,11 +1,9 @@
 //! A factory's folder with as many stands and sites as a test wants, the program run in it, and what must hold after.
 
-use crate::tools;
-use dtg_passport::document::sha256_hex;
-use dtg_passport::folder::search::{find, is_numbered};
-use dtg_passport::parallel;
+use crate::programs;
 use dtg_passport::passport::{Question, Trust, verify};
 use dtg_passport::trust::AllowedSigners;
+use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -24,9 +22,9 @@ impl Workshop {
     pub fn new(stands: usize, sites: usize) -> Self {
         let workshop = Self(tempfile::tempdir().unwrap());
         for name in ["stand.yaml", "allowed_signers"] {
-            fs::copy(tools::project("tests/cmd/files").join(name), workshop.path(name)).unwrap();
+            fs::copy(programs::project("tests/cmd/files").join(name), workshop.path(name)).unwrap();
         }
-        fs::copy(tools::project("tests/keys/examples"), workshop.path("key")).unwrap();
+        fs::copy(programs::project("tests/keys/examples"), workshop.path("key")).unwrap();
         // Git does not keep this mode, and a private key that others can read is refused.
         assert!(Command::new("chmod").arg("600").arg(workshop.path("key")).status().unwrap().success());
         let stand = fs::read_to_string(workshop.path("stand.yaml")).unwrap();
@@ -66,7 +64,7 @@ impl Workshop {
 
     /// A script of `sh` in the workshop; the program is `$DTG`.
     pub fn shell(&self, script: &str) -> Command {
-        let mut command = tools::on_path("sh");
+        let mut command = programs::on_path("sh");
         command.args(["-c", script]).current_dir(self.0.path()).stdin(Stdio::null());
         command.env("DTG", env!("CARGO_BIN_EXE_dtg-passport"));
         command
@@ -87,15 +85,11 @@ impl Workshop {
         let signers = fs::read(self.path("allowed_signers")).unwrap();
         let trust = Trust::of(AllowedSigners::parse("allowed_signers", &signers).unwrap());
         let question = Question::at("2027-01-01T00:00:00Z".parse().unwrap());
-        let mut passports = find(&root).unwrap().files;
-        passports.retain(|path| {
-            path.file_name().is_some_and(|name| is_numbered(name) && !name.to_string_lossy().starts_with("revocation-"))
-        });
-        let sound = parallel::map(&passports, 4, |path| {
+        let verified = |path: &PathBuf| {
             let bytes = fs::read(path).unwrap();
-            let hash = sha256_hex(&bytes);
+            let hash = format!("{:x}", Sha256::digest(&bytes));
             if let Some((id, _)) = known.get(path).filter(|(_, known)| *known == hash) {
-                return (id.clone(), hash);
+                return (path.clone(), (id.clone(), hash));
             }
             let name = path.display().to_string();
             let verification = verify(&name, &bytes, &trust, &question);
@@ -103,27 +97,49 @@ impl Workshop {
             let id = verification.id().unwrap().to_owned();
             let (place, revision) = id.rsplit_once('/').unwrap();
             assert_eq!(*path, root.join(format!("{place}-{revision}.yaml")));
-            (id, hash)
-        });
-        passports.into_iter().zip(sound).collect()
+            (path.clone(), (id, hash))
+        };
+        let mut passports = files_under(&root);
+        passports.retain(|path| is_named_as_a_passport(path));
+        let quarter = passports.len().div_ceil(4).max(1);
+        std::thread::scope(|scope| {
+            let verify_all = |files: &[PathBuf]| files.iter().map(verified).collect::<Vec<_>>();
+            let parts: Vec<_> = passports.chunks(quarter).map(|files| scope.spawn(move || verify_all(files))).collect();
+            parts.into_iter().flat_map(|part| part.join().unwrap()).collect()
+        })
     }
 
     /// Temporary files anywhere under a folder.
     pub fn leftovers(&self, folder: &str) -> Vec<PathBuf> {
-        let mut found = Vec::new();
-        let mut folders = vec![self.path(folder)];
-        while let Some(folder) = folders.pop() {
-            for entry in fs::read_dir(folder).into_iter().flatten() {
-                let path = entry.unwrap().path();
-                if path.is_dir() {
-                    folders.push(path);
-                } else if path.extension().is_some_and(|extension| extension == "tmp") {
-                    found.push(path);
-                }
+        let mut files = files_under(&self.path(folder));
+        files.retain(|path| path.extension().is_some_and(|extension| extension == "tmp"));
+        files
+    }
+}
+
+/// Files at any depth, as far as their folders can be read; links are not followed.
+fn files_under(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).into_iter().flatten() {
+            let entry = entry.unwrap();
+            let kind = entry.file_type().unwrap();
+            if kind.is_dir() {
+                folders.push(entry.path());
+            } else if kind.is_file() {
+                files.push(entry.path());
             }
         }
-        found
     }
+    files
+}
+
+/// Whether a file is named `<site>-<revision>.yaml` and is no list of withdrawn passports.
+fn is_named_as_a_passport(path: &Path) -> bool {
+    let name = path.file_name().unwrap().to_string_lossy();
+    let parts = name.strip_suffix(".yaml").and_then(|name| name.rsplit_once('-'));
+    parts.is_some_and(|(site, revision)| site != "revocation" && revision.parse::<u32>().is_ok())
 }
 
 /// A site of its own place.

@@ -1,13 +1,14 @@
-//! Fuzz targets of the readers. What must hold is in `properties.rs`, how inputs are changed in `mutation.rs`; both are
-//! shared with `tests/fuzz.rs`, which runs them without a fuzzer.
+//! Fuzz targets of the readers. What must hold is in `properties.rs`, how inputs are changed in `mutation.rs`; both are parts of
+//! the library where it is built with `--cfg fuzzing`, as `cargo fuzz` does, and of its tests: `tests/inside/slow/fuzz.rs` runs
+//! them without a fuzzer.
 
+pub use dtg_passport::fuzzing::mutation;
+use dtg_passport::fuzzing::{TARGETS, Target};
 pub use libfuzzer_sys;
-pub mod mutation;
-pub mod properties;
 
 /// The target of this name.
-pub fn target(name: &str) -> &'static properties::Target {
-    properties::TARGETS.iter().find(|target| target.name == name).expect("a target of that name")
+pub fn target(name: &str) -> &'static Target {
+    TARGETS.iter().find(|target| target.name == name).expect("a target of that name")
 }
 
 /// The program of one target: libFuzzer's own changes and the shared ones in turn.

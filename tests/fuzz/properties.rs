@@ -4,6 +4,9 @@
 //! the same. Each reader has a function of bytes that says whether they were accepted, and panics when something does not
 //! hold; [`TARGETS`] names them.
 
+pub mod memory;
+pub mod mutation;
+
 use base64ct::{Base64, Encoding};
 use dtg_passport::calibration::document::CalibrationDocument;
 use dtg_passport::calibration::{Options, Readings, Setup, calibrate};
@@ -20,12 +23,8 @@ use dtg_passport::site::{SITE_FORMAT, Site, SiteFile};
 use dtg_passport::stand::Stand;
 use dtg_passport::text::{Field, Unreadable, canonical, rule};
 use dtg_passport::trust::{AllowedSigners, PublicKey, RevokedKeys, Signature, SigningKey};
-use peak_alloc::PeakAlloc;
 use std::fmt::Debug;
 use std::sync::LazyLock;
-
-#[global_allocator]
-static MEMORY: PeakAlloc = PeakAlloc;
 
 /// A reader under test.
 pub struct Target {
@@ -61,11 +60,8 @@ impl Target {
     /// Reads the bytes within the bound on memory; says whether they were accepted.
     pub fn hold(&self, bytes: &[u8]) -> bool {
         LazyLock::force(&BENCH);
-        MEMORY.reset_peak_usage();
-        let before = MEMORY.current_usage();
-        let accepted = (self.reads)(bytes);
-        let most = MEMORY.peak_usage() - before;
-        let bound = 64 * bytes.len() + (8 << 20);
+        let (accepted, most) = memory::peak(|| (self.reads)(bytes));
+        let bound = memory::bound(bytes.len());
         assert!(most <= bound, "{}: {most} bytes for an input of {}, at most {bound}", self.name, bytes.len());
         accepted
     }

@@ -1,5 +1,5 @@
 //! Security keys (FIDO tokens): signatures made here after PROTOCOL.u2f, and those that `ssh-keygen` gets from a token in
-//! software, `tests/tools/sk_software_token.c`.
+//! software, `tests/openssh/sk_software_token.c`.
 
 use crate::{Bench, NAMESPACE, PRINCIPAL, run};
 use dtg_passport::trust::{KeyError, PublicKey, Signature, SignatureError, SigningKey};
@@ -122,7 +122,7 @@ fn an_application_that_ends_early_is_refused_by_both() {
 pub(crate) fn provider() -> &'static Path {
     static PROVIDER: OnceLock<PathBuf> = OnceLock::new();
     PROVIDER.get_or_init(|| {
-        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/tools/sk_software_token.c");
+        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/openssh/sk_software_token.c");
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
         let library = folder.join("sk_software_token.so");
         let built = folder.join(format!("sk_software_token.{}.so", std::process::id()));

@@ -1,6 +1,6 @@
 //! Passports of every kind that a page must stand: the usual one, all that a file can state, hardly anything, hostile words.
 
-use crate::made;
+use crate::fixtures;
 use dtg_passport::earth::Place;
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
@@ -36,13 +36,13 @@ impl Case {
 /// Every case.
 pub fn all() -> Vec<Case> {
     let elsewhere = Place { latitude_deg: 40.2455, longitude_deg: 116.2240 };
-    let wrong = Question { serial: Some("0203".to_owned()), place: Some(elsewhere), ..made::question() };
+    let wrong = Question { serial: Some("0203".to_owned()), place: Some(elsewhere), ..fixtures::question() };
     let here = Place { latitude_deg: 55.7658, longitude_deg: 37.6856 };
     let right = Question {
         serial: Some("0017".to_owned()),
         place: Some(here),
-        issuer: Some(made::ISSUER.to_owned()),
-        ..made::question()
+        issuer: Some(fixtures::ISSUER.to_owned()),
+        ..fixtures::question()
     };
     vec![
         usual("usual-en", &[English]),
@@ -50,16 +50,16 @@ pub fn all() -> Vec<Case> {
         usual("usual-both", &[English, Russian]),
         full("full-en", &[English]).asking(right.clone()),
         full("full-ru", &[Russian]).asking(right),
-        case("hostile-both", &hostile(made::ARC_MINUTES), made::SITE, &[Russian, English]),
-        case("hostile-en", &hostile(made::DEGREES), BARE_SITE, &[English]),
-        case("many-en", &many_positions(), made::SITE, &[English]),
-        case("many-ru", &many_positions(), made::SITE, &[Russian]),
+        case("hostile-both", &hostile(fixtures::ARC_MINUTES), fixtures::SITE, &[Russian, English]),
+        case("hostile-en", &hostile(fixtures::DEGREES), BARE_SITE, &[English]),
+        case("many-en", &many_positions(), fixtures::SITE, &[English]),
+        case("many-ru", &many_positions(), fixtures::SITE, &[Russian]),
         case("four-ru", &four_positions(), BARE_SITE, &[Russian]),
         case("bare-en", BARE_STAND, BARE_SITE, &[English]),
         case("bare-ru", BARE_STAND, BARE_SITE, &[Russian]),
         full("elsewhere-en", &[English]).asking(wrong.clone()),
         full("elsewhere-both", &[Russian, English]).asking(wrong),
-        usual("expired-ru", &[Russian]).asking(Question::at(made::at("2028-11-02T00:00:00Z"))),
+        usual("expired-ru", &[Russian]).asking(Question::at(fixtures::at("2028-11-02T00:00:00Z"))),
     ]
 }
 
@@ -68,7 +68,7 @@ pub fn usual(name: &'static str, languages: &[Language]) -> Case {
     let passport = include_str!("../../passports/SPS-2/0017/moscow-bmstu-1.yaml").to_owned();
     let signers = include_bytes!("../../docs/allowed_signers");
     let trust = Trust::of(AllowedSigners::parse("allowed_signers", signers).unwrap());
-    let question = Question::at(made::at("2026-11-20T12:00:00Z"));
+    let question = Question::at(fixtures::at("2026-11-20T12:00:00Z"));
     Case { name, passport, trust, question, languages: of(languages) }
 }
 
@@ -77,14 +77,15 @@ fn of(languages: &[Language]) -> Languages {
 }
 
 fn case(name: &'static str, stand: &str, site: &str, languages: &[Language]) -> Case {
-    let order = Issue { allow_uncalibratable: true, ..Issue::first(made::ISSUER, made::at(made::ISSUED_AT)) };
+    let order =
+        Issue { allow_uncalibratable: true, ..Issue::first(fixtures::ISSUER, fixtures::at(fixtures::ISSUED_AT)) };
     issued(name, stand, site, &order, languages)
 }
 
 fn issued(name: &'static str, stand: &str, site: &str, order: &Issue, languages: &[Language]) -> Case {
     let key = SigningKey::generate().unwrap();
-    let passport = draft(&made::stand(stand), &made::site(site), order).unwrap().sign(&key).unwrap();
-    Case { name, passport, trust: made::trust(&key), question: made::question(), languages: of(languages) }
+    let passport = draft(&fixtures::stand(stand), &fixtures::site(site), order).unwrap().sign(&key).unwrap();
+    Case { name, passport, trust: fixtures::trust(&key), question: fixtures::question(), languages: of(languages) }
 }
 
 /// All that a file can state, after a re-issue for a reason that took a page to tell.
@@ -102,13 +103,13 @@ fn full(name: &'static str, languages: &[Language]) -> Case {
         accuracy: Some(Stated { gyro: gyro.into(), laboratory: laboratory.into() }),
         revision: 2,
         predecessor: Some((predecessor, true)),
-        ..Issue::first(made::ISSUER, made::at(made::ISSUED_AT))
+        ..Issue::first(fixtures::ISSUER, fixtures::at(fixtures::ISSUED_AT))
     };
-    let stand = made::ARC_MINUTES
+    let stand = fixtures::ARC_MINUTES
         .replace("name: \"Two-axis", "customer: \"Gyro laboratory, Moscow\", name: \"Two-axis")
         .replace("  number:", "  received: \"2026-10-20\"\n  address: \"1, Example Street, Exampleton\"\n  authorized_by: \"A. N. Other, head of laboratory\"\n  accreditation: \"example accreditation 000\"\n  number:")
         .replace("datum:", TYPE_B);
-    let site = made::SITE.replace("height_m", "gravity_m_per_s2: 9.81563\ngravity_u_m_per_s2: 2.5e-05\nheight_m");
+    let site = fixtures::SITE.replace("height_m", "gravity_m_per_s2: 9.81563\ngravity_u_m_per_s2: 2.5e-05\nheight_m");
     issued(name, &stand, &site, &order, languages)
 }
 
@@ -146,7 +147,7 @@ fn hostile(stand: &str) -> String {
 
 /// The example's eight positions and sixteen more, every 45 degrees.
 fn many_positions() -> String {
-    let mut stand = made::ARC_MINUTES.to_owned();
+    let mut stand = fixtures::ARC_MINUTES.to_owned();
     for i in 3..=4 {
         for j in 1..=8 {
             let (theta, phi) = (45 * (i - 2), 45 * (j - 1));
@@ -163,7 +164,7 @@ fn many_positions() -> String {
 
 /// The first four of the example's eight.
 fn four_positions() -> String {
-    let lines: Vec<&str> = made::ARC_MINUTES.lines().filter(|line| !line.contains("{i: 2")).collect();
+    let lines: Vec<&str> = fixtures::ARC_MINUTES.lines().filter(|line| !line.contains("{i: 2")).collect();
     lines.join("\n") + "\n"
 }
 

@@ -7,15 +7,20 @@
 
 #![cfg(feature = "cli")]
 
-#[path = "../made/mod.rs"]
-mod made;
-#[path = "../tools/mod.rs"]
-mod tools;
+#[path = "../shared/fixtures.rs"]
+mod fixtures;
+#[path = "../shared/picture/mod.rs"]
+mod picture;
+#[path = "../shared/programs.rs"]
+mod programs;
+#[path = "../shared/language.rs"]
+mod words;
 
 mod cases;
-mod every;
+mod figures;
 mod language;
-mod looked;
+mod pages;
+mod passports;
 mod printed;
 mod refused;
 mod reports;

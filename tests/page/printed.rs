@@ -1,8 +1,8 @@
 //! What is printed on A4, read back by poppler.
 
-use crate::every::{Page, every, strings};
-use crate::looked::LOOKED;
-use crate::tools;
+use crate::pages::{Page, all_pages, strings};
+use crate::passports::PASSPORTS;
+use crate::programs;
 
 impl Page<'_> {
     fn pdf(&self) -> std::path::PathBuf {
@@ -11,16 +11,16 @@ impl Page<'_> {
 
     /// Its sheets, as text.
     fn sheets(&self, order: &str) -> Vec<String> {
-        let mut pdftotext = tools::on_path("pdftotext");
+        let mut pdftotext = programs::on_path("pdftotext");
         pdftotext.args(["-enc", "UTF-8", order]).arg(self.pdf()).arg("-");
-        let text = tools::output(pdftotext);
+        let text = programs::output(pdftotext);
         text.trim_end_matches('\u{c}').split('\u{c}').map(str::to_owned).collect()
     }
 
     fn info(&self, key: &str) -> String {
-        let mut pdfinfo = tools::on_path("pdfinfo");
+        let mut pdfinfo = programs::on_path("pdfinfo");
         pdfinfo.arg(self.pdf());
-        let info = tools::output(pdfinfo);
+        let info = programs::output(pdfinfo);
         let line = info.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(':'));
         line.unwrap_or_else(|| panic!("{key} in {info}")).trim().to_owned()
     }
@@ -42,7 +42,7 @@ fn lines(sheet: &str) -> Vec<&str> {
 
 #[test]
 fn six_sheets_of_a4_at_most_in_one_language() {
-    for page in every() {
+    for page in all_pages() {
         let sheets: usize = page.info("Pages").parse().unwrap();
         println!("{:<20} {sheets} sheets", page.name);
         assert_eq!(page.info("Page size"), "594.96 x 841.92 pts (A4)", "{}", page.name);
@@ -58,7 +58,7 @@ fn six_sheets_of_a4_at_most_in_one_language() {
 
 #[test]
 fn every_sheet_says_which_passport_and_which_page_it_is() {
-    for page in every() {
+    for page in all_pages() {
         let sheets = page.sheets("-layout");
         let (place, revision) = page.id().rsplit_once('/').unwrap();
         let warning = ["Not to be used", "Не применять", "NOT VERIFIED", "НЕ ПРОВЕРЕН"];
@@ -81,7 +81,7 @@ fn every_sheet_says_which_passport_and_which_page_it_is() {
 /// Everything that the browser shows is on paper, the annex with every line.
 #[test]
 fn the_text_is_complete_in_print() {
-    for page in every() {
+    for page in all_pages() {
         // A paragraph may go on on the next sheet: what stands in the margins between its halves is left out. Each sheet
         // begins with it.
         let margins: Vec<String> = strings(&page.found["said"]["margins"]).into_iter().map(packed).collect();
@@ -111,7 +111,7 @@ fn the_text_is_complete_in_print() {
 /// No heading and no caption is the last thing on a sheet.
 #[test]
 fn no_heading_is_parted_from_what_it_heads() {
-    for page in every() {
+    for page in all_pages() {
         let headings: Vec<String> = strings(&page.found["said"]["headings"]).into_iter().map(packed).collect();
         for (index, sheet) in page.sheets("-layout").iter().enumerate() {
             let lines = lines(sheet);
@@ -127,7 +127,7 @@ fn no_heading_is_parted_from_what_it_heads() {
 /// A table that goes on on the next sheet has its headings there again; none stands on a sheet without a row.
 #[test]
 fn long_tables_repeat_their_headings() {
-    let page = LOOKED.pages().find(|page| page.name == "many-en").unwrap();
+    let page = PASSPORTS.pages().find(|page| page.name == "many-en").unwrap();
     let rows = |sheet: &String| sheet.lines().filter(|line| is_row(line)).count();
     let heads = |sheet: &String| sheet.lines().filter(|line| line.contains("u(α)") && line.contains("u(γ)")).count();
     let sheets = page.sheets("-layout");

@@ -1,7 +1,7 @@
 //! No page is made of a passport that is not its issuer's own word.
 
 use crate::cases;
-use crate::made;
+use crate::fixtures;
 use dtg_passport::passport::{Code, Question, Trust, Verification};
 use dtg_passport::report::page::{Language, PassportPage};
 use dtg_passport::trust::SigningKey;
@@ -24,7 +24,7 @@ fn neither_altered_nor_of_a_stranger_nor_of_a_revoked_key() {
     let refused = page(altered.as_bytes(), &good.trust, &good.question).unwrap_err();
     assert_eq!(first_failure(&refused), Code::Altered);
 
-    let stranger = made::trust(&SigningKey::generate().unwrap());
+    let stranger = fixtures::trust(&SigningKey::generate().unwrap());
     let refused = page(good.passport.as_bytes(), &stranger, &good.question).unwrap_err();
     assert_eq!(first_failure(&refused), Code::UnknownKey);
 
@@ -33,10 +33,13 @@ fn neither_altered_nor_of_a_stranger_nor_of_a_revoked_key() {
     assert_eq!(first_failure(&refused), Code::WrongIssuer);
 
     let key = SigningKey::generate().unwrap();
-    let passport = made::written(&made::content(&made::stand(made::ARC_MINUTES), &made::site(made::SITE)), &key);
-    let question = made::question();
-    assert!(page(passport.as_bytes(), &made::trust(&key), &question).is_ok());
-    let revoked = made::trust_without(&key, key.public_key().to_openssh().as_bytes());
+    let passport = fixtures::written(
+        &fixtures::content(&fixtures::stand(fixtures::ARC_MINUTES), &fixtures::site(fixtures::SITE)),
+        &key,
+    );
+    let question = fixtures::question();
+    assert!(page(passport.as_bytes(), &fixtures::trust(&key), &question).is_ok());
+    let revoked = fixtures::trust_without(&key, key.public_key().to_openssh().as_bytes());
     let refused = page(passport.as_bytes(), &revoked, &question).unwrap_err();
     assert_eq!(first_failure(&refused), Code::KeyRevoked);
 }
@@ -45,10 +48,10 @@ fn neither_altered_nor_of_a_stranger_nor_of_a_revoked_key() {
 #[test]
 fn nor_with_a_wrong_number() {
     let key = SigningKey::generate().unwrap();
-    let mut content = made::content(&made::stand(made::ARC_MINUTES), &made::site(made::SITE));
+    let mut content = fixtures::content(&fixtures::stand(fixtures::ARC_MINUTES), &fixtures::site(fixtures::SITE));
     content.earth.horizontal_deg_per_h += 1e-6;
-    let passport = made::written(&content, &key);
-    let (trust, question) = (made::trust(&key), made::question());
+    let passport = fixtures::written(&content, &key);
+    let (trust, question) = (fixtures::trust(&key), fixtures::question());
     let refused = page(passport.as_bytes(), &trust, &question).unwrap_err();
     assert_eq!(first_failure(&refused), Code::WrongNumber);
 }

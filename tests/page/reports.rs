@@ -1,8 +1,8 @@
 //! Reports of calibrations, as the program writes them, against the result that it gives to programs.
 
 use crate::cases;
-use crate::every::{Page, browsed, strings};
-use crate::tools;
+use crate::pages::{Page, browsed, strings};
+use crate::programs;
 use dtg_passport::passport::read;
 use dtg_passport::report::page::Language::{English, Russian};
 use dtg_passport::report::page::{Language, Languages};
@@ -118,14 +118,14 @@ fn words(folder: &Path, asked: &[&str]) -> Vec<PathBuf> {
 
 fn calibrate(folder: &Path, asked: &[&str]) -> Command {
     let mut calibrate = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
-    calibrate.current_dir(tools::project("")).arg("calibrate").args(words(folder, asked));
+    calibrate.current_dir(programs::project("")).arg("calibrate").args(words(folder, asked));
     calibrate
 }
 
 /// What reports are made of, besides the examples.
 fn files(folder: &Path) {
     let write = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();
-    let example = |name: &str| fs::read_to_string(tools::project(name)).unwrap();
+    let example = |name: &str| fs::read_to_string(programs::project(name)).unwrap();
     let currents = example("docs/currents.csv");
     let (head, rows) = currents.split_at(currents.find("1,1,").unwrap());
     let changed = |by: &dyn Fn(&str, f64, f64) -> (f64, f64)| -> String {
@@ -145,7 +145,7 @@ fn files(folder: &Path) {
     let larger = changed(&|_, jx, jy| (1.0001 * jx, 1.0002 * jy));
     write("earlier.csv", &format!("{head}{larger}"));
     let earlier = [USUAL, &["@earlier.csv", "--format", "json"], LABORATORY].concat();
-    write("earlier.json", &tools::output(calibrate(folder, &earlier)));
+    write("earlier.json", &programs::output(calibrate(folder, &earlier)));
     let seat = example("docs/laboratory.yaml").replace("about_z: 10.0", "about_z: 100.0");
     write("warm.yaml", &(seat + "temperature_c: 35.5\n"));
     let other = example("docs/gvk-6.yaml").replace("GVK-6", HOSTILE_TYPE).replace("[[95, 9.5]", "[[95.2, 9.5]");
@@ -250,10 +250,10 @@ fn what_the_budget_comes_to_is_said_in_every_language() {
 fn every_number_is_that_of_the_result() {
     let pages = REPORTED.folder.join("found.json");
     for report in REPORTS {
-        let mut python = tools::python();
-        python.arg(tools::project("tests/page/result.py")).arg(&pages).arg(report.name);
+        let mut python = programs::python();
+        python.arg(programs::project("tests/page/result.py")).arg(&pages).arg(report.name);
         python.arg(REPORTED.folder.join(format!("{}.json", report.name)));
-        python.current_dir(tools::project("")).args(words(&REPORTED.folder, &report.asked.concat()));
-        assert_eq!(tools::output(python).trim(), "", "{}", report.name);
+        python.current_dir(programs::project("")).args(words(&REPORTED.folder, &report.asked.concat()));
+        assert_eq!(programs::output(python).trim(), "", "{}", report.name);
     }
 }

@@ -1,0 +1,18 @@
+//! The program on the command line: what is typed, what comes back, and what it leaves behind.
+
+#![cfg(feature = "cli")]
+
+#[path = "../shared/fixtures.rs"]
+mod fixtures;
+#[path = "../shared/programs.rs"]
+mod programs;
+
+mod certify;
+#[cfg(unix)]
+mod hostile_words;
+mod json_keys;
+mod report;
+mod revocation_chain;
+mod selftest;
+mod terminal;
+mod transcripts;

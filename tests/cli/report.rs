@@ -1,0 +1,216 @@
+//! The report of a calibration against the result that programs get, and what it must say large.
+
+use crate::programs;
+use serde_json::Value;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+const PASSPORT: &str = "passports/SPS-2/0017/moscow-bmstu-1.yaml";
+const VERIFIED: &[&str] = &["--trust", "docs/allowed_signers", "--time", "2026-11-20T08:00:00Z"];
+const LABORATORY: &[&str] = &["--laboratory", "docs/laboratory.yaml"];
+const GYRO: &[&str] = &["--gyro", "docs/gvk-6.yaml"];
+
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, text: &str) -> String {
+        std::fs::write(self.path(name), text).unwrap();
+        self.path(name).display().to_string()
+    }
+
+    fn calibrate(&self, currents: &str, report: &str, options: &[&[&str]]) -> Output {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+        command.current_dir(programs::project("")).args(["calibrate", PASSPORT, currents, "--format", "json"]);
+        command.args(options.concat()).arg("--report").arg(self.path(report)).output().unwrap()
+    }
+
+    /// The page, and the result as JSON.
+    fn page(&self, currents: &str, options: &[&[&str]]) -> (String, Value) {
+        let output = self.calibrate(currents, "report.html", &[options, &[&["--force"]]].concat());
+        let words = String::from_utf8_lossy(&output.stderr);
+        let page = std::fs::read_to_string(self.path("report.html")).unwrap_or_else(|_| panic!("no report: {words}"));
+        (page, serde_json::from_slice(&output.stdout).unwrap_or(Value::Null))
+    }
+}
+
+const CURRENTS: &str = "docs/currents.csv";
+
+/// Every number of a document.
+fn numbers(value: &Value, found: &mut Vec<f64>) {
+    match value {
+        Value::Number(number) => found.push(number.as_f64().unwrap()),
+        Value::Array(items) => items.iter().for_each(|item| numbers(item, found)),
+        Value::Object(entries) => entries.values().for_each(|item| numbers(item, found)),
+        _ => {}
+    }
+}
+
+/// The numbers that a page marks: value and digits, those of pictures too.
+fn marked(page: &str) -> Vec<(f64, String)> {
+    let between = |start: &'static str, end: &'static str| {
+        page.split(start).skip(1).map(move |rest| {
+            let (value, rest) = rest.split_once("\">").unwrap();
+            (value.parse().unwrap(), rest.split_once(end).unwrap().0.to_owned())
+        })
+    };
+    between("<data value=\"", "</data>").chain(between("data-value=\"", "</tspan>")).collect()
+}
+
+/// A printed number and half the unit of its last place, read by its digits.
+fn read(printed: &str, comma: bool) -> (f64, f64) {
+    let plain: String = printed.chars().filter(|c| !"\u{202f}\u{b7}".contains(*c)).collect();
+    let plain = plain.replace('\u{2212}', "-");
+    assert!(!plain.contains(if comma { '.' } else { ',' }), "{printed}: the mark of the other language");
+    let superscript =
+        |c: char| "⁻⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|s| s == c).map(|at| "-0123456789".chars().nth(at).unwrap());
+    let (digits, power) = match plain.find(|c| superscript(c).is_some()) {
+        Some(at) => (plain[..at].strip_suffix("10").unwrap(), plain[at..].chars().filter_map(superscript).collect()),
+        None => (plain.as_str(), "0".to_owned()),
+    };
+    let power: i32 = power.parse().unwrap();
+    let decimals = digits.split([',', '.']).nth(1).map_or(0, str::len) as i32;
+    let number: f64 = format!("{}e{power}", digits.replace(',', ".")).parse().unwrap();
+    (number, 0.5 * 10_f64.powi(power - decimals))
+}
+
+#[test]
+fn every_number_is_the_results_own_rounded_once() {
+    let folder = Folder::new();
+    let more: &[&str] = &["--budget", "--monte-carlo", "--trials", "16384"];
+    for (lang, comma) in [("en", false), ("ru", true), ("ru,en", true)] {
+        let (page, result) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, GYRO, more, &["--lang", lang]]);
+        let mut known = Vec::new();
+        numbers(&result, &mut known);
+        // What the laboratory's file states of its meter.
+        known.extend([0.0087, 0.0, 1.0, 1e-6]);
+        let marked = marked(&page);
+        assert!(marked.len() > 200, "{}", marked.len());
+        for (value, printed) in marked {
+            assert!(known.iter().any(|known| known.abs() == value.abs()), "{value} is not in the result");
+            let (number, half) = read(&printed, comma);
+            assert!((number - value).abs() <= half * (1.0 + 1e-9), "{printed} is not {value} rounded");
+        }
+    }
+}
+
+/// The paper's conventions (JCGM 100, 7.2.6) by hand: u of K_x is 0.011, so K_x has three decimals.
+#[test]
+fn values_have_the_digits_of_their_uncertainty() {
+    let folder = Folder::new();
+    let (page, result) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, GYRO]);
+    let squares = &result["results"][2];
+    let (k, u) = (&squares["k_deg_per_h_per_ma"][0][0], &squares["standard_uncertainty"]["k_deg_per_h_per_ma"][0][0]);
+    assert!((0.0105..0.0115).contains(&u.as_f64().unwrap()));
+    let due = format!("<data value=\"{k}\">{:.3}</data>", k.as_f64().unwrap());
+    assert!(page.contains(&due), "{due}");
+}
+
+#[test]
+fn the_annex_is_the_result() {
+    let folder = Folder::new();
+    let (page, result) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, GYRO]);
+    let annex = page.split_once("<pre").unwrap().1.split_once('>').unwrap().1.split_once("</pre>").unwrap().0;
+    let annex = annex.replace("&quot;", "\"").replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
+    assert_eq!(serde_json::from_str::<Value>(&annex).unwrap(), result);
+    // A later calibration can be compared with it.
+    let earlier = folder.write("earlier.json", &annex);
+    let (page, result) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, GYRO, &["--previous", &earlier]]);
+    assert!(result["change"].is_object());
+    assert!(page.contains("Change since the earlier calibration"));
+}
+
+#[test]
+fn it_says_with_what_the_gyro_was_calibrated() {
+    let folder = Folder::new();
+    let (page, _) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, GYRO]);
+    for file in [PASSPORT, CURRENTS] {
+        // By another program.
+        let mut sum = Command::new("sha256sum");
+        let sum = programs::output({
+            sum.arg(programs::project(file));
+            sum
+        });
+        let sum = sum.split(' ').next().unwrap().to_owned();
+        assert!(page.contains(&sum), "{file}: {sum}");
+    }
+    let key = programs::project("tests/keys/examples.pub");
+    let mut keygen = Command::new("ssh-keygen");
+    keygen.args(["-l", "-f"]).arg(key);
+    let fingerprint = programs::output(keygen).split(' ').nth(1).unwrap().to_owned();
+    for words in [&fingerprint, "examples@dtg-passport.test", "SPS-2/0017/moscow-bmstu/1", "GVK-6", "2026-11-20"] {
+        assert!(page.contains(words), "{words}");
+    }
+    assert!(!page.contains("NOT VERIFIED"));
+}
+
+/// Nobody is said to have signed what nobody verified.
+#[test]
+fn an_unverified_passport_is_said_to_be_one() {
+    let folder = Folder::new();
+    let (page, _) = folder.page(CURRENTS, &[&["--no-verify", "--lang", "en,ru"], LABORATORY]);
+    let first = page.find("<p class=\"headline\">").unwrap();
+    assert!(page[..first].ends_with("<div class=\"verdict refused\">"));
+    let headline = page[first..].split_once("</p>").unwrap().0;
+    assert!(headline.contains("Passport NOT VERIFIED") && headline.contains("Паспорт НЕ ПРОВЕРЕН"), "{headline}");
+    assert!(page.contains("@top-right { content: \"Passport NOT VERIFIED / Паспорт НЕ ПРОВЕРЕН\""), "on every sheet");
+    assert!(!page.contains("SHA256:") && !page.contains("examples@dtg-passport.test"));
+}
+
+#[test]
+fn readings_that_do_not_fit_are_said_not_to() {
+    let folder = Folder::new();
+    let good = std::fs::read_to_string(programs::project(CURRENTS)).unwrap();
+    // J_x of (1, 3) off by 1e-3 mA, or 0.1 deg/h.
+    let row = good.lines().find(|line| line.starts_with("1,3,")).unwrap();
+    let jx: f64 = row.split(',').nth(2).unwrap().parse().unwrap();
+    let bad = good.replace(row, &row.replace(row.split(',').nth(2).unwrap(), &format!("{:.7}", jx + 1e-3)));
+    let bad = folder.write("bad.csv", &bad);
+    let (page, _) = folder.page(&bad, &[VERIFIED, LABORATORY, &["--lang", "ru,en"]]);
+    assert!(page.contains("The readings do not fit this stand"));
+    assert!(page.contains("Position (1, 3) may not have repeated"), "and which position it may be");
+    assert!(page.contains("Возможно, положение (1, 3) не повторилось"));
+}
+
+#[test]
+fn what_nobody_stated_is_named() {
+    let folder = Folder::new();
+    let (page, result) = folder.page(CURRENTS, &[VERIFIED]);
+    assert_eq!(result["not_stated"].as_array().unwrap().len(), 4);
+    for words in ["the latitude", "the azimuth of the base", "the level of the base", "the gyro's seat"] {
+        assert!(page.contains(&format!("{words}</")), "{words}");
+    }
+    assert!(page.contains("No type of gyro was named"), "and no verdict is made up");
+}
+
+#[test]
+fn an_existing_report_is_not_replaced() {
+    let folder = Folder::new();
+    folder.write("report.html", "mine");
+    let output = folder.calibrate(CURRENTS, "report.html", &[VERIFIED]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(output.stdout.is_empty());
+    assert!(String::from_utf8_lossy(&output.stderr).contains("--force"));
+    assert_eq!(std::fs::read_to_string(folder.path("report.html")).unwrap(), "mine");
+    folder.page(CURRENTS, &[VERIFIED]);
+    assert_ne!(std::fs::read_to_string(folder.path("report.html")).unwrap(), "mine");
+}
+
+/// Words of a gyro's file cannot become markup.
+#[test]
+fn hostile_words_stay_words() {
+    let folder = Folder::new();
+    let gyro = std::fs::read_to_string(programs::project("docs/gvk-6.yaml")).unwrap();
+    let hostile = format!("<script>alert(1)</script>&amp; {}", "unbroken".repeat(60));
+    let gyro = folder.write("gyro.yaml", &gyro.replace("\"GVK-6\"", &format!("\"{hostile}\"")));
+    let (page, _) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, &["--gyro", &gyro]]);
+    assert!(!page.contains("<script"));
+    assert!(page.contains("&lt;script&gt;alert(1)&lt;/script&gt;&amp;amp; unbroken"));
+}

@@ -1,0 +1,171 @@
+//! The command line as transcripts: `tests/cmd/*.md` show what is typed and what comes back, to the letter.
+//!
+//! In a fenced block `console` a line `$ …` is typed into `sh`, and below it stand the lines that come back: standard
+//! output first, then standard error with `! ` before each line, then `? 2` when the exit code is 2 instead of 0.
+//! Every heading begins in a fresh folder with the files of `tests/cmd/files` and the published test key. SHA-256
+//! sums and the program's version are shown as `[sha256]` and `[version]`, for they change with the text of a passport.
+//!
+//! `TRANSCRIPTS=write cargo test --test cli transcripts` writes what comes back into the transcripts: read the difference.
+
+use crate::programs;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// A test for each transcript, so that they run side by side and have names; and one that none is left out.
+macro_rules! transcripts {
+    ($($test:ident: $file:literal,)*) => {
+        $(
+            #[test]
+            fn $test() {
+                is_what_comes_back($file);
+            }
+        )*
+
+        #[test]
+        fn every_transcript_has_a_test() {
+            let mut files: Vec<String> = fs::read_dir(programs::project("tests/cmd"))
+                .unwrap()
+                .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+                .filter(|name| name.ends_with(".md"))
+                .collect();
+            files.sort();
+            assert_eq!(files, [$($file),*]);
+        }
+    };
+}
+
+transcripts! {
+    bad_files: "bad-files.md",
+    bad_input: "bad-input.md",
+    batch: "batch.md",
+    calibrate: "calibrate.md",
+    demo: "demo.md",
+    good: "good.md",
+    hostile_folder: "hostile-folder.md",
+    keys: "keys.md",
+    near_the_pole: "near-the-pole.md",
+    register: "register.md",
+    render: "render.md",
+    report: "report.md",
+    revisions: "revisions.md",
+    trust: "trust.md",
+    uncertainty: "uncertainty.md",
+}
+
+/// Fails with the first line of a transcript that differs from what comes back.
+fn is_what_comes_back(file: &str) {
+    let path = programs::project("tests/cmd").join(file);
+    let told = fs::read_to_string(&path).unwrap();
+    let played = play(&told);
+    if played == told {
+        return;
+    }
+    if std::env::var("TRANSCRIPTS").is_ok_and(|wish| wish == "write") {
+        fs::write(path, played).unwrap();
+        return;
+    }
+    let end = "(the end)";
+    let pairs = told.lines().chain([end]).zip(played.lines().chain([end]));
+    let different = (1..).zip(pairs).find(|(_, (told, played))| told != played);
+    let (number, (told, played)) = different.expect("a line that differs, or the end of one of the two");
+    panic!("{}:{number}\n  told:   {told}\n  played: {played}", path.display());
+}
+
+/// The transcript with what comes back now.
+fn play(told: &str) -> String {
+    let mut stage = Stage::new();
+    let mut played = String::new();
+    let mut in_console = false;
+    for line in told.lines() {
+        if line.starts_with("```") {
+            in_console = line == "```console";
+        } else if !in_console && line.starts_with('#') {
+            stage = Stage::new();
+        }
+        match line.strip_prefix("$ ").filter(|_| in_console) {
+            Some(command) => played += &format!("{line}\n{}", stage.run(command)),
+            // What came back when this was written is played anew.
+            None if in_console && line != "```console" => {}
+            None => played += &format!("{line}\n"),
+        }
+    }
+    played
+}
+
+/// A fresh folder.
+struct Stage {
+    folder: tempfile::TempDir,
+}
+
+impl Stage {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        copy(&programs::project("tests/cmd/files"), folder.path());
+        fs::copy(programs::project("tests/keys/examples"), folder.path().join("key")).unwrap();
+        fs::copy(programs::project("tests/keys/examples.pub"), folder.path().join("key.pub")).unwrap();
+        // Git does not keep this mode, and a private key that others can read is refused.
+        let mode = Command::new("chmod").arg("600").arg(folder.path().join("key")).status().unwrap();
+        assert!(mode.success());
+        Self { folder }
+    }
+
+    fn run(&self, command: &str) -> String {
+        let program = Path::new(env!("CARGO_BIN_EXE_dtg-passport")).parent().unwrap();
+        let path = std::env::join_paths([program, Path::new("/usr/bin"), Path::new("/bin")]).unwrap();
+        let output = Command::new("sh")
+            .args(["-c", command])
+            .current_dir(self.folder.path())
+            .env_clear()
+            .envs([("PATH", path), ("LC_ALL", "C.UTF-8".into()), ("COLUMNS", "80".into())])
+            .stdin(Stdio::null())
+            .output()
+            .unwrap();
+        let mut back = String::new();
+        for line in String::from_utf8_lossy(&output.stdout).lines() {
+            back += &format!("{line}\n");
+        }
+        for line in String::from_utf8_lossy(&output.stderr).lines() {
+            back += &format!("! {line}\n");
+        }
+        match output.status.code() {
+            Some(0) => {}
+            Some(code) => back += &format!("? {code}\n"),
+            None => back += &format!("? {}\n", output.status),
+        }
+        self.lasting(&back)
+    }
+
+    /// Without what differs from run to run and from release to release.
+    fn lasting(&self, back: &str) -> String {
+        let version = format!("dtg-passport {}", env!("CARGO_PKG_VERSION"));
+        let folder = self.folder.path().display().to_string();
+        let text = back.replace(&version, "dtg-passport [version]").replace(&folder, "[folder]");
+        let mut lasting = String::new();
+        let mut digits = String::new();
+        for c in text.chars().chain(['\n']) {
+            if c.is_ascii_digit() || ('a'..='f').contains(&c) {
+                digits.push(c);
+                continue;
+            }
+            lasting += if digits.len() == 64 { "[sha256]" } else { &digits };
+            digits.clear();
+            lasting.push(c);
+        }
+        lasting.pop();
+        lasting
+    }
+}
+
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).unwrap();
+    for entry in fs::read_dir(from).unwrap() {
+        let entry = entry.unwrap();
+        let target = to.join(entry.file_name());
+        if entry.file_type().unwrap().is_dir() {
+            copy(&entry.path(), &target);
+        } else {
+            fs::copy(entry.path(), target).unwrap();
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! The documentation is true: its console blocks are run and compared, its links lead somewhere.
+//!
+//! In a block ```` ```console ```` a line `$ …` is a command of a POSIX shell, run in a folder that holds copies of `passports/`,
+//! `sites/` and `docs/`; what follows is what it prints on both outputs, `…` standing for any text within a line.
+
+use crate::programs;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The pages, in the order in which they are run; each has a folder of its own.
+fn pages() -> Vec<PathBuf> {
+    let docs = fs::read_dir(programs::project("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let mut pages: Vec<PathBuf> =
+        docs.filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect();
+    pages.push(programs::project("README.md"));
+    pages.push(programs::project("CHANGELOG.md"));
+    pages.push(programs::project("sites/README.md"));
+    pages.sort();
+    pages
+}
+
+/// Commands of a page with their expected lines.
+fn transcripts(page: &str) -> Vec<(String, Vec<String>)> {
+    let mut transcripts: Vec<(String, Vec<String>)> = Vec::new();
+    for block in page.split("```console\n").skip(1) {
+        let block = block.split("```").next().unwrap();
+        for line in block.lines() {
+            match line.strip_prefix("$ ") {
+                Some(command) => transcripts.push((command.to_owned(), Vec::new())),
+                None => transcripts.last_mut().expect("a block begins with a command").1.push(line.to_owned()),
+            }
+        }
+    }
+    transcripts
+}
+
+fn matches(line: &str, pattern: &str) -> bool {
+    let mut rest = line;
+    let mut parts = pattern.split('…');
+    let first = parts.next().unwrap();
+    let Some(after) = rest.strip_prefix(first) else { return false };
+    rest = after;
+    let parts: Vec<&str> = parts.collect();
+    for (index, part) in parts.iter().enumerate() {
+        if index + 1 == parts.len() {
+            return rest.ends_with(part);
+        }
+        match rest.find(part) {
+            Some(at) => rest = &rest[at + part.len()..],
+            None => return false,
+        }
+    }
+    rest.is_empty()
+}
+
+#[test]
+fn console_blocks_print_what_they_say() {
+    let mut commands = 0;
+    for page in pages() {
+        let name = page.file_stem().unwrap().to_string_lossy().into_owned();
+        let folder = fresh_folder(&name);
+        for (command, expected) in transcripts(&fs::read_to_string(&page).unwrap()) {
+            let found = run(&command, &folder);
+            let found: Vec<&str> = found.lines().collect();
+            let alike = found.len() == expected.len() && found.iter().zip(&expected).all(|(f, e)| matches(f, e));
+            assert!(alike, "{name}: $ {command}\nprints\n{}\nnot\n{}", found.join("\n"), expected.join("\n"));
+            commands += 1;
+        }
+    }
+    assert!(commands >= 6, "the README has commands");
+}
+
+fn fresh_folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("documentation").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    for part in ["passports", "sites", "docs"] {
+        let mut copy = programs::on_path("cp");
+        copy.arg("-r").arg(programs::project(part)).arg(&folder);
+        programs::output(copy);
+    }
+    folder
+}
+
+/// Both outputs, in the order of writing.
+fn run(command: &str, folder: &Path) -> String {
+    let program = Path::new(env!("CARGO_BIN_EXE_dtg-passport")).parent().unwrap().to_owned();
+    let python = programs::project("target/test-tools/venv/bin");
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let path = std::env::join_paths([program, python].into_iter().chain(std::env::split_paths(&path))).unwrap();
+    let mut shell = programs::on_path("sh");
+    shell.arg("-c").arg(format!("{{ {command}\n}} 2>&1")).current_dir(folder).env("PATH", path);
+    String::from_utf8(shell.output().unwrap().stdout).unwrap()
+}
+
+/// The tables of keys are those that the program writes.
+#[test]
+fn every_key_is_in_the_reference() {
+    let page = fs::read_to_string(programs::project("docs/keys.md")).unwrap();
+    let command = page.split('`').nth(1).unwrap();
+    let tables = &page[page.find("## ").unwrap()..];
+    assert!(
+        run(command, &fresh_folder("keys-of-the-program")) == tables,
+        "docs/keys.md: write it anew with `{command}`"
+    );
+}
+
+/// The guide names the verbs that print JSON: those, and no others, whose help offers it for the result.
+#[test]
+fn the_verbs_that_print_json_are_named() {
+    let help = |verb: &str| run(&format!("dtg-passport {verb} --help"), Path::new(env!("CARGO_TARGET_TMPDIR")));
+    let commands = |help: &str| -> Vec<String> {
+        let listed = help.split("Commands:\n").nth(1).unwrap_or_default().split("\n\n").next().unwrap();
+        let lines = listed.lines().filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with(' ')));
+        lines.filter_map(|line| line.split(' ').next()).map(str::to_owned).collect()
+    };
+    let prints_json = |verb: &str| {
+        let below = commands(&help(verb)).first().map(|command| help(&format!("{verb} {command}")));
+        let text = below.unwrap_or_else(|| help(verb));
+        text.contains("Form of the result") && text.contains("- json")
+    };
+    let verbs = commands(&help(""));
+    assert!(verbs.len() > 10, "{verbs:?}");
+    let due: Vec<&String> = verbs.iter().filter(|verb| *verb != "help" && prints_json(verb)).collect();
+    let guide = fs::read_to_string(programs::project("docs/integrator.md")).unwrap();
+    let sentence = guide.split("With `--format json`, ").nth(1).unwrap().split(" print ").next().unwrap();
+    let mut named: Vec<&str> = sentence.split('`').skip(1).step_by(2).collect();
+    named.sort_unstable();
+    let mut due: Vec<&str> = due.into_iter().map(String::as_str).collect();
+    due.sort_unstable();
+    assert_eq!(named, due);
+}
+
+/// Every link to a file of the project leads to one.
+#[test]
+fn links_lead_somewhere() {
+    let mut checked = 0;
+    for page in pages() {
+        let text = fs::read_to_string(&page).unwrap();
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            if link.starts_with("https://") || link.starts_with('#') {
+                continue;
+            }
+            let target = page.parent().unwrap().join(link.split('#').next().unwrap());
+            assert!(target.exists(), "{}: {link} leads nowhere", page.display());
+            checked += 1;
+        }
+    }
+    assert!(checked > 5);
+}
+
+/// Every test that a page names is there: `tests/file.rs::function`, `tests/cmd/page.md#Heading`.
+#[test]
+fn tests_that_are_named_exist() {
+    let mut checked = 0;
+    for page in pages() {
+        let name = page.display().to_string();
+        let text = fs::read_to_string(&page).unwrap();
+        for span in text.split('`').skip(1).step_by(2).filter(|span| span.starts_with("tests/")) {
+            let (file, function) =
+                span.split_once("::").map_or((span, None), |(file, function)| (file, Some(function)));
+            let (file, heading) = file.split_once('#').map_or((file, None), |(file, heading)| (file, Some(heading)));
+            // The first word is the file: a command may follow.
+            let file = file.split(' ').next().unwrap();
+            let path = programs::project(file);
+            assert!(path.exists(), "{name} names {file}, which is not there");
+            let function = function.map(|function| format!("fn {function}() {{"));
+            for wanted in function.into_iter().chain(heading.map(|heading| format!("# {heading}"))) {
+                let text = fs::read_to_string(&path).unwrap();
+                assert!(text.lines().any(|line| line == wanted), "{name} names {span}: no line {wanted:?} there");
+                checked += 1;
+            }
+        }
+    }
+    assert!(checked > 30, "docs/security.md names tests: {checked}");
+}
+
+/// Each promise of docs/security.md names a test: every row of the tables about attackers.
+#[test]
+fn every_promise_names_a_test() {
+    let text = fs::read_to_string(programs::project("docs/security.md")).unwrap();
+    let attackers = text.split("\n## ").find(|section| section.starts_with("Attackers")).unwrap();
+    let rows: Vec<&str> =
+        attackers.lines().filter(|line| line.starts_with("| ") && !line.contains(" | what stops it | ")).collect();
+    assert!(rows.len() > 15);
+    for row in rows {
+        let shown_by = row.trim_end_matches(" |").rsplit(" | ").next().unwrap();
+        assert!(shown_by.contains("`tests/"), "no test is named in {row}");
+    }
+}

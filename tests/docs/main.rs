@@ -1,0 +1,10 @@
+//! What is shipped beside the program is true: the documentation, the example passports and sites, the self-check.
+
+#![cfg(feature = "cli")]
+
+#[path = "../shared/programs.rs"]
+mod programs;
+
+mod documentation;
+mod examples;
+mod self_check;

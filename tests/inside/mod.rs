@@ -1,0 +1,58 @@
+//! Tests that look inside: part of the library's own test build, so that they see what users do not.
+//!
+//! Each names the features that it needs; `tests/features` runs what each of them alone can run.
+
+// What several tests need.
+#[cfg(feature = "factory")]
+#[path = "../shared/fixtures.rs"]
+mod fixtures;
+#[cfg(feature = "report")]
+#[path = "../shared/language.rs"]
+mod language;
+#[cfg(feature = "report")]
+#[path = "../shared/picture/mod.rs"]
+mod picture;
+#[path = "../shared/programs.rs"]
+mod programs;
+mod reference;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod simulated_stands;
+
+#[cfg(feature = "monte-carlo")]
+mod calibration;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod certification;
+#[cfg(feature = "factory")]
+mod forgeries;
+mod model;
+#[cfg(all(feature = "factory", feature = "report"))]
+mod passport_accuracy;
+#[cfg(all(feature = "factory", feature = "report"))]
+mod pictures;
+mod readings;
+#[cfg(feature = "factory")]
+mod register_attacks;
+#[cfg(feature = "factory")]
+mod reissue;
+#[cfg(feature = "report")]
+mod repeats;
+#[cfg(feature = "monte-carlo")]
+mod robustness;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod same_stand;
+#[cfg(feature = "report")]
+mod selftest;
+#[cfg(feature = "factory")]
+mod site;
+mod slow;
+#[cfg(feature = "monte-carlo")]
+mod stated_uncertainty;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod suspects;
+mod text_rule;
+#[cfg(feature = "report")]
+mod texts;
+#[cfg(all(feature = "factory", feature = "report"))]
+mod type_b;
+#[cfg(feature = "factory")]
+mod verdict;

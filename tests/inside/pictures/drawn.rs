@@ -1,0 +1,129 @@
+//! What is drawn of a passport, read off by the marks of its axes, against the signed file.
+
+use crate::inside::programs;
+use crate::inside::fixtures;
+use super::passport::passport;
+use crate::inside::fixtures;
+use crate::inside::picture::{Axis, end, english, middle, number, of_class, row, svgs, tip, whole, words};
+use dtg_passport::passport::content::Content;
+use dtg_passport::passport::read;
+use dtg_passport::report::picture::{accuracy, deviations, positions, vectors};
+use roxmltree::{Document, Node};
+
+/// Passports with deviations of minutes and of degrees, and the project's own.
+fn passports() -> Vec<Content> {
+    let own = include_bytes!("../../../passports/SPS-2/0017/moscow-bmstu-1.yaml");
+    let minutes = passport(fixtures::ARC_MINUTES, fixtures::SITE).0;
+    let degrees = passport(fixtures::DEGREES, fixtures::SITE).0;
+    vec![minutes, degrees, read::unverified("own", own).unwrap()]
+}
+
+/// The middle of a mark: a circle of the first frame index, a square of the second.
+fn centre(mark: Node) -> [f64; 2] {
+    match mark.tag_name().name() {
+        "circle" => [number(mark, "cx"), number(mark, "cy")],
+        _ => [number(mark, "x") + 0.5 * number(mark, "width"), middle(mark)],
+    }
+}
+
+#[test]
+fn deviations_are_where_their_axes_say() {
+    for content in passports() {
+        let text = whole(&[deviations::deviations(&english(), &content.positions)]);
+        let page = Document::parse(&text).unwrap();
+        for (place, panel) in svgs(&page).into_iter().enumerate() {
+            let axis = Axis::along_x(panel);
+            axis.says(number(of_class(panel, "zero")[0], "x1"), 0.0);
+            let bars = of_class(panel, "bar");
+            assert_eq!(bars.len(), content.positions.len());
+            for (index, (at, bar)) in content.positions.iter().zip(bars).enumerate() {
+                let value = [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec][place];
+                let u = [at.u_alpha_arcsec, at.u_beta_arcsec, at.u_gamma_arcsec][place];
+                axis.says(end(bar, value), value);
+                if let Some(u) = u {
+                    let [from, to] = reach(of_class(panel, "whisker")[index]);
+                    axis.says(from, value - 2.0 * u);
+                    axis.says(to, value + 2.0 * u);
+                }
+                assert_eq!(row(panel, middle(bar)), (format!("({}, {})", at.i, at.j), vec![value]));
+            }
+        }
+    }
+}
+
+/// Index and nominal angles of each position; and north and up, which all share.
+#[test]
+fn positions_are_named_as_in_the_file() {
+    for content in passports() {
+        let text = whole(&[positions::positions(&english(), &content.positions)]);
+        let page = Document::parse(&text).unwrap();
+        for (at, panel) in content.positions.iter().zip(svgs(&page)) {
+            let said: Vec<String> = panel.descendants().filter(|node| node.has_tag_name("text")).map(words).collect();
+            let angles = format!("θ {}°\u{2002}φ {}°", at.theta_deg, at.phi_deg);
+            assert_eq!(said, [&format!("({}, {})", at.i, at.j), &angles, "N", "up", "x", "y", "z"]);
+        }
+    }
+}
+
+/// By hand after eq. (5): what a perfect stand would have, in the order of the positions, from ω_Γ and ω_B, or from 0 and 1.
+fn ideal(h: f64, v: f64) -> [[f64; 2]; 8] {
+    [[0.0, h], [h, 0.0], [0.0, -h], [-h, 0.0], [0.0, v], [v, 0.0], [0.0, -v], [-v, 0.0]]
+}
+
+#[test]
+fn vectors_end_where_their_axes_say() {
+    for content in passports() {
+        let rates = ideal(content.earth.horizontal_deg_per_h, content.earth.vertical_deg_per_h);
+        let text = whole(&[vectors::vectors(&english(), &content)]);
+        let page = Document::parse(&text).unwrap();
+        let panels = svgs(&page);
+        assert_eq!(panels.len(), 4);
+        for (place, panel) in panels.into_iter().enumerate() {
+            let (x, y) = (Axis::along_x(panel), Axis::along_y(panel));
+            // Every tip has its mark; a vector that is too short to be seen has no arrow.
+            let tips: Vec<[f64; 2]> = of_class(panel, "mark").into_iter().map(centre).collect();
+            assert_eq!(tips.len(), 8);
+            for arrow in of_class(panel, "real").into_iter().map(tip) {
+                let near = |mark: &&[f64; 2]| (mark[0] - arrow[0]).abs() < 0.2 && (mark[1] - arrow[1]).abs() < 0.2;
+                assert!(tips.iter().any(|mark| near(&mark)), "{arrow:?} has no mark");
+            }
+            for (index, at) in content.vectors.iter().enumerate() {
+                let real = [at.omega_deg_per_h, at.specific_force_g][place / 2];
+                let ideal = [rates, ideal(0.0, 1.0)][place / 2][index];
+                let due = if place % 2 == 0 { real } else { [0, 1].map(|k| real[k] - ideal[k]) };
+                x.says(tips[index][0], due[0]);
+                y.says(tips[index][1], due[1]);
+            }
+        }
+    }
+}
+
+/// By hand: a tolerance of K_x is 0.05 % of 95, of K_xy 0.5 % of 9.5, of a drift 0.01.
+#[test]
+fn accuracy_is_where_its_axis_says() {
+    let (content, _) = passport(fixtures::ARC_MINUTES, fixtures::SITE);
+    let (stated, gravity) = (content.accuracy.as_ref().unwrap(), content.earth.gravity_m_per_s2);
+    let text = whole(&[accuracy::accuracy(&english(), stated, gravity)]);
+    let page = Document::parse(&text).unwrap();
+    let svg = svgs(&page)[0];
+    let axis = Axis::along_x(svg);
+    axis.says(number(of_class(svg, "limit")[0], "x1"), 100.0);
+    let u = &stated.standard_uncertainty;
+    let [[kx, kxy], [kyx, ky]] = u.k_deg_per_h_per_ma;
+    let [x, y] = u.omega0_deg_per_h;
+    let per_g = 9.80665 / gravity;
+    let due = [
+        ("Kx", kx, 0.0475, 1.0),
+        ("Kxy", kxy, 0.0475, 1.0),
+        ("Kyx", kyx, 0.0475, 1.0),
+        ("Ky", ky, 0.0475, 1.0),
+        ("ω0x", x, 0.01, 1.0),
+        ("ω0y", y, 0.01, 1.0),
+        ("ωg", u.omega_g_deg_per_h_per_g, 0.01, per_g),
+        ("ωk", u.omega_k_deg_per_h_per_g, 0.01, per_g),
+    ];
+    for ((name, u, tolerance, factor), bar) in due.into_iter().zip(of_class(svg, "bar")) {
+        axis.says(end(bar, u), 100.0 * factor * u / tolerance);
+        assert_eq!(row(svg, middle(bar)), (name.to_owned(), vec![u]));
+    }
+}

@@ -1,0 +1,348 @@
+//! Pictures of a passport.
+
+use crate::inside::fixtures;
+use crate::inside::picture::{ROUNDING, both, english, number, of_class, svgs, tip, whole};
+use dtg_passport::gyro::GyroType;
+use dtg_passport::laboratory::Laboratory;
+use dtg_passport::passport::accuracy::Stated;
+use dtg_passport::passport::content::Content;
+use dtg_passport::passport::issue::{Issue, draft};
+use dtg_passport::report::page::{Language, Languages};
+use dtg_passport::report::picture::{accuracy, deviations, place, positions, vectors};
+use dtg_passport::site::Site;
+use dtg_passport::stand::{CertifiedPosition, Stand};
+use roxmltree::{Document, Node};
+use std::collections::BTreeSet;
+
+const BAND: &str = "format: \"dtg-site/1\"\nid: \"band\"\nlatitude_deg: 12.5\n";
+
+/// A passport's content and its text; with an accuracy for the paper's gyro and meter.
+pub fn passport(stand: &str, site: &str) -> (Content, String) {
+    let stand = Stand::from_yaml("stand.yaml", stand.as_bytes()).unwrap();
+    let site = Site::from_yaml("site.yaml", site.as_bytes()).unwrap();
+    let gyro = GyroType::gvk_6();
+    let mut order = Issue::first(fixtures::ISSUER, fixtures::at(fixtures::ISSUED_AT));
+    order.accuracy = Some(Stated { gyro: gyro.into(), laboratory: Laboratory::paper().into() });
+    let draft = draft(&stand, &site, &order).unwrap();
+    (draft.content().clone(), draft.payload().to_owned())
+}
+
+fn all_pictures(languages: &Languages, content: &Content) -> String {
+    let gravity = content.earth.gravity_m_per_s2;
+    let stated = content.accuracy.as_ref().unwrap();
+    let pictures = [
+        positions::positions(languages, &content.positions),
+        deviations::deviations(languages, &content.positions),
+        vectors::vectors(languages, content),
+        place::place(languages, content),
+        accuracy::accuracy(languages, stated, gravity),
+    ];
+    whole(&pictures)
+}
+
+fn position(i: u32, j: u32, angles_deg: [f64; 2], deviation_deg: [f64; 3]) -> CertifiedPosition {
+    let [alpha_arcsec, beta_arcsec, gamma_arcsec] = deviation_deg.map(|degrees| 3600.0 * degrees);
+    CertifiedPosition {
+        i,
+        j,
+        theta_deg: angles_deg[0],
+        phi_deg: angles_deg[1],
+        alpha_arcsec,
+        beta_arcsec,
+        gamma_arcsec,
+        u_alpha_arcsec: None,
+        u_beta_arcsec: None,
+        u_gamma_arcsec: None,
+        degrees_of_freedom: None,
+    }
+}
+
+/// Tips of the axes x, y, z of each position, from the middle of its panel.
+fn axes(drawn: &[CertifiedPosition], middle: [f64; 2]) -> Vec<[[f64; 2]; 3]> {
+    let text = whole(&[positions::positions(&english(), drawn)]);
+    let page = Document::parse(&text).unwrap();
+    let of_panel = |svg: Node| {
+        let tips: Vec<[f64; 2]> = of_class_of(svg, "axis");
+        [0, 1, 2].map(|axis| [tips[axis][0] - middle[0], tips[axis][1] - middle[1]])
+    };
+    svgs(&page).into_iter().map(of_panel).collect()
+}
+
+fn of_class_of(svg: Node, class: &str) -> Vec<[f64; 2]> {
+    let arrows = svg.descendants().filter(|node| node.attribute("class") == Some(class));
+    arrows.map(tip).collect()
+}
+
+/// East, north and up as they are drawn, and the middle: from position (1, 1) of a perfect stand, where the case's axes are the
+/// base's (paper, fig. 3), and position (1, 3), where x and y point the other way.
+fn drawn_directions() -> ([[f64; 2]; 3], [f64; 2]) {
+    let found = axes(&[position(1, 1, [0.0, 0.0], [0.0; 3]), position(1, 3, [0.0, 180.0], [0.0; 3])], [0.0, 0.0]);
+    let middle = [0, 1].map(|k| 0.5 * (found[0][0][k] + found[1][0][k]));
+    ([0, 1, 2].map(|axis| [0, 1].map(|k| found[0][axis][k] - middle[k])), middle)
+}
+
+#[track_caller]
+fn same(found: [f64; 2], expected: [f64; 2]) {
+    let near = |k: usize| (found[k] - expected[k]).abs() < 3.0 * ROUNDING;
+    assert!(near(0) && near(1), "{found:?}, expected {expected:?}");
+}
+
+fn combination(parts: &[(f64, [f64; 2])]) -> [f64; 2] {
+    [0, 1].map(|k| parts.iter().map(|(factor, vector)| factor * vector[k]).sum())
+}
+
+#[test]
+fn up_is_up_and_the_view_is_from_the_south_east() {
+    let ([east, north, up], _) = drawn_directions();
+    assert!(up[0].abs() < ROUNDING && up[1] < -20.0, "{up:?}");
+    // To the right and nearer, so lower; to the right and farther, so higher.
+    assert!(east[0] > 20.0 && east[1] > 5.0, "{east:?}");
+    assert!(north[0] > 10.0 && north[1] < -5.0, "{north:?}");
+}
+
+/// By hand after eq. (3), A = Rz(φ)·Rx(θ): where x, y, z point in each of the eight positions.
+#[test]
+fn the_eight_positions_point_where_the_paper_says() {
+    let ([e, n, u], middle) = drawn_directions();
+    let [w, s, d] = [e, n, u].map(|[x, y]| [-x, -y]);
+    let expected = [
+        ((1, 1), [e, n, u]),
+        ((1, 2), [n, w, u]),
+        ((1, 3), [w, s, u]),
+        ((1, 4), [s, e, u]),
+        ((2, 1), [e, u, s]),
+        ((2, 2), [u, w, s]),
+        ((2, 3), [w, d, s]),
+        ((2, 4), [d, e, s]),
+    ];
+    let stand: Vec<CertifiedPosition> = expected
+        .iter()
+        .map(|((i, j), _)| position(*i, *j, [90.0 * f64::from(i - 1), 90.0 * f64::from(j - 1)], [0.0; 3]))
+        .collect();
+    for (found, (index, axes)) in axes(&stand, middle).iter().zip(&expected) {
+        for (found, expected) in found.iter().zip(axes) {
+            println!("{index:?}");
+            same(*found, *expected);
+        }
+    }
+}
+
+/// By hand: E turns about the platform's own axes, so γ moves x towards y, β moves x away from z, α moves y towards z.
+#[test]
+fn deviations_turn_the_axes_the_right_way() {
+    let ([e, n, u], middle) = drawn_directions();
+    let (sin, cos) = libm::sincos(20_f64.to_radians());
+    let stand = [
+        position(1, 1, [0.0, 0.0], [0.0, 0.0, 20.0]),
+        position(1, 1, [0.0, 0.0], [0.0, 20.0, 0.0]),
+        position(1, 1, [0.0, 0.0], [20.0, 0.0, 0.0]),
+        position(2, 1, [90.0, 0.0], [20.0, 0.0, 0.0]),
+    ];
+    let found = axes(&stand, middle);
+    same(found[0][0], combination(&[(cos, e), (sin, n)]));
+    same(found[0][2], u);
+    same(found[1][0], combination(&[(cos, e), (-sin, u)]));
+    same(found[2][1], combination(&[(cos, n), (sin, u)]));
+    // At θ = 90° y is up and z south.
+    same(found[3][1], combination(&[(cos, u), (-sin, n)]));
+}
+
+#[test]
+fn any_number_of_positions_at_any_angles() {
+    for count in [4, 24] {
+        let stand: Vec<CertifiedPosition> = (0..count)
+            .map(|k| position(3 + k / 6, 1 + k % 6, [f64::from(37 * k), f64::from(61 * k)], [1.0; 3]))
+            .collect();
+        let text = whole(&[positions::positions(&both(), &stand), deviations::deviations(&both(), &stand)]);
+        let page = Document::parse(&text).unwrap();
+        assert_eq!(svgs(&page).len(), count as usize + 3);
+        assert_eq!(of_class(page.root(), "bar").len(), 3 * count as usize + 1, "and one in the legend");
+        assert!(of_class(page.root(), "whisker").is_empty(), "no uncertainty is stated");
+    }
+}
+
+#[test]
+fn bars_are_as_long_as_deviations_are_large() {
+    let (content, _) = passport(fixtures::ARC_MINUTES, fixtures::SITE);
+    let text = whole(&[deviations::deviations(&english(), &content.positions)]);
+    let page = Document::parse(&text).unwrap();
+    type Of = fn(&CertifiedPosition) -> (f64, f64);
+    let angles: [Of; 3] = [
+        |at| (at.alpha_arcsec, at.u_alpha_arcsec.unwrap()),
+        |at| (at.beta_arcsec, at.u_beta_arcsec.unwrap()),
+        |at| (at.gamma_arcsec, at.u_gamma_arcsec.unwrap()),
+    ];
+    // The largest one, β of (1, 4), gives the scale: 90.4.
+    let panels = svgs(&page);
+    let scale = number(of_class(panels[1], "bar")[3], "width") / 90.4;
+    assert!(scale > 0.3, "{scale}");
+    for (panel, of) in panels.into_iter().zip(angles) {
+        let zero = number(of_class(panel, "zero")[0], "x1");
+        let (bars, whiskers) = (of_class(panel, "bar"), of_class(panel, "whisker"));
+        assert_eq!((bars.len(), whiskers.len()), (8, 8));
+        for ((at, bar), whisker) in content.positions.iter().zip(bars).zip(whiskers) {
+            let (value, u) = of(at);
+            let (x, width) = (number(bar, "x"), number(bar, "width"));
+            let end = if value > 0.0 { x + width } else { x };
+            assert!((end - zero - scale * value).abs() < 0.3, "{value}: from {zero} to {end}");
+            let path = whisker.attribute("d").unwrap();
+            let [from, to] = ['M', 'H'].map(|letter| {
+                let rest = &path[path.find(letter).unwrap() + 1..];
+                rest.split([',', 'M']).next().unwrap().parse::<f64>().unwrap()
+            });
+            assert!((to - from - scale * 4.0 * u).abs() < 0.3, "plus and minus 2u of {u}: from {from} to {to}");
+            assert!((0.5 * (from + to) - end).abs() < 0.3);
+        }
+    }
+}
+
+/// By hand after eq. (5): on a perfect stand ω_3 is ω_Γ along the axis that points north, ω_B along the one that points up, and
+/// n is 1 along that one.
+#[test]
+fn ideal_vectors_are_those_of_a_perfect_stand() {
+    let (content, _) = passport(fixtures::DEGREES, fixtures::SITE);
+    let (h, v) = (content.earth.horizontal_deg_per_h, content.earth.vertical_deg_per_h);
+    let rates = [[0.0, h], [h, 0.0], [0.0, -h], [-h, 0.0], [0.0, v], [v, 0.0], [0.0, -v], [-v, 0.0]];
+    let forces = [[0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [0.0, -1.0], [-1.0, 0.0]];
+    let text = whole(&[vectors::vectors(&english(), &content)]);
+    let page = Document::parse(&text).unwrap();
+    let panels = svgs(&page);
+    let real = |index: usize| (content.vectors[index].omega_deg_per_h, content.vectors[index].specific_force_g);
+    for (panel, ideal, is_rate) in [(panels[0], rates, true), (panels[2], forces, false)] {
+        let middle_of = |node: Node| match node.tag_name().name() {
+            "circle" => [number(node, "cx"), number(node, "cy")],
+            _ => [0, 1].map(|k| number(node, ["x", "y"][k]) + 0.5 * number(node, ["width", "height"][k])),
+        };
+        let open: Vec<[f64; 2]> = of_class(panel, "mark-open").into_iter().map(middle_of).collect();
+        let tips: Vec<[f64; 2]> = of_class(panel, "real").into_iter().map(tip).collect();
+        assert_eq!((open.len(), tips.len()), (8, 8));
+        let middle = [0, 1].map(|k| 0.5 * (open[4][k] + open[6][k]));
+        let scale = (open[5][0] - middle[0]) / ideal[5][0];
+        for (index, ideal) in ideal.iter().enumerate() {
+            same(open[index], [middle[0] + scale * ideal[0], middle[1] - scale * ideal[1]]);
+            let (rate, force) = real(index);
+            let [x, y] = if is_rate { rate } else { force };
+            same(tips[index], [middle[0] + scale * x, middle[1] - scale * y]);
+        }
+    }
+}
+
+/// By hand on the ellipsoid: 0.0114° of latitude are 1.2693 km here, 0.0068° of longitude 0.4268 km.
+#[test]
+fn the_map_is_to_scale_and_the_mark_where_it_is() {
+    let (content, _) = passport(fixtures::ARC_MINUTES, fixtures::SITE);
+    let text = whole(&[place::place(&english(), &content)]);
+    let page = Document::parse(&text).unwrap();
+    let svg = svgs(&page)[0];
+    let circle = of_class(svg, "limit")[0];
+    let (centre, radius) = ([number(circle, "cx"), number(circle, "cy")], number(circle, "r"));
+    let [x, y] = tip(of_class(svg, "real")[0]);
+    let azimuth = libm::atan2(x - centre[0], centre[1] - y).to_degrees();
+    assert!((azimuth - libm::atan2(0.4268, 1.2693).to_degrees()).abs() < 0.2, "{azimuth}");
+    // 513 m at this latitude (model of validity: 0.001 deg/h of ω_B); the bar is the next round length below.
+    let bar = of_class(svg, "frame-line")[0];
+    assert!((number(bar, "width") / radius - 500.0 / 512.98).abs() < 0.002);
+    assert!(svg.descendants().any(|node| node.text() == Some("500\u{a0}m")));
+}
+
+#[test]
+fn without_a_longitude_there_is_a_band_of_latitude() {
+    let (content, _) = passport(fixtures::ARC_MINUTES, BAND);
+    let text = whole(&[place::place(&english(), &content)]);
+    let page = Document::parse(&text).unwrap();
+    let svg = svgs(&page)[0];
+    let limits = of_class(svg, "limit");
+    assert_eq!(limits.len(), 2);
+    assert!(limits.iter().all(|node| node.has_tag_name("line") && node.attribute("y1") == node.attribute("y2")));
+    assert!(of_class(svg, "real").is_empty(), "no mark");
+    assert!(!text.contains("longitude 0"), "nothing is made up");
+}
+
+/// By hand: the tolerance of K_x is 0.05 % of 95, of K_xy 0.5 % of 9.5, of a drift 0.01; per the type's g for the last two.
+#[test]
+fn uncertainties_are_shares_of_the_tolerance() {
+    let (content, _) = passport(fixtures::ARC_MINUTES, fixtures::SITE);
+    let gravity = content.earth.gravity_m_per_s2;
+    let stated = content.accuracy.as_ref().unwrap();
+    let text = whole(&[accuracy::accuracy(&english(), stated, gravity)]);
+    let page = Document::parse(&text).unwrap();
+    let svg = svgs(&page)[0];
+    let u = &stated.standard_uncertainty;
+    let [[kx, kxy], [kyx, ky]] = u.k_deg_per_h_per_ma;
+    let per_g = 9.80665 / gravity;
+    let shares = [
+        kx / 0.0475,
+        kxy / 0.0475,
+        kyx / 0.0475,
+        ky / 0.0475,
+        u.omega0_deg_per_h[0] / 0.01,
+        u.omega0_deg_per_h[1] / 0.01,
+        u.omega_g_deg_per_h_per_g * per_g / 0.01,
+        u.omega_k_deg_per_h_per_g * per_g / 0.01,
+    ];
+    let (bars, open) = (of_class(svg, "bar"), of_class(svg, "bar-open"));
+    let limit = number(of_class(svg, "limit")[0], "x1");
+    let zero = number(of_class(svg, "zero")[0], "x1");
+    assert_eq!((bars.len(), open.len()), (8, 8));
+    for ((share, bar), open) in shares.iter().zip(bars).zip(open) {
+        assert!((number(bar, "width") - share * (limit - zero)).abs() < 2.0 * ROUNDING, "{share}");
+        assert!((number(open, "width") - 2.0 * share * (limit - zero)).abs() < 2.0 * ROUNDING, "{share}");
+    }
+}
+
+/// What is printed as the file's number is the file's number.
+#[test]
+fn every_number_is_the_files() {
+    for (stand, site) in [(fixtures::ARC_MINUTES, fixtures::SITE), (fixtures::DEGREES, BAND)] {
+        let (content, file) = passport(stand, site);
+        let text = all_pictures(&both(), &content);
+        let page = Document::parse(&text).unwrap();
+        let printed: Vec<&str> = page.descendants().filter_map(|node| node.attribute("data-value")).collect();
+        assert!(printed.len() > 30);
+        let words: BTreeSet<&str> = file.split(|c: char| !"+-.e".contains(c) && !c.is_ascii_digit()).collect();
+        for value in printed {
+            assert!(words.contains(value), "{value} is not in the file");
+        }
+    }
+}
+
+#[test]
+fn pictures_have_words_and_no_colours_of_their_own() {
+    for languages in [english(), Languages::from(Language::Russian), both()] {
+        let (content, _) = passport(fixtures::DEGREES, fixtures::SITE);
+        let text = all_pictures(&languages, &content);
+        let page = Document::parse(&text).unwrap();
+        let ids: Vec<&str> = page.descendants().filter_map(|node| node.attribute("id")).collect();
+        let unique: BTreeSet<&str> = ids.iter().copied().collect();
+        assert_eq!(ids.len(), unique.len(), "an id stands twice");
+        for svg in svgs(&page) {
+            let labels: Vec<&str> = svg.attribute("aria-labelledby").unwrap().split(' ').collect();
+            assert_eq!(labels.len(), 2 * languages.iter().count());
+            for label in labels {
+                let node = svg.descendants().find(|node| node.attribute("id") == Some(label)).unwrap();
+                assert!(node.text().unwrap().len() > 8 && !node.text().unwrap().contains(['{', '}']), "{label}");
+            }
+            let reference = svg.descendants().find_map(|node| node.attribute("fill"));
+            if let Some(fill) = reference {
+                let id = fill.strip_prefix("url(#").unwrap().strip_suffix(')').unwrap();
+                assert!(unique.contains(id), "{id}");
+            }
+        }
+        for attribute in ["stroke=", "color=", "href=", "rgb(", "NaN", "inf"] {
+            assert!(!text.contains(attribute), "{attribute}");
+        }
+    }
+}
+
+/// A page may stand once for each language, and ids differ then too.
+#[test]
+fn ids_differ_from_one_language_to_the_other() {
+    let (content, _) = passport(fixtures::DEGREES, fixtures::SITE);
+    let (one, other) =
+        (all_pictures(&english(), &content), all_pictures(&Languages::from(Language::Russian), &content));
+    let ids = |text: &str| -> BTreeSet<String> {
+        let page = Document::parse(text).unwrap();
+        page.descendants().filter_map(|node| node.attribute("id").map(str::to_owned)).collect()
+    };
+    assert!(ids(&one).is_disjoint(&ids(&other)));
+}

@@ -1,0 +1,166 @@
+//! Currents in CSV: what is read, and every way in which a file is refused.
+
+use crate::inside::reference::*;
+use dtg_passport::calibration::{Readings, Setup};
+
+/// (file, what the message must say).
+const BAD: [(&str, &[&str]); 29] = [
+    ("", &["empty file"]),
+    ("# nothing\n\n", &["nothing but blanks and comments"]),
+    ("i;j;jx_ma;jy_ma\n1;1;0,1;0,2\n", &["c.csv:1:1", "semicolons", "commas between the columns"]),
+    ("i\tj\tjx_ma\tjy_ma\n", &["c.csv:1:1", "tabs"]),
+    ("i,j,jx_ma\n1,1,0.1\n", &["c.csv:1:1", "no column jy_ma"]),
+    ("i,j,jx_ua,jy_ma\n", &["c.csv:1:5", "\"jx_ua\"", "did you mean jx_ma?"]),
+    ("i,j,jx_ma,jy_ma,Cycles\n", &["c.csv:1:17", "\"Cycles\"", "did you mean cycle?"]),
+    ("i,j,jx_ma,jy_ma,time_min\n", &["c.csv:1:17", "did you mean time_s?"]),
+    ("i,j,jx_ma,jy_ma,time\n", &["c.csv:1:17", "did you mean time_s?"]),
+    ("i,j,jx_ma,jy_ma,visit\n1,1,0.1,0.2,0\n", &["c.csv:2:13", "visit", "a whole number from 1"]),
+    ("i,j,jx_ma,jy_ma,cycle\n1,1,0.1,0.2,\n", &["c.csv:2:13", "cycle", "found nothing"]),
+    ("i,j,jx_ma,jy_ma,time_s\n1,1,0.1,0.2,noon\n", &["c.csv:2:13", "time_s", "a number"]),
+    ("i,j,jx_ma,jy_ma,note\n1,1,0.1,0.2,\"a, b\n", &["c.csv:2:13", "a quoted cell that does not end"]),
+    ("i,j,jx_ma,jy_ma,note\n1,1,0.1,0.2,a, b\n", &["c.csv:2:1", "6 values"]),
+    ("i,j,jx_ma,jx_ma,jy_ma\n", &["c.csv:1:11", "a second time"]),
+    ("1,1,0.1,0.2\n", &["c.csv:1:1", "add the header"]),
+    ("ROW 1,1,0,1,0,2\n", &["c.csv:2:1", "6 values", "decimal comma"]),
+    ("ROW 1,1,0.1\n", &["c.csv:2:1", "3 values"]),
+    ("ROW 1,1,abc,0.2\n", &["c.csv:2:5", "jx_ma", "\"abc\"", "a number"]),
+    ("ROW 1,1, NaN,0.2\n", &["c.csv:2:6", "a finite number"]),
+    ("ROW 1,1,0.1,inf\n", &["c.csv:2:9", "jy_ma", "a finite number"]),
+    ("ROW 1,1,0.1,\n", &["c.csv:2:9", "found nothing", "leave out the whole row"]),
+    ("ROW 1,1,0.1mA,0.2\n", &["c.csv:2:5", "the unit is in the column's name"]),
+    ("ROW 1,1,1e6,0.2\n", &["c.csv:2:5", "1000000", "the meter's range"]),
+    ("ROW 1,1,-104.9,0.2\n", &["c.csv:2:5", "is it in microamperes?"]),
+    ("ROW 3,1,0.1,0.2\n", &["c.csv:2:1", "position (3, 1)", "is it the passport of this stand?"]),
+    ("ROW 0,1,0.1,0.2\n", &["c.csv:2:1", "a whole number from 1"]),
+    ("ROW 1,1.0,0.1,0.2\n", &["c.csv:2:3", "a whole number from 1"]),
+    ("ROW 1,1,x,0.2\n1,2,0.1,2.5\n", &["c.csv:2:5", "c.csv:3:9"]),
+];
+
+fn paper() -> Setup {
+    setup(&eight([[1e-3; 3]; 8]), LATITUDE_DEG)
+}
+
+fn read(setup: &Setup, text: &str) -> Result<Readings, String> {
+    Readings::from_csv("c.csv", text.as_bytes(), setup.coefficients(), 1.0).map_err(|error| error.to_string())
+}
+
+/// A good file of the paper's gyro.
+fn good(setup: &Setup) -> String {
+    let each = setup.coefficients().positions.iter().zip(currents(setup, &gvk_6()));
+    let rows = each.map(|(at, j)| format!("{},{},{},{}\n", at.index.i, at.index.j, j.x, j.y));
+    format!("i,j,jx_ma,jy_ma\n{}", rows.collect::<String>())
+}
+
+#[test]
+fn bad_files_are_refused_with_their_place() {
+    let setup = paper();
+    for (text, words) in BAD {
+        let text = text.replace("ROW ", "i,j,jx_ma,jy_ma\n");
+        let error = read(&setup, &text).expect_err(&text);
+        for word in words {
+            assert!(error.contains(word), "{text:?} gives {error:?}, without {word:?}");
+        }
+    }
+}
+
+#[test]
+fn a_position_missing_or_double() {
+    let setup = paper();
+    let good = good(&setup);
+    let without = |start: &str| good.lines().filter(|line| !line.starts_with(start)).collect::<Vec<_>>().join("\n");
+    let error = read(&setup, &without("2,3,")).unwrap_err();
+    assert!(error.contains("no reading of position (2, 3)"), "{error}");
+    let error = read(&setup, &good.replace("2,3,", "2,2,")).unwrap_err();
+    assert!(error.contains("position (2, 2) stands 2 times: is one of them this one?"), "{error}");
+    assert_eq!(read(&setup, &format!("{good}2,2,0.1,0.1\n")).unwrap().positions()[5].each_ma().count(), 2);
+}
+
+#[test]
+fn an_axis_without_current() {
+    let setup = paper();
+    let good = good(&setup);
+    let with = |x: bool, y: bool| {
+        let rows = good.lines().skip(1).map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            let cell = |keep: bool, place: usize| if keep { cells[place] } else { "0.0" };
+            format!("{},{},{},{}\n", cells[0], cells[1], cell(x, 2), cell(y, 3))
+        });
+        read(&setup, &format!("i,j,jx_ma,jy_ma\n{}", rows.collect::<String>())).unwrap_err()
+    };
+    assert!(with(false, false).contains("all zero"));
+    assert!(with(true, false).contains("J_y"));
+    assert!(with(false, true).contains("J_x"));
+}
+
+/// Order of columns and rows, comments, blanks, a byte order mark and CR LF change nothing.
+#[test]
+fn form_does_not_matter() {
+    let setup = paper();
+    let good = good(&setup);
+    let expected = read(&setup, &good).unwrap();
+    assert_eq!(expected.means_ma(), currents(&setup, &gvk_6()));
+    let mut rows: Vec<String> = good
+        .lines()
+        .map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            format!(" {} , {},{}, {}", cells[3], cells[1], cells[0], cells[2])
+        })
+        .collect();
+    rows[1..].reverse();
+    rows.insert(1, "# a comment, with a comma".to_owned());
+    rows.insert(3, String::new());
+    let other = format!("\u{feff}{}\r\n", rows.join("\r\n"));
+    assert_eq!(read(&setup, &other).unwrap(), expected);
+}
+
+/// (cycle, number, rows) of the visits to position (1, 1).
+fn visits(text: &str) -> Vec<(u32, u32, usize)> {
+    let setup = paper();
+    let rest: String = good(&setup).lines().skip(2).map(|line| format!("{line},9,9,0\n")).collect();
+    let (header, rows) = text.split_once('\n').unwrap();
+    let all = format!("{header}\n{rows}{}", if header.contains("cycle") { rest } else { rest.replace(",9,9,0", "") });
+    let readings = read(&setup, &all).unwrap();
+    readings.positions()[0].visits.iter().map(|visit| (visit.cycle, visit.number, visit.each_ma.len())).collect()
+}
+
+/// Expected: the contract: without `visit` rows of a position that follow each other are one visit; another position or
+/// another cycle begins a new one; with it the number counts, in any order of rows.
+#[test]
+fn visits_are_told_by_the_column_or_by_the_order() {
+    let plain = "i,j,jx_ma,jy_ma\n1,1,0.1,0.2\n1,1,0.1,0.2\n1,2,0.1,0.3\n1,1,0.1,0.2\n";
+    assert_eq!(visits(plain), [(1, 1, 2), (1, 2, 1)]);
+    let header = "i,j,jx_ma,jy_ma,cycle,visit,time_s\n";
+    let numbered = ["1,1,0.1,0.2,1,2,0", "1,1,0.1,0.2,1,1,5.5", "1,1,0.1,0.2,2,1,9", "1,1,0.1,0.2,1,2,12"].join("\n");
+    assert_eq!(visits(&format!("{header}{numbered}\n")), [(1, 2, 2), (1, 1, 1), (2, 1, 1)]);
+    let setup = paper();
+    let good = good(&setup);
+    let cycles: String = good.lines().skip(1).flat_map(|line| [1, 2, 2].map(|c| format!("{line},{c}\n"))).collect();
+    let readings = read(&setup, &format!("i,j,jx_ma,jy_ma,cycle\n{cycles}")).unwrap();
+    let first: Vec<_> = readings.positions()[0].visits.iter().map(|v| (v.cycle, v.number, v.each_ma.len())).collect();
+    assert_eq!(first, [(1, 1, 1), (2, 1, 2)]);
+}
+
+/// Expected by hand: the mean of the visits' means, not of the rows.
+#[test]
+fn a_visit_counts_once_however_often_it_is_read() {
+    let setup = paper();
+    let rest: String = good(&setup).lines().skip(2).map(|line| format!("{line}\n")).collect();
+    let rows = "1,1,0.1,0.2\n1,1,0.3,0.2\n1,1,0.2,0.2\n";
+    let text = format!("i,j,jx_ma,jy_ma\n{rows}{rest}1,1,0.4,0.4\n");
+    let mean = read(&setup, &text).unwrap().positions()[0].mean_ma;
+    assert!((mean - nalgebra::Vector2::new(0.3, 0.3)).amax() < 1e-15, "{mean}");
+}
+
+/// A column with a name of its own is left out of account and named; its cells may be quoted.
+#[test]
+fn other_columns_are_named_and_left_out() {
+    let setup = paper();
+    let good = good(&setup);
+    let mut lines = good.lines();
+    let header = format!("{},operator,temp_c\n", lines.next().unwrap());
+    let rows: String = lines.map(|line| format!("{line},\"N. N., \"\"day\"\" shift\" , 20.1\n")).collect();
+    let found = read(&setup, &format!("{header}{rows}")).unwrap();
+    assert_eq!(found.means_ma(), read(&setup, &good).unwrap().means_ma());
+    assert_eq!(found.remark(), Some("c.csv: the columns \"operator\", \"temp_c\" are left out of account"));
+    assert_eq!(read(&setup, &good).unwrap().remark(), None);
+}

@@ -1,0 +1,242 @@
+//! Rows and visits: what reading again makes smaller, and whether the scatter is what was stated.
+
+use crate::inside::reference::*;
+use dtg_passport::calibration::parameter::Parameter;
+use dtg_passport::calibration::readings::Reading;
+use dtg_passport::calibration::scatter::Agreement;
+use dtg_passport::calibration::{Calibration, InputUncertainty, Method, Options, Readings, Setup, calibrate};
+use dtg_passport::report::calibration as report;
+use dtg_passport::statistics::random::Stream;
+use dtg_passport::uncertainty::engine::{Engine, ReadingShape};
+use dtg_passport::uncertainty::{Budget, monte_carlo};
+use dtg_passport::units::radians_from_arcseconds;
+use nalgebra::{DMatrix, Matrix2, Vector2};
+
+const REPEATABILITY_ARCSEC: f64 = 4.0;
+
+/// A stand that returns within [`REPEATABILITY_ARCSEC`], and a meter of the paper's accuracy with the noise `noise_ma`.
+fn bench(noise_ma: f64) -> Setup {
+    let mut u = InputUncertainty::of_meter(paper_meter());
+    u.meter.noise_ma = noise_ma;
+    u.repeatability_rad = radians_from_arcseconds(REPEATABILITY_ARCSEC);
+    with_uncertainty(&drawn_stand(&mut Stream::new(8), 2.0), LATITUDE_DEG, u)
+}
+
+/// Exact currents of the paper's gyro with errors added: `error(place, visit, row)`, mA.
+fn rows(setup: &Setup, visits: u32, rows: u32, mut error: impl FnMut(usize, u32, u32) -> Vector2<f64>) -> Vec<Reading> {
+    let exact = currents(setup, &gvk_6());
+    let mut all = Vec::new();
+    for visit in 1..=visits {
+        for (place, (at, exact)) in setup.coefficients().positions.iter().zip(&exact).enumerate() {
+            for row in 0..rows {
+                all.push(Reading::new(at.index, exact + error(place, visit, row)));
+            }
+        }
+    }
+    all
+}
+
+fn solved(setup: &Setup, rows: &[Reading]) -> Calibration {
+    let readings = Readings::of_rows(setup.coefficients(), rows).unwrap();
+    calibrate(setup, &readings, &Options::default()).unwrap()
+}
+
+fn u(calibration: &Calibration, parameter: Parameter) -> f64 {
+    calibration.results.last().unwrap().standard_uncertainty(parameter).unwrap()
+}
+
+/// Ten rows in place repeat the meter's error of that position and the return: they are no ten returns.
+#[test]
+fn rows_in_place_make_neither_the_specification_nor_the_return_smaller() {
+    let setup = bench(0.0);
+    let mut stream = Stream::new(31);
+    let mut alarms = 0;
+    for _ in 0..40 {
+        let meter = setup.uncertainty().meter;
+        let exact = currents(&setup, &gvk_6());
+        let own: Vec<Vector2<f64>> =
+            exact.iter().map(|at| at.map(|j| meter.own_variance_ma2(j).sqrt() * stream.normal())).collect();
+        let mut noise = || Vector2::from_fn(|_, _| 1e-7 * stream.normal());
+        let ten = solved(&setup, &rows(&setup, 1, 10, |place, _, _| own[place] + noise()));
+        let one = solved(&setup, &rows(&setup, 1, 1, |place, _, _| own[place]));
+        for parameter in Parameter::EIGHT {
+            let ratio = u(&ten, parameter) / u(&one, parameter);
+            assert!((ratio - 1.0).abs() < 1e-3, "{}: {ratio}", parameter.symbol());
+        }
+        assert_eq!(ten.scatter, None);
+        let scatter = ten.row_scatter.unwrap();
+        assert!((scatter.standard_deviation_ma / 1e-7 - 1.0).abs() < 0.25, "{scatter:?}");
+        assert!(scatter.degrees_of_freedom == 144 && scatter.against_stated.is_none(), "{scatter:?}");
+        alarms += u32::from(ten.hint.is_some());
+    }
+    assert!(alarms <= 1, "{alarms}");
+}
+
+/// Expected: C_p = K [diag((ρ J)² + f²) + ν²/(m k)] K′ + R/m with returns R, and u² = diag (Σ F_p′ C_p⁻¹ F_p)⁻¹ with the
+/// rows (J, 1, n) of a position: by dense matrices, nothing of the library's but the vectors of the positions and R,
+/// which follows from u of one visit without noise.
+#[test]
+fn uncertainties_are_those_of_the_formula() {
+    let noise_ma = 3e-5;
+    let setup = bench(noise_ma);
+    let (visits, reads) = (3, 4);
+    let mut stream = Stream::new(5);
+    // Small errors, so that nothing scatters more than stated; nor so little that it matters here.
+    let mut error = |_, _, _| Vector2::from_fn(|_, _| noise_ma * stream.normal());
+    let found = solved(&setup, &rows(&setup, visits, reads, &mut error));
+    let meter = setup.uncertainty().meter;
+    let gyro = gvk_6();
+    let k = gyro.k_deg_per_h_per_ma;
+    let earth = dtg_passport::coefficients::EarthRate::at_astronomic_latitude(LATITUDE_DEG);
+    let mut information = DMatrix::<f64>::zeros(8, 8);
+    for (at, j) in drawn_stand(&mut Stream::new(8), 2.0).iter().zip(currents(&setup, &gyro)) {
+        let attitude = dtg_passport::attitude::actual(at.theta_deg, at.phi_deg, &at.deviation);
+        let rate = attitude * nalgebra::Vector3::new(0.0, earth.horizontal_deg_per_h, earth.vertical_deg_per_h);
+        let n = attitude.column(2).into_owned();
+        let mut returns = Matrix2::zeros();
+        for axis in 0..3 {
+            let turn = nalgebra::Vector3::from_fn(|row, _| if row == axis { 1.0 } else { 0.0 });
+            let change = rate.cross(&turn).xy() - gyro.omega_n_deg_per_h_per_g() * n.cross(&turn).xy();
+            returns += change * change.transpose() * radians_from_arcseconds(REPEATABILITY_ARCSEC).powi(2);
+        }
+        let specification = j.map(|j| (meter.reading * j).powi(2) + meter.floor_ma.powi(2));
+        let noise = noise_ma * noise_ma / f64::from(visits * reads);
+        let own = Matrix2::from_diagonal(&specification.map(|variance| variance + noise));
+        let covariance = k * own * k.transpose() + returns / f64::from(visits);
+        let equations = DMatrix::from_row_slice(
+            2,
+            8,
+            &[j.x, j.y, 0.0, 0.0, 1.0, 0.0, n.x, -n.y, 0.0, 0.0, j.x, j.y, 0.0, 1.0, n.y, n.x],
+        );
+        let weight = covariance.try_inverse().unwrap();
+        let weight = DMatrix::from_fn(2, 2, |row, column| weight[(row, column)]);
+        information += equations.transpose() * weight * equations;
+    }
+    let due = information.try_inverse().unwrap();
+    for parameter in Parameter::EIGHT {
+        let place = parameter.place();
+        let ratio = u(&found, parameter) / due[(place, place)].sqrt();
+        // The fit takes its currents from the readings, whose errors are 1e-4 of them.
+        assert!((ratio - 1.0).abs() < 2e-3, "{}: {ratio}", parameter.symbol());
+    }
+    assert_eq!(found.scatter.unwrap().degrees_of_freedom, 2 * 2 * 8);
+    assert_eq!(found.row_scatter.unwrap().degrees_of_freedom, 2 * 3 * 3 * 8);
+}
+
+/// Visits that agree better than the stand returns are no visits; rows that are noisier than stated are noisy.
+#[test]
+fn scatter_is_judged_in_both_tails() {
+    let setup = bench(2e-5);
+    let context = report::Context {
+        passport_id: "SPS-2/0017/here/1",
+        passport_verified: true,
+        gravity_m_per_s2: (9.8, None),
+        missing: &[],
+        verdict: None,
+        change: None,
+        mistake: None,
+    };
+    let with = |visit_ma: f64, row_ma: f64| {
+        let mut stream = Stream::new(12);
+        let mut of_visit = Vector2::zeros();
+        let rows = rows(&setup, 6, 3, |_, _, row| {
+            if row == 0 {
+                of_visit = Vector2::from_fn(|_, _| visit_ma * stream.normal());
+            }
+            of_visit + Vector2::from_fn(|_, _| row_ma * stream.normal())
+        });
+        let found = solved(&setup, &rows);
+        let (visits, rows) = (found.scatter.unwrap(), found.row_scatter.unwrap().against_stated.unwrap());
+        (visits.agreement(), rows.agreement(), rows.variance_factor, report::text(&found, &context))
+    };
+    let (visits, rows, factor, text) = with(0.0, 1e-6);
+    assert_eq!((visits, rows, factor), (Agreement::Less, Agreement::Less, 1.0));
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("less than stated: were these readings taken without leaving the position?"), "{text}");
+    assert!(text.contains("less than stated: are they copies of one reading?"), "{text}");
+    let (visits, rows, factor, text) = with(1e-3, 2e-4);
+    assert_eq!((visits, rows), (Agreement::More, Agreement::More));
+    // By hand: ten times the stated standard deviation; 192 degrees of freedom leave 10 %.
+    assert!((factor / 100.0 - 1.0).abs() < 0.35, "{factor}");
+    assert!(text.contains("more than stated: their variance"), "{text}");
+}
+
+/// What nobody states of rows or visits, repeated readings show; expected by hand.
+#[test]
+fn noise_that_is_not_stated_is_found_from_the_readings() {
+    let setup = setup(&drawn_stand(&mut Stream::new(8), 2.0), LATITUDE_DEG);
+    let sign = |row: u32| Vector2::repeat(if row == 0 { 1e-5 } else { -1e-5 });
+    let of_rows = solved(&setup, &rows(&setup, 1, 2, |_, _, row| sign(row))).row_scatter.unwrap();
+    // Σ squares 2 · 8 · 2 · (1e-5)², 2 · 8 degrees of freedom.
+    assert!((of_rows.standard_deviation_ma / (2.0_f64.sqrt() * 1e-5) - 1.0).abs() < 1e-9, "{of_rows:?}");
+    let visited = solved(&setup, &rows(&setup, 2, 1, |_, visit, _| sign(visit - 1)));
+    assert_eq!(visited.row_scatter, Some(of_rows));
+    assert_eq!(visited.scatter, None);
+}
+
+/// Monte Carlo draws what first order adds up: visits, rows, and an estimate that the angles share.
+#[test]
+fn monte_carlo_draws_the_same_structure() {
+    let mut u = bench(4e-5).uncertainty().clone();
+    u.angles_rad = vec![[radians_from_arcseconds(3.0); 3]; 8];
+    u.angles_degrees_of_freedom = vec![60.0; 8];
+    u.repeatability_degrees_of_freedom = 180.0;
+    u.common_platform_rad = radians_from_arcseconds(2.0);
+    u.common_platform_degrees_of_freedom = 40.0;
+    u.common_base_rad = radians_from_arcseconds(2.0);
+    u.common_base_degrees_of_freedom = 40.0;
+    let setup = with_uncertainty(&drawn_stand(&mut Stream::new(8), 2.0), LATITUDE_DEG, u);
+    let mut stream = Stream::new(5);
+    let rows = rows(&setup, 2, 2, |_, _, _| Vector2::from_fn(|_, _| 4e-5 * stream.normal()));
+    let readings = Readings::of_rows(setup.coefficients(), &rows).unwrap();
+    for method in [Method::Analytic, Method::LeastSquares] {
+        let engine = Engine::new(&setup, &readings, method, ReadingShape::Normal).unwrap();
+        let budget = Budget::new(&setup, &readings, method, false).unwrap();
+        let trials = monte_carlo::Trials { trials: Some(150_000), seed: 4, threads: 2, cancel: None, progress: None };
+        let found = monte_carlo::monte_carlo(&engine, &budget, &trials);
+        for (line, trials) in budget.parameters.iter().zip(&found.parameters) {
+            // Student's t with 40 degrees of freedom and more has up to 2.5 % more standard deviation than its scale.
+            let ratio = trials.standard_uncertainty / line.standard_uncertainty;
+            assert!((0.995..1.028).contains(&ratio), "{}: {ratio}", line.parameter.key());
+            let end = (trials.symmetric[1] - line.value) / line.expanded_uncertainty();
+            assert!((end - 1.0).abs() < 0.02, "{}: {end}", line.parameter.key());
+        }
+    }
+}
+
+/// Four positions give eight numbers for eight unknowns: any readings fit.
+#[test]
+fn too_few_readings_to_judge() {
+    let all = drawn_stand(&mut Stream::new(8), 2.0);
+    let four: Vec<_> = [0, 1, 5, 6].map(|place| all[place]).into();
+    let setup = setup(&four, LATITUDE_DEG);
+    let mut exact = currents(&setup, &gvk_6());
+    exact[2] *= 1.5;
+    let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
+    let found = calibrate(&setup, &readings(&setup, &exact), &options).unwrap();
+    let chi_square = found.results[0].chi_square;
+    assert!(!chi_square.judges() && chi_square.value == 0.0, "{chi_square:?}");
+    let document =
+        dtg_passport::calibration::document::CalibrationDocument::new("a/b/c/1", true, (9.8, None), &found, &[]);
+    let json: serde_json::Value = serde_json::to_value(&document).unwrap();
+    let result = &json["results"][0];
+    assert_eq!(result["chi_square"], serde_json::json!({"value": 0.0, "degrees_of_freedom": 0}));
+    assert!(result.get("residuals_deg_per_h").is_none());
+    let bytes = serde_json::to_vec(&document).unwrap();
+    assert_eq!(
+        dtg_passport::calibration::document::CalibrationDocument::from_json("earlier.json", &bytes).unwrap(),
+        document
+    );
+    let context = report::Context {
+        passport_id: "a/b/c/1",
+        passport_verified: true,
+        gravity_m_per_s2: (9.8, None),
+        missing: &[],
+        verdict: None,
+        change: None,
+        mistake: None,
+    };
+    let text = report::text(&found, &context);
+    assert!(text.contains("The fit cannot be judged") && !text.contains("chi-square"), "{text}");
+    assert!(!text.contains("x, deg/h"), "{text}");
+}

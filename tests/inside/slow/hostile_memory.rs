@@ -1,0 +1,120 @@
+//! What a hostile file of 1 MiB may cost in memory, whoever signed it.
+//!
+//! `cargo test --release --lib inside::slow::hostile_memory -- --nocapture` prints the figures of docs/figures.md.
+
+use super::alone::alone;
+use crate::fuzzing::memory::{bound, peak};
+use crate::inside::fixtures;
+use dtg_passport::folder::search::register;
+use dtg_passport::gyro::GyroType;
+use dtg_passport::laboratory::Laboratory;
+use dtg_passport::passport::accuracy::{Accuracy, StatedGyro};
+use dtg_passport::passport::annotations::payload;
+use dtg_passport::passport::content::{Content, PositionVectors};
+use dtg_passport::passport::{CheckName, Code, Trust, verify};
+use dtg_passport::register::{Asked, State};
+use dtg_passport::stand::{CertifiedPosition, MOST_POSITIONS};
+use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
+use dtg_passport::trust::SigningKey;
+use std::fs;
+
+/// A passport of the paper's eight positions and more, made from the eight.
+fn with_positions(count: usize) -> Content {
+    let mut content = fixtures::content(&fixtures::stand(fixtures::DEGREES), &fixtures::site(fixtures::SITE));
+    let of = content.positions[0].clone();
+    let more = (8..count).map(|index| CertifiedPosition {
+        i: 3 + index as u32 / 1000,
+        j: index as u32 % 1000 + 1,
+        ..of.clone()
+    });
+    content.positions.extend(more);
+    let gyro: StatedGyro = GyroType::gvk_6().into();
+    let standard_uncertainty = gyro.nominal.clone();
+    content.accuracy = Some(Accuracy { gyro, laboratory: Laboratory::paper().into(), standard_uncertainty });
+    content
+}
+
+fn with_vectors(count: usize) -> Content {
+    let mut content = with_positions(8);
+    let of = content.vectors[0].clone();
+    content.vectors = (0..count).map(|_| PositionVectors { ..of.clone() }).collect();
+    content
+}
+
+/// A passport of so many positions as no issuer writes it, so that it is for the reader that tells what is wrong.
+fn in_another_form(count: usize) -> String {
+    payload(&with_positions(count)).replace("phi_deg: 0.0", "phi_deg: 0.00")
+}
+
+/// The largest of these that fits into the size limit, signed.
+fn largest(make: impl Fn(usize) -> String, key: &SigningKey) -> String {
+    let file = |count| fixtures::signed(&make(count), key);
+    let bytes = |count| file(count).len();
+    let each = (bytes(1008) - bytes(508)) / 500;
+    let file = file((LARGEST_DOCUMENT_BYTES - bytes(8)) / (each + 4));
+    assert!((LARGEST_DOCUMENT_BYTES * 9 / 10..=LARGEST_DOCUMENT_BYTES).contains(&file.len()), "{}", file.len());
+    file
+}
+
+/// The result, and the most memory that it took at a time, in bytes, which is printed too.
+fn measured<T>(name: &str, run: impl FnOnce() -> T) -> (T, usize) {
+    let (result, most) = peak(run);
+    println!("{name}: {:.1} MiB", most as f64 / (1 << 20) as f64);
+    (result, most)
+}
+
+#[test]
+fn a_hostile_file_costs_little_memory_alone_and_in_a_folder() {
+    alone(module_path!(), "a_hostile_file_costs_little_memory_alone_and_in_a_folder", hostile_files);
+}
+
+fn hostile_files() {
+    let (factory, stranger) = (SigningKey::generate().unwrap(), SigningKey::generate().unwrap());
+    let trust = fixtures::trust(&factory);
+    let verified = |name: &str, file: &str| {
+        let (answer, most) = measured(name, || verify(name, file.as_bytes(), &trust, &fixtures::question()));
+        assert!(!answer.valid() && most <= bound(file.len()), "{name}: {most} bytes, {:?}", answer.checks());
+        answer
+    };
+    let files = [
+        ("positions", largest(|count| payload(&with_positions(count)), &stranger)),
+        ("positions of the factory", largest(|count| payload(&with_positions(count)), &factory)),
+        ("vectors", largest(|count| payload(&with_vectors(count)), &stranger)),
+        ("positions in another form", largest(in_another_form, &stranger)),
+    ];
+    for (name, file) in &files {
+        let answer = verified(name, file);
+        assert_eq!(answer.code(CheckName::Schema), Some(Code::BadContent), "{name}");
+        assert!(answer.checks().iter().all(|check| check.detail.len() < 10_000), "{name}");
+    }
+    // As many positions as there may be: of a stranger nothing is computed, of the factory everything.
+    let full = fixtures::written(&with_positions(MOST_POSITIONS), &stranger);
+    let answer = verified("256 positions of a stranger", &full);
+    let codes = [CheckName::Schema, CheckName::Signer, CheckName::Recomputed, CheckName::InForce];
+    let found = codes.map(|name| answer.code(name));
+    assert_eq!(found, [Code::Ok, Code::UnknownKey, Code::NotRun, Code::NotRun].map(Some));
+    let own = fixtures::written(&with_positions(MOST_POSITIONS), &factory);
+    assert_eq!(verified("256 positions of the factory", &own).code(CheckName::Recomputed), Some(Code::WrongNumber));
+    in_a_folder(&files, &factory, &trust);
+}
+
+/// All of them in the folder of one stand, beside a good passport in that of another, by two threads.
+fn in_a_folder(files: &[(&str, String)], factory: &SigningKey, trust: &Trust) {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    };
+    for (index, (_, file)) in files.iter().enumerate() {
+        write(&format!("SPS-9/0001/hostile-{index}.yaml"), file);
+    }
+    let good = fixtures::content(&fixtures::stand(fixtures::DEGREES), &fixtures::site(fixtures::SITE));
+    write("SPS-1/0203/bench-1.yaml", &fixtures::written(&good, factory));
+    let asked = Asked::at(fixtures::question().time);
+    let (found, most) = measured("a folder of them", || register(folder.path(), trust.clone(), &asked, 2));
+    let (register, _) = found.unwrap();
+    assert!(most <= 2 * bound(LARGEST_DOCUMENT_BYTES), "{most} bytes");
+    assert_eq!(register.counts().get(&State::InForce), Some(&1), "{:?}", register.alarms);
+    assert_eq!(register.passports.len(), files.len() + 1);
+}

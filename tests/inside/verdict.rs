@@ -1,0 +1,271 @@
+//! Verdicts against hand-made figures, the JSON of results, and the inputs that the files state.
+
+use crate::inside::reference::*;
+use dtg_passport::calibration::document::CalibrationDocument;
+use dtg_passport::calibration::stated::{NotStated, Stated};
+use dtg_passport::calibration::verdict::{Decision, Found, against_earlier, against_type, change_in_uncertainties};
+use dtg_passport::calibration::{InputUncertainty, Options, Setup, calibrate};
+use dtg_passport::coefficients::EarthRate;
+use dtg_passport::gyro::{GyroParameters, GyroType};
+use dtg_passport::laboratory::Laboratory;
+use dtg_passport::site::Site;
+use dtg_passport::stand::Stand;
+use dtg_passport::units::radians_from_arcseconds;
+
+const G: f64 = 9.80665;
+
+fn found(change: impl Fn(&mut [f64; 8]), u: [f64; 8]) -> Found {
+    let mut values = gvk_6().to_vector();
+    change(&mut values);
+    Found {
+        parameters: GyroParameters::from_vector(&values),
+        standard_uncertainty: u,
+        gravity_m_per_s2: G,
+        gravity_u_m_per_s2: 0.0,
+    }
+}
+
+const SMALL: [f64; 8] = [0.005, 0.01, 0.01, 0.005, 0.002, 0.002, 0.002, 0.002];
+
+/// Expected by hand, tolerances 0.05 % of 95 = 0.0475, 0.5 % of 9.5 = 0.0475, 0.01.
+#[test]
+fn decisions() {
+    let verdict = against_type(&found(|_| {}, SMALL), &GyroType::gvk_6());
+    assert_eq!(verdict.overall, Decision::Pass);
+    assert_eq!(verdict.parameters.len(), 8);
+    assert!(verdict.parameters.iter().all(|p| p.simple == Decision::Pass && p.guarded == Decision::Pass));
+    // ω_0x out by 0.008 with U = 0.004: within by simple acceptance, not decided by guarded; one deviation of the
+    // tolerance's edge away, so the risk is Φ(-1) = 0.1587 and a negligible other tail.
+    let verdict = against_type(&found(|v| v[4] += 0.008, SMALL), &GyroType::gvk_6());
+    let omega0 = &verdict.parameters[4];
+    assert_eq!((omega0.parameter, omega0.unit), ("omega_0x", "deg/h"));
+    assert_eq!((omega0.simple, omega0.guarded), (Decision::Pass, Decision::Undecided));
+    assert_eq!(verdict.overall, Decision::Undecided);
+    assert!((omega0.specific_risk - 0.158_655_253_931_457).abs() < 1e-9, "{omega0:?}");
+    assert!((omega0.expanded_uncertainty - 0.004).abs() < 1e-15);
+    // Out by 0.012: simply out, not decided; the same risk from the other side. Out by 0.015: out.
+    let verdict = against_type(&found(|v| v[4] -= 0.012, SMALL), &GyroType::gvk_6());
+    let omega0 = &verdict.parameters[4];
+    assert_eq!((omega0.simple, omega0.guarded), (Decision::Fail, Decision::Undecided));
+    assert!((omega0.specific_risk - 0.158_655_253_931_457).abs() < 1e-9, "{omega0:?}");
+    let verdict = against_type(&found(|v| v[4] += 0.015, SMALL), &GyroType::gvk_6());
+    assert_eq!((verdict.parameters[4].guarded, verdict.overall), (Decision::Fail, Decision::Fail));
+    assert!((verdict.parameters[4].specific_risk - 0.006_209_665_325_776).abs() < 1e-9, "{verdict:?}");
+    // K_x in percent: 0.095 of 95 is 0.1 %.
+    let verdict = against_type(&found(|v| v[0] += 0.095, SMALL), &GyroType::gvk_6());
+    let k_x = &verdict.parameters[0];
+    assert_eq!((k_x.parameter, k_x.unit, k_x.tolerance), ("k_x", "%", 0.05));
+    assert!((k_x.deviation - 0.1).abs() < 1e-12 && k_x.guarded == Decision::Fail);
+    // An exact result leaves no doubt.
+    let exact = against_type(&found(|v| v[4] += 0.011, [0.0; 8]), &GyroType::gvk_6());
+    assert_eq!((exact.parameters[4].guarded, exact.parameters[4].specific_risk), (Decision::Fail, 0.0));
+}
+
+/// Expected: docs/model.md: 10 °/h/g moves by 0.5 % from equator to pole.
+#[test]
+fn drifts_are_brought_to_the_types_gravity() {
+    let mut at_pole = found(|v| v[6] *= 9.8321849379 / G, SMALL);
+    at_pole.gravity_m_per_s2 = 9.8321849379;
+    let verdict = against_type(&at_pole, &GyroType::gvk_6());
+    assert!(verdict.parameters[6].deviation.abs() < 1e-12);
+    assert!((verdict.parameters[7].deviation - 10.0 * (G / 9.8321849379 - 1.0)).abs() < 1e-12);
+    assert_eq!(verdict.parameters[7].guarded, Decision::Fail);
+}
+
+/// Expected by hand: 10 °/h/g under a g known to 0.005 of 10 m/s² adds 0.005; a change under the same g does not see it,
+/// one under another g does, twice.
+#[test]
+fn what_is_known_of_gravity_enters_with_the_types_g() {
+    let at = |gravity_m_per_s2: f64| Found { gravity_m_per_s2, gravity_u_m_per_s2: 0.005, ..found(|_| {}, SMALL) };
+    let gyro = GyroType { gravity_m_per_s2: Some(10.0), ..GyroType::gvk_6() };
+    let expanded = |one: &Found, earlier: Option<&Found>| {
+        let verdict = earlier.map_or_else(|| against_type(one, &gyro), |earlier| against_earlier(one, earlier, &gyro));
+        verdict.parameters[6].expanded_uncertainty
+    };
+    let squares = |squares: f64| 2.0 * squares.sqrt();
+    assert!((expanded(&at(10.0), None) - squares(0.002_f64.powi(2) + 0.005_f64.powi(2))).abs() < 1e-12);
+    assert!((expanded(&at(10.0), Some(&at(10.0))) - squares(2.0 * 0.002_f64.powi(2))).abs() < 1e-12);
+    let elsewhere = Found { gravity_m_per_s2: 10.000_000_1, ..at(10.0) };
+    let due = squares(2.0 * (0.002_f64.powi(2) + 0.005_f64.powi(2)));
+    assert!((expanded(&at(10.0), Some(&elsewhere)) - due).abs() < 1e-9);
+}
+
+/// Deviation = value − reference of the numbers shown, in the unit shown: drifts at the type's g, scale factors in percent of
+/// the nominal value. Expected by hand: 10 °/h/g under 9.8 m/s² are 10 · 9.80665/9.8 = 10.006786 under the type's.
+#[test]
+fn the_deviation_is_the_difference_of_the_numbers_shown() {
+    let gyro = GyroType::gvk_6();
+    let here = Found { gravity_m_per_s2: 9.8, ..found(|v| v[0] += 0.02, SMALL) };
+    let earlier = Found { gravity_m_per_s2: 9.79, ..found(|v| v[7] += 0.5, SMALL) };
+    for verdict in [against_type(&here, &gyro), against_earlier(&here, &earlier, &gyro)] {
+        assert_eq!(verdict.gravity_m_per_s2, G);
+        for (row, nominal) in verdict.parameters.iter().zip([95.0, 95.0, 9.5, 9.5, 20.0, 20.0, 10.0, 10.0]) {
+            let unit = if row.unit == "%" { nominal / 100.0 } else { 1.0 };
+            assert!((row.value - row.reference_value - row.deviation * unit).abs() < 1e-12, "{row:?}");
+            assert!((row.standard_uncertainty * 2.0 - row.expanded_uncertainty * unit).abs() < 1e-12, "{row:?}");
+        }
+        assert!((verdict.parameters[6].value - 10.006_786).abs() < 5e-7, "{verdict:?}");
+    }
+    let verdict = against_earlier(&here, &earlier, &gyro);
+    assert!((verdict.parameters[7].reference_value - 10.5 * 9.80665 / 9.79).abs() < 1e-12);
+    assert_eq!(against_type(&here, &gyro).parameters[0].reference_value, 95.0);
+}
+
+const HOLLOMAN: &str = "format: \"dtg-site/1\"\nid: \"holloman\"\nlatitude_deg: 32.8525\nlongitude_deg: -106.1064\n";
+
+/// What is said of a gyro with these drifts under the type's g, measured at Holloman under the local g that is there, with the
+/// uncertainty of a good meter.
+fn at_holloman(site: &str, omega_g: f64) -> dtg_passport::calibration::verdict::ParameterVerdict {
+    // By hand: sin²(32.8525°) = 0.294283; Somigliana 9.7803253359 (1 + 0.00193185265 · 0.294283)/√(1 − 0.00669438 · 0.294283)
+    // = 9.795539; less 3.0855e-6 for each of 1,225 m: 9.791759.
+    const LOCAL_G: f64 = 9.791_759;
+    let site = Site::from_yaml("holloman.yaml", site.as_bytes()).unwrap();
+    let measured = Found {
+        gravity_m_per_s2: site.earth().gravity_m_per_s2,
+        gravity_u_m_per_s2: site.gravity_u_m_per_s2().unwrap(),
+        ..found(|values| values[6] = omega_g * LOCAL_G / G, [0.01, 0.01, 0.01, 0.01, 0.003, 0.003, 0.0013, 0.0013])
+    };
+    against_type(&measured, &GyroType::gvk_6()).parameters[6].clone()
+}
+
+/// Gravity at 0 m is out by 3.8e-3 m/s² there, in ω_g 0.0039 °/h/g. So a nominal gyro does not pass for certain, and one that
+/// is out of tolerance does not either. With the height it is decided, rightly.
+#[test]
+fn an_unknown_height_leaves_drifts_undecided() {
+    for omega_g in [10.0, 10.0115, 9.9885] {
+        let row = at_holloman(HOLLOMAN, omega_g);
+        assert!((row.deviation - (omega_g - 10.0) + 0.0039).abs() < 1e-4, "{row:?}");
+        // 10 · 7.1e-3/9.8 = 0.00724, and the readings' 0.0013: 0.00736.
+        assert!((row.expanded_uncertainty - 2.0 * 0.00736).abs() < 5e-5, "{row:?}");
+        assert!(row.guarded == Decision::Undecided && row.specific_risk > 0.1, "{row:?}");
+        assert!(row.is_mostly_from_gravity());
+    }
+    let known = format!("{HOLLOMAN}height_m: 1225.0\n");
+    let nominal = at_holloman(&known, 10.0);
+    assert!(nominal.deviation.abs() < 1e-5 && nominal.guarded == Decision::Pass, "{nominal:?}");
+    assert!(!nominal.is_mostly_from_gravity());
+    let shipped = at_holloman(include_str!("../../sites/holloman-cigtf.yaml"), 10.0);
+    assert!(shipped.deviation.abs() < 1e-4 && shipped.guarded == Decision::Pass, "{shipped:?}");
+}
+
+/// A standard uncertainty that is negative or no number, and degrees of freedom that are none, are refused by name.
+#[test]
+fn uncertainties_that_are_none_are_refused() {
+    type Change = fn(&mut InputUncertainty);
+    let cases: [(Change, &str); 5] = [
+        (|u| u.angles_rad[3][1] = -1e-6, "certified angle is -0.000001"),
+        (|u| u.level_rad = f64::NAN, "the level is NaN"),
+        (|u| u.meter.gain = f64::INFINITY, "the meter's gain is inf"),
+        (|u| u.angles_degrees_of_freedom[0] = 0.0, "degrees of freedom of a certified angle are 0"),
+        (|u| u.repeatability_degrees_of_freedom = f64::NAN, "degrees of freedom of the returns are NaN"),
+    ];
+    for (change, words) in cases {
+        let mut uncertainty = InputUncertainty::of_meter(paper_meter());
+        uncertainty.angles_rad = vec![[1e-6; 3]; 8];
+        uncertainty.angles_degrees_of_freedom = vec![4.0; 8];
+        change(&mut uncertainty);
+        let refused = Setup::new(&eight([[0.0; 3]; 8]), EarthRate::at_astronomic_latitude(50.0), uncertainty);
+        let said = refused.unwrap_err().to_string();
+        assert!(said.contains(words), "{said}");
+    }
+}
+
+#[test]
+fn changes_since_an_earlier_result() {
+    let earlier = found(|_| {}, SMALL);
+    let now = found(|v| v[5] += 0.02, SMALL);
+    let verdict = against_earlier(&now, &earlier, &GyroType::gvk_6());
+    assert_eq!((verdict.parameters[5].guarded, verdict.overall), (Decision::Fail, Decision::Fail));
+    assert!((verdict.parameters[5].expanded_uncertainty - 2.0 * 0.002 * 2.0_f64.sqrt()).abs() < 1e-12);
+    assert!((change_in_uncertainties(&now, &earlier)[5] - 0.02 / (0.002 * 2.0_f64.sqrt())).abs() < 1e-9);
+}
+
+#[test]
+fn json_is_read_back() {
+    let setup = setup(&eight([[1e-3; 3]; 8]), LATITUDE_DEG);
+    let currents = currents(&setup, &gvk_6());
+    let found = calibrate(&setup, &readings(&setup, &currents), &Options::default()).unwrap();
+    let mut document =
+        CalibrationDocument::new("SPS-2/0017/moscow/1", true, (9.8156, Some(5e-4)), &found, &[NotStated::Latitude]);
+    let answer = found.results.last().unwrap().found(9.8156, 5e-4);
+    document.verdict = Some(against_type(&answer, &GyroType::gvk_6()));
+    let json = serde_json::to_string_pretty(&document).unwrap();
+    for key in ["\"spectral_radius\"", "\"iterations\": 2", "\"least-squares\"", "\"guarded\": \"", "\"probability\""] {
+        assert!(json.contains(key), "{key} in {json}");
+    }
+    assert!(!json.contains("anisoelasticity"), "absent when not fitted");
+    let back = CalibrationDocument::from_json("result.json", json.as_bytes()).unwrap();
+    assert_eq!(back.answer().unwrap(), answer);
+    assert_eq!(back.results, document.results);
+    let error = CalibrationDocument::from_json("result.json", b"{\n \"passport\": 1}").unwrap_err().to_string();
+    assert!(error.contains("result.json:2:") && error.contains("unknown field `passport`"), "{error}");
+}
+
+const STAND: &str = r#"format: "dtg-stand/1"
+stand: {model: "SPS-2", serial: "0017"}
+certificate: {number: "1", issued: "2026-11-02", laboratory: "x", repeatability_arcsec: 1.5, common_platform_arcsec: 0.8}
+positions:
+  - {i: 1, j: 1, theta_deg: 0, phi_deg: 0, alpha_arcsec: 12.4, beta_arcsec: -31.0, gamma_arcsec: 7.7, u_alpha_arcsec: 1.2, u_beta_arcsec: 1.3, u_gamma_arcsec: 2.0}
+"#;
+
+const SITE: &str = r#"format: "dtg-site/1"
+id: "moscow"
+latitude_deg: 55.7658
+uncertainty: {latitude_arcsec: 1.0, azimuth_arcsec: 30.0, level_arcsec: 5.0}
+"#;
+
+/// What the files state is used, what they do not is named, what the laboratory measured replaces the site's.
+#[test]
+fn inputs_as_stated() {
+    let stand = Stand::from_yaml("stand.yaml", STAND.as_bytes()).unwrap();
+    let site = Site::from_yaml("moscow.yaml", SITE.as_bytes()).unwrap();
+    let mut laboratory = Laboratory::paper();
+    let stated = Stated::new(&stand.certificate, &stand.positions, &site, &laboratory);
+    let arcsec = radians_from_arcseconds;
+    assert_eq!(stated.uncertainty.angles_rad, [[1.2, 1.3, 2.0].map(arcsec)]);
+    assert_eq!(stated.uncertainty.repeatability_rad, arcsec(1.5));
+    // Deflection unknown: 10″ beside the 1″ that the site states, each an input of its own.
+    assert_eq!(stated.uncertainty.latitude_rad, arcsec(1.0));
+    assert_eq!(stated.uncertainty.deflection_rad, arcsec(10.0));
+    assert_eq!(stated.uncertainty.azimuth_rad, arcsec(30.0));
+    let words: Vec<&str> = stated.missing.iter().map(|what| what.words()).collect();
+    assert_eq!(words, ["the stand's base (common_base_arcsec)", "the gyro's seat (seating_arcsec)"]);
+    laboratory.base = Some(dtg_passport::laboratory::Base { azimuth_arcsec: Some(10.0), level_arcsec: None });
+    let stated = Stated::new(&stand.certificate, &stand.positions, &site, &laboratory);
+    assert_eq!(stated.uncertainty.azimuth_rad, arcsec(10.0));
+    assert_eq!(stated.uncertainty.level_rad, arcsec(5.0));
+    let (setup, missing) = Setup::stated(&stand.certificate, &stand.positions, &site, &laboratory).unwrap();
+    assert_eq!((setup.coefficients().positions.len(), missing.len()), (1, 2));
+}
+
+/// One part that is stated does not hide another that is not: latitude and deflection, base and mark, g.
+#[test]
+fn every_part_that_is_not_stated_is_named() {
+    let stand = Stand::from_yaml("stand.yaml", STAND.as_bytes()).unwrap();
+    let laboratory = Laboratory::paper();
+    let missing = |site: &str| {
+        let site = Site::from_yaml("moscow.yaml", site.as_bytes()).unwrap();
+        let missing = Stated::new(&stand.certificate, &stand.positions, &site, &laboratory).missing;
+        missing
+            .into_iter()
+            .filter(|what| ![NotStated::Base, NotStated::Seat].contains(what))
+            .map(NotStated::words)
+            .collect::<Vec<_>>()
+    };
+    let mark = "azimuth_mark: {name: \"m\", latitude_deg: 55.776, longitude_deg: 37.6856, pillar_latitude_deg: 55.7658, \
+                pillar_longitude_deg: 37.6856, position_u_m: 0.02}\n";
+    let [latitude, deflection, azimuth, of_mark, gravity] = [
+        "the latitude (latitude_arcsec)",
+        "the deflection of the vertical (deflection_arcsec.u)",
+        "the base's azimuth (azimuth_arcsec)",
+        "the azimuth of the mark (position_u_m, deflection_arcsec.u)",
+        "gravity (gravity_u_m_per_s2)",
+    ];
+    assert!(missing(SITE).is_empty());
+    assert_eq!(missing(&SITE.replace("latitude_arcsec: 1.0, ", "")), [latitude]);
+    assert_eq!(missing(&format!("{SITE}deflection_arcsec: {{xi: 1.0, eta: 2.0}}\n")), [deflection]);
+    assert_eq!(missing(&format!("{}{mark}", SITE.replace("azimuth_arcsec: 30.0, ", ""))), [azimuth]);
+    assert_eq!(missing(&format!("{SITE}{}", mark.replace(", position_u_m: 0.02", ""))), [of_mark]);
+    assert_eq!(missing(&format!("{SITE}gravity_m_per_s2: 9.8156\n")), [gravity]);
+    assert!(missing(&SITE.replace("latitude_deg", "astronomic_latitude_deg")).is_empty());
+}

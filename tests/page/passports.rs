@@ -1,0 +1,142 @@
+//! What Chromium, zbar and PyYAML find on the pages of passports.
+
+use crate::cases::{self, Case};
+use crate::pages::{Page, browsed, strings};
+use crate::programs;
+use dtg_passport::document::sha256_hex;
+use dtg_passport::report::page::Language;
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+/// Every case, and what was found on its page.
+pub struct Passports {
+    pub folder: PathBuf,
+    pub cases: Vec<Case>,
+    found: Value,
+}
+
+/// The pages are opened once for all tests.
+pub static PASSPORTS: LazyLock<Passports> = LazyLock::new(|| {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("page");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    let cases = cases::all();
+    for case in &cases {
+        fs::write(folder.join(format!("{}.html", case.name)), case.html()).unwrap();
+        fs::write(folder.join(format!("{}.yaml", case.name)), &case.passport).unwrap();
+    }
+    let found = browsed(&folder, cases.iter().map(|case| case.name));
+    Passports { folder, cases, found }
+});
+
+impl Passports {
+    /// Each case with what was found on its page.
+    pub fn each(&self) -> impl Iterator<Item = (&Case, &Value)> {
+        self.cases.iter().map(|case| (case, &self.found[case.name]))
+    }
+
+    /// The same as pages.
+    pub fn pages(&self) -> impl Iterator<Item = Page<'_>> {
+        self.each().map(|(case, found)| Page {
+            name: case.name,
+            folder: &self.folder,
+            languages: &case.languages,
+            own_words: &case.passport,
+            found,
+        })
+    }
+}
+
+/// In the text of a passport such words are words: escaped.
+#[test]
+fn words_of_a_passport_are_no_markup() {
+    for case in &PASSPORTS.cases {
+        let html = case.html();
+        for element in ["<script", "<img", "<link", "<iframe", "<object", "<b>", "@import url(https:"] {
+            let allowed = usize::from(element == "@import url(https:") * html.matches("-- @import url(https:").count();
+            assert_eq!(html.matches(element).count(), allowed, "{}: {element}", case.name);
+        }
+    }
+}
+
+#[test]
+fn a_page_is_small() {
+    for (case, found) in PASSPORTS.each() {
+        let bytes = found["bytes"].as_u64().unwrap();
+        println!("{:<15} {:>7} bytes", case.name, bytes);
+        // Twenty-four positions are drawn twenty-four times.
+        let most = if case.name.starts_with("many") { 450_000 } else { 300_000 };
+        assert!(bytes < most, "{}: {bytes} bytes", case.name);
+    }
+}
+
+/// Every number, day and word of the file on the page is the file's own, or its rounding; the annex is the file.
+#[test]
+fn the_page_says_what_the_signed_file_says() {
+    let pages = PASSPORTS.folder.join("found.json");
+    for (case, _) in PASSPORTS.each() {
+        let mut python = programs::python();
+        python.arg(programs::project("tests/page/signed_file.py")).arg(&pages).arg(case.name);
+        python.arg(PASSPORTS.folder.join(format!("{}.yaml", case.name)));
+        assert_eq!(programs::output(python).trim(), "", "{}", case.name);
+    }
+}
+
+/// The code on the first page, scanned from its picture, and the file that the page offers to save.
+#[test]
+fn code_text_and_saved_file_are_of_the_signed_file() {
+    for (case, found) in PASSPORTS.each() {
+        let sum = sha256_hex(case.passport.as_bytes());
+        for colours in ["light", "dark"] {
+            let mut scanner = programs::on_path("zbarimg");
+            scanner.args(["--quiet", "--raw"]).arg(PASSPORTS.folder.join(format!("{}-code-{colours}.png", case.name)));
+            assert_eq!(programs::output(scanner).trim(), sum, "{} {colours}", case.name);
+        }
+        let said = &found["said"];
+        assert!(strings(&said["codes"]).contains(&sum.as_str()), "{}: the sum as text", case.name);
+        let address = said["download"]["address"].as_str().unwrap();
+        let mut decoder = programs::python();
+        let script = "import base64, sys; sys.stdout.buffer.write(base64.b64decode(sys.argv[1].split(',', 1)[1], validate=True))";
+        decoder.args(["-c", script, address]);
+        assert_eq!(programs::output(decoder), case.passport, "{}: the file to save", case.name);
+        let file = said["download"]["name"].as_str().unwrap();
+        assert!(file.ends_with("-1.yaml") || file.ends_with("-2.yaml"), "{}: {file}", case.name);
+    }
+}
+
+/// What is good but may not be used says so in its largest words; everything else is in force.
+#[test]
+fn the_verdict_is_large() {
+    for (case, found) in PASSPORTS.each() {
+        let said = &found["said"];
+        let headline = said["headline"].as_str().unwrap();
+        let (russian, english) = match case.name {
+            "elsewhere-en" | "elsewhere-both" => (
+                "Не применять: относится к другому стенду, выдан для другого места",
+                "Not to be used: of another stand, for another place",
+            ),
+            "expired-ru" => ("Не применять: срок действия истёк", "Not to be used: expired"),
+            _ => ("Действует", "In force"),
+        };
+        let words = |language| if language == Language::Russian { russian } else { english };
+        let due: Vec<&str> = case.languages.iter().map(words).collect();
+        assert_eq!(headline, due.join(" "), "{}", case.name);
+        assert_eq!(said["refused"].as_bool().unwrap(), !["Действует", "In force"].contains(&due[0]), "{}", case.name);
+    }
+}
+
+/// A passport without a self-check has no currents, and its page names none.
+#[test]
+fn a_caption_names_the_columns_that_there_are() {
+    for (case, found) in PASSPORTS.each() {
+        let tables = found["said"]["tables"].as_array().unwrap();
+        let heads = |table: &Value| strings(&table["heads"]).concat();
+        let vectors = tables.iter().find(|table| heads(table).contains("nx")).unwrap();
+        let caption = vectors["caption"].as_str().unwrap();
+        let named = caption.contains("currents J") || caption.contains("токи J");
+        assert_eq!(named, heads(vectors).contains("Jx"), "{}: {caption}", case.name);
+        assert_eq!(named, case.passport.contains("self_check:"), "{}", case.name);
+    }
+}

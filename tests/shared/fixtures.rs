@@ -1,0 +1,98 @@
+//! Passports that tests make, and everything around them that an attacker would vary.
+
+// Every crate of tests uses its own part.
+#![allow(dead_code)]
+
+use dtg_passport::document::join;
+use dtg_passport::passport::annotations::payload;
+use dtg_passport::passport::content::Content;
+use dtg_passport::passport::issue::{Issue, draft};
+use dtg_passport::passport::{NAMESPACE, Question, Trust};
+use dtg_passport::site::Site;
+use dtg_passport::stand::Stand;
+use dtg_passport::trust::{AllowedSigners, RevokedKeys, SigningKey};
+use jiff::Timestamp;
+
+pub const ISSUER: &str = "factory@example.org";
+pub const ISSUED_AT: &str = "2026-11-09T08:00:00Z";
+
+/// Deviations of arc minutes, everything certified.
+pub const ARC_MINUTES: &str = include_str!("../../passports/SPS-2/0017/stand.yaml");
+/// Deviations of degrees.
+pub const DEGREES: &str = include_str!("../../passports/SPS-1/0203/stand.yaml");
+/// A site that states everything that a site can state.
+pub const SITE: &str = r#"format: "dtg-site/1"
+id: "bench"
+name: "A bench with a mark"
+latitude_deg: 55.7658
+longitude_deg: 37.6856
+height_m: 150.5
+deflection_arcsec: {xi: -3.2, eta: 4.1, u: 1.5}
+azimuth_mark: {name: "mark", latitude_deg: 55.7772, longitude_deg: 37.6924, pillar_latitude_deg: 55.7658, pillar_longitude_deg: 37.6856, position_u_m: 0.02}
+valid_within_deg_per_h: 0.001
+uncertainty: {latitude_arcsec: 1.5, azimuth_arcsec: 30.5, level_arcsec: 5.5}
+source: "made up for this test"
+"#;
+
+/// A time by its RFC 3339 text.
+pub fn at(text: &str) -> Timestamp {
+    text.parse().unwrap()
+}
+
+/// `ISSUED_AT` and so many seconds.
+pub fn issued_plus(seconds: i64) -> Timestamp {
+    Timestamp::from_second(at(ISSUED_AT).as_second() + seconds).unwrap()
+}
+
+pub fn stand(text: &str) -> Stand {
+    Stand::from_yaml("stand", text.as_bytes()).unwrap()
+}
+
+pub fn site(text: &str) -> Site {
+    Site::from_yaml("site", text.as_bytes()).unwrap()
+}
+
+/// What a right passport of `stand` at `site` says.
+pub fn content(stand: &Stand, site: &Site) -> Content {
+    let order = Issue {
+        accuracy: None,
+        issuer: ISSUER.to_owned(),
+        issued_at: at(ISSUED_AT),
+        valid_until: None,
+        revision: 1,
+        predecessor: None,
+        allow_uncalibratable: false,
+    };
+    draft(stand, site, &order).unwrap().content().clone()
+}
+
+/// Any payload, rightly signed.
+pub fn signed(payload: &str, key: &SigningKey) -> String {
+    join(payload, &key.sign(NAMESPACE, payload.as_bytes()).unwrap())
+}
+
+/// Any content, written as it should be and rightly signed.
+pub fn written(content: &Content, key: &SigningKey) -> String {
+    signed(&payload(content), key)
+}
+
+/// `key` is trusted by a line of allowed signers with these principals and options.
+pub fn trust_as(principals_and_options: &str, key: &SigningKey) -> Trust {
+    let line = format!("{principals_and_options} {}\n", key.public_key().to_openssh());
+    Trust::of(AllowedSigners::parse("allowed_signers", line.as_bytes()).unwrap())
+}
+
+/// `key` is trusted as the issuer of passports, and nothing else.
+pub fn trust(key: &SigningKey) -> Trust {
+    trust_as(&format!("{ISSUER} namespaces=\"{NAMESPACE}\""), key)
+}
+
+/// The same, but the list `revoked` is given too.
+pub fn trust_without(key: &SigningKey, revoked: &[u8]) -> Trust {
+    Trust { revoked: vec![RevokedKeys::parse("revoked", revoked).unwrap()], ..trust(key) }
+}
+
+/// An hour after the issue.
+pub fn question() -> Question {
+    Question::at(issued_plus(3600))
+}
