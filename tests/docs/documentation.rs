@@ -157,8 +157,10 @@ fn tests_that_are_named_exist() {
         let name = page.display().to_string();
         let text = fs::read_to_string(&page).unwrap();
         for span in text.split('`').skip(1).step_by(2).filter(|span| span.starts_with("tests/")) {
-            let (file, function) =
-                span.split_once("::").map_or((span, None), |(file, function)| (file, Some(function)));
+            let (file, function) = match span.split_once("::") {
+                Some((file, function)) if !file.contains(' ') => (file, Some(function)),
+                _ => (span, None),
+            };
             let (file, heading) = file.split_once('#').map_or((file, None), |(file, heading)| (file, Some(heading)));
             // The first word is the file: a command may follow.
             let file = file.split(' ').next().unwrap();

@@ -1,21 +1,12 @@
 //! What is drawn in the report of a calibration, read off by the marks of its axes, against the result of the same run for
 //! programs.
 
-use crate::picture::{Axis, end, middle, number, of_class, row, svgs};
+use crate::picture::{Axis, end, middle, number, of_class, reach, row, svgs};
 use crate::programs;
 use roxmltree::{Document, Node};
 use serde_json::Value;
 use std::process::Command;
 use std::sync::LazyLock;
-
-/// From where to where a whisker reaches.
-fn reach(whisker: Node) -> [f64; 2] {
-    let path = whisker.attribute("d").unwrap();
-    ['M', 'H'].map(|letter| {
-        let rest = &path[path.find(letter).unwrap() + 1..];
-        rest.split([',', 'M']).next().unwrap().parse().unwrap()
-    })
-}
 
 /// A report of the example's calibration, against an earlier one whose currents were a little larger, and the result of the same
 /// run for programs.

@@ -1,10 +1,8 @@
 //! What is drawn of a passport, read off by the marks of its axes, against the signed file.
 
-use crate::inside::programs;
-use crate::inside::fixtures;
 use super::passport::passport;
 use crate::inside::fixtures;
-use crate::inside::picture::{Axis, end, english, middle, number, of_class, row, svgs, tip, whole, words};
+use crate::inside::picture::{Axis, end, english, middle, number, of_class, reach, row, svgs, tip, whole, words};
 use dtg_passport::passport::content::Content;
 use dtg_passport::passport::read;
 use dtg_passport::report::picture::{accuracy, deviations, positions, vectors};

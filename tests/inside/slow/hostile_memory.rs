@@ -17,6 +17,7 @@ use dtg_passport::stand::{CertifiedPosition, MOST_POSITIONS};
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
 use dtg_passport::trust::SigningKey;
 use std::fs;
+use std::time::Instant;
 
 /// A passport of the paper's eight positions and more, made from the eight.
 fn with_positions(count: usize) -> Content {
@@ -56,10 +57,11 @@ fn largest(make: impl Fn(usize) -> String, key: &SigningKey) -> String {
     file
 }
 
-/// The result, and the most memory that it took at a time, in bytes, which is printed too.
+/// The result, and the most memory that it took at a time, in bytes; this and the time are printed for docs/figures.md.
 fn measured<T>(name: &str, run: impl FnOnce() -> T) -> (T, usize) {
+    let start = Instant::now();
     let (result, most) = peak(run);
-    println!("{name}: {:.1} MiB", most as f64 / (1 << 20) as f64);
+    println!("{name}: {:.1} MiB, {:.0?}", most as f64 / (1 << 20) as f64, start.elapsed());
     (result, most)
 }
 

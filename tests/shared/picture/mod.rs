@@ -70,3 +70,12 @@ pub fn middle(rectangle: Node) -> f64 {
 pub fn end(bar: Node, value: f64) -> f64 {
     number(bar, "x") + if value > 0.0 { number(bar, "width") } else { 0.0 }
 }
+
+/// From where to where a whisker reaches.
+pub fn reach(whisker: Node) -> [f64; 2] {
+    let path = whisker.attribute("d").unwrap();
+    ['M', 'H'].map(|letter| {
+        let rest = &path[path.find(letter).unwrap() + 1..];
+        rest.split([',', 'M']).next().unwrap().parse().unwrap()
+    })
+}
