@@ -1,7 +1,7 @@
 //! The paper's table: how far found parameters are from the nominal ones
 //! ([the paper](crate::bibliography::Bibliography::Tang17), "Results of modelling the analytic method").
 //!
-//! Two readings of it are worth having (docs/model.md, "How the paper's table was made"): the gyro drawn within its
+//! Two readings of it are worth having (docs/reproduction.md, "The table"): the gyro drawn within its
 //! tolerance and one gain error common to all currents, which gives the paper's figures at any deviations; and a
 //! nominal gyro with an error of its own in every current, which is what a laboratory meets.
 
