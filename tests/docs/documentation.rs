@@ -14,6 +14,7 @@ fn pages() -> Vec<PathBuf> {
         docs.filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect();
     pages.push(programs::project("README.md"));
     pages.push(programs::project("CHANGELOG.md"));
+    pages.push(programs::project("CONTRIBUTING.md"));
     pages.push(programs::project("sites/README.md"));
     pages.sort();
     pages
@@ -131,22 +132,47 @@ fn the_verbs_that_print_json_are_named() {
     assert_eq!(named, due);
 }
 
-/// Every link to a file of the project leads to one.
+/// Every link to a file of the project leads to one, and every link to a heading to a heading of that page.
 #[test]
 fn links_lead_somewhere() {
-    let mut checked = 0;
+    let (mut files, mut headings) = (0, 0);
     for page in pages() {
         let text = fs::read_to_string(&page).unwrap();
         for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
-            if link.starts_with("https://") || link.starts_with('#') {
+            if link.starts_with("https://") {
                 continue;
             }
-            let target = page.parent().unwrap().join(link.split('#').next().unwrap());
+            let (file, heading) = link.split_once('#').map_or((link, None), |(file, heading)| (file, Some(heading)));
+            let target = if file.is_empty() { page.clone() } else { page.parent().unwrap().join(file) };
             assert!(target.exists(), "{}: {link} leads nowhere", page.display());
-            checked += 1;
+            files += 1;
+            if let Some(heading) = heading {
+                let found = anchors(&fs::read_to_string(&target).unwrap());
+                assert!(
+                    found.iter().any(|anchor| anchor == heading),
+                    "{}: {link} is none of {found:?}",
+                    page.display()
+                );
+                headings += 1;
+            }
         }
     }
-    assert!(checked > 5);
+    assert!(files > 50 && headings > 10, "{files} links to files, {headings} to headings");
+}
+
+/// Link targets of the headings of a page, as GitHub makes them of plain words.
+fn anchors(page: &str) -> Vec<String> {
+    let mut code = false;
+    let mut anchors = Vec::new();
+    for line in page.lines() {
+        code ^= line.starts_with("```");
+        if let Some(heading) = line.strip_prefix('#').filter(|_| !code) {
+            let words = heading.trim_start_matches('#').trim().to_lowercase();
+            let kept = words.chars().filter(|character| character.is_alphanumeric() || " -_".contains(*character));
+            anchors.push(kept.map(|character| if character == ' ' { '-' } else { character }).collect());
+        }
+    }
+    anchors
 }
 
 /// Every test that a page names is there: `tests/file.rs::function`, `tests/cmd/page.md#Heading`.
