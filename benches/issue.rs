@@ -10,16 +10,11 @@
 
 mod fleet;
 
-use dtg_passport::batch::first;
-use dtg_passport::batch::shard::Shard;
-use dtg_passport::batch::{Batch, Event, Outcome};
-use dtg_passport::files::Durability;
-use dtg_passport::folder::{Folder, Seal};
-use dtg_passport::parallel;
+use dtg_passport::batch::{self, Batch, Event, Outcome, Shard};
+use dtg_passport::folder::{Durability, Folder, Seal};
 use dtg_passport::passport::issue::draft;
 use dtg_passport::site::{SITE_FORMAT, Site, SiteFile};
 use dtg_passport::stand::Stand;
-use dtg_passport::text::{Field, canonical};
 use dtg_passport::trust::SigningKey;
 use ed25519_dalek::Signer as _;
 use fleet::{Time, median, on_threads, scratch, timed, write_and_rename};
@@ -58,13 +53,13 @@ impl Job {
         for stand in &stands {
             let folder = inputs.join("stands").join(stand.stand.serial.as_str());
             fs::create_dir_all(&folder).expect("a folder");
-            fs::write(folder.join("stand.yaml"), canonical::write_bare(stand)).expect("a stand");
+            fs::write(folder.join("stand.yaml"), json!(stand).to_string()).expect("a stand");
         }
         fs::create_dir_all(inputs.join("sites")).expect("a folder");
         for site in &sites {
             let file = SiteFile { format: SITE_FORMAT.to_owned(), site: site.clone() };
             let path = inputs.join("sites").join(format!("{}.yaml", site.id));
-            fs::write(path, canonical::write_bare(&file)).expect("a site");
+            fs::write(path, json!(file).to_string()).expect("a site");
         }
         let key = SigningKey::from_openssh(&fleet::openssh_key(), None).expect("a key");
         Self { stands, sites, inputs, scratch, runs: Cell::new(0), key }
@@ -88,7 +83,7 @@ impl Job {
         let time = timed(|| {
             let order = fleet::order();
             let (folder, stands, sites) = (&folder, &stands[..], &sites[..]);
-            let job = first::Job { folder, stands, sites, order: &order, known: None };
+            let job = batch::Job { folder, stands, sites, order: &order, known: None };
             batch.issue(&job, &mut std::io::empty(), &mut |event| {
                 issued += usize::from(matches!(event, Event::Done(Some(Outcome::There(_)))));
             });
@@ -118,6 +113,10 @@ impl Job {
     }
 }
 
+fn processors() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
 fn payload(file: &[u8]) -> &[u8] {
     let line = b"\nsignature: |\n";
     let end = file.windows(line.len()).position(|window| window == line).expect("a signature");
@@ -133,8 +132,8 @@ impl Drop for Job {
 /// Seconds of one process of Python for the passports of a job, and what it computed.
 fn python(job: &Job, checked: bool) -> Option<Value> {
     let input = json!({
-        "stands": job.stands.iter().map(|stand| stand.write()).collect::<Vec<_>>(),
-        "sites": job.sites.iter().map(|site| site.write()).collect::<Vec<_>>(),
+        "stands": job.stands,
+        "sites": job.sites,
         "issuer": fleet::ISSUER,
         "issued_at": fleet::ISSUED_AT,
         "secret": fleet::SECRET,
@@ -187,7 +186,7 @@ fn main() {
     if std::env::args().any(|word| word == "--linear") {
         return linear();
     }
-    let threads = parallel::processors();
+    let threads = processors();
     println!("{STANDS} stands x {SITES} sites, {threads} threads, nothing synced; medians of {ROUNDS} rounds");
     // What one frees would disturb the next: all are dropped at the end.
     let _jobs = [against_the_floor(threads), against_python(), syncing(threads)];
@@ -275,7 +274,7 @@ fn linear() {
     for passports in [1_000, 10_000, 100_000] {
         let job = Job::new(&format!("bench-issue-{passports}"), STANDS, passports / STANDS);
         let rounds = (100_000 / passports).min(ROUNDS);
-        let times: Vec<_> = (0..rounds).map(|_| job.run(parallel::processors(), Durability::None)).collect();
+        let times: Vec<_> = (0..rounds).map(|_| job.run(processors(), Durability::None)).collect();
         say(&format!("{STANDS} stands x {} sites", passports / STANDS), passports, &times);
         // For the reason that runs have folders of their own.
         jobs.push(job);

@@ -1,4 +1,4 @@
-//! Monte Carlo against NumPy and against its own random numbers, all in one run: `cargo bench --bench monte_carlo`.
+//! Monte Carlo against NumPy, in one run: `cargo bench --bench monte_carlo`.
 //!
 //! The paper's gyro on a stand with general angles; 24 normal angles (5″) and 16 uniform currents (±0.015 %) drawn; the
 //! passport's coefficients and a method in every trial. NumPy runs on one core, from `target/test-tools` where the tests
@@ -12,13 +12,9 @@ use dtg_passport::attitude;
 use dtg_passport::calibration::{InputUncertainty, MeterUncertainty, Method, Readings, Setup};
 use dtg_passport::coefficients::{EarthRate, Position};
 use dtg_passport::gyro::GyroType;
-use dtg_passport::simulation::accuracy::PAPER_LATITUDE_DEG;
 use dtg_passport::simulation::draw::{self, Deviations};
-use dtg_passport::statistics::lanes::Lanes;
-use dtg_passport::statistics::random::Stream;
-use dtg_passport::uncertainty::engine::{BLOCK, Engine, ReadingShape};
-use dtg_passport::uncertainty::monte_carlo::Trials;
-use dtg_passport::uncertainty::{Budget, monte_carlo};
+use dtg_passport::simulation::{PAPER_LATITUDE_DEG, Stream};
+use dtg_passport::uncertainty::{Budget, Engine, ReadingShape, Trials, monte_carlo};
 use dtg_passport::units::radians_from_arcseconds;
 use nalgebra::Vector3;
 use serde_json::{Value, json};
@@ -95,47 +91,8 @@ fn timed(threads: u64, work: impl FnOnce() -> u64) -> Slice {
     Slice { wall: wall_ns, processor: processor_ns, undisturbed: all - own <= OTHERS * wall * processors }
 }
 
-/// Blocks on `threads` threads.
-fn blocks(threads: u64, each: u64, work: impl Fn(&mut Lanes, u64) + Sync) -> Slice {
-    timed(threads, || {
-        std::thread::scope(|scope| {
-            for thread in 0..threads {
-                let work = &work;
-                scope.spawn(move || work(&mut Lanes::new(thread), each));
-            }
-        });
-        threads * each * BLOCK
-    })
-}
-
-fn trials_alone(engine: &Engine, threads: u64, each: u64) -> Slice {
-    blocks(threads, each, |lanes, count| {
-        let mut work = engine.workspace();
-        // The sums that NumPy takes too.
-        let (mut sums, mut squares) = ([0.0; 8], [0.0; 8]);
-        for _ in 0..count {
-            engine.block(lanes, &mut work, |solutions| {
-                for ((sum, square), column) in sums.iter_mut().zip(&mut squares).zip(solutions) {
-                    *sum += column.iter().sum::<f64>();
-                    *square += column.iter().map(|x| x * x).sum::<f64>();
-                }
-            });
-        }
-        black_box((sums, squares));
-    })
-}
-
-fn drawing_alone(engine: &Engine, threads: u64, each: u64) -> Slice {
-    blocks(threads, each, |lanes, count| {
-        let mut work = engine.workspace();
-        for _ in 0..count {
-            black_box(engine.draw_alone(lanes, &mut work));
-        }
-    })
-}
-
 /// The whole procedure with its histograms, covariances and test of stability.
-fn whole(engine: &Engine, budget: &Budget, threads: usize, trials: u64) -> Slice {
+fn trials_of(engine: &Engine, budget: &Budget, threads: usize, trials: u64) -> Slice {
     let run = Trials { trials: Some(trials), threads, ..Trials::adaptive(1) };
     timed(threads as u64, || black_box(monte_carlo(engine, budget, &run)).trials)
 }
@@ -207,18 +164,14 @@ fn main() {
         println!("{} trials: {seconds:.1} s, {mb:.1} MB", found.trials);
         return;
     }
-    let mut times: [Vec<Slice>; 7] = Default::default();
+    let mut times: [Vec<Slice>; 3] = Default::default();
     let mut peers: [Vec<Slice>; 2] = Default::default();
     for _ in 0..ROUNDS {
         for _ in 0..SLICES {
             let measured = [
-                trials_alone(&closed, 2, 160),
-                drawing_alone(&closed, 2, 240),
-                trials_alone(&closed, 1, 120),
-                whole(&closed, &of_closed, 2, 5_000_000),
-                whole(&closed, &of_closed, 1, 2_500_000),
-                trials_alone(&refit, 2, 80),
-                whole(&refit, &of_refit, 2, 2_000_000),
+                trials_of(&closed, &of_closed, 2, 5_000_000),
+                trials_of(&closed, &of_closed, 1, 2_500_000),
+                trials_of(&refit, &of_refit, 2, 2_000_000),
             ];
             times.iter_mut().zip(measured).for_each(|(all, slice)| all.push(slice));
         }
@@ -238,8 +191,8 @@ fn main() {
     print(&times, &peers);
 }
 
-fn print(times: &[Vec<Slice>; 7], peers: &[Vec<Slice>; 2]) {
-    let [two, drawing, one, whole_two, whole_one, refit_two, whole_refit] = times;
+fn print(times: &[Vec<Slice>; 3], peers: &[Vec<Slice>; 2]) {
+    let [two, one, refit] = times;
     let [numpy, numpy_refit] = peers;
     let alone = |all: &[Slice]| median(all.iter().filter(|slice| slice.undisturbed).map(|slice| slice.wall));
     let shown = |value: Option<f64>, decimals: usize| value.map_or("-".to_owned(), |ns| format!("{ns:.decimals$}"));
@@ -247,11 +200,7 @@ fn print(times: &[Vec<Slice>; 7], peers: &[Vec<Slice>; 2]) {
     for (name, all) in [
         ("closed solution, 2 threads", two),
         ("closed solution, 1 thread", one),
-        ("its random numbers alone, 2 threads", drawing),
-        ("with histograms and covariance, 2 threads", whole_two),
-        ("with histograms and covariance, 1 thread", whole_one),
-        ("least-squares refit, 2 threads", refit_two),
-        ("refit with histograms and covariance, 2 threads", whole_refit),
+        ("least-squares refit, 2 threads", refit),
         ("NumPy, closed solution, 1 core", numpy),
         ("NumPy, least-squares refit, 1 core", numpy_refit),
     ] {
@@ -262,11 +211,8 @@ fn print(times: &[Vec<Slice>; 7], peers: &[Vec<Slice>; 2]) {
     println!("{:<52}{:>12}{:>8}{:>16}", "ratios", "undisturbed", "", "processor time");
     for (name, above, below, asked) in [
         ("closed: NumPy / 2 threads", numpy, two, ">= 10"),
-        ("with histograms: NumPy / 2 threads", numpy, whole_two, ""),
-        ("closed, 2 threads / its random numbers alone", two, drawing, "<= 2.0"),
-        ("refit: NumPy / 2 threads", numpy_refit, refit_two, ">= 10"),
+        ("refit: NumPy / 2 threads", numpy_refit, refit, ">= 10"),
         ("closed: 1 thread / 2 threads", one, two, ">= 1.8"),
-        ("with histograms: 1 thread / 2 threads", whole_one, whole_two, ">= 1.8"),
     ] {
         let undisturbed = alone(above).zip(alone(below)).map(|(above, below)| above / below);
         let processor = median(above.iter().zip(below).map(|(a, b)| a.processor / b.processor));

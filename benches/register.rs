@@ -6,7 +6,7 @@
 
 mod fleet;
 
-use dtg_passport::folder::search;
+use dtg_passport::folder;
 use dtg_passport::passport::Trust;
 use dtg_passport::passport::issue::PreparedStand;
 use dtg_passport::register::{Asked, State};
@@ -41,7 +41,7 @@ fn main() {
     let asked = Asked::at("2027-06-01T00:00:00Z".parse().expect("a time"));
     let ours = || {
         timed(|| {
-            let register = search::register(&root, trust.clone(), &asked, threads).expect("a register").0;
+            let register = folder::register(&root, trust.clone(), &asked, threads).expect("a register").0;
             assert!(register.alarms.is_empty() && register.counts()[&State::InForce] == files.len());
         })
     };

@@ -67,6 +67,7 @@
 //! | [`report`] | what people read | `report` |
 //! | [`schema`] | JSON Schemas of the formats | `cli` |
 //! | [`demonstration`] | the whole story on a built-in example | `cli` |
+//! | [`cli`] | the command line: read, call, write | `cli` |
 //!
 //! The feature `cli`, which has all the others and is the default, builds the program. Only `files`, `signing`, `folder`,
 //! `batch` and `demonstration` touch the file system or start a program; nothing reads the
@@ -88,25 +89,27 @@ pub mod bibliography;
 pub mod calibration;
 #[cfg(feature = "factory")]
 pub mod certification;
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod coefficients;
 #[cfg(feature = "cli")]
-pub mod demonstration;
-pub mod document;
+pub(crate) mod demonstration;
+pub(crate) mod document;
 pub mod earth;
 #[cfg(feature = "factory")]
-pub mod files;
+pub(crate) mod files;
 #[cfg(feature = "factory")]
 pub mod folder;
 pub mod gyro;
 pub mod laboratory;
-pub mod parallel;
+pub(crate) mod parallel;
 pub mod passport;
 pub mod register;
 #[cfg(feature = "report")]
 pub mod report;
 pub mod revocation;
 #[cfg(feature = "cli")]
-pub mod schema;
+pub(crate) mod schema;
 #[cfg(feature = "monte-carlo")]
 pub mod selftest;
 #[cfg(feature = "factory")]
@@ -115,7 +118,7 @@ pub mod signing;
 pub mod simulation;
 pub mod site;
 pub mod stand;
-pub mod statistics;
+pub(crate) mod statistics;
 pub mod text;
 pub mod trust;
 pub mod uncertainty;

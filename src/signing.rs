@@ -1,6 +1,6 @@
 //! How a factory signs: a key file, plain or encrypted, or `ssh-keygen` with an agent or a FIDO token.
 
-use crate::document::{Signer, SigningFailed};
+pub use crate::document::{Signer, SigningFailed};
 use crate::files::{self, FileError};
 use crate::passport::{NAMESPACE, Trust};
 use crate::text::{Printable, Unreadable, name_of, shown};

@@ -1,7 +1,7 @@
 //! A test stand and what its factory certified of it: the file `stand.yaml` (`dtg-stand/1`).
 
-pub mod remarks;
-pub mod type_b;
+pub(crate) mod remarks;
+pub(crate) mod type_b;
 
 pub use type_b::{ActsOn, Evidence, TypeB};
 

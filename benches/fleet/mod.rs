@@ -6,10 +6,10 @@
 use dtg_passport::coefficients::EIGHT_POSITIONS;
 use dtg_passport::earth::normal_gravity_m_per_s2;
 use dtg_passport::passport::issue::Issue;
+use dtg_passport::simulation::Stream;
 use dtg_passport::site::{Deflection, Site, SiteUncertainty};
 use dtg_passport::stand::{Certificate, CertifiedPosition, Datum, Identity, STAND_FORMAT, Stand};
-use dtg_passport::statistics::random::Stream;
-use dtg_passport::text::scalar::Identifier;
+use dtg_passport::text::Identifier;
 use jiff::civil::date;
 use std::fs::{self, File};
 use std::io::{self, Write};

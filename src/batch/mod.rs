@@ -11,18 +11,22 @@
 //! * [`first`]: every stand at every site.
 //! * [`successors`]: passports issued anew.
 
-pub mod catalogue;
-pub mod first;
-pub mod paths;
-pub mod shard;
-pub mod successors;
+pub(crate) mod catalogue;
+pub(crate) mod first;
+pub(crate) mod paths;
+pub(crate) mod shard;
+pub(crate) mod successors;
+
+pub use catalogue::{Catalogue, Listed};
+pub use first::{Job, Known};
+pub use shard::{NoShard, Shard};
+pub use successors::Change;
 
 use crate::files::{Durability, FileError, leftovers};
 use crate::folder::{self, FolderRefused, Issued, Next, Seal, Visited};
 use crate::parallel;
 use crate::passport::issue::Remarks;
 use crate::text::name_of;
-use shard::Shard;
 use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};

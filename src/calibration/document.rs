@@ -19,37 +19,37 @@ use serde::{Deserialize, Deserializer, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct CalibrationDocument {
     /// The passport used.
-    pub passport_id: String,
+    pub(crate) passport_id: String,
     /// Whether it was verified.
-    pub passport_verified: bool,
+    pub(crate) passport_verified: bool,
     /// The g that drifts are stated for.
-    pub gravity_m_per_s2: f64,
+    pub(crate) gravity_m_per_s2: f64,
     /// Its standard uncertainty; absent where it is not stated.
     #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub gravity_u_m_per_s2: Option<f64>,
+    pub(crate) gravity_u_m_per_s2: Option<f64>,
     /// One for each method.
-    pub results: Vec<ResultDocument>,
+    pub(crate) results: Vec<ResultDocument>,
     /// What certificate, site and laboratory do not state: the uncertainties are without it.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    pub not_stated: Vec<String>,
+    pub(crate) not_stated: Vec<String>,
     /// Whether the visits of a position agree, when there are several.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub scatter: Option<ScatterDocument>,
+    pub(crate) scatter: Option<ScatterDocument>,
     /// How the rows of a visit scatter, when there are several.
     #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub row_scatter: Option<RowScatterDocument>,
+    pub(crate) row_scatter: Option<RowScatterDocument>,
     /// What may be wrong, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub hint: Option<String>,
+    pub(crate) hint: Option<String>,
     /// The mistake that explains the result, when readings fit and the parameters are not the gyro's.
     #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
-    pub mistake: Option<Mistake>,
+    pub(crate) mistake: Option<Mistake>,
     /// Against the gyro's type.
     #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
-    pub verdict: Option<Verdict>,
+    pub(crate) verdict: Option<Verdict>,
     /// Against an earlier result.
     #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
-    pub change: Option<Verdict>,
+    pub(crate) change: Option<Verdict>,
     /// Keys of a result that come from elsewhere: read, and left aside.
     #[serde(skip_serializing, default, deserialize_with = "left_aside_whole")]
     budget: (),
@@ -60,163 +60,163 @@ pub struct CalibrationDocument {
 /// What one method gives.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ResultDocument {
+pub(crate) struct ResultDocument {
     /// Which method.
-    pub method: String,
+    pub(crate) method: String,
     /// K: [[K_x, K_xy], [K_yx, K_y]].
-    pub k_deg_per_h_per_ma: [[f64; 2]; 2],
+    pub(crate) k_deg_per_h_per_ma: [[f64; 2]; 2],
     /// ω_0: [x, y].
-    pub omega0_deg_per_h: [f64; 2],
+    pub(crate) omega0_deg_per_h: [f64; 2],
     /// ω_n: four free numbers of the paper's methods.
-    pub omega_n_deg_per_h_per_g: [[f64; 2]; 2],
+    pub(crate) omega_n_deg_per_h_per_g: [[f64; 2]; 2],
     /// ω_g, per local g.
-    pub omega_g_deg_per_h_per_g: f64,
+    pub(crate) omega_g_deg_per_h_per_g: f64,
     /// ω_k, per local g.
-    pub omega_k_deg_per_h_per_g: f64,
+    pub(crate) omega_k_deg_per_h_per_g: f64,
     /// When fitted.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub anisoelasticity_deg_per_h_per_g2: Option<f64>,
+    pub(crate) anisoelasticity_deg_per_h_per_g2: Option<f64>,
     /// Of successive approximation: steps taken.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub iterations: Option<u32>,
+    pub(crate) iterations: Option<u32>,
     /// Steps predicted before the first one; absent when that is more than are allowed.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub iterations_predicted: Option<u32>,
+    pub(crate) iterations_predicted: Option<u32>,
     /// Δ₁ and Δ₂, at which it was to stop.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub stop_rule: Option<StopRuleDocument>,
+    pub(crate) stop_rule: Option<StopRuleDocument>,
     /// What each step after the first approximation moved.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub changes: Option<Vec<ChangeDocument>>,
+    pub(crate) changes: Option<Vec<ChangeDocument>>,
     /// ρ(T).
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub spectral_radius: Option<f64>,
+    pub(crate) spectral_radius: Option<f64>,
     /// What K still lacks, exactly.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub remainder_k_deg_per_h_per_ma: Option<[[f64; 2]; 2]>,
+    pub(crate) remainder_k_deg_per_h_per_ma: Option<[[f64; 2]; 2]>,
     /// What ω_n still lacks, exactly.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub remainder_omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]>,
+    pub(crate) remainder_omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]>,
     /// Standard uncertainties, with the keys of the values.
-    pub standard_uncertainty: UncertaintyDocument,
+    pub(crate) standard_uncertainty: UncertaintyDocument,
     /// Differences to least squares in units of their standard uncertainty: K_x, K_xy, K_yx, K_y, ω_0x, ω_0y, ω_g, ω_k.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub from_least_squares: Option<[f64; 8]>,
+    pub(crate) from_least_squares: Option<[f64; 8]>,
     /// Whether the readings fit.
-    pub chi_square: ChiSquareDocument,
+    pub(crate) chi_square: ChiSquareDocument,
     /// What is left of each equation; absent where nothing can be left.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    pub residuals_deg_per_h: Vec<ResidualDocument>,
+    pub(crate) residuals_deg_per_h: Vec<ResidualDocument>,
 }
 
 /// The paper's Δ₁ and Δ₂.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct StopRuleDocument {
+pub(crate) struct StopRuleDocument {
     /// Δ₁.
-    pub delta1_percent: f64,
+    pub(crate) delta1_percent: f64,
     /// Δ₂.
-    pub delta2_deg_per_h: f64,
+    pub(crate) delta2_deg_per_h: f64,
 }
 
 /// What one step of successive approximation moved.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ChangeDocument {
+pub(crate) struct ChangeDocument {
     /// Which step; the first approximation is step 1.
-    pub step: u32,
+    pub(crate) step: u32,
     /// K_x or K_y, whichever moved more.
-    pub main_scale_factors_percent: f64,
+    pub(crate) main_scale_factors_percent: f64,
     /// ω_g or ω_k, whichever moved more.
-    pub g_drifts_deg_per_h_per_g: f64,
+    pub(crate) g_drifts_deg_per_h_per_g: f64,
 }
 
 /// Standard uncertainties of one method's values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct UncertaintyDocument {
+pub(crate) struct UncertaintyDocument {
     /// Of K's elements.
-    pub k_deg_per_h_per_ma: [[f64; 2]; 2],
+    pub(crate) k_deg_per_h_per_ma: [[f64; 2]; 2],
     /// Of ω_0: [x, y].
-    pub omega0_deg_per_h: [f64; 2],
+    pub(crate) omega0_deg_per_h: [f64; 2],
     /// Of ω_n's elements.
-    pub omega_n_deg_per_h_per_g: [[f64; 2]; 2],
+    pub(crate) omega_n_deg_per_h_per_g: [[f64; 2]; 2],
     /// Of ω_g.
-    pub omega_g_deg_per_h_per_g: f64,
+    pub(crate) omega_g_deg_per_h_per_g: f64,
     /// Of ω_k.
-    pub omega_k_deg_per_h_per_g: f64,
+    pub(crate) omega_k_deg_per_h_per_g: f64,
     /// Of the anisoelastic coefficient, when fitted.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub anisoelasticity_deg_per_h_per_g2: Option<f64>,
+    pub(crate) anisoelasticity_deg_per_h_per_g2: Option<f64>,
 }
 
 /// Chi-square.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ChiSquareDocument {
+pub(crate) struct ChiSquareDocument {
     /// Its value.
-    pub value: f64,
+    pub(crate) value: f64,
     /// Readings less parameters.
-    pub degrees_of_freedom: usize,
+    pub(crate) degrees_of_freedom: usize,
     /// Probability of a larger value when nothing is wrong; absent without degrees of freedom.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub probability: Option<f64>,
+    pub(crate) probability: Option<f64>,
     /// Degrees of freedom of the uncertainties that it is made with; absent when infinite.
     #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub uncertainty_degrees_of_freedom: Option<f64>,
+    pub(crate) uncertainty_degrees_of_freedom: Option<f64>,
 }
 
 /// Scatter of the visits of a position.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ScatterDocument {
+pub(crate) struct ScatterDocument {
     /// Sum of squares in units of the stated variance.
-    pub chi_square: f64,
+    pub(crate) chi_square: f64,
     /// Two for each visit beyond a position's first.
-    pub degrees_of_freedom: usize,
+    pub(crate) degrees_of_freedom: usize,
     /// Probability of more when what is stated holds; close to 1 when there is less than stated.
-    pub probability: f64,
+    pub(crate) probability: f64,
     /// By how much the variance of a visit was enlarged.
-    pub variance_factor: f64,
+    pub(crate) variance_factor: f64,
 }
 
 /// Scatter of the rows of a visit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct RowScatterDocument {
+pub(crate) struct RowScatterDocument {
     /// Standard deviation of one reading.
-    pub standard_deviation_ma: f64,
+    pub(crate) standard_deviation_ma: f64,
     /// Two for each row beyond a visit's first.
-    pub degrees_of_freedom: usize,
+    pub(crate) degrees_of_freedom: usize,
     /// Sum of squares in units of the stated variance; absent where no noise is stated.
     #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub chi_square: Option<f64>,
+    pub(crate) chi_square: Option<f64>,
     /// Probability of more when what is stated holds; close to 1 when there is less than stated.
     #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub probability: Option<f64>,
+    pub(crate) probability: Option<f64>,
     /// By how much the variance of a reading was enlarged.
     #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub variance_factor: Option<f64>,
+    pub(crate) variance_factor: Option<f64>,
 }
 
 /// The residuals of one position.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ResidualDocument {
+pub(crate) struct ResidualDocument {
     /// Frame index.
-    pub i: u32,
+    pub(crate) i: u32,
     /// Platform index.
-    pub j: u32,
+    pub(crate) j: u32,
     /// Along x.
-    pub x: f64,
+    pub(crate) x: f64,
     /// Along y.
-    pub y: f64,
+    pub(crate) y: f64,
     /// Standard uncertainty of x; results of earlier versions have none.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub u_x: Option<f64>,
+    pub(crate) u_x: Option<f64>,
     /// Of y.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub u_y: Option<f64>,
+    pub(crate) u_y: Option<f64>,
 }
 
 /// The judgement of an earlier result is not read again: it is judged anew.

@@ -9,23 +9,26 @@
 //!
 //! The model and what each number means: docs/certification.md.
 
-pub mod comparison;
-pub mod components;
+pub(crate) mod comparison;
+pub(crate) mod components;
 mod deletion;
-pub mod document;
-pub mod header;
-pub mod readings;
-pub mod suspects;
+pub(crate) mod document;
+pub(crate) mod header;
+pub(crate) mod readings;
+pub(crate) mod suspects;
 
+pub use crate::statistics::outlier::Bartlett;
+pub use comparison::{CommonTurn, ComparedPosition, Comparison, NotCompared, Test, compare};
+pub use components::{Common, Components, RunTurn, Variance};
 pub use header::{Header, NominalPosition};
-pub use readings::AngleReadings;
+pub use readings::{AngleReadings, NotBalanced};
+pub use suspects::{Outlier, Suspects, WorsePosition};
 
 use crate::calibration::inputs::Turn;
 use crate::coefficients::PositionIndex;
 use crate::stand::{self, ActsOn, Certificate, CertifiedPosition, Evidence, Stand};
-use components::{Common, Components, Variance, case_turn, turns_at};
+use components::{case_turn, turns_at};
 use nalgebra::{DVector, Matrix3, Vector3};
-use suspects::Suspects;
 
 /// From this many runs on nothing is said about their number.
 pub const ENOUGH_RUNS: usize = 4;

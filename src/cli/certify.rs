@@ -3,12 +3,12 @@
 use super::issue::read_stand;
 use super::output::Format;
 use super::{Code, Failure, REFUSED, output};
+use crate::certification::comparison::compare;
+use crate::certification::{AngleReadings, Header, certify};
+use crate::files;
+use crate::report::certification as report;
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
 use clap::Args;
-use dtg_passport::certification::comparison::compare;
-use dtg_passport::certification::{AngleReadings, Header, certify};
-use dtg_passport::files;
-use dtg_passport::report::certification as report;
-use dtg_passport::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
 use std::path::PathBuf;
 
 /// Certify a stand from repeated readings of its angles, or check that it is still the same

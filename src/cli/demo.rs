@@ -1,8 +1,8 @@
 //! `demo`: the factory's and the laboratory's whole job on a built-in example.
 
 use super::{Code, Failure, REFUSED, output, trust_options};
+use crate::demonstration;
 use clap::Args;
-use dtg_passport::demonstration;
 use std::path::PathBuf;
 
 /// Show the factory's and the laboratory's whole job on a built-in example, and leave its files to look at

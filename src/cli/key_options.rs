@@ -1,12 +1,12 @@
 //! KEY and WHO: who signs. The passphrase of an encrypted key comes from a terminal or from the environment.
 
 use super::Failure;
+use crate::document::Signer;
+use crate::signing;
+pub use crate::signing::PASSPHRASE_VARIABLE;
+use crate::text::shown;
+use crate::trust::{BadIdentity, check_identity};
 use clap::Args;
-use dtg_passport::document::Signer;
-use dtg_passport::signing;
-pub use dtg_passport::signing::PASSPHRASE_VARIABLE;
-use dtg_passport::text::shown;
-use dtg_passport::trust::{BadIdentity, check_identity};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use zeroize::Zeroizing;

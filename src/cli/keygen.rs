@@ -2,11 +2,11 @@
 
 use super::key_options::{self, PASSPHRASE_VARIABLE, passphrase};
 use super::{Code, Failure, output};
+use crate::files::{self, Access};
+use crate::signing::{self, allowed_signers_line, forbid_core_dumps};
+use crate::text::shown;
+use crate::trust::SigningKey;
 use clap::Args;
-use dtg_passport::files::{self, Access};
-use dtg_passport::signing::{self, allowed_signers_line, forbid_core_dumps};
-use dtg_passport::text::shown;
-use dtg_passport::trust::SigningKey;
 use std::path::{Path, PathBuf};
 use zeroize::Zeroizing;
 

@@ -25,9 +25,9 @@ mod trust_options;
 mod uncertainty;
 mod verify;
 
+use crate::files::FileError;
+use crate::text::printable;
 use clap::{Parser, Subcommand};
-use dtg_passport::files::FileError;
-use dtg_passport::text::printable;
 use std::ffi::OsString;
 use std::process::ExitCode;
 

@@ -1,10 +1,10 @@
 //! Results to standard output, words to standard error; a closed pipe ends quietly.
 
 use super::Failure;
+use crate::files;
+use crate::report::style;
+use crate::text::printable::{self, printable};
 use clap::ValueEnum;
-use dtg_passport::files;
-use dtg_passport::report::style;
-use dtg_passport::text::printable::{self, printable};
 use std::io::{self, Write};
 use std::path::Path;
 

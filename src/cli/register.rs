@@ -3,12 +3,12 @@
 use super::output::{self, TableFormat};
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, REFUSED, UNUSABLE};
+use crate::folder::search;
+use crate::parallel;
+use crate::passport::{Question, Trust};
+use crate::register::{Asked, Register};
+use crate::report::register as report;
 use clap::{Args, ValueEnum};
-use dtg_passport::folder::search;
-use dtg_passport::parallel;
-use dtg_passport::passport::{Question, Trust};
-use dtg_passport::register::{Asked, Register};
-use dtg_passport::report::register as report;
 use std::path::{Path, PathBuf};
 
 /// List every passport under a folder: in force, superseded, moved, expired, revoked, broken

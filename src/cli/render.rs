@@ -2,11 +2,11 @@
 
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, REFUSED, output, register};
+use crate::files;
+use crate::report::page::{Language, Languages, PassportPage};
+use crate::report::{style, verdict};
+use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use clap::{Args, ValueEnum};
-use dtg_passport::files;
-use dtg_passport::report::page::{Language, Languages, PassportPage};
-use dtg_passport::report::{style, verdict};
-use dtg_passport::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use std::path::PathBuf;
 
 /// Write the printable passport: one HTML file for paper, screen and telephone

@@ -3,14 +3,14 @@
 use super::key_options::KeyOptions;
 use super::trust_options::{TrustOptions, now};
 use super::{Code, Failure, output};
+use crate::document::sha256_hex;
+use crate::files::{self, Access};
+use crate::folder::Folder;
+use crate::folder::search::{self, NoNewestList};
+use crate::passport::{CheckName, Code as Verdict, verify};
+use crate::revocation::{Entry, RevocationList};
+use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use clap::Args;
-use dtg_passport::document::sha256_hex;
-use dtg_passport::files::{self, Access};
-use dtg_passport::folder::Folder;
-use dtg_passport::folder::search::{self, NoNewestList};
-use dtg_passport::passport::{CheckName, Code as Verdict, verify};
-use dtg_passport::revocation::{Entry, RevocationList};
-use dtg_passport::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use std::path::{Path, PathBuf};
 
 /// Withdraw passports: adds them to the signed list in a folder

@@ -1,8 +1,8 @@
 //! `schema`: JSON Schemas of the formats, for editors.
 
 use super::{Code, Failure, output};
+use crate::schema;
 use clap::{Args, ValueEnum};
-use dtg_passport::schema;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Kind {

@@ -2,9 +2,9 @@
 
 use super::output::Format;
 use super::{Code, Failure, REFUSED, output};
+use crate::report::selftest as report;
+use crate::selftest;
 use clap::Args;
-use dtg_passport::report::selftest as report;
-use dtg_passport::selftest;
 
 /// Compare the mathematics with published reference cases, on this machine
 #[derive(Args)]

@@ -3,11 +3,11 @@
 use super::output::Format;
 use super::trust_options::{self, Asked};
 use super::{Code, Failure, REFUSED, output};
+use crate::files;
+use crate::passport::{Content, Question, Trust, Verification, read, verify};
+use crate::report::{passport_table, style, verdict};
+use crate::text::{Field, LARGEST_DOCUMENT_BYTES, name_of};
 use clap::{ArgGroup, Args};
-use dtg_passport::files;
-use dtg_passport::passport::{Content, Question, Trust, Verification, read, verify};
-use dtg_passport::report::{passport_table, style, verdict};
-use dtg_passport::text::{Field, LARGEST_DOCUMENT_BYTES, name_of};
 use std::path::PathBuf;
 
 /// Show a passport as tables, or the whole of it as JSON for tools that read no YAML

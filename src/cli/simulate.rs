@@ -3,19 +3,19 @@
 use super::issue::{read_site, read_stand};
 use super::output::Format;
 use super::{Code, Failure, output};
+use crate::calibration::Method;
+use crate::coefficients::EarthRate;
+use crate::files;
+use crate::gyro::GyroType;
+use crate::report::simulation as table;
+use crate::simulation::accuracy::{AccuracyOptions, PAPER_LATITUDE_DEG, Stands, accuracy};
+use crate::simulation::convergence::{ConvergenceOptions, convergence};
+use crate::simulation::draw::CurrentError;
+use crate::simulation::picture::convergence_svg;
+use crate::stand::{CertifiedPosition, LARGEST_DEVIATION_DEG};
+use crate::statistics::random::Run;
+use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use clap::{Args, Subcommand, ValueEnum};
-use dtg_passport::calibration::Method;
-use dtg_passport::coefficients::EarthRate;
-use dtg_passport::files;
-use dtg_passport::gyro::GyroType;
-use dtg_passport::report::simulation as table;
-use dtg_passport::simulation::accuracy::{AccuracyOptions, PAPER_LATITUDE_DEG, Stands, accuracy};
-use dtg_passport::simulation::convergence::{ConvergenceOptions, convergence};
-use dtg_passport::simulation::draw::CurrentError;
-use dtg_passport::simulation::picture::convergence_svg;
-use dtg_passport::stand::{CertifiedPosition, LARGEST_DEVIATION_DEG};
-use dtg_passport::statistics::random::Run;
-use dtg_passport::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -45,7 +45,7 @@ enum Sharing {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum MethodName {
+pub(super) enum MethodName {
     Analytic,
     Iterative,
     LeastSquares,

@@ -1,14 +1,14 @@
 //! TRUST: whom to trust, and what is asked. The same options everywhere, by this code.
 
 use super::{Failure, output};
+use crate::earth::Place;
+use crate::files;
+use crate::passport::{Question, Trust};
+use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
+use crate::text::name_of;
+use crate::text::scalar::day;
+use crate::trust::{AllowedSigners, LARGEST_TRUST_FILE_BYTES, RevokedKeys};
 use clap::Args;
-use dtg_passport::earth::Place;
-use dtg_passport::files;
-use dtg_passport::passport::{Question, Trust};
-use dtg_passport::revocation::{RevocationList, Series, claims_to_be_a_list};
-use dtg_passport::text::name_of;
-use dtg_passport::text::scalar::day;
-use dtg_passport::trust::{AllowedSigners, LARGEST_TRUST_FILE_BYTES, RevokedKeys};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use std::path::{Path, PathBuf};

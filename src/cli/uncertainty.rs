@@ -1,16 +1,16 @@
 //! The options of `calibrate` that ask where its uncertainty comes from.
 
 use super::{Failure, output};
+use crate::calibration::{Calibration, Method, Readings, Setup};
+use crate::gyro::Tolerance;
+use crate::report::{budget as budget_report, monte_carlo as monte_carlo_report};
+use crate::uncertainty::document::{BudgetDocument, MonteCarloDocument};
+use crate::uncertainty::engine::{Engine, ReadingShape};
+use crate::uncertainty::monte_carlo::Trials;
+use crate::uncertainty::picture::budget_svg;
+use crate::uncertainty::remedy::Remedy;
+use crate::uncertainty::{Budget, MonteCarlo, monte_carlo};
 use clap::Args;
-use dtg_passport::calibration::{Calibration, Method, Readings, Setup};
-use dtg_passport::gyro::Tolerance;
-use dtg_passport::report::{budget as budget_report, monte_carlo as monte_carlo_report};
-use dtg_passport::uncertainty::document::{BudgetDocument, MonteCarloDocument};
-use dtg_passport::uncertainty::engine::{Engine, ReadingShape};
-use dtg_passport::uncertainty::monte_carlo::Trials;
-use dtg_passport::uncertainty::picture::budget_svg;
-use dtg_passport::uncertainty::remedy::Remedy;
-use dtg_passport::uncertainty::{Budget, MonteCarlo, monte_carlo};
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::path::PathBuf;
 use std::sync::Arc;

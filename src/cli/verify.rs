@@ -3,12 +3,12 @@
 use super::output::Format;
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, REFUSED, UNUSABLE, output, register};
+use crate::files;
+use crate::passport::verification::unreadable;
+use crate::passport::verify;
+use crate::report::verdict;
+use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use clap::Args;
-use dtg_passport::files;
-use dtg_passport::passport::verification::unreadable;
-use dtg_passport::passport::verify;
-use dtg_passport::report::verdict;
-use dtg_passport::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use std::path::PathBuf;
 
 /// Answer: may I use this passport, on this stand, here, now?

@@ -3,8 +3,8 @@
 //! * [`leftovers`]: temporary files that a killed run left behind.
 //! * [`walk`]: the files under a folder.
 
-pub mod leftovers;
-pub mod walk;
+pub(crate) mod leftovers;
+pub(crate) mod walk;
 
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, shown};
 use std::fs::{self, File, TryLockError};

@@ -4,16 +4,18 @@
 
 mod claim;
 mod names;
-pub mod search;
+pub(crate) mod search;
 mod superseding;
 mod visited;
 
+pub use crate::files::{Durability, FileError};
+pub use search::register;
 pub(crate) use superseding::Superseding;
 pub(crate) use visited::Visited;
 
 use crate::document::sha256_hex;
 use crate::document::{SignedText, Signer};
-use crate::files::{self, Access, Durability, FileError};
+use crate::files::{self, Access};
 use crate::passport::content::Content;
 use crate::passport::issue::{Draft, Issue, IssueRefused, PreparedStand, Remarks};
 use crate::passport::reissue::{Successor, changes};

@@ -8,7 +8,8 @@ use crate::text::canonical;
 use crate::{earth, units};
 
 /// The payload of a passport: its content in canonical form, with its comments.
-pub fn payload(content: &Content) -> String {
+#[cfg(test)]
+pub(crate) fn payload(content: &Content) -> String {
     canonical::write(content, &|path| comments(content, path))
 }
 

@@ -11,22 +11,24 @@
 //! * [`verification`]: the six steps, and "may I use this passport, on this stand, here, now?".
 //! * [`reissue`]: a new passport from an old one.
 
-pub mod accuracy;
-pub mod annotations;
-pub mod checks;
-pub mod content;
+pub(crate) mod accuracy;
+pub(crate) mod annotations;
+pub(crate) mod checks;
+pub(crate) mod content;
 #[cfg(feature = "factory")]
 pub mod issue;
-pub mod place;
-pub mod read;
-pub mod recomputed;
+pub(crate) mod place;
+pub(crate) mod read;
+pub(crate) mod recomputed;
 #[cfg(feature = "factory")]
 pub mod reissue;
-pub mod verification;
+pub(crate) mod verification;
 
+pub use crate::document::Malformed;
+pub use accuracy::{Accuracy, NoAccuracy, Stated, StatedGyro, StatedLaboratory};
 pub use checks::{Check, CheckName, Code};
-pub use content::Content;
-pub use verification::{Question, Trust, Verification, verify};
+pub use content::{Content, Header, MatrixRows, PositionCurrents, PositionVectors, Predecessor, SelfCheck};
+pub use verification::{Question, Trust, Verification, VerifiedPassport, verify};
 
 /// The namespace that passports are signed for.
 pub const NAMESPACE: &str = "dtg-passport";

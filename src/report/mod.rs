@@ -17,21 +17,23 @@
 //! * [`simulation`]: the tables of simulations.
 //! * [`style`]: emphasis in a terminal.
 
-pub mod budget;
-pub mod calibration;
+pub(crate) mod budget;
+pub(crate) mod calibration;
 #[cfg(feature = "factory")]
-pub mod certification;
-pub mod columns;
-pub mod deviations;
+pub(crate) mod certification;
+pub(crate) mod columns;
+pub(crate) mod deviations;
 #[cfg(feature = "factory")]
-pub mod issued;
-pub mod mistake;
-pub mod monte_carlo;
-pub mod page;
-pub mod passport_table;
-pub mod picture;
-pub mod register;
-pub mod selftest;
-pub mod simulation;
-pub mod style;
-pub mod verdict;
+pub(crate) mod issued;
+pub(crate) mod mistake;
+pub(crate) mod monte_carlo;
+pub(crate) mod page;
+pub(crate) mod passport_table;
+pub(crate) mod picture;
+pub(crate) mod register;
+pub(crate) mod selftest;
+pub(crate) mod simulation;
+pub(crate) mod style;
+pub(crate) mod verdict;
+
+pub use page::{CalibrationPage, Language, Languages, PassportPage, UsedPassport};

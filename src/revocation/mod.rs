@@ -8,7 +8,7 @@
 //!
 //! * [`series`]: all lists together.
 
-pub mod series;
+pub(crate) mod series;
 
 pub use series::{Series, SeriesAlarm};
 

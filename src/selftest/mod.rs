@@ -5,10 +5,10 @@
 //! * [`regression`]: NIST's Norris and Longley, by the project's least squares.
 //! * [`model`]: the paper's model and its analytic method against 60-digit arithmetic.
 
-pub mod gum;
-pub mod model;
-pub mod monte_carlo;
-pub mod regression;
+pub(crate) mod gum;
+pub(crate) mod model;
+pub(crate) mod monte_carlo;
+pub(crate) mod regression;
 
 /// One number that a document prints, and what is found.
 #[derive(Debug, Clone, PartialEq)]

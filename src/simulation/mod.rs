@@ -5,7 +5,11 @@
 //! * [`picture`]: Fig. 4 as SVG.
 //! * [`draw`]: stands and currents at random.
 
-pub mod accuracy;
-pub mod convergence;
+pub(crate) mod accuracy;
+pub(crate) mod convergence;
 pub mod draw;
-pub mod picture;
+pub(crate) mod picture;
+
+pub use crate::statistics::random::{Run, Stream};
+pub use accuracy::{Accuracy, AccuracyOptions, AccuracyRow, PAPER_LATITUDE_DEG, Stands, accuracy};
+pub use convergence::{Convergence, ConvergenceOptions, ConvergenceRow, convergence};

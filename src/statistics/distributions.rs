@@ -53,7 +53,8 @@ pub fn normal_below(x: f64) -> f64 {
 }
 
 /// The `x` below which a standard normal variable is with the given probability; infinite at 0 and 1, NaN outside.
-pub fn normal_quantile(probability: f64) -> f64 {
+#[cfg(test)]
+pub(crate) fn normal_quantile(probability: f64) -> f64 {
     if probability > 0.5 {
         return -normal_quantile(1.0 - probability);
     }

@@ -11,18 +11,18 @@
 //! * [`bins`]: quantiles and coverage intervals of a sample of any size.
 //! * [`summary`]: largest, mean, deviation, percentile, and what a share of a sample is worth.
 
-pub mod beta;
+pub(crate) mod beta;
 #[cfg(feature = "monte-carlo")]
-pub mod bins;
-pub mod distributions;
-pub mod elementary;
+pub(crate) mod bins;
+pub(crate) mod distributions;
+pub(crate) mod elementary;
 #[cfg(feature = "monte-carlo")]
-pub mod lanes;
-pub mod least_squares;
-pub mod outlier;
-pub mod propagation;
+pub(crate) mod lanes;
+pub(crate) mod least_squares;
+pub(crate) mod outlier;
+pub(crate) mod propagation;
 #[cfg(feature = "monte-carlo")]
-pub mod random;
+pub(crate) mod random;
 pub(crate) mod saddle_point;
 pub(crate) mod scaled_f;
-pub mod summary;
+pub(crate) mod summary;

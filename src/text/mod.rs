@@ -12,24 +12,25 @@
 //! * [`mod@printable`]: text of others among the program's own words.
 //! * [`problem`]: what is wrong, where, what was expected, what to do.
 
-pub mod canonical;
-pub mod node;
-pub mod number;
-pub mod printable;
-pub mod problem;
-pub mod record;
-pub mod rule;
-pub mod scalar;
-pub mod sink;
-pub mod table;
+pub(crate) mod canonical;
+pub(crate) mod node;
+pub(crate) mod number;
+pub(crate) mod printable;
+pub(crate) mod problem;
+pub(crate) mod record;
+pub(crate) mod rule;
+pub(crate) mod scalar;
+pub(crate) mod sink;
+pub(crate) mod table;
 #[cfg(feature = "factory")]
-pub mod yaml;
+pub(crate) mod yaml;
 
-pub use node::Node;
-pub use printable::{Printable, name_of, printable, shown};
-pub use problem::{Path, Problems, Unreadable};
-pub use record::Field;
-pub(crate) use record::record;
+pub(crate) use node::Node;
+pub(crate) use printable::{Printable, name_of, printable, shown};
+pub use problem::{Location, Problem, Unreadable};
+pub(crate) use problem::{Path, Problems};
+pub(crate) use record::{Field, record};
+pub use scalar::Identifier;
 
 /// The largest document that is read at all, in bytes.
 ///

@@ -79,6 +79,13 @@ macro_rules! record {
             }
         }
 
+        /// With the keys of the file.
+        impl serde::Serialize for $name {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serde::Serialize::serialize(&$crate::text::Field::write(self), serializer)
+            }
+        }
+
         impl $name {
             /// Writes its keys into a mapping that may also have others.
             pub(crate) fn emit_entries<S: $crate::text::sink::Sink>(&self, sink: &mut S) {

@@ -45,7 +45,8 @@ fn allowed_outside(c: char) -> bool {
 }
 
 /// A string in double quotes, with the only two escapes of the rule.
-pub fn quoted(text: &str) -> String {
+#[cfg(test)]
+pub(crate) fn quoted(text: &str) -> String {
     let mut quoted = String::new();
     write_quoted(text, |part| quoted.push_str(part));
     quoted

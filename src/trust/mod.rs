@@ -15,18 +15,18 @@
 //! A good signature says that the bytes are those that the key signed; [`AllowedSigners`] and [`RevokedKeys`] say
 //! whether that key counts.
 
-pub mod allowed_signers;
-pub mod error;
-pub mod identity;
+pub(crate) mod allowed_signers;
+pub(crate) mod error;
+pub(crate) mod identity;
 mod krl;
 mod lines;
 mod pattern;
-pub mod public_key;
-pub mod revoked_keys;
+pub(crate) mod public_key;
+pub(crate) mod revoked_keys;
 mod signer_line;
 #[cfg(feature = "factory")]
-pub mod signing_key;
-pub mod sshsig;
+pub(crate) mod signing_key;
+pub(crate) mod sshsig;
 mod validity;
 mod wire;
 

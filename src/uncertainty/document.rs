@@ -7,91 +7,91 @@ use serde::Serialize;
 
 /// The result of a calibration, and what was asked for besides.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct WholeDocument<'a> {
+pub(crate) struct WholeDocument<'a> {
     /// The calibration.
     #[serde(flatten)]
-    pub calibration: &'a CalibrationDocument,
+    pub(crate) calibration: &'a CalibrationDocument,
     /// Its budget.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub budget: Option<BudgetDocument>,
+    pub(crate) budget: Option<BudgetDocument>,
     /// Its Monte Carlo.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub monte_carlo: Option<MonteCarloDocument>,
+    pub(crate) monte_carlo: Option<MonteCarloDocument>,
 }
 
 /// A budget.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BudgetDocument {
     /// Of which method.
-    pub method: &'static str,
+    pub(crate) method: &'static str,
     /// One computed sentence.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub sentence: Option<String>,
+    pub(crate) sentence: Option<String>,
     /// For each parameter.
-    pub parameters: Vec<ParameterDocument>,
+    pub(crate) parameters: Vec<ParameterDocument>,
     /// Covariance of the parameters, in their order.
-    pub covariance: Vec<Vec<f64>>,
+    pub(crate) covariance: Vec<Vec<f64>>,
     /// Every input by itself.
-    pub inputs: Vec<InputDocument>,
+    pub(crate) inputs: Vec<InputDocument>,
 }
 
 /// One parameter.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ParameterDocument {
+pub(crate) struct ParameterDocument {
     /// Its key.
-    pub parameter: &'static str,
+    pub(crate) parameter: &'static str,
     /// Its unit.
-    pub unit: &'static str,
+    pub(crate) unit: &'static str,
     /// Its value.
-    pub value: f64,
+    pub(crate) value: f64,
     /// k = 1.
-    pub standard_uncertainty: f64,
+    pub(crate) standard_uncertainty: f64,
     /// Absent when infinite.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub effective_degrees_of_freedom: Option<f64>,
+    pub(crate) effective_degrees_of_freedom: Option<f64>,
     /// Probability of the expanded uncertainty.
-    pub coverage_probability: f64,
+    pub(crate) coverage_probability: f64,
     /// Expanded over standard uncertainty.
-    pub coverage_factor: f64,
+    pub(crate) coverage_factor: f64,
     /// Half the width of the interval.
-    pub expanded_uncertainty: f64,
+    pub(crate) expanded_uncertainty: f64,
     /// The largest first.
-    pub contributions: Vec<ContributionDocument>,
+    pub(crate) contributions: Vec<ContributionDocument>,
 }
 
 /// A line of a budget.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ContributionDocument {
+pub(crate) struct ContributionDocument {
     /// The kind of input.
-    pub input: String,
+    pub(crate) input: String,
     /// How many inputs of that kind.
-    pub inputs: usize,
+    pub(crate) inputs: usize,
     /// Who states it.
-    pub source: &'static str,
+    pub(crate) source: &'static str,
     /// The unit of its uncertainty.
-    pub input_unit: &'static str,
+    pub(crate) input_unit: &'static str,
     /// The largest standard uncertainty of the kind.
-    pub input_standard_uncertainty: f64,
+    pub(crate) input_standard_uncertainty: f64,
     /// What it contributes, in the parameter's unit.
-    pub contribution: f64,
+    pub(crate) contribution: f64,
     /// Of the parameter's variance.
-    pub share: f64,
+    pub(crate) share: f64,
 }
 
 /// One input.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct InputDocument {
+pub(crate) struct InputDocument {
     /// Its name.
-    pub input: String,
+    pub(crate) input: String,
     /// Its unit.
-    pub unit: &'static str,
+    pub(crate) unit: &'static str,
     /// Of the mean of all readings.
-    pub standard_uncertainty: f64,
+    pub(crate) standard_uncertainty: f64,
     /// Absent when infinite.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub degrees_of_freedom: Option<f64>,
+    pub(crate) degrees_of_freedom: Option<f64>,
     /// The change of every parameter that one standard uncertainty makes, in their order.
-    pub changes: Vec<f64>,
+    pub(crate) changes: Vec<f64>,
 }
 
 fn finite(value: f64) -> Option<f64> {
@@ -146,48 +146,48 @@ impl ContributionDocument {
 
 /// A Monte Carlo: the key `monte_carlo` of `calibrate --format json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct MonteCarloDocument {
+pub(crate) struct MonteCarloDocument {
     /// Of which method.
-    pub method: &'static str,
+    pub(crate) method: &'static str,
     /// The same seed gives the same numbers.
-    pub seed: u64,
+    pub(crate) seed: u64,
     /// Trials made.
-    pub trials: u64,
+    pub(crate) trials: u64,
     /// Trials without finite parameters, left out.
-    pub failed: u64,
+    pub(crate) failed: u64,
     /// Whether every stated digit is stable.
-    pub stable: bool,
+    pub(crate) stable: bool,
     /// For each parameter.
-    pub parameters: Vec<DistributionDocument>,
+    pub(crate) parameters: Vec<DistributionDocument>,
     /// Covariance of the parameters, in their order.
-    pub covariance: Vec<Vec<f64>>,
+    pub(crate) covariance: Vec<Vec<f64>>,
 }
 
 /// The distribution of one parameter.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct DistributionDocument {
+pub(crate) struct DistributionDocument {
     /// Its key.
-    pub parameter: &'static str,
+    pub(crate) parameter: &'static str,
     /// Its unit.
-    pub unit: &'static str,
+    pub(crate) unit: &'static str,
     /// Mean of the trials.
-    pub mean: f64,
+    pub(crate) mean: f64,
     /// Their standard deviation.
-    pub standard_uncertainty: f64,
+    pub(crate) standard_uncertainty: f64,
     /// Probability of the intervals.
-    pub coverage_probability: f64,
+    pub(crate) coverage_probability: f64,
     /// As much below it as above.
-    pub symmetric_interval: [f64; 2],
+    pub(crate) symmetric_interval: [f64; 2],
     /// The shortest.
-    pub shortest_interval: [f64; 2],
+    pub(crate) shortest_interval: [f64; 2],
     /// y - U and y + U by first order.
-    pub first_order_interval: [f64; 2],
+    pub(crate) first_order_interval: [f64; 2],
     /// How far the ends of the symmetric and the first-order interval are apart.
-    pub differences: [f64; 2],
+    pub(crate) differences: [f64; 2],
     /// What they may be apart.
-    pub tolerance: f64,
+    pub(crate) tolerance: f64,
     /// JCGM 101, clause 8; null where there are too few trials to tell.
-    pub first_order_valid: Option<bool>,
+    pub(crate) first_order_valid: Option<bool>,
 }
 
 impl MonteCarloDocument {

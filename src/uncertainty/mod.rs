@@ -8,21 +8,25 @@
 //! * [`mod@monte_carlo`]: the same without first order, and whether first order is valid; [`tally`]: what trials leave behind.
 //! * [`picture`]: the contributions as bars (SVG).
 
-pub mod budget;
+pub(crate) mod budget;
 #[cfg(feature = "monte-carlo")]
-pub mod document;
+pub(crate) mod document;
 #[cfg(feature = "monte-carlo")]
-pub mod engine;
+pub(crate) mod engine;
 #[cfg(feature = "monte-carlo")]
-pub mod entries;
+pub(crate) mod entries;
 #[cfg(feature = "monte-carlo")]
-pub mod monte_carlo;
+pub(crate) mod monte_carlo;
 #[cfg(feature = "monte-carlo")]
-pub mod picture;
-pub mod remedy;
+pub(crate) mod picture;
+pub(crate) mod remedy;
 #[cfg(feature = "monte-carlo")]
-pub mod tally;
+pub(crate) mod tally;
 
-pub use budget::Budget;
+pub use budget::{Budget, Contribution, ParameterBudget};
+pub use document::BudgetDocument;
 #[cfg(feature = "monte-carlo")]
-pub use monte_carlo::{MonteCarlo, monte_carlo};
+pub use engine::{Engine, ReadingShape};
+#[cfg(feature = "monte-carlo")]
+pub use entries::{Entry, EntryUncertainty};
+pub use monte_carlo::{Distribution, FirstOrder, MonteCarlo, Trials, monte_carlo};

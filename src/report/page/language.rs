@@ -89,11 +89,12 @@ macro_rules! texts {
     ($($name:ident { en: $en:literal, ru: $ru:literal })*) => {
         $(
             #[doc = $en]
-            pub const $name: $crate::report::page::language::Text =
+            pub(crate) const $name: $crate::report::page::language::Text =
                 $crate::report::page::language::Text { en: $en, ru: $ru };
         )*
         /// Every text of this table by its name.
-        pub const ALL: &[(&str, $crate::report::page::language::Text)] = &[$((stringify!($name), $name)),*];
+        #[cfg(test)]
+        pub(crate) const ALL: &[(&str, $crate::report::page::language::Text)] = &[$((stringify!($name), $name)),*];
     };
 }
 pub(crate) use texts;

@@ -9,16 +9,16 @@
 //! * [`shell`]: the document around them, its style and its running heads.
 //! * [`passport`]: the printable passport.
 
-pub mod calibration;
-pub mod code;
-pub mod language;
-pub mod number;
-pub mod parts;
-pub mod passport;
-pub mod shell;
-pub mod texts;
+pub(crate) mod calibration;
+pub(crate) mod code;
+pub(crate) mod language;
+pub(crate) mod number;
+pub(crate) mod parts;
+pub(crate) mod passport;
+pub(crate) mod shell;
+pub(crate) mod texts;
 
 pub use calibration::{CalibrationPage, UsedPassport};
-pub use language::{Language, Languages, Text};
+pub use language::{Language, Languages};
 pub use number::Number;
 pub use passport::PassportPage;

@@ -8,18 +8,20 @@
 //! * [`calibration`]: the report of a calibration.
 //! * [`pictures`]: words in pictures, and their descriptions.
 
+#[cfg(test)]
 use super::language::Text;
 use super::language::texts;
 
-pub mod absences;
-pub mod calibration;
-pub mod checks;
-pub mod passport;
-pub mod pictures;
-pub mod record;
+pub(crate) mod absences;
+pub(crate) mod calibration;
+pub(crate) mod checks;
+pub(crate) mod passport;
+pub(crate) mod pictures;
+pub(crate) mod record;
 
 /// Every table by its name.
-pub const TABLES: [(&str, &[(&str, Text)]); 8] = [
+#[cfg(test)]
+pub(crate) const TABLES: [(&str, &[(&str, Text)]); 8] = [
     ("units", units::ALL),
     ("words", words::ALL),
     ("checks", checks::ALL),
@@ -31,7 +33,7 @@ pub const TABLES: [(&str, &[(&str, Text)]); 8] = [
 ];
 
 /// Units. Angles are written alike in both languages.
-pub mod units {
+pub(crate) mod units {
     use super::texts;
 
     texts! {
@@ -40,7 +42,6 @@ pub mod units {
         METRES { en: "m", ru: "м" }
         KILOMETRES { en: "km", ru: "км" }
         G { en: "g", ru: "g" }
-        MICROAMPERES { en: "µA", ru: "мкА" }
         MILLIAMPERES { en: "mA", ru: "мА" }
         DEG_PER_H { en: "°/h", ru: "°/ч" }
         DEG_PER_H_PER_G { en: "°/h/g", ru: "°/ч/g" }
@@ -54,7 +55,7 @@ pub mod units {
 }
 
 /// Words that stand on any page.
-pub mod words {
+pub(crate) mod words {
     use super::texts;
 
     texts! {

@@ -11,16 +11,16 @@
 //! * [`residuals`], [`tolerances`], [`convergence`]: of a calibration.
 //! * [`drawing`], [`label`]: what they share.
 
-pub mod accuracy;
-pub mod convergence;
-pub mod deviations;
-pub mod drawing;
-pub mod label;
-pub mod place;
-pub mod positions;
-pub mod residuals;
-pub mod tolerances;
-pub mod vectors;
+pub(crate) mod accuracy;
+pub(crate) mod convergence;
+pub(crate) mod deviations;
+pub(crate) mod drawing;
+pub(crate) mod label;
+pub(crate) mod place;
+pub(crate) mod positions;
+pub(crate) mod residuals;
+pub(crate) mod tolerances;
+pub(crate) mod vectors;
 
 /// The style of all pictures; it follows the colours of the page around them.
 pub const STYLE: &str = include_str!("style.css");

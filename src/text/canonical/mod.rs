@@ -7,7 +7,7 @@ mod scanner;
 mod writer;
 
 pub use scanner::Scanner;
-pub use writer::{Comments, is_written, write, write_bare, write_some};
+pub(crate) use writer::{Comments, is_written, write, write_bare, write_some};
 
 use super::problem::Location;
 use super::{Field, rule};

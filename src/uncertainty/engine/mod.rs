@@ -12,10 +12,10 @@
 
 #![allow(clippy::needless_range_loop, reason = "a loop over trials that indexes several columns is what becomes wide")]
 
-pub mod closed;
-pub mod kernel;
-pub mod plan;
-pub mod refit;
+pub(crate) mod closed;
+pub(crate) mod kernel;
+pub(crate) mod plan;
+pub(crate) mod refit;
 mod student;
 
 use crate::calibration::procedure::{Linearised, linearise};
@@ -62,7 +62,7 @@ pub type Solutions = [Column; 8];
 
 /// The columns that a chunk works on, kept from chunk to chunk.
 #[derive(Debug, Clone)]
-pub struct Workspace {
+pub(crate) struct Workspace {
     deviates: Vec<Column>,
     positions: Vec<kernel::At>,
     solutions: Solutions,
@@ -86,7 +86,7 @@ impl Engine {
     }
 
     /// Columns for chunks.
-    pub fn workspace(&self) -> Workspace {
+    pub(crate) fn workspace(&self) -> Workspace {
         Workspace {
             deviates: vec![[0.0; WIDTH]; self.plan.columns()],
             positions: vec![kernel::At::default(); self.kernel.positions()],
@@ -94,20 +94,15 @@ impl Engine {
         }
     }
 
-    /// Draws the standard deviates of a block, chunk by chunk, and does nothing with them but add some up: what random
-    /// numbers alone cost.
-    pub fn draw_alone(&self, lanes: &mut Lanes, work: &mut Workspace) -> f64 {
-        pulp::Arch::new().dispatch(Drawing { engine: self, lanes, work })
-    }
-
     /// A block of trials; `each` gets the parameters of every chunk.
-    pub fn block(&self, lanes: &mut Lanes, work: &mut Workspace, each: impl FnMut(&Solutions)) {
+    pub(crate) fn block(&self, lanes: &mut Lanes, work: &mut Workspace, each: impl FnMut(&Solutions)) {
         pulp::Arch::new().dispatch(Block { engine: self, lanes, work, each });
     }
 
     /// The parameters for given standard deviates, one row a trial (at most [`WIDTH`]), in the order of
     /// [`Plan::inputs`]. For tests against the exact path.
-    pub fn solutions_for(&self, trials: &[Vec<f64>]) -> Vec<[f64; 8]> {
+    #[cfg(test)]
+    pub(crate) fn solutions_for(&self, trials: &[Vec<f64>]) -> Vec<[f64; 8]> {
         let mut work = self.workspace();
         for (trial, deviates) in trials.iter().take(WIDTH).enumerate() {
             for (column, deviate) in work.deviates.iter_mut().skip(1).zip(deviates) {
@@ -120,7 +115,8 @@ impl Engine {
     }
 
     /// Which inputs are drawn, and how.
-    pub fn plan(&self) -> &Plan {
+    #[cfg(test)]
+    pub(crate) fn plan(&self) -> &Plan {
         &self.plan
     }
 
@@ -135,28 +131,6 @@ impl Engine {
 }
 
 /// What runs with instructions as wide as the processor has them: everything that these call is inlined into them.
-struct Drawing<'a> {
-    engine: &'a Engine,
-    lanes: &'a mut Lanes,
-    work: &'a mut Workspace,
-}
-
-impl pulp::WithSimd for Drawing<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> f64 {
-        let mut sum = 0.0;
-        for _ in 0..CHUNKS_PER_BLOCK {
-            self.engine.plan.draw(self.lanes, &mut self.work.deviates);
-            for column in &self.work.deviates {
-                sum += column[0];
-            }
-        }
-        sum
-    }
-}
-
 struct Block<'a, F> {
     engine: &'a Engine,
     lanes: &'a mut Lanes,
@@ -177,11 +151,13 @@ impl<F: FnMut(&Solutions)> pulp::WithSimd for Block<'_, F> {
     }
 }
 
+#[cfg(test)]
 struct Chunk<'a> {
     engine: &'a Engine,
     work: &'a mut Workspace,
 }
 
+#[cfg(test)]
 impl pulp::WithSimd for Chunk<'_> {
     type Output = ();
 

@@ -111,7 +111,8 @@ impl Plan {
     }
 
     /// The inputs, in the order of their columns.
-    pub fn inputs(&self) -> &[DrawnInput] {
+    #[cfg(test)]
+    pub(crate) fn inputs(&self) -> &[DrawnInput] {
         &self.inputs
     }
 

@@ -65,7 +65,6 @@ texts! {
     MISTAKE_TOO_SMALL { en: "every current is {factor} times too small", ru: "все токи занижены в {factor} раз" }
 
     SUBJECT { en: "What was calibrated, where, and with what", ru: "Что, где и по чему калибровалось" }
-    GYRO { en: "Gyro", ru: "Гироскоп" }
     TYPE { en: "Type", ru: "Тип" }
     SERIAL { en: "Serial number of the gyro", ru: "Заводской номер гироскопа" }
     CUSTOMER { en: "Customer", ru: "Заказчик" }

@@ -1,4 +1,4 @@
-//! Every figure of docs/reproduction.md at full size: `cargo run --release --example reproduction`.
+//! Every figure of docs/reproduction.md at full size: `cargo bench --bench reproduction`.
 //!
 //! The command line gives the tables of accuracy and Fig. 4 as well (`dtg-passport simulate accuracy`, `simulate
 //! convergence`); the rest has no command of its own.
@@ -7,10 +7,9 @@ use dtg_passport::calibration::Method;
 use dtg_passport::calibration::iterative::{self, StopRule};
 use dtg_passport::coefficients::{EarthRate, Position, StandGeometry};
 use dtg_passport::gyro::GyroType;
-use dtg_passport::simulation::accuracy::{AccuracyOptions, PAPER_LATITUDE_DEG, Stands, accuracy};
-use dtg_passport::simulation::convergence::{ConvergenceOptions, convergence};
 use dtg_passport::simulation::draw::{self, CurrentError, Deviations};
-use dtg_passport::statistics::random::Run;
+use dtg_passport::simulation::{AccuracyOptions, PAPER_LATITUDE_DEG, Stands, accuracy};
+use dtg_passport::simulation::{ConvergenceOptions, Run, convergence};
 use std::time::Instant;
 
 fn main() {

@@ -1,8 +1,8 @@
 //! Time and size of the printable passport, the passport verified and the page written in memory:
-//! `cargo run --release --example render_time`.
+//! `cargo bench --bench render`.
 
 use dtg_passport::passport::{Question, Trust};
-use dtg_passport::report::page::{Language, Languages, PassportPage};
+use dtg_passport::report::{Language, Languages, PassportPage};
 use dtg_passport::trust::AllowedSigners;
 use std::hint::black_box;
 use std::time::Instant;

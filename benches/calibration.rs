@@ -1,16 +1,14 @@
 //! Time of one calibration by all three methods, and of first order on top of it (budget of all parameters with covariance,
 //! degrees of freedom and coverage factors; covariance of a passport's own numbers):
-//! `cargo run --release --example calibration_time`.
+//! `cargo bench --bench calibration`.
 
 use dtg_passport::calibration::{InputUncertainty, Method, Options, Readings, Setup, calibrate};
 use dtg_passport::coefficients::{EarthRate, PositionIndex};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
-use dtg_passport::simulation::accuracy::PAPER_LATITUDE_DEG;
 use dtg_passport::simulation::draw::{self, CurrentError, Deviations};
-use dtg_passport::statistics::random::Stream;
-use dtg_passport::uncertainty::Budget;
-use dtg_passport::uncertainty::entries::EntryUncertainty;
+use dtg_passport::simulation::{PAPER_LATITUDE_DEG, Stream};
+use dtg_passport::uncertainty::{Budget, EntryUncertainty};
 use dtg_passport::units::radians_from_arcseconds;
 use nalgebra::Vector2;
 use std::hint::black_box;
