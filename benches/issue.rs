@@ -13,7 +13,7 @@ mod fleet;
 use dtg_passport::batch::{self, Batch, Event, Outcome, Shard};
 use dtg_passport::folder::{Durability, Folder, Seal};
 use dtg_passport::passport::issue::draft;
-use dtg_passport::site::{SITE_FORMAT, Site, SiteFile};
+use dtg_passport::site::{SITE_FORMAT, Site};
 use dtg_passport::stand::Stand;
 use dtg_passport::trust::SigningKey;
 use ed25519_dalek::Signer as _;
@@ -57,9 +57,10 @@ impl Job {
         }
         fs::create_dir_all(inputs.join("sites")).expect("a folder");
         for site in &sites {
-            let file = SiteFile { format: SITE_FORMAT.to_owned(), site: site.clone() };
+            let mut file = json!(site);
+            file["format"] = json!(SITE_FORMAT);
             let path = inputs.join("sites").join(format!("{}.yaml", site.id));
-            fs::write(path, json!(file).to_string()).expect("a site");
+            fs::write(path, file.to_string()).expect("a site");
         }
         let key = SigningKey::from_openssh(&fleet::openssh_key(), None).expect("a key");
         Self { stands, sites, inputs, scratch, runs: Cell::new(0), key }

@@ -1,6 +1,6 @@
 //! Without any feature: bytes, keys and a time in, an answer out.
 
-use dtg_passport::calibration::parameter::Parameter;
+use dtg_passport::calibration::Parameter;
 use dtg_passport::calibration::{Options, Readings, Setup, calibrate};
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::{CheckName, Code, Question, Trust, verify};

@@ -227,7 +227,7 @@ impl Run<'_> {
         })?;
         let trust = candidate.found.as_ref().map_or(&change.trust, |(folder, _)| &folder.trust);
         let verification = verify(&name, &bytes, trust, &change.question);
-        let order = self.order(candidate, verification.content())?;
+        let order = self.order(candidate, verification.content_from_anyone())?;
         let changed = order.stand.is_some() || order.site.is_some();
         let next = successor(&bytes, &verification, &order).map_err(|error| match error {
             ReissueRefused::BadReason => Failure::unusable(path, error.to_string()),
@@ -235,7 +235,7 @@ impl Run<'_> {
         })?;
         let done = next.says_the_same() && (changed || next.for_the_same_reason());
         if candidate.found.is_some() && done {
-            let id = verification.id().unwrap_or_default().to_owned();
+            let id = verification.id_from_anyone().unwrap_or_default().to_owned();
             let remarks = next.draft(next.first_revision()).map_err(|error| refused(error.to_string()))?.remarks();
             let there = Issued { id, path: path.clone(), sha256: sha256_hex(&bytes), new: false, remarks };
             return Ok(Examined::Done(Some(Outcome::There(there))));

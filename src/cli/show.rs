@@ -55,7 +55,7 @@ impl PassportOptions {
         let name = name_of(&self.passport);
         let Some(signers) = &self.trust else {
             output::say("NOT VERIFIED (--no-verify): anybody may have written these numbers");
-            let content = read::unverified(&name, &bytes).map_err(Failure::unusable)?;
+            let content = read::content_from_anyone(&name, &bytes).map_err(Failure::unusable)?;
             return Ok(Read { content, bytes, verification: None });
         };
         let question = self.asked.question();

@@ -17,7 +17,7 @@ pub fn content(name: &str, payload: &str) -> Result<Content, Unreadable> {
 ///
 /// # Errors
 /// The file has not the form of a passport, or its content breaks a rule.
-pub fn unverified(name: &str, bytes: &[u8]) -> Result<Content, Unreadable> {
+pub fn content_from_anyone(name: &str, bytes: &[u8]) -> Result<Content, Unreadable> {
     let text = SignedText::split(name, bytes, NAMESPACE).map_err(|malformed| malformed.fault)?;
     content(name, text.unverified_payload())
 }

@@ -112,7 +112,7 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         return Err(ReissueRefused::BadReason);
     }
     let usable = usable(verification)?;
-    let Some(old) = verification.content() else {
+    let Some(old) = verification.content_from_anyone() else {
         return Err(ReissueRefused::OldDoesNotHold { check: "schema", detail: "it has no content".to_owned() });
     };
     if let (Usable::NameOnly { check, detail }, false) = (&usable, order.stand.is_some() && order.site.is_some()) {

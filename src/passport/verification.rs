@@ -115,13 +115,14 @@ impl Verification {
         self.checks.iter().find(|check| check.name == name).map(|check| check.code)
     }
 
-    /// The passport's id, once its signature holds and its content is good.
-    pub fn id(&self) -> Option<&str> {
+    /// Returns the passport's id, once its signature is correct and its content is good, whoever signed it.
+    pub fn id_from_anyone(&self) -> Option<&str> {
         self.content.as_ref().map(|content| content.passport.id.as_str())
     }
 
-    /// The content, once the signature holds and the content is good: whoever signed it, and whatever else failed.
-    pub fn content(&self) -> Option<&Content> {
+    /// Returns the content, once the signature is correct and the content is good: whoever signed it, and whatever else
+    /// failed. For what the issuer says, call [`Verification::passport`] or [`Verification::authentic`].
+    pub fn content_from_anyone(&self) -> Option<&Content> {
         self.content.as_deref()
     }
 
@@ -131,8 +132,8 @@ impl Verification {
         self
     }
 
-    /// The key that the signature names, once the signature's form is good.
-    pub fn key(&self) -> Option<&PublicKey> {
+    /// Returns the key that the signature names, once the signature's form is good: anyone can name a key.
+    pub fn key_from_anyone(&self) -> Option<&PublicKey> {
         self.key.as_ref()
     }
 
@@ -143,7 +144,7 @@ impl Verification {
         let issuer = self.code(CheckName::Issuer).is_none_or(|code| code == Code::Ok);
         // They are not computed for a signer who is not trusted, or whose key is revoked.
         let numbers = self.code(CheckName::Recomputed) == Some(Code::Ok);
-        self.content().filter(|_| issuer && numbers).zip(self.key())
+        self.content_from_anyone().filter(|_| issuer && numbers).zip(self.key_from_anyone())
     }
 
     /// The passport, when every check passed; otherwise the checks say what failed.

@@ -41,7 +41,7 @@ impl Verdict {
             code: check.code.as_str(),
             detail: check.detail.clone(),
         });
-        let id = verification.id().map(str::to_owned);
+        let id = verification.id_from_anyone().map(str::to_owned);
         Self { file: file.to_owned(), valid: verification.valid(), id, checks: checks.collect() }
     }
 }

@@ -44,15 +44,7 @@ fn allowed_outside(c: char) -> bool {
     c.is_ascii_lowercase() || c.is_ascii_digit() || " _:,{}[]+-.".contains(c)
 }
 
-/// A string in double quotes, with the only two escapes of the rule.
-#[cfg(test)]
-pub(crate) fn quoted(text: &str) -> String {
-    let mut quoted = String::new();
-    write_quoted(text, |part| quoted.push_str(part));
-    quoted
-}
-
-/// The same in parts.
+/// Writes a string in double quotes, with the only two escapes of the rule, in parts.
 pub(super) fn write_quoted(text: &str, mut push: impl FnMut(&str)) {
     push("\"");
     let mut rest = text;

@@ -94,7 +94,7 @@ impl Workshop {
             let name = path.display().to_string();
             let verification = verify(&name, &bytes, &trust, &question);
             assert!(verification.valid(), "{name}: {:?}", verification.checks());
-            let id = verification.id().unwrap().to_owned();
+            let id = verification.id_from_anyone().unwrap().to_owned();
             let (place, revision) = id.rsplit_once('/').unwrap();
             assert_eq!(*path, root.join(format!("{place}-{revision}.yaml")));
             (path.clone(), (id, hash))

@@ -4,6 +4,7 @@ use crate::fixtures;
 use dtg_passport::revocation::{Entry, Series};
 use dtg_passport::text::LARGEST_DOCUMENT_BYTES;
 use dtg_passport::trust::SigningKey;
+use sha2::{Digest, Sha256};
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
@@ -18,11 +19,10 @@ impl Office {
         office.write("key", &key.to_openssh("", None).unwrap());
         assert!(Command::new("chmod").arg("600").arg(office.path("key")).status().unwrap().success());
         office.write("allowed_signers", &format!("{} {}\n", fixtures::ISSUER, key.public_key().to_openssh()));
-        let mut content = fixtures::content(&fixtures::stand(fixtures::DEGREES), &fixtures::site(fixtures::SITE));
+        let (stand, site) = (fixtures::stand(fixtures::DEGREES), fixtures::site(fixtures::SITE));
         for (name, revision) in [("bench-1.yaml", 1), ("bench-2.yaml", 2)] {
-            content.passport.revision = revision;
-            content.passport.id = content.id_of_parts();
-            office.write(name, &fixtures::written(&content, &key));
+            let payload = fixtures::drafted(&stand, &site, revision).payload().to_owned();
+            office.write(name, &fixtures::signed(&payload, &key));
         }
         let now = fixtures::at("2020-01-01T00:00:00Z");
         let entry = |index| Entry {
@@ -70,8 +70,8 @@ fn a_list_that_is_full_is_continued_and_the_whole_chain_counts() {
     let second = fs::read_to_string(office.path("lists/revocation-2.yaml")).unwrap();
     let third = fs::read_to_string(office.path("lists/revocation-3.yaml")).unwrap();
     let first = fs::read(office.path("lists/revocation-1.yaml")).unwrap();
-    let continued =
-        format!("continues:\n  sequence: 1\n  sha256: \"{}\"\n", dtg_passport::document::sha256_hex(&first));
+    let sha256: String = Sha256::digest(&first).iter().map(|byte| format!("{byte:02x}")).collect();
+    let continued = format!("continues:\n  sequence: 1\n  sha256: \"{sha256}\"\n");
     assert!(second.contains(&continued) && third.contains(&continued), "{}", &second[..600]);
     assert_eq!((second.matches("  - {id: ").count(), third.matches("  - {id: ").count()), (1, 2), "{}", &second[..600]);
 

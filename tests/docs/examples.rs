@@ -3,10 +3,10 @@
 //! `UPDATE_EXAMPLES=1 cargo test --test docs examples` writes the passports again after a change of the format; nothing writes
 //! tests/golden again.
 
+use crate::fixtures;
 use crate::programs;
-use dtg_passport::document::join;
 use dtg_passport::passport::issue::{self, Issue};
-use dtg_passport::passport::{NAMESPACE, Question, Trust, verify};
+use dtg_passport::passport::{Question, Trust, verify};
 use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
 use dtg_passport::trust::{AllowedSigners, SigningKey};
@@ -136,7 +136,7 @@ fn the_python_program_finds_the_self_check() {
     for wrong in [format!("{}", current.parse::<f64>().unwrap() + 1e-6), ".nan".to_owned()] {
         let payload = format!("{before}jx_ma: {wrong},{after}");
         let file = scratch("self_check").join("wrong.yaml");
-        fs::write(&file, join(&payload, &key.sign(NAMESPACE, payload.as_bytes()).unwrap())).unwrap();
+        fs::write(&file, fixtures::signed(&payload, &key)).unwrap();
         let output = run(&file);
         assert_eq!(output.status.code(), Some(1));
         assert_eq!(String::from_utf8(output.stdout).unwrap().lines().count(), 4, "{wrong}");

@@ -2,6 +2,8 @@
 
 #![cfg(feature = "cli")]
 
+#[path = "../shared/fixtures.rs"]
+mod fixtures;
 #[path = "../shared/programs.rs"]
 mod programs;
 

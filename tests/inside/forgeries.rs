@@ -4,8 +4,9 @@
 //! wrong words. Where stock `ssh-keygen -Y verify` accepts what is refused here, the case says so, and a test asks it.
 
 use crate::inside::fixtures;
-use crate::inside::fixtures::{ISSUER, at, issued_plus, question, signed, trust, trust_as, trust_without, written};
+use crate::inside::fixtures::{ISSUER, at, issued_plus, question, signed, trust, trust_as, trust_without};
 use crate::inside::programs;
+use crate::inside::written;
 use base64ct::{Base64, Encoding as _};
 use dtg_passport::document::join;
 use dtg_passport::earth::{Place, place_at};
@@ -998,7 +999,7 @@ fn show(bytes: &[u8]) {
     let (trust, good) = good();
     let answer = verify("f", bytes, trust, &question());
     assert!(!answer.valid() || bytes == good.as_bytes());
-    let _ = read::unverified("f", bytes).map_err(|error| error.to_string());
+    let _ = read::content_from_anyone("f", bytes).map_err(|error| error.to_string());
     let _ = read::content("f", &String::from_utf8_lossy(bytes)).map_err(|error| error.to_string());
     let _ = Signature::from_armor(&String::from_utf8_lossy(bytes));
 }

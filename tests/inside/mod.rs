@@ -18,6 +18,12 @@ mod reference;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod simulated_stands;
 
+/// Any content, written as it should be and rightly signed.
+#[cfg(feature = "factory")]
+fn written(content: &crate::passport::Content, key: &crate::trust::SigningKey) -> String {
+    fixtures::signed(&crate::passport::annotations::payload(content), key)
+}
+
 #[cfg(feature = "monte-carlo")]
 mod calibration;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]

@@ -2,7 +2,8 @@
 //! counts. Each has a name, and is one file or two taken away, altered, added or given another name.
 
 use crate::inside::fixtures;
-use crate::inside::fixtures::{ARC_MINUTES, ISSUER, SITE, issued_plus, trust_as, written};
+use crate::inside::fixtures::{ARC_MINUTES, ISSUER, SITE, issued_plus, trust_as};
+use crate::inside::written;
 use dtg_passport::document::sha256_hex;
 use dtg_passport::folder::search;
 use dtg_passport::passport::content::{Content, Predecessor};

@@ -1,6 +1,6 @@
 //! Uncertainty of type B in a certificate, and the readings it was made from: read, written, added once, printed.
 
-use crate::inside::fixtures;
+use crate::inside::{fixtures, written};
 use dtg_passport::certification::{AngleReadings, Certification, Header, certify};
 use dtg_passport::passport::verify;
 use dtg_passport::report::passport_table;
@@ -110,7 +110,7 @@ fn it_goes_through_every_document() {
     assert_eq!(Stand::from_yaml("stand.yaml", text.as_bytes()).unwrap(), found.stand);
     let key = SigningKey::generate().unwrap();
     let content = fixtures::content(&found.stand, &fixtures::site(fixtures::SITE));
-    let passport = fixtures::written(&content, &key);
+    let passport = written(&content, &key);
     assert!(passport.contains(&format!("{line}\n")), "{passport}");
     let answer = verify("p.yaml", passport.as_bytes(), &fixtures::trust(&key), &fixtures::question());
     let passport = answer.passport().unwrap_or_else(|| panic!("{:?}", answer.checks()));

@@ -4,12 +4,12 @@ use crate::fixtures;
 use dtg_passport::earth::Place;
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
-use dtg_passport::passport::accuracy::Stated;
-use dtg_passport::passport::content::Predecessor;
+use dtg_passport::passport::Predecessor;
+use dtg_passport::passport::Stated;
 use dtg_passport::passport::issue::{Issue, draft};
 use dtg_passport::passport::{Question, Trust};
-use dtg_passport::report::page::Language::{English, Russian};
-use dtg_passport::report::page::{Language, Languages, PassportPage};
+use dtg_passport::report::Language::{English, Russian};
+use dtg_passport::report::{Language, Languages, PassportPage};
 use dtg_passport::trust::{AllowedSigners, SigningKey};
 
 /// One page: a passport, whom to trust, what is asked, in which languages.

@@ -2,7 +2,7 @@
 
 use crate::pages::all_pages;
 use crate::words::{LATIN_IN_RUSSIAN, cyrillic, latin_words};
-use dtg_passport::report::page::Language;
+use dtg_passport::report::Language;
 use std::collections::BTreeSet;
 
 /// Words that are not the file's own: in the language that their element names.

@@ -3,7 +3,7 @@
 use crate::passports::PASSPORTS;
 use crate::programs;
 use crate::reports::REPORTED;
-use dtg_passport::report::page::Languages;
+use dtg_passport::report::Languages;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;

@@ -3,7 +3,7 @@
 use crate::cases;
 use crate::fixtures;
 use dtg_passport::passport::{Code, Question, Trust, Verification};
-use dtg_passport::report::page::{Language, PassportPage};
+use dtg_passport::report::{Language, PassportPage};
 use dtg_passport::trust::SigningKey;
 
 fn page<'a>(bytes: &'a [u8], trust: &'a Trust, question: &'a Question) -> Result<PassportPage<'a>, Box<Verification>> {
@@ -33,10 +33,7 @@ fn neither_altered_nor_of_a_stranger_nor_of_a_revoked_key() {
     assert_eq!(first_failure(&refused), Code::WrongIssuer);
 
     let key = SigningKey::generate().unwrap();
-    let passport = fixtures::written(
-        &fixtures::content(&fixtures::stand(fixtures::ARC_MINUTES), &fixtures::site(fixtures::SITE)),
-        &key,
-    );
+    let passport = fixtures::signed(&payload(), &key);
     let question = fixtures::question();
     assert!(page(passport.as_bytes(), &fixtures::trust(&key), &question).is_ok());
     let revoked = fixtures::trust_without(&key, key.public_key().to_openssh().as_bytes());
@@ -44,13 +41,20 @@ fn neither_altered_nor_of_a_stranger_nor_of_a_revoked_key() {
     assert_eq!(first_failure(&refused), Code::KeyRevoked);
 }
 
+fn payload() -> String {
+    let (stand, site) = (fixtures::stand(fixtures::ARC_MINUTES), fixtures::site(fixtures::SITE));
+    fixtures::drafted(&stand, &site, 1).payload().to_owned()
+}
+
 /// Rightly signed, but a number does not follow: the issuer's mistake is not printed either.
 #[test]
 fn nor_with_a_wrong_number() {
     let key = SigningKey::generate().unwrap();
-    let mut content = fixtures::content(&fixtures::stand(fixtures::ARC_MINUTES), &fixtures::site(fixtures::SITE));
-    content.earth.horizontal_deg_per_h += 1e-6;
-    let passport = fixtures::written(&content, &key);
+    let right = payload();
+    let (before, number) = right.split_once("horizontal_deg_per_h: ").unwrap();
+    let (number, after) = number.split_once('\n').unwrap();
+    let wrong: f64 = number.parse::<f64>().unwrap() + 1e-6;
+    let passport = fixtures::signed(&format!("{before}horizontal_deg_per_h: {wrong}\n{after}"), &key);
     let (trust, question) = (fixtures::trust(&key), fixtures::question());
     let refused = page(passport.as_bytes(), &trust, &question).unwrap_err();
     assert_eq!(first_failure(&refused), Code::WrongNumber);

@@ -3,9 +3,9 @@
 use crate::cases;
 use crate::pages::{Page, browsed, strings};
 use crate::programs;
-use dtg_passport::passport::read;
-use dtg_passport::report::page::Language::{English, Russian};
-use dtg_passport::report::page::{Language, Languages};
+use dtg_passport::passport::verify;
+use dtg_passport::report::Language::{English, Russian};
+use dtg_passport::report::{Language, Languages};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -153,8 +153,9 @@ fn files(folder: &Path) {
 
     // Twenty-four positions, with the currents of the gyro of the self-check.
     let many = cases::all().into_iter().find(|case| case.name == "many-en").unwrap();
-    let content = read::unverified("many", many.passport.as_bytes()).unwrap();
-    let currents = content.self_check.unwrap().currents;
+    let answer = verify("many", many.passport.as_bytes(), &many.trust, &many.question);
+    let passport = answer.passport().unwrap();
+    let currents = &passport.content().self_check.as_ref().unwrap().currents;
     let rows: String = currents.iter().map(|at| format!("{},{},{},{}\n", at.i, at.j, at.jx_ma, at.jy_ma)).collect();
     write("many.yaml", &many.passport);
     write("many.csv", &format!("i,j,jx_ma,jy_ma\n{rows}"));

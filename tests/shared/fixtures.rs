@@ -3,11 +3,8 @@
 // Every crate of tests uses its own part.
 #![allow(dead_code)]
 
-use dtg_passport::document::join;
-use dtg_passport::passport::annotations::payload;
-use dtg_passport::passport::content::Content;
-use dtg_passport::passport::issue::{Issue, draft};
-use dtg_passport::passport::{NAMESPACE, Question, Trust};
+use dtg_passport::passport::issue::{Draft, Issue, draft};
+use dtg_passport::passport::{Content, NAMESPACE, Question, Trust};
 use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
 use dtg_passport::trust::{AllowedSigners, RevokedKeys, SigningKey};
@@ -52,28 +49,30 @@ pub fn site(text: &str) -> Site {
     Site::from_yaml("site", text.as_bytes()).unwrap()
 }
 
-/// What a right passport of `stand` at `site` says.
-pub fn content(stand: &Stand, site: &Site) -> Content {
+/// A right passport of `stand` at `site`, not yet signed.
+pub fn drafted(stand: &Stand, site: &Site, revision: u32) -> Draft {
     let order = Issue {
         accuracy: None,
         issuer: ISSUER.to_owned(),
         issued_at: at(ISSUED_AT),
         valid_until: None,
-        revision: 1,
+        revision,
         predecessor: None,
         allow_uncalibratable: false,
     };
-    draft(stand, site, &order).unwrap().content().clone()
+    draft(stand, site, &order).unwrap()
 }
 
-/// Any payload, rightly signed.
+/// What a right passport of `stand` at `site` says.
+pub fn content(stand: &Stand, site: &Site) -> Content {
+    drafted(stand, site, 1).content().clone()
+}
+
+/// Any payload, rightly signed; put together by hand, as docs/formats.md describes it.
 pub fn signed(payload: &str, key: &SigningKey) -> String {
-    join(payload, &key.sign(NAMESPACE, payload.as_bytes()).unwrap())
-}
-
-/// Any content, written as it should be and rightly signed.
-pub fn written(content: &Content, key: &SigningKey) -> String {
-    signed(&payload(content), key)
+    let armor = key.sign(NAMESPACE, payload.as_bytes()).unwrap().to_armor();
+    let indented: String = armor.lines().map(|line| format!("  {line}\n")).collect();
+    format!("{payload}signature: |\n{indented}")
 }
 
 /// `key` is trusted by a line of allowed signers with these principals and options.

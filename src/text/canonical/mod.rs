@@ -7,7 +7,9 @@ mod scanner;
 mod writer;
 
 pub use scanner::Scanner;
-pub(crate) use writer::{Comments, is_written, write, write_bare, write_some};
+#[cfg(test)]
+pub(crate) use writer::write_bare;
+pub(crate) use writer::{write, write_some};
 
 use super::problem::Location;
 use super::{Field, rule};

@@ -4,8 +4,8 @@ mod equivalent;
 mod software;
 mod wrong;
 
-use dtg_passport::passport::content::Content;
-use dtg_passport::passport::read;
+use dtg_passport::passport::Content;
+use dtg_passport::passport::content_from_anyone;
 use software::{Read, Software};
 use std::fs;
 use std::path::Path;
@@ -19,7 +19,7 @@ const WITH_THE_GVK_6: &str = "tests/golden/passport-1-gvk-6.yaml";
 
 fn content(path: &str) -> Content {
     let bytes = fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap();
-    read::unverified(path, &bytes).unwrap()
+    content_from_anyone(path, &bytes).unwrap()
 }
 
 /// The largest |found/stated − 1| of K_x, K_xy, K_yx, K_y, ω_0x, ω_0y, ω_g, ω_k; NaN when any is.

@@ -1,6 +1,6 @@
 //! Laboratory software for the paper's closed solution, each step of which can be replaced; it shares no code with the library.
 
-use dtg_passport::passport::content::{Content, Rows};
+use dtg_passport::passport::{Content, Rows};
 use nalgebra::{Matrix2, Vector2};
 
 /// One position of a passport, and the currents of its self-check there.

@@ -13,7 +13,7 @@ fn passports() -> Vec<Content> {
     let own = include_bytes!("../../../passports/SPS-2/0017/moscow-bmstu-1.yaml");
     let minutes = passport(fixtures::ARC_MINUTES, fixtures::SITE).0;
     let degrees = passport(fixtures::DEGREES, fixtures::SITE).0;
-    vec![minutes, degrees, read::unverified("own", own).unwrap()]
+    vec![minutes, degrees, read::content_from_anyone("own", own).unwrap()]
 }
 
 /// The middle of a mark: a circle of the first frame index, a square of the second.

@@ -4,7 +4,7 @@
 
 use super::alone::alone;
 use crate::fuzzing::memory::{bound, peak};
-use crate::inside::fixtures;
+use crate::inside::{fixtures, written};
 use dtg_passport::folder::search::register;
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
@@ -90,12 +90,12 @@ fn hostile_files() {
         assert!(answer.checks().iter().all(|check| check.detail.len() < 10_000), "{name}");
     }
     // As many positions as there may be: of a stranger nothing is computed, of the factory everything.
-    let full = fixtures::written(&with_positions(MOST_POSITIONS), &stranger);
+    let full = written(&with_positions(MOST_POSITIONS), &stranger);
     let answer = verified("256 positions of a stranger", &full);
     let codes = [CheckName::Schema, CheckName::Signer, CheckName::Recomputed, CheckName::InForce];
     let found = codes.map(|name| answer.code(name));
     assert_eq!(found, [Code::Ok, Code::UnknownKey, Code::NotRun, Code::NotRun].map(Some));
-    let own = fixtures::written(&with_positions(MOST_POSITIONS), &factory);
+    let own = written(&with_positions(MOST_POSITIONS), &factory);
     assert_eq!(verified("256 positions of the factory", &own).code(CheckName::Recomputed), Some(Code::WrongNumber));
     in_a_folder(&files, &factory, &trust);
 }
@@ -112,7 +112,7 @@ fn in_a_folder(files: &[(&str, String)], factory: &SigningKey, trust: &Trust) {
         write(&format!("SPS-9/0001/hostile-{index}.yaml"), file);
     }
     let good = fixtures::content(&fixtures::stand(fixtures::DEGREES), &fixtures::site(fixtures::SITE));
-    write("SPS-1/0203/bench-1.yaml", &fixtures::written(&good, factory));
+    write("SPS-1/0203/bench-1.yaml", &written(&good, factory));
     let asked = Asked::at(fixtures::question().time);
     let (found, most) = measured("a folder of them", || register(folder.path(), trust.clone(), &asked, 2));
     let (register, _) = found.unwrap();

@@ -1,6 +1,6 @@
 //! Whoever has no key changes a passport: each byte, each bit, each line, each length. Nothing may be accepted.
 
-use crate::inside::fixtures;
+use crate::inside::{fixtures, written};
 use dtg_passport::passport::{Question, Trust, verify};
 use dtg_passport::trust::SigningKey;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -17,7 +17,7 @@ impl Bench {
     fn new(name: &'static str, stand: &str) -> Self {
         let key = SigningKey::generate().unwrap();
         let content = fixtures::content(&fixtures::stand(stand), &fixtures::site(fixtures::SITE));
-        let good = fixtures::written(&content, &key).into_bytes();
+        let good = written(&content, &key).into_bytes();
         let bench = Self { name, good, trust: fixtures::trust(&key), question: fixtures::question() };
         assert!(bench.accepts(&bench.good), "{name}: the untouched passport");
         bench

@@ -6,7 +6,7 @@
 mod axis;
 
 pub use axis::{Axis, words};
-use dtg_passport::report::page::{Language, Languages};
+use dtg_passport::report::{Language, Languages};
 use maud::Markup;
 use roxmltree::{Document, Node};
 
