@@ -81,6 +81,11 @@
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
+// What only a higher feature calls is no dead code; with all of them nothing may be unused.
+#![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports))]
+
+// Their types are part of the interface: the same versions must be used.
+pub use {jiff, nalgebra};
 
 pub mod attitude;
 #[cfg(feature = "factory")]

@@ -24,9 +24,11 @@ pub(crate) mod remedy;
 pub(crate) mod tally;
 
 pub use budget::{Budget, Contribution, ParameterBudget};
+#[cfg(feature = "monte-carlo")]
 pub use document::BudgetDocument;
 #[cfg(feature = "monte-carlo")]
 pub use engine::{Engine, ReadingShape};
 #[cfg(feature = "monte-carlo")]
 pub use entries::{Entry, EntryUncertainty};
+#[cfg(feature = "monte-carlo")]
 pub use monte_carlo::{Distribution, FirstOrder, MonteCarlo, Trials, monte_carlo};
