@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let trust = Trust::of(AllowedSigners::parse(signers, &fs::read(signers)?)?);
     let answer = verify(passport, &fs::read(passport)?, &trust, &Question::at(Timestamp::now()));
     let Some(verified) = answer.passport() else {
-        let failed = answer.checks().iter().filter(|check| check.passed() != Some(true));
+        let failed = answer.checks().iter().filter(|check| check.passed() == Some(false));
         return Err(failed.map(|check| check.detail.as_str()).collect::<Vec<_>>().join("\n").into());
     };
 

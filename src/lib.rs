@@ -44,29 +44,29 @@
 //! |---|---|---|
 //! | [`bibliography`] | the papers and standards that formulas link to | |
 //! | [`units`] | angles and rates: the one place that converts | |
-//! | [`parallel`] | the same work on many things at once | |
+//! | `parallel` | the same work on many things at once | |
 //! | [`text`] | one canonical form out and in, tables, errors that point into the file; hand-written YAML with `factory` | |
 //! | [`attitude`] | eq. (3), (4): A, E, Ã | |
 //! | [`coefficients`] | eq. (5), (9)-(13): n, ω_3, Δ, B, C | |
 //! | [`earth`] | Earth rate, gravity, deflection, geodesics | |
 //! | [`site`], [`stand`] | a place of delivery; a stand and its certified deviations | |
 //! | [`gyro`], [`laboratory`] | eq. (2): parameters and currents, types of gyro; the meter and the seat | |
-//! | [`statistics`] | least squares, distributions; random streams with `monte-carlo`: no gyro in it | |
+//! | `statistics` | least squares, distributions; random streams with `monte-carlo`: no gyro in it | |
 //! | [`calibration`] | from currents to parameters, their uncertainty, the fit | |
 //! | [`uncertainty`] | the budget of the uncertainty; 95 % intervals with `monte-carlo` | |
 //! | [`simulation`] | the paper's table and its Fig. 4 | `monte-carlo` |
 //! | [`selftest`] | the reference cases of the mathematics, found again on the user's own machine | `monte-carlo` |
 //! | [`trust`] | signatures, allowed signers, revocation: bytes and time in, a verdict out; private keys with `factory` | |
-//! | [`document`] | a signed text: split, checked, parsed, joined | |
+//! | `document` | a signed text: split, checked, parsed, joined | |
 //! | [`revocation`] | the signed list of withdrawn passports | |
 //! | [`passport`] | content and verification; issue and re-issue with `factory` | |
 //! | [`register`] | what is in force among many | |
 //! | [`certification`] | readings of the angles to a stand, and whether it is still the same one | `factory` |
-//! | [`files`], [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports | `factory` |
+//! | `files`, [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports | `factory` |
 //! | [`batch`] | many passports at once | `factory` |
 //! | [`report`] | what people read | `report` |
-//! | [`schema`] | JSON Schemas of the formats | `cli` |
-//! | [`demonstration`] | the whole story on a built-in example | `cli` |
+//! | `schema` | JSON Schemas of the formats | `cli` |
+//! | `demonstration` | the whole story on a built-in example | `cli` |
 //! | [`cli`] | the command line: read, call, write | `cli` |
 //!
 //! The feature `cli`, which has all the others and is the default, builds the program. Only `files`, `signing`, `folder`,

@@ -33,7 +33,7 @@ pub struct Known<'a> {
 pub struct Job<'a> {
     /// The folder of the passports.
     pub folder: &'a Folder,
-    /// Stands: files, folders and patterns as [`paths`] has them.
+    /// Stands: files, folders and patterns as `paths` has them.
     pub stands: &'a [PathBuf],
     /// Sites, in the same manner.
     pub sites: &'a [PathBuf],

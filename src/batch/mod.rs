@@ -5,11 +5,11 @@
 //! loss of power as far as [`Durability`] says. A failure is one event; the rest goes on. Run
 //! again, a batch leaves what is done and does what is not.
 //!
-//! * [`paths`]: what a user names: files, folders, patterns, lists.
-//! * [`catalogue`]: stand and site files by their ids.
-//! * [`shard`]: a part of a job, for one of several machines.
-//! * [`first`]: every stand at every site.
-//! * [`successors`]: passports issued anew.
+//! * `paths`: what a user names: files, folders, patterns, lists.
+//! * `catalogue`: stand and site files by their ids.
+//! * `shard`: a part of a job, for one of several machines.
+//! * `first`: every stand at every site.
+//! * `successors`: passports issued anew.
 
 pub(crate) mod catalogue;
 pub(crate) mod first;

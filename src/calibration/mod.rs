@@ -1,19 +1,19 @@
 //! From sixteen currents to the parameters of a gyro. It takes coefficients, never a passport.
 //!
-//! * [`readings`]: the currents, from CSV.
+//! * `readings`: the currents, from CSV.
 //! * [`analytic`]: the paper's closed solution, eq. (13)-(16) and (8).
 //! * [`iterative`]: the paper's successive approximation, eq. (17)-(19).
 //! * [`least_squares`]: all readings of any positions, weighted.
-//! * [`procedure`]: all of them side by side; [`result`]: with uncertainties, residuals and chi-square.
-//! * [`scatter`]: whether rows of a visit and visits of a position agree.
-//! * [`diagnosis`]: what may be wrong where readings do not fit.
-//! * [`verdict`]: against a type's specification and against an earlier calibration.
-//! * [`mistake`]: mistakes that leave readings fitting, recognised by what the gyro should be.
-//! * [`document`]: a result for machines.
-//! * [`prediction`]: what a calibration on this stand will be worth, before there is a reading.
-//! * [`estimates`]: which uncertainties rest on the same estimate.
-//! * [`causes`]: everything that is uncertain, by name; what budgets are made of.
-//! * [`inputs`]: what is known of stand, site, seat and meter, and how well; [`stated`]: as the files state it.
+//! * `procedure`: all of them side by side; `result`: with uncertainties, residuals and chi-square.
+//! * `scatter`: whether rows of a visit and visits of a position agree.
+//! * `diagnosis`: what may be wrong where readings do not fit.
+//! * `verdict`: against a type's specification and against an earlier calibration.
+//! * `mistake`: mistakes that leave readings fitting, recognised by what the gyro should be.
+//! * `document`: a result for machines.
+//! * `prediction`: what a calibration on this stand will be worth, before there is a reading.
+//! * `estimates`: which uncertainties rest on the same estimate.
+//! * `causes`: everything that is uncertain, by name; what budgets are made of.
+//! * `inputs`: what is known of stand, site, seat and meter, and how well; `stated`: as the files state it.
 //!
 //! The laboratory's call, once the setup is known:
 //!

@@ -1,11 +1,11 @@
 //! From repeated readings of the angles to a certified stand, and whether it is still the same stand later.
 //!
-//! * [`header`]: the stand file before the measurement.
-//! * [`readings`]: the angles read, every position in every run.
-//! * [`components`]: what scatters, and what all positions of a run share.
-//! * [`suspects`]: a position that is worse (Cochran), a reading that is out (Grubbs), runs that agree too well.
-//! * [`comparison`]: a later check run against the certificate.
-//! * [`document`]: the stand file as text, with how its numbers came about.
+//! * `header`: the stand file before the measurement.
+//! * `readings`: the angles read, every position in every run.
+//! * `components`: what scatters, and what all positions of a run share.
+//! * `suspects`: a position that is worse (Cochran), a reading that is out (Grubbs), runs that agree too well.
+//! * `comparison`: a later check run against the certificate.
+//! * `document`: the stand file as text, with how its numbers came about.
 //!
 //! The model and what each number means: docs/certification.md.
 

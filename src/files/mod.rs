@@ -167,7 +167,7 @@ pub enum Access {
 pub enum Durability {
     /// The file, under its name.
     Named,
-    /// The file; its name once [`sync_folder`] has come back, which then does for many files.
+    /// The file; its name once `sync_folder` has come back, which then does for many files.
     NameLater,
     /// Nothing, until the system has written it in its own time.
     None,

@@ -1,6 +1,6 @@
 //! Passports in a folder: where each stands, what is there already, new ones written whole and never over another.
 //!
-//! * [`search`]: what is there.
+//! * `search`: what is there.
 
 mod claim;
 mod names;

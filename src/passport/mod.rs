@@ -1,14 +1,14 @@
 //! The signed passport: what it says, how it is written and read, issued, re-issued and verified.
 //!
-//! * [`content`]: the records, and the numbers that follow from stand and site.
-//! * [`accuracy`]: what the stand is good for, for a stated gyro and meter.
-//! * [`annotations`]: the comments that stand between them.
-//! * [`read`]: signed text to content, canonical form required.
+//! * `content`: the records, and the numbers that follow from stand and site.
+//! * `accuracy`: what the stand is good for, for a stated gyro and meter.
+//! * `annotations`: the comments that stand between them.
+//! * `read`: signed text to content, canonical form required.
 //! * [`issue`]: a stand and a site to a signed passport.
-//! * [`recomputed`]: every number again from the signed inputs.
-//! * [`checks`]: names and verdicts of the checks.
-//! * [`place`]: whether a place is near enough to the site.
-//! * [`verification`]: the six steps, and "may I use this passport, on this stand, here, now?".
+//! * `recomputed`: every number again from the signed inputs.
+//! * `checks`: names and verdicts of the checks.
+//! * `place`: whether a place is near enough to the site.
+//! * `verification`: the six steps, and "may I use this passport, on this stand, here, now?".
 //! * [`reissue`]: a new passport from an old one.
 
 pub(crate) mod accuracy;

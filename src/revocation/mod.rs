@@ -6,7 +6,7 @@
 //! Each list repeats the entries of the one before it, until it would be larger than a document may be: the next one then
 //! begins with new entries alone and names the list that it continues. The entries of the whole chain count.
 //!
-//! * [`series`]: all lists together.
+//! * `series`: all lists together.
 
 pub(crate) mod series;
 

@@ -1,9 +1,9 @@
 //! The reference cases of the mathematics, on the user's own machine: what documents print against what is found here.
 //!
-//! * [`gum`]: the examples H.1, H.2, H.3 of the GUM, by the law of propagation and by least squares.
-//! * [`monte_carlo`]: the examples 9.2 and 9.3 of its Supplement 1, by drawing.
-//! * [`regression`]: NIST's Norris and Longley, by the project's least squares.
-//! * [`model`]: the paper's model and its analytic method against 60-digit arithmetic.
+//! * `gum`: the examples H.1, H.2, H.3 of the GUM, by the law of propagation and by least squares.
+//! * `monte_carlo`: the examples 9.2 and 9.3 of its Supplement 1, by drawing.
+//! * `regression`: NIST's Norris and Longley, by the project's least squares.
+//! * `model`: the paper's model and its analytic method against 60-digit arithmetic.
 
 pub(crate) mod gum;
 pub(crate) mod model;

@@ -2,7 +2,7 @@
 //!
 //! * [`accuracy`]: how far found parameters are from nominal ones, over stands and currents drawn at random.
 //! * [`convergence`]: how many steps successive approximation takes.
-//! * [`picture`]: Fig. 4 as SVG.
+//! * `picture`: Fig. 4 as SVG.
 //! * [`draw`]: stands and currents at random.
 
 pub(crate) mod accuracy;

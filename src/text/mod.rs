@@ -1,16 +1,16 @@
 //! The text of every document: strict YAML in, one canonical form out, errors that point into the file.
 //!
-//! * [`rule`]: what a signed text may contain, and how a string is written: writer and reader of the rule side by side.
-//! * [`number`]: how a number is written.
-//! * [`canonical`]: the one form that content is written in, and its reader.
-//! * [`sink`]: what a document is written into.
-//! * [`node`]: a document as a tree.
-//! * [`mod@record`]: from that tree to a Rust struct and back, every mistake reported, not only the first.
-//! * [`scalar`]: identifiers, dates and times.
-//! * [`table`]: tables of numbers (CSV).
+//! * `rule`: what a signed text may contain, and how a string is written: writer and reader of the rule side by side.
+//! * `number`: how a number is written.
+//! * `canonical`: the one form that content is written in, and its reader.
+//! * `sink`: what a document is written into.
+//! * `node`: a document as a tree.
+//! * `record`: from that tree to a Rust struct and back, every mistake reported, not only the first.
+//! * `scalar`: identifiers, dates and times.
+//! * `table`: tables of numbers (CSV).
 //! * `yaml`: hand-written YAML to a tree, with the place of every value found again when an error needs it.
-//! * [`mod@printable`]: text of others among the program's own words.
-//! * [`problem`]: what is wrong, where, what was expected, what to do.
+//! * `printable`: text of others among the program's own words.
+//! * `problem`: what is wrong, where, what was expected, what to do.
 
 pub(crate) mod canonical;
 pub(crate) mod node;

@@ -3,14 +3,14 @@
 //! Everything here is OpenSSH's own format, so that stock `ssh-keygen` verifies what this program signs and this
 //! program verifies what `ssh-keygen -Y sign` signs, also through ssh-agent or a FIDO token.
 //!
-//! * [`sshsig`]: a signature over a message for one namespace (OpenSSH's PROTOCOL.sshsig, PROTOCOL.u2f).
-//! * [`public_key`]: who can have signed.
-//! * [`signing_key`]: the private key that signs (OpenSSH's PROTOCOL.key).
-//! * [`allowed_signers`]: whose key it is, for what and when (ssh-keygen(1), ALLOWED SIGNERS).
-//! * [`revoked_keys`]: keys that are no longer trusted, as a key revocation list (OpenSSH's PROTOCOL.krl) or as a
+//! * `sshsig`: a signature over a message for one namespace (OpenSSH's PROTOCOL.sshsig, PROTOCOL.u2f).
+//! * `public_key`: who can have signed.
+//! * `signing_key`: the private key that signs (OpenSSH's PROTOCOL.key).
+//! * `allowed_signers`: whose key it is, for what and when (ssh-keygen(1), ALLOWED SIGNERS).
+//! * `revoked_keys`: keys that are no longer trusted, as a key revocation list (OpenSSH's PROTOCOL.krl) or as a
 //!   list of public keys.
-//! * [`identity`]: the names by which allowed signers know who signs.
-//! * [`error`]: what can be wrong with a key or a signature.
+//! * `identity`: the names by which allowed signers know who signs.
+//! * `error`: what can be wrong with a key or a signature.
 //!
 //! A good signature says that the bytes are those that the key signed; [`AllowedSigners`] and [`RevokedKeys`] say
 //! whether that key counts.

@@ -42,14 +42,14 @@ pub struct ParameterBudget {
     pub standard_uncertainty: f64,
     /// By Welch and Satterthwaite; infinite when every input's uncertainty is known.
     pub effective_degrees_of_freedom: f64,
-    /// For a coverage probability of [`COVERAGE`], from Student's t with those degrees of freedom.
+    /// For a coverage probability of `COVERAGE`, from Student's t with those degrees of freedom.
     pub coverage_factor: f64,
     /// The lines of the budget, the largest first.
     pub contributions: Vec<Contribution>,
 }
 
 impl ParameterBudget {
-    /// Half the width of the interval that covers the parameter with probability [`COVERAGE`].
+    /// Half the width of the interval that covers the parameter with probability `COVERAGE`.
     pub fn expanded_uncertainty(&self) -> f64 {
         self.coverage_factor * self.standard_uncertainty
     }

@@ -32,7 +32,7 @@ pub const MOST_TRIALS: u64 = 200_000_000;
 /// How a Monte Carlo is run.
 #[derive(Clone, Copy)]
 pub struct Trials<'a> {
-    /// How many, rounded up to whole blocks of [`BLOCK`]; `None` until the digits are stable.
+    /// How many, rounded up to whole blocks of `BLOCK`; `None` until the digits are stable.
     pub trials: Option<u64>,
     /// Which random numbers.
     pub seed: u64,
@@ -87,7 +87,7 @@ pub struct Distribution {
     pub mean: f64,
     /// Their standard deviation.
     pub standard_uncertainty: f64,
-    /// The interval of probability [`COVERAGE`] with as much below it as above.
+    /// The interval of probability `COVERAGE` with as much below it as above.
     pub symmetric: [f64; 2],
     /// The shortest interval of that probability.
     pub shortest: [f64; 2],
