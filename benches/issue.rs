@@ -1,6 +1,6 @@
 //! A factory's fleet against its floor and against Python, all in one run: `cargo bench --bench issue`.
 //!
-//! 50 stands × 200 sites, the whole batch from files to files. Floor: an Ed25519 signature of the same bytes, the file
+//! 50 stands × 200 sites, the program `issue` from files to files. Floor: an Ed25519 signature of the same bytes, the file
 //! written and renamed; and, stricter, with the signature made as OpenSSH makes it, which reads the bytes once and not
 //! twice. Python: benches/issue_python.py, which reads back what it writes and verifies what it signs as the batch does,
 //! and once more without, from `target/test-tools` where the tests have installed it, otherwise as `python3`. One after
@@ -10,12 +10,10 @@
 
 mod fleet;
 
-use dtg_passport::batch::{self, Batch, Event, Outcome, Shard};
-use dtg_passport::folder::{Durability, Folder, Seal};
+use dtg_passport::folder::Folder;
 use dtg_passport::passport::issue::draft;
 use dtg_passport::site::{SITE_FORMAT, Site};
 use dtg_passport::stand::Stand;
-use dtg_passport::trust::SigningKey;
 use ed25519_dalek::Signer as _;
 use fleet::{Time, median, on_threads, scratch, timed, write_and_rename};
 use serde_json::{Value, json};
@@ -42,7 +40,6 @@ struct Job {
     /// that runs would pay for the files of those before.
     scratch: PathBuf,
     runs: Cell<usize>,
-    key: SigningKey,
 }
 
 impl Job {
@@ -62,8 +59,8 @@ impl Job {
             let path = inputs.join("sites").join(format!("{}.yaml", site.id));
             fs::write(path, file.to_string()).expect("a site");
         }
-        let key = SigningKey::from_openssh(&fleet::openssh_key(), None).expect("a key");
-        Self { stands, sites, inputs, scratch, runs: Cell::new(0), key }
+        fleet::write_key(&scratch.join("key")).expect("a key");
+        Self { stands, sites, inputs, scratch, runs: Cell::new(0) }
     }
 
     fn passports(&self) -> usize {
@@ -75,19 +72,20 @@ impl Job {
     }
 
     /// Issues every passport into a new folder: its time.
-    fn run(&self, threads: usize, durability: Durability) -> Time {
+    fn run(&self, threads: usize, synced: bool) -> Time {
         self.runs.set(self.runs.get() + 1);
-        let folder = self.folder().with_durability(durability);
-        let seal = Some(Seal { signer: &self.key, trust: None });
-        let batch = Batch { durability, seal, shard: Shard::WHOLE, threads, cancel: None };
-        let (mut issued, stands, sites) = (0, [self.inputs.join("stands")], [self.inputs.join("sites")]);
+        let mut program = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+        program.arg("issue").arg(self.inputs.join("stands")).arg("--site").arg(self.inputs.join("sites"));
+        program.arg("--out").arg(self.folder().root()).arg("--key").arg(self.scratch.join("key"));
+        program.args(["--identity", fleet::ISSUER, "--issued-at", fleet::ISSUED_AT, "--threads", &threads.to_string()]);
+        if !synced {
+            program.arg("--no-sync");
+        }
+        let mut issued = 0;
         let time = timed(|| {
-            let order = fleet::order();
-            let (folder, stands, sites) = (&folder, &stands[..], &sites[..]);
-            let job = batch::Job { folder, stands, sites, order: &order, known: None };
-            batch.issue(&job, &mut std::io::empty(), &mut |event| {
-                issued += usize::from(matches!(event, Event::Done(Some(Outcome::There(_)))));
-            });
+            let output = program.output().expect("the program");
+            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+            issued = output.stdout.split(|byte| *byte == b'\n').filter(|line| line.starts_with(b"issued ")).count();
         });
         assert_eq!(issued, self.passports());
         time
@@ -198,7 +196,7 @@ fn against_the_floor(threads: usize) -> Job {
     let key = ed25519_dalek::SigningKey::from_bytes(&fleet::SECRET);
     // All have run once before anything counts.
     let round = || {
-        let ours = job.run(threads, Durability::None);
+        let ours = job.run(threads, false);
         let floor = job.floor(threads, |bytes| key.sign(bytes));
         [ours, floor, job.floor(threads, |bytes| key.sign(&fleet::signed_data(&Sha512::digest(bytes))))]
     };
@@ -215,7 +213,7 @@ fn against_the_floor(threads: usize) -> Job {
 fn against_python() -> Job {
     let job = Job::new("bench-issue-python", STANDS_OF_PYTHON, SITES);
     let round = |first: bool| {
-        let ours = job.run(1, Durability::None);
+        let ours = job.run(1, false);
         let [writing, checking] = [false, true].map(|checked| {
             let found = python(&job, checked).expect("Python with NumPy, PyYAML and cryptography");
             if first {
@@ -239,7 +237,7 @@ fn against_python() -> Job {
 /// What a disk takes that has to be sure of every file.
 fn syncing(threads: usize) -> Job {
     let job = Job::new("bench-issue-synced", STANDS_OF_PYTHON, SITES);
-    let round = || [Durability::None, Durability::NameLater].map(|durability| job.run(threads, durability));
+    let round = || [false, true].map(|synced| job.run(threads, synced));
     let [without, with] = by_column((0..ROUNDS).map(|_| round()));
     say("batch, synced", job.passports(), &with);
     ratio("batch with --no-sync / synced", &with, &without);
@@ -275,7 +273,7 @@ fn linear() {
     for passports in [1_000, 10_000, 100_000] {
         let job = Job::new(&format!("bench-issue-{passports}"), STANDS, passports / STANDS);
         let rounds = (100_000 / passports).min(ROUNDS);
-        let times: Vec<_> = (0..rounds).map(|_| job.run(processors(), Durability::None)).collect();
+        let times: Vec<_> = (0..rounds).map(|_| job.run(processors(), false)).collect();
         say(&format!("{STANDS} stands x {} sites", passports / STANDS), passports, &times);
         // For the reason that runs have folders of their own.
         jobs.push(job);

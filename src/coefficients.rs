@@ -161,7 +161,7 @@ impl EightGeometry {
 
 /// X_1 and X_2 of the vectors x of the eight positions in their order: differences of opposite positions as columns
 /// (paper, eq. (9)-(11)).
-pub fn pair_differences(x: impl Fn(usize) -> Vector2<f64>) -> (Matrix2<f64>, Matrix2<f64>) {
+pub(crate) fn pair_differences(x: impl Fn(usize) -> Vector2<f64>) -> (Matrix2<f64>, Matrix2<f64>) {
     let first = Matrix2::from_columns(&[x(0) - x(2), x(1) - x(3)]);
     let second = Matrix2::from_columns(&[x(4) - x(6), x(5) - x(7)]);
     (first, second)

@@ -44,10 +44,10 @@ pub struct Place {
 }
 
 /// geographiclib-rs uses the platform's trigonometry; its lengths are rounded to this before they are signed.
-pub const LENGTH_QUANTUM_M: f64 = 1e-6;
+pub(crate) const LENGTH_QUANTUM_M: f64 = 1e-6;
 
 /// And its azimuths to this.
-pub const AZIMUTH_QUANTUM_DEG: f64 = 1e-10;
+pub(crate) const AZIMUTH_QUANTUM_DEG: f64 = 1e-10;
 
 /// Rounded to whole quanta, of which `per_unit` make one: 1e6 for micrometres of a metre.
 fn rounded(value: f64, per_unit: f64) -> f64 {
@@ -162,19 +162,19 @@ const M: f64 = 0.003_449_786_506_84;
 
 /// Standard uncertainty of normal gravity at a known height as an estimate of gravity, m/s²: 50 mGal, the size of gravity anomalies
 /// outside high mountains ([Heiskanen and Moritz](crate::bibliography::Bibliography::HeiskanenMoritz67), chapter 7).
-pub const NORMAL_GRAVITY_U_M_PER_S2: f64 = 5e-4;
+pub(crate) const NORMAL_GRAVITY_U_M_PER_S2: f64 = 5e-4;
 
 /// Standard uncertainty of normal gravity at 0 m as an estimate of gravity where the height is unknown, m/s².
 ///
 /// Gravity is 3.086e-6 m/s² smaller for each metre of height: 1.23e-2 at 4,000 m. Where every height from 0 m to there is
 /// equally probable, the root mean square of what the value at 0 m is out by is 1.23e-2/√3.
-pub const NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2: f64 = 7.1e-3;
+pub(crate) const NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2: f64 = 7.1e-3;
 
 /// Standard gravity, m/s², the g of a gyro type that names none.
 pub const STANDARD_GRAVITY_M_PER_S2: f64 = 9.80665;
 
 /// Mean radius of the Earth, (2a + b)/3, for allowances that need no more digits.
-pub const MEAN_RADIUS_M: f64 = 6_371_008.8;
+pub(crate) const MEAN_RADIUS_M: f64 = 6_371_008.8;
 
 /// Normal gravity at a geodetic latitude and a height above the ellipsoid
 /// ([WGS 84](crate::bibliography::Bibliography::Wgs84), eq. 4-1 and 4-3).

@@ -63,7 +63,7 @@
 //! | [`register`] | what is in force among many | |
 //! | [`certification`] | readings of the angles to a stand, and whether it is still the same one | `factory` |
 //! | `files`, [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports | `factory` |
-//! | [`batch`] | many passports at once | `factory` |
+//! | `batch` | many passports at once | `factory` |
 //! | [`report`] | what people read | `report` |
 //! | `schema` | JSON Schemas of the formats | `cli` |
 //! | `demonstration` | the whole story on a built-in example | `cli` |
@@ -89,7 +89,7 @@ pub use {jiff, nalgebra};
 
 pub mod attitude;
 #[cfg(feature = "factory")]
-pub mod batch;
+mod batch;
 pub mod bibliography;
 pub mod calibration;
 #[cfg(feature = "factory")]

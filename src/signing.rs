@@ -15,7 +15,7 @@ use zeroize::Zeroizing;
 
 /// The variable from which the program takes a passphrase where no terminal asks for it. No program that is started here
 /// inherits it.
-pub const PASSPHRASE_VARIABLE: &str = "DTG_PASSPORT_PASSPHRASE";
+pub(crate) const PASSPHRASE_VARIABLE: &str = "DTG_PASSPORT_PASSPHRASE";
 
 /// The largest key file that is read, in bytes.
 const LARGEST_KEY_FILE_BYTES: usize = 1 << 16;
@@ -85,7 +85,7 @@ pub type AskPassphrase<'a> = &'a dyn Fn(&Path) -> Result<Zeroizing<String>, Stri
 
 /// From here on this process leaves no core dump, which would hold the key and its passphrase; nor can another process
 /// of the same user look into its memory. What the system does not know of stays as it is.
-pub fn forbid_core_dumps() {
+pub(crate) fn forbid_core_dumps() {
     #[cfg(unix)]
     {
         use rustix::process::{Resource, Rlimit, setrlimit};
@@ -196,7 +196,7 @@ pub fn allowed_signers_line(identity: &str, key: &PublicKey) -> Result<String, B
 }
 
 /// Returns the trust of an issuer in what its own key signs, or `None` if that key is not known.
-pub fn own_trust(identity: &str, signer: &dyn Signer) -> Option<Trust> {
+pub(crate) fn own_trust(identity: &str, signer: &dyn Signer) -> Option<Trust> {
     let line = allowed_signers_line(identity, &signer.public_key()?).ok()?;
     AllowedSigners::parse("own key", line.as_bytes()).ok().map(Trust::of)
 }
@@ -204,7 +204,7 @@ pub fn own_trust(identity: &str, signer: &dyn Signer) -> Option<Trust> {
 /// Why allowed signers get no further line.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum NotAppended {
+pub(crate) enum NotAppended {
     /// The file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
@@ -218,7 +218,7 @@ pub enum NotAppended {
 ///
 /// # Errors
 /// See [`NotAppended`].
-pub fn with_signer(path: &Path, line: &str) -> Result<Vec<u8>, NotAppended> {
+pub(crate) fn with_signer(path: &Path, line: &str) -> Result<Vec<u8>, NotAppended> {
     let mut text = match files::read(path, LARGEST_TRUST_FILE_BYTES) {
         Err(FileError::Read { error, .. }) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
         read => read?,
@@ -236,7 +236,7 @@ pub fn with_signer(path: &Path, line: &str) -> Result<Vec<u8>, NotAppended> {
 ///
 /// # Errors
 /// See [`NotAppended`]; the file then is as it was.
-pub fn append_signer(path: &Path, line: &str) -> Result<(), NotAppended> {
+pub(crate) fn append_signer(path: &Path, line: &str) -> Result<(), NotAppended> {
     let _turn = files::wait_for_turn(files::folder_of(path));
     Ok(files::rewrite(path, &with_signer(path, line)?)?)
 }

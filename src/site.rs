@@ -14,10 +14,10 @@ use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};
 pub const SITE_FORMAT: &str = "dtg-site/1";
 
 /// Standard uncertainty of a deflection component taken as 0 because it is unknown.
-pub const UNKNOWN_DEFLECTION_U_ARCSEC: f64 = 10.0;
+pub(crate) const UNKNOWN_DEFLECTION_U_ARCSEC: f64 = 10.0;
 
 /// The change of ω_Γ or ω_B that sets the radius of validity, where a site names none.
-pub const DEFAULT_VALID_WITHIN_DEG_PER_H: f64 = 0.001;
+pub(crate) const DEFAULT_VALID_WITHIN_DEG_PER_H: f64 = 0.001;
 
 /// The largest uncertainty of a deflection: a degree, with which nothing is known. Larger ones could make the azimuth's
 /// infinite, which is no number of any document.
@@ -27,7 +27,7 @@ const LARGEST_DEFLECTION_U_ARCSEC: f64 = 3600.0;
 const LARGEST_POSITION_U_M: f64 = 1e6;
 
 /// How far a geodetic latitude may be from the astronomic one where no deflection is known.
-pub const LATITUDE_MARGIN_ARCSEC: f64 = 30.0;
+pub(crate) const LATITUDE_MARGIN_ARCSEC: f64 = 30.0;
 
 record! {
     /// Deflection of the vertical: how far the plumb line's zenith lies from the ellipsoid's.
@@ -106,7 +106,7 @@ record! {
 /// A site file: `format`, then the keys of [`Site`].
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
-pub struct SiteFile {
+pub(crate) struct SiteFile {
     /// Always "dtg-site/1".
     pub format: String,
     /// The site itself, its keys beside `format`.
@@ -261,7 +261,7 @@ impl Site {
     }
 
     /// φ: the geodetic latitude, given, or the astronomic one without ξ (0 when unknown).
-    pub fn geodetic_deg(&self) -> f64 {
+    pub(crate) fn geodetic_deg(&self) -> f64 {
         let xi = self.deflection_arcsec.as_ref().map_or(0.0, |deflection| deflection.xi);
         match (self.latitude_deg, self.astronomic_latitude_deg) {
             (Some(geodetic), _) => geodetic,
@@ -270,7 +270,7 @@ impl Site {
     }
 
     /// Whether the geodetic latitude is known only through an astronomic one without deflection.
-    pub fn geodetic_is_uncertain(&self) -> bool {
+    pub(crate) fn geodetic_is_uncertain(&self) -> bool {
         self.latitude_deg.is_none() && self.deflection_arcsec.is_none()
     }
 
@@ -309,7 +309,7 @@ impl Site {
 
     /// Standard uncertainty of the gravity of [`Site::earth`]: as measured, or that of normal gravity, which is larger
     /// where the height is unknown; `None` where gravity was measured and its uncertainty is not stated.
-    pub fn gravity_u_m_per_s2(&self) -> Option<f64> {
+    pub(crate) fn gravity_u_m_per_s2(&self) -> Option<f64> {
         match (self.gravity_m_per_s2, self.height_m) {
             (Some(_), _) => self.gravity_u_m_per_s2,
             (None, Some(_)) => Some(earth::NORMAL_GRAVITY_U_M_PER_S2),
@@ -318,7 +318,7 @@ impl Site {
     }
 
     /// 1/cos Φ: how many times K's uncertainty is what it would be at the equator.
-    pub fn uncertainty_growth(&self) -> f64 {
+    pub(crate) fn uncertainty_growth(&self) -> f64 {
         1.0 / sin_cos_of_degrees(self.astronomic_deg()).1
     }
 }

@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 pub const STAND_FORMAT: &str = "dtg-stand/1";
 
 /// The largest deviation that can be certified, either way.
-pub const LARGEST_DEVIATION_DEG: f64 = 45.0;
+pub(crate) const LARGEST_DEVIATION_DEG: f64 = 45.0;
 
 /// The most positions that a stand may have: the uncertainties of all of them are computed together, in memory that grows
 /// with the square of their number.

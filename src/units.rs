@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 const SECONDS_PER_HOUR: f64 = 3600.0;
 
 /// Arcseconds in a degree.
-pub const ARCSECONDS_PER_DEGREE: f64 = 3600.0;
+pub(crate) const ARCSECONDS_PER_DEGREE: f64 = 3600.0;
 
 /// Radians from arcseconds.
 pub fn radians_from_arcseconds(arcseconds: f64) -> f64 {
@@ -29,7 +29,7 @@ pub fn degrees_from_radians(radians: f64) -> f64 {
 }
 
 /// Degrees per hour from radians per second.
-pub fn degrees_per_hour_from_radians_per_second(rate: f64) -> f64 {
+pub(crate) fn degrees_per_hour_from_radians_per_second(rate: f64) -> f64 {
     // One factor, so that the rate is rounded once.
     rate * (SECONDS_PER_HOUR * 180.0 / PI)
 }
@@ -38,7 +38,7 @@ pub fn degrees_per_hour_from_radians_per_second(rate: f64) -> f64 {
 ///
 /// The angle is reduced by whole quadrants before it becomes radians, which loses nothing; so `cos 90° = 0`, where
 /// the cosine of the nearest binary64 to π/2 would be 6e-17.
-pub fn sin_cos_of_degrees(degrees: f64) -> (f64, f64) {
+pub(crate) fn sin_cos_of_degrees(degrees: f64) -> (f64, f64) {
     let (rest, quadrant) = libm::remquo(degrees, 90.0);
     let (sin, cos) = libm::sincos(radians_from_degrees(rest));
     let (sin, cos) = match quadrant.rem_euclid(4) {

@@ -143,6 +143,13 @@ pub fn openssh_key() -> String {
     key.to_openssh(ssh_key::LineEnding::LF).expect("a key").to_string()
 }
 
+/// The bench's key in a file, as a factory has it.
+pub fn write_key(path: &Path) -> io::Result<()> {
+    let mut options = File::options();
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    options.write(true).create_new(true).open(path)?.write_all(openssh_key().as_bytes())
+}
+
 /// All the work, each piece once, on so many threads.
 pub fn on_threads(threads: usize, pieces: usize, work: impl Fn(usize) + Sync) {
     let next = AtomicUsize::new(0);
@@ -168,7 +175,7 @@ pub fn on_threads(threads: usize, pieces: usize, work: impl Fn(usize) + Sync) {
 pub struct Time {
     /// By the clock on the wall.
     pub wall: f64,
-    /// Of all processors, for this process: what a busy machine disturbs least. Counted in hundredths (Linux).
+    /// Of all processors, for this process and those that it waited for: what a busy machine disturbs least. Counted in hundredths (Linux).
     pub processor: f64,
     /// Of these those outside the system: what the program itself does.
     pub user: f64,
@@ -182,17 +189,15 @@ pub fn timed(work: impl FnOnce()) -> Time {
     Time { wall, processor: used[0] + used[1] - user - system, user: used[0] - user }
 }
 
-/// Seconds of processor that this process has used, as user and as system.
+/// Seconds of processor that this process and those it waited for have used, as user and as system.
 fn processor_seconds() -> [f64; 2] {
     const TICKS_PER_SECOND: f64 = 100.0;
     let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    // After the program's name in brackets: state, then ten numbers, then ticks as user and as system.
-    let mut numbers = stat.rsplit(')').next().unwrap_or_default().split_whitespace().skip(11);
-    let mut seconds = || {
-        let ticks = numbers.next().and_then(|ticks| ticks.parse::<f64>().ok());
-        ticks.unwrap_or(f64::NAN) / TICKS_PER_SECOND
-    };
-    [seconds(), seconds()]
+    // After the program's name in brackets: state, then ten numbers, then ticks as user and as system, own and waited for.
+    let numbers = stat.rsplit(')').next().unwrap_or_default().split_whitespace().skip(11);
+    let ticks: Vec<f64> = numbers.take(4).map(|ticks| ticks.parse().unwrap_or(f64::NAN)).collect();
+    let [user, system, user_waited_for, system_waited_for] = ticks[..] else { return [f64::NAN; 2] };
+    [(user + user_waited_for) / TICKS_PER_SECOND, (system + system_waited_for) / TICKS_PER_SECOND]
 }
 
 /// A file written beside its place and renamed into it; nothing is synced.

@@ -124,11 +124,6 @@ impl<T: Listed> Catalogue<T> {
         self.files.len()
     }
 
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.files.is_empty()
-    }
-
     /// The files in some places of the order in which they were given, as they are now.
     ///
     /// # Errors

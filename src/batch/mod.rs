@@ -17,10 +17,7 @@ pub(crate) mod paths;
 pub(crate) mod shard;
 pub(crate) mod successors;
 
-pub use catalogue::{Catalogue, Listed};
-pub use first::{Job, Known};
-pub use shard::{NoShard, Shard};
-pub use successors::Change;
+use shard::Shard;
 
 use crate::files::{Durability, FileError, leftovers};
 use crate::folder::{self, FolderRefused, Issued, Next, Seal, Visited};

@@ -64,7 +64,7 @@ impl Cause {
     }
 
     /// What it has in common with others of its kind: the name of a line of a budget.
-    pub fn kind(self) -> String {
+    pub(crate) fn kind(self) -> String {
         match self {
             Self::Angle(..) => "certified angles".to_owned(),
             Self::Return(..) => "returns to the positions".to_owned(),
@@ -85,7 +85,7 @@ impl Cause {
     }
 
     /// Whether both are of the same [kind](Self::kind).
-    pub fn is_alike(self, other: Self) -> bool {
+    pub(crate) fn is_alike(self, other: Self) -> bool {
         match (self, other) {
             (Self::Angle(..), Self::Angle(..))
             | (Self::Return(..), Self::Return(..))
@@ -109,7 +109,7 @@ impl Cause {
     }
 
     /// Who states it, and under which key.
-    pub fn source(self) -> &'static str {
+    pub(crate) fn source(self) -> &'static str {
         match self {
             Self::Angle(..) => "certificate: u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec",
             Self::Return(..) => "certificate: repeatability_arcsec",
@@ -139,7 +139,7 @@ impl Cause {
     }
 
     /// An uncertainty as it is kept (rad, a share, mA), in [`Self::unit`].
-    pub fn shown(self, uncertainty: f64) -> f64 {
+    pub(crate) fn shown(self, uncertainty: f64) -> f64 {
         match self.unit() {
             "%" => 100.0 * uncertainty,
             "mA" => uncertainty,

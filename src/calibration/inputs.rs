@@ -73,7 +73,7 @@ impl From<&Meter> for MeterUncertainty {
 
 impl MeterUncertainty {
     /// Returns the variance that the specification gives the current `current_ma` of one position and channel, mA².
-    pub fn own_variance_ma2(&self, current_ma: f64) -> f64 {
+    pub(crate) fn own_variance_ma2(&self, current_ma: f64) -> f64 {
         let share = self.reading * current_ma;
         share * share + self.floor_ma * self.floor_ma
     }

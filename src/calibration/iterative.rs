@@ -10,7 +10,7 @@ use crate::gyro::GyroParameters;
 use nalgebra::{Matrix2, Vector2};
 
 /// More steps than this are no convergence.
-pub const LARGEST_NUMBER_OF_STEPS: u32 = 200;
+pub(crate) const LARGEST_NUMBER_OF_STEPS: u32 = 200;
 
 /// When to stop: the paper's Δ₁ and Δ₂.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,7 +97,7 @@ pub struct IterativeSolution {
 
 /// Everything that is known before the first step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plan {
+pub(crate) struct Plan {
     /// K_(1) = ω_31 J_1⁻¹ (paper, eq. (17)).
     first_k: Matrix2<f64>,
     j1_inverse: Matrix2<f64>,
@@ -134,7 +134,7 @@ impl Plan {
     }
 
     /// ρ(T): below 1 the method converges, and each step leaves about this share of the error.
-    pub fn spectral_radius(&self) -> f64 {
+    pub(crate) fn spectral_radius(&self) -> f64 {
         let half_trace = 0.5 * (self.t.m11 + self.t.m22);
         let half_difference = 0.5 * (self.t.m11 - self.t.m22);
         // Eigenvalues are half_trace ± √discriminant; complex ones have the determinant as squared modulus.
@@ -148,7 +148,7 @@ impl Plan {
     /// How many steps it will take, from ρ(T) and the first approximation alone; `None` when ρ(T) ≥ 1.
     ///
     /// The first change is of the size of (B J_1⁻¹ − K_(1)) + K_(1) T, and each one after it ρ(T) times the last.
-    pub fn predicted_steps(&self, rule: &StopRule) -> Option<u32> {
+    pub(crate) fn predicted_steps(&self, rule: &StopRule) -> Option<u32> {
         let rho = self.spectral_radius();
         if rho >= 1.0 {
             return None;
@@ -193,7 +193,7 @@ impl Plan {
     }
 
     /// How many steps the rule asks for; `None` when 200 are not enough.
-    pub fn steps(&self, rule: &StopRule) -> Option<u32> {
+    pub(crate) fn steps(&self, rule: &StopRule) -> Option<u32> {
         self.run(rule, |_| ()).map(|last| last.steps)
     }
 }

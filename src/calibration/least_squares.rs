@@ -20,7 +20,7 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 /// tail is heavy: 99.99 % are below 47, and the largest of two other draws were 55 and 89. The condition grows towards the poles, to 74
 /// at a latitude of 85°. With the anisoelastic coefficient it is infinite without deviations, above 500 at ±10′
 /// and below 100 from about ±15° on.
-pub const LARGEST_CONDITION: f64 = 300.0;
+pub(crate) const LARGEST_CONDITION: f64 = 300.0;
 
 /// Steps until a solution must have settled; it takes three or four.
 const LARGEST_NUMBER_OF_STEPS: usize = 30;
@@ -95,7 +95,7 @@ pub fn solve(
 /// `gyro` has the own errors of `meter`, and nothing else is uncertain.
 ///
 /// `None` where the positions do not determine all eight.
-pub fn expected_uncertainties(
+pub(crate) fn expected_uncertainties(
     coefficients: &Coefficients,
     gyro: &GyroParameters,
     meter: &MeterUncertainty,

@@ -57,7 +57,7 @@ impl Mistake {
     /// one by the size that is `usual`. `used` is the Earth rate of the passport.
     ///
     /// `None` where the readings do not fit: then no parameters can be compared, and [`Calibration::hint`] says more.
-    pub fn explaining(
+    pub(crate) fn explaining(
         calibration: &Calibration,
         found: &Found,
         used: &EarthRate,

@@ -32,7 +32,7 @@ impl Parameter {
         [Self::Kx, Self::Kxy, Self::Kyx, Self::Ky, Self::Omega0x, Self::Omega0y, Self::OmegaG, Self::OmegaK];
 
     /// The eight as the paper's table has them, for people.
-    pub const AS_IN_THE_PAPER: [Self; 8] =
+    pub(crate) const AS_IN_THE_PAPER: [Self; 8] =
         [Self::Kx, Self::Ky, Self::Kxy, Self::Kyx, Self::Omega0x, Self::Omega0y, Self::OmegaG, Self::OmegaK];
 
     /// The eight, and the anisoelastic coefficient last.
@@ -89,7 +89,7 @@ impl Parameter {
     }
 
     /// Its place in vectors of parameters.
-    pub fn place(self) -> usize {
+    pub(crate) fn place(self) -> usize {
         self as usize
     }
 }

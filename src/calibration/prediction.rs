@@ -36,7 +36,7 @@ pub struct NoiseGrowth {
 
 impl NoiseGrowth {
     /// The worst of all.
-    pub fn worst(&self) -> f64 {
+    pub(crate) fn worst(&self) -> f64 {
         self.k.max(self.omega0).max(self.omega_g).max(self.omega_k)
     }
 }

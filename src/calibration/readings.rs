@@ -54,11 +54,6 @@ pub struct PositionReadings {
 }
 
 impl PositionReadings {
-    /// Returns every reading, visit by visit.
-    pub fn each_ma(&self) -> impl Iterator<Item = &Vector2<f64>> {
-        self.visits.iter().flat_map(|visit| &visit.each_ma)
-    }
-
     /// Returns the share of its variance that an error of every visit keeps in the mean.
     pub(crate) fn visit_share(&self) -> f64 {
         1.0 / self.visits.len() as f64
@@ -114,7 +109,7 @@ impl Readings {
     ///
     /// # Errors
     /// See [`NoReadings`].
-    pub fn of_rows(coefficients: &Coefficients, rows: &[Reading]) -> Result<Self, NoReadings> {
+    pub(crate) fn of_rows(coefficients: &Coefficients, rows: &[Reading]) -> Result<Self, NoReadings> {
         let known = |index: PositionIndex| coefficients.positions.iter().any(|at| at.index == index);
         if let Some(row) = rows.iter().find(|row| !known(row.index)) {
             return Err(NoReadings::Unknown(row.index));
@@ -176,12 +171,12 @@ impl Readings {
     }
 
     /// Returns the mean currents (J_x, J_y) in mA, in the order of the coefficients.
-    pub fn means_ma(&self) -> Vec<Vector2<f64>> {
+    pub(crate) fn means_ma(&self) -> Vec<Vector2<f64>> {
         self.positions.iter().map(|position| position.mean_ma).collect()
     }
 
     /// Returns what is to be said of the file: which of its columns were left out of account.
-    pub fn remark(&self) -> Option<&str> {
+    pub(crate) fn remark(&self) -> Option<&str> {
         self.remark.as_deref()
     }
 }

@@ -60,7 +60,7 @@ impl Calibration {
     }
 
     /// Why no parameters are to be given, in words: the fit did not settle, so they would mean nothing.
-    pub fn meaningless(&self) -> Option<String> {
+    pub(crate) fn meaningless(&self) -> Option<String> {
         let why = "the readings are far from those of any gyro on this stand, so no parameters are given";
         let hint = self.hint.as_ref().map_or_else(String::new, |hint| format!("; {hint}"));
         (!self.settled).then(|| format!("{why}{hint}"))
@@ -164,7 +164,7 @@ impl ChiSquare {
     }
 
     /// Returns `false` if there are as many unknowns as readings, which any readings fit.
-    pub fn judges(&self) -> bool {
+    pub(crate) fn judges(&self) -> bool {
         self.degrees_of_freedom > 0
     }
 }

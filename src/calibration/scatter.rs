@@ -59,7 +59,7 @@ impl Scatter {
     }
 
     /// Returns whether there is more or less of it than was stated.
-    pub fn agreement(&self) -> Agreement {
+    pub(crate) fn agreement(&self) -> Agreement {
         match self.probability {
             more if more < IMPROBABLE => Agreement::More,
             less if less > 1.0 - IMPROBABLE => Agreement::Less,

@@ -70,7 +70,7 @@ pub struct ParameterVerdict {
 
 impl ParameterVerdict {
     /// Returns `true` if more than half of the variance comes from the local g.
-    pub fn is_mostly_from_gravity(&self) -> bool {
+    pub(crate) fn is_mostly_from_gravity(&self) -> bool {
         let of_gravity = self.expanded_uncertainty_from_gravity.unwrap_or(0.0);
         2.0 * of_gravity * of_gravity > self.expanded_uncertainty * self.expanded_uncertainty
     }
@@ -93,7 +93,7 @@ impl Found {
     /// With g-sensitive drifts per `gravity_m_per_s2` exactly, instead of the local g: the drift per m/s² is the gyro's
     /// own, and how well the local g is known enters here.
     #[must_use]
-    pub fn at_gravity(&self, gravity_m_per_s2: f64) -> Self {
+    pub(crate) fn at_gravity(&self, gravity_m_per_s2: f64) -> Self {
         let ratio = gravity_m_per_s2 / self.gravity_m_per_s2;
         let mut values = self.parameters.to_vector();
         let mut standard_uncertainty = self.standard_uncertainty;

@@ -31,7 +31,7 @@ use components::{case_turn, turns_at};
 use nalgebra::{DVector, Matrix3, Vector3};
 
 /// From this many runs on nothing is said about their number.
-pub const ENOUGH_RUNS: usize = 4;
+pub(crate) const ENOUGH_RUNS: usize = 4;
 
 /// Why there is no certificate.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -74,7 +74,7 @@ pub enum NotCertified {
     "certificate {number} already gives other angles for this stand, first for position {index}; give the new certificate a \
      number and dates of its own in the header (--stand)"
 )]
-pub struct NumberInUse {
+pub(crate) struct NumberInUse {
     /// The number.
     pub number: String,
     /// The first position with other angles.
@@ -86,7 +86,7 @@ impl Certification {
     ///
     /// # Errors
     /// [`NumberInUse`] if it does.
-    pub fn check_number(&self, there: &Stand) -> Result<(), NumberInUse> {
+    pub(crate) fn check_number(&self, there: &Stand) -> Result<(), NumberInUse> {
         let number = &self.stand.certificate.number;
         let digest =
             |stand: &Stand| stand.certificate.evidence.as_ref().map(|evidence| evidence.readings_sha256.clone());

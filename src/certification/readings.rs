@@ -114,7 +114,7 @@ impl AngleReadings {
     }
 
     /// Returns what is to be said of the file: which of its columns were left out of account.
-    pub fn remark(&self) -> Option<&str> {
+    pub(crate) fn remark(&self) -> Option<&str> {
         self.remark.as_deref()
     }
 
@@ -124,18 +124,18 @@ impl AngleReadings {
     }
 
     /// (α, β, γ) in arcseconds: `[position][run]`, positions in the order they were asked for.
-    pub fn each_arcsec(&self) -> &[Vec<Vector3<f64>>] {
+    pub(crate) fn each_arcsec(&self) -> &[Vec<Vector3<f64>>] {
         &self.each_arcsec
     }
 
     /// Returns the line of the file on which a position (by its place in the order asked for) is read in a run (by its place
     /// among the runs), or `None` if the readings come from no file.
-    pub fn line(&self, position: usize, run: usize) -> Option<usize> {
+    pub(crate) fn line(&self, position: usize, run: usize) -> Option<usize> {
         self.lines.get(position)?.get(run).copied()
     }
 
     /// How many rows read a return again that had been read already.
-    pub fn repeated_rows(&self) -> usize {
+    pub(crate) fn repeated_rows(&self) -> usize {
         self.repeated_rows
     }
 
@@ -145,7 +145,7 @@ impl AngleReadings {
     }
 
     /// Means over the runs, arcseconds.
-    pub fn means_arcsec(&self) -> Vec<Vector3<f64>> {
+    pub(crate) fn means_arcsec(&self) -> Vec<Vector3<f64>> {
         let runs = self.runs.len() as f64;
         self.each_arcsec.iter().map(|position| position.iter().sum::<Vector3<f64>>() / runs).collect()
     }

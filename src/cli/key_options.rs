@@ -3,7 +3,7 @@
 use super::Failure;
 use crate::document::Signer;
 use crate::signing;
-pub use crate::signing::PASSPHRASE_VARIABLE;
+pub(super) use crate::signing::PASSPHRASE_VARIABLE;
 use crate::text::shown;
 use crate::trust::{BadIdentity, check_identity};
 use clap::Args;

@@ -71,7 +71,7 @@ pub struct Issued {
 
 /// What an order comes to.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Next {
+pub(crate) enum Next {
     /// An equal passport is there.
     There(Issued),
     /// A new one, which is yet to be signed and written.
@@ -80,14 +80,14 @@ pub enum Next {
 
 /// A passport that was computed and checked, and is not there yet.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Unwritten {
+pub(crate) struct Unwritten {
     path: PathBuf,
     draft: Box<Draft>,
 }
 
 impl Unwritten {
     /// Its id.
-    pub fn id(&self) -> &str {
+    pub(crate) fn id(&self) -> &str {
         &self.draft.content().passport.id
     }
 
@@ -97,7 +97,7 @@ impl Unwritten {
     }
 
     /// What the factory should know about it.
-    pub fn remarks(&self) -> Remarks {
+    pub(crate) fn remarks(&self) -> Remarks {
         self.draft.remarks()
     }
 }
@@ -195,7 +195,7 @@ pub enum FolderRefused {
 
 impl FolderRefused {
     /// Whether the file system or the signer refused, which is no verdict on a document.
-    pub fn is_unusable(&self) -> bool {
+    pub(crate) fn is_unusable(&self) -> bool {
         match self {
             Self::File(FileError::Exists { .. }) => false,
             Self::File(_) | Self::Issue(IssueRefused::Signing(_) | IssueRefused::Identity(_)) => true,
@@ -223,7 +223,7 @@ impl Folder {
 
     /// Returns the root that the path of a passport of `stand` shows, or `None` unless the two folders above the file are
     /// `<model>/<serial>`.
-    pub fn root_of<'a>(path: &'a Path, stand: &Identity) -> Option<&'a Path> {
+    pub(crate) fn root_of<'a>(path: &'a Path, stand: &Identity) -> Option<&'a Path> {
         let serial = path.parent()?;
         let model = serial.parent()?;
         let shows = serial.file_name()? == stand.serial.as_str() && model.file_name()? == stand.model.as_str();
@@ -237,7 +237,7 @@ impl Folder {
     }
 
     /// Where the passport with this id stands; `None` when that is no id.
-    pub fn path_of_id(&self, id: &str) -> Option<PathBuf> {
+    pub(crate) fn path_of_id(&self, id: &str) -> Option<PathBuf> {
         let parts: Vec<&str> = id.split('/').collect();
         let [model, serial, site, revision] = parts.as_slice() else { return None };
         let names = [model, serial, site].map(|name| Identifier::new(name).ok());
@@ -248,7 +248,7 @@ impl Folder {
 
     /// Returns in words what speaks against one more passport from the certificate of `stand`, by the passports of the stand
     /// that are there and count by `trust`: that the certificate was replaced, or that another one is in force.
-    pub fn against_certificate(&self, stand: &Stand, trust: &Trust, time: Timestamp) -> Vec<String> {
+    pub(crate) fn against_certificate(&self, stand: &Stand, trust: &Trust, time: Timestamp) -> Vec<String> {
         let folder = self.root.join(stand.stand.model.as_str()).join(stand.stand.serial.as_str());
         let number = &stand.certificate.number;
         if !superseding::has_other_certificate(&folder, number) {
@@ -281,7 +281,7 @@ impl Folder {
     ///
     /// # Errors
     /// See [`FolderRefused`].
-    pub fn next_first(&self, stand: &PreparedStand, site: &Site, order: &Issue) -> Result<Next, FolderRefused> {
+    pub(crate) fn next_first(&self, stand: &PreparedStand, site: &Site, order: &Issue) -> Result<Next, FolderRefused> {
         let draft = Box::new(stand.draft(site, order)?);
         let stand = stand.stand();
         let path = self.path_of(&stand.stand, &site.id, order.revision);
@@ -307,7 +307,7 @@ impl Folder {
     ///
     /// # Errors
     /// See [`FolderRefused`].
-    pub fn next_successor(&self, successor: &Successor) -> Result<Next, FolderRefused> {
+    pub(crate) fn next_successor(&self, successor: &Successor) -> Result<Next, FolderRefused> {
         let mut revision = successor.first_revision();
         loop {
             let draft = Box::new(successor.draft(revision)?);
@@ -418,7 +418,10 @@ const FOLDERS_OF_A_PASSPORT: usize = 3;
 ///
 /// # Errors
 /// The first folder that cannot be made safe, with what the system says.
-pub fn sync_names<'a>(durability: Durability, passports: impl Iterator<Item = &'a Path>) -> Result<(), FileError> {
+pub(crate) fn sync_names<'a>(
+    durability: Durability,
+    passports: impl Iterator<Item = &'a Path>,
+) -> Result<(), FileError> {
     if durability != Durability::NameLater {
         return Ok(());
     }

@@ -64,7 +64,7 @@ impl From<GyroType> for StatedGyro {
 
 impl StatedGyro {
     /// As the file of the type states it.
-    pub fn to_type(&self) -> GyroType {
+    pub(crate) fn to_type(&self) -> GyroType {
         let Self { r#type, nominal, tolerance, gravity_m_per_s2 } = self.clone();
         GyroType { format: GYRO_FORMAT.to_owned(), r#type, nominal, tolerance, gravity_m_per_s2 }
     }

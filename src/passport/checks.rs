@@ -138,7 +138,7 @@ pub struct Check {
 
 impl Check {
     /// The verdict of a check in one line; whatever is in `detail`, it stays one.
-    pub fn new(name: CheckName, code: Code, detail: impl Display) -> Self {
+    pub(crate) fn new(name: CheckName, code: Code, detail: impl Display) -> Self {
         Self { name, code, detail: printable(detail) }
     }
 

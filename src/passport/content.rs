@@ -300,7 +300,7 @@ impl SelfCheck {
 
     /// Calibrates the currents again, by the paper's closed solution or, without its eight positions, by least squares.
     /// Returns how far the worst parameter is off, relative to its own size; infinite when there is no solution.
-    pub fn error(&self, coefficients: &Coefficients) -> f64 {
+    pub(crate) fn error(&self, coefficients: &Coefficients) -> f64 {
         let currents: Vec<_> = self.currents.iter().map(|at| Vector2::new(at.jx_ma, at.jy_ma)).collect();
         let found = if coefficients.matrices.is_some() {
             analytic::solve(coefficients, &currents).ok().map(|found| found.parameters)
@@ -334,12 +334,12 @@ impl Content {
     }
 
     /// `<model>/<serial>/<site id>/<revision>`, as the parts say.
-    pub fn id_of_parts(&self) -> String {
+    pub(crate) fn id_of_parts(&self) -> String {
         passport_id(&self.stand, &self.site.id, self.passport.revision)
     }
 
     /// The last second in which the passport may be used, and which of its two dates ends it.
-    pub fn last_day(&self) -> Option<(Date, &'static str)> {
+    pub(crate) fn last_day(&self) -> Option<(Date, &'static str)> {
         let passport = self.passport.valid_until.map(|day| (day, "passport"));
         let certificate = self.certificate.valid_until.map(|day| (day, "certificate"));
         // Of equal ones the certificate's is named: it is the one that no new passport helps against.

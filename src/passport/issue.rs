@@ -27,7 +27,7 @@ use jiff::civil::Date;
 const LONGEST_SIGNATURE: usize = 2000;
 
 /// From this much more noise on than on a perfect stand the factory is warned.
-pub const NOISE_WARNING: f64 = 2.0;
+pub(crate) const NOISE_WARNING: f64 = 2.0;
 
 /// Who issues, and when.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,7 +69,7 @@ impl Issue {
 /// # Errors
 /// [`IssueRefused::AheadOfClock`] for a time more than a day ahead of the clock: such a passport would not be valid yet,
 /// and would count as later than every passport issued until then.
-pub fn time_of_issue(asked: Option<Timestamp>, clock: Timestamp) -> Result<Timestamp, IssueRefused> {
+pub(crate) fn time_of_issue(asked: Option<Timestamp>, clock: Timestamp) -> Result<Timestamp, IssueRefused> {
     const DAY_S: i64 = 86_400;
     match asked {
         Some(issued_at) if issued_at.as_second() - clock.as_second() > DAY_S => {
@@ -106,7 +106,7 @@ impl PreparedStand {
     }
 
     /// The stand.
-    pub fn stand(&self) -> &Stand {
+    pub(crate) fn stand(&self) -> &Stand {
         &self.stand
     }
 

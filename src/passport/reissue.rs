@@ -214,52 +214,52 @@ fn stand_of(old: &Content) -> Stand {
 
 impl Successor {
     /// Whether it is for the old passport's site: then it is its next revision, and supersedes it.
-    pub fn same_site(&self) -> bool {
+    pub(crate) fn same_site(&self) -> bool {
         self.same_site
     }
 
     /// Whether it would say of stand, site, issuer and last day what the old passport says.
-    pub fn says_the_same(&self) -> bool {
+    pub(crate) fn says_the_same(&self) -> bool {
         self.says_the_same
     }
 
     /// Whether the old passport was itself issued anew, and for the reason given now.
-    pub fn for_the_same_reason(&self) -> bool {
+    pub(crate) fn for_the_same_reason(&self) -> bool {
         self.for_the_same_reason
     }
 
     /// Returns `true` if the old passport will no longer be used.
-    pub fn supersedes(&self) -> bool {
+    pub(crate) fn supersedes(&self) -> bool {
         self.issue.predecessor.as_ref().is_some_and(|(_, supersedes)| *supersedes)
     }
 
     /// Returns the same successor beside `rival`, the file of a passport that supersedes the same old one.
-    pub fn beside(self, rival: Option<PathBuf>) -> Self {
+    pub(crate) fn beside(self, rival: Option<PathBuf>) -> Self {
         Self { rival, ..self }
     }
 
     /// Returns the file of another passport that supersedes the same old one, or `None` if none is known.
-    pub fn rival(&self) -> Option<&Path> {
+    pub(crate) fn rival(&self) -> Option<&Path> {
         self.rival.as_deref()
     }
 
     /// The stand it is of.
-    pub fn stand(&self) -> &Stand {
+    pub(crate) fn stand(&self) -> &Stand {
         self.stand.stand()
     }
 
     /// The site it is for.
-    pub fn site(&self) -> &Site {
+    pub(crate) fn site(&self) -> &Site {
         &self.site
     }
 
     /// SHA-256 of the old passport.
-    pub fn old_sha256(&self) -> &str {
+    pub(crate) fn old_sha256(&self) -> &str {
         self.issue.predecessor.as_ref().map_or("", |(predecessor, _)| &predecessor.sha256)
     }
 
     /// The revision that it has at least: the next one at the same site, 1 at another.
-    pub fn first_revision(&self) -> u32 {
+    pub(crate) fn first_revision(&self) -> u32 {
         if self.same_site { self.old_revision.saturating_add(1) } else { 1 }
     }
 

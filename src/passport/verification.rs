@@ -55,12 +55,12 @@ impl Question {
     }
 
     /// Returns `true` if it asks for no issuer, stand or place.
-    pub fn is_open(&self) -> bool {
+    pub(crate) fn is_open(&self) -> bool {
         self.issuer.is_none() && self.serial.is_none() && self.place.is_none()
     }
 
     /// Returns `true` if a passport with this content is of the issuer, the stand and the place asked for.
-    pub fn concerns(&self, content: &Content) -> bool {
+    pub(crate) fn concerns(&self, content: &Content) -> bool {
         self.issuer.as_ref().is_none_or(|issuer| content.passport.issuer == *issuer)
             && self.serial.as_ref().is_none_or(|serial| content.stand.serial.as_str() == serial)
             && self.place.is_none_or(|place| place::verdict(content, place).0 == Code::Ok)

@@ -80,51 +80,51 @@ impl AlarmKind {
 
 impl Alarm {
     /// A link, which may lead out of the folder.
-    pub fn link(file: &str) -> Self {
+    pub(crate) fn link(file: &str) -> Self {
         Self::of_file(AlarmKind::Link, "is a link, which is not followed: it may lead out of the folder", file)
     }
 
     /// A file that only looks like one.
-    pub fn special(file: &str) -> Self {
+    pub(crate) fn special(file: &str) -> Self {
         Self::of_file(AlarmKind::Special, "a pipe, a device or a socket is not read", file)
     }
 
     /// A file larger than any passport.
-    pub fn too_large(file: &str) -> Self {
+    pub(crate) fn too_large(file: &str) -> Self {
         let words = format!("more than {LARGEST_DOCUMENT_BYTES} bytes, larger than any passport");
         Self::of_file(AlarmKind::TooLarge, &words, file)
     }
 
     /// A file or a folder that the system refuses to read, and why.
-    pub fn unreadable(why: &str, file: &str, concern: Concern) -> Self {
+    pub(crate) fn unreadable(why: &str, file: &str, concern: Concern) -> Self {
         Self::of_file(AlarmKind::Unreadable, why, file).concerning(concern)
     }
 
     /// A file that has something of a passport or of a list and cannot be read as one.
-    pub fn damaged(why: &str, file: &str, concern: Concern) -> Self {
+    pub(crate) fn damaged(why: &str, file: &str, concern: Concern) -> Self {
         Self::of_file(AlarmKind::Damaged, why, file).concerning(concern)
     }
 
     /// A list of withdrawn passports that does not count. One that cannot be read might withdraw any passport.
-    pub fn refused_list(error: &ListRefused, file: &str) -> Self {
+    pub(crate) fn refused_list(error: &ListRefused, file: &str) -> Self {
         let alarm = Self::of_file(AlarmKind::Revocation, &error.to_string(), file);
         if error.is_damage() { alarm.concerning(Concern::Everything) } else { alarm }
     }
 
     /// A good list of withdrawn passports in a file of another name than its own.
-    pub fn misnamed_list(list: &RevocationList, file: &str) -> Self {
+    pub(crate) fn misnamed_list(list: &RevocationList, file: &str) -> Self {
         let words = format!("list {} belongs into {}", list.sequence, list.file_name());
         Self::of_file(AlarmKind::Misplaced, &words, file)
     }
 
     /// Something about several lists. One that is missing might withdraw any passport.
-    pub fn series(alarm: SeriesAlarm) -> Self {
+    pub(crate) fn series(alarm: SeriesAlarm) -> Self {
         let raised = Self::of_files(AlarmKind::Revocation, alarm.to_string(), Vec::new());
         if alarm.is_unknown() { raised.concerning(Concern::Everything) } else { raised }
     }
 
     /// Returns `true` if what cannot be read may supersede or withdraw passports of a stand, `<model>/<serial>`.
-    pub fn concerns(&self, stand: &str) -> bool {
+    pub(crate) fn concerns(&self, stand: &str) -> bool {
         match &self.concern {
             None => false,
             Some(Concern::Everything) => true,
@@ -134,7 +134,7 @@ impl Alarm {
     }
 
     /// Returns the words behind the names of the files.
-    pub fn reason(&self) -> String {
+    pub(crate) fn reason(&self) -> String {
         match self.files.first() {
             Some(first) if !self.words.starts_with(first.as_str()) => {
                 format!("{}: {}", self.files.join(", "), self.words)

@@ -224,25 +224,20 @@ impl Line {
     }
 
     /// Returns where the file belongs by the passport's id, or `None` if it is there.
-    pub fn misplaced(&self) -> Option<String> {
+    pub(crate) fn misplaced(&self) -> Option<String> {
         misplaced(self).map(|alarm| alarm.words)
     }
 }
 
 impl Examined {
-    /// Returns what the register says of the file while no other file is known.
-    pub fn line(&self) -> &Line {
-        &self.line
-    }
-
     /// Returns `true` if the file can be read as a passport: form, signature and content are good, whoever signed it.
-    pub fn is_readable(&self) -> bool {
+    pub(crate) fn is_readable(&self) -> bool {
         self.failed.is_none_or(|failed| failed > CheckName::Schema)
     }
 
     /// Returns the SHA-256 of the file that it supersedes, or `None` if it supersedes none or its word does not count. It
     /// supersedes also when it has been withdrawn or has expired since.
-    pub fn supersedes(&self) -> Option<&str> {
+    pub(crate) fn supersedes(&self) -> Option<&str> {
         self.superseding().map(|predecessor| predecessor.sha256.as_str())
     }
 
@@ -251,7 +246,7 @@ impl Examined {
     }
 
     /// Returns `true` if it was withdrawn, or its key was revoked.
-    pub fn is_withdrawn(&self) -> bool {
+    pub(crate) fn is_withdrawn(&self) -> bool {
         self.line.state == State::Revoked
     }
 
@@ -333,13 +328,13 @@ impl Register {
 
     /// Returns the alarm that leaves it unknown whether passports of a stand, `<model>/<serial>`, are superseded or
     /// withdrawn; `None` if all that concerns them can be read.
-    pub fn doubt(&self, stand: &str) -> Option<&Alarm> {
+    pub(crate) fn doubt(&self, stand: &str) -> Option<&Alarm> {
         self.doubts.iter().find(|alarm| alarm.concerns(stand))
     }
 
     /// Adds to the answer about a passport whether it counts beside all that is there; `bytes` is its whole file, which
     /// need not be one of the register's.
-    pub fn asked(&self, verification: Verification, bytes: &[u8]) -> Verification {
+    pub(crate) fn asked(&self, verification: Verification, bytes: &[u8]) -> Verification {
         let not_run = || (Code::NotRun, "not run: an earlier check failed".to_owned());
         let (code, detail) = verification.content_from_anyone().map_or_else(not_run, |content| {
             let (id, sha256) = (content.passport.id.as_str(), sha256_hex(bytes));
@@ -360,25 +355,25 @@ impl Register {
     }
 
     /// Returns `true` if the file of this line is one of several with its id, of which none is in force.
-    pub fn has_several(&self, line: &Line) -> bool {
+    pub(crate) fn has_several(&self, line: &Line) -> bool {
         let superseded = self.successors.has(&line.sha256);
         !superseded && line.id.as_deref().is_some_and(|id| self.other_original(id, &line.sha256).is_some())
     }
 
     /// Returns `true` if the passport of this SHA-256 comes from one that several supersede.
-    pub fn is_of_a_fork(&self, sha256: &str) -> bool {
+    pub(crate) fn is_of_a_fork(&self, sha256: &str) -> bool {
         self.successors.is_of_a_fork(sha256)
     }
 
     /// Returns the alarm that makes it uncertain which passports were withdrawn, or `None` if that is certain.
-    pub fn uncertain(&self) -> Option<&Alarm> {
+    pub(crate) fn uncertain(&self) -> Option<&Alarm> {
         let uncertain = |alarm: &&Alarm| alarm.kind == AlarmKind::Revocation || alarm.concerns("");
         self.alarms.iter().find(uncertain)
     }
 
     /// Returns in words what speaks against issuing from the certificate `number` of a stand: that it was replaced, or that
     /// the stand is in force under another one.
-    pub fn against_certificate(&self, stand: &str, number: &str) -> Vec<String> {
+    pub(crate) fn against_certificate(&self, stand: &str, number: &str) -> Vec<String> {
         self.certificates.against(stand, number)
     }
 
@@ -388,7 +383,7 @@ impl Register {
     }
 
     /// Returns `true` if the system refused to read something: then more may be wrong than the register says.
-    pub fn is_incomplete(&self) -> bool {
+    pub(crate) fn is_incomplete(&self) -> bool {
         self.alarms.iter().any(|alarm| alarm.kind == AlarmKind::Unreadable)
     }
 

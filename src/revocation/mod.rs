@@ -23,7 +23,7 @@ use jiff::Timestamp;
 pub const REVOCATION_FORMAT: &str = "dtg-revocation/1";
 
 /// Whether a file says that it is such a list.
-pub fn claims_to_be_a_list(bytes: &[u8]) -> bool {
+pub(crate) fn claims_to_be_a_list(bytes: &[u8]) -> bool {
     let claim = b"format: \"dtg-revocation/";
     bytes.windows(claim.len()).any(|window| window == claim)
 }
@@ -175,7 +175,7 @@ pub enum NoNewList {
 impl ListRefused {
     /// Returns `true` if the file is no whole list (steps 1 to 5), so that nobody can tell what it withdraws; `false` if it
     /// is one that does not count.
-    pub fn is_damage(&self) -> bool {
+    pub(crate) fn is_damage(&self) -> bool {
         matches!(self, Self::Malformed(_) | Self::Altered { .. } | Self::Content(_))
     }
 }
@@ -245,7 +245,7 @@ impl RevocationList {
     }
 
     /// The name of its file. Of a list under another name somebody may want to be believed that it is newer.
-    pub fn file_name(&self) -> String {
+    pub(crate) fn file_name(&self) -> String {
         format!("revocation-{}.yaml", self.sequence)
     }
 

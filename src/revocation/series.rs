@@ -69,13 +69,13 @@ pub enum SeriesAlarm {
 
 impl SeriesAlarm {
     /// Returns `true` if the lists contradict each other; otherwise some are only missing, as when single lists are shown.
-    pub fn is_contradiction(self) -> bool {
+    pub(crate) fn is_contradiction(self) -> bool {
         !matches!(self, Self::Beginning { .. } | Self::Gap { .. } | Self::Missing { .. })
     }
 
     /// Returns `true` if entries are missing that no list at hand repeats: then nobody can say that a passport is not
     /// withdrawn.
-    pub fn is_unknown(self) -> bool {
+    pub(crate) fn is_unknown(self) -> bool {
         matches!(self, Self::Missing { .. })
     }
 }
@@ -100,12 +100,12 @@ impl Series {
     }
 
     /// Returns the lists, so that others can be put in order with them.
-    pub fn into_lists(self) -> Vec<VerifiedList> {
+    pub(crate) fn into_lists(self) -> Vec<VerifiedList> {
         self.lists
     }
 
     /// What is wrong.
-    pub fn alarms(&self) -> &[SeriesAlarm] {
+    pub(crate) fn alarms(&self) -> &[SeriesAlarm] {
         &self.alarms
     }
 
@@ -115,13 +115,13 @@ impl Series {
     }
 
     /// How many passports are withdrawn.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.withdrawn.len()
     }
 
     /// Returns the entry of a passport by the SHA-256 of its file, or `None` if it is not withdrawn. Another file of the
     /// same id is another passport: of two, one can be withdrawn and the other one stay.
-    pub fn entry(&self, sha256: &str) -> Option<&Entry> {
+    pub(crate) fn entry(&self, sha256: &str) -> Option<&Entry> {
         let &(place, index) = self.withdrawn.get(sha256)?;
         self.lists.get(place)?.list.entries.get(index)
     }

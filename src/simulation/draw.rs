@@ -65,15 +65,6 @@ pub enum CurrentError {
 }
 
 impl CurrentError {
-    /// Its name in options and results.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Independent => "independent",
-            Self::Channel => "channel",
-            Self::Common => "common",
-        }
-    }
-
     /// Adds to the currents relative errors uniform within ±`percent`.
     pub fn add(self, stream: &mut Stream, percent: f64, currents_ma: &mut [Vector2<f64>]) {
         let limit = percent / 100.0;

@@ -23,7 +23,7 @@ impl ActsOn {
     pub const ALL: [Self; 3] = [Self::Position, Self::Platform, Self::Base];
 
     /// The word in a file.
-    pub fn word(self) -> &'static str {
+    pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Position => "position",
             Self::Platform => "platform",

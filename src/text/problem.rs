@@ -250,7 +250,7 @@ pub struct Unreadable {
 
 impl Unreadable {
     /// A document refused as a whole, or at one place.
-    pub fn whole(
+    pub(crate) fn whole(
         name: &str,
         location: Option<Location>,
         found: impl Into<String>,
@@ -268,7 +268,7 @@ impl Unreadable {
     }
 
     /// Several mistakes, their places already known.
-    pub fn of(name: &str, problems: Vec<Problem>) -> Self {
+    pub(crate) fn of(name: &str, problems: Vec<Problem>) -> Self {
         Self { name: name.to_owned(), problems }
     }
 

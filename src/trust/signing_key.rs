@@ -103,7 +103,7 @@ impl SigningKey {
     }
 
     /// The public half as a point on the curve.
-    pub fn point(&self) -> KeyPoint {
+    pub(crate) fn point(&self) -> KeyPoint {
         KeyPoint::of_ed25519(self.key.verifying_key())
     }
 
@@ -119,7 +119,7 @@ impl SigningKey {
     ///
     /// # Errors
     /// [`KeyError::Namespace`] when the namespace is empty.
-    pub fn sign_message(&self, message: &Message) -> Result<Signature, KeyError> {
+    pub(crate) fn sign_message(&self, message: &Message) -> Result<Signature, KeyError> {
         let bytes = self.key.sign(message.signed().ok_or(KeyError::Namespace)?).to_bytes();
         let key: KeyData = ssh_key::public::Ed25519PublicKey(self.key.verifying_key().to_bytes()).into();
         let block = ssh_key::Signature::new(Algorithm::Ed25519, bytes)

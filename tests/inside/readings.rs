@@ -72,7 +72,14 @@ fn a_position_missing_or_double() {
     assert!(error.contains("no reading of position (2, 3)"), "{error}");
     let error = read(&setup, &good.replace("2,3,", "2,2,")).unwrap_err();
     assert!(error.contains("position (2, 2) stands 2 times: is one of them this one?"), "{error}");
-    assert_eq!(read(&setup, &format!("{good}2,2,0.1,0.1\n")).unwrap().positions()[5].each_ma().count(), 2);
+    assert_eq!(
+        read(&setup, &format!("{good}2,2,0.1,0.1\n")).unwrap().positions()[5]
+            .visits
+            .iter()
+            .flat_map(|visit| &visit.each_ma)
+            .count(),
+        2
+    );
 }
 
 #[test]

@@ -152,28 +152,28 @@ impl Languages {
     }
 
     /// Words that are heard and not seen: one voice, one language.
-    pub fn spoken(&self, text: Text) -> &'static str {
+    pub(crate) fn spoken(&self, text: Text) -> &'static str {
         text.of(self.first)
     }
 
     /// Plain text for places that hold no markup, such as the words of a picture: `north / север`.
-    pub fn plain(&self, text: Text) -> String {
+    pub(crate) fn plain(&self, text: Text) -> String {
         self.plain_with(|language| text.of(language).to_owned())
     }
 
     /// The same of words that are made.
-    pub fn plain_with(&self, say: impl Fn(Language) -> String) -> String {
+    pub(crate) fn plain_with(&self, say: impl Fn(Language) -> String) -> String {
         let words: Vec<String> = self.sayings(say).into_iter().map(|(_, words)| words).collect();
         words.join(" / ")
     }
 
     /// Within a line: one beside the other.
-    pub fn inline(&self, text: Text) -> Markup {
+    pub(crate) fn inline(&self, text: Text) -> Markup {
         self.inline_with(|language| text.of(language).to_owned())
     }
 
     /// The same of words that are made.
-    pub fn inline_with(&self, say: impl Fn(Language) -> String) -> Markup {
+    pub(crate) fn inline_with(&self, say: impl Fn(Language) -> String) -> Markup {
         let sayings = self.sayings(say);
         html! {
             @for (index, (language, words)) in sayings.iter().enumerate() {
@@ -184,12 +184,12 @@ impl Languages {
     }
 
     /// A name of a row, a column or a heading: the second language smaller, beneath the first.
-    pub fn label(&self, text: Text) -> Markup {
+    pub(crate) fn label(&self, text: Text) -> Markup {
         self.label_with(|language| text.of(language).to_owned())
     }
 
     /// The same of words that are made.
-    pub fn label_with(&self, say: impl Fn(Language) -> String) -> Markup {
+    pub(crate) fn label_with(&self, say: impl Fn(Language) -> String) -> Markup {
         let sayings = self.sayings(say);
         html! {
             @for (index, (language, words)) in sayings.iter().enumerate() {
@@ -200,12 +200,12 @@ impl Languages {
     }
 
     /// A paragraph in each language, side by side where there is room.
-    pub fn paragraph(&self, text: Text) -> Markup {
+    pub(crate) fn paragraph(&self, text: Text) -> Markup {
         self.paragraph_with(|language| html! { (text.of(language)) })
     }
 
     /// The same of words that are made.
-    pub fn paragraph_with(&self, say: impl Fn(Language) -> Markup) -> Markup {
+    pub(crate) fn paragraph_with(&self, say: impl Fn(Language) -> Markup) -> Markup {
         html! {
             @if self.single() {
                 p { (say(self.first)) }

@@ -86,22 +86,22 @@ impl<'a> PassportPage<'a> {
     }
 
     /// What verification found.
-    pub fn verification(&self) -> &Verification {
+    pub(crate) fn verification(&self) -> &Verification {
         &self.verification
     }
 
     /// What the passport says.
-    pub fn content(&self) -> &Content {
+    pub(crate) fn content(&self) -> &Content {
         &self.content
     }
 
     /// SHA-256 of its file, lower-case hexadecimal.
-    pub fn sha256(&self) -> &str {
+    pub(crate) fn sha256(&self) -> &str {
         &self.sha256
     }
 
     /// The key that signed it.
-    pub fn key(&self) -> &PublicKey {
+    pub(crate) fn key(&self) -> &PublicKey {
         &self.key
     }
 
