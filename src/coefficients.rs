@@ -102,7 +102,7 @@ impl StandGeometry {
     }
 
     /// Whether the paper's eight are among the positions: then there are matrices at every site.
-    pub fn has_eight(&self) -> bool {
+    pub(crate) fn has_eight(&self) -> bool {
         self.eight.is_some()
     }
 

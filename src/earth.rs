@@ -8,7 +8,9 @@ use crate::units::{
     ARCSECONDS_PER_DEGREE, arcseconds_from_radians, degrees_from_radians, degrees_per_hour_from_radians_per_second,
     radians_from_degrees, sin_cos_of_degrees,
 };
-use geographiclib_rs::{DirectGeodesic, Geodesic, InverseGeodesic};
+#[cfg(test)]
+use geographiclib_rs::DirectGeodesic;
+use geographiclib_rs::{Geodesic, InverseGeodesic};
 
 /// Ω, the Earth's rotation: 7.292115e-5 rad/s ([IERS](crate::bibliography::Bibliography::Iers10),
 /// [WGS 84](crate::bibliography::Bibliography::Wgs84)).
@@ -30,7 +32,7 @@ impl EarthRate {
 
 /// The astronomic latitude Φ = φ + ξ, with ξ positive when the plumb line's zenith lies north of the ellipsoid's
 /// ([Heiskanen and Moritz](crate::bibliography::Bibliography::HeiskanenMoritz67), section 2-20).
-pub fn astronomic_latitude_deg(geodetic_latitude_deg: f64, xi_arcsec: f64) -> f64 {
+pub(crate) fn astronomic_latitude_deg(geodetic_latitude_deg: f64, xi_arcsec: f64) -> f64 {
     geodetic_latitude_deg + xi_arcsec / ARCSECONDS_PER_DEGREE
 }
 
@@ -63,7 +65,7 @@ pub fn distance_m(from: Place, to: Place) -> f64 {
 
 /// An azimuth with its standard uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Azimuth {
+pub(crate) struct Azimuth {
     /// Clockwise from north, 0 ≤ azimuth < 360.
     pub azimuth_deg: f64,
     /// Standard uncertainty, when the uncertainty of the coordinates is known.
@@ -72,7 +74,7 @@ pub struct Azimuth {
 
 /// What turns a geodetic azimuth into an astronomic one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LaplaceCorrection {
+pub(crate) struct LaplaceCorrection {
     /// η, the deflection's eastward component, positive when the plumb line's zenith lies east.
     pub eta_arcsec: f64,
     /// Its standard uncertainty.
@@ -86,7 +88,7 @@ pub struct LaplaceCorrection {
 ///
 /// `position_u_m` is the standard uncertainty of each coordinate of both points; across the line of sight both
 /// count. Without it, or without η's uncertainty, the azimuth's is not stated.
-pub fn astronomic_azimuth(
+pub(crate) fn astronomic_azimuth(
     pillar: Place,
     mark: Place,
     laplace: LaplaceCorrection,
@@ -110,7 +112,7 @@ pub fn astronomic_azimuth(
 ///
 /// `latitude_deg` is where the passport's rates hold (astronomic), `from` the place on the ellipsoid; to 1 µm.
 /// `within_deg_per_h` must be positive and at most 1.
-pub fn validity_radius_m(latitude_deg: f64, from: Place, within_deg_per_h: f64) -> f64 {
+pub(crate) fn validity_radius_m(latitude_deg: f64, from: Place, within_deg_per_h: f64) -> f64 {
     let share = within_deg_per_h / rotation_deg_per_h();
     let towards = |north: f64| {
         let change_deg = north * latitude_change_deg(latitude_deg, north, share);
@@ -187,7 +189,8 @@ pub fn normal_gravity_m_per_s2(geodetic_latitude_deg: f64, height_m: f64) -> f64
 }
 
 /// The place `metres` away from `from` in the direction of `azimuth_deg`, for tests.
-pub fn place_at(from: Place, azimuth_deg: f64, metres: f64) -> Place {
+#[cfg(test)]
+pub(crate) fn place_at(from: Place, azimuth_deg: f64, metres: f64) -> Place {
     let (latitude_deg, longitude_deg): (f64, f64) =
         Geodesic::wgs84().direct(from.latitude_deg, from.longitude_deg, azimuth_deg, metres);
     Place { latitude_deg, longitude_deg }

@@ -22,7 +22,7 @@ pub struct GyroParameters {
 
 impl GyroParameters {
     /// ω_n = [[ω_g, −ω_k], [ω_k, ω_g]], 2×2 (paper, eq. (5)).
-    pub fn omega_n_deg_per_h_per_g(&self) -> Matrix2<f64> {
+    pub(crate) fn omega_n_deg_per_h_per_g(&self) -> Matrix2<f64> {
         let (w_g, w_k) = (self.omega_g_deg_per_h_per_g, self.omega_k_deg_per_h_per_g);
         Matrix2::new(w_g, -w_k, w_k, w_g)
     }
@@ -98,7 +98,7 @@ record! {
 }
 
 /// The format of a gyro type file.
-pub const GYRO_FORMAT: &str = "dtg-gyro/1";
+pub(crate) const GYRO_FORMAT: &str = "dtg-gyro/1";
 
 impl GyroType {
     /// Reads a `dtg-gyro/1` file; `name` is its name in messages.

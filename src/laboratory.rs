@@ -3,7 +3,7 @@
 use crate::text::{Path, Problems, record};
 
 /// The format of a laboratory file.
-pub const LABORATORY_FORMAT: &str = "dtg-laboratory/1";
+pub(crate) const LABORATORY_FORMAT: &str = "dtg-laboratory/1";
 
 record! {
     /// The meter of the torquer currents. All but the range are standard uncertainties.

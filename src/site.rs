@@ -261,7 +261,7 @@ impl Site {
     }
 
     /// φ: the geodetic latitude, given, or the astronomic one without ξ (0 when unknown).
-    pub(crate) fn geodetic_deg(&self) -> f64 {
+    pub fn geodetic_deg(&self) -> f64 {
         let xi = self.deflection_arcsec.as_ref().map_or(0.0, |deflection| deflection.xi);
         match (self.latitude_deg, self.astronomic_latitude_deg) {
             (Some(geodetic), _) => geodetic,

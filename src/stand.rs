@@ -21,7 +21,7 @@ pub(crate) const LARGEST_DEVIATION_DEG: f64 = 45.0;
 
 /// The most positions that a stand may have: the uncertainties of all of them are computed together, in memory that grows
 /// with the square of their number.
-pub const MOST_POSITIONS: usize = 256;
+pub(crate) const MOST_POSITIONS: usize = 256;
 
 record! {
     /// Which stand it is.
@@ -190,7 +190,7 @@ impl Stand {
     ///
     /// # Errors
     /// [`SingularPositions`] when the paper's eight are there and n_2 has no inverse.
-    pub fn geometry(&self) -> Result<StandGeometry, SingularPositions> {
+    pub(crate) fn geometry(&self) -> Result<StandGeometry, SingularPositions> {
         geometry(&self.positions)
     }
 }
@@ -199,7 +199,7 @@ impl Stand {
 ///
 /// # Errors
 /// [`SingularPositions`] when the paper's eight are there and n_2 has no inverse.
-pub fn geometry(positions: &[CertifiedPosition]) -> Result<StandGeometry, SingularPositions> {
+pub(crate) fn geometry(positions: &[CertifiedPosition]) -> Result<StandGeometry, SingularPositions> {
     let positions: Vec<Position> = positions.iter().map(CertifiedPosition::to_model).collect();
     StandGeometry::new(&positions)
 }

@@ -1,9 +1,9 @@
 //! From sixteen currents to the parameters of a gyro. It takes coefficients, never a passport.
 //!
 //! * `readings`: the currents, from CSV.
-//! * [`analytic`]: the paper's closed solution, eq. (13)-(16) and (8).
+//! * `analytic`: the paper's closed solution, eq. (13)-(16) and (8).
 //! * [`iterative`]: the paper's successive approximation, eq. (17)-(19).
-//! * [`least_squares`]: all readings of any positions, weighted.
+//! * `least_squares`: all readings of any positions, weighted.
 //! * `procedure`: all of them side by side; `result`: with uncertainties, residuals and chi-square.
 //! * `scatter`: whether rows of a visit and visits of a position agree.
 //! * `diagnosis`: what may be wrong where readings do not fit.
@@ -38,14 +38,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub mod analytic;
+pub(crate) mod analytic;
 pub(crate) mod causes;
 pub(crate) mod diagnosis;
 pub(crate) mod document;
 pub(crate) mod estimates;
 pub(crate) mod inputs;
 pub mod iterative;
-pub mod least_squares;
+pub(crate) mod least_squares;
 pub(crate) mod mistake;
 pub(crate) mod parameter;
 pub(crate) mod prediction;
@@ -59,14 +59,16 @@ pub(crate) mod stated;
 pub(crate) mod unknowns;
 pub(crate) mod verdict;
 
+pub use analytic::NoAnalyticSolution;
 pub use causes::{Cause, Input};
 pub use diagnosis::{Explanation, Hint};
 pub use document::CalibrationDocument;
 pub use estimates::Basis;
 pub use inputs::{InputUncertainty, MeterUncertainty, NoSetup, Setup};
+pub use least_squares::NoLeastSquares;
 pub use mistake::{CurrentsMistaken, Mistake};
 pub use parameter::Parameter;
-pub use prediction::{NoiseGrowth, noise_growth, predicted};
+pub use prediction::predicted;
 pub use procedure::{Options, calibrate};
 pub use readings::{NoReadings, PositionReadings, Reading, Readings, Visit};
 pub use result::{Calibration, ChiSquare, Iteration, Method, MethodRefusal, MethodResult, Residual};

@@ -36,7 +36,7 @@ impl Parameter {
         [Self::Kx, Self::Ky, Self::Kxy, Self::Kyx, Self::Omega0x, Self::Omega0y, Self::OmegaG, Self::OmegaK];
 
     /// The eight, and the anisoelastic coefficient last.
-    pub const NINE: [Self; 9] = [
+    pub(crate) const NINE: [Self; 9] = [
         Self::Kx,
         Self::Kxy,
         Self::Kyx,

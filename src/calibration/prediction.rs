@@ -23,7 +23,7 @@ pub fn predicted(setup: &Setup, gyro: &GyroParameters, method: Method) -> Option
 
 /// Ratios of standard uncertainties, this stand's to a perfect one's with the same positions at the same site.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NoiseGrowth {
+pub(crate) struct NoiseGrowth {
     /// The worst of K_x, K_xy, K_yx, K_y.
     pub k: f64,
     /// The worse of ω_0x, ω_0y.
@@ -45,7 +45,7 @@ impl NoiseGrowth {
 /// errors of a meter's readings alone.
 ///
 /// `None` where least squares gives nothing on one of the two.
-pub fn noise_growth(
+pub(crate) fn noise_growth(
     positions: &[Position],
     earth: EarthRate,
     gyro: &GyroParameters,

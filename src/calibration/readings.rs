@@ -171,7 +171,7 @@ impl Readings {
     }
 
     /// Returns the mean currents (J_x, J_y) in mA, in the order of the coefficients.
-    pub(crate) fn means_ma(&self) -> Vec<Vector2<f64>> {
+    pub fn means_ma(&self) -> Vec<Vector2<f64>> {
         self.positions.iter().map(|position| position.mean_ma).collect()
     }
 

@@ -94,7 +94,7 @@ pub struct MethodResult {
     pub anisoelasticity_deg_per_h_per_g2: Option<f64>,
     /// How successive approximation went.
     pub iteration: Option<Iteration>,
-    /// Covariance of the parameters in the order of [`Parameter::NINE`], 8×8 or 9×9, from all inputs.
+    /// Covariance of the parameters in the order of `Parameter::NINE`, 8×8 or 9×9, from all inputs.
     pub covariance: DMatrix<f64>,
     /// Standard uncertainties of the elements of ω_n, 2×2.
     pub omega_n_uncertainty_deg_per_h_per_g: Matrix2<f64>,

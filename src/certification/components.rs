@@ -28,7 +28,7 @@ const LEAST_SCATTER_ARCSEC2: f64 = 1e-12;
 
 /// A variance with its degrees of freedom.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Variance {
+pub(crate) struct Variance {
     /// The variance, in the square of the unit of what varies.
     pub value: f64,
     /// Its degrees of freedom.
@@ -37,7 +37,7 @@ pub struct Variance {
 
 /// What all positions of one run share, estimated; turns in arcseconds from the mean of all runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RunTurn {
+pub(crate) struct RunTurn {
     /// The run's number.
     pub run: u32,
     /// Turn of the platform, about x, y, z of the case.
@@ -48,7 +48,7 @@ pub struct RunTurn {
 
 /// The part that all positions of a run share.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Common {
+pub(crate) struct Common {
     /// Its variance from run to run, per axis, arcsec²; 0 when scatter alone explains what is seen.
     pub between_runs_arcsec2: f64,
     /// The degrees of freedom of that (Satterthwaite); those of the runs when it is 0.
@@ -59,7 +59,7 @@ pub struct Common {
 
 /// The variance components of a series of runs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Components {
+pub(crate) struct Components {
     /// Scatter of one return, about x, y, z of the case, arcsec².
     pub own_arcsec2: [Variance; 3],
     /// The same, one for all axes: what a certificate calls repeatability.

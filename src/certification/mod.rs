@@ -17,12 +17,11 @@ pub(crate) mod header;
 pub(crate) mod readings;
 pub(crate) mod suspects;
 
-pub use crate::statistics::outlier::Bartlett;
 pub use comparison::{CommonTurn, ComparedPosition, Comparison, NotCompared, Test, compare};
-pub use components::{Common, Components, RunTurn, Variance};
+use components::{Common, Components, Variance};
 pub use header::{Header, NominalPosition};
 pub use readings::{AngleReadings, NotBalanced};
-pub use suspects::{Outlier, Suspects, WorsePosition};
+use suspects::Suspects;
 
 use crate::calibration::inputs::Turn;
 use crate::coefficients::PositionIndex;
@@ -116,9 +115,9 @@ pub struct Certification {
     /// How many rows read a return again; they were averaged.
     pub repeated_rows: usize,
     /// The variance components.
-    pub components: Components,
+    pub(crate) components: Components,
     /// Positions that are worse, readings that are out.
-    pub suspects: Suspects,
+    pub(crate) suspects: Suspects,
     /// What who signs the certificate should know, a sentence each.
     pub warnings: Vec<String>,
 }

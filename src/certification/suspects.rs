@@ -26,7 +26,7 @@ const MOST_PAIRED: usize = 100;
 
 /// A position that is worse than the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WorsePosition {
+pub(crate) struct WorsePosition {
     /// Index (i, j) of the position.
     pub index: PositionIndex,
     /// Its place in the header.
@@ -39,7 +39,7 @@ pub struct WorsePosition {
 
 /// A reading that is out.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Outlier {
+pub(crate) struct Outlier {
     /// Index (i, j) of the position.
     pub index: PositionIndex,
     /// Number of the run.
@@ -56,7 +56,7 @@ pub struct Outlier {
 
 /// What the tests say.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Suspects {
+pub(crate) struct Suspects {
     /// Whether all positions scatter alike; `None` when the test cannot be made, as while a reading is suspect.
     pub positions: Option<Bartlett>,
     /// Whether x, y and z scatter alike; `None` likewise.

@@ -64,7 +64,7 @@ pub enum FileError {
 
 impl FileError {
     /// Which file.
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         match self {
             Self::Read { path, .. }
             | Self::Folder { path }

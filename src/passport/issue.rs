@@ -259,7 +259,7 @@ impl Draft {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remarks {
     /// How much noisier than on a perfect stand; `None` when the positions do not determine all parameters.
-    pub noise: Option<NoiseGrowth>,
+    pub(crate) noise: Option<NoiseGrowth>,
     /// 1/cos Φ.
     pub uncertainty_growth: f64,
     /// What is odd in the certificate, a sentence each.

@@ -20,7 +20,7 @@ use crate::trust::{AllowedSigners, BadIdentity, Message, NotAuthorised, RevokedK
 use jiff::Timestamp;
 
 /// The format of a list.
-pub const REVOCATION_FORMAT: &str = "dtg-revocation/1";
+pub(crate) const REVOCATION_FORMAT: &str = "dtg-revocation/1";
 
 /// Whether a file says that it is such a list.
 pub(crate) fn claims_to_be_a_list(bytes: &[u8]) -> bool {
@@ -29,7 +29,7 @@ pub(crate) fn claims_to_be_a_list(bytes: &[u8]) -> bool {
 }
 
 /// The namespace that lists are signed for.
-pub const REVOCATION_NAMESPACE: &str = "dtg-revocation";
+pub(crate) const REVOCATION_NAMESPACE: &str = "dtg-revocation";
 
 record! {
     /// A withdrawn passport.

@@ -76,12 +76,12 @@ record! {
 
 impl Certificate {
     /// Returns the contributions of type B to the uncertainty that `on` names, in the order of the file.
-    pub fn type_b_on(&self, on: ActsOn) -> impl Iterator<Item = &TypeB> {
+    pub(crate) fn type_b_on(&self, on: ActsOn) -> impl Iterator<Item = &TypeB> {
         self.type_b.iter().flatten().filter(move |line| line.acts_on == on)
     }
 
     /// Returns the sum of the squares of these contributions, in arcsec².
-    pub fn type_b_arcsec2(&self, on: ActsOn) -> f64 {
+    pub(crate) fn type_b_arcsec2(&self, on: ActsOn) -> f64 {
         // An empty sum of floats is -0.0.
         self.type_b_on(on).map(|line| line.u_arcsec * line.u_arcsec).sum::<f64>() + 0.0
     }

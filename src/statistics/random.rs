@@ -20,7 +20,7 @@ impl Stream {
     }
 
     /// Uniform in [0, 1): the upper 53 bits of the next number.
-    pub fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         const PER_UNIT: f64 = (1_u64 << 53) as f64;
         (self.0.next_u64() >> 11) as f64 / PER_UNIT
     }
@@ -31,17 +31,19 @@ impl Stream {
     }
 
     /// -1 or 1.
-    pub fn sign(&mut self) -> f64 {
+    pub(crate) fn sign(&mut self) -> f64 {
         if self.unit() < 0.5 { -1.0 } else { 1.0 }
     }
 
     /// A whole number below `end`; 0 when `end` is 0.
-    pub fn below(&mut self, end: usize) -> usize {
+    #[cfg(test)]
+    pub(crate) fn below(&mut self, end: usize) -> usize {
         ((self.unit() * end as f64) as usize).min(end.saturating_sub(1))
     }
 
     /// Standard normal, by the polar form of Box and Muller (only one of the pair is used).
-    pub fn normal(&mut self) -> f64 {
+    #[cfg(test)]
+    pub(crate) fn normal(&mut self) -> f64 {
         // 1 - u is in (0, 1], so its logarithm is finite.
         let radius = (-2.0 * libm::log(1.0 - self.unit())).sqrt();
         radius * libm::cos(std::f64::consts::TAU * self.unit())

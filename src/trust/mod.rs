@@ -40,7 +40,7 @@ pub use signing_key::SigningKey;
 pub use sshsig::{KeyPoint, Message, Signature};
 
 /// The largest trust file (allowed signers, revoked keys) that is read at all, in bytes: room for 100,000 keys.
-pub const LARGEST_TRUST_FILE_BYTES: usize = 1 << 24;
+pub(crate) const LARGEST_TRUST_FILE_BYTES: usize = 1 << 24;
 
 #[cfg(all(test, feature = "factory"))]
 mod tests {

@@ -57,7 +57,7 @@ impl PublicKey {
     }
 
     /// The key's type as OpenSSH names it.
-    pub fn algorithm(&self) -> &'static str {
+    pub(crate) fn algorithm(&self) -> &'static str {
         if self.data.is_sk_ed25519() { KEY_TYPES[1].0 } else { KEY_TYPES[0].0 }
     }
 

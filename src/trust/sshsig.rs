@@ -36,12 +36,12 @@ impl<'a> Message<'a> {
     }
 
     /// The purpose.
-    pub fn namespace(&self) -> &'a str {
+    pub(crate) fn namespace(&self) -> &'a str {
         self.namespace
     }
 
     /// The bytes.
-    pub fn bytes(&self) -> &'a [u8] {
+    pub(crate) fn bytes(&self) -> &'a [u8] {
         self.bytes
     }
 
@@ -113,7 +113,7 @@ impl Signature {
     }
 
     /// The purpose that the signature was made for.
-    pub fn namespace(&self) -> &str {
+    pub(crate) fn namespace(&self) -> &str {
         self.inner.namespace()
     }
 

@@ -24,7 +24,7 @@ pub struct Budget {
     pub method: Method,
     /// The inputs that are uncertain.
     pub inputs: Vec<Input>,
-    /// Change of each parameter (rows, in the order of [`Parameter::NINE`]) that one standard uncertainty of each input
+    /// Change of each parameter (rows, in the order of `Parameter::NINE`) that one standard uncertainty of each input
     /// (columns) makes.
     pub spread: DMatrix<f64>,
     /// For every parameter, in the order of the rows.
@@ -96,7 +96,7 @@ impl Budget {
         Ok(Self { method, inputs, spread, parameters })
     }
 
-    /// Covariance of the parameters, in the order of [`Parameter::NINE`]; 8×8 or 9×9.
+    /// Covariance of the parameters, in the order of `Parameter::NINE`; 8×8 or 9×9.
     pub fn covariance(&self) -> DMatrix<f64> {
         crate::calibration::propagation::covariance(&self.spread)
     }
