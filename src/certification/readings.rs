@@ -119,7 +119,7 @@ impl AngleReadings {
     }
 
     /// The runs' numbers, ascending.
-    pub fn runs(&self) -> &[u32] {
+    pub(crate) fn runs(&self) -> &[u32] {
         &self.runs
     }
 
@@ -140,7 +140,7 @@ impl AngleReadings {
     }
 
     /// Returns the SHA-256 of the file in lower-case hexadecimal, or `None` if the readings come from no file.
-    pub fn sha256(&self) -> Option<&str> {
+    pub(crate) fn sha256(&self) -> Option<&str> {
         self.sha256.as_deref()
     }
 
