@@ -7,11 +7,11 @@ use crate::calibration::Method;
 use crate::coefficients::EarthRate;
 use crate::files;
 use crate::gyro::GyroType;
+use crate::report::picture::simulation as picture;
 use crate::report::simulation as table;
 use crate::simulation::accuracy::{AccuracyOptions, PAPER_LATITUDE_DEG, Stands, accuracy};
 use crate::simulation::convergence::{ConvergenceOptions, convergence};
 use crate::simulation::draw::CurrentError;
-use crate::simulation::picture::convergence_svg;
 use crate::stand::{CertifiedPosition, LARGEST_DEVIATION_DEG};
 use crate::statistics::random::Run;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
@@ -186,7 +186,8 @@ fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
     const TRIALS: u64 = 1_000;
     let found = watched(&arguments.run, TRIALS, rows, |run| convergence(&options, run))?;
     if let Some(path) = &arguments.output {
-        let svg = convergence_svg(&found).map_err(Failure::unusable)?;
+        let svg = picture::convergence(&found);
+        let svg = svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: no rows"))?;
         output::file(path, &svg, arguments.force)?;
     }
     match arguments.run.format {

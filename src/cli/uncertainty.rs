@@ -3,11 +3,10 @@
 use super::{Failure, output};
 use crate::calibration::{Calibration, Method, Readings, Setup};
 use crate::gyro::Tolerance;
-use crate::report::{budget as budget_report, monte_carlo as monte_carlo_report};
+use crate::report::{budget as budget_report, monte_carlo as monte_carlo_report, picture};
 use crate::uncertainty::document::{BudgetDocument, MonteCarloDocument};
 use crate::uncertainty::engine::{Engine, ReadingShape};
 use crate::uncertainty::monte_carlo::Trials;
-use crate::uncertainty::picture::budget_svg;
 use crate::uncertainty::remedy::Remedy;
 use crate::uncertainty::{Budget, MonteCarlo, monte_carlo};
 use clap::Args;
@@ -104,7 +103,8 @@ impl UncertaintyOptions {
         }
         let budget = Budget::new(setup, readings, method, anisoelasticity).map_err(Failure::refused)?;
         if let Some(path) = &self.budget_svg {
-            let svg = budget_svg(&budget).map_err(Failure::unusable)?;
+            let svg = picture::budget::budget(&budget);
+            let svg = svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: nothing is uncertain"))?;
             output::file(path, &svg, self.force)?;
         }
         let trials = self.monte_carlo.then(|| self.trials(setup, readings, &budget)).transpose()?;

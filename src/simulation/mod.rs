@@ -2,13 +2,11 @@
 //!
 //! * [`accuracy`]: how far found parameters are from nominal ones, over stands and currents drawn at random.
 //! * [`convergence`]: how many steps successive approximation takes.
-//! * `picture`: Fig. 4 as SVG.
 //! * [`draw`]: stands and currents at random.
 
 pub(crate) mod accuracy;
 pub(crate) mod convergence;
 pub mod draw;
-pub(crate) mod picture;
 
 pub use crate::statistics::random::{Run, Stream};
 pub use accuracy::{Accuracy, AccuracyOptions, AccuracyRow, PAPER_LATITUDE_DEG, Stands, accuracy};

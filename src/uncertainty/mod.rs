@@ -6,7 +6,6 @@
 //! * `engine`: trials of a Monte Carlo, many side by side.
 //! * `entries`: covariance of the numbers of a passport.
 //! * `monte_carlo`: the same without first order, and whether first order is valid; `tally`: what trials leave behind.
-//! * `picture`: the contributions as bars (SVG).
 
 pub(crate) mod budget;
 #[cfg(feature = "monte-carlo")]
@@ -17,8 +16,6 @@ pub(crate) mod engine;
 pub(crate) mod entries;
 #[cfg(feature = "monte-carlo")]
 pub(crate) mod monte_carlo;
-#[cfg(feature = "monte-carlo")]
-pub(crate) mod picture;
 pub(crate) mod remedy;
 #[cfg(feature = "monte-carlo")]
 pub(crate) mod tally;

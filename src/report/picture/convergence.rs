@@ -1,6 +1,7 @@
 //! How successive approximation went: what each step moved, against what it had to fall below.
 
-use super::drawing::{Anchor, Panel, Point, Scale, Ticks, label, legend, line, list, mark, panels, power, words};
+use super::chart::{Field, Look, sample};
+use super::drawing::{Anchor, Panel, Point, Scale, Ticks, label, legend, line, panels, power};
 use crate::calibration::document::{ChangeDocument, ResultDocument, StopRuleDocument};
 use crate::report::page::language::{Language, Languages};
 use crate::report::page::number::Number;
@@ -18,10 +19,10 @@ const MOST_DECADES: i32 = 12;
 /// What each step moved, as a share of its limit.
 type Share = fn(&ChangeDocument, &StopRuleDocument) -> f64;
 
-/// The frame index whose mark a series borrows, its class, and its numbers.
-const SERIES: [(u32, &str, Share); 2] = [
-    (1, "series", |change, rule| change.main_scale_factors_percent / rule.delta1_percent),
-    (2, "series dashed", |change, rule| change.g_drifts_deg_per_h_per_g / rule.delta2_deg_per_h),
+/// How a series looks, and its numbers.
+const SERIES: [(Look, Share); 2] = [
+    ((1, "series"), |change, rule| change.main_scale_factors_percent / rule.delta1_percent),
+    ((2, "series dashed"), |change, rule| change.g_drifts_deg_per_h_per_g / rule.delta2_deg_per_h),
 ];
 
 /// Draws the steps of a result by successive approximation; `None` for other methods, and where a limit is 0, which no
@@ -31,12 +32,15 @@ pub fn convergence(languages: &Languages, result: &ResultDocument) -> Option<Mar
     if changes.is_empty() || rule.delta1_percent <= 0.0 || rule.delta2_deg_per_h <= 0.0 {
         return None;
     }
-    let plane = Plane::of(changes, &rule);
+    let field = field(changes, &rule);
     let panel = Panel { name: "convergence", languages, size: SIZE };
-    let limit = plane.y.place(0.0);
+    let limit = field.y.place(0.0);
     let [[left, _], [right, _]] = FIELD;
-    let mut drawing = vec![plane.grid(languages), line([left, limit], [right, limit], "limit")];
-    drawing.extend(SERIES.map(|series| plane.series(changes, &rule, series)));
+    let mut drawing = vec![axes(languages, &field), line([left, limit], [right, limit], "limit")];
+    drawing.extend(SERIES.map(|(look, share)| {
+        let point = |change: &ChangeDocument| [f64::from(change.step), power_of(share(change, &rule))];
+        field.series(&changes.iter().map(point).collect::<Vec<_>>(), look)
+    }));
     let svg = panel.svg(
         |language| texts::CONVERGENCE_TITLE.of(language).to_owned(),
         |language| in_words(language, changes, &rule),
@@ -46,77 +50,46 @@ pub fn convergence(languages: &Languages, result: &ResultDocument) -> Option<Mar
 }
 
 fn key(languages: &Languages) -> Markup {
-    let sample =
-        |index: u32, class: &str| html! { (line([1.0, 7.0], [27.0, 7.0], class)) (mark([14.0, 7.0], index, "mark")) };
+    let [k, g] = SERIES;
     let entries = [
-        (sample(1, "series"), texts::CONVERGENCE_K),
-        (sample(2, "series dashed"), texts::CONVERGENCE_G),
+        (sample(k.0), texts::CONVERGENCE_K),
+        (sample(g.0), texts::CONVERGENCE_G),
         (line([2.0, 7.0], [26.0, 7.0], "limit"), texts::CONVERGENCE_LIMIT),
     ];
     legend(languages, &entries)
 }
 
 /// Steps to the right; the power of ten of a change over its limit upwards.
-struct Plane {
-    x: Scale,
-    y: Scale,
+fn field(changes: &[ChangeDocument], rule: &StopRuleDocument) -> Field {
+    let powers = SERIES.iter().flat_map(|(_, share)| changes.iter().map(|change| power_of(share(change, rule))));
+    let finite = powers.filter(|power| power.is_finite());
+    let (low, high) = finite.fold((-1.0, 1.0), |(low, high), power| (f64::min(low, power), f64::max(high, power)));
+    let low = libm::floor(low).max(-f64::from(MOST_DECADES));
+    let last = f64::from(changes.iter().map(|change| change.step).max().unwrap_or(2));
+    let [[left, top], [right, bottom]] = FIELD;
+    Field {
+        x: Scale { values: [1.0, last + 0.5], places: [left, right] },
+        y: Scale { values: [low, libm::ceil(high)], places: [bottom, top] },
+    }
 }
 
-impl Plane {
-    fn of(changes: &[ChangeDocument], rule: &StopRuleDocument) -> Self {
-        let powers = changes.iter().flat_map(|change| SERIES.map(|(_, _, share)| libm::log10(share(change, rule))));
-        let finite = powers.filter(|power| power.is_finite());
-        let (low, high) = finite.fold((-1.0, 1.0), |(low, high), power| (f64::min(low, power), f64::max(high, power)));
-        let low = libm::floor(low).max(-f64::from(MOST_DECADES));
-        let last = f64::from(changes.iter().map(|change| change.step).max().unwrap_or(2));
-        let [[left, top], [right, bottom]] = FIELD;
-        Self {
-            x: Scale { values: [1.0, last + 0.5], places: [left, right] },
-            y: Scale { values: [low, libm::ceil(high)], places: [bottom, top] },
-        }
-    }
+/// The logarithm of 0 is at the lower end of the axis, like whatever is too small for it.
+fn power_of(share: f64) -> f64 {
+    libm::log10(share).max(f64::NEG_INFINITY)
+}
 
-    fn grid(&self, languages: &Languages) -> Markup {
-        let [[left, top], [right, bottom]] = FIELD;
-        let steps = Ticks::along(&self.x, languages.first());
-        let whole = steps.values.iter().filter(|step| libm::floor(**step) == **step);
-        let [low, high] = self.y.values.map(|value| value as i32);
-        let every = usize::try_from((high - low) / 6 + 1).unwrap_or(1);
-        html! {
-            @for step in whole {
-                @let x = self.x.place(*step);
-                (line([x, top], [x, bottom + 4.0], "grid"))
-                (words([x, bottom + 16.0], Anchor::Middle, "small", &Number::fixed(*step, 0).text(languages.first())))
-            }
-            @for exponent in (low..=high).rev().step_by(every) {
-                @let y = self.y.place(f64::from(exponent));
-                (line([left - 4.0, y], [right, y], "grid"))
-                (words([left - 7.0, y + 4.0], Anchor::End, "small", &decade(exponent, languages.first())))
-            }
-            (line([left, top], [left, bottom], "zero"))
-            (line([left, bottom], [right, bottom], "zero"))
-            (label([right, bottom + 32.0], Anchor::End, "small", &html! { (languages.plain(texts::CONVERGENCE_STEP)) }))
-        }
-    }
-
-    fn series(
-        &self,
-        changes: &[ChangeDocument],
-        rule: &StopRuleDocument,
-        (index, class, share): (u32, &str, Share),
-    ) -> Markup {
-        let points: Vec<Point> = changes
-            .iter()
-            .map(|change| {
-                // The logarithm of 0 is at the lower end, like whatever is too small for the axis.
-                let power = libm::log10(share(change, rule)).max(self.y.values[0]);
-                [self.x.place(f64::from(change.step)), self.y.clamped(power)]
-            })
-            .collect();
-        html! {
-            polyline class=(class) points=(list(&points)) {}
-            @for at in &points { (mark(*at, index, "mark")) }
-        }
+fn axes(languages: &Languages, field: &Field) -> Markup {
+    let language = languages.first();
+    let steps = Ticks::along(&field.x, language).values.into_iter().filter(|step| libm::floor(*step) == *step);
+    let steps: Vec<_> = steps.map(|step| (step, Number::fixed(step, 0).text(language))).collect();
+    let [low, high] = field.y.values.map(|value| value as i32);
+    let every = usize::try_from((high - low) / 6 + 1).unwrap_or(1);
+    let decades = (low..=high).rev().step_by(every);
+    let decades: Vec<_> = decades.map(|exponent| (f64::from(exponent), decade(exponent, language))).collect();
+    let [_, [right, bottom]] = FIELD;
+    html! {
+        (field.axes(&steps, &decades))
+        (label([right, bottom + 32.0], Anchor::End, "small", &html! { (languages.plain(texts::CONVERGENCE_STEP)) }))
     }
 }
 

@@ -3,3 +3,4 @@
 mod calibration;
 mod drawn;
 mod passport;
+mod simulation;

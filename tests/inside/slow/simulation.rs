@@ -5,12 +5,12 @@ use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::{MeterUncertainty, Method, analytic, least_squares};
 use dtg_passport::coefficients::{EIGHT_POSITIONS, EarthRate, Position, StandGeometry};
 use dtg_passport::gyro::GyroType;
+use dtg_passport::report::picture::simulation as picture;
 use dtg_passport::simulation::accuracy::{
     Accuracy, AccuracyOptions, AccuracyRow, PAPER_LATITUDE_DEG, Stands, accuracy,
 };
 use dtg_passport::simulation::convergence::{Convergence, ConvergenceOptions, convergence};
 use dtg_passport::simulation::draw::{self, CurrentError, Deviations};
-use dtg_passport::simulation::picture::convergence_svg;
 use dtg_passport::statistics::random::Run;
 use dtg_passport::statistics::summary::Summary;
 use nalgebra::{Matrix2, Vector2};
@@ -167,7 +167,7 @@ fn the_number_of_threads_changes_nothing() {
         let steps = ConvergenceOptions { limits_deg: vec![5.0, 20.0], ..ConvergenceOptions::default() };
         let accuracy = serde_json::to_string(&accuracy(&options, &run)).unwrap();
         let convergence = convergence(&steps, &run);
-        (accuracy, serde_json::to_string(&convergence).unwrap(), convergence_svg(&convergence).unwrap())
+        (accuracy, serde_json::to_string(&convergence).unwrap(), picture::convergence(&convergence).unwrap())
     };
     let one = table(1);
     assert_eq!(one, table(2));
@@ -178,7 +178,7 @@ fn the_number_of_threads_changes_nothing() {
 /// No colour but black, white and greys; every series with its name; text, not outlines.
 #[test]
 fn the_picture_reads_without_colour() {
-    let svg = convergence_svg(&convergence(&ConvergenceOptions::default(), &Run::new(500, 1))).unwrap();
+    let svg = picture::convergence(&convergence(&ConvergenceOptions::default(), &Run::new(500, 1))).unwrap();
     for word in ["most", "95th percentile", "mean of those that converge", "uniform within", "degrees", "paper: 15"] {
         assert!(svg.contains(word), "{word}");
     }
@@ -186,7 +186,7 @@ fn the_picture_reads_without_colour() {
         assert!(colour[..2] == colour[2..4] && colour[2..4] == colour[4..], "#{colour}");
     }
     let none = Convergence { trials: 0, seed: 0, rows: Vec::new() };
-    assert!(convergence_svg(&none).is_err());
+    assert!(picture::convergence(&none).is_none());
 }
 
 /// Expected: docs/model.md, least squares over analytic, unweighted: K 0.84, ω_0 0.83, g-drifts 1.00 at 5°; 0.82, 0.81,

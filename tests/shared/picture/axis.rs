@@ -31,6 +31,11 @@ impl Axis {
         Self::of(svg, ["y1", "y2"], exponent, level)
     }
 
+    /// The same of one whose marks are logarithms of their numbers.
+    pub fn of_logarithms(svg: Node) -> Self {
+        Self::of(svg, ["y1", "y2"], |text| said(text).map(libm::log10), level)
+    }
+
     fn of(svg: Node, ends: [&str; 2], said: impl Fn(Node) -> Option<f64>, beside: impl Fn(Node, f64) -> bool) -> Self {
         let factor = factor(svg);
         let lines = of_class(svg, "grid").into_iter().filter(|line| line.attribute(ends[0]) == line.attribute(ends[1]));

@@ -1,0 +1,97 @@
+//! An uncertainty budget as a file: one panel for each parameter, its largest contributions as bars.
+
+use super::accuracy::unit;
+use super::drawing::{Anchor, Panel, Point, Scale, label, number, plain_symbol, rectangle, symbol, words};
+use super::file::file;
+use crate::report::page::language::{Language, Languages};
+use crate::report::page::number::{BLANK, Number};
+use crate::uncertainty::Budget;
+use crate::uncertainty::budget::ParameterBudget;
+use maud::{Markup, html};
+
+/// Bars of a panel; one more for what is left.
+const MOST_BARS: usize = 6;
+const COLUMNS: usize = 2;
+
+/// Width of a panel; left and right end of its bars, names at their left and numbers at their right.
+const WIDTH: f64 = 430.0;
+const BARS: Point = [176.0, 356.0];
+const TOP: f64 = 34.0;
+const ROW: f64 = 17.0;
+const BAR_HALF: f64 = 5.5;
+const HEIGHT: f64 = TOP + ROW * (MOST_BARS + 1) as f64 + 16.0;
+const WORDS_HEIGHT: f64 = 28.0;
+
+const WORDS: &str = "Bars: what each kind of input contributes to the standard uncertainty u. The frame is as wide as u, the \
+                     root of the sum of their squares.";
+
+/// Draws a budget, in black and white; `None` where nothing is uncertain.
+pub fn budget(budget: &Budget) -> Option<String> {
+    if budget.parameters.is_empty() || budget.inputs.is_empty() {
+        return None;
+    }
+    let height = HEIGHT * budget.parameters.len().div_ceil(COLUMNS) as f64;
+    let corner = |place: usize| [WIDTH * (place % COLUMNS) as f64, HEIGHT * (place / COLUMNS) as f64];
+    let drawing = [
+        html! { @for (place, line) in budget.parameters.iter().enumerate() { g { (parameter(line, corner(place))) } } },
+        words([14.0, height + 10.0], Anchor::Start, "", WORDS),
+    ];
+    let languages = Languages::from(Language::English);
+    let panel = Panel { name: "budget", languages: &languages, size: [WIDTH * COLUMNS as f64, height + WORDS_HEIGHT] };
+    Some(file(&panel, "Uncertainty budget", &in_words(budget), &drawing))
+}
+
+fn parameter(line: &ParameterBudget, [left, top]: Point) -> Markup {
+    let u = line.standard_uncertainty;
+    let bars = bars(line);
+    // Without any uncertainty the bars have no length on any scale.
+    let reach = if u > 0.0 { u } else { 1.0 };
+    let scale = Scale { values: [0.0, reach], places: BARS.map(|x| left + x) };
+    let [start, end] = scale.places;
+    let bottom = top + TOP + ROW * bars.len() as f64;
+    let bar = |place: usize, (name, contribution): &(String, f64)| {
+        let y = top + TOP + ROW * (place as f64 + 0.5);
+        html! {
+            (words([start - 6.0, y + 4.0], Anchor::End, "", name))
+            (rectangle([start, y - BAR_HALF], [scale.clamped(*contribution), y + BAR_HALF], "bar", None))
+            (number([end + 6.0, y + 4.0], Anchor::Start, *contribution, &printed(*contribution)))
+        }
+    };
+    let title = html! { (symbol(line.parameter.symbol())) tspan dy="-3" { ": u = " (with_unit(line)) } };
+    html! {
+        (label([left + 14.0, top + 20.0], Anchor::Start, "title", &title))
+        @for (place, named) in bars.iter().enumerate() { (bar(place, named)) }
+        (rectangle([start, top + TOP - 2.0], [end, bottom + 2.0], "frame-line", None))
+    }
+}
+
+/// The kinds of input and what each contributes; the smallest are one together.
+fn bars(line: &ParameterBudget) -> Vec<(String, f64)> {
+    let mut bars: Vec<(String, f64)> =
+        line.contributions.iter().map(|part| (part.cause.kind(), part.contribution)).collect();
+    // One that is left is shown as it is.
+    if bars.len() > MOST_BARS + 1 {
+        let rest = bars.split_off(MOST_BARS);
+        let sum: f64 = rest.iter().map(|(_, part)| part * part).sum();
+        bars.push((format!("{} others", rest.len()), sum.sqrt()));
+    }
+    bars
+}
+
+fn with_unit(line: &ParameterBudget) -> String {
+    format!("{}{BLANK}{}", printed(line.standard_uncertainty), unit(line.parameter).of(Language::English))
+}
+
+fn printed(u: f64) -> String {
+    Number::scientific(u, 2).text(Language::English)
+}
+
+fn in_words(budget: &Budget) -> String {
+    let line = |line: &ParameterBudget| {
+        let most = line.contributions.first().map_or_else(String::new, |first| {
+            format!(", {:.0} % of its variance from {}", 100.0 * first.share, first.cause.kind())
+        });
+        format!("{}: u = {}{most}", plain_symbol(line.parameter.symbol()), with_unit(line))
+    };
+    budget.parameters.iter().map(line).collect::<Vec<_>>().join("; ") + "."
+}

@@ -1,0 +1,42 @@
+//! Pictures that are files: they bring along what a page gives the others.
+
+use super::drawing::{Anchor, Panel, Point, coordinate, words};
+use super::label::width;
+use maud::{Markup, PreEscaped, html};
+
+/// In black and grey on a white ground; in plain rules, since not only browsers draw these files.
+const STYLE: &str = include_str!("file.css");
+
+/// The file of a picture that is `panel` alone; its first language speaks.
+pub fn file(panel: &Panel, title: &str, description: &str, drawing: &[Markup]) -> String {
+    let [width, height] = panel.size.map(coordinate);
+    let picture = panel.svg(|_| title.to_owned(), |_| description.to_owned(), drawing);
+    let file = html! {
+        svg xmlns="http://www.w3.org/2000/svg" width=(width) height=(height) viewBox={ "0 0 " (width) " " (height) } {
+            style { (PreEscaped(STYLE)) }
+            rect.ground width=(width) height=(height) {}
+            (picture)
+        }
+    };
+    file.into_string() + "\n"
+}
+
+/// One line above a field: what its upright axis counts, and what the marks mean.
+pub fn caption([x, y]: Point, axis: &str, entries: &[(Markup, &str)]) -> Markup {
+    const GAP: f64 = 16.0;
+    const SAMPLE: f64 = 34.0;
+    let mut end = x + width(axis) + GAP;
+    let entry = |(sample, name): &(Markup, &str)| {
+        let at = end;
+        end += SAMPLE + width(name) + GAP;
+        html! {
+            g transform={ "translate(" (coordinate(at)) " " (coordinate(y - 11.0)) ")" } { (sample) }
+            (words([at + SAMPLE, y], Anchor::Start, "small", name))
+        }
+    };
+    let entries: Vec<Markup> = entries.iter().map(entry).collect();
+    html! {
+        (words([x, y], Anchor::Start, "small", axis))
+        @for entry in &entries { (entry) }
+    }
+}
