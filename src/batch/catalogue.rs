@@ -168,7 +168,7 @@ impl<T: Listed> File<T> {
 fn read<T: Listed>(path: &Path) -> Result<(T, [u8; 32]), Failure> {
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
     let value = T::parse(&name_of(path), &bytes);
-    let value = value.map_err(|error| Failure::unusable(path, error.to_string()))?;
+    let value = value.map_err(|error| Failure::unreadable(path, error))?;
     Ok((value, Sha256::digest(&bytes).into()))
 }
 

@@ -23,7 +23,7 @@ use crate::files::{Durability, FileError, leftovers};
 use crate::folder::{self, FolderRefused, Issued, Next, Seal, Visited};
 use crate::parallel;
 use crate::passport::issue::Remarks;
-use crate::text::name_of;
+use crate::text::{Unreadable, name_of};
 use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -118,17 +118,25 @@ pub struct Failure {
     pub unusable: bool,
     /// How many passports it costs, where that is another number than one.
     pub passports: Option<u64>,
+    /// The mistakes of a file that cannot be read, with its lines.
+    pub unreadable: Option<Box<Unreadable>>,
 }
 
 impl Failure {
     /// A verdict on a document.
     pub fn refused(path: &Path, why: String) -> Self {
-        Self { what: name_of(path), why, unusable: false, passports: None }
+        Self { what: name_of(path), why, unusable: false, passports: None, unreadable: None }
     }
 
     /// A file that cannot be used.
     pub fn unusable(path: &Path, why: String) -> Self {
         Self { unusable: true, ..Self::refused(path, why) }
+    }
+
+    /// A file that cannot be read as what it should be.
+    pub fn unreadable(path: &Path, error: Unreadable) -> Self {
+        let why = error.to_string();
+        Self { unreadable: Some(Box::new(error)), ..Self::unusable(path, why) }
     }
 
     /// A file that cannot be read.
@@ -138,7 +146,7 @@ impl Failure {
 
     /// An order that the folder refused.
     pub fn of_order(what: String, refused: &FolderRefused) -> Self {
-        Self { what, why: refused.to_string(), unusable: refused.is_unusable(), passports: None }
+        Self { what, why: refused.to_string(), unusable: refused.is_unusable(), passports: None, unreadable: None }
     }
 }
 
@@ -186,7 +194,9 @@ impl Batch<'_> {
             for outcome in outcomes.iter_mut().flatten() {
                 if let Outcome::There(issued) = outcome {
                     let what = issued.id.clone();
-                    *outcome = Outcome::Failed(Failure { what, why: why.clone(), unusable: true, passports: None });
+                    let why = why.clone();
+                    *outcome =
+                        Outcome::Failed(Failure { what, why, unusable: true, passports: None, unreadable: None });
                 }
             }
         }

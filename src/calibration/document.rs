@@ -275,7 +275,7 @@ impl CalibrationDocument {
             }
             let found = format!("no such JSON ({found})");
             let advice = "`calibrate --format json` writes it";
-            Unreadable::whole(name, location, found, "the JSON of an earlier calibration", advice)
+            Unreadable::whole(name, location, found, "the JSON of an earlier calibration", advice).in_text(bytes)
         })
     }
 

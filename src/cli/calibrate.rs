@@ -84,7 +84,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let bytes = files::read(&options.currents, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
     let name = name_of(&options.currents);
     let readings = Readings::from_csv(&name, &bytes, setup.coefficients(), laboratory.meter.range_ma);
-    let readings = readings.map_err(Failure::unusable)?;
+    let readings = readings.map_err(Failure::unreadable)?;
     if let Some(remark) = readings.remark() {
         output::say(remark);
     }
@@ -180,14 +180,14 @@ fn used<'a>(
 pub fn read_laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
     let Some(path) = path else { return Ok(Laboratory::paper()) };
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-    Laboratory::from_yaml(&name_of(path), &bytes).map_err(Failure::unusable)
+    Laboratory::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)
 }
 
 fn earlier(options: &Options) -> Result<Option<calibration::verdict::Found>, Failure> {
     let Some(path) = &options.previous else { return Ok(None) };
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
     let name = name_of(path);
-    let document = CalibrationDocument::from_json(&name, &bytes).map_err(Failure::unusable)?;
+    let document = CalibrationDocument::from_json(&name, &bytes).map_err(Failure::unreadable)?;
     let found = document.answer().ok_or_else(|| Failure::unusable(format!("{}: holds no result", shown(path))))?;
     Ok(Some(found))
 }

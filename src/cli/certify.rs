@@ -39,14 +39,14 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let header = match (&options.stand, &against) {
         (Some(path), _) => {
             let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-            Header::from_yaml(&name_of(path), &bytes).map_err(Failure::unusable)?
+            Header::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)?
         }
         (None, Some(stand)) => Header::from(stand),
         (None, None) => return Err(Failure::unusable("--stand or --against is needed")),
     };
     let bytes = files::read(&options.readings, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
     let name = name_of(&options.readings);
-    let readings = AngleReadings::from_csv(&name, &bytes, &header.positions).map_err(Failure::unusable)?;
+    let readings = AngleReadings::from_csv(&name, &bytes, &header.positions).map_err(Failure::unreadable)?;
     if let Some(remark) = readings.remark() {
         output::say(remark);
     }

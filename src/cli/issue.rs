@@ -91,13 +91,13 @@ fn stated(options: &Options) -> Result<Stated, Failure> {
 /// Reads a stand file.
 pub fn read_stand(path: &Path) -> Result<Stand, Failure> {
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-    Stand::from_yaml(&name_of(path), &bytes).map_err(Failure::unusable)
+    Stand::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)
 }
 
 /// Reads a site file.
 pub fn read_site(path: &Path) -> Result<Site, Failure> {
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-    let site = Site::from_yaml(&name_of(path), &bytes).map_err(Failure::unusable)?;
+    let site = Site::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)?;
     if let Some(words) = site.remark(path) {
         output::say(&format!("{}: {words}", shown(path)));
     }

@@ -26,7 +26,7 @@ mod uncertainty;
 mod verify;
 
 use crate::files::FileError;
-use crate::text::printable;
+use crate::text::{Unreadable, printable};
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -85,6 +85,11 @@ impl Failure {
             FileError::Exists { .. } => Self::refused(error),
             _ => Self::unusable(error),
         }
+    }
+
+    /// A file with mistakes, told with the lines that they stand in.
+    fn unreadable(error: Unreadable) -> Self {
+        Self::unusable(error.with_lines(""))
     }
 
     fn unusable(error: impl std::fmt::Display) -> Self {

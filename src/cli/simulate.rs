@@ -201,7 +201,7 @@ fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
 pub fn read_gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
     let Some(path) = path else { return Ok(None) };
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-    GyroType::from_yaml(&name_of(path), &bytes).map(Some).map_err(Failure::unusable)
+    GyroType::from_yaml(&name_of(path), &bytes).map(Some).map_err(Failure::unreadable)
 }
 
 /// Runs a simulation with a progress bar on a terminal (none in a pipe); Ctrl-C ends it with what is known.

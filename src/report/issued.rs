@@ -103,12 +103,16 @@ impl Report {
 
 /// What failed, in words: with its name, unless the reason begins with it, and with what it costs.
 pub fn failure(failure: &Failure) -> String {
-    let Failure { what, why, passports, .. } = failure;
+    let Failure { what, why, passports, unreadable, .. } = failure;
+    let cost = match passports {
+        None | Some(0 | 1) => String::new(),
+        Some(passports) => format!(" (passports not issued: {})", grouped(*passports)),
+    };
     let what = Printable(what);
-    let named = if why.starts_with(&format!("{what}:")) { why.clone() } else { format!("{what}: {why}") };
-    match passports {
-        None | Some(0 | 1) => named,
-        Some(passports) => format!("{named} (passports not issued: {})", grouped(*passports)),
+    match unreadable {
+        Some(unreadable) => unreadable.with_lines(&cost),
+        None if why.starts_with(&format!("{what}:")) => format!("{why}{cost}"),
+        None => format!("{what}: {why}{cost}"),
     }
 }
 

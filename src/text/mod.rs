@@ -10,9 +10,10 @@
 //! * `table`: tables of numbers (CSV).
 //! * `yaml`: hand-written YAML to a tree, with the place of every value found again when an error needs it.
 //! * `printable`: text of others among the program's own words.
-//! * `problem`: what is wrong, where, what was expected, what to do.
+//! * `problem`: what is wrong, where, what was expected, what to do; `excerpt`: the line in which.
 
 pub(crate) mod canonical;
+pub(crate) mod excerpt;
 pub(crate) mod node;
 pub(crate) mod number;
 pub(crate) mod printable;

@@ -1,6 +1,7 @@
 //! What is wrong in a document, where, what was expected there, and what to do.
 
 use super::Printable;
+use super::excerpt::Excerpt;
 use std::fmt::{self, Display, Formatter};
 
 /// The way from the top of a document to one of its values, such as `positions[3].alpha_arcsec`.
@@ -115,6 +116,9 @@ pub const MOST_PROBLEMS: usize = 50;
 /// mistakes are reported. A hostile text of a hundred thousand mistakes must not keep its reader busy for hours.
 #[cfg(feature = "factory")]
 const READ_AGAIN_BYTES: usize = 1 << 22;
+
+/// The most mistakes of a document that are displayed.
+const SHOWN: usize = 20;
 
 /// What is found where a key is missing.
 const MISSING: &str = "no such key";
@@ -234,7 +238,7 @@ impl Problems {
             let (found, expected, advice) = (FURTHER.to_owned(), "none".to_owned(), CORRECT_FIRST.to_owned());
             problems.push(Problem { location: None, field: String::new(), found, expected, advice });
         }
-        Unreadable { name: name.to_owned(), problems }
+        Unreadable::of(name, problems)
     }
 }
 
@@ -246,6 +250,8 @@ impl Problems {
 pub struct Unreadable {
     name: String,
     problems: Vec<Problem>,
+    /// The lines of the first problems, as far as the text is known: see [`Unreadable::in_text`].
+    excerpts: Vec<Option<Excerpt>>,
 }
 
 impl Unreadable {
@@ -264,12 +270,40 @@ impl Unreadable {
             expected: expected.into(),
             advice: advice.into(),
         };
-        Self { name: name.to_owned(), problems: vec![problem] }
+        Self::of(name, vec![problem])
     }
 
     /// Several mistakes, their places already known.
     pub(crate) fn of(name: &str, problems: Vec<Problem>) -> Self {
-        Self { name: name.to_owned(), problems }
+        Self { name: name.to_owned(), problems, excerpts: Vec::new() }
+    }
+
+    /// Returns the same refusal with the lines of `bytes`, the document, for [`Unreadable::with_lines`].
+    ///
+    /// The lines of a private key stay out: messages end in logs.
+    pub(crate) fn in_text(mut self, bytes: &[u8]) -> Self {
+        // A byte order mark is no part of the first line.
+        let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+        if memchr::memmem::find(text, b"PRIVATE KEY").is_none() {
+            let excerpt = |problem: &Problem| problem.location.and_then(|at| Excerpt::new(text, at));
+            self.excerpts = self.problems.iter().take(SHOWN).map(excerpt).collect();
+        }
+        self
+    }
+
+    /// Returns the messages as they are displayed, `remark` at their end, each with the line of the file beneath it.
+    pub(crate) fn with_lines(&self, remark: &str) -> String {
+        let messages = format!("{self}{remark}");
+        let mut excerpts = self.excerpts.iter().map(Option::as_ref).peekable();
+        let mut text = String::new();
+        for message in messages.split('\n') {
+            text += if text.is_empty() { "" } else { "\n" };
+            text += message;
+            // Several mistakes at one place have one line.
+            let excerpt = excerpts.next().flatten().filter(|own| excerpts.peek() != Some(&Some(*own)));
+            text += &excerpt.map_or_else(String::new, |excerpt| format!("\n{excerpt}"));
+        }
+        text
     }
 
     /// The document's name.
@@ -285,7 +319,6 @@ impl Unreadable {
 
 impl Display for Unreadable {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        const SHOWN: usize = 20;
         let name = Printable(&self.name);
         for (index, problem) in self.problems.iter().take(SHOWN).enumerate() {
             if index > 0 {

@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table<'a> {
     name: &'a str,
+    bytes: &'a [u8],
     columns: Vec<&'a str>,
     /// Rows in the order of the text.
     pub rows: Vec<Row>,
@@ -40,7 +41,16 @@ impl<'a> Table<'a> {
     ///
     /// # Errors
     /// [`Unreadable`] with every mistake in form; what the cells mean is the caller's.
-    pub fn read(name: &'a str, bytes: &[u8], required: &[&'a str], optional: &[&'a str]) -> Result<Self, Unreadable> {
+    pub fn read(
+        name: &'a str,
+        bytes: &'a [u8],
+        required: &[&'a str],
+        optional: &[&'a str],
+    ) -> Result<Self, Unreadable> {
+        Self::parse(name, bytes, required, optional).map_err(|unreadable| unreadable.in_text(bytes))
+    }
+
+    fn parse(name: &'a str, bytes: &'a [u8], required: &[&'a str], optional: &[&'a str]) -> Result<Self, Unreadable> {
         let text = decoded(name, bytes)?;
         let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line)).filter(|(_, line)| {
             let line = line.trim();
@@ -67,7 +77,7 @@ impl<'a> Table<'a> {
         }
         let Header { columns, left_out, .. } = header;
         if problems.is_empty() {
-            Ok(Self { name, columns, rows, left_out })
+            Ok(Self { name, bytes, columns, rows, left_out })
         } else {
             Err(Unreadable::of(name, problems))
         }
@@ -127,7 +137,7 @@ impl<'a> Table<'a> {
 
     /// The refusal of this table. Of many cells that want the same advice the first is shown, the others are counted.
     pub fn refuse(&self, problems: Vec<Problem>) -> Unreadable {
-        Unreadable::of(self.name, counted(problems))
+        Unreadable::of(self.name, counted(problems)).in_text(self.bytes)
     }
 }
 

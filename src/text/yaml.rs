@@ -299,6 +299,15 @@ pub fn read_document<T: Field>(
     format: &str,
     check: impl FnOnce(&T, &mut Problems),
 ) -> Result<T, Unreadable> {
+    parse(name, bytes, format, check).map_err(|unreadable| unreadable.in_text(bytes))
+}
+
+fn parse<T: Field>(
+    name: &str,
+    bytes: &[u8],
+    format: &str,
+    check: impl FnOnce(&T, &mut Problems),
+) -> Result<T, Unreadable> {
     let (node, text) = tree(name, bytes)?;
     let mut problems = Problems::new();
     let expected = format!("{format:?}");

@@ -1,0 +1,121 @@
+//! The line of a file that a mistake stands in, as a terminal shows it.
+
+use super::Printable;
+use super::problem::Location;
+use std::fmt::{self, Display, Formatter};
+
+/// Characters shown, and how many of them before the place: with number and indentation they fit 100 columns.
+const MOST: usize = 76;
+const BEFORE: usize = 46;
+
+/// What stands where a line is cut.
+const CUT: &str = "…";
+
+/// A line around the place of a mistake, cut where it is long, without any character that a terminal would obey.
+///
+/// Displayed as two lines without a line feed at the end: the source with its line number, and a mark under the place.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Excerpt {
+    line: usize,
+    before: String,
+    after: String,
+}
+
+impl Excerpt {
+    /// Returns the line of `text` around `at`, or `None` if the text has no such line.
+    pub fn new(text: &[u8], at: Location) -> Option<Self> {
+        let line = text.split(|byte| *byte == b'\n').nth(at.line.checked_sub(1)?)?;
+        let line = String::from_utf8_lossy(line);
+        let column = at.column.saturating_sub(1);
+        let start = column.saturating_sub(BEFORE);
+        let mut characters = line.chars().skip(start);
+        let before: String = characters.by_ref().take(column - start).collect();
+        let after: String = characters.by_ref().take(MOST - (column - start)).collect();
+        let cut = |is_cut| if is_cut { CUT } else { "" };
+        let (left, right) = (cut(start > 0), cut(characters.next().is_some()));
+        Some(Self {
+            line: at.line,
+            before: format!("{left}{}", Printable(before)),
+            after: format!("{}{right}", Printable(after)),
+        })
+    }
+}
+
+impl Display for Excerpt {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let Self { line, before, after } = self;
+        let margin = line.to_string().len();
+        let columns: usize = before.chars().map(|c| if is_wide(c) { 2 } else { 1 }).sum();
+        write!(f, "{line} | {before}{after}\n{:margin$} | {:columns$}^", "", "")
+    }
+}
+
+/// Returns `true` if a terminal draws `c` over two columns, among the characters that [`Printable`] shows as they are.
+fn is_wide(c: char) -> bool {
+    matches!(c, '\u{3001}'..='\u{30FF}' | '\u{4E00}'..='\u{9FFF}' | '\u{AC00}'..='\u{D7A3}' | '\u{FF01}'..='\u{FF5E}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::text::problem::{Problem, Unreadable};
+
+    fn shown(text: &str, line: usize, column: usize) -> String {
+        Excerpt::new(text.as_bytes(), Location { line, column }).unwrap().to_string()
+    }
+
+    #[test]
+    fn the_mark_is_under_the_place() {
+        assert_eq!(shown("a\nbc: 12,5\nd", 2, 5), "2 | bc: 12,5\n  |     ^");
+        assert_eq!(shown("a", 1, 2), "1 | a\n  |  ^");
+        assert_eq!(shown("\n", 2, 1), "2 | \n  | ^");
+        assert_eq!(shown(&"\n".repeat(99), 100, 1), "100 | \n    | ^");
+        assert_eq!(Excerpt::new(b"a\n", Location { line: 3, column: 1 }), None);
+        assert_eq!(Excerpt::new(b"a\n", Location { line: 0, column: 0 }), None);
+    }
+
+    /// Two columns each, by Unicode's UAX #11 (wide and fullwidth); Cyrillic letters have one.
+    #[test]
+    fn wide_characters_do_not_shift_the_mark() {
+        assert_eq!(shown("名: \"東京\" x", 1, 9), format!("1 | 名: \"東京\" x\n  | {:11}^", ""));
+        assert_eq!(shown("한국１ x", 1, 5), "1 | 한국１ x\n  |        ^");
+        assert_eq!(shown("Москва x", 1, 8), "1 | Москва x\n  |        ^");
+    }
+
+    #[test]
+    fn a_terminal_obeys_nothing_of_it() {
+        assert_eq!(shown("\u{1b}[2Jx\r", 1, 5), "1 | \\u{1b}[2Jx\\r\n  |          ^");
+        assert_eq!(shown("\t\u{202e}x", 1, 3), "1 | \\t\\u{202e}x\n  |           ^");
+    }
+
+    #[test]
+    fn a_long_line_is_cut_around_the_place() {
+        let text = format!("{}x{}", "a".repeat(1 << 19), "b".repeat(1 << 19));
+        let due = format!("1 | …{}x{}…\n  | {:47}^", "a".repeat(46), "b".repeat(29), "");
+        assert_eq!(shown(&text, 1, (1 << 19) + 1), due);
+        let hostile = "\u{1b}".repeat(1 << 20);
+        assert!(shown(&hostile, 1, 1 << 19).len() < 1000);
+    }
+
+    fn problem(line: usize) -> Problem {
+        let (location, [field, found, expected, advice]) =
+            (Some(Location { line, column: 1 }), ["", "x", "y", ""].map(str::to_owned));
+        Problem { location, field, found, expected, advice }
+    }
+
+    #[test]
+    fn mistakes_at_one_place_share_its_line() {
+        let refusal = Unreadable::of("f", vec![problem(1), problem(1), problem(2)]);
+        assert_eq!(refusal.with_lines(""), refusal.to_string());
+        let due = "f:1:1: found x, expected y\nf:1:1: found x, expected y\n1 | a\n  | ^\n\
+                   f:2:1: found x, expected y (z)\n2 | b\n  | ^";
+        assert_eq!(refusal.in_text(b"\xEF\xBB\xBFa\nb").with_lines(" (z)"), due);
+    }
+
+    #[test]
+    fn a_private_key_does_not_come_back() {
+        let refusal = Unreadable::of("f", vec![problem(2)]);
+        let key = b"-----BEGIN OPENSSH PRIVATE KEY-----\nb3BlbnNzaC1rZXktdjEAAAAA\n";
+        assert_eq!(refusal.clone().in_text(key).with_lines(""), refusal.to_string());
+    }
+}
