@@ -174,13 +174,13 @@ fn a_report_is_small() {
 #[test]
 fn the_headline_is_the_verdict() {
     let due = [
-        ("calibrated-en", "Not decided: conformity to the type GVK-6", false),
-        ("calibrated-ru", "Не решено: соответствие типу GVK-6", false),
-        ("bad-both", "Показания не согласуются с этим стендом The readings do not fit this stand", true),
-        ("plain-ru", "Параметры найдены", false),
+        ("calibrated-en", "Conformity with gyro type GVK-6 is undecided", false),
+        ("calibrated-ru", "Соответствие типу GVK-6 не определено", false),
+        ("bad-both", "Показания не согласуются с\u{a0}этим стендом The readings are not consistent with this stand", true),
+        ("plain-ru", "Параметры определены", false),
         ("unverified-many-en", "Passport NOT VERIFIED", true),
     ];
-    let failed = format!("NOT within the tolerance of the type {HOSTILE_TYPE}");
+    let failed = format!("NOT within the tolerance of gyro type {HOSTILE_TYPE}");
     for (name, words, refused) in due.into_iter().chain([("failed-en", failed.as_str(), true)]) {
         let said = REPORTED.said(name);
         assert_eq!(said["headline"].as_str().unwrap(), words, "{name}");
@@ -203,26 +203,21 @@ fn sections_are_counted() {
 #[test]
 fn what_the_budget_comes_to_is_said_in_every_language() {
     let due = [
-        (
-            "whole-ru",
-            "ru",
-            "Наименее точно по отношению к допуску известен параметр ",
-            "Без него u всё ещё составляла бы ",
-        ),
+        ("whole-ru", "ru", "Наибольшая неопределённость относительно допуска: ", "Без этого источника u составила бы "),
         (
             "changed-both",
             "ru",
-            "Наименее точно по отношению к допуску известен параметр ",
-            "Без него u всё ещё составляла бы ",
+            "Наибольшая неопределённость относительно допуска: ",
+            "Без этого источника u составила бы ",
         ),
-        ("changed-both", "en", "Known least well for its tolerance is ", "Without it, u would still be "),
+        ("changed-both", "en", "Largest uncertainty relative to tolerance: ", "Without this source, u would be "),
         (
             "repeated-en",
             "en",
-            "Known least well for its tolerance is ",
-            "To halve u, the uncertainty of that source has to be ",
+            "Largest uncertainty relative to tolerance: ",
+            "To halve u, reduce the uncertainty of this source to ",
         ),
-        ("unverified-many-en", "en", "Known least well for its size is ", "Without it, u would still be "),
+        ("unverified-many-en", "en", "Largest uncertainty relative to the value: ", "Without this source, u would be "),
     ];
     for (name, lang, beginning, effect) in due {
         let result: Value =

@@ -25,7 +25,7 @@ TOKEN = re.compile(
 DAY = re.compile(r"\d{4}-\d\d-\d\d|\d\d\.\d\d\.\d{4}")
 # What is no number of the result: clauses of standards, coverage, the sum's name, ids, times of day, the limit of risks.
 NAMES = re.compile(
-    r"JCGM \d+, [\d.]+|k = 1\b|95[\u00a0 ]?%|SHA-256|[A-Z]+-\d+(?:/\w+/[\w-]+/\d+)?|\d\d:\d\d:\d\d|< 1\u202f·\u202f10⁻⁶"
+    r"JCGM[\u00a0 ]\d+, [\d.]+|k[\u00a0 ]=[\u00a0 ]1\b|95[\u00a0 ]?%|SHA-256|[A-Z]+-\d+(?:/\w+/[\w-]+/\d+)?|\d\d:\d\d:\d\d|< 1\u202f·\u202f10⁻⁶"
 )
 # The eight of every table of parameters, by their symbols.
 PLACES = {
@@ -39,9 +39,9 @@ PLACES = {
     "ωk": ("omega_k_deg_per_h_per_g",),
 }
 METHODS = {
-    "least-squares": ("least squares", "метод наименьших квадратов"),
+    "least-squares": ("weighted least squares", "метод наименьших квадратов"),
     "analytic": ("analytic", "аналитический"),
-    "iterative": ("successive", "последовательные"),
+    "iterative": ("iterative", "итерационный"),
 }
 
 
@@ -204,7 +204,7 @@ class Report:
                     method, kind = index, ()
             if name == "u":
                 kind = ("standard_uncertainty",)
-            if name.startswith(("off by", "отличие")):
+            if name.startswith(("difference", "отличие")):
                 kind = None
             for symbol, cell in zip(heads[1:], row[1:]):
                 if kind is None:

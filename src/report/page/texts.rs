@@ -44,9 +44,9 @@ pub(crate) mod units {
         G { en: "g", ru: "g" }
         MILLIAMPERES { en: "mA", ru: "мА" }
         DEG_PER_H { en: "°/h", ru: "°/ч" }
-        DEG_PER_H_PER_G { en: "°/h/g", ru: "°/ч/g" }
-        DEG_PER_H_PER_G2 { en: "°/h/g²", ru: "°/ч/g²" }
-        DEG_PER_H_PER_MA { en: "°/h/mA", ru: "°/ч/мА" }
+        DEG_PER_H_PER_G { en: "°/(h·g)", ru: "°/(ч·g)" }
+        DEG_PER_H_PER_G2 { en: "°/(h·g²)", ru: "°/(ч·g²)" }
+        DEG_PER_H_PER_MA { en: "°/(h·mA)", ru: "°/(ч·мА)" }
         M_PER_S2 { en: "m/s²", ru: "м/с²" }
         CELSIUS { en: "°C", ru: "°C" }
         PERCENT { en: "%", ru: "%" }
@@ -59,7 +59,7 @@ pub(crate) mod words {
     use super::texts;
 
     texts! {
-        EMPTY { en: "empty field, to be filled in with a pen", ru: "пустое поле, заполняется от руки" }
+        EMPTY { en: "empty field, to be filled in by hand", ru: "пустое поле, заполняется от руки" }
         YES { en: "yes", ru: "да" }
         NO { en: "no", ru: "нет" }
         NORTH { en: "north", ru: "север" }

@@ -174,22 +174,38 @@ pub fn plain_symbol(name: &str) -> String {
     name.replace('_', "")
 }
 
-/// A title, a line for each language, and how much room the lines beyond the first one take.
+/// A title, in lines for each language, and how much room the lines beyond the first one take.
 pub fn heading(languages: &Languages, at: Point, text: Text) -> (Markup, f64) {
-    const LINE: f64 = 14.0;
-    let mut lines: Vec<&str> = Vec::new();
-    for language in languages.iter() {
-        let line = text.of(language);
-        if !lines.contains(&line) {
-            lines.push(line);
+    const LINE: f64 = 15.0;
+    let mut said: Vec<&str> = Vec::new();
+    let mut lines: Vec<(&str, String)> = Vec::new();
+    for (place, language) in languages.iter().enumerate() {
+        let words = text.of(language);
+        if !said.contains(&words) {
+            said.push(words);
+            let class = if place == 0 { "title" } else { "small" };
+            lines.extend(lines_of(words).into_iter().map(|line| (class, line)));
         }
     }
     let drawn = html! {
-        @for (row, line) in lines.iter().enumerate() {
-            (words([at[0], at[1] + LINE * row as f64], Anchor::Start, if row == 0 { "title" } else { "small" }, line))
+        @for (row, (class, line)) in lines.iter().enumerate() {
+            (words([at[0], at[1] + LINE * row as f64], Anchor::Start, class, line))
         }
     };
     (drawn, LINE * (lines.len() - 1) as f64)
+}
+
+/// A title in lines that are no wider than a panel.
+fn lines_of(title: &str) -> Vec<String> {
+    const LONGEST: usize = 42;
+    let mut lines: Vec<String> = Vec::new();
+    for word in title.split(' ') {
+        match lines.last_mut().filter(|line| line.chars().count() + 1 + word.chars().count() <= LONGEST) {
+            Some(line) => *line += &format!(" {word}"),
+            None => lines.push(word.to_owned()),
+        }
+    }
+    lines
 }
 
 /// A line with a head at its end. One that is shorter than its head is the head alone, and a point is nothing.

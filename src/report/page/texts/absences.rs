@@ -4,61 +4,66 @@ use super::texts;
 
 texts! {
     UNCERTAINTY {
-        en: "No uncertainty of the deviations is certified: none can be stated.",
-        ru: "Неопределённость отклонений не аттестована: указать её нельзя."
+        en: "The certificate gives no uncertainty of the deviations, so no uncertainty of theirs can be stated.",
+        ru: "Неопределённость отклонений в сертификате не указана и не может быть приведена."
     }
     REPEATABILITY {
-        en: "No repeatability is certified: what a return to a position adds is unknown.",
-        ru: "Повторяемость не аттестована: вклад возвращения в положение неизвестен."
+        en: "The certificate gives no repeatability; the uncertainty that positioning adds is unknown.",
+        ru: "Повторяемость положений в сертификате не указана; вклад установки в положение неизвестен."
     }
     COMMON_PART {
-        en: "The part common to all positions is not certified for platform and base: it is unknown.",
-        ru: "Составляющая, общая для всех положений, не аттестована для платформы и основания: она неизвестна."
+        en: "The certificate does not give the uncertainty common to all positions for both platform and base.",
+        ru: "Составляющая неопределённости, общая для всех положений, не указана для платформы или основания."
     }
     TRACEABILITY {
-        en: "No traceability is stated: the deviations are numbers, not traceable measurements.",
-        ru: "Прослеживаемость не указана: отклонения — числа, а не прослеживаемые измерения."
+        en: "No traceability is stated; the deviations are not shown to be traceable to the SI.",
+        ru: "Прослеживаемость не указана; прослеживаемость отклонений не подтверждена."
     }
     TEMPERATURE {
-        en: "No temperature is certified: whether the deviations hold at another one is unknown.",
-        ru: "Температура не указана: верны ли отклонения при другой температуре, неизвестно."
+        en: "The certificate gives no temperature; the validity of the deviations at other temperatures is unknown.",
+        ru: "Температура не указана; применимость отклонений при другой температуре неизвестна."
     }
     LAST_DAY {
-        en: "The certificate names no last day: who uses the stand decides when to have it certified again.",
-        ru: "Срок действия сертификата не указан: когда аттестовать стенд снова, решает его владелец."
+        en: "The certificate has no expiry date; the user sets the recertification interval.",
+        ru: "Срок действия сертификата не указан; срок повторной калибровки устанавливает владелец стенда."
     }
     DATUM {
-        en: "No datum is stated: which surfaces to level, to turn north and to seat the gyro on is unknown.",
-        ru: "Базовые поверхности не указаны: неизвестно, какую горизонтировать, какую направлять на север и на какую \
-             устанавливать гироскоп."
+        en: "No datum surfaces are stated; the surfaces for levelling, for north alignment and for seating the gyro \
+             are unknown.",
+        ru: "Базовые поверхности не указаны: неизвестны поверхности для горизонтирования, для ориентирования на север \
+             и посадочная поверхность гироскопа."
     }
     EIGHT_POSITIONS {
-        en: "Not all of the eight positions are certified: no matrices, least squares alone.",
-        ru: "Аттестованы не все восемь положений: нет матриц, применим только метод наименьших \
-             квадратов."
+        en: "Some of the eight standard positions are not certified; there are no matrices, and only least squares \
+             applies.",
+        ru: "Аттестованы не все восемь положений: матриц нет, применим только метод наименьших квадратов."
     }
     DEFLECTION {
-        en: "The deflection of the vertical is unknown: taken as 0 with u = {u}″, up to {cost} °/h in the rates.",
-        ru: "Уклонение отвесной линии неизвестно: принято равным 0 с u = {u}″, до {cost} °/ч в угловых скоростях."
+        en: "The deflection of the vertical is unknown; it is taken as 0 with u\u{a0}=\u{a0}{u}″, which adds up to \
+             {cost}\u{a0}°/h to the Earth-rate components.",
+        ru: "Уклонение отвесной линии неизвестно: принято равным 0 с u\u{a0}=\u{a0}{u}″, что даёт до {cost}\u{a0}°/ч в \
+             составляющих угловой скорости Земли."
     }
     LONGITUDE {
-        en: "The longitude is unknown: of the place only the latitude can be checked.",
-        ru: "Долгота неизвестна: из координат места можно проверить только широту."
+        en: "The longitude is unknown; only the latitude of a place can be checked.",
+        ru: "Долгота неизвестна: может быть проверена только широта места."
     }
     GEODETIC_LATITUDE {
-        en: "The geodetic latitude is unknown: the check of place allows {margin}″ for it.",
-        ru: "Геодезическая широта неизвестна: при проверке места для неё допускается {margin}″."
+        en: "The geodetic latitude is unknown; the check of the place allows {margin}″ for it.",
+        ru: "Геодезическая широта неизвестна: при проверке места допускается отличие {margin}″."
     }
     HEIGHT {
-        en: "The height is unknown: normal gravity is that at 0 m, {slope} m/s² too large for each metre.",
-        ru: "Высота неизвестна: нормальная сила тяжести взята для 0 м, она завышена на {slope} м/с² на каждый метр."
+        en: "The height is unknown; normal gravity is that at 0\u{a0}m, which is {slope}\u{a0}m/s² too large for each \
+             metre of height.",
+        ru: "Высота неизвестна: нормальное ускорение силы тяжести вычислено для высоты 0\u{a0}м и завышено на \
+             {slope}\u{a0}м/с² на каждый метр высоты."
     }
     BASE_UNCERTAINTY {
-        en: "No uncertainty of latitude, azimuth and level of the base is stated for this site.",
-        ru: "Неопределённости широты, азимута и горизонтирования основания для этого места не указаны."
+        en: "The uncertainties of the latitude, azimuth and level of the base are not stated for this site.",
+        ru: "Неопределённости широты, азимута и горизонтирования основания для этого места установки не указаны."
     }
     AZIMUTH_MARK {
-        en: "No azimuth mark is given: north must come from elsewhere.",
-        ru: "Ориентирный пункт не указан: направление на север определяют иначе."
+        en: "No azimuth mark is given; the north direction must be determined in another way.",
+        ru: "Ориентирный пункт не указан; направление на север определяют иным способом."
     }
 }

@@ -5,324 +5,368 @@ use super::texts;
 texts! {
     TITLE { en: "Calibration of a dynamically tuned gyro", ru: "Калибровка динамически настраиваемого гироскопа" }
     SUBTITLE {
-        en: "Scale factors and drifts in the case's axes, found from the torquer currents in the positions of a certified stand",
-        ru: "Масштабные коэффициенты и составляющие дрейфа в осях корпуса, найденные по токам датчиков момента в положениях \
-             аттестованного стенда"
+        en: "Scale factors and drifts in case axes, determined from the torquer currents in the positions of a \
+             certified stand",
+        ru: "Масштабные коэффициенты и составляющие дрейфа в осях корпуса, найденные по токам датчиков момента в \
+             положениях стенда с аттестованными отклонениями"
     }
     MARGIN { en: "Calibration with passport {id}", ru: "Калибровка по паспорту {id}" }
-    MARGIN_SHA256 { en: "SHA-256 of the currents {sha256}", ru: "SHA-256 файла токов {sha256}" }
-    END { en: "End of the calibration report, passport {id}", ru: "Конец отчёта о калибровке, паспорт {id}" }
+    MARGIN_SHA256 { en: "SHA-256 of the file of currents {sha256}", ru: "SHA-256 файла токов {sha256}" }
+    END { en: "End of the calibration report, passport {id}", ru: "Конец отчёта о\u{a0}калибровке, паспорт {id}" }
 
     NOT_VERIFIED { en: "Passport NOT VERIFIED", ru: "Паспорт НЕ ПРОВЕРЕН" }
     NOT_VERIFIED_WORDS {
-        en: "Nobody checked who wrote the passport: anybody may have written its numbers. What stands below counts for nothing \
-             until the passport has been verified.",
-        ru: "Кем составлен паспорт, не проверялось: его числа мог записать кто угодно. Всё, что приведено ниже, не имеет силы, \
-             пока паспорт не проверен."
+        en: "The origin of the passport has not been verified, and its numbers may be wrong. The results below are not \
+             valid until the passport has been verified.",
+        ru: "Подлинность паспорта не проверена, его данные могут быть недостоверны. Приведённые ниже результаты \
+             недействительны, пока паспорт не проверен."
     }
-    DOES_NOT_FIT { en: "The readings do not fit this stand", ru: "Показания не согласуются с этим стендом" }
+    DOES_NOT_FIT {
+        en: "The readings are not consistent with this stand",
+        ru: "Показания не согласуются с\u{a0}этим стендом"
+    }
     DOES_NOT_FIT_WORDS {
-        en: "Until that is explained, the parameters mean nothing.",
-        ru: "Пока это не объяснено, найденные параметры не имеют смысла."
+        en: "The parameters are not valid until the cause has been found.",
+        ru: "До выяснения причины найденные параметры недействительны."
     }
-    CONFORMS { en: "Within the tolerance of the type {type}", ru: "Соответствует допускам типа {type}" }
-    CONFORMS_NOT { en: "NOT within the tolerance of the type {type}", ru: "НЕ соответствует допускам типа {type}" }
-    UNDECIDED { en: "Not decided: conformity to the type {type}", ru: "Не решено: соответствие типу {type}" }
+    CONFORMS { en: "Within the tolerance of gyro type {type}", ru: "Соответствует допускам типа {type}" }
+    CONFORMS_NOT { en: "NOT within the tolerance of gyro type {type}", ru: "НЕ соответствует допускам типа {type}" }
+    UNDECIDED { en: "Conformity with gyro type {type} is undecided", ru: "Соответствие типу {type} не определено" }
     RULE {
-        en: "Guarded acceptance, with an expanded uncertainty U = 2u for a guard band (JCGM 106, 8.3).",
-        ru: "Решение с защитной полосой, равной расширенной неопределённости U = 2u (JCGM 106, 8.3)."
+        en: "Decision rule: guarded acceptance with a guard band equal to the expanded uncertainty U\u{a0}=\u{a0}2u \
+             (JCGM\u{a0}106, 8.3).",
+        ru: "Правило принятия решения: приёмка с защитной полосой, равной расширенной неопределённости \
+             U\u{a0}=\u{a0}2u (JCGM\u{a0}106, 8.3)."
     }
-    NO_TYPE { en: "Parameters found", ru: "Параметры найдены" }
+    NO_TYPE { en: "Parameters determined", ru: "Параметры определены" }
     NO_TYPE_WORDS {
-        en: "No type of gyro was named: nothing is said of conformity.",
-        ru: "Тип гироскопа не указан: о соответствии ничего не утверждается."
+        en: "No gyro type was specified; this report makes no statement of conformity.",
+        ru: "Тип гироскопа не указан; заключение о соответствии не приводится."
     }
     MISTAKE { en: "These are not the parameters of this gyro", ru: "Это не параметры данного гироскопа" }
     MISTAKE_CURRENTS {
-        en: "The readings fit, but the parameters are not those of this gyro. One mistake explains it: {causes}. Check the cables of \
-             the torquers, the signs and the unit of the currents, and calibrate again.",
-        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: {causes}. Следует \
-             проверить кабели датчиков момента, знаки и единицу токов и повторить калибровку."
+        en: "The readings fit, but the parameters do not match this gyro. One error explains this: {causes}. Check the \
+             torquer cables and the signs and unit of the currents; then calibrate again.",
+        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
+             {causes}. Следует проверить кабели датчиков момента, знаки и единицу токов и повторить калибровку."
     }
     MISTAKE_PLACE {
-        en: "The readings fit, but the parameters are not those of this gyro. One mistake explains it: the passport is for another \
-             place, and the stand is at a latitude of about {latitude}°. Check where the stand is, and calibrate again with the \
-             passport for that place.",
-        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: паспорт выдан для \
-             другого места, а стенд находится на широте около {latitude}°. Следует проверить место установки стенда и повторить \
-             калибровку по паспорту для этого места."
+        en: "The readings fit, but the parameters do not match this gyro. One error explains this: the passport is for \
+             another site, and the stand is at a latitude of about {latitude}°. Check the location of the stand; then \
+             calibrate again with the passport for that site.",
+        ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
+             паспорт выдан для другого места установки, а стенд находится на широте около {latitude}°. Следует \
+             проверить место установки стенда и повторить калибровку по паспорту для этого места."
     }
     MISTAKE_AND { en: "and", ru: "и" }
-    MISTAKE_EXCHANGED { en: "the columns of x and y are exchanged", ru: "столбцы x и y переставлены" }
-    MISTAKE_X_REVERSED { en: "the sign of the column of x is reversed", ru: "знак столбца x изменён" }
-    MISTAKE_Y_REVERSED { en: "the sign of the column of y is reversed", ru: "знак столбца y изменён" }
+    MISTAKE_EXCHANGED { en: "the x and y columns are exchanged", ru: "столбцы x и y переставлены" }
+    MISTAKE_X_REVERSED { en: "the sign of the x column is reversed", ru: "знак столбца x изменён" }
+    MISTAKE_Y_REVERSED { en: "the sign of the y column is reversed", ru: "знак столбца y изменён" }
     MISTAKE_REVERSED { en: "the signs of both columns are reversed", ru: "знаки обоих столбцов изменены" }
     MISTAKE_MICROAMPERES {
         en: "the currents are in microamperes instead of milliamperes",
         ru: "токи указаны в микроамперах, а не в миллиамперах"
     }
-    MISTAKE_TOO_LARGE { en: "every current is {factor} times too large", ru: "все токи завышены в {factor} раз" }
-    MISTAKE_TOO_SMALL { en: "every current is {factor} times too small", ru: "все токи занижены в {factor} раз" }
+    MISTAKE_TOO_LARGE {
+        en: "all currents are too large by a factor of {factor}",
+        ru: "все токи завышены в {factor} раз"
+    }
+    MISTAKE_TOO_SMALL {
+        en: "all currents are too small by a factor of {factor}",
+        ru: "все токи занижены в {factor} раз"
+    }
 
-    SUBJECT { en: "What was calibrated, where, and with what", ru: "Что, где и по чему калибровалось" }
+    SUBJECT { en: "Object, place and equipment of the calibration", ru: "Объект, место и\u{a0}средства калибровки" }
     TYPE { en: "Type", ru: "Тип" }
     SERIAL { en: "Serial number of the gyro", ru: "Заводской номер гироскопа" }
     CUSTOMER { en: "Customer", ru: "Заказчик" }
     CONDITION { en: "Condition of the gyro", ru: "Состояние гироскопа" }
     RECEIVED { en: "Gyro received", ru: "Дата поступления" }
     MEASURED { en: "Date of the readings", ru: "Дата измерений" }
-    REPORT_NUMBER { en: "Number of this report", ru: "Номер отчёта" }
-    PROCEDURE { en: "Procedure, departures from it", ru: "Методика и отступления от неё" }
+    REPORT_NUMBER { en: "Report number", ru: "Номер отчёта" }
+    PROCEDURE { en: "Procedure and deviations from it", ru: "Методика и\u{a0}отступления от неё" }
     STAND { en: "Stand", ru: "Стенд" }
-    SITE { en: "Site", ru: "Место" }
-    TIME { en: "As of", ru: "По состоянию на" }
-    CURRENTS { en: "File of the currents", ru: "Файл токов" }
-    CURRENTS_SHA256 { en: "SHA-256 of the currents", ru: "SHA-256 файла токов" }
-    PASSPORT { en: "The stand's passport", ru: "Паспорт стенда" }
+    SITE { en: "Site", ru: "Место установки" }
+    TIME { en: "Verified as of", ru: "Проверен по состоянию на" }
+    CURRENTS { en: "File of currents", ru: "Файл токов" }
+    CURRENTS_SHA256 { en: "SHA-256 of the file of currents", ru: "SHA-256 файла токов" }
+    PASSPORT { en: "Passport of the stand", ru: "Паспорт стенда" }
     PASSPORT_SHA256 { en: "SHA-256 of the passport", ru: "SHA-256 паспорта" }
-    LABORATORY { en: "The laboratory", ru: "Лаборатория" }
+    LABORATORY { en: "Laboratory", ru: "Лаборатория" }
     LABORATORY_NAME { en: "Laboratory", ru: "Лаборатория" }
     METER_ASSUMED {
-        en: "No laboratory stated its meter: one of ±0.015 % of a reading, uniformly distributed, is assumed, and nothing else.",
-        ru: "Лаборатория не указала свой измеритель: принят измеритель с погрешностью ±0,015 % показания, распределённой \
-             равномерно, и ничего более."
+        en: "No laboratory file states the current meter. This report assumes a meter with an error uniformly \
+             distributed within ±0.015\u{a0}% of the reading, and no other uncertainty of the laboratory.",
+        ru: "Измеритель тока лаборатории не указан: принята погрешность ±0,015\u{a0}% показания, распределённая \
+             равномерно; другие составляющие неопределённости лаборатории не учтены."
     }
     TEMPERATURE { en: "Temperature", ru: "Температура" }
     TEMPERATURE_OUTSIDE {
-        en: "The laboratory is at {here} °C; the deviations of the stand are certified for {low} to {high} °C.",
-        ru: "В лаборатории {here} °C; отклонения стенда аттестованы для {low}–{high} °C."
+        en: "The temperature in the laboratory is {here}\u{a0}°C; the deviations of the stand are certified from \
+             {low}\u{a0}°C to {high}\u{a0}°C.",
+        ru: "Температура в лаборатории {here}\u{a0}°C; отклонения стенда аттестованы при температуре от {low} до \
+             {high}\u{a0}°C."
     }
-    GRAVITY { en: "Local gravity, the g of the drifts", ru: "Местное ускорение свободного падения, g составляющих дрейфа" }
+    GRAVITY {
+        en: "Local gravity (the g of the drifts)",
+        ru: "Местное ускорение свободного падения (g, к\u{a0}которому отнесены составляющие дрейфа)"
+    }
 
     PARAMETERS { en: "Parameters", ru: "Параметры" }
     PARAMETERS_CAPTION {
-        en: "Values, and beneath each its standard uncertainty u (k = 1); drifts per local g",
-        ru: "Значения и под ними стандартная неопределённость u (k = 1); составляющие дрейфа отнесены к местному g"
+        en: "Values, each with its standard uncertainty u (k\u{a0}=\u{a0}1) below it; drifts refer to local g",
+        ru: "Значения и под ними стандартная неопределённость u (k\u{a0}=\u{a0}1); составляющие дрейфа отнесены к \
+             местному g"
     }
-    LEAST_SQUARES { en: "least squares: the answer", ru: "метод наименьших квадратов: ответ" }
+    LEAST_SQUARES {
+        en: "weighted least squares (adopted result)",
+        ru: "метод наименьших квадратов (принятый результат)"
+    }
     LEAST_SQUARES_NAME { en: "least squares", ru: "метод наименьших квадратов" }
     ANALYTIC { en: "analytic method", ru: "аналитический метод" }
-    ITERATIVE { en: "successive approximation", ru: "последовательные приближения" }
-    OFF_BY { en: "off by, in its own u", ru: "отличие в его собственных u" }
+    ITERATIVE { en: "iterative method", ru: "итерационный метод" }
+    OFF_BY { en: "difference from least squares, in its u", ru: "отличие от МНК в единицах его u" }
     OFF_BY_NOTE {
-        en: "Off by: the difference from least squares in units of that difference's own standard uncertainty; both methods see \
-             the same errors.",
-        ru: "Отличие: разность с методом наименьших квадратов в единицах её собственной стандартной неопределённости; на оба \
-             метода действуют одни и те же погрешности."
+        en: "Difference from least squares: in units of the standard uncertainty of that difference. The same input \
+             errors act on both methods.",
+        ru: "Отличие: разность с методом наименьших квадратов (МНК) в единицах стандартной неопределённости этой \
+             разности; на оба метода действуют одни и те же погрешности."
     }
     ANISOELASTICITY { en: "Anisoelastic coefficient", ru: "Коэффициент неравножёсткости" }
-    ITERATION { en: "Successive approximation", ru: "Последовательные приближения" }
+    ITERATION { en: "Iterative method", ru: "Итерационный метод" }
     SPECTRAL_RADIUS { en: "Spectral radius", ru: "Спектральный радиус" }
-    STEPS { en: "Steps taken", ru: "Выполнено шагов" }
-    STEPS_PREDICTED { en: "Steps predicted", ru: "Предсказано шагов" }
-    STEPS_OVER { en: "over {most}", ru: "более {most}" }
-    REMAINDER_K { en: "Still missing in K, at most", ru: "Недостаёт в K, не более" }
-    REMAINDER_OMEGA { en: "Still missing in the drifts per g, at most", ru: "Недостаёт в составляющих от g, не более" }
-    NO_RESULT { en: "No result by this method: {method}.", ru: "Этим методом результата нет: {method}." }
+    STEPS { en: "Number of steps", ru: "Число шагов" }
+    STEPS_PREDICTED { en: "Predicted number of steps", ru: "Предсказанное число шагов" }
+    STEPS_OVER { en: "more than {most}", ru: "более {most}" }
+    REMAINDER_K { en: "Remaining error of K, at most", ru: "Остаточная погрешность K, не более" }
+    REMAINDER_OMEGA {
+        en: "Remaining error of the g-sensitive drifts, at most",
+        ru: "Остаточная погрешность составляющих дрейфа, зависящих от g, не более"
+    }
+    NO_RESULT { en: "No result by this method: {method}.", ru: "Результат этим методом не получен: {method}." }
     CONVERGENCE_CAPTION {
-        en: "Convergence: the change that each step made, over the limit below which it stops",
-        ru: "Сходимость: изменение на каждом шаге, отнесённое к пределу, ниже которого процесс останавливается"
+        en: "Convergence: change in each step, relative to the limit at which the iteration stops",
+        ru: "Сходимость: изменение на каждом шаге относительно предела, при котором итерации прекращаются"
     }
 
-    CONFORMITY { en: "Against the type {type}", ru: "Сравнение с типом {type}" }
+    CONFORMITY { en: "Comparison with gyro type {type}", ru: "Сравнение с\u{a0}типом {type}" }
     VERDICT_CAPTION {
-        en: "Deviation from the nominal value with expanded uncertainty U = 2u; values of the drifts at the type's g",
-        ru: "Отклонение от номинального значения с расширенной неопределённостью U = 2u; значения составляющих дрейфа при g типа"
+        en: "Deviation from the nominal value, with expanded uncertainty U\u{a0}=\u{a0}2u; drifts refer to the g of \
+             the type",
+        ru: "Отклонение от номинального значения с расширенной неопределённостью U\u{a0}=\u{a0}2u; составляющие дрейфа \
+             отнесены к g, указанному для типа"
     }
-    CHANGE { en: "Change since the earlier calibration", ru: "Изменение с прежней калибровки" }
+    CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
     CHANGE_CAPTION {
-        en: "Change with expanded uncertainty U = 2u, against the same tolerance, which is one of instability; values of the drifts at \
-             the type's g",
-        ru: "Изменение с расширенной неопределённостью U = 2u в сравнении с тем же допуском, то есть с нестабильностью; значения \
-             составляющих дрейфа при g типа"
+        en: "Change with expanded uncertainty U\u{a0}=\u{a0}2u, compared with the same tolerance, which limits the \
+             instability; drifts refer to the g of the type",
+        ru: "Изменение с расширенной неопределённостью U\u{a0}=\u{a0}2u в сравнении с тем же допуском (допуск на \
+             нестабильность); составляющие дрейфа отнесены к g, указанному для типа"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     UNIT { en: "Unit", ru: "Единица" }
     NOMINAL { en: "Nominal", ru: "Номинальное значение" }
-    EARLIER { en: "Earlier", ru: "Прежнее значение" }
-    FOUND { en: "Found", ru: "Найденное значение" }
+    EARLIER { en: "Previous", ru: "Предыдущее значение" }
+    FOUND { en: "Result", ru: "Полученное значение" }
     FROM_GRAVITY {
-        en: "Of U, {gravity} in {parameter} comes from the local g, whose uncertainty is {u}. Gravity measured, or the height of the \
-             site in its file, makes it smaller.",
-        ru: "Из U для {parameter} на местное g, неопределённость которого {u}, приходится {gravity}. Измеренное ускорение свободного \
-             падения или высота места в его файле уменьшат эту составляющую."
+        en: "Local gravity, with an uncertainty of {u}, contributes {gravity} to U of {parameter}. To reduce this, \
+             measure gravity or state the height in the site file.",
+        ru: "Вклад местного g, неопределённость которого {u}, в U параметра {parameter} составляет {gravity}. Для его \
+             уменьшения следует измерить ускорение свободного падения или указать высоту в файле места установки."
     }
     DEVIATION { en: "Deviation", ru: "Отклонение" }
     CHANGED_BY { en: "Change", ru: "Изменение" }
     TOLERANCE { en: "Tolerance", ru: "Допуск" }
     EXPANDED_SHORT { en: "U", ru: "U" }
-    SIMPLE { en: "Simple", ru: "Без полосы" }
-    GUARDED { en: "Guarded", ru: "С полосой" }
-    RISK { en: "Risk", ru: "Риск" }
+    SIMPLE { en: "Simple acceptance", ru: "Простая приёмка" }
+    GUARDED { en: "Guarded acceptance", ru: "С\u{a0}защитной полосой" }
+    RISK { en: "Specific risk", ru: "Риск" }
     RISK_NOTE {
-        en: "Simple: without a guard band. Guarded: what cannot be decided with this uncertainty is undecided. Risk: probability \
-             that the simple decision is wrong.",
-        ru: "Без полосы: решение без учёта неопределённости. С полосой: чего нельзя решить при этой неопределённости, то не \
-             определено. Риск: вероятность того, что решение без полосы ошибочно."
+        en: "Simple acceptance: no guard band. Guarded acceptance: undecided where the uncertainty does not permit a \
+             decision. Specific risk: probability that the decision by simple acceptance is wrong.",
+        ru: "Простая приёмка: без учёта неопределённости. Приёмка с защитной полосой: решение не определено, если \
+             неопределённость не позволяет его принять. Риск: вероятность того, что решение при простой приёмке \
+             ошибочно."
     }
     BELOW { en: "< {limit}", ru: "< {limit}" }
-    TOLERANCES { en: "Parameters against their tolerance", ru: "Параметры в сравнении с допусками" }
-    TOLERANCES_CAPTION { en: "Each deviation as a share of its tolerance", ru: "Отклонения в долях допуска" }
-    CHANGES_CAPTION { en: "Changes against the tolerance", ru: "Изменения в сравнении с допусками" }
+    TOLERANCES { en: "Parameters relative to their tolerances", ru: "Параметры в\u{a0}сравнении с\u{a0}допусками" }
+    TOLERANCES_CAPTION { en: "Deviations as fractions of their tolerances", ru: "Отклонения в\u{a0}долях допуска" }
+    CHANGES_CAPTION { en: "Changes relative to the tolerances", ru: "Изменения в\u{a0}сравнении с\u{a0}допусками" }
 
-    FIT { en: "The fit", ru: "Согласие показаний" }
+    FIT { en: "Goodness of fit", ru: "Согласие показаний с\u{a0}моделью" }
     CHI_SQUARE { en: "Chi-square", ru: "Хи-квадрат" }
     FREEDOM { en: "Degrees of freedom", ru: "Число степеней свободы" }
     PROBABILITY { en: "Probability of a larger value", ru: "Вероятность большего значения" }
     NOT_JUDGED {
-        en: "The fit cannot be judged: there are as many unknowns as readings, so any readings would fit.",
-        ru: "Согласие оценить нельзя: число неизвестных равно числу показаний, и им соответствуют любые показания."
+        en: "The fit cannot be tested: there are as many unknowns as readings, so any readings would fit.",
+        ru: "Согласие проверить нельзя: число неизвестных равно числу показаний, и модели соответствуют любые \
+             показания."
     }
     OF_UNCERTAINTIES {
-        en: "Degrees of freedom of the uncertainties, taken into account",
-        ru: "Число степеней свободы неопределённостей, учтено"
+        en: "Degrees of freedom of the input uncertainties (taken into account)",
+        ru: "Число степеней свободы исходных неопределённостей (учтено)"
     }
-    SCATTER { en: "Scatter of the visits of a position, chi-square", ru: "Рассеяние установок в положение, хи-квадрат" }
-    ROW_SCATTER { en: "Scatter of the readings of a visit, chi-square", ru: "Рассеяние показаний одной установки, хи-квадрат" }
+    SCATTER {
+        en: "Variation between visits to a position, chi-square",
+        ru: "Рассеяние между установками в\u{a0}положение, хи-квадрат"
+    }
+    ROW_SCATTER {
+        en: "Variation between readings of a visit, chi-square",
+        ru: "Рассеяние показаний одной установки, хи-квадрат"
+    }
     ROW_DEVIATION {
         en: "Standard deviation of a reading within a visit",
-        ru: "Стандартное отклонение показания в одной установке"
+        ru: "Стандартное отклонение показания в\u{a0}одной установке"
     }
-    ENLARGED { en: "Variance enlarged, times", ru: "Дисперсия увеличена, раз" }
+    ENLARGED { en: "Factor applied to the variance", ru: "Коэффициент увеличения дисперсии" }
     LESS_THAN_STATED {
-        en: "This is less scatter than stated. Readings taken without leaving the position belong to one visit.",
-        ru: "Рассеяние меньше указанного. Показания, снятые без ухода из положения, — одна установка."
+        en: "The variation is less than stated. Readings taken without leaving the position belong to one visit.",
+        ru: "Рассеяние меньше указанного. Показания, снятые без выхода из положения, относятся к одной установке."
     }
     RESIDUALS_CAPTION {
-        en: "Residuals of the equations with their standard uncertainty",
-        ru: "Остатки уравнений и их стандартная неопределённость"
+        en: "Residuals of the equations and their standard uncertainties",
+        ru: "Остатки уравнений и\u{a0}их стандартные неопределённости"
     }
-    RESIDUALS_FIGURE { en: "Residuals within their limits", ru: "Остатки и их границы" }
-    HINT { en: "What may be wrong", ru: "В чём может быть причина" }
+    RESIDUALS_FIGURE { en: "Residuals and their limits", ru: "Остатки и\u{a0}их границы" }
+    HINT { en: "Possible causes", ru: "Возможные причины" }
     HINT_EXCHANGED {
         en: "The readings of positions {one} and {other} may be exchanged.",
         ru: "Возможно, показания в положениях {one} и {other} переставлены."
     }
     HINT_DID_NOT_REPEAT {
-        en: "Position {index} may not have repeated: by {angle}″ if it was the angle, by {jx} µA along x and {jy} µA along y if it \
-             was the currents.",
-        ru: "Возможно, положение {index} не повторилось: на {angle}″, если дело в угле, на {jx} мкА по x и {jy} мкА по y, если дело \
-             в токах."
+        en: "Position {index} may not have repeated: by {angle}″ if the angle changed, or by {jx}\u{a0}µA along x and \
+             {jy}\u{a0}µA along y if the currents are wrong.",
+        ru: "Возможно, положение {index} не воспроизведено: на {angle}″, если изменился угол, или на {jx}\u{a0}мкА по \
+             x и {jy}\u{a0}мкА по y, если неверны токи."
     }
     HINT_NOTHING {
-        en: "No single position and no exchange of two explains it: is it the passport of another stand? (All positions are out by \
-             some {size}″.) Or did the gyro drift, or the stand move, during the run?",
-        ru: "Ни одно положение и ни одна перестановка двух этого не объясняют: не от другого ли стенда паспорт? (Все положения \
-             отличаются примерно на {size}″.) Или гироскоп дрейфовал либо стенд сместился во время измерений?"
+        en: "No single position and no exchange of two positions explains this. The passport may be that of another \
+             stand (all positions differ by about {size}″), or the gyro may have drifted, or the stand may have moved, \
+             during the run.",
+        ru: "Отклонение одного положения или перестановка двух положений этого не объясняют. Возможные причины: \
+             паспорт относится к другому стенду (все положения отличаются примерно на {size}″), дрейф гироскопа или \
+             смещение стенда во время измерений."
     }
 
-    BLIND { en: "What the fit cannot see", ru: "Чего согласие не показывает" }
+    BLIND { en: "Errors that the residuals do not show", ru: "Погрешности, не выявляемые по остаткам" }
     CANNOT_TELL {
-        en: "A good fit proves less than it seems. These leave no residuals at all, and change the result: the passport of another \
-             place (latitude), a base tilted about east, a gyro turned in its seat about the spin axis, the meter's gain and \
-             offset, x and y exchanged, one sign reversed; a base turned in azimuth leaves almost none. What can tell: the serial \
-             number of the stand and the place of the passport, the specification of the gyro, and its earlier calibration.",
-        ru: "Хорошее согласие доказывает меньше, чем кажется. Совсем не оставляют остатков, но меняют результат: паспорт для другого \
-             места (широта), наклон основания вокруг направления на восток, поворот гироскопа на платформе вокруг оси собственного \
-             вращения, погрешности усиления и нуля измерителя, перестановка x и y, ошибка одного знака; поворот основания по \
-             азимуту почти не оставляет их. Выявить это могут: номер стенда и место паспорта, технические условия гироскопа и его \
-             прежняя калибровка."
+        en: "Small residuals do not exclude all errors. The following leave no residuals but change the result: the \
+             passport of another site (latitude), a base tilted about east, a gyro rotated in its seat about the spin \
+             axis, the gain and offset of the meter, x and y exchanged, one sign reversed. A base rotated in azimuth \
+             leaves almost no residuals. To detect these errors, check the serial number of the stand, the site of the \
+             passport, the specification of the gyro and its previous calibration.",
+        ru: "Малые остатки не исключают погрешностей. Не проявляются в остатках, но изменяют результат: паспорт для \
+             другого места установки (широта), наклон основания вокруг направления на восток, поворот гироскопа на \
+             посадочной поверхности вокруг оси собственного вращения, погрешности коэффициента преобразования и \
+             смещения нуля измерителя, перестановка x и y, ошибка одного знака. Поворот основания по азимуту почти не \
+             проявляется в остатках. Для выявления этих погрешностей проверяют номер стенда, место установки по \
+             паспорту, технические условия на гироскоп и результаты его предыдущей калибровки."
     }
     NOT_STATED {
-        en: "Not stated by anybody, and so missing from every uncertainty:",
-        ru: "Никем не указано и потому не вошло ни в одну неопределённость:"
+        en: "Not stated, and not included in any uncertainty:",
+        ru: "Не указано и\u{a0}не учтено в\u{a0}неопределённости:"
     }
-    ALL_STATED { en: "Every uncertainty that counts is stated.", ru: "Все учитываемые неопределённости указаны." }
-    NOT_STATED_ANGLES { en: "the certified angles", ru: "аттестованные углы" }
-    NOT_STATED_RETURN { en: "the return to a position", ru: "возвращение в положение" }
-    NOT_STATED_PLATFORM { en: "the part shared on the platform", ru: "общая составляющая платформы" }
-    NOT_STATED_BASE { en: "the part shared on the stand's base", ru: "общая составляющая основания стенда" }
-    NOT_STATED_LATITUDE { en: "the latitude", ru: "широта" }
-    NOT_STATED_DEFLECTION { en: "the deflection of the vertical", ru: "уклонение отвесной линии" }
-    NOT_STATED_MARK { en: "the azimuth of the mark", ru: "азимут ориентирного пункта" }
+    ALL_STATED { en: "All relevant uncertainties are stated.", ru: "Все учитываемые неопределённости указаны." }
+    NOT_STATED_ANGLES { en: "certified angles", ru: "аттестованные углы" }
+    NOT_STATED_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
+    NOT_STATED_PLATFORM { en: "common part of the platform", ru: "общая составляющая платформы" }
+    NOT_STATED_BASE { en: "common part of the base of the stand", ru: "общая составляющая основания стенда" }
+    NOT_STATED_LATITUDE { en: "latitude", ru: "широта" }
+    NOT_STATED_DEFLECTION { en: "deflection of the vertical", ru: "уклонение отвесной линии" }
+    NOT_STATED_MARK { en: "azimuth of the mark", ru: "азимут ориентирного пункта" }
     NOT_STATED_GRAVITY { en: "gravity", ru: "ускорение свободного падения" }
-    NOT_STATED_AZIMUTH { en: "the azimuth of the base", ru: "азимут основания" }
-    NOT_STATED_LEVEL { en: "the level of the base", ru: "горизонтирование основания" }
-    NOT_STATED_SEAT { en: "the gyro's seat", ru: "посадка гироскопа" }
+    NOT_STATED_AZIMUTH { en: "azimuth of the base", ru: "азимут основания" }
+    NOT_STATED_LEVEL { en: "level of the base", ru: "горизонтирование основания" }
+    NOT_STATED_SEAT { en: "gyro seat", ru: "установка гироскопа на посадочную поверхность" }
 
     BUDGET { en: "Uncertainty budget", ru: "Бюджет неопределённости" }
     BUDGET_CAPTION {
-        en: "What each kind of input contributes to the standard uncertainty of each parameter",
-        ru: "Вклад каждого вида входных величин в стандартную неопределённость каждого параметра"
+        en: "Contributions of the inputs, by kind, to the standard uncertainty of each parameter",
+        ru: "Вклады входных величин по видам в\u{a0}стандартную неопределённость каждого параметра"
     }
     BUDGET_WORST {
-        en: "Known least well for its tolerance is {parameter}: u = {u}.",
-        ru: "Наименее точно по отношению к допуску известен параметр {parameter}: u = {u}."
+        en: "Largest uncertainty relative to tolerance: {parameter}, u\u{a0}=\u{a0}{u}.",
+        ru: "Наибольшая неопределённость относительно допуска: {parameter}, u\u{a0}=\u{a0}{u}."
     }
     BUDGET_WORST_OF_SIZE {
-        en: "Known least well for its size is {parameter}: u = {u}.",
-        ru: "Наименее точно по отношению к своему значению известен параметр {parameter}: u = {u}."
+        en: "Largest uncertainty relative to the value: {parameter}, u\u{a0}=\u{a0}{u}.",
+        ru: "Наибольшая неопределённость относительно значения: {parameter}, u\u{a0}=\u{a0}{u}."
     }
     BUDGET_NEARLY_ALL {
-        en: "Nearly all of its variance, {share} %, comes from one source: {source}.",
-        ru: "Почти всю его дисперсию, {share} %, даёт один источник: {source}."
+        en: "One source contributes nearly all of its variance ({share}\u{a0}%): {source}.",
+        ru: "Почти всю дисперсию ({share}\u{a0}%) даёт один источник: {source}."
     }
     BUDGET_MOST {
-        en: "Of its variance, {share} % come from one source: {source}.",
-        ru: "{share} % его дисперсии даёт один источник: {source}."
+        en: "One source contributes {share}\u{a0}% of its variance: {source}.",
+        ru: "Один источник даёт {share}\u{a0}% дисперсии: {source}."
     }
     BUDGET_LARGEST {
-        en: "The largest part of its variance, {share} %, comes from one source: {source}.",
-        ru: "Наибольшую часть его дисперсии, {share} %, даёт один источник: {source}."
+        en: "The source with the largest share of its variance ({share}\u{a0}%): {source}.",
+        ru: "Источник с наибольшей долей дисперсии ({share}\u{a0}%): {source}."
     }
     BUDGET_HALVES {
-        en: "To halve u, the uncertainty of that source has to be {limit} at most.",
-        ru: "Чтобы u уменьшилась вдвое, неопределённость этого источника не должна превышать {limit}."
+        en: "To halve u, reduce the uncertainty of this source to {limit} or less.",
+        ru: "Для уменьшения u вдвое неопределённость этого источника не должна превышать {limit}."
     }
-    BUDGET_LEAVES { en: "Without it, u would still be {rest}.", ru: "Без него u всё ещё составляла бы {rest}." }
+    BUDGET_LEAVES { en: "Without this source, u would be {rest}.", ru: "Без этого источника u составила бы {rest}." }
     COMBINED { en: "combined, u", ru: "суммарная, u" }
     EFFECTIVE_FREEDOM { en: "effective degrees of freedom", ru: "эффективное число степеней свободы" }
     EXPANDED { en: "expanded, U for 95\u{a0}%", ru: "расширенная, U для 95\u{a0}%" }
     INPUT { en: "{input}: u\u{a0}=\u{a0}{u}", ru: "{input}: u\u{a0}=\u{a0}{u}" }
     CAUSE_ANGLE { en: "certified angles", ru: "аттестованные углы" }
-    CAUSE_RETURN { en: "returns to the positions", ru: "возвращения в положения" }
+    CAUSE_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
     CAUSE_READING { en: "meter, specification", ru: "измеритель, погрешность показания" }
     CAUSE_FLOOR { en: "meter, floor", ru: "измеритель, постоянная часть" }
     CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
     CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа вокруг {axis}" }
-    CAUSE_SEAT { en: "seat about {axis}", ru: "посадка вокруг {axis}" }
-    CAUSE_BASE { en: "stand's base about {axis}", ru: "основание стенда вокруг {axis}" }
-    CAUSE_LEVEL { en: "level about {axis}", ru: "горизонт вокруг {axis}" }
+    CAUSE_SEAT { en: "gyro seat about {axis}", ru: "посадочная поверхность вокруг {axis}" }
+    CAUSE_BASE { en: "base of the stand about {axis}", ru: "основание стенда вокруг {axis}" }
+    CAUSE_LEVEL { en: "level of the base about {axis}", ru: "наклон основания вокруг {axis}" }
     CAUSE_AZIMUTH { en: "azimuth of the base", ru: "азимут основания" }
     CAUSE_MARK { en: "azimuth of the mark", ru: "азимут ориентирного пункта" }
     CAUSE_LATITUDE { en: "latitude", ru: "широта" }
     CAUSE_DEFLECTION { en: "deflection of the vertical", ru: "уклонение отвесной линии" }
-    CAUSE_GAIN { en: "meter, gain", ru: "измеритель, усиление" }
+    CAUSE_GAIN { en: "meter, gain", ru: "измеритель, коэффициент преобразования" }
     CAUSE_OFFSET { en: "meter, offset", ru: "измеритель, смещение нуля" }
 
-    MONTE_CARLO { en: "Monte Carlo", ru: "Метод Монте-Карло" }
+    MONTE_CARLO { en: "Monte Carlo method", ru: "Метод Монте-Карло" }
     MONTE_CARLO_CAPTION {
-        en: "{trials} trials, seed {seed}; symmetric intervals for 95 %",
-        ru: "Испытаний: {trials}, начальное число {seed}; симметричные интервалы для 95 %"
+        en: "{trials} trials, seed {seed}; probabilistically symmetric 95\u{a0}% coverage intervals",
+        ru: "Число испытаний {trials}, начальное число {seed}; вероятностно симметричные интервалы охвата для 95\u{a0}%"
     }
     MEAN { en: "mean", ru: "среднее" }
     LOWER { en: "lower end", ru: "нижняя граница" }
     UPPER { en: "upper end", ru: "верхняя граница" }
-    FIRST_ORDER { en: "first order valid", ru: "первый порядок годится" }
+    FIRST_ORDER { en: "linear approximation valid", ru: "линейное приближение применимо" }
     NOT_STABLE {
-        en: "Not every stated digit is stable yet: more trials would move some.",
-        ru: "Не все приведённые цифры установились: при большем числе испытаний некоторые изменятся."
+        en: "Not all stated digits are stable; more trials would change some of them.",
+        ru: "Не все приведённые цифры установились; при большем числе испытаний некоторые изменятся."
     }
 
     ONLY_THIS_ONE {
-        en: "The results relate only to the gyro named here. This report is to be reproduced in full only, unless the laboratory has \
-             agreed in writing.",
-        ru: "Результаты относятся только к указанному здесь гироскопу. Частичное воспроизведение отчёта без письменного согласия \
-             лаборатории не допускается."
+        en: "The results relate only to the gyro identified here. This report shall not be reproduced except in full \
+             without the written approval of the laboratory.",
+        ru: "Результаты относятся только к указанному здесь гироскопу. Частичное воспроизведение отчёта без \
+             письменного согласия лаборатории не допускается."
     }
     SIGNATURES { en: "Signatures", ru: "Подписи" }
     CALIBRATED_BY { en: "Calibrated by", ru: "Калибровку выполнил" }
     APPROVED_BY { en: "Approved by", ru: "Утвердил" }
-    POST_AND_NAME { en: "Post and name", ru: "Должность, фамилия" }
+    POST_AND_NAME { en: "Position and name", ru: "Должность, фамилия" }
     SIGNATURE { en: "Signature", ru: "Подпись" }
     DATE { en: "Date", ru: "Дата" }
-    STAMP { en: "Stamp", ru: "М. П." }
-    VALID_WHEN_SIGNED { en: "Counts only when signed by hand.", ru: "Действительно только с собственноручной подписью." }
+    STAMP { en: "Stamp", ru: "М.\u{a0}П." }
+    VALID_WHEN_SIGNED {
+        en: "Valid only with a handwritten signature.",
+        ru: "Действительно только с собственноручной подписью."
+    }
 
-    ANNEX { en: "Annex: the result for programs", ru: "Приложение: результат для программ" }
+    ANNEX { en: "Annex: machine-readable result", ru: "Приложение: машиночитаемый результат" }
     ANNEX_NOTE {
-        en: "What the program computed, every number in full. A later calibration compares itself with this file.",
-        ru: "Вычисленное программой, все числа полностью. С этим файлом сравнивается последующая калибровка."
+        en: "The result as computed by the program, with all digits. A later calibration can be compared with this \
+             file.",
+        ru: "Вычисленный программой результат, все числа приведены полностью. С\u{a0}этим файлом сравнивают результат \
+             последующей калибровки."
     }
     SAVE { en: "Save the result", ru: "Сохранить результат" }
 }

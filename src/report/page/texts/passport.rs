@@ -5,36 +5,36 @@ use super::texts;
 texts! {
     TITLE { en: "Passport of a test stand", ru: "Паспорт испытательного стенда" }
     SUBTITLE {
-        en: "Two-axis test stand for dynamically tuned gyros (DTG): certified deviations of its positions, and what a \
-             calibration at the place of delivery needs",
-        ru: "Двухосный поворотный стенд для динамически настраиваемых гироскопов (ДНГ): аттестованные отклонения положений \
-             и данные для калибровки в месте поставки"
+        en: "Two-axis test stand for dynamically tuned gyros (DTG): certified deviations of its positions, and data \
+             for calibrating gyros at the site",
+        ru: "Двухосный поворотный стенд для динамически настраиваемых гироскопов (ДНГ): аттестованные отклонения \
+             положений и данные для калибровки гироскопов в месте установки"
     }
     MARGIN_PASSPORT { en: "Passport {stand}/{site}, revision {revision}", ru: "Паспорт {stand}/{site}, редакция {revision}" }
     MARGIN_SHA256 { en: "SHA-256 of the signed file {sha256}", ru: "SHA-256 подписанного файла {sha256}" }
 
-    FRONT { en: "Identity and verification", ru: "Идентификация и проверка" }
+    FRONT { en: "Identity and verification", ru: "Идентификация и\u{a0}проверка" }
     ID { en: "Passport", ru: "Паспорт" }
     REVISION { en: "Revision", ru: "Редакция" }
     ISSUED { en: "Issued", ru: "Выдан" }
-    ISSUER { en: "Signed by", ru: "Кем подписан" }
-    KEY { en: "Fingerprint of the key", ru: "Отпечаток ключа" }
-    VALID_UNTIL { en: "Last day of validity", ru: "Последний день действия" }
-    ISSUED_WITH { en: "Written with", ru: "Программа" }
+    ISSUER { en: "Issuer", ru: "Выдавшая организация" }
+    KEY { en: "Key fingerprint", ru: "Отпечаток ключа" }
+    VALID_UNTIL { en: "Valid until (inclusive)", ru: "Действителен по (включительно)" }
+    ISSUED_WITH { en: "Program", ru: "Программа" }
     REISSUED_FROM { en: "Re-issued from", ru: "Выдан взамен" }
-    REISSUED_SHA256 { en: "SHA-256 of that file", ru: "SHA-256 прежнего файла" }
-    REISSUE_REASON { en: "Reason of the re-issue", ru: "Причина перевыпуска" }
-    REISSUE_CHANGED { en: "What changed", ru: "Что изменилось" }
-    REISSUE_SUPERSEDES { en: "The earlier one is superseded", ru: "Прежний паспорт заменён" }
+    REISSUED_SHA256 { en: "SHA-256 of the predecessor", ru: "SHA-256 прежнего паспорта" }
+    REISSUE_REASON { en: "Reason for re-issue", ru: "Причина перевыпуска" }
+    REISSUE_CHANGED { en: "Changes", ru: "Изменения" }
+    REISSUE_SUPERSEDES { en: "Supersedes the predecessor", ru: "Прежний паспорт заменён" }
     SHA256 { en: "SHA-256 of the signed file", ru: "SHA-256 подписанного файла" }
-    CODE { en: "Code with the SHA-256 of the signed file", ru: "Код с SHA-256 подписанного файла" }
+    CODE { en: "Code with the SHA-256 of the signed file", ru: "Код с\u{a0}SHA-256 подписанного файла" }
     PAPER_IS_NOT_SIGNED {
-        en: "This page shows a signed file; the page itself is not signed. What counts is the file, which stands in the annex \
-             to the letter. Compare its SHA-256 with the one here or in the code, and verify it with dtg-passport verify, or \
-             with ssh-keygen alone.",
-        ru: "Эта страница показывает подписанный файл; сама она не подписана. Силу имеет файл, он приведён в приложении \
-             дословно. Сравните его SHA-256 с указанной здесь или в коде и проверьте файл командой dtg-passport verify \
-             или одной ssh-keygen."
+        en: "This page shows a signed file; the page itself is not signed. Only the file is valid; it is reproduced \
+             verbatim in the annex. Compare its SHA-256 with the value here or in the code. To verify the file, use \
+             dtg-passport verify, or only ssh-keygen.",
+        ru: "Эта страница воспроизводит подписанный файл и сама не подписана. Силу имеет только файл, дословно \
+             приведённый в приложении. Его SHA-256 сравнивают с указанной здесь или в коде; файл проверяют командой \
+             dtg-passport verify или средствами ssh-keygen."
     }
 
     GENERAL { en: "General data", ru: "Основные сведения об изделии" }
@@ -45,26 +45,26 @@ texts! {
     CONFIGURATION { en: "Configuration", ru: "Исполнение" }
     NAME { en: "Name", ru: "Наименование" }
     CUSTOMER { en: "Customer", ru: "Заказчик" }
-    CERTIFICATE { en: "The certificate", ru: "Сертификат аттестации" }
+    CERTIFICATE { en: "Calibration certificate", ru: "Сертификат калибровки" }
     CERTIFICATE_NUMBER { en: "Number", ru: "Номер" }
-    CERTIFICATE_ISSUED { en: "Issued", ru: "Дата выдачи" }
-    PERFORMED { en: "Measured", ru: "Дата измерений" }
+    CERTIFICATE_ISSUED { en: "Date of issue", ru: "Дата выдачи" }
+    PERFORMED { en: "Date of measurement", ru: "Дата измерений" }
     RECEIVED { en: "Stand received", ru: "Дата поступления" }
-    CERTIFICATE_VALID_UNTIL { en: "Last day of validity", ru: "Последний день действия" }
-    VALID_UNTIL_BASIS { en: "By whose agreement", ru: "Основание срока" }
+    CERTIFICATE_VALID_UNTIL { en: "Valid until (inclusive)", ru: "Действителен по (включительно)" }
+    VALID_UNTIL_BASIS { en: "Basis of validity period", ru: "Основание срока действия" }
     LABORATORY { en: "Laboratory", ru: "Лаборатория" }
     ADDRESS { en: "Address", ru: "Адрес" }
     AUTHORISED_BY { en: "Authorised by", ru: "Утвердил" }
     ACCREDITATION { en: "Accreditation", ru: "Аккредитация" }
     METHOD { en: "Method", ru: "Методика" }
     TRACEABILITY { en: "Traceability", ru: "Прослеживаемость" }
-    TEMPERATURE { en: "Measured at", ru: "Температура измерений" }
-    TEMPERATURE_RANGE { en: "Valid at temperatures of", ru: "Температура применения" }
+    TEMPERATURE { en: "Temperature during measurement", ru: "Температура при измерениях" }
+    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Температура применения" }
     FROM_TO { en: "{low} to {high}", ru: "от {low} до {high}" }
     THIS_ITEM_ONLY {
-        en: "The results relate only to the stand named here. This passport is to be reproduced in full only, unless the \
-             laboratory has agreed in writing. It states no conformity with a specification, no opinion and no \
-             interpretation.",
+        en: "The results relate only to the stand identified here. This passport shall not be reproduced except in \
+             full without the written approval of the laboratory. It contains no statement of conformity, no opinion \
+             and no interpretation.",
         ru: "Результаты относятся только к указанному здесь стенду. Частичное воспроизведение паспорта без письменного \
              согласия лаборатории не допускается. Паспорт не содержит заключений о соответствии, мнений и толкований."
     }
@@ -72,168 +72,178 @@ texts! {
     CHARACTERISTICS { en: "Characteristics", ru: "Основные технические данные" }
     DEVIATIONS { en: "Certified deviations of the positions", ru: "Аттестованные отклонения положений" }
     DEVIATIONS_CAPTION {
-        en: "Nominal angles and certified deviations of the real orientation from them",
-        ru: "Номинальные углы и аттестованные отклонения действительной ориентации от них"
+        en: "Nominal angles, and certified deviations of the actual orientation from the nominal",
+        ru: "Номинальные углы и\u{a0}аттестованные отклонения реальной ориентации от номинальной"
     }
     DEVIATIONS_NOTE {
-        en: "Position (i, j): frame angle θ about ξ, then platform angle φ about the spin axis. α, β, γ turn coordinates from \
-             the nominal to the real platform, eq. (4). u: standard uncertainty (k = 1) of the certified mean, the position's \
-             own part; ν: its degrees of freedom. Uncertainties have two significant digits, values end at the same place.",
-        ru: "Положение (i, j): угол рамки θ вокруг ξ, затем угол платформы φ вокруг оси вращения ротора. α, β, γ поворачивают \
-             координаты от номинальной платформы к действительной, формула (4). u — стандартная неопределённость (k = 1) \
-             аттестованного среднего, собственная часть положения; ν — число её степеней свободы. Неопределённости имеют \
-             две значащие цифры, значения округлены до того же разряда."
+        en: "Position (i, j): frame angle θ about ξ, then platform angle φ about the spin axis. α, β, γ transform \
+             coordinates from the nominal to the actual platform, eq.\u{a0}(4). u: standard uncertainty \
+             (k\u{a0}=\u{a0}1) of the certified mean, own part of the position; ν: degrees of freedom of u. \
+             Uncertainties have two significant digits; values are rounded to the same decimal place.",
+        ru: "Положение (i, j): угол рамки θ вокруг ξ, затем угол платформы φ вокруг оси собственного вращения. α, β, γ \
+             преобразуют координаты от номинальной платформы к реальной, формула\u{a0}(4). u\u{a0}— стандартная \
+             неопределённость (k\u{a0}=\u{a0}1) аттестованного среднего, собственная составляющая положения; ν\u{a0}— \
+             число её степеней свободы. Неопределённости даны с двумя значащими цифрами, значения\u{a0}— до того же \
+             разряда."
     }
     FIGURE_POSITIONS {
-        en: "Figure 1. The stand in its positions (i, j), seen from south-south-east and above.",
+        en: "Figure 1. The stand in its positions (i, j), viewed from above and south-south-east.",
         ru: "Рисунок 1. Стенд в положениях (i, j), вид с юго-юго-востока и сверху."
     }
-    FIGURE_DEVIATIONS { en: "Figure 2. The certified deviations.", ru: "Рисунок 2. Аттестованные отклонения." }
+    FIGURE_DEVIATIONS { en: "Figure 2. Certified deviations.", ru: "Рисунок 2. Аттестованные отклонения." }
     COMMON {
-        en: "Uncertainty that all positions share (k = 1)",
-        ru: "Неопределённость, общая для всех положений (k = 1)"
+        en: "Uncertainty common to all positions (k\u{a0}=\u{a0}1)",
+        ru: "Неопределённость, общая для всех положений (k\u{a0}=\u{a0}1)"
     }
-    REPEATABILITY { en: "Repeatability of a return, per axis", ru: "Повторяемость, по каждой оси" }
-    REPEATABILITY_DOF { en: "Its degrees of freedom", ru: "Число её степеней свободы" }
-    COMMON_PLATFORM {
-        en: "Common, per axis of the platform",
-        ru: "Общая, по осям платформы"
+    REPEATABILITY { en: "Repeatability of positioning, per axis", ru: "Повторяемость (по осям)" }
+    REPEATABILITY_DOF { en: "Degrees of freedom of the repeatability", ru: "Число её степеней свободы" }
+    COMMON_PLATFORM { en: "Common part, per axis of the platform", ru: "Общая, по осям платформы" }
+    COMMON_BASE { en: "Common part, per axis of the base", ru: "Общая, по осям основания" }
+    TYPE_B_POSITION { en: "Type B, part of u(α), u(β), u(γ)", ru: "По типу B, в\u{a0}составе u(α), u(β), u(γ)" }
+    TYPE_B_PLATFORM {
+        en: "Type B, in the common part of the platform",
+        ru: "По типу B, в\u{a0}общей составляющей платформы"
     }
-    COMMON_BASE { en: "Common, per axis of the base", ru: "Общая, по осям основания" }
-    TYPE_B_POSITION { en: "Type B, part of u(α), u(β), u(γ)", ru: "По типу B, в составе u(α), u(β), u(γ)" }
-    TYPE_B_PLATFORM { en: "Type B, common part of the platform", ru: "По типу B, общая по платформе" }
-    TYPE_B_BASE { en: "Type B, common part of the base", ru: "По типу B, общая по основанию" }
-    EVIDENCE { en: "Runs measured, file of readings", ru: "Число серий, файл показаний" }
+    TYPE_B_BASE { en: "Type B, in the common part of the base", ru: "По типу B, в\u{a0}общей составляющей основания" }
+    EVIDENCE { en: "Number of runs, file of readings", ru: "Серии, файл показаний" }
     DATUM { en: "Datum surfaces", ru: "Базовые поверхности" }
-    DATUM_LEVEL { en: "To level", ru: "Горизонтируется" }
-    DATUM_AZIMUTH { en: "To point north", ru: "Направляется на север" }
-    DATUM_SEAT { en: "Seat of the gyro", ru: "Посадка гироскопа" }
+    DATUM_LEVEL { en: "Surface for levelling", ru: "Поверхность для горизонтирования" }
+    DATUM_AZIMUTH { en: "Surface for north alignment", ru: "Поверхность для ориентирования на север" }
+    DATUM_SEAT { en: "Gyro seat", ru: "Посадочная поверхность гироскопа" }
 
-    SITE { en: "Place of delivery", ru: "Место поставки" }
-    SITE_ID { en: "Site", ru: "Место" }
+    SITE { en: "Site (place of delivery)", ru: "Место установки (место поставки)" }
+    SITE_ID { en: "Identifier", ru: "Обозначение" }
     SITE_NAME { en: "Name", ru: "Наименование" }
     LATITUDE { en: "Geodetic latitude (WGS 84)", ru: "Геодезическая широта (WGS 84)" }
-    ASTRONOMIC_LATITUDE { en: "Astronomic latitude, as given", ru: "Астрономическая широта, заданная" }
+    ASTRONOMIC_LATITUDE { en: "Astronomic latitude, given", ru: "Астрономическая широта, заданная" }
     LONGITUDE { en: "Longitude, east", ru: "Долгота, восточная" }
     HEIGHT { en: "Height above the ellipsoid", ru: "Высота над эллипсоидом" }
     DEFLECTION { en: "Deflection of the vertical", ru: "Уклонение отвесной линии" }
     GRAVITY_MEASURED { en: "Gravity g, measured", ru: "Ускорение g, измеренное" }
     MARK { en: "Azimuth mark", ru: "Ориентирный пункт" }
-    MARK_POSITION { en: "Latitude, longitude of the mark", ru: "Широта, долгота пункта" }
-    PILLAR_POSITION { en: "Latitude, longitude of the pillar", ru: "Широта, долгота столба" }
+    MARK_POSITION { en: "Latitude and longitude of the mark", ru: "Широта и\u{a0}долгота пункта" }
+    PILLAR_POSITION { en: "Latitude and longitude of the pillar", ru: "Широта и\u{a0}долгота пилона" }
     POSITION_U { en: "u of each of these coordinates", ru: "u каждой из этих координат" }
     LATITUDE_U { en: "u of the latitude", ru: "u широты" }
-    AZIMUTH_U { en: "u of the base's azimuth", ru: "u азимута основания" }
-    LEVEL_U { en: "u of the base's level", ru: "u уровня основания" }
-    SOURCE { en: "Source of these numbers", ru: "Источник этих данных" }
-    EARTH { en: "The Earth at this place", ru: "Земля в этом месте" }
+    AZIMUTH_U { en: "u of the azimuth of the base", ru: "u азимута основания" }
+    LEVEL_U { en: "u of the level of the base", ru: "u горизонтирования основания" }
+    SOURCE { en: "Source of the data", ru: "Источник этих данных" }
+    EARTH { en: "Earth parameters at the site", ru: "Параметры Земли в\u{a0}месте установки" }
     EARTH_RATE { en: "Earth rate Ω", ru: "Угловая скорость Земли Ω" }
     EARTH_LATITUDE { en: "Astronomic latitude Φ", ru: "Астрономическая широта Φ" }
-    HORIZONTAL { en: "Horizontal part, Ω cos Φ", ru: "Горизонтальная составляющая, Ω cos Φ" }
-    VERTICAL { en: "Vertical part, Ω sin Φ", ru: "Вертикальная составляющая, Ω sin Φ" }
-    GRAVITY { en: "Gravity g of the drifts per g", ru: "Ускорение g для дрейфов" }
-    RADIUS { en: "Radius of validity", ru: "Радиус действия" }
-    RADIUS_WITHIN { en: "Change of the rates there", ru: "Изменение скоростей там" }
+    HORIZONTAL { en: "Horizontal component, Ω cos Φ", ru: "Горизонтальная составляющая, Ω cos Φ" }
+    VERTICAL { en: "Vertical component, Ω sin Φ", ru: "Вертикальная составляющая, Ω sin Φ" }
+    GRAVITY {
+        en: "Gravity g to which the drifts refer",
+        ru: "Ускорение g, к\u{a0}которому отнесены составляющие дрейфа"
+    }
+    RADIUS { en: "Validity radius", ru: "Радиус применимости" }
+    RADIUS_WITHIN {
+        en: "Change of the Earth-rate components at this radius",
+        ru: "Изменение угловых скоростей на границе"
+    }
     AZIMUTH { en: "Astronomic azimuth of the mark", ru: "Астрономический азимут пункта" }
 
-    FIGURE_RADIUS {
-        en: "Figure 3. Where the passport may be used.",
-        ru: "Рисунок 3. Где применим паспорт."
-    }
+    FIGURE_RADIUS { en: "Figure 3. Area of validity of the passport.", ru: "Рисунок 3. Область применимости паспорта." }
 
-    NUMBERS { en: "Data for the calibration", ru: "Данные для калибровки" }
+    NUMBERS { en: "Calibration data", ru: "Данные для калибровки" }
     MATRICES { en: "Matrices", ru: "Матрицы" }
     MATRICES_CAPTION {
-        en: "Matrices at this place, by rows; eq. (9) to (15)",
-        ru: "Матрицы для этого места, по строкам; формулы (9)–(15)"
+        en: "Matrices at the site, by rows; eq.\u{a0}(9) to\u{a0}(15)",
+        ru: "Матрицы для места установки, по строкам; формулы (9)–(15)"
     }
     MATRIX { en: "Matrix", ru: "Матрица" }
     UNIT { en: "Unit", ru: "Единица" }
     FORMULAS {
-        en: "With the differences of the currents as columns, the scale factors, the drifts that depend on g and the constant \
-             drift follow:",
-        ru: "По разностям токов, взятым столбцами, определяются масштабные коэффициенты, составляющие дрейфа, зависящие от g, \
-             и постоянные составляющие дрейфа:"
+        en: "With the differences of the currents as columns, the scale factors, the g-sensitive drifts and the \
+             constant drift are:",
+        ru: "Масштабные коэффициенты и\u{a0}составляющие дрейфа по разностям токов, записанным столбцами:"
     }
     MEAN { en: "mean over all positions of", ru: "среднее по всем положениям от" }
     VECTORS { en: "Vectors of the positions", ru: "Векторы положений" }
     VECTORS_ALONE_CAPTION {
-        en: "Specific force n and Earth rate ω in the axes of the gyro's case",
-        ru: "Перегрузка n и угловая скорость Земли ω в осях корпуса гироскопа"
+        en: "Specific force n and Earth rate ω in case axes",
+        ru: "Перегрузка n и\u{a0}угловая скорость Земли ω в\u{a0}осях корпуса гироскопа"
     }
     VECTORS_CAPTION {
-        en: "Specific force n and Earth rate ω in the axes of the gyro's case, and currents J of the self-check",
+        en: "Specific force n and Earth rate ω in case axes, and currents J of the self-check",
         ru: "Перегрузка n и угловая скорость Земли ω в осях корпуса гироскопа и токи J контрольного примера"
     }
     FIGURE_VECTORS {
-        en: "Figure 4. Earth rate and specific force in the axes of the gyro's case, and how far they are from those of an \
-             ideal stand.",
-        ru: "Рисунок 4. Угловая скорость Земли и перегрузка в осях корпуса гироскопа и их отличие от значений для идеального \
-             стенда."
+        en: "Figure 4. Earth rate and specific force in case axes, and their differences from those of an ideal stand.",
+        ru: "Рисунок 4. Угловая скорость Земли и перегрузка в осях корпуса гироскопа и их отличие от значений для \
+             идеального стенда."
     }
     SELF_CHECK { en: "Self-check", ru: "Контрольный пример" }
     SELF_CHECK_NOTE {
-        en: "From the currents J of the self-check, taken from the annex in full, correct laboratory software finds these \
-             parameters:",
-        ru: "По токам J контрольного примера, взятым из приложения полностью, правильная программа лаборатории находит \
-             следующие параметры:"
+        en: "From the currents J of the self-check (use all digits given in the annex), laboratory software should \
+             obtain these parameters:",
+        ru: "По токам J контрольного примера (все цифры\u{a0}— в приложении) программа лаборатории должна получить:"
     }
     DIGITS_NOTE {
-        en: "Numbers of this section are rounded to nine decimals for reading. To compute, take them from the annex, where \
-             every number stands in full.",
-        ru: "Числа этого раздела округлены для чтения до девяти знаков после запятой. Для вычислений берите их из приложения, \
-             где каждое число приведено полностью."
+        en: "The numbers in this section are rounded to nine decimals. For computation, use the annex, which gives all \
+             digits.",
+        ru: "Числа этого раздела округлены до девяти знаков после запятой; для вычислений служат полные числа \
+             приложения."
     }
     SCALE_FACTORS_MAIN { en: "Main scale factors", ru: "Основные масштабные коэффициенты" }
-    SCALE_FACTORS_CROSS { en: "Cross scale factors", ru: "Перекрёстные масштабные коэффициенты" }
-    DRIFT_CONSTANT { en: "Constant drift", ru: "Постоянные составляющие дрейфа" }
-    DRIFT_G { en: "Drift that depends on g", ru: "Составляющие дрейфа, зависящие от g" }
+    SCALE_FACTORS_CROSS { en: "Cross-axis scale factors", ru: "Перекрёстные масштабные коэффициенты" }
+    DRIFT_CONSTANT { en: "Constant drift", ru: "Постоянная составляющая дрейфа" }
+    DRIFT_G { en: "g-sensitive drift", ru: "Составляющие дрейфа, зависящие от g" }
     VALUE { en: "Value", ru: "Значение" }
     NO_MATRICES {
-        en: "Not all of the eight positions are certified: there are no matrices. A calibration is by \
-             least squares, from the vectors below.",
-        ru: "Аттестованы не все восемь положений: матриц нет. Калибровка — методом наименьших \
+        en: "Some of the eight standard positions are not certified, so there are no matrices. Calibrate by least \
+             squares, with the vectors below.",
+        ru: "Аттестованы не все восемь положений, поэтому матриц нет. Калибровку выполняют методом наименьших \
              квадратов по приведённым ниже векторам."
     }
 
-    ACCURACY { en: "What the stand is good for", ru: "Точность калибровки на этом стенде" }
+    ACCURACY { en: "Expected calibration uncertainty", ru: "Ожидаемая неопределённость калибровки" }
     ACCURACY_CAPTION {
-        en: "Standard uncertainties (k = 1) of one calibration here by least squares, and the tolerances of the gyro's type",
-        ru: "Стандартные неопределённости (k = 1) одной калибровки здесь методом наименьших квадратов и допуски типа гироскопа"
+        en: "Standard uncertainties (k\u{a0}=\u{a0}1) of one calibration at this site by least squares, and the \
+             tolerances of the gyro type",
+        ru: "Стандартные неопределённости (k\u{a0}=\u{a0}1) одной калибровки в этом месте методом наименьших квадратов \
+             и допуски типа гироскопа"
     }
     ACCURACY_NONE {
-        en: "Not stated: the passport was issued without a type of gyro and a meter.",
-        ru: "Не указана: паспорт выдан без типа гироскопа и прибора для измерения токов."
+        en: "Not stated: the passport was issued without a gyro type and a current meter.",
+        ru: "Не указана: паспорт выдан без указания типа гироскопа и измерителя тока."
     }
     FIGURE_ACCURACY {
-        en: "Figure 5. The uncertainties against the tolerances.",
+        en: "Figure 5. Uncertainties relative to the tolerances.",
         ru: "Рисунок 5. Неопределённости в сравнении с допусками."
     }
-    GYRO_TYPE { en: "Type of gyro", ru: "Тип гироскопа" }
-    GYRO_GRAVITY { en: "Its drifts are stated for g of", ru: "Его дрейфы указаны для g" }
-    CALIBRATING_LABORATORY { en: "Calibrating laboratory", ru: "Калибрующая лаборатория" }
-    METER { en: "Meter (k = 1)", ru: "Измеритель токов (k = 1)" }
+    GYRO_TYPE { en: "Gyro type", ru: "Тип гироскопа" }
+    GYRO_GRAVITY { en: "g to which its drifts refer", ru: "g составляющих дрейфа" }
+    CALIBRATING_LABORATORY { en: "Calibrating laboratory", ru: "Лаборатория" }
+    METER { en: "Current meter (k\u{a0}=\u{a0}1)", ru: "Измеритель тока (k\u{a0}=\u{a0}1)" }
     METER_WORDS {
-        en: "of a reading {reading} %, of the gain {gain} %, of the offset {offset} mA, floor {floor} mA; range {range} mA",
-        ru: "показания {reading} %, усиления {gain} %, смещения {offset} мА, порог {floor} мА; диапазон {range} мА"
+        en: "reading {reading}\u{a0}%, gain {gain}\u{a0}%, offset {offset}\u{a0}mA, floor {floor}\u{a0}mA; range \
+             {range}\u{a0}mA",
+        ru: "показание {reading}\u{a0}%, преобразование {gain}\u{a0}%, смещение {offset}\u{a0}мА, постоянная часть \
+             {floor}\u{a0}мА; диапазон {range}\u{a0}мА"
     }
-    METER_NOISE { en: "; noise of a reading {noise} mA", ru: "; шум показания {noise} мА" }
-    SEATING { en: "u of the seat about x, y, z", ru: "u установки вокруг x, y, z" }
-    BASE_AZIMUTH_U { en: "u of the base's azimuth there", ru: "u азимута основания там" }
-    BASE_LEVEL_U { en: "u of the base's level there", ru: "u уровня основания там" }
-    LABORATORY_TEMPERATURE { en: "Temperature there", ru: "Температура там" }
-    NOMINAL { en: "Nominal", ru: "Номинал" }
+    METER_NOISE { en: "; noise of a reading {noise}\u{a0}mA", ru: "; шум показания {noise}\u{a0}мА" }
+    SEATING { en: "u of the gyro seat about x, y, z", ru: "u посадки вокруг x, y, z" }
+    BASE_AZIMUTH_U { en: "u of the azimuth of the base", ru: "u азимута основания" }
+    BASE_LEVEL_U { en: "u of the level of the base", ru: "u горизонтирования основания" }
+    LABORATORY_TEMPERATURE { en: "Temperature in the laboratory", ru: "Температура в\u{a0}лаборатории" }
+    NOMINAL { en: "Nominal value", ru: "Номинальное значение" }
     TOLERANCE { en: "Tolerance", ru: "Допуск" }
 
-    ABSENCES { en: "What is not stated", ru: "Что не указано" }
-    ABSENCES_NONE { en: "Nothing that the format can state is missing.", ru: "Указано всё, что предусмотрено форматом." }
+    ABSENCES { en: "Information not stated", ru: "Неуказанные сведения" }
+    ABSENCES_NONE {
+        en: "All information provided for by the format is stated.",
+        ru: "Указаны все сведения, предусмотренные форматом."
+    }
 
     ANNEX { en: "Annex: the signed file", ru: "Приложение: подписанный файл" }
     ANNEX_NOTE {
-        en: "The file as it was signed, to the letter; every number in it reads back as the same binary64. Saved as {name}, \
-             with one line feed at the end of each line, it has the SHA-256 of the first page.",
-        ru: "Файл в том виде, в каком он подписан, дословно; каждое число читается как то же самое binary64. Сохранённый под \
-             именем {name}, с одним переводом строки в конце каждой строки, он имеет SHA-256, указанную на первой странице."
+        en: "The signed file, verbatim; every number reads back as the same binary64. Saved as {name}, with one line \
+             feed at the end of each line, the file has the SHA-256 given on the first page.",
+        ru: "Подписанный файл, дословно; каждое число читается как то же значение binary64. Файл, сохранённый под \
+             именем {name}, с одним переводом строки в конце каждой строки, имеет SHA-256, указанную на первой \
+             странице."
     }
     SAVE { en: "Save the signed file", ru: "Сохранить подписанный файл" }
     END { en: "End of the passport {id}", ru: "Конец паспорта {id}" }
