@@ -60,7 +60,8 @@ pub struct EarthRate {
 /// The eight positions leave n_2 without an inverse: no passport matrices exist for this stand.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
-    "the differences of specific force n_2 have no inverse (condition {condition:.1e}): the g-sensitive drift cannot be separated"
+    "the g-sensitive drift cannot be determined, because the differences of specific force n_2 have no inverse \
+     (condition number {condition:.1e})"
 )]
 pub struct SingularPositions {
     /// Condition number of n_2.

@@ -36,7 +36,7 @@ const IDENTITY: &str = "factory@example.org";
 #[non_exhaustive]
 pub enum Stopped {
     /// The folder has files in it.
-    #[error("{}: is there already and not an empty folder; give another one with --out", shown(.0))]
+    #[error("{}: already exists and is not an empty folder; specify another one with --out", shown(.0))]
     NotEmpty(PathBuf),
     /// A file could not be read or written.
     #[error(transparent)]
@@ -57,7 +57,7 @@ pub enum Stopped {
     #[error(transparent)]
     Identity(#[from] BadIdentity),
     /// A passport that was just issued is not accepted.
-    #[error("a passport that was just issued is not accepted")]
+    #[error("a newly issued passport was rejected")]
     Refused,
     /// The stand's positions determine no gyro.
     #[error(transparent)]
@@ -127,7 +127,7 @@ impl Stage<'_> {
         self.calibrated(&there, &trust)?;
         self.altered(&there, &trust)?;
         self.line("")?;
-        self.line(&format!("Look at the files in {}; verify them yourself:", shown(self.folder)))?;
+        self.line(&format!("The files are in {}. To verify them yourself, run:", shown(self.folder)))?;
         let (signers, passport) = (self.path("allowed_signers"), shown(&there.path));
         self.line(&format!("  dtg-passport verify {passport} --trust {} --serial 0203", shown(&signers)))
     }
@@ -146,7 +146,7 @@ impl Stage<'_> {
         files::write_new(&self.path("factory.key"), key.to_openssh(IDENTITY, None)?.as_bytes(), Access::Private)?;
         files::write_new(&self.path("allowed_signers"), signers.as_bytes(), Access::Shared)?;
         self.line("THE FACTORY")?;
-        self.line("1. makes a signing key and gives every laboratory its public half, once:")?;
+        self.line("1. creates a signing key and sends its public half to every laboratory, once:")?;
         self.line(&format!("   {}", shown(&self.path("allowed_signers"))))?;
         Ok((key, Trust::of(AllowedSigners::parse("allowed_signers", signers.as_bytes())?)))
     }
@@ -158,9 +158,9 @@ impl Stage<'_> {
         let angles = stand.positions.iter().flat_map(|at| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec]);
         let largest = angles.fold(0.0, |largest: f64, angle| largest.max(angle.abs())) / 3600.0;
         self.line(&format!(
-            "2. measures how far a cheap stand is from its eight positions: up to {largest:.1} degrees."
+            "2. measures the deviations of a low-cost stand from its eight positions: up to {largest:.1} degrees."
         ))?;
-        self.line("3. computes for the place of delivery what a calibration needs, and signs it:")?;
+        self.line("3. computes the calibration data for the site and signs them:")?;
         let order = Issue::first(IDENTITY, self.now);
         let issued = self.passports().issue(
             &PreparedStand::new(stand.clone()),
@@ -171,7 +171,10 @@ impl Stage<'_> {
         self.line(&format!("   {}", shown(&issued.path)))?;
         if let Some(growth) = issued.remarks.noise {
             let worst = growth.worst();
-            self.line(&format!("   A calibration on this stand is {worst:.2} times as noisy as on a perfect one."))?;
+            self.line(&format!(
+                "   The noise of a calibration on this stand is {worst:.2} times that on an ideal \
+                 stand."
+            ))?;
         }
         Ok(issued)
     }
@@ -183,7 +186,7 @@ impl Stage<'_> {
     fn laboratory(&mut self, here: &Issued, moscow: &Site, beijing: &Site, trust: &Trust) -> Result<(), Stopped> {
         self.line("")?;
         self.line("THE LABORATORY")?;
-        self.line("4. in Moscow asks: may I use this passport, on stand 0203, here, now?")?;
+        self.line("4. in Moscow checks that the passport is valid for stand 0203, here and now:")?;
         let bytes = files::read(&here.path, LARGEST_DOCUMENT_BYTES)?;
         let ask = |site: &Site| Question {
             serial: Some("0203".to_owned()),
@@ -193,7 +196,7 @@ impl Stage<'_> {
         let (in_moscow, in_beijing) = (ask(moscow), ask(beijing));
         let answer = verify(&here.id, &bytes, trust, &in_moscow);
         self.answer(&answer, None)?;
-        self.line("5. in Beijing asks the same of the same passport:")?;
+        self.line("5. in Beijing makes the same check of the same passport:")?;
         let answer = verify(&here.id, &bytes, trust, &in_beijing);
         self.answer(&answer, Some(CheckName::Place))
     }
@@ -201,7 +204,7 @@ impl Stage<'_> {
     fn moved(&mut self, here: &Issued, beijing: &Site, key: &SigningKey, trust: &Trust) -> Result<Issued, Stopped> {
         self.line("")?;
         self.line("THE STAND MOVES")?;
-        self.line("6. The factory re-issues the passport for Beijing from the old passport alone:")?;
+        self.line("6. The factory re-issues the passport for Beijing, from its predecessor alone:")?;
         let bytes = files::read(&here.path, LARGEST_DOCUMENT_BYTES)?;
         let old = verify(&here.id, &bytes, trust, &Question::at(self.now));
         let order = Order {
@@ -225,7 +228,7 @@ impl Stage<'_> {
         let path = self.path("passport.html");
         let languages = Languages::new(Language::English, [Language::Russian]);
         files::write_new(&path, page.html(&languages).as_bytes(), Access::Shared)?;
-        self.line(&format!("   To print, in English and Russian: {}", shown(&path)))?;
+        self.line(&format!("   Printed passport in English and Russian: {}", shown(&path)))?;
         Ok(issued)
     }
 
@@ -234,7 +237,7 @@ impl Stage<'_> {
         self.line("")?;
         self.line("A GYRO")?;
         self.line(
-            "7. in Beijing is put on the stand, and its currents are read in the eight positions (simulated here):",
+            "7. is mounted on the stand in Beijing, and its currents are read in the eight positions (simulated here):",
         )?;
         let bytes = files::read(&there.path, LARGEST_DOCUMENT_BYTES)?;
         let answer = verify(&there.id, &bytes, trust, &Question::at(self.now));
@@ -249,7 +252,7 @@ impl Stage<'_> {
         let readings = Readings::from_csv("currents.csv", &csv, setup.coefficients(), laboratory.meter.range_ma)?;
         let calibration = calibration::calibrate(&setup, &readings, &Options::default())?;
         let Some(found) = calibration.results.last() else { return Err(Stopped::Refused) };
-        self.line("8. From these and the passport follow its scale factors and drifts (true: 95, 9.5, 20, 10):")?;
+        self.line("8. The currents and the passport give its scale factors and drifts (true: 95, 9.5, 20, 10):")?;
         for parameters in Parameter::EIGHT.chunks(4) {
             let words: Vec<String> = parameters
                 .iter()
@@ -260,7 +263,7 @@ impl Stage<'_> {
             self.line(&format!("   {}", words.join(", ")))?;
         }
         let probability = found.chi_square.probability;
-        self.line(&format!("   The sixteen readings fit: probability of a worse fit {probability:.2}."))?;
+        self.line(&format!("   The sixteen readings fit; the probability of a worse fit is {probability:.2}."))?;
         self.as_expected &= calibration.hint.is_none();
         Ok(())
     }
@@ -268,7 +271,7 @@ impl Stage<'_> {
     fn altered(&mut self, there: &Issued, trust: &Trust) -> Result<(), Stopped> {
         self.line("")?;
         self.line("A FORGER")?;
-        self.line("9. changes one digit of it:")?;
+        self.line("9. changes one digit of the passport:")?;
         let text = String::from_utf8_lossy(&files::read(&there.path, LARGEST_DOCUMENT_BYTES)?).into_owned();
         let forged = text.replacen("alpha_arcsec: 4310.0", "alpha_arcsec: 4311.0", 1);
         files::write_new(&self.path("forged.yaml"), forged.as_bytes(), Access::Shared)?;

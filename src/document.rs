@@ -109,29 +109,29 @@ impl<'a> SignedText<'a> {
         let payload = rule::check(name, payload_bytes).map_err(malformed)?;
         let Some(payload_end) = payload_end else {
             let location = Some(Location { line: payload.lines().count() + 1, column: 1 });
-            let advice = "an unsigned text is no passport; was the file cut?";
+            let advice = "the file is unsigned, or may be truncated; get it from the issuer again";
             return Err(malformed(Unreadable::whole(name, location, "no signature", "`signature: |`", advice)));
         };
         let at = || Location { line: payload.lines().count() + 2, column: 1 };
         let refuse = |found: String| {
-            let advice = "the signature, or what follows it, was changed";
+            let advice = "the signature or the text after it has changed; get the file from the issuer again";
             Unreadable::whole(
                 name,
                 Some(at()),
                 found,
-                "an armored SSH signature indented by two spaces, and no more",
+                "an armored SSH signature indented by two spaces, and nothing after it",
                 advice,
             )
         };
         let tail = &bytes[payload_end + SIGNATURE_LINE.len()..];
         let armor = std::str::from_utf8(tail).ok().and_then(unindented);
-        let armor = armor.ok_or_else(|| malformed(refuse("lines that are no indented armor".to_owned())))?;
+        let armor = armor.ok_or_else(|| malformed(refuse("lines that are not indented armor".to_owned())))?;
         let signature = Signature::from_armor(&armor).map_err(|error| malformed(refuse(error.to_string())))?;
         if signature.namespace() != namespace {
             let other = signature.namespace().to_owned();
             let found = format!("a signature for {other:?}");
-            let advice = "it was signed as another kind of document";
-            let fault = Unreadable::whole(name, Some(at()), found, format!("one for {namespace:?}"), advice);
+            let advice = "it is signed as another kind of document";
+            let fault = Unreadable::whole(name, Some(at()), found, format!("a signature for {namespace:?}"), advice);
             return Err(Malformed { fault, other_namespace: Some(other) });
         }
         Ok(Self { payload, signature })

@@ -39,15 +39,15 @@ impl GyroParameters {
 }
 
 record! {
-    /// The parameters of a gyro as documents state them.
+    /// Parameters of a gyro.
     pub struct Parameters {
-        /// K: [[K_x, K_xy], [K_yx, K_y]].
+        /// Scale factors K: [[K_x, K_xy], [K_yx, K_y]].
         pub k_deg_per_h_per_ma: [[f64; 2]; 2],
-        /// ω_0: [x, y].
+        /// Constant drift ω_0: [x, y].
         pub omega0_deg_per_h: [f64; 2],
-        /// ω_g, per local g.
+        /// g-sensitive drift ω_g, per local g.
         pub omega_g_deg_per_h_per_g: f64,
-        /// ω_k, per local g.
+        /// g-sensitive drift ω_k, per local g.
         pub omega_k_deg_per_h_per_g: f64,
     }
 }
@@ -66,33 +66,33 @@ impl Parameters {
 }
 
 record! {
-    /// How far the parameters of a good gyro may be from the nominal ones.
+    /// Tolerances of the parameters: largest permitted deviations from the nominal values.
     pub struct Tolerance {
-        /// K_x and K_y, in percent of their value.
+        /// Tolerance of K_x and K_y, in percent of their value.
         pub k_main_percent: f64,
-        /// K_xy and K_yx, in percent of their value.
+        /// Tolerance of K_xy and K_yx, in percent of their value.
         pub k_cross_percent: f64,
-        /// ω_0x and ω_0y.
+        /// Tolerance of ω_0x and ω_0y.
         pub omega0_deg_per_h: f64,
-        /// ω_g.
+        /// Tolerance of ω_g.
         pub omega_g_deg_per_h_per_g: f64,
-        /// ω_k.
+        /// Tolerance of ω_k.
         pub omega_k_deg_per_h_per_g: f64,
     }
 }
 
 record! {
-    /// A type of gyro: its nominal parameters and their tolerance (`dtg-gyro/1`).
+    /// Gyro type: nominal parameters and their tolerances (`dtg-gyro/1`).
     pub struct GyroType {
         /// Always "dtg-gyro/1".
         pub format: String,
-        /// The type's name.
+        /// Name of the type.
         pub r#type: String,
         /// Nominal parameters.
         pub nominal: Parameters,
-        /// Tolerance about them.
+        /// Tolerances of the parameters.
         pub tolerance: Tolerance,
-        /// The g that the type's drifts are stated for; 9.80665 when absent.
+        /// Value of g to which the drifts of the type refer; 9.80665 if absent.
         pub gravity_m_per_s2: Option<f64>,
     }
 }

@@ -6,58 +6,59 @@ use crate::text::{Path, Problems, record};
 pub(crate) const LABORATORY_FORMAT: &str = "dtg-laboratory/1";
 
 record! {
-    /// The meter of the torquer currents. All but the range are standard uncertainties.
+    /// Current meter. All values except the range are standard uncertainties.
     pub struct Meter {
-        /// The largest current that it reads, either way.
+        /// Range: the largest current in either direction.
         pub range_ma: f64,
-        /// Of the meter's specification, in percent of the reading: own of each position and channel, and not made smaller by
-        /// reading again.
+        /// Reading: part of the specification in percent of the reading; independent for each position and channel, and
+        /// not reduced by repeated readings.
         pub reading_percent: f64,
-        /// Of the gain that all readings share, in percent.
+        /// Gain, common to all readings, in percent.
         pub gain_percent: f64,
-        /// Of the offset that all readings share.
+        /// Offset, common to all readings.
         pub offset_ma: f64,
-        /// Of the specification too, whatever the size of the reading; never 0, or a zero current would count without limit.
+        /// Floor: part of the specification that does not depend on the reading; must be positive, because a zero
+        /// current would otherwise have infinite weight.
         pub floor_ma: f64,
-        /// Noise of every single reading. Absent: 0, and repeated rows show what it is.
+        /// Noise of a single reading. If absent: 0, or estimated from repeated rows.
         pub noise_ma: Option<f64>,
     }
 }
 
 record! {
-    /// Standard uncertainties of the gyro's seat on the platform: turns about the case axes.
+    /// Standard uncertainties of the gyro seat on the platform: rotations about the case axes.
     pub struct Seating {
-        /// About x.
+        /// Rotation about x.
         pub about_x: f64,
-        /// About y.
+        /// Rotation about y.
         pub about_y: f64,
-        /// About z, the spin axis.
+        /// Rotation about z, the spin axis.
         pub about_z: f64,
     }
 }
 
 record! {
-    /// Standard uncertainties of the base as the laboratory measured it, in place of the site's.
+    /// Standard uncertainties of the base as measured by the laboratory; they replace those of the site.
     pub struct Base {
-        /// Of its azimuth.
+        /// Standard uncertainty of the azimuth of the base.
         pub azimuth_arcsec: Option<f64>,
-        /// Of its level, per axis.
+        /// Standard uncertainty of the level of the base, per axis.
         pub level_arcsec: Option<f64>,
     }
 }
 
 record! {
-    /// A laboratory (`dtg-laboratory/1`).
+    /// Laboratory (`dtg-laboratory/1`).
     pub struct Laboratory {
         /// Always "dtg-laboratory/1".
         pub format: String,
-        /// Its name.
+        /// Name of the laboratory.
         pub name: Option<String>,
-        /// Its meter.
+        /// Current meter.
         pub meter: Meter,
-        /// How well the gyro sits.
+        /// Standard uncertainties of the gyro seat.
         pub seating_arcsec: Option<Seating>,
-        /// How well the base stands.
+        /// Standard uncertainties of the base's azimuth and level.
         pub base: Option<Base>,
         /// Temperature during the calibration.
         pub temperature_c: Option<f64>,
@@ -120,7 +121,10 @@ impl Meter {
         for (key, value) in [("range_ma", self.range_ma), ("floor_ma", self.floor_ma)] {
             if value <= 0.0 {
                 let advice = match key {
-                    "floor_ma" => "no meter reads a zero current without error: half a digit over the square root of 3",
+                    "floor_ma" => {
+                        "use at least half a digit divided by the square root of 3; no meter measures zero \
+                         current without error"
+                    }
                     _ => "",
                 };
                 problems.at(&at.key(key), format!("{value}"), "a positive number", advice);

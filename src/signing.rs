@@ -36,7 +36,7 @@ pub enum KeyFileError {
         error: KeyError,
     },
     /// Others can read the private key.
-    #[error("{}: mode {mode:04o} lets others read the private key; make it yours alone: chmod 600", shown(path))]
+    #[error("{}: mode {mode:04o} allows others to read the private key; restrict it with chmod 600", shown(path))]
     Exposed {
         /// Which file.
         path: PathBuf,
@@ -53,8 +53,8 @@ pub enum KeyFileError {
     },
     /// The private half of a public key is nowhere.
     #[error(
-        "{}: found only the public half, expected the private one in ssh-agent or in {}; \
-         is OpenSSH installed, and ssh-agent running with this key (ssh-add -L)?",
+        "{}: found only the public half, expected the private half in ssh-agent or in {}; check that OpenSSH is \
+         installed and that ssh-agent has this key (ssh-add -L)",
         shown(path),
         shown(private)
     )]
@@ -65,7 +65,7 @@ pub enum KeyFileError {
         private: PathBuf,
     },
     /// The private key beside a public key is another one.
-    #[error("{}: is not the private half of {}; give the key file that belongs to it", shown(private), shown(path))]
+    #[error("{}: is not the private half of {}; use the matching key file", shown(private), shown(path))]
     OtherPrivateHalf {
         /// The public key.
         path: PathBuf,
@@ -73,7 +73,7 @@ pub enum KeyFileError {
         private: PathBuf,
     },
     /// The file is not text.
-    #[error("{}: no text, expected a private key in OpenSSH format or a .pub file", shown(path))]
+    #[error("{}: found binary data, expected a private key in OpenSSH format or a .pub file", shown(path))]
     NotText {
         /// Which file.
         path: PathBuf,
@@ -269,7 +269,7 @@ impl Signer for SshKeygen {
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
-            .map_err(|error| failed(format!("{error}; is OpenSSH installed?")))?;
+            .map_err(|error| failed(format!("{error}; check that OpenSSH is installed")))?;
         if let Some(mut stdin) = child.stdin.take() {
             // A child that has already given up closes its end; its own words say why.
             let _ = stdin.write_all(message);
@@ -277,7 +277,7 @@ impl Signer for SshKeygen {
         let output = child.wait_with_output().map_err(|error| failed(error.to_string()))?;
         if !output.status.success() {
             let words = String::from_utf8_lossy(&output.stderr).trim().replace('\n', "; ");
-            let advice = "is ssh-agent running with this key (ssh-add -L), or the token plugged in?";
+            let advice = "check that ssh-agent has this key (ssh-add -L), or that the token is plugged in";
             return Err(failed(format!("{words} ({advice})")));
         }
         let armor = String::from_utf8_lossy(&output.stdout);

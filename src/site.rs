@@ -30,21 +30,21 @@ const LARGEST_POSITION_U_M: f64 = 1e6;
 pub(crate) const LATITUDE_MARGIN_ARCSEC: f64 = 30.0;
 
 record! {
-    /// Deflection of the vertical: how far the plumb line's zenith lies from the ellipsoid's.
+    /// Deflection of the vertical: direction of the astronomic zenith relative to the geodetic zenith.
     pub struct Deflection {
-        /// ξ, positive to the north.
+        /// Component ξ, positive to the north.
         pub xi: f64,
-        /// η, positive to the east.
+        /// Component η, positive to the east.
         pub eta: f64,
-        /// Standard uncertainty of each.
+        /// Standard uncertainty of each component.
         pub u: Option<f64>,
     }
 }
 
 record! {
-    /// A mark whose direction from the pillar gives north. Both points are geodetic (WGS 84).
+    /// Azimuth mark, whose direction from the pillar defines north. Both points are geodetic (WGS 84).
     pub struct AzimuthMark {
-        /// What it is.
+        /// Name of the mark.
         pub name: Option<String>,
         /// Latitude of the mark.
         pub latitude_deg: f64,
@@ -60,27 +60,27 @@ record! {
 }
 
 record! {
-    /// Standard uncertainties of the stand's base as it is set up at the site.
+    /// Standard uncertainties of the base of the stand, as set up at the site.
     pub struct SiteUncertainty {
-        /// Of the astronomic latitude.
+        /// Standard uncertainty of the astronomic latitude.
         pub latitude_arcsec: Option<f64>,
-        /// Of the base's azimuth: from the mark to the base.
+        /// Standard uncertainty of the azimuth of the base: from the mark to the base.
         pub azimuth_arcsec: Option<f64>,
-        /// Of the base's level, per axis.
+        /// Standard uncertainty of the level of the base, per axis.
         pub level_arcsec: Option<f64>,
     }
 }
 
 record! {
-    /// What a passport says of a site: the site file without its `format`.
+    /// Site file without `format`, as contained in a passport.
     pub struct Site {
-        /// Its identifier, which is the file's name.
+        /// Identifier of the site, which is also the file name.
         pub id: Identifier,
-        /// A name for people.
+        /// Free-text name.
         pub name: Option<String>,
-        /// Geodetic latitude, WGS 84; or the astronomic one in its place.
+        /// Geodetic latitude (WGS 84); alternatively `astronomic_latitude_deg`.
         pub latitude_deg: Option<f64>,
-        /// Astronomic latitude, when that was measured.
+        /// Astronomic latitude, if measured.
         pub astronomic_latitude_deg: Option<f64>,
         /// Longitude, east positive.
         pub longitude_deg: Option<f64>,
@@ -90,15 +90,15 @@ record! {
         pub deflection_arcsec: Option<Deflection>,
         /// Measured gravity.
         pub gravity_m_per_s2: Option<f64>,
-        /// Its standard uncertainty.
+        /// Standard uncertainty of the measured gravity.
         pub gravity_u_m_per_s2: Option<f64>,
-        /// The mark that gives north.
+        /// Azimuth mark, which defines north.
         pub azimuth_mark: Option<AzimuthMark>,
-        /// The change of ω_Γ or ω_B that sets the radius of validity; 0.001 when absent.
+        /// Change of ω_Γ or ω_B that determines the validity radius; 0.001 if absent.
         pub valid_within_deg_per_h: Option<f64>,
-        /// Standard uncertainties of the base as set up.
+        /// Standard uncertainties of the base, as set up at the site.
         pub uncertainty: Option<SiteUncertainty>,
-        /// Where the numbers come from.
+        /// Source of the data.
         pub source: Option<String>,
     }
 }
@@ -140,25 +140,25 @@ impl Field for SiteFile {
 }
 
 record! {
-    /// The Earth at a site as a passport states it.
+    /// Earth parameters at the site, as stated in a passport.
     pub struct Earth {
-        /// Ω.
+        /// Earth rate Ω.
         pub rate_deg_per_h: f64,
-        /// Φ, the astronomic latitude used.
+        /// Astronomic latitude Φ that was used.
         pub latitude_deg: f64,
-        /// ω_Γ = Ω cos Φ.
+        /// Horizontal component of the Earth rate, ω_Γ = Ω cos Φ.
         pub horizontal_deg_per_h: f64,
-        /// ω_B = Ω sin Φ.
+        /// Vertical component of the Earth rate, ω_B = Ω sin Φ.
         pub vertical_deg_per_h: f64,
-        /// The g that g-sensitive drifts are stated in.
+        /// Local gravity, the g to which g-sensitive drifts refer.
         pub gravity_m_per_s2: f64,
-        /// How far along the meridian the vectors hold within `valid_within_deg_per_h`.
+        /// Validity radius: distance along the meridian at which ω_Γ or ω_B has changed by `valid_within_deg_per_h`.
         pub valid_radius_m: f64,
-        /// The change of ω_Γ or ω_B that sets the radius.
+        /// Change of ω_Γ or ω_B that determines the validity radius.
         pub valid_within_deg_per_h: f64,
         /// Astronomic azimuth from the pillar to the mark, clockwise from north.
         pub azimuth_deg: Option<f64>,
-        /// Its standard uncertainty: pillar, mark and η.
+        /// Standard uncertainty of the azimuth, from pillar, mark and η.
         pub azimuth_u_arcsec: Option<f64>,
     }
 }
@@ -194,7 +194,7 @@ impl Site {
         problems.within(&at.key("gravity_u_m_per_s2"), self.gravity_u_m_per_s2, 0.0, f64::MAX);
         problems.within(&at.key("valid_within_deg_per_h"), self.valid_within_deg_per_h, 1e-6, 1.0);
         if self.gravity_u_m_per_s2.is_some() && self.gravity_m_per_s2.is_none() {
-            let advice = "give gravity_m_per_s2, or leave both out";
+            let advice = "state gravity_m_per_s2, or omit both";
             problems.at(&at.key("gravity_u_m_per_s2"), "an uncertainty without its value", "both or neither", advice);
         }
         if let Some(deflection) = &self.deflection_arcsec {
@@ -222,12 +222,12 @@ impl Site {
         }
         match (self.latitude_deg, self.astronomic_latitude_deg) {
             (Some(_), Some(_)) => {
-                let advice = "keep the geodetic one, with deflection_arcsec, or the astronomic one";
+                let advice = "keep the geodetic latitude, with deflection_arcsec, or the astronomic latitude";
                 problems.at(&at.key("astronomic_latitude_deg"), "both latitudes", "one of them", advice);
             }
             (None, None) => {
                 let expected = "latitude_deg (geodetic) or astronomic_latitude_deg";
-                problems.at(at, "no latitude", expected, "add the one that is known");
+                problems.at(at, "no latitude", expected, "add the known latitude");
             }
             _ => {
                 let latitude = self.astronomic_deg();
@@ -238,13 +238,14 @@ impl Site {
                 let is_latitude = given.is_some_and(|given| given.abs() <= 90.0);
                 // Beyond the pole there is no place, no distance to it and no radius about it.
                 if is_latitude && geodetic.abs() > 90.0 {
-                    let found = format!("the geodetic latitude {geodetic}, by the deflection");
-                    let advice = "is the sign of deflection_arcsec.xi right?";
+                    let found = format!("the geodetic latitude {geodetic}, computed with the deflection");
+                    let advice = "check the sign of deflection_arcsec.xi";
                     problems.at(&at.key(key), found, "a latitude from -90 to 90 degrees", advice);
                 }
                 if is_latitude && latitude.abs() >= 90.0 {
                     let found = format!("the astronomic latitude {latitude}");
-                    let advice = "at a pole the Earth's horizontal rate is zero, and K cannot be found there";
+                    let advice = "at a pole the horizontal component of the Earth rate is zero, so K cannot be \
+                                  determined";
                     problems.at(&at.key(key), found, "a latitude between -90 and 90 degrees", advice);
                 }
             }
@@ -345,7 +346,7 @@ impl AzimuthMark {
         let known = inside(self.latitude_deg, self.longitude_deg)
             && inside(self.pillar_latitude_deg, self.pillar_longitude_deg);
         if known && earth::distance_m(self.pillar(), self.mark()) < 1.0 {
-            problems.at(at, "pillar and mark less than 1 m apart", "two points that give a direction", "");
+            problems.at(at, "pillar and mark less than 1 m apart", "two points that define a direction", "");
         }
     }
 }
@@ -354,6 +355,6 @@ impl AzimuthMark {
 fn check_latitude_range(at: &Path, latitude_deg: Option<f64>, longitude_deg: Option<f64>, problems: &mut Problems) {
     let Some(latitude) = latitude_deg.filter(|latitude| !(-90.0..=90.0).contains(latitude)) else { return };
     let exchanged = latitude.abs() <= 180.0 && longitude_deg.is_some_and(|longitude| longitude.abs() <= 90.0);
-    let advice = if exchanged { "latitude and longitude may be exchanged" } else { "" };
+    let advice = if exchanged { "check whether latitude and longitude are exchanged" } else { "" };
     problems.at(at, format!("{latitude}"), "a number from -90 to 90", advice);
 }

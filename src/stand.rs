@@ -24,19 +24,19 @@ pub(crate) const LARGEST_DEVIATION_DEG: f64 = 45.0;
 pub(crate) const MOST_POSITIONS: usize = 256;
 
 record! {
-    /// Which stand it is.
+    /// Identity of the stand.
     pub struct Identity {
-        /// Who made it.
+        /// Manufacturer of the stand.
         pub manufacturer: Option<String>,
-        /// Model; becomes a folder's name.
+        /// Model; also a folder name.
         pub model: Identifier,
-        /// Serial number; becomes a folder's name.
+        /// Serial number; also a folder name.
         pub serial: Identifier,
-        /// Configuration, when the stand has several.
+        /// Configuration, if the stand has several.
         pub configuration: Option<String>,
-        /// A name for people.
+        /// Free-text name.
         pub name: Option<String>,
-        /// For whom it was certified.
+        /// Customer of the certification.
         pub customer: Option<String>,
     }
 }
@@ -49,27 +49,27 @@ impl Identity {
 }
 
 record! {
-    /// The certificate that the deviations come from. Uncertainties are standard uncertainties (k = 1).
+    /// Calibration certificate with the deviations. Uncertainties are standard uncertainties (k = 1).
     pub struct Certificate {
-        /// Its number.
+        /// Number of the certificate.
         pub number: String,
-        /// Day of issue.
+        /// Date of issue.
         pub issued: Date,
-        /// Day of the measurement.
+        /// Date of measurement.
         pub performed: Option<Date>,
-        /// Day on which the stand was received.
+        /// Date on which the stand was received.
         pub received: Option<Date>,
-        /// Last day of validity.
+        /// Expiry date (inclusive).
         pub valid_until: Option<Date>,
-        /// By whose agreement it ends then.
+        /// Basis of the validity period, for example an agreement with the customer.
         pub valid_until_basis: Option<String>,
-        /// The certifying laboratory.
+        /// Certifying laboratory.
         pub laboratory: String,
-        /// Its address.
+        /// Address of the laboratory.
         pub address: Option<String>,
-        /// Who authorised the certificate.
+        /// Person who authorised the certificate.
         pub authorized_by: Option<String>,
-        /// The laboratory's accreditation.
+        /// Accreditation of the laboratory.
         pub accreditation: Option<String>,
         /// Method of measurement.
         pub method: Option<String>,
@@ -77,37 +77,37 @@ record! {
         pub traceability: Option<String>,
         /// Temperature during the measurement.
         pub temperature_c: Option<f64>,
-        /// Temperatures between which the certificate holds.
+        /// Temperature range in which the certificate is valid.
         pub temperature_range_c: Option<[f64; 2]>,
-        /// Of one return to a position, per axis.
+        /// Repeatability of positioning: standard deviation of one visit, per axis.
         pub repeatability_arcsec: Option<f64>,
-        /// Its degrees of freedom; infinite when absent.
+        /// Degrees of freedom of the repeatability; infinite if absent.
         pub repeatability_degrees_of_freedom: Option<f64>,
-        /// Shared by all positions, per axis of the platform (turned from the left).
+        /// Uncertainty common to all positions, per axis of the platform (rotation applied from the left).
         pub common_platform_arcsec: Option<f64>,
-        /// Shared by all positions, per axis of the base (turned from the right).
+        /// Uncertainty common to all positions, per axis of the base (rotation applied from the right).
         pub common_base_arcsec: Option<f64>,
-        /// Contributions that repeated measurements cannot show; u_* and common_* contain them.
+        /// Contributions that repeated measurements do not show; u_* and common_* include them.
         pub type_b: Option<Vec<TypeB>>,
-        /// The readings that the certificate was made from; written by `certify`.
+        /// Readings from which the certificate was computed; written by `certify`.
         pub evidence: Option<Evidence>,
     }
 }
 
 record! {
-    /// The surfaces of the stand that realise the axes ξηζ and xyz.
+    /// Datum surfaces of the stand, which define the axes ξηζ and xyz.
     pub struct Datum {
-        /// What is levelled.
+        /// Surface for levelling.
         pub level: Option<String>,
-        /// What points north.
+        /// Surface for north alignment.
         pub azimuth: Option<String>,
-        /// What the gyro sits on.
+        /// Gyro seat.
         pub gyro_seat: Option<String>,
     }
 }
 
 record! {
-    /// One certified position: nominal angles and deviations from them.
+    /// Certified position: nominal angles and deviations from them.
     pub struct CertifiedPosition {
         /// Frame index, from 1.
         pub i: u32,
@@ -117,19 +117,19 @@ record! {
         pub theta_deg: f64,
         /// Platform angle φ about the spin axis.
         pub phi_deg: f64,
-        /// α, about the platform's x axis.
+        /// Deviation α, about the x axis of the platform.
         pub alpha_arcsec: f64,
-        /// β, about the platform's y axis.
+        /// Deviation β, about the y axis of the platform.
         pub beta_arcsec: f64,
-        /// γ, about the platform's z axis.
+        /// Deviation γ, about the z axis of the platform.
         pub gamma_arcsec: f64,
-        /// Standard uncertainty of the certified mean of α, the position's own part.
+        /// Standard uncertainty of the certified mean of α, own part of the position.
         pub u_alpha_arcsec: Option<f64>,
-        /// The same of β.
+        /// Standard uncertainty of the certified mean of β, own part of the position.
         pub u_beta_arcsec: Option<f64>,
-        /// The same of γ.
+        /// Standard uncertainty of the certified mean of γ, own part of the position.
         pub u_gamma_arcsec: Option<f64>,
-        /// Degrees of freedom of the three; infinite when absent.
+        /// Degrees of freedom of these three uncertainties; infinite if absent.
         pub degrees_of_freedom: Option<f64>,
     }
 }
@@ -156,17 +156,17 @@ impl CertifiedPosition {
 }
 
 record! {
-    /// A stand file: which stand, its certificate, its positions (`dtg-stand/1`).
+    /// Stand file: stand, certificate and positions (`dtg-stand/1`).
     pub struct Stand {
         /// Always "dtg-stand/1".
         pub format: String,
-        /// Which stand.
+        /// Identity of the stand.
         pub stand: Identity,
-        /// Its certificate.
+        /// Calibration certificate of the stand.
         pub certificate: Certificate,
-        /// The surfaces that realise its axes.
+        /// Datum surfaces, which define the axes.
         pub datum: Option<Datum>,
-        /// Its positions, sorted by (i, j) once read; at most 256.
+        /// Positions, sorted by (i, j) after reading; at most 256.
         #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
         pub positions: Vec<CertifiedPosition>,
     }
@@ -221,8 +221,8 @@ pub(crate) fn check(certificate: &Certificate, positions: &[CertifiedPosition], 
         let at = at.item(index);
         check_position(position, &at, problems);
         if !seen.insert(position.index()) {
-            let advice = "keep one of the two";
-            problems.at(&at, format!("position {} a second time", position.index()), "every position once", advice);
+            let advice = "delete one";
+            problems.at(&at, format!("duplicate position {}", position.index()), "each position once", advice);
         }
     }
 }
@@ -248,7 +248,7 @@ fn check_certificate(certificate: &Certificate, problems: &mut Problems) {
     for pair in known.windows(2) {
         let [(earlier, from), (later, to)] = pair else { continue };
         if to < from {
-            problems.at(&at.key(later), format!("{to}"), format!("a day not before {earlier}, {from}"), "");
+            problems.at(&at.key(later), format!("{to}"), format!("a date on or after {earlier}, {from}"), "");
         }
     }
     if certificate.valid_until.is_none() && certificate.valid_until_basis.is_some() {
@@ -274,21 +274,22 @@ fn check_degrees_of_freedom(value: Option<f64>, at: &Path, problems: &mut Proble
     if let Some(value) = value
         && value <= 0.0
     {
-        problems.at(at, format!("{value}"), "a positive number", "leave it out when it is infinite");
+        problems.at(at, format!("{value}"), "a positive number", "omit it if it is infinite");
     }
 }
 
 fn check_position(position: &CertifiedPosition, at: &Path, problems: &mut Problems) {
     for (key, index) in [("i", position.i), ("j", position.j)] {
         if index == 0 {
-            problems.at(&at.key(key), "0", "an index from 1", "i and j count from 1");
+            problems.at(&at.key(key), "0", "an index from 1", "count i and j from 1");
         }
     }
     let nominal = EIGHT_POSITIONS.iter().find(|(index, ..)| *index == position.index());
     if let Some((index, theta, phi)) = nominal {
         for (key, found, due) in [("theta_deg", position.theta_deg, *theta), ("phi_deg", position.phi_deg, *phi)] {
             if found != due {
-                let advice = "the eight positions have fixed angles; another orientation needs another (i, j)";
+                let advice = "use another (i, j) for another orientation, because the angles of the eight positions \
+                              are fixed";
                 problems.at(&at.key(key), format!("{found}"), format!("{due} for position {index}"), advice);
             }
         }
@@ -300,8 +301,11 @@ fn check_position(position: &CertifiedPosition, at: &Path, problems: &mut Proble
         ("gamma_arcsec", position.gamma_arcsec),
     ] {
         if value.abs() > largest {
-            let advice = "deviations are from the nominal position; is the unit arcseconds?";
-            let expected = format!("at most {LARGEST_DEVIATION_DEG} degrees ({largest} arcseconds) either way");
+            let advice = "state deviations from the nominal position, in arcseconds";
+            let expected = format!(
+                "at most {LARGEST_DEVIATION_DEG} degrees ({largest} arcseconds) in either \
+                 direction"
+            );
             problems.at(&at.key(key), format!("{value}"), expected, advice);
         }
     }

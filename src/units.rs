@@ -51,9 +51,26 @@ pub(crate) fn sin_cos_of_degrees(degrees: f64) -> (f64, f64) {
     (sin + 0.0, cos + 0.0)
 }
 
+/// Returns a unit as it is printed: one solidus, with brackets around a compound denominator (SI Brochure, 5.1). Keys of
+/// files and JSON keep `unit` as it is.
+pub fn printed(unit: &str) -> String {
+    match unit.split_once('/') {
+        Some((above, below)) if below.contains('/') => format!("{above}/({})", below.replace('/', "·")),
+        _ => unit.to_owned(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_printed_unit_has_one_solidus() {
+        let cases = [("%", "%"), ("deg/h", "deg/h"), ("deg/h/mA", "deg/(h·mA)"), ("deg/h/g^2", "deg/(h·g^2)")];
+        for (unit, due) in cases {
+            assert_eq!(printed(unit), due);
+        }
+    }
 
     #[test]
     fn whole_quadrants_are_exact() {

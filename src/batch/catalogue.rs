@@ -53,7 +53,7 @@ impl Listed for PreparedStand {
     fn remark(&self, path: &Path) -> Option<String> {
         let name = path.file_name()?;
         let other = ["stand.yaml", "stand.yml"].iter().any(|usual| name.eq_ignore_ascii_case(usual));
-        (other && name != "stand.yaml").then(|| "is read as stand.yaml, which is the name it should have".to_owned())
+        (other && name != "stand.yaml").then(|| "is read as stand.yaml; rename it to stand.yaml".to_owned())
     }
 }
 
@@ -197,7 +197,7 @@ impl<T: Listed> Draft<T> {
         }
         match self.names.get(&id.to_ascii_lowercase()) {
             Some(&(_, first)) if self.listed[first].hash == hash => {
-                tell(Event::Remark { file, words: format!("the {} {id} a second time, taken once", T::NAME) });
+                tell(Event::Remark { file, words: format!("duplicate of {} {id}, used once", T::NAME) });
             }
             Some(&(_, first)) => self.listed[first].others.push(path),
             None => {
@@ -220,8 +220,8 @@ impl<T: Listed> Draft<T> {
             names(id).find_map(|name| Some((name, known(name).filter(|(other, _)| other != name)?)))?;
         let (path, first, what) = (shown(path), shown(&self.listed[first].path), T::NAME);
         Some(format!(
-            "{path}: {what} {id}: found {name}, but {other} in {first}; Windows and macOS take the two for one: spell them \
-             alike, or rename one"
+            "{path}: {what} {id}: found {name}, but {other} in {first}; use the same spelling, or rename one, because \
+             Windows and macOS do not distinguish them"
         ))
     }
 
@@ -234,8 +234,10 @@ impl<T: Listed> Draft<T> {
             } else {
                 let others: Vec<_> = seen.others.iter().map(|path| shown(path).to_string()).collect();
                 let (what, id, others) = (T::NAME, seen.id, others.join(", "));
-                let why =
-                    format!("{}: is {what} {id}, as is {others}, with other content: keep one", shown(&seen.path));
+                let why = format!(
+                    "{}: is {what} {id}, like {others}, but with other content; keep one file",
+                    shown(&seen.path)
+                );
                 self.failures.push(Failure::refused(&seen.path, why));
             }
         }

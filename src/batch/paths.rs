@@ -69,7 +69,7 @@ fn in_folder(folder: PathBuf, purpose: Purpose) -> Box<dyn Iterator<Item = Resul
     };
     let mut found = walk.map(found).peekable();
     if found.peek().is_none() {
-        let what = format!("{}: there is no {what} in this folder", shown(&folder));
+        let what = format!("{}: this folder contains no {what}", shown(&folder));
         return Box::new(std::iter::once(Err(Failure::unusable(&folder, what))));
     }
     Box::new(found)
@@ -80,10 +80,11 @@ pub fn found(entry: Result<Entry, FileError>) -> Result<PathBuf, Failure> {
     match entry {
         Ok(Entry::File(path)) => Ok(path),
         Ok(Entry::Special(path)) => {
-            Err(Failure::unusable(&path, format!("{}: a pipe, a device or a socket is not read", shown(&path))))
+            Err(Failure::unusable(&path, format!("{}: not read: it is a pipe, a device or a socket", shown(&path))))
         }
         Ok(Entry::Link(path)) => {
-            let why = format!("{}: is a link, which is not followed: it may lead out of the folder", shown(&path));
+            let why =
+                format!("{}: not read: links are not followed, because they may lead out of the folder", shown(&path));
             Err(Failure::refused(&path, why))
         }
         Err(error) => Err(Failure::file(error)),
@@ -116,12 +117,12 @@ fn matches(pattern: &str) -> Box<dyn Iterator<Item = Result<Named, Failure>>> {
     };
     let options = MatchOptions { require_literal_leading_dot: true, ..MatchOptions::new() };
     let paths = match glob::glob_with(pattern, options) {
-        Err(error) => return failed(format!("is no pattern: {error}")),
+        Err(error) => return failed(format!("invalid pattern: {error}")),
         Ok(paths) => paths,
     };
     let mut paths = paths.peekable();
     if paths.peek().is_none() {
-        return failed("no file has such a name".to_owned());
+        return failed("no file matches this pattern".to_owned());
     }
     Box::new(paths.map(|path| {
         path.map(Named::of).map_err(|error| {
@@ -155,7 +156,7 @@ impl List<'_> {
             }
             list.consume(read);
             if bytes.len() > LONGEST_PATH {
-                return Err(io::Error::other("this is no list of paths"));
+                return Err(io::Error::other("this is not a list of paths"));
             }
             // Two separators in a row, or one at the beginning, have no path between them.
             if end.is_some() && !bytes.is_empty() {
@@ -188,6 +189,6 @@ fn path_of(bytes: Vec<u8>) -> Result<PathBuf, Failure> {
 
 #[cfg(not(unix))]
 fn path_of(bytes: Vec<u8>) -> Result<PathBuf, Failure> {
-    let no_text = |_| Failure::unusable(Path::new("-"), "standard input: a path that is no UTF-8".to_owned());
+    let no_text = |_| Failure::unusable(Path::new("-"), "standard input: a path is not valid UTF-8".to_owned());
     String::from_utf8(bytes).map(|path| PathBuf::from(path.trim_end_matches('\r'))).map_err(no_text)
 }

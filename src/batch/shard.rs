@@ -19,10 +19,10 @@ pub enum NoShard {
     #[error("expected K/N, the K-th of N parts, as in 2/8")]
     Form,
     /// More parts than anybody has machines, or none.
-    #[error("{0} parts, expected 1 to 4294967295")]
+    #[error("found {0} parts, expected 1 to 4294967295")]
     Parts(u64),
     /// A part that the whole has not.
-    #[error("of {parts} parts there is no part {number}, expected 1 to {parts}")]
+    #[error("found part {number} of {parts}, expected 1 to {parts}")]
     Number {
         /// The part asked for.
         number: u64,
@@ -116,11 +116,11 @@ mod tests {
     #[test]
     fn what_is_no_part_is_refused_in_words() {
         for (text, words) in [
-            ("5/4", "of 4 parts there is no part 5, expected 1 to 4"),
-            ("0/4", "of 4 parts there is no part 0, expected 1 to 4"),
-            ("1/0", "0 parts, expected 1 to 4294967295"),
-            ("1/9999999999", "9999999999 parts, expected 1 to 4294967295"),
-            ("9999999999/4", "of 4 parts there is no part 9999999999, expected 1 to 4"),
+            ("5/4", "found part 5 of 4, expected 1 to 4"),
+            ("0/4", "found part 0 of 4, expected 1 to 4"),
+            ("1/0", "found 0 parts, expected 1 to 4294967295"),
+            ("1/9999999999", "found 9999999999 parts, expected 1 to 4294967295"),
+            ("9999999999/4", "found part 9999999999 of 4, expected 1 to 4"),
             ("3", "expected K/N, the K-th of N parts, as in 2/8"),
             ("a/b", "expected K/N, the K-th of N parts, as in 2/8"),
             ("-1/4", "expected K/N, the K-th of N parts, as in 2/8"),

@@ -20,8 +20,8 @@ use std::io::BufRead;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-const FORKED: &str = "comes from a passport that several supersede: `register` names them; withdraw with `revoke` what \
-                      does not count";
+const FORKED: &str = "its predecessor has several successors; list them with `register` and withdraw the wrong ones \
+                      with `revoke`";
 
 /// What is to change, and by whose trust the old passports must hold.
 pub struct Change<'a> {
@@ -151,7 +151,7 @@ impl Run<'_> {
         tell(Event::Planned(passports));
         if let Some(alarm) = register.uncertain() {
             tell(Event::Lost(passports));
-            let why = format!("{}: what was withdrawn is not certain: {}", shown(root), alarm.words);
+            let why = format!("{}: the withdrawals are uncertain: {}", shown(root), alarm.words);
             return self.push(Err(Failure { passports: Some(passports), ..Failure::refused(root, why) }), tell);
         }
         for failure in register.alarms.iter().filter_map(not_looked_at) {
@@ -253,8 +253,8 @@ impl Run<'_> {
         let stand = &next.stand().stand;
         let Some(root) = Folder::root_of(path, stand) else {
             let why = format!(
-                "the passport is not in a folder {}, which would show where its successor belongs; \
-                 name the folder of the passports with --out",
+                "the passport is not in a folder {}, so the folder of its successor is unknown; specify the folder of \
+                 passports with --out",
                 stand.id()
             );
             return Err(Failure::unusable(path, why));
@@ -290,19 +290,19 @@ impl Run<'_> {
             Ok(Some(Some(Outcome::Skipped { id, file: path.to_owned(), why })))
         };
         if line.state == State::Broken {
-            return refused(format!("the passport does not hold ({})", line.why));
+            return refused(format!("the passport failed verification ({})", line.why));
         }
         if let Some(words) = line.misplaced() {
             return refused(format!("is in the wrong folder: {words}"));
         }
         let doubt = register.doubt(line.stand.as_deref().unwrap_or(""));
         if let (State::Unknown | State::Expired, Some(alarm)) = (line.state, doubt) {
-            return refused(format!("whether it is superseded is not known: {}", alarm.reason()));
+            return refused(format!("it is unknown whether the passport is superseded: {}", alarm.reason()));
         }
         match line.state {
             State::Revoked => return skipped(format!("revoked: {}", line.why)),
             State::Superseded | State::Moved if register.has_several(line) => {
-                return refused(format!("there is more than one file of its id, {}", line.why));
+                return refused(format!("several files have its id, {}", line.why));
             }
             State::Superseded | State::Moved => return skipped(format!("superseded {}", line.why)),
             _ => {}
@@ -320,13 +320,13 @@ impl Run<'_> {
                 None if self.stands.len() == 1 => self.stands.load(0..1, 1).remove(0).map(Some)?,
                 stand => stand,
             };
-            let missing = || Failure::refused(&candidate.path, format!("no stand file is of {}", old.stand.id()));
+            let missing = || Failure::refused(&candidate.path, format!("no stand file is for {}", old.stand.id()));
             order.stand = Some(stand.ok_or_else(missing)?);
         }
         if let Some(site) = self.sites.get(old.site.id.as_str())? {
             order.site = Some(Site::clone(&site));
         } else if self.sites_missing {
-            let why = format!("no file is of its site, {}, among those of --sites that can be read", old.site.id);
+            let why = format!("none of the readable files of --sites is for its site, {}", old.site.id);
             return Err(Failure::refused(&candidate.path, why));
         }
         Ok(order)

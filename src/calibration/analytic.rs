@@ -17,10 +17,10 @@ pub struct AnalyticSolution {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NoAnalyticSolution {
     /// The method is for the paper's eight positions.
-    #[error("the stand has not all of the eight positions that the analytic method needs")]
+    #[error("the stand lacks some of the eight positions that the analytic method requires")]
     EightPositionsMissing,
     /// The number of current pairs is not that of the positions.
-    #[error("{found} pairs of currents for {expected} positions")]
+    #[error("found {found} pairs of currents, expected {expected}, one for each position")]
     WrongNumberOfCurrents {
         /// Pairs of currents given.
         found: usize,

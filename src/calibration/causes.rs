@@ -55,7 +55,7 @@ impl Cause {
     pub fn name(self) -> String {
         match self {
             Self::Angle(index, angle) => format!("certified {} of {index}", ["alpha", "beta", "gamma"][angle]),
-            Self::Return(index, axis) => format!("return to {index} about {}", XYZ[axis]),
+            Self::Return(index, axis) => format!("positioning in {index} about {}", XYZ[axis]),
             Self::Reading(index, axis) => format!("reading of J_{} in {index}", XYZ[axis]),
             Self::Floor(index, axis) => format!("floor of J_{} in {index}", XYZ[axis]),
             Self::Noise(index, axis) => format!("noise of J_{} in {index}", XYZ[axis]),
@@ -67,14 +67,14 @@ impl Cause {
     pub(crate) fn kind(self) -> String {
         match self {
             Self::Angle(..) => "certified angles".to_owned(),
-            Self::Return(..) => "returns to the positions".to_owned(),
+            Self::Return(..) => "repeatability of positioning".to_owned(),
             Self::Reading(..) => "meter, specification".to_owned(),
             Self::Floor(..) => "meter, floor".to_owned(),
             Self::Noise(..) => "meter, noise".to_owned(),
             Self::Platform(axis) => format!("platform about {}", XYZ[axis]),
-            Self::Seat(axis) => format!("seat about {}", XYZ[axis]),
-            Self::Base(axis) => format!("stand's base about {}", EAST_NORTH_UP[axis]),
-            Self::Level(axis) => format!("level about {}", EAST_NORTH_UP[axis]),
+            Self::Seat(axis) => format!("gyro seat about {}", XYZ[axis]),
+            Self::Base(axis) => format!("base of the stand about {}", EAST_NORTH_UP[axis]),
+            Self::Level(axis) => format!("level of the base about {}", EAST_NORTH_UP[axis]),
             Self::Azimuth => "azimuth of the base".to_owned(),
             Self::Mark => "azimuth of the mark".to_owned(),
             Self::Latitude => "latitude".to_owned(),
@@ -125,7 +125,7 @@ impl Cause {
             Self::Azimuth => "laboratory or site: azimuth_arcsec",
             Self::Mark => "passport: earth.azimuth_u_arcsec",
             Self::Latitude => "site: uncertainty.latitude_arcsec",
-            Self::Deflection => "site: deflection_arcsec.u (10 where unknown)",
+            Self::Deflection => "site: deflection_arcsec.u (10 if unknown)",
         }
     }
 

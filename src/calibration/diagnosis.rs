@@ -29,11 +29,12 @@ const PRICE_OF_TWO_NUMBERS: f64 = 4.0;
 const MOST_SUSPECTS: usize = 24;
 
 /// What residuals can never tell, and what can.
-pub const CANNOT_TELL: &str = "A good fit proves less than it seems. These leave no residuals at all, and change the \
-result: the passport of another place (latitude), a base tilted about east, a gyro turned in its seat about the spin \
-axis, the meter's gain and offset, x and y exchanged, one sign reversed; a base turned in azimuth leaves almost none. \
-What can tell: the serial number of the stand and the place of the passport, the specification of the gyro, and its \
-earlier calibration.";
+pub const CANNOT_TELL: &str = "Small residuals do not exclude all errors. The following leave no residuals but change \
+                               the result: the passport of another site (latitude), a base tilted about east, a gyro \
+                               rotated in its seat about the spin axis, the gain and offset of the meter, x and y \
+                               exchanged, one sign reversed. A base rotated in azimuth leaves almost no residuals. To \
+                               detect these errors, check the serial number of the stand, the site of the passport, \
+                               the specification of the gyro and its previous calibration.";
 
 /// What may be wrong.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,8 +67,8 @@ impl fmt::Display for Explanation {
             Self::Exchanged(one, other) => write!(f, "positions {one} and {other} are exchanged"),
             Self::DidNotRepeat { index, angle_arcsec, current_ua } => write!(
                 f,
-                "position {index} did not repeat: by {angle_arcsec:.0} arcsec if it was the angle, by {:.2} uA in J_x \
-                 and {:.2} uA in J_y if it was the currents",
+                "position {index} did not repeat: by {angle_arcsec:.0} arcsec if the angle changed, or by {:.2} uA in \
+                 J_x and {:.2} uA in J_y if the currents are wrong",
                 current_ua.x, current_ua.y
             ),
         }
@@ -79,16 +80,16 @@ impl fmt::Display for Hint {
         match self.explanations.as_slice() {
             [] => write!(
                 f,
-                "the readings do not fit, and no single position and no exchange of two explains it: is it the passport \
-                 of another stand? (All positions are out by some {:.0} arcsec.) Or did the gyro drift, or the stand \
-                 move, during the run?",
+                "the readings do not fit, and no single position and no exchange of two positions explains this; the \
+                 passport may be that of another stand (all positions differ by about {:.0} arcsec), or the gyro may \
+                 have drifted, or the stand may have moved, during the run",
                 self.size_arcsec
             ),
-            [one] => write!(f, "the readings do not fit; it seems that {one}"),
+            [one] => write!(f, "the readings do not fit; possible cause: {one}"),
             several => {
-                write!(f, "the readings do not fit; it seems that ")?;
+                write!(f, "the readings do not fit; possible causes: ")?;
                 for (place, explanation) in several.iter().enumerate() {
-                    write!(f, "{}{explanation}", if place > 0 { ", or that " } else { "" })?;
+                    write!(f, "{}{explanation}", if place > 0 { ", or " } else { "" })?;
                 }
                 Ok(())
             }

@@ -229,7 +229,8 @@ fn left_aside_whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D:
 }
 
 impl CalibrationDocument {
-    /// Of a calibration with the passport `passport_id` under a local g with its uncertainty; `not_stated` is what [`Setup::stated`] did not find.
+    /// Of a calibration with the passport `passport_id` under a local g with its uncertainty; `not_stated` is what
+    /// [`Setup::stated`] did not find.
     ///
     /// [`Setup::stated`]: super::inputs::Setup::stated
     pub fn new(
@@ -273,9 +274,9 @@ impl CalibrationDocument {
             if let Some(at) = found.find(" at line ") {
                 found.truncate(at);
             }
-            let found = format!("no such JSON ({found})");
-            let advice = "`calibrate --format json` writes it";
-            Unreadable::whole(name, location, found, "the JSON of an earlier calibration", advice).in_text(bytes)
+            let found = format!("unsuitable JSON ({found})");
+            let advice = "create it with `calibrate --format json`";
+            Unreadable::whole(name, location, found, "the JSON result of an earlier calibration", advice).in_text(bytes)
         })
     }
 

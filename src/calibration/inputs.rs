@@ -131,10 +131,10 @@ pub enum NoSetup {
     #[error(transparent)]
     Singular(#[from] SingularPositions),
     /// A standard uncertainty that is none.
-    #[error("the standard uncertainty of {0} is {1}: found no finite number of 0 or more")]
+    #[error("the standard uncertainty of {0} is {1}, but must be finite and ≥ 0")]
     Uncertainty(&'static str, f64),
     /// Degrees of freedom that are none.
-    #[error("the degrees of freedom of {0} are {1}: found no positive number")]
+    #[error("the degrees of freedom of {0} are {1}, but must be positive")]
     DegreesOfFreedom(&'static str, f64),
 }
 
@@ -142,21 +142,21 @@ impl InputUncertainty {
     /// Whether every number is one that an uncertainty can be.
     fn check(&self) -> Result<(), NoSetup> {
         let angles = self.angles_rad.iter().flatten().map(|u| ("a certified angle", *u));
-        let seat = self.seating_rad.map(|u| ("the seat", u));
+        let seat = self.seating_rad.map(|u| ("the gyro seat", u));
         let rest = [
-            ("the returns", self.repeatability_rad),
+            ("the repeatability", self.repeatability_rad),
             ("the platform", self.common_platform_rad),
-            ("the stand's base", self.common_base_rad),
+            ("the base of the stand", self.common_base_rad),
             ("the latitude", self.latitude_rad),
             ("the deflection", self.deflection_rad),
             ("the azimuth", self.azimuth_rad),
             ("the mark", self.mark_rad),
             ("the level", self.level_rad),
             ("a reading", self.meter.reading),
-            ("the meter's floor", self.meter.floor_ma),
-            ("the meter's noise", self.meter.noise_ma),
-            ("the meter's gain", self.meter.gain),
-            ("the meter's offset", self.meter.offset_ma),
+            ("the floor of the meter", self.meter.floor_ma),
+            ("the noise of the meter", self.meter.noise_ma),
+            ("the gain of the meter", self.meter.gain),
+            ("the offset of the meter", self.meter.offset_ma),
         ];
         let is_none = |(_, u): &(&str, f64)| !(u.is_finite() && *u >= 0.0);
         if let Some((what, u)) = angles.chain(seat).chain(rest).find(is_none) {
@@ -164,9 +164,9 @@ impl InputUncertainty {
         }
         let known = self.angles_degrees_of_freedom.iter().map(|known| ("a certified angle", *known));
         let known = known.chain([
-            ("the returns", self.repeatability_degrees_of_freedom),
+            ("the repeatability", self.repeatability_degrees_of_freedom),
             ("the platform", self.common_platform_degrees_of_freedom),
-            ("the stand's base", self.common_base_degrees_of_freedom),
+            ("the base of the stand", self.common_base_degrees_of_freedom),
         ]);
         match known.into_iter().find(|(_, known)| known.is_nan() || *known <= 0.0) {
             Some((what, known)) => Err(NoSetup::DegreesOfFreedom(what, known)),

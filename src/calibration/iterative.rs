@@ -32,10 +32,13 @@ impl Default for StopRule {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum NoIterativeSolution {
     /// The method is for the paper's eight positions.
-    #[error("the stand has not all of the eight positions that the iterative method needs: least squares takes any")]
+    #[error(
+        "the stand lacks some of the eight positions that the iterative method requires; use least squares, which \
+             takes any positions"
+    )]
     EightPositionsMissing,
     /// The number of current pairs is not that of the positions.
-    #[error("{found} pairs of currents for {expected} positions")]
+    #[error("found {found} pairs of currents, expected {expected}, one for each position")]
     WrongNumberOfCurrents {
         /// Pairs of currents given.
         found: usize,
@@ -43,12 +46,12 @@ pub enum NoIterativeSolution {
         expected: usize,
     },
     /// J_1 has no inverse, so there is no first approximation.
-    #[error("there is no first approximation: J_1 has no inverse; the analytic method and least squares need none")]
+    #[error("there is no first approximation, because J_1 has no inverse; use the analytic method or least squares")]
     SingularCurrents,
     /// ρ(T) ≥ 1.
     #[error(
-        "successive approximation diverges: the spectral radius is {spectral_radius:.4}, and it must be below 1; \
-         use the analytic method or least squares"
+        "the iterative method diverges: the spectral radius is {spectral_radius:.4}, but must be below 1; use the \
+         analytic method or least squares"
     )]
     Diverges {
         /// ρ(T).
@@ -56,7 +59,7 @@ pub enum NoIterativeSolution {
     },
     /// Not there after 200 steps.
     #[error(
-        "successive approximation did not converge in {LARGEST_NUMBER_OF_STEPS} steps (spectral radius \
+        "the iterative method did not converge in {LARGEST_NUMBER_OF_STEPS} steps (spectral radius \
          {spectral_radius:.4}); use the analytic method or least squares"
     )]
     TooManySteps {

@@ -41,7 +41,7 @@ pub struct LeastSquaresSolution {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NoLeastSquares {
     /// The number of current pairs is not that of the positions.
-    #[error("{found} pairs of currents for {expected} positions")]
+    #[error("found {found} pairs of currents, expected {expected}, one for each position")]
     WrongNumberOfCurrents {
         /// Pairs of currents given.
         found: usize,
@@ -49,7 +49,7 @@ pub enum NoLeastSquares {
         expected: usize,
     },
     /// Readings that were made for other positions, or in another order.
-    #[error("the readings are not of the positions that the coefficients are of")]
+    #[error("the readings and the coefficients are for different positions")]
     OtherPositions,
     /// The equations do not determine all parameters.
     #[error("{}", inseparable(.groups, *.condition))]
@@ -60,7 +60,7 @@ pub enum NoLeastSquares {
         condition: f64,
     },
     /// Currents or uncertainties that are not finite, or a meter without any uncertainty.
-    #[error("the currents or their uncertainties are not usable: every current finite, every uncertainty positive")]
+    #[error("every current must be finite and every uncertainty positive")]
     NotUsable,
 }
 
@@ -74,7 +74,7 @@ fn inseparable(groups: &[Vec<Parameter>], condition: f64) -> String {
         }
     });
     let words: Vec<String> = words.collect();
-    format!("these positions cannot {} (condition {condition:.0e})", words.join(", nor "))
+    format!("these positions cannot {} (condition number {condition:.0e})", words.join(", nor "))
 }
 
 /// Solves for the gyro from the mean currents (J_x, J_y) of `coefficients.positions`, in the same order, one reading

@@ -77,13 +77,13 @@ pub struct Readings {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NoReadings {
     /// A position that has none.
-    #[error("no reading of position {0}")]
+    #[error("found no reading of position {0}")]
     Missing(PositionIndex),
     /// A position that the coefficients do not know.
-    #[error("a reading of position {0}, which the passport does not have")]
+    #[error("found a reading of position {0}, which is not in the passport")]
     Unknown(PositionIndex),
     /// A current that is no finite number.
-    #[error("a current of position {0} is not a finite number")]
+    #[error("a current of position {0} is not finite")]
     NotFinite(PositionIndex),
 }
 
@@ -225,9 +225,9 @@ fn position(
     if coefficients.positions.iter().any(|at| at.index == index) {
         return Some(index);
     }
-    let advice = "is it the passport of this stand?";
+    let advice = "check that this is the passport of this stand";
     let found = format!("position {index}");
-    problems.push(table.problem(&row.cells[0], 0, found, "a position that the passport has", advice));
+    problems.push(table.problem(&row.cells[0], 0, found, "a position of the passport", advice));
     None
 }
 
@@ -237,11 +237,11 @@ fn current(table: &Table, row: &Row, column: usize, range_ma: f64, problems: &mu
         return Some(value);
     }
     let advice = if (1e-3..=1e3).contains(&(value.abs() / range_ma)) && value.abs() > 10.0 * range_ma {
-        "is it in microamperes? The column is in milliamperes"
+        "convert it to milliamperes; it may be in microamperes"
     } else {
-        "the meter's range is in the laboratory file"
+        "check the value, or the range of the meter in the laboratory file"
     };
-    let expected = format!("at most {range_ma} mA either way, the meter's range");
+    let expected = format!("at most {range_ma} mA in either direction, the range of the meter");
     problems.push(table.problem(&row.cells[column], column, format!("{value}"), &expected, advice));
     None
 }
@@ -254,7 +254,11 @@ fn incomplete(coefficients: &Coefficients, readings: &[Reading]) -> Vec<Problem>
         .filter(|at| coefficients.positions.iter().filter(|other| count(other.index) == count(at.index)).count() == 1);
     let advice = match double {
         Some(at) if count(at.index) > 1 => {
-            format!("position {} stands {} times: is one of them this one?", at.index, count(at.index))
+            format!(
+                "position {} occurs {} times; check whether one of these rows belongs to this position",
+                at.index,
+                count(at.index)
+            )
         }
         _ => String::new(),
     };
@@ -268,9 +272,9 @@ fn incomplete(coefficients: &Coefficients, readings: &[Reading]) -> Vec<Problem>
 fn without_current(readings: &[Reading]) -> Vec<Problem> {
     let zero = |axis: usize| readings.iter().all(|row| row.current_ma[axis] == 0.0);
     let (found, advice) = match (zero(0), zero(1)) {
-        (true, true) => ("currents that are all zero", "was the gyro running and its feedback closed?"),
-        (true, false) => ("a current J_x that is zero in every position", "both axes are needed"),
-        (false, true) => ("a current J_y that is zero in every position", "both axes are needed"),
+        (true, true) => ("currents that are all zero", "check that the gyro was running with its feedback loop closed"),
+        (true, false) => ("a current J_x that is zero in every position", "add the readings of both axes"),
+        (false, true) => ("a current J_y that is zero in every position", "add the readings of both axes"),
         (false, false) => return Vec::new(),
     };
     vec![whole_file(found.to_owned(), "currents of both axes", advice)]

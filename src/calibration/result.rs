@@ -61,7 +61,7 @@ impl Calibration {
 
     /// Why no parameters are to be given, in words: the fit did not settle, so they would mean nothing.
     pub(crate) fn meaningless(&self) -> Option<String> {
-        let why = "the readings are far from those of any gyro on this stand, so no parameters are given";
+        let why = "no parameters are given, because the readings differ too much from those of any gyro on this stand";
         let hint = self.hint.as_ref().map_or_else(String::new, |hint| format!("; {hint}"));
         (!self.settled).then(|| format!("{why}{hint}"))
     }

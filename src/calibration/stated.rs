@@ -38,16 +38,16 @@ impl NotStated {
     /// In words, with the key of the file that would state it.
     pub fn words(self) -> &'static str {
         match self {
-            Self::Angles => "the certified angles (u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec)",
-            Self::Return => "the return to a position (repeatability_arcsec)",
-            Self::Platform => "the platform (common_platform_arcsec)",
-            Self::Base => "the stand's base (common_base_arcsec)",
-            Self::Latitude => "the latitude (latitude_arcsec)",
-            Self::Deflection => "the deflection of the vertical (deflection_arcsec.u)",
-            Self::Azimuth => "the base's azimuth (azimuth_arcsec)",
-            Self::Mark => "the azimuth of the mark (position_u_m, deflection_arcsec.u)",
-            Self::Level => "the base's level (level_arcsec)",
-            Self::Seat => "the gyro's seat (seating_arcsec)",
+            Self::Angles => "certified angles (u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec)",
+            Self::Return => "repeatability of positioning (repeatability_arcsec)",
+            Self::Platform => "common part of the platform (common_platform_arcsec)",
+            Self::Base => "common part of the base (common_base_arcsec)",
+            Self::Latitude => "latitude (latitude_arcsec)",
+            Self::Deflection => "deflection of the vertical (deflection_arcsec.u)",
+            Self::Azimuth => "azimuth of the base (azimuth_arcsec)",
+            Self::Mark => "azimuth of the mark (position_u_m, deflection_arcsec.u)",
+            Self::Level => "level of the base (level_arcsec)",
+            Self::Seat => "gyro seat (seating_arcsec)",
             Self::Gravity => "gravity (gravity_u_m_per_s2)",
         }
     }
@@ -146,8 +146,12 @@ fn of_common(certificate: &Certificate, on: ActsOn, common_arcsec: Option<f64>) 
 pub fn temperature_remark(certificate: &Certificate, laboratory: &Laboratory) -> Option<String> {
     let here = laboratory.temperature_c?;
     let [low, high] = certificate.temperature_range_c?;
-    (!(low..=high).contains(&here))
-        .then(|| format!("the laboratory is at {here} deg C; the deviations are certified for {low} to {high} deg C"))
+    (!(low..=high).contains(&here)).then(|| {
+        format!(
+            "the temperature in the laboratory is {here} deg C; the deviations are certified from {low} \
+             to {high} deg C"
+        )
+    })
 }
 
 /// The base at its place. Parts that are independent are kept apart; what does not enter is known exactly.

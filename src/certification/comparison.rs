@@ -20,7 +20,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 #[non_exhaustive]
 pub enum NotCompared {
     /// The certificate of another stand.
-    #[error("the certificate is of {certificate}, the readings of {readings}")]
+    #[error("the certificate is for {certificate}, but the readings are from {readings}")]
     OtherStand {
         /// Model and serial of the certificate.
         certificate: String,
@@ -28,16 +28,13 @@ pub enum NotCompared {
         readings: String,
     },
     /// Positions that one of the two does not have.
-    #[error("certificate and readings do not have the same positions, or not the same nominal angles: {0}")]
+    #[error("certificate and readings differ in their positions or nominal angles: {0}")]
     OtherPositions(PositionIndex),
     /// No uncertainty to compare with.
-    #[error(
-        "the certificate states no repeatability, and one run does not show it: nothing says how far apart two \
-         measurements of the same stand may be"
-    )]
+    #[error("the certificate states no repeatability, and one run does not show it; measure two runs or more")]
     NoRepeatability,
     /// Too few positions to tell a common turn from single positions.
-    #[error("too few positions: a turn that all share cannot be told from single positions")]
+    #[error("too few positions to distinguish a common rotation from changes of single positions")]
     TooFewPositions,
 }
 
@@ -151,13 +148,14 @@ pub fn compare(
     };
     found.words = words(&found, moved);
     if certificate.positions.iter().any(|at| certified_u_arcsec(at).is_none()) {
-        let missing = "the certificate states no uncertainty of some angles (u_alpha_arcsec and so on): taken as exact, \
-                       which makes differences look larger than they are";
+        let missing = "the certificate does not state the uncertainty of all angles (u_alpha_arcsec etc.); these \
+                       angles were treated as exact, so differences appear more significant than they are";
         found.words.push(missing.to_owned());
     }
     let evidence = certificate.certificate.evidence.as_ref();
     if evidence.is_some_and(|evidence| readings.sha256() == Some(&evidence.readings_sha256)) {
-        let same = "these are the readings that the certificate was made from: they show nothing about the stand today";
+        let same = "the certificate was computed from these readings, so they do not show the present state of the \
+                    stand";
         found.words.push(same.to_owned());
     }
     Ok(found)
@@ -367,7 +365,7 @@ impl Between {
         let degrees_of_freedom = |runs: f64| 3.0 * (runs - 1.0);
         let of_certificate = evidence.map_or(f64::INFINITY, degrees_of_freedom);
         if runs > 1 {
-            let components = &again.ok_or("the check's runs do not show what they vary by")?.components;
+            let components = &again.ok_or("the variation between the check runs is unknown")?.components;
             let runs = runs as f64;
             return Ok(Self {
                 runs,
@@ -377,8 +375,8 @@ impl Between {
             });
         }
         let evidence = evidence.ok_or(
-            "one run does not show how far set-ups differ, and the certificate has no evidence of how many runs its \
-             common_* are from; measure two runs or more",
+            "one run does not show the variation between set-ups, and the certificate does not state the number of \
+             runs behind its common_*; measure two runs or more",
         )?;
         let of_one_run = |common: Option<f64>, on: ActsOn| {
             let of_mean = square(common.unwrap_or(0.0)) - certificate.type_b_arcsec2(on);
@@ -406,31 +404,39 @@ fn words(found: &Comparison, moved: bool) -> Vec<String> {
     let out: Vec<&ComparedPosition> = found.positions.iter().filter(|at| !at.repeats).collect();
     if !out.is_empty() && out.len() == found.positions.len() {
         said.push(
-            "no half of the positions agree with one another: this is another stand, or another certificate".to_owned(),
+            "no half of the positions agree with each other; this is another stand or another certificate".to_owned(),
         );
     } else {
         for at in &out {
             let [x, y, z] = at.turn_arcsec;
             let index = at.index;
-            said.push(format!("position {index} does not repeat: {x:+.2}, {y:+.2}, {z:+.2} arcsec about x, y, z from where the others put it"));
+            said.push(format!(
+                "position {index} has changed: {x:+.2}, {y:+.2}, {z:+.2} arcsec about x, y, z relative \
+                 to the other positions"
+            ));
         }
         if out.is_empty() && found.all.probability < OUTLIER {
-            said.push("the positions do not repeat: none stands out, all are farther off than stated".to_owned());
+            said.push("the positions have changed by more than stated; no single position stands out".to_owned());
         } else if out.is_empty() && found.all.probability < STRAGGLER {
-            said.push("the positions are a little farther off than chance explains: measure another run".to_owned());
+            said.push(
+                "the differences of the positions are slightly larger than chance explains; measure another \
+                       run"
+                .to_owned(),
+            );
         }
     }
     if moved {
         said.push(
-            "all positions have turned together: a datum has changed (gyro seat, level, azimuth), not single positions"
+            "all positions have rotated together; a datum surface has changed (gyro seat, level or azimuth), not \
+             single positions"
                 .to_owned(),
         );
     } else {
         match found.common.test {
-            Err(why) => said.push(format!("whether the stand has turned as a whole is not judged: {why}")),
+            Err(why) => said.push(format!("rotation of the stand as a whole was not tested: {why}")),
             Ok(test) if test.probability < STRAGGLER => {
                 said.push(
-                    "all positions have turned together a little farther than chance explains: measure more runs"
+                    "the common rotation of all positions is slightly larger than chance explains; measure more runs"
                         .to_owned(),
                 );
             }

@@ -20,7 +20,7 @@ impl Certification {
 
     fn comments(&self, path: &str) -> Vec<String> {
         match path {
-            "format" => vec!["A stand as certified from repeated readings. Standard uncertainties (k = 1).".to_owned()],
+            "format" => vec!["Stand certified from repeated readings. Standard uncertainties (k = 1).".to_owned()],
             "certificate.repeatability_arcsec" => self.of_the_components(),
             "positions" => self.of_the_positions(),
             _ => Vec::new(),
@@ -32,25 +32,30 @@ impl Certification {
         let own = components.own_arcsec2.map(|variance| format!("{:.3}", variance.value.sqrt()));
         let mut said = vec![
             format!(
-                "From {} runs: what one return scatters by; {} arcsec about x, y, z.",
+                "Repeatability of one visit, from {} runs: {} arcsec about x, y, z.",
                 self.runs.len(),
                 own.join(", ")
             ),
-            "What a run shares over all positions is kept apart; common_* are of the mean of the runs.".to_owned(),
+            "It excludes the part common to all positions of a run; common_* are uncertainties of the mean of the \
+             runs."
+                .to_owned(),
         ];
         let platform = Some(&components.platform);
         for (what, common) in [("platform", platform), ("base", components.base.as_ref())] {
             said.push(match common {
                 Some(common) if common.between_runs_arcsec2 > 0.0 => format!(
-                    "The {what} turns by {:.3} arcsec per axis from run to run, {:.1} degrees of freedom.",
+                    "The {what} varies by {:.3} arcsec per axis from run to run ({:.1} degrees of freedom).",
                     common.between_runs_arcsec2.sqrt(),
                     common.degrees_of_freedom
                 ),
                 Some(common) => format!(
-                    "The {what} does not turn from run to run beyond scatter: at most {:.3} arcsec per axis at 95 %.",
+                    "No variation of the {what} from run to run was found: at most {:.3} arcsec per axis at 95 %.",
                     common.upper_limit_arcsec2.sqrt()
                 ),
-                None => format!("A turn of the {what} cannot be told from one of the platform, which holds both."),
+                None => format!(
+                    "A rotation of the {what} cannot be distinguished from one of the platform, which \
+                     includes both."
+                ),
             });
         }
         said
@@ -59,13 +64,19 @@ impl Certification {
     fn of_the_positions(&self) -> Vec<String> {
         let worse: Vec<String> = self.suspects.worse.iter().map(|at| at.index.to_string()).collect();
         let scatter = if worse.is_empty() {
-            "the scatter of all positions together, axis by axis".to_owned()
+            "the pooled standard deviation of all positions, for each axis".to_owned()
         } else {
-            format!("its own scatter for position {} (Cochran's test), that of the others together", worse.join(", "))
+            format!(
+                "its own standard deviation for position {} (Cochran's test), the pooled one for the others",
+                worse.join(", ")
+            )
         };
         let type_b = if self.stand.certificate.type_b_arcsec2(ActsOn::Position) > 0.0 { ", and type_b" } else { "" };
         let runs = self.runs.len();
-        let mut said = vec![format!("Means of {runs} runs. u_*: {scatter}, over the root of the runs{type_b}.")];
+        let mut said = vec![format!(
+            "Means of {runs} runs. u_*: {scatter}, divided by the square root of the number \
+             of runs{type_b}."
+        )];
         said.extend(self.warnings.iter().map(|warning| format!("Warning: {warning}.")));
         said
     }

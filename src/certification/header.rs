@@ -5,7 +5,7 @@ use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity, STAND_
 use crate::text::{Path, Problems, Unreadable, record, yaml};
 
 record! {
-    /// One position to be certified: its nominal angles alone.
+    /// Position to be certified, with its nominal angles only.
     pub struct NominalPosition {
         /// Frame index, from 1.
         pub i: u32,
@@ -50,17 +50,17 @@ impl From<&CertifiedPosition> for NominalPosition {
 }
 
 record! {
-    /// A stand file (`dtg-stand/1`) before the measurement: which stand, its certificate, its positions without angles.
+    /// Stand file (`dtg-stand/1`) before the measurement: stand, certificate, and positions without deviations.
     pub struct Header {
         /// Always "dtg-stand/1".
         pub format: String,
-        /// Which stand.
+        /// Identity of the stand.
         pub stand: Identity,
-        /// Its certificate, without what the measurement will say.
+        /// Certificate, without the results of the measurement.
         pub certificate: Certificate,
-        /// The surfaces that realise its axes.
+        /// Datum surfaces, which define the axes.
         pub datum: Option<Datum>,
-        /// Its positions, sorted by (i, j) once read.
+        /// Positions, sorted by (i, j) after reading.
         pub positions: Vec<NominalPosition>,
     }
 }
@@ -120,7 +120,7 @@ fn check_not_measured(certificate: &Certificate, problems: &mut Problems) {
     let measured = measured.into_iter().filter_map(|(key, value)| Some((key, format!("{}", value?))));
     let evidence = certificate.evidence.iter().map(|_| ("evidence", "a mapping".to_owned()));
     for (key, found) in measured.chain(evidence) {
-        let advice = "leave it out: the readings give it";
+        let advice = "omit it; it is computed from the readings";
         problems.at(&at.key(key), found, "a header without measured numbers", advice);
     }
 }

@@ -38,12 +38,12 @@ pub(crate) const ENOUGH_RUNS: usize = 4;
 pub enum NotCertified {
     /// One run shows no scatter.
     #[error(
-        "one run: it cannot show how well positions repeat, so no uncertainty can be stated; measure at least two runs, \
-         better five, the platform moved away and back between them"
+        "found one run, expected at least two (better five); move the platform away and back between runs, so that \
+         repeatability can be estimated"
     )]
     OneRun,
     /// Readings of other positions than the header has.
-    #[error("readings of {readings} positions for a stand file with {header}")]
+    #[error("found readings of {readings} positions, expected the {header} positions of the stand file")]
     OtherPositions {
         /// Positions that were read.
         readings: usize,
@@ -52,26 +52,26 @@ pub enum NotCertified {
     },
     /// What is common to a run cannot be told from a position's own scatter.
     #[error(
-        "too few positions: what all positions of a run share cannot be told from their own scatter; at least three are \
-         needed, two of which differ in theta or phi"
+        "too few positions to distinguish the common part of a run from the repeatability of single positions; \
+         measure at least three, two of which differ in theta or phi"
     )]
     TooFewPositions,
     /// An angle that is the same in all runs.
     #[error(
-        "{0} is the same in every run of every position: was it measured each time? Record more digits than it scatters by, \
-         and never the same run twice"
+        "{0} is the same in every run of every position; measure it in every run, record more digits than it varies \
+         by, and do not copy runs"
     )]
     Constant(&'static str),
     /// Nothing scatters once the runs' common turns are taken out.
-    #[error("the readings do not scatter: are the runs copies of one another, shifted?")]
+    #[error("the readings do not vary; check whether the runs are shifted copies of each other")]
     NoScatter,
 }
 
 /// A certificate's number that already stands for other angles.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "certificate {number} already gives other angles for this stand, first for position {index}; give the new certificate a \
-     number and dates of its own in the header (--stand)"
+    "certificate {number} already states other angles for this stand, first for position {index}; give the new \
+     certificate its own number and dates in the header (--stand)"
 )]
 pub(crate) struct NumberInUse {
     /// The number.
@@ -264,20 +264,20 @@ fn remarks(components: &Components, runs: usize, positions: &[CertifiedPosition]
         // GUM (JCGM 100), E.4.3: the relative standard deviation of s is about 1/√(2ν).
         let doubt = 100.0 / (2.0 * freedom as f64).sqrt();
         said.push(format!(
-            "{runs} runs are few: what all positions of a run share has {freedom} degrees of freedom, and its uncertainty is \
-             itself uncertain by {doubt:.0} %; five runs or more are better"
+            "{runs} runs are few: the common part of a run has only {freedom} degrees of freedom, so its uncertainty \
+             has an uncertainty of {doubt:.0} %; measure five runs or more"
         ));
     }
     match components.base_axes {
         3 => {}
         0 => said.push(
-            "in these positions a turn of the base cannot be told from one of the platform: common_base_arcsec is absent, \
-             and common_platform_arcsec holds both"
+            "in these positions a rotation of the base cannot be distinguished from one of the platform; \
+             common_base_arcsec is absent, and common_platform_arcsec includes both"
                 .to_owned(),
         ),
         axes => said.push(format!(
-            "in these positions only {axes} of the base's three axes can be told from the platform; \
-             common_platform_arcsec holds what both share"
+            "in these positions only {axes} of the three axes of the base can be distinguished from the platform; \
+             common_platform_arcsec includes the rest"
         )),
     }
     let largest = positions
@@ -285,7 +285,10 @@ fn remarks(components: &Components, runs: usize, positions: &[CertifiedPosition]
         .flat_map(|at| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec])
         .fold(0.0, |a, b| f64::max(a, b.abs()));
     if largest < 0.5 {
-        said.push(format!("no angle is larger than {largest:.2} arcsec: are these degrees where arcseconds belong?"));
+        said.push(format!(
+            "no angle is larger than {largest:.2} arcsec; check that the angles are in arcseconds, not \
+             degrees"
+        ));
     }
     said
 }

@@ -33,7 +33,7 @@ pub struct AngleReadings {
 
 /// Readings that do not hold every position in every run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("every position must have one reading in every run")]
+#[error("every position must have a reading in every run")]
 pub struct NotBalanced;
 
 /// Where a reading stands: its position and its run.
@@ -175,9 +175,9 @@ fn position(
     if positions.iter().any(|at| at.index() == index) {
         return Some(index);
     }
-    let advice = "are these the readings of this stand?";
+    let advice = "check that these are the readings of this stand";
     let found = format!("position {index}");
-    problems.push(table.problem(&row.cells[0], 0, found, "a position that the stand file has", advice));
+    problems.push(table.problem(&row.cells[0], 0, found, "a position of the stand file", advice));
     None
 }
 
@@ -187,8 +187,8 @@ fn angle(table: &Table, row: &Row, column: usize, problems: &mut Vec<Problem>) -
     if value.abs() <= largest {
         return Some(value);
     }
-    let advice = "deviations are from the nominal position; is the unit arcseconds?";
-    let expected = format!("at most {LARGEST_DEVIATION_DEG} degrees ({largest} arcseconds) either way");
+    let advice = "state deviations from the nominal position, in arcseconds";
+    let expected = format!("at most {LARGEST_DEVIATION_DEG} degrees ({largest} arcseconds) in either direction");
     problems.push(table.problem(&row.cells[column], column, format!("{value}"), &expected, advice));
     None
 }
@@ -204,7 +204,7 @@ fn incomplete(positions: &[NominalPosition], rows: &[Reading]) -> Vec<Problem> {
         }
         let missing: Vec<u32> = runs.iter().copied().filter(|run| !there.contains(&(at.index(), *run))).collect();
         if missing.len() == runs.len() {
-            let advice = "are these the readings of this stand?";
+            let advice = "check that these are the readings of this stand";
             problems.push(whole_file(
                 format!("no reading of position {}", at.index()),
                 "a reading of every position",
@@ -212,8 +212,7 @@ fn incomplete(positions: &[NominalPosition], rows: &[Reading]) -> Vec<Problem> {
             ));
             continue;
         }
-        let advice = "what is common to a run can be told from a position's own scatter in whole runs alone: \
-                      measure it, or leave out the whole run";
+        let advice = "measure it, or omit the whole run, because only complete runs show their common part";
         for run in missing.into_iter().take(MOST_PROBLEMS - problems.len()) {
             let found = format!("no reading of position {} in run {run}", at.index());
             problems.push(whole_file(found, "every position in every run", advice));
@@ -234,7 +233,7 @@ fn slips(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
                 return problems;
             }
             let column = 3 + axis;
-            let expected = format!("about {usual} as in the other runs of position {index}");
+            let expected = format!("about {usual}, as in the other runs of position {index}");
             problems.push(table.problem(&row.cells[column], column, format!("{}", angles[axis]), &expected, advice));
         }
     }
@@ -296,13 +295,16 @@ fn slip(value: f64, usual: f64, spread: f64) -> Option<&'static str> {
     // A reading near zero by chance is no slip: the usual one must stand clear of zero.
     let clear = |angle: f64| angle.abs() > f64::max(1.0, 3.0 * spread);
     if clear(usual) && factor_of_degree((usual / value).abs()) {
-        Some("it is 3,600 times too small: degrees where arcseconds belong")
+        Some("convert it from degrees to arcseconds; it is too small by a factor of 3,600")
     } else if (value - usual).abs() <= LARGEST_SCATTER_ARCSEC {
         None
     } else if factor_of_degree((value / usual).abs()) {
-        Some("it is 3,600 times too large: was it turned into arcseconds twice, or are the other runs in degrees?")
+        Some(
+            "convert it to arcseconds only once, or check whether the other runs are in degrees; it is too large by \
+              a factor of 3,600",
+        )
     } else {
-        Some("is a digit or the sign wrong, or was another position read?")
+        Some("check the digits, the sign and the position")
     }
 }
 

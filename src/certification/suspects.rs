@@ -93,8 +93,8 @@ impl Suspects {
         let mut said = Vec::new();
         for worse in &self.worse {
             said.push(format!(
-                "{}: position {} scatters {:.1} times as much as all together (Cochran's test: probability {:.2e}); its \
-                 uncertainty is from its own scatter, that of the others without it",
+                "{}: the standard deviation of position {} is {:.1} times the pooled one (Cochran's test: probability \
+                 {:.2e}); its uncertainty is computed from its own readings, that of the others without it",
                 grade(worse.probability),
                 worse.index,
                 worse.ratio,
@@ -104,8 +104,8 @@ impl Suspects {
         for out in &self.outliers {
             let line = out.line.map_or_else(String::new, |line| format!(" (line {line} of the readings)"));
             said.push(format!(
-                "{}: position {}, run {}{line}, is {:+.2} arcsec from the other runs about {} (Grubbs' test: probability \
-                 {:.2e}); it was kept: measure it again, or leave out the run",
+                "{}: position {}, run {}{line}, differs by {:+.2} arcsec from the other runs about {} (Grubbs' test: \
+                 probability {:.2e}); it was not excluded; measure it again, or omit the run",
                 grade(out.probability),
                 out.index,
                 out.run,
@@ -115,23 +115,25 @@ impl Suspects {
             ));
         }
         if let ([one, other], false) = (runs, self.outliers.is_empty()) {
-            said.push(format!("two runs do not tell which of them is wrong, {one} or {other}: measure a third"));
+            said.push(format!("two runs do not show whether run {one} or run {other} is wrong; measure a third run"));
         }
         if !self.outliers.is_empty() && self.worse.is_empty() {
             said.push(
-                "while a reading is suspect, single positions are not compared, and all state the scatter of all together"
+                "because a reading is suspect, single positions were not compared, and all positions state the pooled \
+                 standard deviation"
                     .to_owned(),
             );
         }
         for (one, other) in &self.twins {
             said.push(format!(
-                "runs {one} and {other} agree more than 30 times better than runs usually do: is one a copy of the other?"
+                "runs {one} and {other} agree more than 30 times better than other runs; check whether one is a copy \
+                 of the other"
             ));
         }
         if let Some(test) = self.axes.filter(|test| test.probability < OUTLIER) {
             said.push(format!(
-                "x, y and z do not scatter alike (Bartlett's test: probability {:.2e}): repeatability_arcsec is their root mean \
-                 square, too large for one axis and too small for another",
+                "the variances about x, y and z differ (Bartlett's test: probability {:.2e}); repeatability_arcsec is \
+                 their root mean square, which is too large for one axis and too small for another",
                 test.probability
             ));
         }

@@ -19,28 +19,28 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 #[derive(Args)]
 pub struct BatchOptions {
-    /// Private key, or a .pub file whose private half is in ssh-agent or a FIDO token
+    /// Private key file, or a .pub file whose private half is in ssh-agent or a FIDO token
     #[arg(long, value_name = "KEY", required_unless_present = "dry_run")]
     key: Option<PathBuf>,
-    /// The issuer: the principal by which allowed_signers knows the key
+    /// Issuer: the principal of the key in allowed_signers
     #[arg(long, value_name = "WHO", value_parser = key_options::identity)]
     pub identity: String,
-    /// Only the K-th of N parts of the job: the parts are disjoint and complete
+    /// Process only part K of N; the parts are disjoint and together complete
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
-    /// Issue even if the stand's positions do not determine the parameters of a gyro
+    /// Issue even if the positions of the stand do not determine the parameters of a gyro
     #[arg(long)]
     pub allow_uncalibratable: bool,
-    /// Compute and check everything, say what would be issued, write nothing; needs no key
+    /// Compute and check everything, and list what would be issued, but write nothing; requires no key
     #[arg(long)]
     dry_run: bool,
-    /// Do not wait until the disk has it: faster, for what can be issued again after a loss of power
+    /// Do not sync to disk: faster, but a power failure may lose files
     #[arg(long)]
     no_sync: bool,
-    /// Threads [default: as many as the machine runs at once]
+    /// Number of threads [default: one for each processor]
     #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
-    /// Form of the result
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: TableFormat,
 }
@@ -160,7 +160,7 @@ impl Reporter {
             return Err(failure);
         }
         if self.cancel.load(Ordering::Relaxed) {
-            output::say("interrupted: the same command, given again, does the rest");
+            output::say("interrupted; to complete the job, run the same command again");
             self.code = self.code.max(REFUSED);
         }
         Ok(self.code)

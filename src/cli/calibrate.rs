@@ -24,45 +24,45 @@ use clap::Args;
 use jiff::Timestamp;
 use std::path::{Path, PathBuf};
 
-/// Find the gyro's parameters, their uncertainty, the fit, and the verdict against its type
+/// Calibrate a gyro: parameters, their uncertainty, the fit, and the decision for its type
 #[derive(Args)]
 pub struct Options {
     #[command(flatten)]
     passport: PassportOptions,
-    /// Currents: CSV with the header i,j,jx_ma,jy_ma, and if present cycle, visit, time_s; rows of a position that follow
-    /// each other are readings of one visit
+    /// Currents: CSV with the header i,j,jx_ma,jy_ma and optionally cycle, visit, time_s; without visit, successive
+    /// rows of a position belong to one visit
     #[arg(value_name = "CURRENTS.csv")]
     currents: PathBuf,
-    /// Methods; least squares is the answer
+    /// Calibration methods; least squares gives the adopted result
     #[arg(long, value_enum, value_delimiter = ',', default_value = "analytic,iterative,least-squares")]
     method: Vec<MethodName>,
-    /// Type of the gyro (dtg-gyro/1): gives a verdict
+    /// Gyro type (dtg-gyro/1) for the decision on conformity
     #[arg(long, value_name = "FILE")]
     gyro: Option<PathBuf>,
     /// Laboratory (dtg-laboratory/1) [default: the paper's meter, 0.015 %]
     #[arg(long, value_name = "FILE")]
     laboratory: Option<PathBuf>,
-    /// An earlier result of this gyro (--format json): what has changed
+    /// Previous result of this gyro (from --format json), to report the change
     #[arg(long, value_name = "RESULT.json")]
     previous: Option<PathBuf>,
-    /// Iteration stops when the main scale factors move by at most this, percent
+    /// Stop limit of the iteration for the main scale factors, percent
     #[arg(long, value_name = "P", default_value_t = 0.1, value_parser = limit, allow_hyphen_values = true)]
     delta1_percent: f64,
-    /// And the g-sensitive drifts by at most this, deg/h per g
+    /// Stop limit of the iteration for ω_g and ω_k, deg/(h·g)
     #[arg(long, value_name = "D", default_value_t = 0.001, value_parser = limit, allow_hyphen_values = true)]
     delta2_deg_per_h: f64,
-    /// Also fit the anisoelastic coefficient by least squares; the eight positions cannot show it
+    /// Also fit the anisoelastic coefficient by least squares; the eight positions alone do not determine it
     #[arg(long)]
     anisoelasticity: bool,
     #[command(flatten)]
     uncertainty: uncertainty::UncertaintyOptions,
-    /// Also a report for paper, screen and telephone, to be signed with a pen
+    /// Report to write, for paper, screen and phone, with fields for handwritten signatures
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// Languages of the report, the first of which writes the numbers: en, ru, or en,ru for both side by side
+    /// Report languages; the first sets the number format: en, ru, or en,ru for both side by side
     #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
     lang: Vec<Written>,
-    /// Form of the result
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
@@ -70,7 +70,7 @@ pub struct Options {
 /// What a step may move by when the iteration stops.
 fn limit(text: &str) -> Result<f64, String> {
     let value = text.parse().ok().filter(|value| (0.0..f64::INFINITY).contains(value));
-    value.ok_or_else(|| "a number of 0 or more, with a decimal point".to_owned())
+    value.ok_or_else(|| "a number ≥ 0, with a decimal point".to_owned())
 }
 
 pub fn run(options: &Options) -> Result<Code, Failure> {
@@ -172,7 +172,7 @@ fn used<'a>(
     match PassportPage::of(bytes, trust, question, verification.clone()) {
         Ok(page) => Ok(UsedPassport::Verified(Box::new(page))),
         // It passed every check a moment ago.
-        Err(_) => Err(Failure::refused("the passport could not be put into a report")),
+        Err(_) => Err(Failure::refused("the passport cannot be used in a report")),
     }
 }
 
@@ -188,6 +188,6 @@ fn earlier(options: &Options) -> Result<Option<calibration::verdict::Found>, Fai
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
     let name = name_of(path);
     let document = CalibrationDocument::from_json(&name, &bytes).map_err(Failure::unreadable)?;
-    let found = document.answer().ok_or_else(|| Failure::unusable(format!("{}: holds no result", shown(path))))?;
+    let found = document.answer().ok_or_else(|| Failure::unusable(format!("{}: contains no result", shown(path))))?;
     Ok(Some(found))
 }

@@ -11,25 +11,25 @@ use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
 use clap::Args;
 use std::path::PathBuf;
 
-/// Certify a stand from repeated readings of its angles, or check that it is still the same
+/// Certify a stand from repeated readings of its angles, or check that it has not changed
 #[derive(Args)]
 pub struct Options {
-    /// Angles: CSV with the header i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec; every position in every run
+    /// Angles: CSV with the header i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec, and every position in every run
     #[arg(value_name = "READINGS.csv")]
     readings: PathBuf,
-    /// A stand file (dtg-stand/1) whose positions have no angles yet [default: that of --against]
+    /// Stand file (dtg-stand/1) whose positions have no angles yet [default: that of --against]
     #[arg(long, value_name = "HEADER.yaml", required_unless_present = "against")]
     stand: Option<PathBuf>,
-    /// Where the certified stand file goes
+    /// Certified stand file to write
     #[arg(short, value_name = "stand.yaml", required_unless_present = "against")]
     output: Option<PathBuf>,
     /// Replace an existing stand file
     #[arg(long)]
     force: bool,
-    /// A certified stand: do these readings show the same one? One run is enough
+    /// Certified stand to compare the readings with; one run is sufficient
     #[arg(long, value_name = "stand.yaml")]
     against: Option<PathBuf>,
-    /// Form of the result
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
@@ -42,7 +42,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
             Header::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)?
         }
         (None, Some(stand)) => Header::from(stand),
-        (None, None) => return Err(Failure::unusable("--stand or --against is needed")),
+        (None, None) => return Err(Failure::unusable("missing --stand or --against")),
     };
     let bytes = files::read(&options.readings, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
     let name = name_of(&options.readings);
@@ -66,7 +66,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
             certified.check_number(stand).map_err(Failure::refused)?;
         }
         if options.stand.is_none() {
-            let words = "-o needs --stand HEADER.yaml: a new certificate has a number and dates of its own";
+            let words = "-o requires --stand HEADER.yaml, because a new certificate has its own number and dates";
             return Err(Failure::unusable(words));
         }
         let text = certified.to_yaml(&name_of(path)).map_err(Failure::refused)?;

@@ -4,7 +4,7 @@ use super::{Cli, Code, Failure, output};
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
-/// Print completions for a shell
+/// Print the completion script for a shell
 #[derive(Args)]
 pub struct Options {
     /// Shell

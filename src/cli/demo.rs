@@ -5,10 +5,10 @@ use crate::demonstration;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Show the factory's and the laboratory's whole job on a built-in example, and leave its files to look at
+/// Demonstrate the work of factory and laboratory with a built-in example, and keep its files
 #[derive(Args)]
 pub struct Options {
-    /// Folder for the files; it must be empty or not exist [default: dtg-passport-demo, numbered if that exists]
+    /// Folder for the files, empty or not existing [default: dtg-passport-demo, numbered if it exists]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }

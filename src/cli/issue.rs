@@ -21,8 +21,8 @@ use std::path::{Path, PathBuf};
 
 /// Issue a signed passport for every stand at every site
 ///
-/// STAND and SITE are files, quoted patterns, or folders: every stand.yaml under a folder, every *.yaml in it (.yml too). A - stands
-/// for a list of paths on standard input, a path a line or with zero bytes between them.
+/// STAND and SITE are files, quoted patterns, or folders. For a folder, STAND means every stand.yaml below it, and SITE
+/// every *.yaml in it (also .yml). A - reads a list of paths from standard input, separated by line feeds or NUL.
 #[derive(Args)]
 pub struct Options {
     /// Stand files (dtg-stand/1)
@@ -31,7 +31,7 @@ pub struct Options {
     /// Site files (dtg-site/1; repeatable)
     #[arg(long = "site", required = true, value_name = "SITE")]
     sites: Vec<PathBuf>,
-    /// Folder of the passports
+    /// Folder of passports
     #[arg(long, value_name = "DIR", default_value = "passports")]
     out: PathBuf,
     #[command(flatten)]
@@ -39,19 +39,19 @@ pub struct Options {
     /// Time of issue, RFC 3339 [default: now]
     #[arg(long, value_name = "TIME", value_parser = trust_options::time)]
     issued_at: Option<Timestamp>,
-    /// Last day of the passport, not after the certificate's [default: the certificate's]
+    /// Expiry date (inclusive), not later than that of the certificate [default: that of the certificate]
     #[arg(long, value_name = "DATE", value_parser = trust_options::date)]
     valid_until: Option<Date>,
-    /// State in the passport what the stand is good for
+    /// Include the expected calibration uncertainty
     #[arg(long)]
     accuracy: bool,
-    /// For this type of gyro (dtg-gyro/1) [default: the paper's GVK-6]
+    /// Gyro type for --accuracy (dtg-gyro/1) [default: the paper's GVK-6]
     #[arg(long, value_name = "FILE", requires = "accuracy")]
     gyro: Option<PathBuf>,
-    /// In this laboratory (dtg-laboratory/1) [default: the paper's meter, 0.015 %]
+    /// Laboratory for --accuracy (dtg-laboratory/1) [default: the paper's meter, 0.015 %]
     #[arg(long, value_name = "FILE", requires = "accuracy")]
     laboratory: Option<PathBuf>,
-    /// Write only what would verify by this allowed_signers
+    /// Write only passports that pass verification with this allowed_signers file
     #[arg(long, value_name = "SIGNERS")]
     trust: Option<PathBuf>,
 }
@@ -59,7 +59,7 @@ pub struct Options {
 pub fn run(options: &Options) -> Result<Code, Failure> {
     let list = Path::new("-");
     if options.stands.iter().chain(&options.sites).filter(|path| *path == list).count() > 1 {
-        return Err(Failure::unusable("standard input can be one list, of stands or of sites"));
+        return Err(Failure::unusable("standard input can be only one list: of stands or of sites"));
     }
     let now = trust_options::now();
     let issued_at = time_of_issue(options.issued_at, now).map_err(Failure::refused)?;

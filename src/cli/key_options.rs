@@ -13,10 +13,10 @@ use zeroize::Zeroizing;
 
 #[derive(Args)]
 pub struct KeyOptions {
-    /// Private key, or a .pub file whose private half is in ssh-agent or a FIDO token
+    /// Private key file, or a .pub file whose private half is in ssh-agent or a FIDO token
     #[arg(long, value_name = "KEY")]
     pub key: PathBuf,
-    /// The issuer: the principal by which allowed_signers knows the key
+    /// Issuer: the principal of the key in allowed_signers
     #[arg(long, value_name = "WHO", value_parser = identity)]
     pub identity: String,
 }
@@ -49,7 +49,7 @@ pub fn passphrase(prompt: &str) -> Result<Zeroizing<String>, String> {
         return Ok(Zeroizing::new(passphrase));
     }
     if !std::io::stdin().is_terminal() {
-        return Err(format!("there is no terminal to ask for its passphrase; set {PASSPHRASE_VARIABLE}"));
+        return Err(format!("no terminal is available for its passphrase; set {PASSPHRASE_VARIABLE}"));
     }
     rpassword::prompt_password(prompt).map(Zeroizing::new).map_err(|error| error.to_string())
 }

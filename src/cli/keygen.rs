@@ -10,18 +10,18 @@ use clap::Args;
 use std::path::{Path, PathBuf};
 use zeroize::Zeroizing;
 
-/// Make a signing key: KEY (mode 0600) and KEY.pub; prints the line for allowed_signers, or appends it
+/// Create a signing key: KEY (mode 0600) and KEY.pub; print the line for allowed_signers, or append it
 ///
-/// The passphrase is asked for, or taken from DTG_PASSPORT_PASSPHRASE.
+/// The program asks for the passphrase, or reads it from DTG_PASSPORT_PASSPHRASE.
 #[derive(Args)]
 #[command(verbatim_doc_comment)]
 pub struct Options {
-    /// The new private key file; nothing is replaced
+    /// Private key file to write; an existing file is not replaced
     key: PathBuf,
-    /// Whose key it is, as allowed_signers and passports name the issuer [default: the file's name]
+    /// Owner of the key: the issuer in allowed_signers and passports [default: the file name]
     #[arg(long, value_name = "WHO", value_parser = key_options::identity)]
     identity: Option<String>,
-    /// Append the line to this file instead of printing it; nothing is appended when the key exists
+    /// Append the line to this file instead of printing it, unless the key exists
     #[arg(long, value_name = "FILE")]
     allowed_signers: Option<PathBuf>,
     /// Leave the key unencrypted
@@ -50,11 +50,11 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let wrote = format!("wrote {} (keep it secret) and {}", shown(&options.key), shown(&public_path));
     match signers.map(|path| (path, signing::append_signer(path, &line))) {
         Some((path, Ok(()))) => {
-            output::say(&format!("{wrote}; appended its line to {}", shown(path)));
+            output::say(&format!("{wrote}; appended the line of the key to {}", shown(path)));
             Ok(0)
         }
         unappended => {
-            output::say(&format!("{wrote}; put this line into allowed_signers:"));
+            output::say(&format!("{wrote}; add this line to allowed_signers:"));
             output::result(&(line + "\n"))?;
             unappended.map_or(Ok(0), |(_, failed)| failed.map(|()| 0).map_err(Failure::unusable))
         }
@@ -82,16 +82,16 @@ fn new_passphrase(options: &Options) -> Result<Option<Zeroizing<String>>, Failur
     if options.no_passphrase {
         return Ok(None);
     }
-    let advice = |error: String| Failure::unusable(format!("{error}, or give --no-passphrase"));
+    let advice = |error: String| Failure::unusable(format!("{error}, or use --no-passphrase"));
     let first = passphrase("Passphrase for the new key: ").map_err(advice)?;
     if std::env::var_os(PASSPHRASE_VARIABLE).is_none() {
-        let second = passphrase("The same again: ").map_err(advice)?;
+        let second = passphrase("Repeat the passphrase: ").map_err(advice)?;
         if first != second {
-            return Err(Failure::unusable("the two passphrases differ; no key was made"));
+            return Err(Failure::unusable("the two passphrases differ; no key was created"));
         }
     }
     if first.is_empty() {
-        return Err(Failure::unusable("the passphrase is empty; give --no-passphrase for an unencrypted key"));
+        return Err(Failure::unusable("the passphrase is empty; use --no-passphrase for an unencrypted key"));
     }
     Ok(Some(first))
 }

@@ -31,7 +31,7 @@ use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// Signed passports that let a cheap test stand calibrate a dynamically tuned gyro as well as an expensive one.
+/// Signed passports that let a low-cost test stand calibrate a dynamically tuned gyro as well as an expensive one.
 #[derive(Parser)]
 #[command(name = "dtg-passport", version, max_term_width = 100)]
 struct Cli {

@@ -11,20 +11,20 @@ use std::path::Path;
 /// The form of a result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// For people.
+    /// Text for a terminal
     Text,
-    /// For programs.
+    /// JSON for programs
     Json,
 }
 
 /// The form of a result that is a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum TableFormat {
-    /// For people.
+    /// Text for a terminal
     Text,
-    /// For programs.
+    /// JSON for programs
     Json,
-    /// For spreadsheets.
+    /// CSV for spreadsheets
     Csv,
 }
 

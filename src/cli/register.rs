@@ -14,18 +14,18 @@ use std::path::{Path, PathBuf};
 /// List every passport under a folder: in force, superseded, moved, expired, revoked, broken
 #[derive(Args)]
 pub struct Options {
-    /// The folder; revocation lists in it, and in the folders up to two levels above, count too
+    /// Folder of passports; revocation lists in it and up to two levels above are used too
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     #[command(flatten)]
     trust: TrustOptions,
-    /// Name those that expire within this many days
+    /// Flag passports that expire within DAYS days
     #[arg(long, value_name = "DAYS")]
     within: Option<u32>,
-    /// Sort by
+    /// Sort order
     #[arg(long, value_enum, default_value = "stand")]
     by: By,
-    /// Form of the result
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: TableFormat,
 }

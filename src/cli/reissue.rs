@@ -15,30 +15,30 @@ use std::sync::Arc;
 
 /// Verify passports and issue their successors: another site, corrected stands or sites, another key
 ///
-/// PASSPORT is a file, a quoted pattern, or a folder; a - stands for a list of paths on standard input. Of a folder what
-/// the register calls in force or expired is issued anew, with --stand the passports of those stands alone.
+/// PASSPORT is a file, a quoted pattern, or a folder; a - reads a list of paths from standard input. For a folder, the
+/// passports that the register shows as in force or expired are re-issued; with --stand only those of these stands.
 #[derive(Args)]
 pub struct Options {
-    /// The old passports
+    /// Predecessors
     #[arg(required = true, value_name = "PASSPORT")]
     passports: Vec<PathBuf>,
-    /// The new site, or the old one corrected [default: the old passport's]
+    /// New or corrected site [default: that of the predecessor]
     #[arg(long, value_name = "SITE")]
     site: Option<PathBuf>,
-    /// Site files, each for the passports of its own site: files, folders, patterns (repeatable)
+    /// Site files, each for the passports of that site: files, folders, patterns (repeatable)
     #[arg(long = "sites", value_name = "SITE", conflicts_with_all = ["site", "moved"])]
     sites: Vec<PathBuf>,
-    /// Corrected stands, each for the passports of its own: files, folders, patterns (repeatable)
-    /// [default: the old passport's]
+    /// Corrected stand files, each for the passports of that stand: files, folders, patterns (repeatable) [default:
+    /// that of the predecessor]
     #[arg(long = "stand", value_name = "STAND")]
     stands: Vec<PathBuf>,
-    /// The stand has left the old site: the old passport is superseded
+    /// The stand has left the old site; supersede the predecessor
     #[arg(long)]
     moved: bool,
-    /// Why there is a new passport
+    /// Reason for the re-issue, recorded in the passport
     #[arg(long, value_name = "TEXT")]
     reason: String,
-    /// Folder of the passports [default: the root that each old passport's path shows, above <model>/<serial>]
+    /// Folder of passports [default: the parent of <model>/<serial> in the path of each predecessor]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -48,8 +48,8 @@ pub struct Options {
     /// Time of issue, RFC 3339 [default: now]
     #[arg(long, value_name = "TIME", value_parser = trust_options::time)]
     issued_at: Option<Timestamp>,
-    /// Last day of the passport, not after the certificate's [default: the old passport's, or a new stand's
-    /// certificate's]
+    /// Expiry date (inclusive), not later than that of the certificate [default: that of the predecessor, or of the
+    /// certificate of a new stand]
     #[arg(long, value_name = "DATE", value_parser = trust_options::date)]
     valid_until: Option<Date>,
 }
@@ -58,7 +58,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let list = Path::new("-");
     let lists = options.passports.iter().filter(|path| *path == list).count();
     if lists > 1 || options.stands.iter().chain(&options.sites).any(|path| path == list) {
-        return Err(Failure::unusable("standard input can be one list, of passports"));
+        return Err(Failure::unusable("standard input can be only one list, of passports"));
     }
     let (trust, question) = options.trust.load()?;
     let order = Order {

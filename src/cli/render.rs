@@ -9,21 +9,21 @@ use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
-/// Write the printable passport: one HTML file for paper, screen and telephone
+/// Write the printed passport: one HTML file for paper, screen and phone
 #[derive(Args)]
 pub struct Options {
-    /// The passport
+    /// Passport file
     #[arg(value_name = "PASSPORT")]
     passport: PathBuf,
-    /// Where the page goes
+    /// HTML file to write
     #[arg(short, value_name = "FILE.html")]
     output: PathBuf,
     #[command(flatten)]
     trust: TrustOptions,
-    /// Folder of passports: say so when another one there supersedes it
+    /// Folder of passports: state on the page if another passport in it supersedes this one
     #[arg(long, value_name = "DIR")]
     register: Option<PathBuf>,
-    /// Languages, the first of which writes the numbers: en, ru, or en,ru for both side by side
+    /// Page languages; the first sets the number format: en, ru, or en,ru for both side by side
     #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
     lang: Vec<Written>,
     /// Replace an existing page

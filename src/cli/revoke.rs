@@ -13,19 +13,19 @@ use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Withdraw passports: adds them to the signed list in a folder
+/// Withdraw passports: add them to the signed list in a folder
 #[derive(Args)]
 pub struct Options {
-    /// Ids (model/serial/site/revision), looked up in --passports, or files
+    /// Identifiers (model/serial/site/revision, looked up in --passports) or files
     #[arg(required = true, value_name = "PASSPORT-ID")]
     ids: Vec<String>,
-    /// Why
+    /// Reason, recorded in the list
     #[arg(long, value_name = "TEXT")]
     reason: String,
-    /// Folder of the lists: the newest there is continued
+    /// Folder of revocation lists; the newest list is extended
     #[arg(long, value_name = "FOLDER")]
     list: PathBuf,
-    /// Folder of the passports
+    /// Folder of passports
     #[arg(long, value_name = "DIR", default_value = "passports")]
     passports: PathBuf,
     #[command(flatten)]
@@ -51,7 +51,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
         let Some(content) = verification.content_from_anyone().filter(|_| signed) else {
             let failed = verification.checks().iter().find(|check| check.passed() == Some(false));
             let words = failed.map_or_else(String::new, |check| check.detail.clone());
-            return Err(Failure::refused(format!("{}: is no passport that could be withdrawn: {words}", shown(&path))));
+            return Err(Failure::refused(format!("{}: cannot be withdrawn: {words}", shown(&path))));
         };
         let (id, sha256) = (content.passport.id.clone(), sha256_hex(&bytes));
         entries.push(Entry { id, sha256, revoked_at: now(), reason: options.reason.clone() });
@@ -62,7 +62,7 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
     let path = options.list.join(list.file_name());
     // A list that nobody can verify would withdraw nothing.
     RevocationList::verify(&name_of(&path), text.as_bytes(), &trust.signers, &trust.revoked, list.issued_at).map_err(
-        |refused| Failure::refused(format!("the new list would not count ({refused}); nothing was written")),
+        |refused| Failure::refused(format!("the new list failed verification ({refused}); nothing was written")),
     )?;
     files::write_new(&path, text.as_bytes(), Access::Shared).map_err(Failure::file)?;
     output::result(&format!("revoked    passports in all: {}  {}\n", count, shown(&path)))?;

@@ -14,13 +14,13 @@ enum Kind {
     Revocation,
 }
 
-/// Print the JSON Schema of a format (of several, an object of them by name), or tables of its keys
+/// Print the JSON Schema of a format (for several, an object with one for each name), or tables of its keys
 #[derive(Args)]
 pub struct Options {
     /// Formats
     #[arg(required = true, value_enum, value_delimiter = ',', value_name = "FORMAT")]
     formats: Vec<Kind>,
-    /// For editors, or for people
+    /// Form of the description: JSON Schema for editors, or tables for reading
     #[arg(long, value_enum, default_value = "json")]
     format: Form,
 }

@@ -6,10 +6,10 @@ use crate::report::selftest as report;
 use crate::selftest;
 use clap::Args;
 
-/// Compare the mathematics with published reference cases, on this machine
+/// Compare the computations on this machine with published reference cases
 #[derive(Args)]
 pub struct Options {
-    /// Form of the result
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

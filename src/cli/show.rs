@@ -10,12 +10,12 @@ use crate::text::{Field, LARGEST_DOCUMENT_BYTES, name_of};
 use clap::{ArgGroup, Args};
 use std::path::PathBuf;
 
-/// Show a passport as tables, or the whole of it as JSON for tools that read no YAML
+/// Show a passport as tables, or in full as JSON for tools without YAML
 #[derive(Args)]
 pub struct Options {
     #[command(flatten)]
     passport: PassportOptions,
-    /// Form of the result
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
@@ -24,18 +24,18 @@ pub struct Options {
 #[derive(Args)]
 #[command(group(ArgGroup::new("whom").required(true).args(["trust", "no_verify"])))]
 pub struct PassportOptions {
-    /// The passport
+    /// Passport file
     #[arg(value_name = "PASSPORT")]
     passport: PathBuf,
-    /// The keys that may sign: OpenSSH's allowed_signers
+    /// Trusted signing keys: an OpenSSH allowed_signers file
     #[arg(long, value_name = "SIGNERS")]
     trust: Option<PathBuf>,
-    /// What no longer counts: a KRL, a list of public keys, or a list of withdrawn passports (repeatable)
+    /// Revocations: an OpenSSH KRL, a list of public keys, or a list of withdrawn passports (repeatable)
     #[arg(long, value_name = "FILE", requires = "trust")]
     revoked: Vec<PathBuf>,
     #[command(flatten)]
     asked: Asked,
-    /// Verify nothing, and say so loudly
+    /// Do not verify the passport; the output carries a warning
     #[arg(long, conflicts_with_all = ["issuer", "serial", "at", "time"])]
     no_verify: bool,
 }
@@ -54,7 +54,7 @@ impl PassportOptions {
         let bytes = files::read(&self.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
         let name = name_of(&self.passport);
         let Some(signers) = &self.trust else {
-            output::say("NOT VERIFIED (--no-verify): anybody may have written these numbers");
+            output::say("NOT VERIFIED (--no-verify): the origin of these numbers is unknown");
             let content = read::content_from_anyone(&name, &bytes).map_err(Failure::unusable)?;
             return Ok(Read { content, bytes, verification: None });
         };

@@ -36,11 +36,11 @@ enum What {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Sharing {
-    /// An error for every reading
+    /// One error for every reading
     Independent,
-    /// One for all readings of x, one for all of y
+    /// One error for all readings of x, another for all of y
     Channel,
-    /// One for all readings
+    /// One error for all readings
     Common,
 }
 
@@ -63,60 +63,60 @@ impl From<MethodName> for Method {
 
 #[derive(Args)]
 struct RunArguments {
-    /// Random stands
+    /// Number of random stands
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     trials: Option<u64>,
-    /// The same seed gives the same numbers, on any number of threads
+    /// Seed of the random numbers; results do not depend on the number of threads
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
-    /// Threads [default: all processors]
+    /// Number of threads [default: one for each processor]
     #[arg(long, value_name = "T", value_parser = clap::value_parser!(u32).range(1..))]
     threads: Option<u32>,
-    /// Form of the result
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
 
-/// The paper's table: errors of the parameters found, stands and currents drawn
+/// Reproduce the paper's table: errors of the parameters with random stands and currents
 #[derive(Args)]
 struct AccuracyArguments {
-    /// A stand of which the angles are taken; without it stands are drawn
+    /// Stand file to take the angles from [default: random stands]
     #[arg(long, value_name = "STAND", conflicts_with = "limit_deg")]
     stand: Option<PathBuf>,
-    /// The site [default: the paper's latitude, 55.7658]
+    /// Site file [default: the paper's latitude, 55.7658]
     #[arg(long, value_name = "SITE")]
     site: Option<PathBuf>,
-    /// A gyro type [default: the paper's GVK-6]
+    /// Gyro type [default: the paper's GVK-6]
     #[arg(long, value_name = "FILE")]
     gyro: Option<PathBuf>,
-    /// Draw every gyro within its tolerance; errors are from the nominal values
+    /// Draw each gyro randomly within its tolerance; errors are relative to the nominal values
     #[arg(long)]
     within_tolerance: bool,
-    /// Stands are drawn uniformly within this of the nominal angles
+    /// Half-width of the uniform distribution of the deviations, degrees
     #[arg(long, value_name = "D", default_value_t = 15.0, value_parser = limit)]
     limit_deg: f64,
-    /// Currents are off by at most this, uniformly
+    /// Half-width of the uniform distribution of the current errors, percent
     #[arg(long, value_name = "P", default_value_t = 0.015, value_parser = percent)]
     current_percent: f64,
-    /// Which readings share an error
+    /// Readings that share an error
     #[arg(long, value_enum, default_value = "independent")]
     current_error: Sharing,
-    /// Methods
+    /// Calibration methods
     #[arg(long, value_enum, value_delimiter = ',', default_value = "analytic,least-squares")]
     method: Vec<MethodName>,
     #[command(flatten)]
     run: RunArguments,
 }
 
-/// The paper's Fig. 4: steps of successive approximation against the limit of the deviations
+/// Reproduce the paper's Fig. 4: steps of the iterative method for each limit of the deviations
 #[derive(Args)]
 struct ConvergenceArguments {
-    /// Limits of the deviations
+    /// Limits of the deviations, degrees
     #[arg(long, value_name = "D,...", value_delimiter = ',', value_parser = limit)]
     limits_deg: Vec<f64>,
     #[command(flatten)]
     run: RunArguments,
-    /// Also draw the figure
+    /// Figure to write
     #[arg(short, value_name = "FILE.svg")]
     output: Option<PathBuf>,
     /// Replace an existing figure
@@ -227,7 +227,7 @@ fn watched<T>(
     let result = simulate(&run);
     bar.finish_and_clear();
     if cancel.load(Ordering::Relaxed) {
-        output::say("interrupted: the result is that of the trials made until then");
+        output::say("interrupted; the result is from the trials completed so far");
     }
     Ok(result)
 }

@@ -15,26 +15,26 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct TrustFiles {
-    /// The keys that may sign: OpenSSH's allowed_signers
+    /// Trusted signing keys: an OpenSSH allowed_signers file
     #[arg(long, value_name = "SIGNERS")]
     trust: PathBuf,
-    /// What no longer counts: a KRL, a list of public keys, or a list of withdrawn passports (repeatable)
+    /// Revocations: an OpenSSH KRL, a list of public keys, or a list of withdrawn passports (repeatable)
     #[arg(long, value_name = "FILE")]
     revoked: Vec<PathBuf>,
 }
 
 #[derive(Args)]
 pub struct Asked {
-    /// The issuer it must be
+    /// Require this issuer
     #[arg(long, value_name = "WHO")]
     issuer: Option<String>,
-    /// The serial number of the stand that stands here
+    /// Require this serial number; read it from the stand
     #[arg(long, value_name = "S")]
     serial: Option<String>,
-    /// Where the stand is, in degrees: latitude and longitude, north and east positive
+    /// Place of the stand: latitude and longitude in degrees, north and east positive
     #[arg(long, value_name = "LAT,LON", value_parser = place, allow_hyphen_values = true)]
     at: Option<Place>,
-    /// The time that is asked about, RFC 3339 or a UTC day (its first second) [default: now]
+    /// Verify as of this time: RFC 3339, or a UTC date (00:00) [default: now]
     #[arg(long, value_name = "TIME", value_parser = time)]
     time: Option<Timestamp>,
 }
@@ -84,10 +84,10 @@ pub fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Result<Trus
     });
     let series = Series::of(verified.collect::<Result<_, _>>()?);
     for alarm in series.alarms().iter().filter(|alarm| alarm.is_contradiction()) {
-        output::say(&format!("ALARM: {alarm}; what any of the lists given withdraws counts as withdrawn"));
+        output::say(&format!("ALARM: {alarm}; passports withdrawn by any of the lists are treated as withdrawn"));
     }
     if let Some(alarm) = series.alarms().iter().find(|alarm| alarm.is_unknown()) {
-        return Err(Failure::unusable(format!("{alarm}; give it too, with --revoked")));
+        return Err(Failure::unusable(format!("{alarm}; specify that list too, with --revoked")));
     }
     trust.withdrawn = series;
     Ok(trust)
@@ -100,19 +100,19 @@ pub fn time(text: &str) -> Result<Timestamp, String> {
     }
     match text.parse::<Timestamp>() {
         Ok(time) if time.subsec_nanosecond() == 0 => Ok(time),
-        Ok(_) => Err("whole seconds, as in 2026-11-02T09:30:00Z".to_owned()),
-        Err(_) => Err("a time as 2026-11-02T09:30:00Z, or a UTC day as 2026-11-02".to_owned()),
+        Ok(_) => Err("whole seconds, such as 2026-11-02T09:30:00Z".to_owned()),
+        Err(_) => Err("a time such as 2026-11-02T09:30:00Z, or a UTC date such as 2026-11-02".to_owned()),
     }
 }
 
 /// A day as the options take it. A day with a time and no zone is none: whose day would that be?
 pub fn date(text: &str) -> Result<Date, String> {
     let date = text.parse::<Date>().ok().filter(|date| date.to_string() == text);
-    date.ok_or_else(|| "a UTC day as 2026-11-02".to_owned())
+    date.ok_or_else(|| "a UTC date such as 2026-11-02".to_owned())
 }
 
 fn place(text: &str) -> Result<Place, String> {
-    const FORM: &str = "two numbers with decimal points, as in 55.7658,37.6856";
+    const FORM: &str = "two numbers with decimal points, such as 55.7658,37.6856";
     let (latitude, longitude) = text.split_once(',').ok_or(FORM)?;
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| FORM.to_owned());
     let (latitude_deg, longitude_deg) = (number(latitude)?, number(longitude)?);

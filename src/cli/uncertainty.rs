@@ -21,25 +21,25 @@ const LONG: Duration = Duration::from_secs(10);
 
 #[derive(Args)]
 pub struct UncertaintyOptions {
-    /// Where the uncertainty comes from: what every input contributes to every parameter
+    /// Uncertainty budget: contribution of every input to every parameter
     #[arg(long)]
     budget: bool,
-    /// The budget as a picture too
+    /// Picture of the budget to write
     #[arg(long, value_name = "FILE.svg", requires = "budget")]
     budget_svg: Option<PathBuf>,
     /// Replace an existing picture or report
     #[arg(long)]
     pub force: bool,
-    /// Monte Carlo (JCGM 101): intervals, and whether first order is valid
+    /// Monte Carlo method (JCGM 101): coverage intervals, and validity of the linear approximation
     #[arg(long)]
     monte_carlo: bool,
-    /// So many trials, rounded up to blocks of 16384 [default: until every digit is stable, at most 200 million]
+    /// Number of trials, rounded up to a multiple of 16384 [default: until every digit is stable, at most 200 million]
     #[arg(long, value_name = "N", requires = "monte_carlo", value_parser = trials)]
     trials: Option<u64>,
-    /// The same seed gives the same numbers, on any number of threads
+    /// Seed of the random numbers; results do not depend on the number of threads
     #[arg(long, value_name = "S", default_value_t = 1, requires = "monte_carlo")]
     seed: u64,
-    /// Threads [default: all processors]
+    /// Number of threads [default: one for each processor]
     #[arg(long, value_name = "T", requires = "monte_carlo", value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: Option<u32>,
 }
@@ -98,13 +98,13 @@ impl UncertaintyOptions {
         let method = calibration.answer().map_or(Method::LeastSquares, |answer| answer.method);
         if self.monte_carlo && anisoelasticity {
             return Err(Failure::unusable(
-                "--monte-carlo does not fit the anisoelastic coefficient: leave one of the two out",
+                "--monte-carlo cannot be combined with the anisoelastic coefficient; omit one of the two options",
             ));
         }
         let budget = Budget::new(setup, readings, method, anisoelasticity).map_err(Failure::refused)?;
         if let Some(path) = &self.budget_svg {
             let svg = picture::budget::budget(&budget);
-            let svg = svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: nothing is uncertain"))?;
+            let svg = svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: no input has an uncertainty"))?;
             output::file(path, &svg, self.force)?;
         }
         let trials = self.monte_carlo.then(|| self.trials(setup, readings, &budget)).transpose()?;
@@ -142,10 +142,10 @@ impl UncertaintyOptions {
         let found = monte_carlo(&engine, budget, &run);
         bar.finish_and_clear();
         if found.trials == 0 {
-            return Err(Failure::refused("interrupted before any trial was made"));
+            return Err(Failure::refused("interrupted before the first trial was completed"));
         }
         if cancel.load(Ordering::Relaxed) {
-            output::say("interrupted: the result is that of the trials made until then");
+            output::say("interrupted; the result is from the trials completed so far");
         }
         Ok(found)
     }

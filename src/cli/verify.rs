@@ -11,18 +11,18 @@ use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use clap::Args;
 use std::path::PathBuf;
 
-/// Answer: may I use this passport, on this stand, here, now?
+/// Check that a passport is valid for this stand, place and time
 #[derive(Args)]
 pub struct Options {
-    /// Passports
+    /// Passport files
     #[arg(required = true, value_name = "PASSPORT")]
     passports: Vec<PathBuf>,
     #[command(flatten)]
     trust: TrustOptions,
-    /// Folder of passports: refuse one that another there supersedes
+    /// Folder of passports: reject a passport that another one in it supersedes
     #[arg(long, value_name = "DIR")]
     register: Option<PathBuf>,
-    /// Form of the result
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

@@ -31,13 +31,13 @@ pub enum FileError {
         path: PathBuf,
     },
     /// It is a pipe, a device or a socket: its reader might wait for ever.
-    #[error("{}: found a pipe, a device or a socket, expected a file; save what it gives to a file first", shown(path))]
+    #[error("{}: found a pipe, a device or a socket, expected a file; save its output to a file first", shown(path))]
     Special {
         /// Which.
         path: PathBuf,
     },
     /// It is larger than any such file can be.
-    #[error("{}: more than {limit} bytes: is this the right file?", shown(path))]
+    #[error("{}: more than {limit} bytes; check that this is the right file", shown(path))]
     TooLarge {
         /// Which file.
         path: PathBuf,
@@ -45,7 +45,7 @@ pub enum FileError {
         limit: usize,
     },
     /// It exists, and is not replaced.
-    #[error("{}: exists and was left as it is{}", shown(path), if *replaceable { "; --force replaces it" } else { "" })]
+    #[error("{}: already exists, not overwritten{}", shown(path), if *replaceable { "; to replace it, use --force" } else { "" })]
     Exists {
         /// Which file.
         path: PathBuf,
@@ -53,7 +53,7 @@ pub enum FileError {
         replaceable: bool,
     },
     /// It cannot be written.
-    #[error("{}: cannot be written: {}; nothing was left behind", shown(path), Printable(reason(error)))]
+    #[error("{}: cannot be written: {}; no file was left", shown(path), Printable(reason(error)))]
     Write {
         /// Which file.
         path: PathBuf,
@@ -81,8 +81,8 @@ pub fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "no such file or folder".to_owned(),
         io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
-        io::ErrorKind::NotADirectory => "what should be a folder on the way to it is a file".to_owned(),
-        io::ErrorKind::StorageFull => "no space left".to_owned(),
+        io::ErrorKind::NotADirectory => "a parent in this path is a file, not a folder".to_owned(),
+        io::ErrorKind::StorageFull => "no space left on the disk".to_owned(),
         _ => error.to_string(),
     }
 }

@@ -111,7 +111,7 @@ const ATTEMPTS: usize = 8;
 pub enum FolderRefused {
     /// A passport with other content has the name.
     #[error(
-        "{}: exists with other content ({changed}); what has changed is re-issued: `reissue {}`",
+        "{}: already exists with other content ({changed}); to issue the changes, use `reissue {}`",
         shown(path),
         shown(path)
     )]
@@ -123,7 +123,7 @@ pub enum FolderRefused {
     },
     /// The old passport has another successor already.
     #[error(
-        "{}: is already a successor of the same passport for this site, with other content; re-issue that one",
+        "{}: is already a successor of this passport for this site, with other content; re-issue that successor",
         shown(path)
     )]
     OtherSuccessor {
@@ -132,7 +132,7 @@ pub enum FolderRefused {
     },
     /// The old passport is superseded already, by a passport for another site or in another folder.
     #[error(
-        "{}: supersedes the same passport already; a second successor would be a fork: re-issue that one",
+        "{}: already supersedes this passport; re-issue that successor, because a second one would be a fork",
         shown(path)
     )]
     Fork {
@@ -141,7 +141,7 @@ pub enum FolderRefused {
     },
     /// The next revision is there, made from another passport.
     #[error(
-        "{}: is already the next revision for this site, made from another passport; re-issue that one",
+        "{}: is already the next revision for this site, re-issued from another passport; re-issue that revision",
         shown(path)
     )]
     LaterRevision {
@@ -149,7 +149,10 @@ pub enum FolderRefused {
         path: PathBuf,
     },
     /// What has the name is no passport.
-    #[error("{}: exists and is no passport that can be compared ({reason}); move it away", shown(path))]
+    #[error(
+        "{}: already exists and cannot be compared as a passport ({reason}); move it to another folder",
+        shown(path)
+    )]
     NotComparable {
         /// The file that is there.
         path: PathBuf,
@@ -157,17 +160,15 @@ pub enum FolderRefused {
         reason: String,
     },
     /// A link stands in its way.
-    #[error(
-        "{}: is a link, and nothing is written through links: they may lead out of the folder; give the real one with --out",
-        shown(path)
-    )]
+    #[error("{}: is a link; specify its target with --out, because links may lead out of the folder", shown(path))]
     Link {
         /// The link.
         path: PathBuf,
     },
     /// A name that differs only in case is there already.
     #[error(
-        "{}: found {}, which differs only in case; Windows and macOS take the two for one: spell them alike, or rename one",
+        "{}: found {}, which differs only in case; use the same spelling, or rename one, because Windows and macOS do \
+         not distinguish them",
         shown(path),
         shown(there)
     )]
@@ -178,7 +179,7 @@ pub enum FolderRefused {
         there: PathBuf,
     },
     /// By the trust given, nobody could verify it.
-    #[error("the new passport would not verify ({check}: {detail}); nothing was written")]
+    #[error("the new passport failed verification ({check}: {detail}); nothing was written")]
     NotVerifiable {
         /// The check that failed.
         check: &'static str,
@@ -482,7 +483,7 @@ impl Existing {
         }
         if there.valid_until != new.passport.valid_until {
             let day = |day: Option<Date>| day.map_or_else(|| "none".to_owned(), |day| day.to_string());
-            words = format!("last day {} -> {}; {words}", day(there.valid_until), day(new.passport.valid_until));
+            words = format!("valid until {} -> {}; {words}", day(there.valid_until), day(new.passport.valid_until));
         }
         words
     }

@@ -14,29 +14,29 @@ use crate::stand::{Certificate, CertifiedPosition};
 use crate::text::{Path, Problems, record};
 
 record! {
-    /// A type of gyro as it came in, its `format` apart.
+    /// Gyro type as specified, without `format`.
     pub struct StatedGyro {
-        /// The type's name.
+        /// Name of the type.
         pub r#type: String,
         /// Nominal parameters.
         pub nominal: Parameters,
-        /// Tolerance about them.
+        /// Tolerances of the parameters.
         pub tolerance: Tolerance,
-        /// The g that the type's drifts are stated for; 9.80665 when absent.
+        /// Value of g to which the drifts of the type refer; 9.80665 if absent.
         pub gravity_m_per_s2: Option<f64>,
     }
 }
 
 record! {
-    /// A laboratory as it came in, its `format` apart.
+    /// Laboratory as specified, without `format`.
     pub struct StatedLaboratory {
-        /// Its name.
+        /// Name of the laboratory.
         pub name: Option<String>,
-        /// Its meter.
+        /// Current meter.
         pub meter: Meter,
-        /// How well the gyro sits.
+        /// Standard uncertainties of the gyro seat.
         pub seating_arcsec: Option<Seating>,
-        /// How well the base stands.
+        /// Standard uncertainties of the base's azimuth and level.
         pub base: Option<Base>,
         /// Temperature during the calibration.
         pub temperature_c: Option<f64>,
@@ -44,13 +44,13 @@ record! {
 }
 
 record! {
-    /// What a calibration of that gyro in that laboratory will be worth.
+    /// Expected uncertainty of a calibration of a gyro of this type in this laboratory.
     pub struct Accuracy {
-        /// The type of gyro.
+        /// Gyro type.
         pub gyro: StatedGyro,
-        /// The laboratory.
+        /// Laboratory.
         pub laboratory: StatedLaboratory,
-        /// Standard uncertainties of the parameters, drifts per local g.
+        /// Standard uncertainties of the parameters; drifts per local g.
         pub standard_uncertainty: Parameters,
     }
 }
@@ -87,9 +87,9 @@ impl StatedLaboratory {
 /// For whom an accuracy is stated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stated {
-    /// The type of gyro.
+    /// Gyro type.
     pub gyro: StatedGyro,
-    /// The laboratory.
+    /// Laboratory.
     pub laboratory: StatedLaboratory,
 }
 
@@ -106,7 +106,7 @@ pub enum NoAccuracy {
     #[error(transparent)]
     Currents(#[from] NoReadings),
     /// K has no inverse.
-    #[error("the nominal K of this type has no inverse")]
+    #[error("the nominal K of this gyro type has no inverse")]
     SingularGyro,
 }
 

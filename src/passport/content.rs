@@ -20,37 +20,37 @@ use nalgebra::{Matrix2, Vector2};
 pub const PASSPORT_FORMAT: &str = "dtg-passport/1";
 
 record! {
-    /// The passport that another one was made from.
+    /// Predecessor: the passport that was re-issued.
     pub struct Predecessor {
-        /// Its id.
+        /// Identifier of the predecessor.
         pub id: String,
-        /// SHA-256 of its whole file, lower-case hexadecimal.
+        /// SHA-256 of the whole file of the predecessor, in lower-case hexadecimal.
         pub sha256: String,
-        /// Why there is a new one.
+        /// Reason for the re-issue.
         pub reason: String,
-        /// What differs, in words.
+        /// Changes, in words.
         pub changed: String,
     }
 }
 
 record! {
-    /// Which passport it is, from whom, since when.
+    /// Identity, issuer and dates of the passport.
     pub struct Header {
-        /// `<model>/<serial>/<site id>/<revision>`.
+        /// Identifier: `<model>/<serial>/<site id>/<revision>`.
         pub id: String,
-        /// Counts from 1 at each site of a stand.
+        /// Revision, from 1 for each site of a stand.
         pub revision: u32,
-        /// When it was issued.
+        /// Time of issue.
         pub issued_at: Timestamp,
-        /// Who issued it: a principal of allowed_signers.
+        /// Issuer: a principal of allowed_signers.
         pub issuer: String,
-        /// Last day of validity, when it ends.
+        /// Expiry date (inclusive), if any.
         pub valid_until: Option<Date>,
         /// Program and version.
         pub issued_with: Option<String>,
-        /// The passport it was made from.
+        /// Predecessor, if the passport is a re-issue.
         pub reissued_from: Option<Predecessor>,
-        /// Whether that one is no longer to be used.
+        /// Whether the passport supersedes its predecessor.
         pub supersedes: Option<bool>,
     }
 }
@@ -59,7 +59,7 @@ record! {
 pub type Rows = [[f64; 2]; 2];
 
 record! {
-    /// The paper's matrices at the site, each a list of two rows.
+    /// Matrices of the paper at the site, each a list of two rows.
     pub struct MatrixRows {
         /// Δ = n_2⁻¹ n_1.
         pub delta: Rows,
@@ -81,80 +81,80 @@ record! {
 }
 
 record! {
-    /// Specific force and Earth rate in the case axes of one position.
+    /// Specific force and Earth rate in case axes, in one position.
     pub struct PositionVectors {
         /// Frame index.
         pub i: u32,
         /// Platform index.
         pub j: u32,
-        /// n = (c, d).
+        /// Specific force along x and y: n = (c, d).
         pub specific_force_g: [f64; 2],
-        /// Ã₃₃.
+        /// Specific force along z: Ã₃₃.
         pub specific_force_z_g: f64,
-        /// ω_3 along x and y.
+        /// Earth rate ω_3 along x and y.
         pub omega_deg_per_h: [f64; 2],
     }
 }
 
 record! {
-    /// The currents of the gyro of the self-check in one position.
+    /// Currents of the self-check in one position.
     pub struct PositionCurrents {
         /// Frame index.
         pub i: u32,
         /// Platform index.
         pub j: u32,
-        /// J_x.
+        /// Current J_x.
         pub jx_ma: f64,
-        /// J_y.
+        /// Current J_y.
         pub jy_ma: f64,
     }
 }
 
 record! {
-    /// Currents, and the parameters that correct laboratory software finds from them.
+    /// Self-check: currents, and the parameters that laboratory software should obtain from them.
     pub struct SelfCheck {
-        /// In every position.
+        /// Currents in every position.
         #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
         pub currents: Vec<PositionCurrents>,
-        /// K.
+        /// Scale factors K.
         pub k_deg_per_h_per_ma: Rows,
-        /// ω_0.
+        /// Constant drift ω_0.
         pub omega0_deg_per_h: [f64; 2],
-        /// ω_g.
+        /// g-sensitive drift ω_g.
         pub omega_g_deg_per_h_per_g: f64,
-        /// ω_k.
+        /// g-sensitive drift ω_k.
         pub omega_k_deg_per_h_per_g: f64,
     }
 }
 
 record! {
-    /// All that a passport says, its signature apart; the keys in the order in which they are written.
+    /// Content of a passport without its signature; keys in the order of the file.
     pub struct Content {
         /// Always "dtg-passport/1".
         pub format: String,
-        /// Which passport.
+        /// Identity, issuer and dates of the passport.
         pub passport: Header,
-        /// Which stand.
+        /// Identity of the stand.
         pub stand: Identity,
-        /// The stand's certificate.
+        /// Calibration certificate of the stand.
         pub certificate: Certificate,
-        /// The surfaces that realise its axes.
+        /// Datum surfaces, which define the axes.
         pub datum: Option<Datum>,
-        /// Its positions, sorted by (i, j); at most 256.
+        /// Positions, sorted by (i, j); at most 256.
         #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
         pub positions: Vec<CertifiedPosition>,
-        /// The place of delivery.
+        /// Site (place of delivery).
         pub site: Site,
-        /// What the Earth does there.
+        /// Earth parameters at the site.
         pub earth: Earth,
-        /// The paper's matrices; absent without the paper's eight positions.
+        /// Matrices of the paper; absent without its eight positions.
         pub matrices: Option<MatrixRows>,
-        /// What least squares needs, for every position.
+        /// Specific force and Earth rate in every position, for least squares.
         #[cfg_attr(feature = "cli", schemars(length(max = 256)))]
         pub vectors: Vec<PositionVectors>,
-        /// A test of laboratory software; absent where the positions do not determine the eight parameters.
+        /// Self-check of laboratory software; absent if the positions do not determine the eight parameters.
         pub self_check: Option<SelfCheck>,
-        /// What the stand is good for; only when asked for.
+        /// Expected calibration uncertainty; optional.
         pub accuracy: Option<Accuracy>,
     }
 }
@@ -367,7 +367,7 @@ impl Content {
         }
         let header = at.key("passport");
         if self.passport.id != self.id_of_parts() {
-            let expected = format!("{:?}, as stand, site and revision say", self.id_of_parts());
+            let expected = format!("{:?}, from stand, site and revision", self.id_of_parts());
             problems.at(&header.key("id"), format!("{:?}", self.passport.id), expected, "");
         }
         if self.passport.revision == 0 {
@@ -375,7 +375,7 @@ impl Content {
         }
         let (issued_at, certified) = (self.passport.issued_at, self.certificate.issued);
         if issued_at < day(certified).0 {
-            let expected = format!("a time not before the certificate's day of issue, {certified}");
+            let expected = format!("a time on or after the date of the certificate, {certified}");
             problems.at(&header.key("issued_at"), format!("{issued_at}"), expected, "");
         }
         if let Some(from) = self.passport.reissued_from.as_ref().filter(|from| !is_sha256_hex(&from.sha256)) {
@@ -409,7 +409,7 @@ pub(super) fn check_inputs(
     site.check(&Path::Root.key("site"), problems);
 }
 
-/// `<model>/<serial>/<site id>/<revision>`.
+/// Identifier: `<model>/<serial>/<site id>/<revision>`.
 pub fn passport_id(stand: &Identity, site: &Identifier, revision: u32) -> String {
     format!("{}/{}/{site}/{revision}", stand.model, stand.serial)
 }

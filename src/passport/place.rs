@@ -43,18 +43,19 @@ pub(super) fn verdict(content: &Content, place: Place) -> (Code, String) {
     let site = &content.site;
     let nearness = Nearness::of(content, place);
     let Nearness { distance_m, radius_m, allowance_m } = nearness;
-    let how = if site.longitude_deg.is_some() { "" } else { " in latitude (the site's longitude is unknown)" };
+    let how = if site.longitude_deg.is_some() { "" } else { " in latitude (the longitude of the site is unknown)" };
     let allowance = if allowance_m > 0.0 {
         format!(
-            ", {allowance_m:.0} m of it for the unknown deflection of the vertical ({LATITUDE_MARGIN_ARCSEC} arcsec)"
+            ", of which {allowance_m:.0} m allow for the unknown deflection of the vertical ({LATITUDE_MARGIN_ARCSEC} \
+             arcsec)"
         )
     } else {
         String::new()
     };
-    let words = format!("{distance_m:.0} m from {}{how}, valid within {radius_m:.0} m{allowance}", site.id);
+    let words = format!("{distance_m:.0} m from {}{how}; validity radius {radius_m:.0} m{allowance}", site.id);
     if nearness.within() {
         (Code::Ok, words)
     } else {
-        (Code::WrongPlace, format!("{words}: ask the factory to re-issue the passport for this place"))
+        (Code::WrongPlace, format!("{words}; request a re-issue for this place from the factory"))
     }
 }

@@ -25,7 +25,7 @@ impl std::fmt::Display for WrongNumber {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         let words = |value: f64| if value.is_nan() { "nothing".to_owned() } else { format!("{value}") };
         let (stated, computed) = (words(self.stated), words(self.computed));
-        write!(f, "{}: the passport says {stated}, its own inputs give {computed}", self.field)
+        write!(f, "{}: the passport states {stated}, its inputs give {computed}", self.field)
     }
 }
 

@@ -40,7 +40,7 @@ pub struct Order {
 #[non_exhaustive]
 pub enum ReissueRefused {
     /// The old passport does not hold.
-    #[error("the old passport does not hold ({check}: {detail})")]
+    #[error("the predecessor failed verification ({check}: {detail})")]
     OldDoesNotHold {
         /// The check that failed.
         check: &'static str,
@@ -49,8 +49,8 @@ pub enum ReissueRefused {
     },
     /// Its signature no longer counts, and the factory's files were not given.
     #[error(
-        "the old passport can only be named, not used ({check}: {detail}); \
-         give the factory's own files with --stand and --site (of many passports: --sites)"
+        "the predecessor can be referenced but not used as input ({check}: {detail}); pass the factory's files with \
+         --stand and --site (for many passports: --sites)"
     )]
     NeedsFactoryFiles {
         /// The check that failed.
@@ -59,9 +59,7 @@ pub enum ReissueRefused {
         detail: String,
     },
     /// The stand file is of another stand.
-    #[error(
-        "the stand file is of {given}, the old passport of {old}; a passport of another stand is issued, not re-issued"
-    )]
+    #[error("the stand file is for {given}, but the predecessor is for {old}; use `issue` for another stand")]
     OtherStand {
         /// Model and serial in the file.
         given: String,
@@ -69,13 +67,16 @@ pub enum ReissueRefused {
         old: String,
     },
     /// `moved` without another site.
-    #[error("the site is the same ({0}): nothing has moved, and a new passport there supersedes the old one anyway")]
+    #[error(
+        "the site is the same ({0}); omit --moved, because a new passport for the same site always supersedes its \
+             predecessor"
+    )]
     NotMoved(String),
     /// The reason cannot stand in a passport.
-    #[error("the reason is empty or holds a character that no signed text may hold")]
+    #[error("the reason is empty or contains a character that is not allowed in signed files")]
     BadReason,
     /// The new passport would be older than the old one.
-    #[error("issued_at {issued_at} is before the old passport's, {old}: is the clock right?")]
+    #[error("issued_at {issued_at} is earlier than that of the predecessor, {old}; check the clock")]
     BeforeOld {
         /// When the new one would be issued.
         issued_at: Timestamp,
@@ -142,7 +143,7 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         changed: match &usable {
             Usable::Whole => changes(old, stand, &site, &order.issuer),
             Usable::NameOnly { .. } => {
-                "not compared: made from the factory's files, the earlier passport only named".into()
+                "not compared: issued from the factory's files, with only a reference to the predecessor".into()
             }
         },
     };
@@ -294,7 +295,7 @@ pub(crate) fn changes(old: &Content, stand: &Stand, site: &Site, issuer: &str) -
     }
     for position in &old.positions {
         if !stand.positions.iter().any(|other| other.index() == position.index()) {
-            changes.push(format!("position {} left out", position.index()));
+            changes.push(format!("position {} removed", position.index()));
         }
     }
     if old.passport.issuer != issuer {
@@ -305,7 +306,7 @@ pub(crate) fn changes(old: &Content, stand: &Stand, site: &Site, issuer: &str) -
     if more > 0 {
         changes.push(format!("and {more} more"));
     }
-    if changes.is_empty() { "nothing of stand, site or issuer".to_owned() } else { changes.join("; ") }
+    if changes.is_empty() { "no changes in stand, site or issuer".to_owned() } else { changes.join("; ") }
 }
 
 fn compare(path: &str, old: Option<&Node>, new: Option<&Node>, changes: &mut Vec<String>) {
@@ -321,7 +322,7 @@ fn compare(path: &str, old: Option<&Node>, new: Option<&Node>, changes: &mut Vec
             }
         }
         (None, Some(Node::Map(_))) => changes.push(format!("{path} added")),
-        (Some(Node::Map(_)), None) => changes.push(format!("{path} left out")),
+        (Some(Node::Map(_)), None) => changes.push(format!("{path} removed")),
         (old, new) => changes.push(format!("{path} {} -> {}", words(old), words(new))),
     }
 }

@@ -204,7 +204,12 @@ impl Run {
     fn grammar<'a>(&mut self, name: &str, bytes: &'a [u8]) -> Option<SignedText<'a>> {
         match SignedText::split(name, bytes, NAMESPACE) {
             Ok(text) => {
-                self.note(CheckName::Grammar, Code::Ok, "the text is in the form that every reader reads alike");
+                self.note(
+                    CheckName::Grammar,
+                    Code::Ok,
+                    "the file has the canonical form, which all programs read \
+                     alike",
+                );
                 Some(text)
             }
             Err(Malformed { fault, other_namespace }) => {
@@ -221,12 +226,12 @@ impl Run {
                 self.note(
                     CheckName::Signature,
                     Code::Ok,
-                    format!("the text is as {} signed it", text.key().fingerprint()),
+                    format!("the text has not changed since {} signed it", text.key().fingerprint()),
                 );
                 Some(payload)
             }
             Err(error) => {
-                let detail = format!("{error}; ask the issuer for the file again");
+                let detail = format!("{error}; get the file from the issuer again");
                 self.note(CheckName::Signature, Code::Altered, detail);
                 None
             }
@@ -236,7 +241,14 @@ impl Run {
     fn schema(&mut self, name: &str, payload: &str) -> Option<Content> {
         match read::content(name, payload) {
             Ok(content) => {
-                self.note(CheckName::Schema, Code::Ok, format!("the content is complete and obeys {PASSPORT_FORMAT}"));
+                self.note(
+                    CheckName::Schema,
+                    Code::Ok,
+                    format!(
+                        "the content is complete and conforms to \
+                    {PASSPORT_FORMAT}"
+                    ),
+                );
                 Some(content)
             }
             Err(error) => {
@@ -260,7 +272,7 @@ impl Run {
             return true;
         }
         let detail = match (trust.withdrawn.newest(), trust.revoked.is_empty()) {
-            (Some(list), _) => format!("not revoked; list {} of {} names it not", list.sequence, list.issued_at),
+            (Some(list), _) => format!("not withdrawn: list {} of {} does not list it", list.sequence, list.issued_at),
             (None, false) => "the signing key is not revoked; no list of withdrawn passports was given".to_owned(),
             (None, true) => "no revocation list was given (--revoked)".to_owned(),
         };
@@ -273,7 +285,7 @@ impl Run {
         let header = &content.passport;
         match trust.signers.authorise(key, &header.issuer, NAMESPACE, header.issued_at) {
             Ok(()) => {
-                self.note(CheckName::Signer, Code::Ok, format!("the key is that of {}", header.issuer));
+                self.note(CheckName::Signer, Code::Ok, format!("the key belongs to {}", header.issuer));
                 true
             }
             Err(miss) => {
@@ -295,14 +307,14 @@ impl Run {
     fn recomputed(&mut self, content: &Content) {
         match recomputed::compare(content) {
             Ok(()) => {
-                let detail = "every number follows from the signed deviations and site";
+                let detail = "all numbers, recomputed, agree with the signed deviations and site";
                 self.note(CheckName::Recomputed, Code::Ok, detail);
             }
             Err(wrong) => {
                 let others = wrong.len() - 1;
                 let more = if others > 0 { format!(" (and {others} more)") } else { String::new() };
                 let first = wrong.first().map(ToString::to_string).unwrap_or_default();
-                let detail = format!("rightly signed, but {first}{more}; the issuer made a mistake");
+                let detail = format!("the signature is correct, but {first}{more}; report this to the issuer");
                 self.note(CheckName::Recomputed, Code::WrongNumber, detail);
             }
         }
@@ -313,20 +325,32 @@ impl Run {
         let last = content.last_day();
         let (code, detail) = match last {
             _ if issued_at > time => {
-                (Code::NotYetValid, format!("issued at {issued_at}, which is after {time}: is the clock right?"))
+                (Code::NotYetValid, format!("issued at {issued_at}, which is later than {time}; check the clock"))
             }
             // The whole of the last second belongs to the last day.
             Some((last, which)) if time.as_second() > day(last).1.as_second() => {
                 let remedy = match which {
-                    "certificate" => "the stand must be certified again",
-                    _ => "ask the issuer for a new passport",
+                    "certificate" => "have the stand recertified",
+                    _ => "request a new passport from the issuer",
                 };
-                (Code::Expired, format!("the {which}'s last day was {last}, asked about {time}: {remedy}"))
+                (
+                    Code::Expired,
+                    format!(
+                        "the {which} was valid until {last} (inclusive), verified as of {time}; \
+                         {remedy}"
+                    ),
+                )
             }
             Some((last, which)) => {
-                (Code::Ok, format!("issued {issued_at}, in force to the {which}'s last day, {last}"))
+                (Code::Ok, format!("issued {issued_at}; the {which} is valid until {last} (inclusive)"))
             }
-            None => (Code::Ok, format!("issued {issued_at}; neither passport nor certificate names a last day")),
+            None => (
+                Code::Ok,
+                format!(
+                    "issued {issued_at}; neither the passport nor the certificate has an expiry \
+                     date"
+                ),
+            ),
         };
         self.note(CheckName::InForce, code, detail);
     }
@@ -344,11 +368,11 @@ impl Run {
         }
         if let Some(serial) = &question.serial {
             let found = content.stand.serial.as_str();
-            let stand = format!("the passport is of stand {} {found}", content.stand.model);
+            let stand = format!("the passport is for stand {} {found}", content.stand.model);
             let (code, detail) = if found == serial {
                 (Code::Ok, stand)
             } else {
-                (Code::WrongStand, format!("{stand}, not of {serial}: its deviations are not this stand's"))
+                (Code::WrongStand, format!("{stand}, not {serial}; its deviations do not apply to stand {serial}"))
             };
             self.note(CheckName::Stand, code, detail);
         }

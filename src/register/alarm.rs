@@ -81,17 +81,21 @@ impl AlarmKind {
 impl Alarm {
     /// A link, which may lead out of the folder.
     pub(crate) fn link(file: &str) -> Self {
-        Self::of_file(AlarmKind::Link, "is a link, which is not followed: it may lead out of the folder", file)
+        Self::of_file(
+            AlarmKind::Link,
+            "not read: links are not followed, because they may lead out of the folder",
+            file,
+        )
     }
 
     /// A file that only looks like one.
     pub(crate) fn special(file: &str) -> Self {
-        Self::of_file(AlarmKind::Special, "a pipe, a device or a socket is not read", file)
+        Self::of_file(AlarmKind::Special, "not read: it is a pipe, a device or a socket", file)
     }
 
     /// A file larger than any passport.
     pub(crate) fn too_large(file: &str) -> Self {
-        let words = format!("more than {LARGEST_DOCUMENT_BYTES} bytes, larger than any passport");
+        let words = format!("not read: it has more than {LARGEST_DOCUMENT_BYTES} bytes, the limit for a passport");
         Self::of_file(AlarmKind::TooLarge, &words, file)
     }
 
@@ -113,7 +117,7 @@ impl Alarm {
 
     /// A good list of withdrawn passports in a file of another name than its own.
     pub(crate) fn misnamed_list(list: &RevocationList, file: &str) -> Self {
-        let words = format!("list {} belongs into {}", list.sequence, list.file_name());
+        let words = format!("list {} must be named {}", list.sequence, list.file_name());
         Self::of_file(AlarmKind::Misplaced, &words, file)
     }
 
@@ -166,7 +170,7 @@ impl Display for Alarm {
 /// Several successors of the passport `id`.
 pub(super) fn forked(id: &str, by: &[Successor]) -> Alarm {
     let ids: Vec<&str> = by.iter().map(|successor| successor.id.as_str()).collect();
-    let words = format!("{id} has {} successors that all supersede it: {}", by.len(), ids.join(", "));
+    let words = format!("{id} has {} successors, each of which supersedes it: {}", by.len(), ids.join(", "));
     let files = by.iter().map(|successor| successor.file.clone()).collect();
     Alarm::of_files(AlarmKind::Forked, words, files)
 }
@@ -182,7 +186,7 @@ pub(super) fn absent_predecessors(files: &[Examined]) -> Vec<Alarm> {
     let absent = files.iter().filter(made_from).filter_map(|file| {
         let from = file.predecessor.as_ref().filter(|from| !present.contains(from.sha256.as_str()))?;
         let id = file.line.id.as_deref().unwrap_or("?");
-        let words = format!("{id} was made from {}, which is not there (SHA-256 {})", from.id, from.sha256);
+        let words = format!("{id} was re-issued from {}, which is missing (SHA-256 {})", from.id, from.sha256);
         let alarm = Alarm::of_file(AlarmKind::Missing, &words, &file.line.file);
         Some(alarm.concerning(Concern::Stand(file.line.stand.clone().unwrap_or_default())))
     });
@@ -203,7 +207,7 @@ pub(super) fn gaps(files: &[Examined], absent: &[Alarm]) -> Vec<Alarm> {
         for pair in revisions.windows(2) {
             let [(from, before), (to, after)] = pair else { continue };
             if to - from > 1 && !named.contains(after) {
-                let words = format!("between {series}/{from} and {series}/{to} a revision is missing");
+                let words = format!("a revision between {series}/{from} and {series}/{to} is missing");
                 let files = vec![(*before).to_owned(), (*after).to_owned()];
                 alarms.push(Alarm::of_files(AlarmKind::Missing, words, files));
             }
@@ -222,12 +226,12 @@ pub(super) fn duplicate_ids(files: &[Examined]) -> Vec<Alarm> {
                 files.iter().filter(|file| !file.is_withdrawn()).map(|file| file.line.sha256.as_str()).collect();
             let alike = files.windows(2).all(|pair| pair[0].line.sha256 == pair[1].line.sha256);
             let what = match (alike, originals.len()) {
-                (true, _) => "the same file, copied",
+                (true, _) => "copies of the same file",
                 (false, 0 | 1) => return None,
-                (false, _) => "different files, none of them in force until all but one are withdrawn",
+                (false, _) => "different files; none is in force until all but one have been withdrawn",
             };
             let id = files[0].line.id.as_deref().unwrap_or("?");
-            let words = format!("{id} is there {} times: {what}", files.len());
+            let words = format!("{} files have the id {id}: {what}", files.len());
             let names = files.iter().map(|file| file.line.file.clone()).collect();
             Some(Alarm::of_files(AlarmKind::DuplicateId, words, names))
         })
@@ -242,6 +246,6 @@ pub(super) fn misplaced(line: &Line) -> Option<Alarm> {
     let before = file.strip_suffix(&format!("-{revision}.yaml"));
     let above = before.and_then(|name| name.strip_suffix(folder));
     let there = above.is_some_and(|above| above.is_empty() || above.ends_with('/'));
-    let words = || format!("{id} belongs into {folder}-{revision}.yaml");
+    let words = || format!("{id} must be in {folder}-{revision}.yaml");
     (!there).then(|| Alarm::of_file(AlarmKind::Misplaced, &words(), &line.file))
 }

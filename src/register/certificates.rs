@@ -73,7 +73,10 @@ impl OfStand {
         if words.is_empty() && numbers.len() < 2 {
             return None;
         }
-        words.insert(0, format!("{stand} is in force under {}", numbers.join(" and ")));
+        words.insert(
+            0,
+            format!("{stand} has passports in force under certificate {}", numbers.join(" and certificate ")),
+        );
         let files = self.in_force.values().flatten().map(|(_, file)| file.clone()).collect();
         Some(Alarm::of_files(AlarmKind::Certificates, words.join("; "), files))
     }

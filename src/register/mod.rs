@@ -205,15 +205,15 @@ fn series_of(id: &str) -> (&str, u32) {
 
 fn in_force(content: Option<&Content>, time: Timestamp, within_days: Option<u32>) -> (State, String) {
     let Some((last, _)) = content.and_then(Content::last_day) else {
-        return (State::InForce, "no last day".to_owned());
+        return (State::InForce, "no expiry date".to_owned());
     };
     let today = time.to_zoned(jiff::tz::TimeZone::UTC).date();
     let days = today.until(last).map_or(i32::MAX, |span| span.get_days());
     match within_days {
         Some(within) if i64::from(days) <= i64::from(within) => {
-            (State::Expiring, format!("the last day is {last}, in {days} days"))
+            (State::Expiring, format!("valid until {last} (inclusive), {days} days from now"))
         }
-        _ => (State::InForce, format!("to {last}")),
+        _ => (State::InForce, format!("valid until {last} (inclusive)")),
     }
 }
 
@@ -311,7 +311,7 @@ impl Register {
             line.why = format!("by {} ({})", by.id, by.file);
         } else if let Some(other) = line.id.as_deref().and_then(|id| self.other_original(id, &line.sha256)) {
             line.state = State::Superseded;
-            line.why = format!("another file has the same id ({other}): withdraw all but one");
+            line.why = format!("another file has the same id ({other}); withdraw all but one");
         } else if line.is_usable()
             && let Some(alarm) = self.doubt(line.stand.as_deref().unwrap_or(""))
         {
@@ -340,13 +340,13 @@ impl Register {
             let (id, sha256) = (content.passport.id.as_str(), sha256_hex(bytes));
             let (series, revision) = series_of(id);
             if let Some(by) = self.successors.by(&sha256, series, revision) {
-                (Code::Superseded, format!("superseded by {} ({}): use that one", by.id, by.file))
+                (Code::Superseded, format!("superseded by {} ({}); use that passport", by.id, by.file))
             } else if let Some(other) = self.other_original(id, &sha256) {
-                let advice = "neither counts until all but one are withdrawn";
-                (Code::Superseded, format!("another file has the same id ({other}): {advice}"))
+                let advice = "neither is in force until all but one have been withdrawn";
+                (Code::Superseded, format!("another file has the same id ({other}); {advice}"))
             } else if let Some(alarm) = self.doubt(&content.stand.id()) {
-                let advice = "get what is damaged or missing from the issuer again";
-                (Code::RegisterUnknown, format!("not known: {}; {advice}", alarm.reason()))
+                let advice = "get the damaged or missing file from the issuer again";
+                (Code::RegisterUnknown, format!("unknown: {}; {advice}", alarm.reason()))
             } else {
                 (Code::Ok, format!("not superseded by any of {} files", self.files))
             }

@@ -3,6 +3,7 @@
 use crate::report::columns;
 use crate::uncertainty::Budget;
 use crate::uncertainty::budget::{COVERAGE, Contribution, ParameterBudget};
+use crate::units::printed;
 use std::fmt::Write;
 
 /// Contributions below this share of the variance are one line together.
@@ -11,7 +12,7 @@ const SHARE_SHOWN: f64 = 1e-4;
 /// The budget of every parameter, the largest contribution first, after `sentence`.
 pub fn text(budget: &Budget, sentence: Option<&str>) -> String {
     let mut out = String::new();
-    let _ = writeln!(out, "\nUncertainty budget ({}), first order", budget.method.key());
+    let _ = writeln!(out, "\nUncertainty budget ({}), linear approximation", budget.method.key());
     if let Some(sentence) = sentence {
         columns::paragraph(&mut out, "", &format!("{sentence}."));
     }
@@ -25,16 +26,16 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
     let u = line.standard_uncertainty;
     let digits = columns::decimals(u);
     let freedom = match line.effective_degrees_of_freedom {
-        known if known.is_infinite() => "infinitely many".to_owned(),
-        known if known > 1e4 => "over 10,000".to_owned(),
+        known if known.is_infinite() => "infinite".to_owned(),
+        known if known > 1e4 => "more than 10,000".to_owned(),
         known => format!("{known:.1}"),
     };
     let _ = writeln!(
         out,
-        "\n{} = {:.digits$} {}, u = {u:.digits$}; degrees of freedom {freedom}; U = {:.2} u = {:.digits$} ({:.0} %)",
+        "\n{} = {:.digits$} {}, u = {u:.digits$}; degrees of freedom: {freedom}; U = {:.2} u = {:.digits$} ({:.0} %)",
         line.parameter.symbol(),
         line.value,
-        line.parameter.unit(),
+        printed(line.parameter.unit()),
         line.coverage_factor,
         line.expanded_uncertainty(),
         100.0 * COVERAGE,
@@ -49,7 +50,7 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
         let name = format!("{} others", rest.len());
         rows.push(vec![name, String::new(), String::new(), format!("{:.1e}", sum.sqrt()), "< 0.1".to_owned()]);
     }
-    columns::table(out, &["input", "its u", "inputs", "contribution", "share, %"], &rows);
+    columns::table(out, &["input", "u of input", "inputs", "contribution", "share, %"], &rows);
 }
 
 fn row(part: &Contribution) -> Vec<String> {

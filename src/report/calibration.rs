@@ -10,6 +10,7 @@ use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, Found, Verdict, cha
 use crate::calibration::{Calibration, MethodResult};
 use crate::report::page::Language;
 use crate::report::{columns, mistake};
+use crate::units::printed;
 use std::fmt::Write;
 
 /// What is said of a calibration besides its numbers.
@@ -38,9 +39,10 @@ pub fn text(calibration: &Calibration, context: &Context) -> String {
     let _ = writeln!(out, "Calibrated with passport {} ({state})", context.passport_id);
     let (gravity, u) = context.gravity_m_per_s2;
     let u = u.map_or_else(String::new, |u| format!(" (u {u})"));
-    let _ = writeln!(out, "Drifts per g are per local g, {gravity} m/s2{u}. u: standard uncertainty (k = 1).");
+    let _ = writeln!(out, "g-sensitive drifts refer to local g, {gravity} m/s²{u}. u: standard uncertainty (k = 1).");
     if calibration.hint.is_some() || !calibration.settled {
-        let words = "WARNING: these readings do not fit this stand. Until that is explained (below), the parameters mean nothing.";
+        let words = "WARNING: the readings are not consistent with this stand. The parameters are not valid until the \
+                     cause has been found (see below).";
         columns::paragraph(&mut out, "", words);
     }
     if let Some(mistake) = context.mistake {
@@ -50,8 +52,8 @@ pub fn text(calibration: &Calibration, context: &Context) -> String {
     methods(&mut out, calibration);
     fit(&mut out, calibration, context.missing);
     if let Some((name, verdict)) = context.verdict {
-        let _ = writeln!(out, "\nAgainst the type {name}, with expanded uncertainty U = {COVERAGE_FACTOR} u;");
-        let _ = writeln!(out, "drifts per g of {} m/s2, the type's:", verdict.gravity_m_per_s2);
+        let _ = writeln!(out, "\nComparison with gyro type {name}, with expanded uncertainty U = {COVERAGE_FACTOR} u;");
+        let _ = writeln!(out, "g-sensitive drifts refer to the g of the type, {} m/s²:", verdict.gravity_m_per_s2);
         verdict_table(&mut out, verdict, "nominal", "deviation");
     }
     if let Some((earlier, verdict)) = context.change {
@@ -68,14 +70,14 @@ fn parameters(out: &mut String, calibration: &Calibration) {
         calibration.results.iter().filter(|result| result.method != answer.method).collect();
     let mut names = vec!["".to_owned(), "unit".to_owned(), answer.method.key().to_owned(), "u".to_owned()];
     for other in &others {
-        names.extend([other.method.key().to_owned(), "off by".to_owned()]);
+        names.extend([other.method.key().to_owned(), "diff. / u".to_owned()]);
     }
     let rows: Vec<Vec<String>> = Parameter::NINE
         .into_iter()
         .filter_map(|parameter| {
             let (value, u) = (answer.value(parameter)?, answer.standard_uncertainty(parameter)?);
             let digits = columns::decimals(u);
-            let mut row = vec![parameter.symbol().to_owned(), parameter.unit().to_owned()];
+            let mut row = vec![parameter.symbol().to_owned(), printed(parameter.unit())];
             row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
             for other in &others {
                 row.push(other.value(parameter).map_or_else(String::new, |value| format!("{value:.digits$}")));
@@ -89,7 +91,7 @@ fn parameters(out: &mut String, calibration: &Calibration) {
     columns::table(out, &names.iter().map(String::as_str).collect::<Vec<_>>(), &rows);
     if !others.is_empty() {
         let words =
-            "off by: the difference from the first column in units of that difference's own standard uncertainty.";
+            "diff. / u: difference from the first column, in units of the standard uncertainty of that difference.";
         columns::paragraph(out, "  ", words);
     }
 }
@@ -99,13 +101,13 @@ fn methods(out: &mut String, calibration: &Calibration) {
         let Some(iteration) = &result.iteration else { continue };
         let predicted = match iteration.predicted_steps {
             Some(steps) if steps <= LARGEST_NUMBER_OF_STEPS => steps.to_string(),
-            _ => format!("over {LARGEST_NUMBER_OF_STEPS}"),
+            _ => format!("more than {LARGEST_NUMBER_OF_STEPS}"),
         };
         let rest = iteration.remainder_k_deg_per_h_per_ma.abs().max();
         let rest_n = iteration.remainder_omega_n_deg_per_h_per_g.abs().max();
         let words = format!(
-            "iterative: spectral radius {:.4}, {predicted} steps predicted, {} taken; what is still missing, exactly: at most \
-             {rest:.1e} deg/h/mA in K, {rest_n:.1e} deg/h/g in omega_n.",
+            "iterative: spectral radius {:.4}; {predicted} steps predicted, {} taken; remaining error at most \
+             {rest:.1e} deg/(h·mA) in K and {rest_n:.1e} deg/(h·g) in omega_n.",
             iteration.spectral_radius, iteration.steps
         );
         columns::paragraph(out, "  ", &words);
@@ -120,8 +122,8 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
     if answer.chi_square.judges() {
         residuals(out, answer);
     } else {
-        let words = "The fit cannot be judged: there are as many unknowns as readings (0 degrees of freedom), so any \
-                     readings would fit. Read more positions.";
+        let words = "The fit cannot be tested: there are as many unknowns as readings (0 degrees of freedom), so any \
+                     readings would fit. Measure more positions.";
         let _ = writeln!(out);
         columns::paragraph(out, "", words);
     }
@@ -130,7 +132,7 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
         columns::paragraph(
             out,
             "  ",
-            "WARNING: the fit did not settle: these readings are far from any gyro's on this stand.",
+            "WARNING: the fit did not converge; the readings differ too much from those of any gyro on this stand.",
         );
     }
     if let Some(hint) = &calibration.hint {
@@ -138,7 +140,7 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
     }
     if !missing.is_empty() {
         let missing: Vec<&str> = missing.iter().map(|what| what.words()).collect();
-        let words = format!("Not stated by anybody, and so missing from every u: {}.", missing.join("; "));
+        let words = format!("Not stated, and not included in any u: {}.", missing.join("; "));
         columns::paragraph(out, "", &words);
     }
 }
@@ -147,15 +149,14 @@ fn residuals(out: &mut String, answer: &MethodResult) {
     let chi_square = &answer.chi_square;
     let _ = writeln!(
         out,
-        "\nFit: chi-square {:.2} with {} degrees of freedom; a larger one has probability {}",
+        "\nFit: chi-square {:.2} with {} degrees of freedom; the probability of a larger value is {}",
         chi_square.value,
         chi_square.degrees_of_freedom,
         columns::probability(chi_square.probability)
     );
     if chi_square.of_uncertainties < 1000.0 {
         let words = format!(
-            "The uncertainties that it is made with have {:.0} degrees of freedom themselves; the probability takes that \
-             into account.",
+            "The input uncertainties have {:.0} degrees of freedom, which the probability takes into account.",
             chi_square.of_uncertainties
         );
         columns::paragraph(out, "  ", &words);
@@ -178,18 +179,18 @@ fn scatter(out: &mut String, calibration: &Calibration) {
     if let Some(rows) = &calibration.row_scatter {
         let (deviation, freedom) = (rows.standard_deviation_ma * 1000.0, rows.degrees_of_freedom);
         let words = match &rows.against_stated {
-            Some(stated) => agreement("The readings of a visit", stated, "are they copies of one reading?"),
+            Some(stated) => agreement("Readings of a visit", stated, "check whether they are copies of one reading"),
             None => format!(
-                "The readings of a visit have a standard deviation of {deviation:.2e} uA ({freedom} degrees of freedom), \
-                 which was taken for the meter's noise: no noise_ma is stated."
+                "Readings of a visit have a standard deviation of {deviation:.2e} uA ({freedom} degrees of freedom), \
+                 which was used as the noise of the meter, because noise_ma is not stated."
             ),
         };
         columns::paragraph(out, "  ", &words);
     }
     if let Some(visits) = &calibration.scatter {
         let less =
-            "were these readings taken without leaving the position? Then give them one number in the column visit";
-        columns::paragraph(out, "  ", &agreement("The visits of a position", visits, less));
+            "if these readings were taken without leaving the position, give them the same number in the column visit";
+        columns::paragraph(out, "  ", &agreement("Visits to a position", visits, less));
     }
 }
 
@@ -197,13 +198,13 @@ fn scatter(out: &mut String, calibration: &Calibration) {
 fn agreement(what: &str, found: &Scatter, less: &str) -> String {
     let verdict = match found.agreement() {
         Agreement::More => {
-            format!("more than stated: their variance was enlarged {:.1} times", found.variance_factor)
+            format!("more than stated, so the variance was multiplied by {:.1}", found.variance_factor)
         }
         Agreement::AsStated => "as stated".to_owned(),
-        Agreement::Less => format!("less than stated: {less}"),
+        Agreement::Less => format!("less than stated; {less}"),
     };
     format!(
-        "{what} scatter with chi-square {:.2} of {} degrees of freedom (probability of more: {}); {verdict}.",
+        "{what} vary with chi-square {:.2} for {} degrees of freedom (probability of a larger value: {}): {verdict}.",
         found.chi_square,
         found.degrees_of_freedom,
         columns::probability(found.probability)
@@ -230,25 +231,26 @@ fn verdict_table(out: &mut String, verdict: &Verdict, reference: &str, deviation
                 format!("{:+.digits$}", row.deviation),
                 format!("{:.digits$}", row.expanded_uncertainty),
                 format!("{}", row.tolerance),
-                row.unit.to_owned(),
+                printed(row.unit),
                 decision(row.simple).to_owned(),
                 columns::probability(row.specific_risk),
                 decision(row.guarded).to_owned(),
             ]
         })
         .collect();
-    let names = ["", reference, "found", deviation, "U", "tolerance", "unit", "simple", "risk", "guarded"];
+    let names = ["", reference, "result", deviation, "U", "tolerance", "unit", "simple", "risk", "guarded"];
     columns::table(out, &names, &rows);
     let _ = writeln!(out, "  Overall, by guarded acceptance: {}", decision(verdict.overall).to_uppercase());
     if verdict.overall == Decision::Undecided {
-        columns::paragraph(out, "  ", "undecided: it cannot be decided with this uncertainty.");
+        columns::paragraph(out, "  ", "undecided: the uncertainty does not permit a decision.");
     }
     for row in verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()) {
         let words = format!(
-            "U of {} is mostly from the local g: {:.1e} {}; gravity measured, or the site's height, makes it smaller.",
+            "local g contributes most of U of {}: {:.1e} {}; to reduce it, measure gravity or state the height of the \
+             site.",
             row.parameter,
             row.expanded_uncertainty_from_gravity.unwrap_or(0.0),
-            row.unit,
+            printed(row.unit),
         );
         columns::paragraph(out, "  ", &words);
     }
@@ -270,12 +272,12 @@ fn change(
         .collect();
     let _ = writeln!(
         out,
-        "\nChange since the earlier result, in units of its standard uncertainty (drifts at the same g):"
+        "\nChange since the previous result, in units of its standard uncertainty (drifts at the same g):"
     );
     columns::paragraph(out, "  ", &(words.join(", ") + "."));
     if let Some(verdict) = verdict {
         let _ =
-            writeln!(out, "The same change against the type's tolerance, which the paper states as an instability:");
-        verdict_table(out, verdict, "earlier", "change");
+            writeln!(out, "Change compared with the tolerance of the type, which the paper states as an instability:");
+        verdict_table(out, verdict, "previous", "change");
     }
 }

@@ -100,13 +100,14 @@ pub fn certification(found: &Certification) -> String {
     let (stand, runs) = (&found.stand, found.runs.len());
     let _ = writeln!(
         out,
-        "Certified {} {}: {} positions, {runs} runs. u: standard uncertainty (k = 1) of the mean, own part.",
+        "Certified {} {}: {} positions, {runs} runs. u: standard uncertainty (k = 1) of the mean, own part of the \
+         position.",
         stand.stand.model,
         stand.stand.serial,
         stand.positions.len()
     );
     if found.repeated_rows > 0 {
-        let _ = writeln!(out, "Rows that read a return again, and were averaged with it: {}.", found.repeated_rows);
+        let _ = writeln!(out, "Rows averaged with another row of the same visit: {}.", found.repeated_rows);
     }
     let names = ["i", "j", "alpha, arcsec", "u", "beta, arcsec", "u", "gamma, arcsec", "u", "deg. of freedom"];
     let rows: Vec<Vec<String>> = stand
@@ -142,7 +143,7 @@ fn components(out: &mut String, found: &Certification) {
     let own = components.own_arcsec2.map(|variance| format!("{:.2}", variance.value.sqrt()));
     let _ = writeln!(
         out,
-        "\nOne return scatters by {:.2} arcsec per axis ({:.1} degrees of freedom); about x, y, z: {}",
+        "\nRepeatability of one visit: {:.2} arcsec per axis ({:.1} degrees of freedom); about x, y, z: {}",
         components.pooled_arcsec2.value.sqrt(),
         components.pooled_arcsec2.degrees_of_freedom,
         own.join(", ")
@@ -152,8 +153,8 @@ fn components(out: &mut String, found: &Certification) {
         let Some(common) = common else { continue };
         let seen = common.between_runs_arcsec2.sqrt();
         let words = format!(
-            "All positions share, of the {what}: {seen:.2} arcsec per axis from run to run (at most {:.2} at 95 %), \
-             {:.2} in the mean",
+            "Common part of the {what}: {seen:.2} arcsec per axis from run to run (at most {:.2} at 95 %), {:.2} in \
+             the mean",
             common.upper_limit_arcsec2.sqrt(),
             seen / root
         );
@@ -176,7 +177,7 @@ fn tests(out: &mut String, found: &Certification) {
         let Some(test) = test else { continue };
         let _ = writeln!(
             out,
-            "Bartlett's test that all {what} scatter alike: {:.2} with {} degrees of freedom, probability {}",
+            "Bartlett's test for equal variances of {what}: {:.2} with {} degrees of freedom, probability {}",
             test.statistic,
             test.degrees_of_freedom,
             columns::probability(test.probability)
@@ -184,7 +185,7 @@ fn tests(out: &mut String, found: &Certification) {
     }
     let readings = found.runs.len() * found.components.keeps.nrows();
     let named = found.suspects.outliers.len();
-    let _ = writeln!(out, "Grubbs' test of {readings} angles: {named} out at 5 %");
+    let _ = writeln!(out, "Grubbs' test of {readings} angles: {named} outliers at 5 %");
 }
 
 /// A check run for people.
@@ -209,7 +210,7 @@ pub fn comparison(found: &Comparison) -> String {
             columns::probability(test.probability)
         )
     };
-    let _ = writeln!(out, "\nPositions with one another: {}", line(&found.all));
+    let _ = writeln!(out, "\nPositions relative to each other: {}", line(&found.all));
     let rows: Vec<Vec<String>> = found
         .positions
         .iter()
@@ -220,16 +221,16 @@ pub fn comparison(found: &Comparison) -> String {
             }
             row.push(format!("{:.2}", at.test.chi_square));
             row.push(columns::probability(at.test.probability));
-            row.push(if at.repeats { "repeats" } else { "DOES NOT" }.to_owned());
+            row.push(if at.repeats { "unchanged" } else { "CHANGED" }.to_owned());
             row
         })
         .collect();
     let names = ["i", "j", "x, arcsec", "u", "y, arcsec", "u", "z, arcsec", "u", "chi-square", "probability", ""];
     columns::table(&mut out, &names, &rows);
     let turned = |turn: &[f64; 3]| turn.map(|value| format!("{value:+.2}")).join(", ");
-    let judged = found.common.test.as_ref().map_or_else(|_| "not judged".to_owned(), line);
+    let judged = found.common.test.as_ref().map_or_else(|_| "not tested".to_owned(), line);
     let words = format!(
-        "All together: platform {} about x, y, z, base {} about east, north, up, arcsec; {judged}",
+        "Common rotation, arcsec: platform {} about x, y, z, base {} about east, north, up; {judged}",
         turned(&found.common.platform_arcsec),
         turned(&found.common.base_arcsec)
     );

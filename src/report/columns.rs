@@ -19,10 +19,10 @@ pub fn named(out: &mut String, name: &str, name_columns: usize, value: &str) {
     wrapped(out, 2 + name_columns, value);
 }
 
-/// Words from column `indent` on, broken at blanks.
+/// Words from column `indent` on, broken at spaces, but not between a number and its unit.
 fn wrapped(out: &mut String, indent: usize, words: &str) {
     let mut column = indent;
-    for (index, word) in words.split(' ').enumerate() {
+    for (index, word) in unbroken(words).iter().enumerate() {
         let width = word.chars().count();
         if index > 0 && column + 1 + width > COLUMNS {
             let _ = write!(out, "\n{:indent$}", "");
@@ -35,6 +35,20 @@ fn wrapped(out: &mut String, indent: usize, words: &str) {
         column += width;
     }
     out.push('\n');
+}
+
+/// The words of a text; a unit is part of the word of its number.
+fn unbroken(text: &str) -> Vec<String> {
+    const UNITS: [&str; 9] = ["%", "arcsec", "deg", "deg/h", "mA", "uA", "m", "m/s2", "m/s²"];
+    let mut words: Vec<String> = Vec::new();
+    for word in text.split(' ') {
+        let is_unit = UNITS.contains(&word.trim_end_matches([',', ';', '.', ':', ')'])) || word.starts_with("deg/(");
+        match words.last_mut().filter(|last| is_unit && last.ends_with(|c: char| c.is_ascii_digit())) {
+            Some(number) => *number += &format!(" {word}"),
+            None => words.push(word.to_owned()),
+        }
+    }
+    words
 }
 
 /// Columns as wide as their widest cell, numbers to the right.
@@ -124,6 +138,14 @@ mod tests {
         ] {
             assert_eq!(csv_row([cell].into_iter()), format!("{written}\n"));
         }
+    }
+
+    #[test]
+    fn a_number_stays_with_its_unit() {
+        assert_eq!(unbroken("is 2 deg/(h·mA); a 5 % b"), ["is", "2 deg/(h·mA);", "a", "5 %", "b"]);
+        let mut out = String::new();
+        paragraph(&mut out, "", &format!("{}0.13 %", "word ".repeat(19)));
+        assert_eq!(out.lines().last(), Some("0.13 %"));
     }
 
     #[test]

@@ -20,7 +20,7 @@ pub fn picture(out: &mut String, positions: &[CertifiedPosition]) {
         let bars = angles(at).map(|angle| bar(angle / largest));
         let _ = writeln!(out, "{}", format!("{:>3}{:>3}  {}", at.i, at.j, bars.join("  ")).trim_end());
     }
-    let _ = writeln!(out, "  the longest bar is {largest} arcsec; those to the left are negative");
+    let _ = writeln!(out, "  the longest bar is {largest} arcsec; bars to the left are negative");
 }
 
 /// A bar of -1 to 1 about its axis.

@@ -121,18 +121,18 @@ pub fn warnings(remarks: &Remarks) -> Vec<String> {
     let mut words = Vec::new();
     match &remarks.noise {
         None => words.push(
-            "WARNING: from these positions at this site least squares cannot determine all parameters of a gyro"
+            "WARNING: least squares cannot determine all parameters of a gyro from these positions at this site"
                 .to_owned(),
         ),
         Some(growth) if growth.worst() > NOISE_WARNING => words.push(format!(
-            "WARNING: a calibration on this stand is up to {:.2} times as noisy as on a perfect one",
+            "WARNING: the noise of a calibration on this stand is up to {:.2} times that on an ideal stand",
             growth.worst()
         )),
         Some(_) => {}
     }
     if remarks.uncertainty_growth > POLAR_WARNING {
         words.push(format!(
-            "WARNING: so near the pole the uncertainty of K is {:.1} times that at the equator",
+            "WARNING: at this latitude, near the pole, the uncertainty of K is {:.1} times that at the equator",
             remarks.uncertainty_growth
         ));
     }
@@ -150,7 +150,7 @@ fn text(report: &Report) -> String {
     if let Some(Noise { k, omega_0, omega_g, omega_k }) = report.noise_growth {
         let _ = writeln!(
             text,
-            "           noise, against a perfect stand: K {k:.2}, omega_0 {omega_0:.2}, omega_g {omega_g:.2}, \
+            "           noise relative to an ideal stand: K {k:.2}, omega_0 {omega_0:.2}, omega_g {omega_g:.2}, \
              omega_k {omega_k:.2}"
         );
     }

@@ -10,23 +10,24 @@ pub fn text(found: &MonteCarlo) -> String {
     let mut out = String::new();
     let _ = writeln!(
         out,
-        "\nMonte Carlo ({}), {} trials, seed {}; {:.0} % intervals",
+        "\nMonte Carlo ({}), {} trials, seed {}; {:.0} % coverage intervals",
         found.method.key(),
         found.trials,
         found.seed,
         100.0 * COVERAGE
     );
     let rows: Vec<Vec<String>> = found.parameters.iter().map(row).collect();
-    columns::table(&mut out, &["", "mean", "u", "symmetric", "shortest", "apart", "allowed", "first order"], &rows);
-    let words = "apart: how far the ends of the first-order interval are from those of the symmetric one (the worse of \
-                 the two); allowed: half a unit of the second digit of u (JCGM 101, clause 8).";
+    columns::table(&mut out, &["", "mean", "u", "symmetric", "shortest", "difference", "allowed", "linear"], &rows);
+    let words = "difference: of the ends of the interval by linear approximation from those of the symmetric one (the \
+                 larger of the two); allowed: half a unit of the second digit of u (JCGM 101, clause 8); linear: \
+                 whether the linear approximation is valid.";
     columns::paragraph(&mut out, "  ", words);
     if !found.stable {
-        let words = "WARNING: not every stated digit is stable yet: more trials (JCGM 101, 7.9) would move some.";
+        let words = "WARNING: not all stated digits are stable; more trials (JCGM 101, 7.9) would change some of them.";
         columns::paragraph(&mut out, "  ", words);
     }
     if found.failed > 0 {
-        let words = format!("WARNING: {} trials gave no finite parameters and are left out.", found.failed);
+        let words = format!("WARNING: {} trials gave no finite parameters and were excluded.", found.failed);
         columns::paragraph(&mut out, "  ", &words);
     }
     out

@@ -17,13 +17,13 @@ pub fn text(content: &Content, verified: bool) -> String {
     let state = if verified { style::good("verified") } else { style::bad("NOT VERIFIED") };
     let _ = writeln!(out, "{}  ({state})", style::heading(&format!("Passport {}", header.id)));
     line(&mut out, "issued", format!("{} by {}", header.issued_at, header.issuer));
-    option(&mut out, "with", header.issued_with.as_ref());
+    option(&mut out, "program", header.issued_with.as_ref());
     option(&mut out, "valid until", header.valid_until.as_ref());
     if let Some(old) = &header.reissued_from {
         line(&mut out, "re-issued from", format!("{}, sha256 {}", old.id, old.sha256));
         line(&mut out, "reason", &old.reason);
-        line(&mut out, "changed", &old.changed);
-        line(&mut out, "supersedes it", if header.supersedes == Some(true) { "yes" } else { "no" });
+        line(&mut out, "changes", &old.changed);
+        line(&mut out, "supersedes", if header.supersedes == Some(true) { "yes" } else { "no" });
     }
     stand(&mut out, content);
     positions(&mut out, content);
@@ -67,13 +67,13 @@ fn stand(out: &mut String, content: &Content) {
     option(out, "received", certificate.received.as_ref());
     option(out, "performed", certificate.performed.as_ref());
     option(out, "valid until", certificate.valid_until.as_ref());
-    option(out, "by agreement of", certificate.valid_until_basis.as_ref());
+    option(out, "basis of validity", certificate.valid_until_basis.as_ref());
     option(out, "method", certificate.method.as_ref());
     option(out, "traceability", certificate.traceability.as_ref());
     option(out, "temperature, deg C", certificate.temperature_c);
     option(out, "from, to, deg C", certificate.temperature_range_c.map(|[low, high]| format!("{low}, {high}")));
     option(out, "repeatability, arcsec", certificate.repeatability_arcsec);
-    option(out, "its degrees of freedom", certificate.repeatability_degrees_of_freedom);
+    option(out, "degrees of freedom", certificate.repeatability_degrees_of_freedom);
     option(out, "common platform, arcsec", certificate.common_platform_arcsec);
     option(out, "common base, arcsec", certificate.common_base_arcsec);
     for TypeB { source, acts_on, u_arcsec, degrees_of_freedom } in certificate.type_b.iter().flatten() {
@@ -142,34 +142,34 @@ fn site(out: &mut String, content: &Content) {
         line(out, "deflection, arcsec", format!("xi {xi}, eta {eta}{}", with_u(deflection.u)));
     }
     let gravity = site.gravity_m_per_s2.map(|gravity| format!("{gravity}{}", with_u(site.gravity_u_m_per_s2)));
-    option(out, "measured gravity, m/s2", gravity);
+    option(out, "measured gravity, m/s²", gravity);
     if let Some(mark) = &site.azimuth_mark {
         let name = mark.name.as_deref().unwrap_or("no name");
         line(out, "azimuth mark", format!("{name}: {}, {}", mark.latitude_deg, mark.longitude_deg));
         let pillar = format!("{}, {}", mark.pillar_latitude_deg, mark.pillar_longitude_deg);
-        line(out, "its pillar", pillar);
+        line(out, "pillar", pillar);
         option(out, "u of both, m", mark.position_u_m);
     }
     if let Some(base) = &site.uncertainty {
         option(out, "u of latitude, arcsec", base.latitude_arcsec);
-        option(out, "u of azimuth, arcsec", base.azimuth_arcsec);
-        option(out, "u of level, arcsec", base.level_arcsec);
+        option(out, "u of base azimuth, arcsec", base.azimuth_arcsec);
+        option(out, "u of base level, arcsec", base.level_arcsec);
     }
     option(out, "source", site.source.as_ref());
     heading(out, "Earth at the site");
     line(out, "astronomic latitude, deg", earth.latitude_deg);
     line(out, "horizontal rate, deg/h", earth.horizontal_deg_per_h);
     line(out, "vertical rate, deg/h", earth.vertical_deg_per_h);
-    line(out, "gravity, m/s2", earth.gravity_m_per_s2);
-    let radius = format!("{:.0} (rates within {} deg/h)", earth.valid_radius_m, earth.valid_within_deg_per_h);
-    line(out, "valid within, m", radius);
+    line(out, "gravity, m/s²", earth.gravity_m_per_s2);
+    let radius = format!("{:.0} (Earth rate within {} deg/h)", earth.valid_radius_m, earth.valid_within_deg_per_h);
+    line(out, "validity radius, m", radius);
     option(out, "azimuth of mark, deg", earth.azimuth_deg);
-    option(out, "its u, arcsec", earth.azimuth_u_arcsec);
+    option(out, "u of azimuth, arcsec", earth.azimuth_u_arcsec);
 }
 
 fn matrices(out: &mut String, content: &Content) {
     let Some(m) = &content.matrices else {
-        heading(out, "Matrices: none, for not all of the eight positions are certified");
+        heading(out, "Matrices: none, because some of the eight positions are not certified");
         return;
     };
     heading(out, "Matrices, eq. (12), (13), (15)");
@@ -181,7 +181,7 @@ fn matrices(out: &mut String, content: &Content) {
     let rows = [
         row("Delta", "1", &m.delta),
         row("B", "deg/h", &m.b_deg_per_h),
-        row("C", "deg/h/g", &m.c_deg_per_h_per_g),
+        row("C", "deg/(h·g)", &m.c_deg_per_h_per_g),
         row("n_1", "1", &m.n1),
         row("n_2", "1", &m.n2),
         row("n_2^-1", "1", &m.n2_inverse),
@@ -206,33 +206,37 @@ fn vectors(out: &mut String, content: &Content) {
 fn accuracy(out: &mut String, content: &Content) {
     let Some(accuracy) = &content.accuracy else { return };
     let (gyro, laboratory) = (&accuracy.gyro, &accuracy.laboratory);
-    heading(out, "What the stand is good for: standard uncertainties (k = 1) of one calibration by least squares");
+    heading(
+        out,
+        "Expected calibration uncertainty: standard uncertainties (k = 1) of one calibration by least \
+         squares",
+    );
     line(out, "gyro type", &gyro.r#type);
     option(out, "laboratory", laboratory.name.as_ref());
     let meter = &laboratory.meter;
-    let noise = meter.noise_ma.map_or_else(String::new, |noise| format!(", {noise} mA noise of a reading"));
+    let noise = meter.noise_ma.map_or_else(String::new, |noise| format!(", {noise} mA noise"));
     let words = format!(
         "{} % of reading, {} % gain, {} mA offset, {} mA floor{noise}",
         meter.reading_percent, meter.gain_percent, meter.offset_ma, meter.floor_ma
     );
     line(out, "meter", words);
     let seat = laboratory.seating_arcsec.as_ref();
-    option(out, "seat, arcsec", seat.map(|seat| format!("{}, {}, {}", seat.about_x, seat.about_y, seat.about_z)));
+    option(out, "gyro seat, arcsec", seat.map(|seat| format!("{}, {}, {}", seat.about_x, seat.about_y, seat.about_z)));
     let u = &accuracy.standard_uncertainty;
     let (k, nominal) = (&u.k_deg_per_h_per_ma, &gyro.nominal.k_deg_per_h_per_ma);
     let rows = [("K_x", 0, 0), ("K_xy", 0, 1), ("K_yx", 1, 0), ("K_y", 1, 1)].map(|(name, row, column)| {
         let percent = 100.0 * k[row][column] / nominal[row][column].abs();
         let percent = if percent.is_finite() { format!("{percent:.4}") } else { String::new() };
         let limit = if row == column { gyro.tolerance.k_main_percent } else { gyro.tolerance.k_cross_percent };
-        vec![name.to_owned(), format!("{:.6} deg/h/mA", k[row][column]), percent, format!("{limit} %")]
+        vec![name.to_owned(), format!("{:.6} deg/(h·mA)", k[row][column]), percent, format!("{limit} %")]
     });
     let tolerance = &gyro.tolerance;
     let [x, y] = u.omega0_deg_per_h;
     let drifts = [
         ("omega_0x", x, "deg/h", tolerance.omega0_deg_per_h),
         ("omega_0y", y, "deg/h", tolerance.omega0_deg_per_h),
-        ("omega_g", u.omega_g_deg_per_h_per_g, "deg/h/g", tolerance.omega_g_deg_per_h_per_g),
-        ("omega_k", u.omega_k_deg_per_h_per_g, "deg/h/g", tolerance.omega_k_deg_per_h_per_g),
+        ("omega_g", u.omega_g_deg_per_h_per_g, "deg/(h·g)", tolerance.omega_g_deg_per_h_per_g),
+        ("omega_k", u.omega_k_deg_per_h_per_g, "deg/(h·g)", tolerance.omega_k_deg_per_h_per_g),
     ];
     let drifts = drifts.map(|(name, u, unit, limit)| {
         vec![name.to_owned(), format!("{u:.6} {unit}"), String::new(), format!("{limit} {unit}")]
@@ -243,16 +247,16 @@ fn accuracy(out: &mut String, content: &Content) {
 
 fn self_check(out: &mut String, content: &Content) {
     let Some(check) = &content.self_check else { return };
-    heading(out, "Self-check: from these currents (mA) laboratory software finds the parameters below");
+    heading(out, "Self-check: from these currents (mA) laboratory software should obtain the parameters below");
     let rows = check
         .currents
         .iter()
         .map(|at| vec![at.i.to_string(), at.j.to_string(), format!("{:.9}", at.jx_ma), format!("{:.9}", at.jy_ma)]);
     columns::table(out, &["i", "j", "J_x", "J_y"], &rows.collect::<Vec<_>>());
     let [[kx, kxy], [kyx, ky]] = check.k_deg_per_h_per_ma;
-    line(out, "K, deg/h/mA", format!("[[{kx}, {kxy}], [{kyx}, {ky}]]"));
+    line(out, "K, deg/(h·mA)", format!("[[{kx}, {kxy}], [{kyx}, {ky}]]"));
     let [x, y] = check.omega0_deg_per_h;
     line(out, "omega_0, deg/h", format!("[{x}, {y}]"));
-    line(out, "omega_g, deg/h/g", check.omega_g_deg_per_h_per_g);
-    line(out, "omega_k, deg/h/g", check.omega_k_deg_per_h_per_g);
+    line(out, "omega_g, deg/(h·g)", check.omega_g_deg_per_h_per_g);
+    line(out, "omega_k, deg/(h·g)", check.omega_k_deg_per_h_per_g);
 }

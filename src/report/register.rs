@@ -16,7 +16,7 @@ impl State {
             Self::Expired => "expired",
             Self::NotYetValid => "not yet valid",
             Self::Revoked => "revoked",
-            Self::Unknown => "not known",
+            Self::Unknown => "unknown",
             Self::Broken => "BROKEN",
         }
     }
@@ -26,7 +26,7 @@ impl State {
 pub fn text(register: &Register) -> String {
     let mut out = String::new();
     for line in &register.passports {
-        let id = line.id.as_deref().unwrap_or("(nothing of it may be believed)");
+        let id = line.id.as_deref().unwrap_or("(id not verified)");
         let _ = writeln!(out, "{:<13}  {id}  {}", line.state.words(), Printable(&line.file));
         columns::paragraph(&mut out, "               ", &printable(&line.why));
     }

@@ -32,7 +32,7 @@ pub fn text(cases: &[Case]) -> String {
     }
     let failed = cases.iter().filter(|case| !case.passed()).count();
     let _ = match failed {
-        0 => writeln!(out, "All {} cases as published.", cases.len()),
+        0 => writeln!(out, "All {} cases agree with the published values.", cases.len()),
         failed => writeln!(out, "FAILED: {failed} of {} cases.", cases.len()),
     };
     out

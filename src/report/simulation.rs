@@ -2,14 +2,15 @@
 
 use crate::simulation::accuracy::Accuracy;
 use crate::simulation::convergence::Convergence;
+use crate::units::printed;
 use std::fmt::Write;
 
 /// The paper's table: worst error and standard deviation of every parameter by every method.
 pub fn accuracy(found: &Accuracy) -> String {
     let mut out = String::new();
     let stands = match found.limit_deg {
-        Some(limit) => format!("every angle of every stand uniform within {limit} degrees"),
-        None => "the stand given".to_owned(),
+        Some(limit) => format!("all deviations uniform within {limit} degrees"),
+        None => "the specified stand".to_owned(),
     };
     let _ = writeln!(out, "{} trials, seed {}, {stands}", found.trials, found.seed);
     let _ = writeln!(
@@ -22,7 +23,11 @@ pub fn accuracy(found: &Accuracy) -> String {
         let _ = writeln!(
             out,
             "  {:<13}  {:<9}  {:>10.5}  {:>10.6}  {paper:>9}  {}",
-            row.method, row.parameter, row.worst, row.standard_deviation, row.unit
+            row.method,
+            row.parameter,
+            row.worst,
+            row.standard_deviation,
+            printed(row.unit)
         );
         if row.not_solved > 0 {
             let _ = writeln!(out, "                 {} trials gave no result", row.not_solved);
@@ -34,8 +39,7 @@ pub fn accuracy(found: &Accuracy) -> String {
 /// The paper's Fig. 4 as numbers.
 pub fn convergence(found: &Convergence) -> String {
     let mut out = String::new();
-    let _ =
-        writeln!(out, "Steps of successive approximation, {} stands at each limit, seed {}", found.trials, found.seed);
+    let _ = writeln!(out, "Steps of the iterative method, {} stands at each limit, seed {}", found.trials, found.seed);
     let names = ["limit, deg", "angles", "mean", "95th perc.", "most", "not converged, %"];
     let [limit, angles, mean, percentile, most, not] = names;
     let _ = writeln!(out, "  {limit:>10}  {angles:<8}  {mean:>7}  {percentile:>10}  {most:>5}  {not:>16}");

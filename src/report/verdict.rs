@@ -51,7 +51,7 @@ pub fn text(verdicts: &[Verdict]) -> String {
     let mut text = String::new();
     for verdict in verdicts {
         let answer = if verdict.valid { style::good("VALID") } else { style::bad("REFUSED") };
-        let id = verdict.id.as_deref().unwrap_or("(nothing of it may be believed)");
+        let id = verdict.id.as_deref().unwrap_or("(id not verified)");
         let _ = writeln!(text, "{answer}  {id}  {}", Printable(&verdict.file));
         for check in &verdict.checks {
             let mark = match check.passed {

@@ -32,45 +32,45 @@ pub(crate) fn claims_to_be_a_list(bytes: &[u8]) -> bool {
 pub(crate) const REVOCATION_NAMESPACE: &str = "dtg-revocation";
 
 record! {
-    /// A withdrawn passport.
+    /// Withdrawn passport.
     #[derive(Eq, PartialOrd, Ord)]
     pub struct Entry {
-        /// Its id.
+        /// Identifier of the passport.
         pub id: String,
-        /// SHA-256 of its file, lower-case hexadecimal.
+        /// SHA-256 of the file, in lower-case hexadecimal.
         pub sha256: String,
-        /// When it was withdrawn.
+        /// Time of withdrawal.
         pub revoked_at: Timestamp,
-        /// Why.
+        /// Reason for the withdrawal.
         pub reason: String,
     }
 }
 
 record! {
-    /// The list that another one continues, and whose entries count with it.
+    /// List that is continued; its entries remain valid.
     #[derive(Eq)]
     pub struct Continued {
-        /// Its sequence number.
+        /// Sequence number of the list.
         pub sequence: u32,
-        /// SHA-256 of its file, lower-case hexadecimal.
+        /// SHA-256 of the file, in lower-case hexadecimal.
         pub sha256: String,
     }
 }
 
 record! {
-    /// A list of withdrawn passports. Of several the one with the highest sequence number counts.
+    /// List of withdrawn passports. Of several lists, the one with the highest sequence number applies.
     pub struct RevocationList {
         /// Always "dtg-revocation/1".
         pub format: String,
-        /// Counts from 1 and only grows.
+        /// Sequence number, from 1, increasing.
         pub sequence: u32,
-        /// When it was issued; never before an earlier list.
+        /// Time of issue, not earlier than that of any list with a lower number.
         pub issued_at: Timestamp,
-        /// Who issued it: a principal of allowed_signers.
+        /// Issuer: a principal of allowed_signers.
         pub issuer: String,
-        /// The list whose entries count too, when they are not repeated here.
+        /// Earlier list whose entries apply too and are not repeated here.
         pub continues: Option<Continued>,
-        /// Every passport withdrawn so far, or since the list that is continued.
+        /// All passports withdrawn so far, or since the list that is continued.
         pub entries: Vec<Entry>,
     }
 }
@@ -122,7 +122,7 @@ pub enum ListRefused {
         why: String,
     },
     /// It was issued later than now.
-    #[error("{}: issued at {issued_at}, which is after {now}: is the clock right?", Printable(name))]
+    #[error("{}: issued at {issued_at}, which is later than {now}; check the clock", Printable(name))]
     FromTheFuture {
         /// The file.
         name: String,
@@ -138,7 +138,7 @@ pub enum ListRefused {
 #[non_exhaustive]
 pub enum NoNewList {
     /// The passport is on the list already.
-    #[error("{id}: was withdrawn already, at {revoked_at}: {}", Printable(reason))]
+    #[error("{id}: already withdrawn at {revoked_at}: {}", Printable(reason))]
     AlreadyRevoked {
         /// The passport.
         id: String,
@@ -148,7 +148,7 @@ pub enum NoNewList {
         reason: String,
     },
     /// The new list would be older than the last.
-    #[error("the new list would be issued at {now}, before the last one, {last}: is the clock right?")]
+    #[error("the new list would be issued at {now}, earlier than the last one at {last}; check the clock")]
     BeforeLast {
         /// When it would be issued.
         now: Timestamp,
@@ -156,10 +156,10 @@ pub enum NoNewList {
         last: Timestamp,
     },
     /// So many passports at once that a list of them alone is too large.
-    #[error("{0} passports at once: their entries alone are more than a list can hold; withdraw them in several steps")]
+    #[error("{0} passports are too many for one list; withdraw them in several steps")]
     TooMany(usize),
     /// A text that cannot be signed.
-    #[error("{0:?} is empty or contains a character that no signed text may contain")]
+    #[error("{0:?} is empty or contains a character that is not allowed in signed files")]
     BadText(String),
     /// The issuer's name is none that allowed signers could give a key to.
     #[error(transparent)]
@@ -168,12 +168,13 @@ pub enum NoNewList {
     #[error(transparent)]
     Signing(#[from] SigningFailed),
     /// The signer gave a signature that does not hold.
-    #[error("the signature just made does not hold: {0}")]
+    #[error("verification of the new signature failed: {0}")]
     BadSignature(#[from] SignatureError),
 }
 
 impl ListRefused {
-    /// Returns `true` if the file is no whole list (steps 1 to 5), so that nobody can tell what it withdraws; `false` if it
+    /// Returns `true` if the file is no whole list (steps 1 to 5), so that nobody can tell what it withdraws; `false`
+    /// if it
     /// is one that does not count.
     pub(crate) fn is_damage(&self) -> bool {
         matches!(self, Self::Malformed(_) | Self::Altered { .. } | Self::Content(_))
@@ -233,7 +234,7 @@ impl RevocationList {
         if let Some(continued) = &self.continues {
             let at = at.key("continues");
             if continued.sequence == 0 || continued.sequence >= self.sequence {
-                let expected = format!("the number of an earlier list than {}", self.sequence);
+                let expected = format!("the number of a list earlier than {}", self.sequence);
                 problems.at(&at.key("sequence"), format!("{}", continued.sequence), expected, "");
             }
             check_sha256(&continued.sha256, &at, problems);
@@ -253,10 +254,10 @@ impl RevocationList {
     fn payload(&self) -> String {
         let comments = |path: &str| match path {
             "format" => vec![
-                "Withdrawn passports. Of several lists the one with the highest sequence number counts.".to_owned(),
-                "Signed as it stands: any change makes the signature fail.".to_owned(),
+                "Withdrawn passports. Of several lists, the one with the highest sequence number applies.".to_owned(),
+                "Signed verbatim: any change makes the signature invalid.".to_owned(),
             ],
-            "continues" => vec!["The entries of this earlier list count too; keep both.".to_owned()],
+            "continues" => vec!["The entries of this earlier list apply too; keep both lists.".to_owned()],
             _ => Vec::new(),
         };
         canonical::write(self, &comments)

@@ -23,13 +23,13 @@ pub struct Series {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum SeriesAlarm {
     /// Its beginning is not there.
-    #[error("the series of revocation lists begins with {first}, not with 1: a gap")]
+    #[error("gap: the series of revocation lists begins with {first}, not with 1")]
     Beginning {
         /// The first list that is there.
         first: u32,
     },
     /// Lists in between are not there.
-    #[error("after revocation list {from} comes {to}: a gap")]
+    #[error("gap: revocation list {from} is followed by {to}")]
     Gap {
         /// The last list before it.
         from: u32,
@@ -38,7 +38,8 @@ pub enum SeriesAlarm {
     },
     /// A list that another one continues is not there: what it withdraws is unknown.
     #[error(
-        "revocation list {list} continues list {missing}, which is missing; what list {missing} withdraws is unknown"
+        "revocation list {list} continues list {missing}, which is missing; the withdrawals of list {missing} are \
+         unknown"
     )]
     Missing {
         /// The list that continues it.
@@ -47,10 +48,10 @@ pub enum SeriesAlarm {
         missing: u32,
     },
     /// Two lists have one number.
-    #[error("two different revocation lists have the number {0}: a fork")]
+    #[error("fork: two different revocation lists have the number {0}")]
     Fork(u32),
     /// A later list was issued earlier.
-    #[error("revocation list {to} is older than list {from}: a step back in time")]
+    #[error("step back in time: revocation list {to} was issued earlier than list {from}")]
     StepBack {
         /// The earlier list.
         from: u32,
@@ -58,7 +59,7 @@ pub enum SeriesAlarm {
         to: u32,
     },
     /// A later list has lost an entry.
-    #[error("revocation list {to} has lost an entry of list {from}")]
+    #[error("revocation list {to} lacks an entry of list {from}")]
     LostEntry {
         /// The earlier list.
         from: u32,
@@ -262,10 +263,10 @@ mod tests {
     fn gaps_forks_and_steps_back_are_alarms() {
         let cases = [
             (vec![list(2, 200, &["a"])], "begins with 2"),
-            (vec![list(1, 200, &["a"]), list(3, 300, &["a"])], "a gap"),
-            (vec![list(1, 200, &["a"]), list(1, 200, &["b"])], "a fork"),
-            (vec![list(1, 300, &["a"]), list(2, 200, &["a"])], "a step back"),
-            (vec![list(1, 200, &["a"]), list(2, 300, &["b"])], "lost an entry"),
+            (vec![list(1, 200, &["a"]), list(3, 300, &["a"])], "gap: "),
+            (vec![list(1, 200, &["a"]), list(1, 200, &["b"])], "fork: "),
+            (vec![list(1, 300, &["a"]), list(2, 200, &["a"])], "step back in time: "),
+            (vec![list(1, 200, &["a"]), list(2, 300, &["b"])], "lacks an entry"),
         ];
         for (lists, words) in cases {
             let alarms = alarms(lists);
@@ -333,7 +334,7 @@ mod tests {
         let first = list(1, 100, &["a"]);
         let second = list(2, 200, &["a", "b"]);
         let third = continuing(list(3, 300, &["c"]), &first);
-        assert_eq!(alarms(vec![first, second, third]), ["revocation list 3 has lost an entry of list 2"]);
+        assert_eq!(alarms(vec![first, second, third]), ["revocation list 3 lacks an entry of list 2"]);
     }
 
     #[test]

@@ -100,7 +100,7 @@ impl Site {
         );
         let exchanged = self.longitude_deg.is_some_and(|longitude| longitude.abs() <= 90.0 && fits(longitude));
         let advice = match exchanged {
-            true => "check latitude, height and gravity; it would fit with latitude and longitude exchanged",
+            true => "check latitude, height and gravity; the value would agree with latitude and longitude exchanged",
             false => "check latitude, height and gravity",
         };
         problems.at(&at.key("gravity_m_per_s2"), format!("{gravity}"), expected, advice);

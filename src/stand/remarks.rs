@@ -33,8 +33,8 @@ pub fn of(certificate: &Certificate, positions: &[CertifiedPosition]) -> Vec<Str
         let odd = |at: &&CertifiedPosition| angle(at).abs() > f64::max(SMALL_ARCSEC, FAR_OUT * usual);
         said.extend(positions.iter().filter(odd).map(|at| {
             format!(
-                "{key} of position {} is {}, more than {FAR_OUT} times the {usual} of the other positions: check the digits, the \
-                 unit and the position",
+                "{key} of position {} is {}, more than {FAR_OUT} times the {usual} of the other positions; check the \
+                 digits, the unit and the position",
                 at.index(),
                 angle(at)
             )
@@ -56,14 +56,17 @@ fn temperatures(certificate: &Certificate) -> Vec<String> {
         measured.into_iter().chain(ends.into_iter().flatten()).filter(|(_, value)| !ROOM_C.contains(value))
     {
         let (low, high) = (ROOM_C.start(), ROOM_C.end());
-        said.push(format!("{key} is {value} deg C, outside {low} to {high} deg C as in a room{}", kelvin(value)));
+        said.push(format!(
+            "{key} is {value} deg C, outside the usual room temperature of {low} to {high} deg C{}",
+            kelvin(value)
+        ));
     }
     if let (Some(value), Some([low, high])) = (certificate.temperature_c, range)
         && !(low..=high).contains(&value)
     {
         said.push(format!(
-            "temperature_c is {value} deg C, outside the certified temperature_range_c, {low} to {high} deg C: the deviations \
-             were measured where they are not certified"
+            "temperature_c is {value} deg C, but temperature_range_c is {low} to {high} deg C; the deviations were \
+             measured outside the certified range"
         ));
     }
     said

@@ -51,21 +51,22 @@ impl Field for ActsOn {
 }
 
 record! {
-    /// A contribution to the uncertainty that repeated measurements cannot show (type B), such as an instrument's calibration.
+    /// Contribution to the uncertainty that repeated measurements do not show (type B), such as the calibration of an
+    /// instrument.
     pub struct TypeB {
         /// Source of the contribution.
         pub source: String,
-        /// The uncertainty that it is part of: "position" for u_*, "platform" or "base" for common_*.
+        /// Uncertainty that includes this contribution: "position" for u_*, "platform" or "base" for common_*.
         pub acts_on: ActsOn,
         /// Standard uncertainty per axis.
         pub u_arcsec: f64,
-        /// Its degrees of freedom; infinite when absent.
+        /// Degrees of freedom of the contribution; infinite if absent.
         pub degrees_of_freedom: Option<f64>,
     }
 }
 
 record! {
-    /// The readings that a certificate was made from.
+    /// Readings from which the certificate was computed.
     pub struct Evidence {
         /// SHA-256 of the file of readings, in lower-case hexadecimal.
         pub readings_sha256: String,
@@ -96,7 +97,7 @@ pub(super) fn check(certificate: &Certificate, positions: &[CertifiedPosition], 
     let at = Path::Root.key("certificate");
     let of_type_b = at.key("type_b");
     if certificate.type_b.as_ref().is_some_and(Vec::is_empty) {
-        problems.at(&of_type_b, "an empty list", "at least one contribution", "leave the key out when there is none");
+        problems.at(&of_type_b, "an empty list", "at least one contribution", "omit the key if there is none");
     }
     for (index, line) in certificate.type_b.iter().flatten().enumerate() {
         let at = of_type_b.item(index);
@@ -107,18 +108,18 @@ pub(super) fn check(certificate: &Certificate, positions: &[CertifiedPosition], 
         let at = at.key("evidence");
         if !is_sha256_hex(&evidence.readings_sha256) {
             let found = format!("{:?}", evidence.readings_sha256);
-            problems.at(&at.key("readings_sha256"), found, "64 hexadecimal digits in lower case", "");
+            problems.at(&at.key("readings_sha256"), found, "64 lower-case hexadecimal digits", "");
         }
         if evidence.runs < 2 {
-            let advice = "a certificate is made from two runs or more";
+            let advice = "certify from two or more runs";
             problems.at(&at.key("runs"), format!("{}", evidence.runs), "2 or more", advice);
         }
     }
     let mut contains = |at: &Path, key: &'static str, u: Option<f64>, on: ActsOn| {
         let root = certificate.type_b_arcsec2(on).sqrt();
         if let Some(u) = u.filter(|u| (0.0..root * (1.0 - ROUNDING)).contains(u)) {
-            let expected = format!("at least {root:.4}, the root of the sum of the squares of its type_b lines");
-            let advice = format!("add the {} lines of type_b to it, or correct them", on.word());
+            let expected = format!("at least {root:.4}, the root sum of squares of its type_b lines");
+            let advice = format!("include the {} lines of type_b in it, or correct them", on.word());
             problems.at(&at.key(key), format!("{u}"), expected, advice);
         }
     };

@@ -32,9 +32,9 @@ impl Node {
             Node::Bool(value) => format!("{value}"),
             Node::Integer(value) => format!("{value}"),
             Node::Number(value) => format!("{value}"),
-            Node::Text(value) if value.chars().count() <= 60 => format!("the text {value:?}"),
-            Node::Text(value) => format!("a text of {} characters", value.chars().count()),
-            Node::List(items) => format!("a list of {}", items.len()),
+            Node::Text(value) if value.chars().count() <= 60 => format!("{value:?}"),
+            Node::Text(value) => format!("text of {} characters", value.chars().count()),
+            Node::List(items) => format!("a list of {} items", items.len()),
             Node::Map(_) => "a mapping".to_owned(),
         }
     }
@@ -54,35 +54,35 @@ pub fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable
         Err(Unreadable::whole(name, location, found, expected, advice))
     };
     if bytes.is_empty() {
-        return refuse(None, "an empty file", "a document", "was it copied to the end?");
+        return refuse(None, "an empty file", "a document", "the file may be truncated; copy it again");
     }
     if bytes.len() > LARGEST_DOCUMENT_BYTES {
         let found = format!("more than {LARGEST_DOCUMENT_BYTES} bytes");
-        return refuse(None, &found, "a document of this project", "is this the right file?");
+        return refuse(None, &found, "a file of dtg-passport", "check that this is the right file");
     }
     if is_utf16(bytes) {
         return refuse(None, "UTF-16", "UTF-8", "save the file as UTF-8 without a byte order mark");
     }
     if bytes.starts_with(&[0xEF, 0xBB, 0xBF]) {
-        let advice = "save the file as UTF-8 without BOM";
+        let advice = "save the file as UTF-8 without a byte order mark";
         return refuse(Some(Location { line: 1, column: 1 }), "a byte order mark (BOM)", "plain UTF-8", advice);
     }
     let text = match std::str::from_utf8(bytes) {
         Ok(text) => text,
         Err(error) => {
             let at = location_of(&bytes[..error.valid_up_to()]);
-            let found = format!("the byte 0x{:02X}, which is no UTF-8", bytes[error.valid_up_to()]);
+            let found = format!("byte 0x{:02X}, which is not valid UTF-8", bytes[error.valid_up_to()]);
             return refuse(Some(at), &found, "UTF-8", "save the file as UTF-8");
         }
     };
     if let Some(index) = memchr::memchr(b'\r', bytes) {
         let at = Some(location_of(&bytes[..index]));
         return if text[index..].starts_with("\r\n") {
-            let advice = "the file was changed in transit, e.g. by git autocrlf: fetch it again byte for byte, \
-                          or for a file of your own save it with LF";
-            refuse(at, "a line end CR LF", "LF", advice)
+            let advice = "transfer the file again byte for byte (git autocrlf may have changed it), or save your own \
+                          file with LF line ends";
+            refuse(at, "CR LF line ends", "LF line ends", advice)
         } else {
-            refuse(at, "a carriage return (CR)", "line ends of LF alone", "save the file with LF")
+            refuse(at, "a carriage return (CR)", "LF line ends", "save the file with LF line ends")
         };
     }
     Ok(text)

@@ -105,7 +105,8 @@ impl Display for Problem {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         let Self { field, found, expected, advice, .. } = self;
         let (colon, semicolon) = (if field.is_empty() { "" } else { ": " }, if advice.is_empty() { "" } else { "; " });
-        Printable(format_args!("{field}{colon}found {found}, expected {expected}{semicolon}{advice}")).fmt(f)
+        let verb = if found == MISSING { "" } else { "found " };
+        Printable(format_args!("{field}{colon}{verb}{found}, expected {expected}{semicolon}{advice}")).fmt(f)
     }
 }
 
@@ -121,11 +122,11 @@ const READ_AGAIN_BYTES: usize = 1 << 22;
 const SHOWN: usize = 20;
 
 /// What is found where a key is missing.
-const MISSING: &str = "no such key";
+const MISSING: &str = "missing";
 
 /// What stands for the mistakes that are not reported one by one.
-const FURTHER: &str = "further mistakes";
-const CORRECT_FIRST: &str = "correct these first";
+const FURTHER: &str = "further errors";
+const CORRECT_FIRST: &str = "correct the errors above first";
 
 /// Mistakes collected while a document is read; [`Problems::refuse`] finds their lines and columns.
 #[derive(Debug, Default)]
@@ -188,7 +189,7 @@ impl Problems {
         let Some(value) = value else { return };
         if !(low..=high).contains(&value) {
             let expected = match (low, high) {
-                (0.0, f64::MAX) => "a number that is not negative".to_owned(),
+                (0.0, f64::MAX) => "a non-negative number".to_owned(),
                 (low, high) => format!("a number from {low} to {high}"),
             };
             self.at(at, format!("{value}"), expected, "");

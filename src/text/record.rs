@@ -134,14 +134,14 @@ pub fn entries<'n>(node: &'n Node, at: &Path, problems: &mut Problems, known: &[
             break;
         }
         if !seen.insert(key) {
-            let advice = "keep one of the two: which one counts would depend on the reader";
-            problems.at_entry(at, index, format!("the key {key:?} a second time"), "every key once", advice);
+            let advice = "delete one, because readers differ in which one they use";
+            problems.at_entry(at, index, format!("duplicate key {key:?}"), "each key once", advice);
         } else if !known.contains(&key.as_str()) {
             let advice = unknown_key_advice(entries, index, key, value, known);
             problems.at_entry(
                 at,
                 index,
-                format!("the unknown key {key:?}"),
+                format!("unknown key {key:?}"),
                 format!("one of {}", known.join(", ")),
                 advice,
             );
@@ -156,12 +156,12 @@ fn unknown_key_advice(entries: &[(String, Node)], index: usize, key: &str, value
         && *value == Node::Null
         && key.bytes().all(|byte| byte.is_ascii_digit())
     {
-        return format!("a decimal comma ends the value: write {name}: {whole}.{key}");
+        return format!("use a decimal point: {name}: {whole}.{key}");
     }
     let alike = |name: &&str| strsim::jaro_winkler(name, key);
     match known.iter().max_by(|a, b| alike(a).total_cmp(&alike(b))) {
         Some(name) if alike(name) > ALIKE => format!("did you mean {name}?"),
-        _ => "remove it, or put it in a comment".to_owned(),
+        _ => "delete it, or make it a comment".to_owned(),
     }
 }
 
@@ -228,15 +228,15 @@ impl Field for f64 {
     }
 }
 
-const NOT_FINITE: &str = "not-a-number and infinity are not measured values";
+const NOT_FINITE: &str = "use a finite number, because NaN and infinity are not measured values";
 
 fn number_advice(node: &Node) -> &'static str {
     match node {
         Node::Text(text) if text.contains(',') && text.chars().all(|c| c.is_ascii_digit() || "+-,. ".contains(c)) => {
-            "the decimal mark is a point"
+            "use a decimal point"
         }
         Node::Text(text) if text.parse::<f64>().is_ok_and(f64::is_finite) => "write the number without quotes",
-        Node::Text(text) if !text.is_ascii() => "write the number with ASCII digits, point and minus",
+        Node::Text(text) if !text.is_ascii() => "use ASCII digits, a decimal point and an ASCII minus",
         Node::Text(text) if text.parse::<f64>().is_ok() => NOT_FINITE,
         Node::Number(_) => NOT_FINITE,
         _ => "",
@@ -290,13 +290,13 @@ impl Field for String {
             return None;
         };
         if text.is_empty() {
-            problems.at(at, "an empty text", "a text", "leave the key out where it is not required");
+            problems.at(at, "empty text", "text", "enter text, or omit the key if it is optional");
             return None;
         }
         if let Some(refused) = refused_in_string(text) {
-            let found = format!("the character U+{:04X}", u32::from(refused));
-            let advice = "control, combining, bidirectional, invisible and separator characters cannot be signed: \
-                          remove it, or write a composed character (NFC)";
+            let found = format!("character U+{:04X}", u32::from(refused));
+            let advice = "delete it, or use a composed character (NFC); control, combining, bidirectional, invisible \
+                          and separator characters cannot be signed";
             problems.at(at, found, "printable text on one line", advice);
             return None;
         }
@@ -304,7 +304,7 @@ impl Field for String {
     }
 
     fn expected(_: &str) -> String {
-        "a text".to_owned()
+        "text".to_owned()
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {
@@ -386,7 +386,7 @@ impl<T: Field, const N: usize> Field for [T; N] {
     }
 
     fn expected(_: &str) -> String {
-        format!("a list of {N}")
+        format!("a list of {N} items")
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {

@@ -63,7 +63,14 @@ pub fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
     let text = plain_text(name, bytes)?;
     if !text.ends_with('\n') {
         let at = location_of(bytes);
-        return Err(Unreadable::whole(name, Some(at), "no line feed at the end", "one", "was it copied to the end?"));
+        return Err(Unreadable::whole(
+            name,
+            Some(at),
+            "no line feed at the end",
+            "a line feed",
+            "the file may be \
+            truncated; get it from the issuer again",
+        ));
     }
     if obeys_at_first_sight(text) {
         return Ok(text);
@@ -72,7 +79,7 @@ pub fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
     for line_end in memchr::memchr_iter(b'\n', bytes) {
         if let Some((offset, found, expected)) = first_fault(&text[line_start..line_end]) {
             let at = location_of(&bytes[..line_start + offset]);
-            let advice = "the text is not as any issuer writes it";
+            let advice = "this is not the canonical form; get the file from the issuer again";
             return Err(Unreadable::whole(name, Some(at), found, expected, advice));
         }
         line_start = line_end + 1;
@@ -156,7 +163,7 @@ fn may_stand_outside(bytes: &[u8], at_line_start: bool) -> bool {
 fn first_fault(line: &str) -> Option<(usize, String, &'static str)> {
     // Of allowed characters alone, but with what follows another document: readers differ in which one they give.
     if let Some(marker) = ["---", "..."].into_iter().find(|marker| line.starts_with(marker)) {
-        return Some((0, format!("the document marker `{marker}`"), "one document without markers"));
+        return Some((0, format!("document marker `{marker}`"), "a document without markers"));
     }
     let comment = line.trim_start_matches(' ').starts_with('#');
     let mut in_string = false;
@@ -164,8 +171,8 @@ fn first_fault(line: &str) -> Option<(usize, String, &'static str)> {
     for (offset, c) in line.char_indices() {
         let (allowed, expected) = match (comment, in_string) {
             (true, _) => ((' '..='~').contains(&c), "printable ASCII in a comment"),
-            (_, true) if escaped => (c == '"' || c == '\\', "after a backslash only \" or \\"),
-            (_, true) => (allowed_in_string(c), "a character that a string may hold"),
+            (_, true) if escaped => (c == '"' || c == '\\', "\" or \\ after the backslash"),
+            (_, true) => (allowed_in_string(c), "a character that is allowed in strings"),
             (_, false) => (c == '"' || allowed_outside(c), "only keys, numbers, brackets and double-quoted strings"),
         };
         if !allowed {
@@ -177,14 +184,14 @@ fn first_fault(line: &str) -> Option<(usize, String, &'static str)> {
             in_string ^= quote;
         }
     }
-    in_string.then(|| (line.len(), "the end of the line inside a string".to_owned(), "a closing double quote"))
+    in_string.then(|| (line.len(), "the end of the line within a string".to_owned(), "a closing double quote"))
 }
 
 fn named(c: char) -> String {
     match c {
         '\t' => "a tab".to_owned(),
-        ' '..='~' => format!("the character {c:?}"),
-        _ => format!("the character U+{:04X}", u32::from(c)),
+        ' '..='~' => format!("character {c:?}"),
+        _ => format!("character U+{:04X}", u32::from(c)),
     }
 }
 
@@ -199,12 +206,12 @@ pub fn differs(text: &str, canonical: &str) -> Option<(usize, String, String)> {
         match expected.next() {
             Some(expected) if expected == found => {}
             other => {
-                let expected = other.map_or_else(|| "the end".to_owned(), shortened);
+                let expected = other.map_or_else(|| "the end of the file".to_owned(), shortened);
                 return Some((index + 1, shortened(found), expected));
             }
         }
     }
-    expected.next().map(|missing| (text.lines().count() + 1, "the end".to_owned(), shortened(missing)))
+    expected.next().map(|missing| (text.lines().count() + 1, "the end of the file".to_owned(), shortened(missing)))
 }
 
 /// A line as a message shows it.

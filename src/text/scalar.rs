@@ -45,12 +45,12 @@ impl Identifier {
             return Err(format!("{} in {text:?}", character(odd)));
         }
         match text.chars().next() {
-            None => Err("an empty text".to_owned()),
-            Some(first) if !first.is_ascii_alphanumeric() => Err(format!("{first:?} at the beginning of {text:?}")),
+            None => Err("empty text".to_owned()),
+            Some(first) if !first.is_ascii_alphanumeric() => Err(format!("{first:?} at the start of {text:?}")),
             _ if text.len() > 64 => Err(format!("{} characters", text.len())),
             _ if text.contains("..") => Err(format!("\"..\" in {text:?}")),
             _ if text.ends_with('.') => Err(format!("a dot at the end of {text:?}")),
-            _ if is_device(text) => Err(format!("{text:?}, the name of a device under Windows")),
+            _ if is_device(text) => Err(format!("{text:?}, a device name of Windows")),
             _ => Ok(Self(text.to_owned())),
         }
     }
@@ -63,8 +63,8 @@ impl Identifier {
 
 fn character(c: char) -> String {
     let script = match c {
-        '\u{0400}'..='\u{052F}' => "the Cyrillic letter ",
-        '\u{0370}'..='\u{03FF}' => "the Greek letter ",
+        '\u{0400}'..='\u{052F}' => "Cyrillic letter ",
+        '\u{0370}'..='\u{03FF}' => "Greek letter ",
         _ => "",
     };
     format!("{script}{c:?} (U+{:04X})", u32::from(c))
@@ -78,7 +78,7 @@ impl fmt::Display for Identifier {
 
 impl Field for Identifier {
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
-        const ADVICE: &str = "it becomes a folder or file name; free text goes into name";
+        const ADVICE: &str = "use a name that is valid for files and folders; put free text into name";
         let found = match node {
             Node::Text(text) => match Self::new(text) {
                 Ok(identifier) => return Some(identifier),
@@ -96,7 +96,9 @@ impl Field for Identifier {
     }
 
     fn expected(_: &str) -> String {
-        "1 to 64 of the ASCII letters, digits, '.', '_', '-', a letter or digit first, no '..', no '.' at the end, not a device name of Windows".to_owned()
+        "1 to 64 ASCII letters, digits, '.', '_' or '-', starting with a letter or digit, without '..', without '.' \
+         at the end, and no device name of Windows"
+            .to_owned()
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {
@@ -112,12 +114,12 @@ impl Field for Date {
         {
             return Some(date);
         }
-        problems.at(at, node.describe(), Self::expected(""), "year, month, day, in double quotes");
+        problems.at(at, node.describe(), Self::expected(""), "write year, month and day, in double quotes");
         None
     }
 
     fn expected(_: &str) -> String {
-        "a date as \"2026-11-02\"".to_owned()
+        "a date such as \"2026-11-02\"".to_owned()
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {
@@ -134,12 +136,12 @@ impl Field for Timestamp {
         {
             return Some(time);
         }
-        problems.at(at, node.describe(), Self::expected(""), "RFC 3339, UTC, whole seconds");
+        problems.at(at, node.describe(), Self::expected(""), "use RFC 3339, UTC, whole seconds");
         None
     }
 
     fn expected(_: &str) -> String {
-        "a time as \"2026-11-02T09:30:00Z\"".to_owned()
+        "a time such as \"2026-11-02T09:30:00Z\"".to_owned()
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {

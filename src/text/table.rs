@@ -58,7 +58,7 @@ impl<'a> Table<'a> {
         });
         let Some((line, header)) = lines.next() else {
             let expected = format!("the header {}", required.join(","));
-            return Err(Unreadable::whole(name, None, "nothing but blanks and comments", expected, ""));
+            return Err(Unreadable::whole(name, None, "only spaces and comments", expected, ""));
         };
         let header = Header::read(name, line, header, required, optional)?;
         let mut problems = Vec::new();
@@ -88,7 +88,7 @@ impl<'a> Table<'a> {
         let names: Vec<String> = self.left_out.iter().map(|name| format!("{name:?}")).collect();
         let (words, are) = if names.len() == 1 { ("column", "is") } else { ("columns", "are") };
         let name = self.name;
-        (!names.is_empty()).then(|| format!("{name}: the {words} {} {are} left out of account", names.join(", ")))
+        (!names.is_empty()).then(|| format!("{name}: the {words} {} {are} ignored", names.join(", ")))
     }
 
     /// The place of a column among the cells of a row; `None` for an optional one that is not there.
@@ -103,7 +103,7 @@ impl<'a> Table<'a> {
             Ok(value) if value.is_finite() => Some(value),
             Ok(_) => {
                 let found = format!("{:?}", cell.text);
-                problems.push(self.problem(cell, column, found, "a finite number", "leave the row out"));
+                problems.push(self.problem(cell, column, found, "a finite number", "omit the row"));
                 None
             }
             Err(_) => {
@@ -160,7 +160,7 @@ fn counted(problems: Vec<Problem>) -> Vec<Problem> {
         match of_all {
             Some((first, ..)) if *first != place => return None,
             Some((_, count, last)) => {
-                problem.found += &format!(" (and {} more like it, down to line {last})", count - 1)
+                problem.found += &format!(" (and {} more of this kind, up to line {last})", count - 1)
             }
             None => {}
         }
@@ -224,8 +224,8 @@ fn bad_quotes(location: Location) -> Problem {
     Problem {
         location: Some(location),
         field: String::new(),
-        found: "a quoted cell that does not end before a comma or the end of the line".to_owned(),
-        expected: "\"…\", with a quote inside written twice".to_owned(),
+        found: "a quoted cell without a closing quote before a comma or the end of the line".to_owned(),
+        expected: "\"…\", with each inner quote doubled".to_owned(),
         advice: String::new(),
     }
 }
@@ -250,21 +250,21 @@ impl<'a> Header<'a> {
         optional: &[&'a str],
     ) -> Result<Self, Unreadable> {
         let at = Location { line, column: 1 };
-        let expected = || format!("the header {}, its columns in any order", required.join(","));
+        let expected = || format!("the header {} (columns in any order)", required.join(","));
         for (separator, words) in [(';', "semicolons"), ('\t', "tabs")] {
             if header.contains(separator) {
                 let found = format!("columns separated by {words}");
-                let advice = "save as CSV with commas between the columns and points in the numbers";
+                let advice = "save as CSV with commas between columns and decimal points in numbers";
                 return Err(Unreadable::whole(name, Some(at), found, expected(), advice));
             }
         }
         if header.split(',').nth(MOST_PROBLEMS).is_some() {
             let found = format!("{} columns", header.split(',').count());
-            return Err(Unreadable::whole(name, Some(at), found, expected(), "is this the right file?"));
+            return Err(Unreadable::whole(name, Some(at), found, expected(), "check that this is the right file"));
         }
         let cells = cells(line, header).map_err(|problem| Unreadable::of(name, vec![problem]))?;
         if cells.iter().all(|cell| cell.text.parse::<f64>().is_ok()) {
-            let found = "numbers where the header is due";
+            let found = "numbers instead of the header";
             return Err(Unreadable::whole(name, Some(at), found, expected(), "add the header"));
         }
         let known: Vec<&str> = required.iter().chain(optional).copied().collect();
@@ -277,10 +277,10 @@ impl<'a> Header<'a> {
             };
             if known.contains(&cell.text.as_str()) {
                 if cells[..index].iter().any(|earlier| earlier.text == cell.text) {
-                    problem(format!("the column {:?} a second time", cell.text), String::new());
+                    problem(format!("duplicate column {:?}", cell.text), String::new());
                 }
             } else if let Some(column) = meant(&known, &cell.text) {
-                problem(format!("the column {:?}", cell.text), format!("did you mean {column}?"));
+                problem(format!("column {:?}", cell.text), format!("did you mean {column}?"));
             } else {
                 left_out.push(cell.text.clone());
             }
@@ -324,9 +324,9 @@ fn meant<'a>(known: &[&'a str], found: &str) -> Option<&'a str> {
 
 fn wrong_number_of_cells(line: usize, text: &str, found: usize, columns: usize) -> Problem {
     let advice = if text.contains(';') {
-        "separate columns by commas, and write numbers with a point"
+        "separate columns by commas, and use decimal points"
     } else if found > columns {
-        "a decimal comma makes one number two: write numbers with a point"
+        "use decimal points; a decimal comma splits a number in two"
     } else {
         ""
     };
@@ -345,15 +345,15 @@ fn described(text: &str) -> String {
 
 fn advice_for_number(text: &str) -> &'static str {
     if text.is_empty() {
-        "leave out the whole row of a reading that was not taken"
+        "omit the whole row of a reading that was not taken"
     } else if text.contains(';') {
         "separate columns by commas"
     } else if !text.is_ascii() {
-        "write it with ASCII digits, point and minus"
+        "use ASCII digits, a decimal point and an ASCII minus"
     } else if text.ends_with(|c: char| c.is_ascii_alphabetic())
         && text.starts_with(|c: char| c.is_ascii_digit() || c == '-')
     {
-        "the unit is in the column's name"
+        "write the number without a unit; the column name states it"
     } else {
         ""
     }

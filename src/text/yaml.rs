@@ -14,7 +14,7 @@ use std::fmt;
 pub fn tree(name: &str, bytes: &[u8]) -> Result<(Node, String), Unreadable> {
     let text = plain_text(name, bytes)?;
     if text.lines().all(|line| line.trim_start().is_empty() || line.trim_start().starts_with('#')) {
-        return Err(Unreadable::whole(name, None, "nothing but blanks and comments", "a YAML document", ""));
+        return Err(Unreadable::whole(name, None, "only spaces and comments", "a YAML document", ""));
     }
     refuse_control_characters(name, text)?;
     refuse_deep(name, text)?;
@@ -35,7 +35,7 @@ fn refuse_control_characters(name: &str, text: &str) -> Result<(), Unreadable> {
     };
     let at = Some(location_of(&text.as_bytes()[..index]));
     let kind = if SEPARATORS.contains(&c) { "line separator" } else { "control character" };
-    Err(Unreadable::whole(name, at, format!("the {kind} U+{:04X}", u32::from(c)), "text", "remove it"))
+    Err(Unreadable::whole(name, at, format!("{kind} U+{:04X}", u32::from(c)), "text", "delete it"))
 }
 
 fn unreadable_yaml(name: &str, error: &serde_yaml::Error) -> Unreadable {
@@ -47,16 +47,16 @@ fn unreadable_yaml(name: &str, error: &serde_yaml::Error) -> Unreadable {
     // What the reader could read but does not, in words that name what is in the file.
     let (found, advice) = match words.as_str() {
         deep if deep.ends_with("recursion limit exceeded") => {
-            ("values too deep inside one another", "is this the right file?")
+            ("values nested too deeply", "check that this is the right file")
         }
         aliases if aliases.ends_with(REPEATED) || aliases.ends_with("repetition limit exceeded") => {
-            ("aliases (`*name`) that multiply their content", "write out what they stand for")
+            ("aliases (`*name`) that repeat too much content", "write out the content")
         }
-        tag if tag.contains("invalid type: enum") => ("a tag (`!name`)", "remove it"),
-        several if several.contains("more than one document") => ("several documents (`---`)", "keep one of them"),
+        tag if tag.contains("invalid type: enum") => ("a tag (`!name`)", "delete it"),
+        several if several.contains("more than one document") => ("several documents (`---`)", "keep one document"),
         _ => {
-            let advice = "is there a quote, a bracket or an indentation amiss in this line or just before it?";
-            return Unreadable::whole(name, location, format!("no valid YAML ({words})"), "a YAML mapping", advice);
+            let advice = "check the quotes, brackets and indentation of this line and the one before";
+            return Unreadable::whole(name, location, format!("invalid YAML ({words})"), "a YAML mapping", advice);
         }
     };
     Unreadable::whole(name, location, found, "a plain YAML mapping", advice)
@@ -89,7 +89,7 @@ const MOST_VALUES: (usize, usize) = (25_000, 5);
 fn refuse_deep(name: &str, text: &str) -> Result<(), Unreadable> {
     let refuse = |line: usize, column: usize, found: String| {
         let at = Some(Location { line: line + 1, column: column + 1 });
-        Err(Unreadable::whole(name, at, found, "a document of this project", "is this the right file?"))
+        Err(Unreadable::whole(name, at, found, "a file of dtg-passport", "check that this is the right file"))
     };
     let most_values = MOST_VALUES.0 + text.len() / MOST_VALUES.1;
     let (mut depth, mut opened, mut values) = (0_usize, 0_usize, 0_usize);
@@ -116,7 +116,7 @@ fn refuse_deep(name: &str, text: &str) -> Result<(), Unreadable> {
                 _ => {}
             }
             if depth > DEEPEST {
-                return refuse(index, column, format!("more than {DEEPEST} brackets one inside another"));
+                return refuse(index, column, format!("more than {DEEPEST} nested brackets"));
             }
             if opened > MOST_BRACKETS {
                 return refuse(index, column, format!("more than {MOST_BRACKETS} brackets"));
@@ -312,12 +312,17 @@ fn parse<T: Field>(
     let mut problems = Problems::new();
     let expected = format!("{format:?}");
     if let Some(found) = node.get("format").filter(|found| **found != Node::Text(format.to_owned())) {
-        let advice = "is this the right file?";
+        let advice = "check that this is the right file";
         problems.at(&Path::Root.key("format"), found.describe(), expected, advice);
         return Err(problems.refuse(name, &text));
     }
     let value = T::read(&node, &Path::Root, &mut problems);
-    problems.expect_missing("format", &expected, "say so in the first line, or is this another file?");
+    problems.expect_missing(
+        "format",
+        &expected,
+        "add the format in the first line, or check that this is the right \
+         file",
+    );
     if let Some(value) = &value {
         check(value, &mut problems);
     }

@@ -27,7 +27,7 @@ pub enum NotAuthorised {
     #[error("the signing key is not in the list of allowed signers")]
     UnknownKey,
     /// The key belongs to somebody else.
-    #[error("the signing key belongs to {}, not to the issuer that the document names", Printable(allowed.join(" or ")))]
+    #[error("the signing key belongs to {}, not to the issuer given in the document", Printable(allowed.join(" or ")))]
     WrongPrincipal {
         /// The patterns of principals that the key is trusted for.
         allowed: Vec<String>,
@@ -39,13 +39,13 @@ pub enum NotAuthorised {
         allowed: String,
     },
     /// The key was not valid yet.
-    #[error("the signing key is valid only from {from} on; the document was issued before")]
+    #[error("the signing key is valid from {from}; the document was issued earlier")]
     NotYetValid {
         /// The first instant of its validity.
         from: Timestamp,
     },
     /// The key was no longer valid.
-    #[error("the signing key was valid only until {until}; the document was issued later")]
+    #[error("the signing key was valid until {until}; the document was issued later")]
     Expired {
         /// The last instant of its validity.
         until: Timestamp,
@@ -77,7 +77,7 @@ impl AllowedSigners {
             return Err(Unreadable::of(name, problems));
         }
         if kept.is_empty() {
-            let advice = "`keygen` prints the line to put there";
+            let advice = "add the line that `keygen` prints";
             return Err(Unreadable::whole(name, None, "no key", "a line for each trusted key", advice));
         }
         Ok(Self { lines: kept })
@@ -244,12 +244,14 @@ mod tests {
         );
         let refused = refused(&text);
         let expected = [
-            "f:2:4: found cert-authority, expected a key that signs itself; an authority could certify",
-            "f:3:15: valid-after: found \"20260101\", expected a date in UTC, with Z at its end; without Z the local",
+            "f:2:4: found cert-authority, expected a key that signs directly; list each signing key, because an \
+             authority could certify",
+            "f:3:15: valid-after: found \"20260101\", expected a date in UTC, with a Z at the end; add the Z; without \
+             it each verifier",
             "f:3:26: found `colour=\"red\"`, expected namespaces=",
             "f:4:1: principals: found a quote that is not closed, expected a closing quote",
             "f:5:2: key: found nothing, expected a public key",
-            "f:7:15: key: found a damaged public key (its base64 is cut short or altered)",
+            "f:7:15: key: found damaged public key (its base64 is truncated or changed)",
         ];
         assert_eq!(refused.lines().count(), expected.len(), "{refused}");
         for (line, beginning) in refused.lines().zip(expected) {
@@ -261,16 +263,16 @@ mod tests {
     fn options_are_strict() {
         let key = key().to_openssh();
         for (options, words) in [
-            ("namespaces=\"a\",namespaces=\"b\"", "f:1:18: namespaces: found the option a second time"),
+            ("namespaces=\"a\",namespaces=\"b\"", "f:1:18: namespaces: found a duplicate option"),
             ("namespaces=dtg-passport", "found `dtg-passport`, expected a value in double quotes"),
             ("namespaces=\"a\"b", "found `\"a\"b`, expected a value in double quotes"),
             ("namespaces=\"\"", "found an empty list"),
             ("namespaces", "found no value, expected namespaces=\"…\""),
-            ("namespaces=\"a\",", "found nothing behind a comma"),
+            ("namespaces=\"a\",", "found nothing after a comma"),
             (",namespaces=\"a\"", "found nothing, expected namespaces"),
             ("no-touch-required", "found `no-touch-required`, expected namespaces"),
-            ("valid-before=\"20260101Z\",valid-after=\"20260101Z\"", "expected an instant after valid-after"),
-            ("valid-before=\"20260230Z\"", "a date of the calendar"),
+            ("valid-before=\"20260101Z\",valid-after=\"20260101Z\"", "expected a time after valid-after"),
+            ("valid-before=\"20260230Z\"", "a calendar date"),
             ("namespaces=\"a", "f:1:14: found a quote that is not closed"),
         ] {
             let refused = refused(&format!("a {options} {key}"));
@@ -278,9 +280,9 @@ mod tests {
         }
         assert!(refused(&format!("{} {key}", "a".repeat(1023))).contains("a pattern of 1023 bytes"));
         assert!(refused(&format!("\"\" {key}")).contains("found an empty list"));
-        assert!(refused(&format!("a\"b\" {key}")).contains("a quote inside the list"));
-        assert!(refused(&format!("\"a\"b {key}")).contains("text right behind the closing quote"));
-        assert!(refused(&format!("a {key}\u{7}")).contains("the control character U+0007"));
+        assert!(refused(&format!("a\"b\" {key}")).contains("a quote within the list"));
+        assert!(refused(&format!("\"a\"b {key}")).contains("text immediately after the closing quote"));
+        assert!(refused(&format!("a {key}\u{7}")).contains("found control character U+0007"));
         assert!(refused("# nobody so far\n").contains("found no key"));
     }
 

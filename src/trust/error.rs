@@ -14,7 +14,7 @@ pub enum KeyError {
         found: String,
     },
     /// A public key whose base64 or its content does not hold together.
-    #[error("the public key is damaged: {}; copy its line again, whole", Printable(.0))]
+    #[error("the public key is damaged: {}; copy the whole line again", Printable(.0))]
     DamagedPublicKey(String),
     /// A good key of a type that signs no passport.
     #[error("found a key of type {}, expected ssh-ed25519 or sk-ssh-ed25519@openssh.com", Printable(found))]
@@ -32,13 +32,14 @@ pub enum KeyError {
     },
     /// The file beside a security key: the private half is in the token.
     #[error(
-        "the private half of this key is in a security key (FIDO token); give the .pub file, then ssh-keygen signs \
-         through the token"
+        "the private half of this key is in a security key (FIDO token); give the .pub file, and ssh-keygen will sign \
+         with the token"
     )]
     SecurityKey,
     /// The file beside a security key, encrypted: `ssh-keygen` would ask for its passphrase at every signature.
     #[error(
-        "the private half of this key is in a security key (FIDO token), and the file is encrypted; add it to ssh-agent \
+        "the private half of this key is in a security key (FIDO token), and the file is encrypted; add it to \
+         ssh-agent \
          (`ssh-add KEY`) and give the .pub file"
     )]
     EncryptedSecurityKey,
@@ -46,14 +47,14 @@ pub enum KeyError {
     #[error("the private key is encrypted; its passphrase is needed")]
     Encrypted,
     /// The passphrase does not open the private key.
-    #[error("the passphrase does not open the private key (it is another one, or the file is damaged)")]
+    #[error("the private key cannot be decrypted (wrong passphrase or damaged file)")]
     WrongPassphrase,
     /// An empty passphrase was given to encrypt with.
-    #[error("the passphrase is empty; give one, or say that the key stays unencrypted")]
+    #[error("the passphrase is empty; give one, or request an unencrypted key")]
     EmptyPassphrase,
     /// The private key is encrypted in a way that is not read here.
     #[error(
-        "the private key is encrypted with {}, which is not read here; `ssh-keygen -p -f KEY` encrypts it anew",
+        "the private key is encrypted with {}, which is not supported; encrypt it again with `ssh-keygen -p -f KEY`",
         Printable(found)
     )]
     Encryption {
@@ -64,13 +65,13 @@ pub enum KeyError {
     #[error("the private key file is damaged: {}; restore it from a copy", Printable(.0))]
     DamagedPrivateKey(String),
     /// A comment that would not stay on the line of the public key.
-    #[error("the comment of a key holds a control character; write it as one line of plain text")]
+    #[error("the comment of the key contains a control character; use one line of plain text")]
     Comment,
     /// A namespace that OpenSSH does not sign for.
     #[error("the namespace of a signature is empty")]
     Namespace,
     /// The operating system gives no random bytes.
-    #[error("the operating system gives no random bytes: {0}")]
+    #[error("the operating system returned no random bytes: {0}")]
     NoRandomness(String),
 }
 
@@ -79,7 +80,7 @@ pub enum KeyError {
 #[non_exhaustive]
 pub enum SignatureError {
     /// The text is not OpenSSH's armor, or what it holds does not hold together.
-    #[error("the signature block is not OpenSSH's or is damaged: {}", Printable(.0))]
+    #[error("the signature block is damaged or not from OpenSSH: {}", Printable(.0))]
     Damaged(String),
     /// Another version of the format; the version is not signed, so only one can be accepted.
     #[error("the signature block has format version {found}, expected 1")]
@@ -88,7 +89,7 @@ pub enum SignatureError {
         found: u32,
     },
     /// The reserved field is not empty.
-    #[error("the signature block holds {length} reserved bytes, expected none")]
+    #[error("the signature block has {length} reserved bytes, expected none")]
     Reserved {
         /// How many bytes it holds.
         length: usize,
@@ -106,7 +107,7 @@ pub enum SignatureError {
         found: String,
     },
     /// The signature is of another algorithm than its key.
-    #[error("the key is of type {}, its signature of type {}", Printable(key), Printable(signature))]
+    #[error("the key has type {}, but its signature type {}", Printable(key), Printable(signature))]
     Algorithm {
         /// The key's type.
         key: String,
@@ -114,10 +115,10 @@ pub enum SignatureError {
         signature: String,
     },
     /// The armor is not byte for byte the one that OpenSSH writes for its content.
-    #[error("the signature block is written in another way than OpenSSH writes it (line length, line ends or padding)")]
+    #[error("the signature block is not written as by OpenSSH (line length, line ends or padding)")]
     NotCanonical,
     /// A signature made for another purpose.
-    #[error("the signature was made for the namespace \"{}\", expected {expected:?}", Printable(found))]
+    #[error("the signature is for the namespace \"{}\", expected {expected:?}", Printable(found))]
     WrongNamespace {
         /// The namespace of the signature.
         found: String,
@@ -125,6 +126,6 @@ pub enum SignatureError {
         expected: String,
     },
     /// The signature is not this key's for this text.
-    #[error("the signature does not fit the text: the text or the signature was altered after signing")]
+    #[error("the signature does not match the text; the text or the signature was changed after signing")]
     DoesNotHold,
 }

@@ -61,7 +61,7 @@ const LARGEST_BITMAP_BYTES: usize = 2048;
 pub(super) fn read(bytes: &[u8]) -> Result<Revoked, Refusal> {
     let mut wire = Wire::new(bytes);
     if wire.take(MAGIC.len())? != MAGIC {
-        return Err(refusal("other bytes at its beginning", "the beginning of a key revocation list"));
+        return Err(refusal("other bytes at the beginning", "the beginning of a key revocation list"));
     }
     match wire.u32()? {
         1 => {}
@@ -113,7 +113,7 @@ fn certificates(mut body: Wire) -> Result<(), Refusal> {
     let authority = body.string()?;
     if !authority.is_empty() {
         check_blob(authority)
-            .map_err(|what| refusal(format!("a certificate authority at byte {at}: {what}"), "a public key"))?;
+            .map_err(|what| refusal(format!("certificate authority at byte {at}: {what}"), "a public key"))?;
     }
     let _reserved = body.string()?;
     while !body.is_empty() {
@@ -155,7 +155,7 @@ fn serials(first: u64, more: u64, at: usize) -> Result<(), Refusal> {
 }
 
 fn bad_serials(at: usize) -> Refusal {
-    refusal(format!("impossible serial numbers at byte {at}"), "numbers from 1 to 2^64 - 1, in order")
+    refusal(format!("invalid serial numbers at byte {at}"), "numbers from 1 to 2^64 - 1, in order")
 }
 
 /// A bitmap of serial numbers: an mpint (RFC 4251, section 5) whose bit N is the number N behind the first.
@@ -179,7 +179,7 @@ fn name<'a>(wire: &mut Wire<'a>) -> Result<&'a [u8], Refusal> {
     let text = wire.string()?;
     let text = text.strip_suffix(b"\0").unwrap_or(text);
     if text.contains(&0) {
-        return Err(refusal(format!("a NUL inside the text at byte {at}"), "a text without NUL"));
+        return Err(refusal(format!("a NUL within the text at byte {at}"), "text without NUL"));
     }
     Ok(text)
 }
@@ -191,11 +191,10 @@ fn extension(mut body: Wire) -> Result<(), Refusal> {
     let critical = body.byte()? != 0;
     let _contents = body.string()?;
     match body.rest().len() {
-        _ if critical => Err(refusal(
-            format!("the critical extension `{}` at byte {at}", shortened(&name)),
-            "no extension that must be understood",
-        )),
+        _ if critical => {
+            Err(refusal(format!("critical extension `{}` at byte {at}", shortened(&name)), "no critical extension"))
+        }
         0 => Ok(()),
-        more => Err(refusal(format!("{more} bytes behind an extension, at byte {}", body.offset()), "nothing there")),
+        more => Err(refusal(format!("{more} bytes after an extension, at byte {}", body.offset()), "nothing")),
     }
 }

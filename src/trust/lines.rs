@@ -37,8 +37,8 @@ impl Line<'_> {
     /// The control character in this line, if it holds one (a tab is none).
     pub(super) fn control_character(&self) -> Option<Problem> {
         let (at, c) = self.text.char_indices().find(|(_, c)| c.is_control() && *c != '\t')?;
-        let found = format!("the control character U+{:04X}", u32::from(c));
-        Some(self.problem(at, "", found, "text", "write the line again in a text editor"))
+        let found = format!("control character U+{:04X}", u32::from(c));
+        Some(self.problem(at, "", found, "text", "retype the line in a text editor"))
     }
 }
 
@@ -52,7 +52,7 @@ pub(super) fn of<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Line<'a>>, Unrea
     if bytes.len() > LARGEST_TRUST_FILE_BYTES {
         let found = format!("{} bytes", bytes.len());
         let expected = format!("at most {LARGEST_TRUST_FILE_BYTES}");
-        return Err(Unreadable::whole(name, None, found, expected, "this is some other file"));
+        return Err(Unreadable::whole(name, None, found, expected, "check that this is the right file"));
     }
     let mark = match bytes {
         [0xEF, 0xBB, 0xBF, ..] => Some("a byte order mark (BOM)"),
@@ -60,19 +60,26 @@ pub(super) fn of<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Line<'a>>, Unrea
         _ => None,
     };
     if let Some(found) = mark {
-        return Err(Unreadable::whole(name, start, found, "UTF-8 without a BOM", "save it as plain UTF-8"));
+        return Err(Unreadable::whole(
+            name,
+            start,
+            found,
+            "UTF-8 without a BOM",
+            "save the file as UTF-8 without a \
+            BOM",
+        ));
     }
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let before = &bytes[..error.valid_up_to()];
         let line_start = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |at| at + 1);
         let column = 1 + String::from_utf8_lossy(&before[line_start..]).chars().count();
         let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
-        let found = format!("the byte 0x{:02X}", bytes[error.valid_up_to()]);
-        Unreadable::whole(name, Some(Location { line, column }), found, "UTF-8", "save it as plain UTF-8")
+        let found = format!("byte 0x{:02X}", bytes[error.valid_up_to()]);
+        Unreadable::whole(name, Some(Location { line, column }), found, "UTF-8", "save the file as UTF-8")
     })?;
     if text.contains("PRIVATE KEY-----") {
         // Its lines must not come back in messages, which end in logs.
-        let advice = "give the line of the .pub file, and keep the private key to yourself";
+        let advice = "use the line of the .pub file, and keep the private key secret";
         return Err(Unreadable::whole(name, None, "a private key", "public keys", advice));
     }
     let lines = text
@@ -99,7 +106,7 @@ mod tests {
         assert!(refusal(b"\xEF\xBB\xBFa").starts_with("f:1:1: found a byte order mark"));
         assert!(refusal(b"\xFF\xFEa\0").contains("found UTF-16"));
         assert!(refusal(b"a\0\n\0").contains("found UTF-16"));
-        assert!(refusal("# жж\nж".as_bytes().split_last().unwrap().1).starts_with("f:2:1: found the byte 0xD0"));
+        assert!(refusal("# жж\nж".as_bytes().split_last().unwrap().1).starts_with("f:2:1: found byte 0xD0"));
         assert!(refusal(&vec![b' '; LARGEST_TRUST_FILE_BYTES + 1]).contains("16777217 bytes"));
     }
 

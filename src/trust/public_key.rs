@@ -87,7 +87,7 @@ impl PublicKey {
     pub(super) fn from_data(data: KeyData) -> Result<Self, KeyError> {
         // OpenSSH reads the application as a C string and refuses one that would end early.
         if data.sk_ed25519().is_some_and(|key| key.application().contains('\0')) {
-            return Err(KeyError::DamagedPublicKey("its application holds a zero byte".to_owned()));
+            return Err(KeyError::DamagedPublicKey("its application contains a NUL byte".to_owned()));
         }
         match data.algorithm() {
             Algorithm::Ed25519 | Algorithm::SkEd25519 => {}
@@ -123,11 +123,11 @@ impl AnyKey {
                 certificate if certificate.contains("-cert-v0") => {
                     not_a_public_key(&format!("a certificate ({})", shortened(certificate)))
                 }
-                unknown => not_a_public_key(&format!("`{}`, which is no key type", shortened(unknown))),
+                unknown => not_a_public_key(&format!("`{}`, which is not a key type", shortened(unknown))),
             };
         };
         let blob = Base64::decode_vec(base64)
-            .map_err(|_| KeyError::DamagedPublicKey("its base64 is cut short or altered".to_owned()))?;
+            .map_err(|_| KeyError::DamagedPublicKey("its base64 is truncated or changed".to_owned()))?;
         check_fields(&blob, algorithm, fields).map_err(KeyError::DamagedPublicKey)?;
         Ok(Self { algorithm, blob })
     }
@@ -162,7 +162,7 @@ pub(super) fn check_blob(blob: &[u8]) -> Result<(), String> {
     let named = Wire::new(blob).string().map_err(|error| error.to_string())?;
     match KEY_TYPES.iter().find(|(name, _)| name.as_bytes() == named) {
         Some((algorithm, fields)) => check_fields(blob, algorithm, *fields),
-        None => Err(format!("`{}`, which is no key type", shortened(&String::from_utf8_lossy(named)))),
+        None => Err(format!("`{}`, which is not a key type", shortened(&String::from_utf8_lossy(named)))),
     }
 }
 
@@ -211,7 +211,7 @@ mod tests {
         assert!(refused("ssh-ed25519").contains("a single word"));
         assert!(refused(&format!("{LINE}\n{LINE}")).contains("several lines"));
         assert!(refused("-----BEGIN OPENSSH PRIVATE KEY-----\nAAAA").contains("a private key file"));
-        assert!(refused("ssh-foo AAAA").contains("`ssh-foo`, which is no key type"));
+        assert!(refused("ssh-foo AAAA").contains("`ssh-foo`, which is not a key type"));
         assert!(refused("ssh-ed25519-cert-v01@openssh.com AAAA").contains("a certificate"));
     }
 

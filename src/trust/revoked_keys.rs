@@ -33,7 +33,7 @@ impl RevokedKeys {
     pub fn revokes(&self, key: &PublicKey) -> Option<String> {
         let blob = key.blob();
         if self.revoked.keys.contains(blob) {
-            Some(format!("named in {}", self.name))
+            Some(format!("listed in {}", self.name))
         } else if self.revoked.sha256.contains(&Sha256::digest(blob)[..]) {
             Some(format!("its SHA-256 fingerprint is in {}", self.name))
         } else if self.revoked.sha1.contains(&Sha1::digest(blob)[..]) {
@@ -48,21 +48,28 @@ fn binary(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
     if bytes.len() > LARGEST_TRUST_FILE_BYTES {
         let found = format!("{} bytes", bytes.len());
         let expected = format!("at most {LARGEST_TRUST_FILE_BYTES}");
-        return Err(Unreadable::whole(name, None, found, expected, "this is some other file"));
+        return Err(Unreadable::whole(name, None, found, expected, "check that this is the right file"));
     }
     if bytes.starts_with(b"SSHKRL\r\n") {
-        let found = "a key revocation list whose line ends were changed in transit, e.g. by git autocrlf";
-        return Err(Unreadable::whole(name, None, found, "the list as ssh-keygen wrote it", "transfer it as binary"));
+        let found = "a key revocation list with changed line ends (for example by git autocrlf)";
+        return Err(Unreadable::whole(
+            name,
+            None,
+            found,
+            "the list as ssh-keygen wrote it",
+            "transfer it again as a \
+            binary file",
+        ));
     }
     krl::read(bytes).map_err(|refusal| {
-        let advice = "make the list again with `ssh-keygen -k`, or transfer it again";
+        let advice = "transfer the list again, or create it again with `ssh-keygen -k`";
         Unreadable::whole(name, None, refusal.found, refusal.expected, advice)
     })
 }
 
 fn text(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
     if bytes.trim_ascii().is_empty() {
-        let advice = "if no key is revoked so far, say so in a line that begins with #";
+        let advice = "if no key has been revoked, state this in a line that begins with #";
         return Err(Unreadable::whole(name, None, "an empty file", "a list of revoked keys", advice));
     }
     let mut revoked = Revoked::default();
@@ -113,7 +120,7 @@ mod tests {
     fn keys_are_revoked_by_themselves_or_by_either_fingerprint() {
         let (key, other) = (key(), key());
         let why = |section: Vec<u8>| RevokedKeys::parse("krl", &list(&[section])).unwrap().revokes(&key);
-        assert_eq!(why(section(2, &[other.blob(), key.blob()])).as_deref(), Some("named in krl"));
+        assert_eq!(why(section(2, &[other.blob(), key.blob()])).as_deref(), Some("listed in krl"));
         let sha1 = Sha1::digest(key.blob());
         assert_eq!(why(section(3, &[&sha1])).as_deref(), Some("its SHA-1 fingerprint is in krl"));
         let sha256 = Sha256::digest(key.blob());
@@ -123,7 +130,7 @@ mod tests {
         assert_eq!(why(section(1, &[key.blob(), b""])), None);
         let lines = format!("# lost\n{} bench\r\n", key.to_openssh());
         let lines = RevokedKeys::parse("keys", lines.as_bytes()).unwrap();
-        assert_eq!((lines.revokes(&key).as_deref(), lines.revokes(&other)), (Some("named in keys"), None));
+        assert_eq!((lines.revokes(&key).as_deref(), lines.revokes(&other)), (Some("listed in keys"), None));
     }
 
     #[test]
@@ -160,22 +167,22 @@ mod tests {
             assert!(RevokedKeys::parse("krl", &certificates(std::slice::from_ref(&good))).is_ok(), "{good:x?}");
         }
         for (part, words) in [
-            ((0x20, numbers(&[0])), "impossible serial numbers at byte 60"),
+            ((0x20, numbers(&[0])), "invalid serial numbers at byte 60"),
             ((0x20, vec![1; 7]), "an item of 8 bytes"),
-            ((0x21, numbers(&[6, 5])), "impossible serial numbers"),
+            ((0x21, numbers(&[6, 5])), "invalid serial numbers"),
             ((0x21, numbers(&[1, 2, 3])), "8 unread bytes"),
-            ((0x22, bitmap(7, &[0x80])), "impossible serial numbers"),
-            ((0x22, bitmap(0, &[1])), "impossible serial numbers"),
-            ((0x22, bitmap(last - 1, &[4])), "impossible serial numbers"),
-            ((0x22, bitmap(1, &[1; 2049])), "impossible serial numbers"),
-            ((0x23, string(b"a\0b")), "a NUL inside the text"),
+            ((0x22, bitmap(7, &[0x80])), "invalid serial numbers"),
+            ((0x22, bitmap(0, &[1])), "invalid serial numbers"),
+            ((0x22, bitmap(last - 1, &[4])), "invalid serial numbers"),
+            ((0x22, bitmap(1, &[1; 2049])), "invalid serial numbers"),
+            ((0x23, string(b"a\0b")), "a NUL within the text"),
             ((0x24, vec![]), "a section of type 36 at byte 60"),
         ] {
             let refused = refused(&certificates(&[part]));
             assert!(refused.contains(words), "{refused}");
         }
         let authority = refused(&list(&[section(1, &[b"\0\0\0\x03ssh", b""])]));
-        assert!(authority.contains("a certificate authority at byte 52: `ssh`, which is no key type"), "{authority}");
+        assert!(authority.contains("certificate authority at byte 52: `ssh`, which is not a key type"), "{authority}");
     }
 
     #[test]
@@ -185,17 +192,17 @@ mod tests {
         for (bytes, words) in [
             (list(&[section(6, &[])]), "a section of type 6 at byte 47"),
             (list(&[[section(4, &[]), string(b"signature")].concat()]), "a section of type 4 at byte 47"),
-            (list(&[section(1, &[&[0; 20]])]), "a certificate authority at byte 52"),
+            (list(&[section(1, &[&[0; 20]])]), "certificate authority at byte 52"),
             (list(&[section(3, &[&[0; 32]])]), "a fingerprint of 32 bytes at byte 52, expected 20 bytes"),
             (list(&[section(5, &[&[0; 20]])]), "a fingerprint of 20 bytes at byte 52, expected 32 bytes"),
-            (list(&[critical]), "the critical extension `must@here`"),
-            (list(&[longer]), "1 bytes behind an extension"),
-            (b"SSHKRL\r\n\0\0".to_vec(), "line ends were changed in transit"),
+            (list(&[critical]), "critical extension `must@here`"),
+            (list(&[longer]), "1 bytes after an extension"),
+            (b"SSHKRL\r\n\0\0".to_vec(), "changed line ends"),
             (b"SSHKRL".to_vec(), "only 6 bytes are left"),
             (b"SSHKRL\n\0\0\0\0\x02".to_vec(), "format version 2 at byte 8"),
-            (b"SSHKRLxx".to_vec(), "other bytes at its beginning"),
+            (b"SSHKRLxx".to_vec(), "other bytes at the beginning"),
             (b" \n".to_vec(), "an empty file"),
-            (b"revoked: [a]\n".to_vec(), "krl:1:1: key: found `revoked:`, which is no key type"),
+            (b"revoked: [a]\n".to_vec(), "krl:1:1: key: found `revoked:`, which is not a key type"),
         ] {
             let refused = refused(&bytes);
             assert!(refused.contains(words), "{refused}");

@@ -45,8 +45,8 @@ pub(super) fn read(line: &Line) -> Result<SignerLine, Vec<Problem>> {
     let start = blanks(line.text, 0);
     let first = word(line.text, start);
     if AnyKey::is_type(first) {
-        let advice = "write before the key who signs with it, as `keygen` prints the line";
-        return Err(vec![line.problem(start, "principals", format!("the key type {first}"), "a name", advice)]);
+        let advice = "put the signer's identity before the key; `keygen` prints the whole line";
+        return Err(vec![line.problem(start, "principals", format!("key type {first}"), "a name", advice)]);
     }
     let (principals, at) = principals(line, start).map_err(|problem| vec![problem])?;
     check_patterns(line, start, "principals", &principals, &mut problems);
@@ -99,15 +99,15 @@ fn principals(line: &Line, start: usize) -> Result<(String, usize), Problem> {
         None => {
             let unquoted = word(text, start);
             if let Some(quote) = unquoted.find('"') {
-                let advice = "put the whole list of principals into quotes, or none of it";
-                return Err(line.problem(start + quote, "principals", "a quote inside the list", "no quote", advice));
+                let advice = "put quotes around the whole list of principals, or omit them";
+                return Err(line.problem(start + quote, "principals", "a quote within the list", "no quote", advice));
             }
             (unquoted, start + unquoted.len())
         }
     };
     let next = blanks(text, end);
     if next == end && next < text.len() {
-        return Err(line.problem(end, "principals", "text right behind the closing quote", "a blank", ""));
+        return Err(line.problem(end, "principals", "text immediately after the closing quote", "a space", ""));
     }
     Ok((value.to_owned(), next))
 }
@@ -115,12 +115,18 @@ fn principals(line: &Line, start: usize) -> Result<(String, usize), Problem> {
 /// A list of patterns must name something, and no pattern that OpenSSH gives up on.
 fn check_patterns(line: &Line, at: usize, field: &str, list: &str, problems: &mut Vec<Problem>) {
     if list.is_empty() {
-        problems.push(line.problem(at, field, "an empty list", "at least one pattern", "write * for any"));
+        problems.push(line.problem(at, field, "an empty list", "at least one pattern", "use * for any"));
     }
     if let Some(long) = list.split(',').find(|pattern| pattern.len() > LONGEST_PATTERN) {
         let found = format!("a pattern of {} bytes", long.len());
         let expected = format!("at most {LONGEST_PATTERN}");
-        problems.push(line.problem(at, field, found, expected, "OpenSSH matches no longer ones"));
+        problems.push(line.problem(
+            at,
+            field,
+            found,
+            expected,
+            "use shorter patterns, because OpenSSH does not match longer ones",
+        ));
     }
 }
 
@@ -158,15 +164,22 @@ fn options(line: &Line, start: usize, end: usize, problems: &mut Vec<Problem>) -
         if line.text[at..end].starts_with(',') {
             at += 1;
             if at == end {
-                problems.push(line.problem(at, "", "nothing behind a comma", "another option", "remove the comma"));
+                problems.push(line.problem(at, "", "nothing after a comma", "another option", "delete the comma"));
             }
         }
     }
     if let (Some(after), Some(before)) = (options.valid_after, options.valid_before)
         && before <= after
     {
-        let expected = format!("an instant after valid-after, {after}");
-        problems.push(line.problem(start, "valid-before", before.to_string(), expected, "exchange or correct the two"));
+        let expected = format!("a time after valid-after, {after}");
+        problems.push(line.problem(
+            start,
+            "valid-before",
+            before.to_string(),
+            expected,
+            "exchange or correct the two \
+            times",
+        ));
     }
     options
 }
@@ -193,7 +206,7 @@ impl Options {
         let name = name.to_ascii_lowercase();
         let value_at = at + name.len() + 1;
         if self.seen.contains(&name) {
-            return Err(line.problem(at, &name, "the option a second time", "it once", "remove one of the two"));
+            return Err(line.problem(at, &name, "a duplicate option", "each option once", "delete one"));
         }
         self.seen.push(name.clone());
         match (name.as_str(), value) {
@@ -209,9 +222,9 @@ impl Options {
                 return Err(line.problem(at, &name, "no value", expected, "write its value in double quotes"));
             }
             ("cert-authority", None) => {
-                let advice =
-                    "an authority could certify further keys without this list saying so; list each signing key";
-                return Err(line.problem(at, "", "cert-authority", "a key that signs itself", advice));
+                let advice = "list each signing key, because an authority could certify further keys that this list does not \
+                     show";
+                return Err(line.problem(at, "", "cert-authority", "a key that signs directly", advice));
             }
             _ => return Err(unknown(line, at, option)),
         }
@@ -222,7 +235,7 @@ impl Options {
 fn unknown(line: &Line, at: usize, option: &str) -> Problem {
     let found = if option.is_empty() { "nothing".to_owned() } else { format!("`{}`", shortened(option)) };
     let expected = "namespaces=\"…\", valid-after=\"…\", valid-before=\"…\" or a key such as ssh-ed25519 AAAA…";
-    line.problem(at, "", found, expected, "a line is: principals, options separated by commas, key")
+    line.problem(at, "", found, expected, "write the line as: principals, options separated by commas, key")
 }
 
 /// The value of an option, out of its quotes; `\"` is a quote.
@@ -233,7 +246,7 @@ fn unquoted(line: &Line, at: usize, field: &str, value: &str) -> Result<String, 
         Some(inner) if !inner.contains('"') => Ok(inner.replace('\u{0}', "\"")),
         _ => {
             let found = if value.is_empty() { "nothing".to_owned() } else { format!("`{}`", shortened(value)) };
-            Err(line.problem(at, field, found, "a value in double quotes", "such as \"dtg-passport\""))
+            Err(line.problem(at, field, found, "a value in double quotes", "write it as \"dtg-passport\""))
         }
     }
 }
@@ -258,15 +271,15 @@ pub(super) fn read_key(line: &Line, at: usize) -> Result<AnyKey, Problem> {
     if base64.is_empty() {
         let found =
             if algorithm.is_empty() { "nothing".to_owned() } else { format!("only `{}`", shortened(algorithm)) };
-        return Err(line.problem(at, "key", found, EXPECTED, "copy the line of the .pub file here"));
+        return Err(line.problem(at, "key", found, EXPECTED, "copy the whole line of the .pub file"));
     }
     AnyKey::read(algorithm, base64).map_err(|error| match error {
         KeyError::NotAPublicKey { found } => {
-            line.problem(at, "key", found, EXPECTED, "copy the line of the .pub file here")
+            line.problem(at, "key", found, EXPECTED, "copy the whole line of the .pub file")
         }
         KeyError::DamagedPublicKey(reason) => {
-            let found = format!("a damaged public key ({reason})");
-            line.problem(base64_at, "key", found, "a whole public key", "copy the line of the .pub file again")
+            let found = format!("damaged public key ({reason})");
+            line.problem(base64_at, "key", found, "a complete public key", "copy the whole line of the .pub file again")
         }
         other => line.problem(at, "key", other.to_string(), EXPECTED, ""),
     })

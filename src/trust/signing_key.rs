@@ -153,13 +153,13 @@ fn decrypted(file: &PrivateKey, passphrase: Option<&str>) -> Result<PrivateKey, 
 
 /// Refuses what is not a private key file of OpenSSH, naming what it is.
 fn check_kind(pem: &str) -> Result<(), KeyError> {
-    const NEW_KEY: &str = "make a key with `keygen`";
+    const NEW_KEY: &str = "create a key with `keygen`";
     let (found, advice) = match pem {
         ours if ours.starts_with(FIRST_LINE) => {
             return if pem.len() <= LONGEST_FILE && pem.ends_with(LAST_LINE) {
                 Ok(())
             } else {
-                Err(KeyError::DamagedPrivateKey(format!("it does not end with `{LAST_LINE}` where it should")))
+                Err(KeyError::DamagedPrivateKey(format!("it does not end with `{LAST_LINE}`")))
             };
         }
         "" => ("an empty file", "give the file that `keygen` wrote"),
@@ -191,10 +191,10 @@ fn check_header(pem: &str) -> Result<(), KeyError> {
     let base64: Zeroizing<String> = Zeroizing::new(body.split_ascii_whitespace().collect());
     let bytes = Base64::decode_vec(&base64)
         .map(Zeroizing::new)
-        .map_err(|_| KeyError::DamagedPrivateKey("its base64 is cut short or altered".to_owned()))?;
+        .map_err(|_| KeyError::DamagedPrivateKey("its base64 is truncated or changed".to_owned()))?;
     let rest = bytes
         .strip_prefix(b"openssh-key-v1\0")
-        .ok_or_else(|| KeyError::DamagedPrivateKey("its first bytes are not OpenSSH's".to_owned()))?;
+        .ok_or_else(|| KeyError::DamagedPrivateKey("its first bytes are not those of an OpenSSH key".to_owned()))?;
     let (cipher, key_type) = header(rest).map_err(|error: Truncated| KeyError::DamagedPrivateKey(error.to_string()))?;
     match key_type.as_str() {
         "ssh-ed25519" => {}

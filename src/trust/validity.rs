@@ -20,8 +20,8 @@ pub(super) fn instant(text: &str) -> Result<Timestamp, Refusal> {
     }
     if digits.len() == text.len() {
         return Err((
-            "a date in UTC, with Z at its end",
-            "without Z the local time of whoever verifies would decide; add the Z",
+            "a date in UTC, with a Z at the end",
+            "add the Z; without it each verifier would apply its own local time",
         ));
     }
     let part = |from: usize, to: usize| digits.get(from..to).and_then(|part| part.parse().ok()).unwrap_or(0_i8);
@@ -31,7 +31,7 @@ pub(super) fn instant(text: &str) -> Result<Timestamp, Refusal> {
         .map(|zoned| zoned.timestamp())
         .ok()
         .filter(|instant| instant.as_second() > 0)
-        .ok_or(("a date of the calendar after 1 January 1970", "write a day and a time that exist"))
+        .ok_or(("a calendar date after 1 January 1970", "use a date and a time that exist"))
 }
 
 #[cfg(test)]
@@ -53,7 +53,7 @@ mod tests {
     #[test]
     fn local_time_is_refused_with_the_reason() {
         let (_, advice) = instant("20260101").unwrap_err();
-        assert!(advice.contains("whoever verifies"), "{advice}");
+        assert!(advice.contains("each verifier"), "{advice}");
     }
 
     #[test]

@@ -13,7 +13,7 @@ pub(super) struct Truncated {
 
 impl Display for Truncated {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        write!(f, "an item of {} bytes at byte {} where only {} bytes are left", self.needed, self.offset, self.left)
+        write!(f, "an item of {} bytes at byte {}, where only {} bytes are left", self.needed, self.offset, self.left)
     }
 }
 
@@ -105,6 +105,6 @@ mod tests {
     #[test]
     fn a_length_past_the_end_is_refused_in_words() {
         let error = Wire::new(b"\xff\xff\xff\xffab").string().unwrap_err();
-        assert_eq!(error.to_string(), "an item of 4294967295 bytes at byte 4 where only 2 bytes are left");
+        assert_eq!(error.to_string(), "an item of 4294967295 bytes at byte 4, where only 2 bytes are left");
     }
 }

@@ -4,6 +4,7 @@ use super::budget::{Budget, Contribution, ParameterBudget};
 use crate::calibration::causes::Cause;
 use crate::calibration::parameter::Parameter;
 use crate::gyro::Tolerance;
+use crate::units::printed;
 
 /// From this share of a variance on, it comes from one kind of input "nearly all".
 const NEARLY_ALL: f64 = 0.9;
@@ -88,16 +89,16 @@ impl<'a> Remedy<'a> {
     pub fn sentence(&self) -> String {
         let (worst, kind, percent) = (self.worst, self.first.cause.kind(), 100.0 * self.first.share);
         let from = match self.part() {
-            Part::NearlyAll => format!("nearly all of it from the {kind}"),
-            Part::Most => format!("{percent:.0} % of its variance from the {kind}"),
-            Part::Largest => format!("the largest part of its variance, {percent:.0} %, from the {kind}"),
+            Part::NearlyAll => format!("nearly all of the variance comes from one source ({kind})"),
+            Part::Most => format!("{percent:.0} % of the variance comes from one source ({kind})"),
+            Part::Largest => format!("the source with the largest share of the variance, {percent:.0} %, is: {kind}"),
         };
         let known = amount(worst, worst.standard_uncertainty);
         let effect = match self.effect {
-            Effect::Leaves(rest) => format!("; without it, it would still be {}", amount(worst, rest)),
-            Effect::HalvesAt(limit) => format!(": {} and it halves", what_to_do(self.first.cause, limit)),
+            Effect::Leaves(rest) => format!("; without it u would be {}", amount(worst, rest)),
+            Effect::HalvesAt(limit) => format!("; to halve u, {}", what_to_do(self.first.cause, limit)),
         };
-        format!("{} is known to {known}, {from}{effect}", worst.parameter.symbol())
+        format!("u({}) is {known}; {from}{effect}", worst.parameter.symbol())
     }
 }
 
@@ -111,7 +112,7 @@ pub fn percent(line: &ParameterBudget, u: f64) -> Option<f64> {
 fn amount(line: &ParameterBudget, u: f64) -> String {
     match percent(line, u) {
         Some(percent) => format!("{} %", two_digits(percent)),
-        None => format!("{} {}", two_digits(u), line.parameter.unit()),
+        None => format!("{} {}", two_digits(u), printed(line.parameter.unit())),
     }
 }
 
@@ -119,19 +120,27 @@ fn amount(line: &ParameterBudget, u: f64) -> String {
 fn what_to_do(cause: Cause, limit: f64) -> String {
     let to = format!("{} {}", two_digits(limit), cause.unit());
     match cause {
-        Cause::Seat(axis) => format!("seat the gyro to {to} about {}", ["x", "y", "the spin axis"][axis]),
-        Cause::Angle(..) => format!("certify the angles to {to}"),
-        Cause::Return(..) => format!("let the stand return to its positions within {to}"),
-        Cause::Platform(_) | Cause::Base(_) => format!("certify the {} to {to}", cause.kind()),
-        Cause::Level(_) => format!("level the base to {to}"),
-        Cause::Azimuth => format!("turn the base north to {to}"),
-        Cause::Mark => format!("survey the azimuth of the mark to {to}"),
-        Cause::Latitude | Cause::Deflection => format!("find the {} to {to}", cause.kind()),
-        Cause::Reading(..) => format!("read the currents to {to}"),
-        Cause::Floor(..) => format!("read the currents to {to} at zero"),
-        Cause::Noise(..) => format!("lower the noise of the mean reading to {to}"),
-        Cause::Gain => format!("calibrate the meter's gain to {to}"),
-        Cause::Offset => format!("calibrate the meter's offset to {to}"),
+        Cause::Seat(axis) => format!(
+            "seat the gyro with an uncertainty of {to} about {}",
+            [
+                "x",
+                "y",
+                "the spin \
+            axis"
+            ][axis]
+        ),
+        Cause::Angle(..) => format!("certify the angles with an uncertainty of {to}"),
+        Cause::Return(..) => format!("improve the repeatability of the stand to {to}"),
+        Cause::Platform(_) | Cause::Base(_) => format!("certify the {} with an uncertainty of {to}", cause.kind()),
+        Cause::Level(_) => format!("level the base with an uncertainty of {to}"),
+        Cause::Azimuth => format!("align the base with an uncertainty of its azimuth of {to}"),
+        Cause::Mark => format!("determine the azimuth of the mark with an uncertainty of {to}"),
+        Cause::Latitude | Cause::Deflection => format!("determine the {} with an uncertainty of {to}", cause.kind()),
+        Cause::Reading(..) => format!("measure the currents with an uncertainty of {to}"),
+        Cause::Floor(..) => format!("measure the currents with an uncertainty of {to} at zero"),
+        Cause::Noise(..) => format!("reduce the noise of the mean reading to {to}"),
+        Cause::Gain => format!("calibrate the gain of the meter with an uncertainty of {to}"),
+        Cause::Offset => format!("calibrate the offset of the meter with an uncertainty of {to}"),
     }
 }
 

@@ -81,19 +81,14 @@ fn of_two_sites_with_one_id_neither_counts_unless_they_are_the_same() {
     let workshop = Workshop::new(2, 3);
     workshop.write("sites/other.yaml", &site("site-00001", 999));
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
-    let why = "sites/other.yaml: is site site-00001, as is sites/site-00001.yaml, with other content: keep one \
-               (passports not issued: 2)";
+    let why = "sites/other.yaml: is site site-00001, like sites/site-00001.yaml, but with other content; keep one file (passports not issued: 2)";
     assert!(said.words.contains(why), "{}", said.words);
     assert_eq!(said.ids("issued").len(), 4);
     assert!(workshop.sound("passports").iter().all(|id| !id.contains("site-00001")));
     // The same bytes twice are one site.
     workshop.write("sites/other.yaml", &site("site-00001", 1));
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 0);
-    assert!(
-        said.words.contains("sites/site-00001.yaml: the site site-00001 a second time, taken once"),
-        "{}",
-        said.words
-    );
+    assert!(said.words.contains("sites/site-00001.yaml: duplicate of site site-00001, used once"), "{}", said.words);
     assert_eq!(workshop.sound("passports").len(), 6);
 }
 
@@ -103,15 +98,13 @@ fn a_stand_given_twice_is_taken_once_and_one_given_differently_not_at_all() {
     let twice = "issue stands/0000/stand.yaml stands ./stands/0000/stand.yaml --site sites";
     let said = workshop.run(&format!("{twice} {SIGN} --format csv"), 0);
     assert_eq!((said.results.lines().count(), said.ids("issued").len()), (41, 40));
-    assert!(
-        said.words.contains("stands/0000/stand.yaml and 1 more: the stand SPS-2/0000 a second time"),
-        "{}",
-        said.words
-    );
+    assert!(said.words.contains("stands/0000/stand.yaml and 1 more: duplicate of stand SPS-2/0000"), "{}", said.words);
     let text = fs::read_to_string(workshop.path("stands/0000/stand.yaml")).unwrap();
     workshop.write("stands/copy/stand.yaml", &text.replace("12.4", "12.5"));
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
-    assert!(said.words.contains("is stand SPS-2/0000, as is stands/copy/stand.yaml, with other content: keep one"));
+    assert!(
+        said.words.contains("is stand SPS-2/0000, like stands/copy/stand.yaml, but with other content; keep one file")
+    );
     assert!(said.ids("issued").is_empty());
 }
 
@@ -129,7 +122,7 @@ fn links_lead_nowhere_and_nothing_is_written_through_them() {
     fs::create_dir_all(workshop.path("out/SPS-2")).unwrap();
     symlink(outside.path(), workshop.path("out/SPS-2/0000")).unwrap();
     let said = workshop.run(&format!("issue stands/0000 --site sites/site-00000.yaml {SIGN} --out out"), 1);
-    assert!(said.words.contains("out/SPS-2/0000: is a link, and nothing is written through links"), "{}", said.words);
+    assert!(said.words.contains("out/SPS-2/0000: is a link; specify its target with --out"), "{}", said.words);
     assert_eq!(fs::read_dir(outside.path()).unwrap().count(), 1);
     fs::remove_file(workshop.path("out/SPS-2/0000")).unwrap();
     fs::create_dir(workshop.path("out/SPS-2/0000")).unwrap();
@@ -162,7 +155,7 @@ fn a_passport_in_the_wrong_place_for_its_id_is_not_taken_for_the_right_one() {
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 1);
     assert_eq!((said.ids("unchanged").len(), said.ids("issued").len()), (2, 1));
     assert_eq!(said.ids("refused"), BTreeSet::from(["SPS-2/0001/site-00001/1".to_owned()]));
-    assert!(said.words.contains("exists with other content (stand serial '0000' -> '0001')"), "{}", said.words);
+    assert!(said.words.contains("already exists with other content (stand serial '0000' -> '0001')"), "{}", said.words);
     assert_eq!(fs::read(file("0000")).unwrap(), fs::read(file("0001")).unwrap());
 }
 
@@ -174,7 +167,7 @@ fn a_name_in_another_unicode_form_is_refused_with_its_place() {
     // The file's own name may be in any form.
     workshop.write("sites/Mu\u{308}nchen.yaml", &site("muenchen", 2));
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --format csv"), 2);
-    assert!(said.words.contains("sites/koeln.yaml:3:7: name: found the character U+0308"), "{}", said.words);
+    assert!(said.words.contains("sites/koeln.yaml:3:7: name: found character U+0308"), "{}", said.words);
     let issued = ["SPS-2/0000/muenchen/1", "SPS-2/0000/site-00000/1"].map(str::to_owned);
     assert_eq!(said.ids("issued"), issued.into());
 }
@@ -201,9 +194,9 @@ fn patterns_folders_and_lists_name_the_same() {
     assert_eq!(ids("stands/[0]*/stand.yaml --site sites", b"").len(), 4);
 
     let said = workshop.run(&format!("issue stands/x* --site sites {SIGN}"), 2);
-    assert_eq!(said.words, "dtg-passport: stands/x*: no file has such a name\n");
+    assert_eq!(said.words, "dtg-passport: stands/x*: no file matches this pattern\n");
     let said = workshop.run(&format!("issue - --site - {SIGN}"), 2);
-    assert_eq!(said.words, "dtg-passport: standard input can be one list, of stands or of sites\n");
+    assert_eq!(said.words, "dtg-passport: standard input can be only one list: of stands or of sites\n");
 }
 
 #[test]
@@ -220,7 +213,7 @@ fn parts_of_a_job_are_disjoint_and_complete_wherever_each_is_run() {
     assert_eq!(together, whole);
     assert_eq!(workshop.sound("passports"), whole);
     let said = workshop.run(&format!("issue stands --site sites {SIGN} --shard 5/4"), 2);
-    assert!(said.words.contains("of 4 parts there is no part 5, expected 1 to 4"), "{}", said.words);
+    assert!(said.words.contains("found part 5 of 4, expected 1 to 4"), "{}", said.words);
 }
 
 #[test]
@@ -233,7 +226,7 @@ fn a_dry_run_says_all_and_writes_nothing() {
     let said = workshop.run("issue stands --site sites --identity factory --dry-run --format csv", 1);
     assert_eq!((said.ids("unchanged").len(), said.ids("planned").len()), (4, 5));
     assert_eq!(said.ids("refused"), BTreeSet::from(["SPS-2/0000/site-00002/1".to_owned()]));
-    assert!(said.words.contains("exists with other content (site height_m 150.0 -> 151.0)"), "{}", said.words);
+    assert!(said.words.contains("already exists with other content (site height_m 150.0 -> 151.0)"), "{}", said.words);
     assert_eq!(snapshot(&workshop.path(".")), before);
     // A key that is given is not even opened.
     let said = workshop.run("issue stands --site sites --identity factory --key no/such/key --dry-run --out new", 0);

@@ -222,7 +222,7 @@ fn interrupted_it_finishes_what_it_has_begun() {
     }
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     let said = Said::of(child.wait_with_output().unwrap(), 1);
-    assert_eq!(said.words, "dtg-passport: interrupted: the same command, given again, does the rest\n");
+    assert_eq!(said.words, "dtg-passport: interrupted; to complete the job, run the same command again\n");
     let report = fs::read(workshop.path("report")).unwrap();
     let report: Vec<serde_json::Value> = serde_json::from_slice(&report).unwrap();
     let reported: BTreeSet<String> = report.iter().map(|report| report["id"].as_str().unwrap().to_owned()).collect();

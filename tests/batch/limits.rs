@@ -61,7 +61,7 @@ fn a_full_disk_costs_what_has_no_room_and_no_more() {
     in_namespace(&workshop, &script);
     let said = survived(&workshop, 1, 2);
     assert!(!said.ids("issued").is_empty() && !said.ids("refused").is_empty());
-    assert!(said.words.contains("no space left; nothing was left behind"), "{}", said.words);
+    assert!(said.words.contains("no space left on the disk; no file was left"), "{}", said.words);
     let said = survived(&workshop, 2, 0);
     assert_eq!(said.ids("issued").len() + said.ids("unchanged").len(), 60);
 }

@@ -140,7 +140,7 @@ fn a_site_file_that_cannot_be_read_lets_nothing_be_issued_with_old_numbers() {
     let named = "passports/SPS-2/0000/site-00001-1.yaml";
     let said = workshop.run(&format!("reissue {named} --stand bad.yaml --reason recertified {ANEW}"), 2);
     assert_eq!(said.ids("refused"), BTreeSet::from(["bad.yaml".to_owned(), named.to_owned()]));
-    assert!(said.words.contains("no stand file is of SPS-2/0000"), "{}", said.words);
+    assert!(said.words.contains("no stand file is for SPS-2/0000"), "{}", said.words);
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn withdrawn_passports_are_skipped_and_uncertain_lists_stop_the_folder() {
     fs::remove_file(workshop.path("passports/revocation-1.yaml")).unwrap();
     let before = snapshot(&workshop.path("passports"));
     let said = workshop.run(&format!("reissue passports --reason otherwise {NOW}"), 1);
-    assert!(said.words.starts_with("dtg-passport: passports: what was withdrawn is not certain: "), "{}", said.words);
+    assert!(said.words.starts_with("dtg-passport: passports: the withdrawals are uncertain: "), "{}", said.words);
     assert_eq!(snapshot(&workshop.path("passports")), before);
 }
 
@@ -170,7 +170,7 @@ fn of_a_fork_neither_branch_goes_on_until_one_is_withdrawn() {
     // Where the first one is seen, a second successor is refused: another folder, another site.
     workshop.run(&format!("reissue {old} --reason more --out third {ANEW}"), 1);
     let said = workshop.run(&format!("reissue {old} --reason sold --site sites/site-00001.yaml --moved {ANEW}"), 1);
-    assert!(said.words.contains("site-00000-2.yaml: supersedes the same passport already"), "{}", said.words);
+    assert!(said.words.contains("site-00000-2.yaml: already supersedes this passport"), "{}", said.words);
     workshop.run(&format!("reissue elsewhere/SPS-2/0000/site-00000-2.yaml --reason another --out passports {ANEW}"), 0);
     // Restored from a copy that had gone its own way: two passports supersede the first one.
     fs::create_dir_all(workshop.path("passports/restored/SPS-2/0000")).unwrap();
@@ -180,7 +180,7 @@ fn of_a_fork_neither_branch_goes_on_until_one_is_withdrawn() {
     assert_eq!(said.ids("issued").len(), 9);
     let [one, another] = [2, 3].map(|revision| format!("passports/SPS-2/0000/site-00000-{revision}.yaml"));
     assert_eq!(said.ids("refused"), [one.clone(), another].into());
-    assert!(said.words.contains("comes from a passport that several supersede"), "{}", said.words);
+    assert!(said.words.contains("its predecessor has several successors"), "{}", said.words);
     let revoke = "--list passports --reason wrong --key key --identity factory --trust allowed_signers";
     let forked = || {
         let register = workshop.command("register passports --trust allowed_signers").output().unwrap();
@@ -207,8 +207,12 @@ fn what_is_broken_or_misplaced_or_a_link_is_refused_and_the_rest_goes_on() {
     // Of the stand whose passport is altered nothing is known: that one might supersede the others.
     let refused = ["0000/site-00000", "0000/site-00002", "0000/site-00003", "0000/site-00004", "0001/site-00009"];
     assert_eq!(said.ids("refused"), refused.map(|file| format!("passports/SPS-2/{file}-1.yaml")).into());
-    for words in ["does not hold (signature", "SPS-2/0000/site-00001/1 belongs into", "is a link", "more than 1048576"]
-    {
+    for words in [
+        "failed verification (signature",
+        "SPS-2/0000/site-00001/1 must be in",
+        "links are not followed",
+        "more than 1048576",
+    ] {
         assert!(said.words.contains(words), "{words}: {}", said.words);
     }
     assert_eq!(said.ids("issued"), ids("0001", &ALL, 2));

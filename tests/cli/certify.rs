@@ -65,18 +65,14 @@ fn bad_readings_are_refused_with_their_place() {
     let degrees = |text: &str| format!("{}", text.parse::<f64>().unwrap() / 3600.0);
     let twice = |text: &str| format!("{}", text.parse::<f64>().unwrap() * 3600.0);
     let cases: Vec<(String, i32, &[&str])> = vec![
-        (one_run, 1, &["one run", "no uncertainty can be stated", "better five"]),
-        (without("2,3,4,"), 2, &["no reading of position (2, 3) in run 4", "leave out the whole run"]),
-        (
-            without("2,3,"),
-            2,
-            &["no reading of position (2, 3), expected a reading of every position", "of this stand?"],
-        ),
-        (good.replace("\n2,4,", "\n3,4,"), 2, &["r.csv:10:1", "position (3, 4)", "readings of this stand?"]),
-        (replaced("1,2,3,", 3, degrees), 2, &["r.csv:20:7: alpha_arcsec", "degrees where arcseconds belong"]),
-        (replaced("1,1,2,", 3, twice), 2, &["r.csv:11:7: alpha_arcsec", "turned into arcseconds twice"]),
-        (replaced("1,1,2,", 3, |_| "10012.4".into()), 2, &["is a digit or the sign wrong"]),
-        (replaced("1,1,2,", 3, |_| "170000".into()), 2, &["45 degrees", "is the unit arcseconds?"]),
+        (one_run, 1, &["one run", "repeatability can be estimated", "better five"]),
+        (without("2,3,4,"), 2, &["no reading of position (2, 3) in run 4", "omit the whole run"]),
+        (without("2,3,"), 2, &["no reading of position (2, 3), expected a reading of every position", "of this stand"]),
+        (good.replace("\n2,4,", "\n3,4,"), 2, &["r.csv:10:1", "position (3, 4)", "readings of this stand"]),
+        (replaced("1,2,3,", 3, degrees), 2, &["r.csv:20:7: alpha_arcsec", "convert it from degrees to arcseconds"]),
+        (replaced("1,1,2,", 3, twice), 2, &["r.csv:11:7: alpha_arcsec", "convert it to arcseconds only once"]),
+        (replaced("1,1,2,", 3, |_| "10012.4".into()), 2, &["check the digits, the sign and the position"]),
+        (replaced("1,1,2,", 3, |_| "170000".into()), 2, &["45 degrees", "in arcseconds"]),
         (replaced("1,1,2,", 3, |_| "x".into()), 2, &["r.csv:11:7", "a number"]),
         (replaced("1,1,2,", 2, |_| "0".into()), 2, &["run", "a whole number from 1"]),
         (good.replace("run,", ""), 2, &["no column run"]),
@@ -97,7 +93,7 @@ fn bad_headers_are_refused_with_their_place() {
         (
             "datum:",
             "  repeatability_arcsec: 1.5\ndatum:",
-            &["certificate.repeatability_arcsec", "the readings give it"][..],
+            &["certificate.repeatability_arcsec", "it is computed from the readings"][..],
         ),
         (
             "theta_deg: 90, phi_deg: 180}",
@@ -105,8 +101,8 @@ fn bad_headers_are_refused_with_their_place() {
             &["unknown key \"alpha_arcsec\""],
         ),
         ("i: 2, j: 4, theta_deg: 90", "i: 2, j: 4, theta_deg: 80", &["theta_deg", "90 for position (2, 4)"]),
-        ("i: 2, j: 4,", "i: 2, j: 3,", &["a second time"]),
-        ("dtg-stand/1", "dtg-site/1", &["is this the right file?"]),
+        ("i: 2, j: 4,", "i: 2, j: 3,", &["duplicate position (2, 3)"]),
+        ("dtg-stand/1", "dtg-site/1", &["check that this is the right file"]),
     ];
     for (from, to, words) in cases {
         fs::write(folder.join("header.yaml"), good.replace(from, to)).unwrap();
@@ -129,7 +125,7 @@ fn form_does_not_matter() {
     fs::write(folder.join("r.csv"), turned.join("\r\n")).unwrap();
     let (code, text, said) = run(&folder, "r.csv --stand header.yaml -o other.yaml");
     assert_eq!(code, 0, "{said}");
-    assert!(text.contains("averaged with it: 1."), "{text}");
+    assert!(text.contains("of the same visit: 1."), "{text}");
     assert_eq!(run(&folder, "angles.csv --stand header.yaml -o stand.yaml").0, 0);
     // The digest alone tells that it was another file.
     let read = |name: &str| {
@@ -145,7 +141,7 @@ fn files_are_not_replaced_unless_told() {
     let certify = "angles.csv --stand header.yaml -o stand.yaml";
     assert_eq!(run(&folder, certify).0, 0);
     let (code, _, said) = run(&folder, certify);
-    assert!(code == 1 && said.contains("--force replaces it"), "{said}");
+    assert!(code == 1 && said.contains("to replace it, use --force"), "{said}");
     assert_eq!(run(&folder, &format!("{certify} --force")).0, 0);
     assert_eq!(run(&folder, "angles.csv -o stand.yaml").0, 2);
     assert_eq!(run(&folder, "angles.csv --stand header.yaml").0, 2);
@@ -158,11 +154,11 @@ fn a_check_has_an_exit_code() {
     let folder = folder("check");
     assert_eq!(run(&folder, "angles.csv --stand header.yaml -o stand.yaml").0, 0);
     let (code, text, _) = run(&folder, "check.csv --against stand.yaml");
-    assert!(code == 1 && text.contains("position (2, 3) does not repeat"), "{text}");
+    assert!(code == 1 && text.contains("position (2, 3) has changed"), "{text}");
     let (code, text, _) = run(&folder, "check.csv --against stand.yaml --format json");
     let found: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert!(code == 1 && found["comparison"]["same_stand"] == false, "{text}");
-    assert!(found["not_certified"].as_str().unwrap().starts_with("one run"));
+    assert!(found["not_certified"].as_str().unwrap().starts_with("found one run"));
     let (code, text, said) = run(&folder, "angles.csv --against stand.yaml --format json");
     let found: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert!(code == 0 && found["comparison"]["same_stand"] == true, "{said}{text}");
@@ -208,9 +204,12 @@ fn mistakes_of_a_whole_run_are_named() {
     let two = good.lines().filter(|line| line.starts_with(['#', 'i']) || line.split(',').nth(2) == Some("1"));
     let two: String = two.map(|line| format!("{line}\n")).collect();
     let cases: Vec<(String, &[&str])> = vec![
-        (good.clone() + &copy_as("2", "6"), &["r.csv:43:5: run", "run 6 with every angle of run 2", "delete the copy"]),
-        (identical + &copy_as("5", "3"), &["run 5 with every angle of run 3"]),
-        (two + &copy_as("1", "2"), &["run 2 with every angle of run 1"]),
+        (
+            good.clone() + &copy_as("2", "6"),
+            &["r.csv:43:5: run", "run 6 with the same angles as run 2", "delete the copy"],
+        ),
+        (identical + &copy_as("5", "3"), &["run 5 with the same angles as run 3"]),
+        (two + &copy_as("1", "2"), &["run 2 with the same angles as run 1"]),
         (scaled("3", 1.0 / 60.0), &["r.csv:19:5: run", "run 3", "divided by 60", "arcminutes"]),
         (scaled("1", 1.0 / 3600.0), &["run 1", "divided by 3600", "degrees"]),
         (scaled("4", 60.0), &["run 4", "60 times those of the other runs"]),

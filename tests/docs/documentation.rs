@@ -118,7 +118,7 @@ fn the_verbs_that_print_json_are_named() {
     let prints_json = |verb: &str| {
         let below = commands(&help(verb)).first().map(|command| help(&format!("{verb} {command}")));
         let text = below.unwrap_or_else(|| help(verb));
-        text.contains("Form of the result") && text.contains("- json")
+        text.contains("Output format") && text.contains("- json")
     };
     let verbs = commands(&help(""));
     assert!(verbs.len() > 10, "{verbs:?}");

@@ -87,7 +87,7 @@ fn its_numbers_are_of_the_size_that_inputs_cost() {
     let expected = libm::hypot(0.145, 0.1339 * 0.79);
     assert!((k_xy / expected - 1.0).abs() < 0.05, "{k_xy} {expected}");
     let shown = style::plain(&passport_table::text(&passport, true));
-    assert!(shown.contains("What the stand is good for") && shown.contains("GVK-6"), "{shown}");
+    assert!(shown.contains("Expected calibration uncertainty") && shown.contains("GVK-6"), "{shown}");
     assert!(shown.lines().all(|line| line.chars().count() <= 100));
     let without = content(None);
     assert_eq!(Content { accuracy: None, ..passport }, without);

@@ -6,8 +6,8 @@ use dtg_passport::calibration::{Readings, Setup};
 /// (file, what the message must say).
 const BAD: [(&str, &[&str]); 29] = [
     ("", &["empty file"]),
-    ("# nothing\n\n", &["nothing but blanks and comments"]),
-    ("i;j;jx_ma;jy_ma\n1;1;0,1;0,2\n", &["c.csv:1:1", "semicolons", "commas between the columns"]),
+    ("# nothing\n\n", &["only spaces and comments"]),
+    ("i;j;jx_ma;jy_ma\n1;1;0,1;0,2\n", &["c.csv:1:1", "semicolons", "commas between columns"]),
     ("i\tj\tjx_ma\tjy_ma\n", &["c.csv:1:1", "tabs"]),
     ("i,j,jx_ma\n1,1,0.1\n", &["c.csv:1:1", "no column jy_ma"]),
     ("i,j,jx_ua,jy_ma\n", &["c.csv:1:5", "\"jx_ua\"", "did you mean jx_ma?"]),
@@ -17,20 +17,20 @@ const BAD: [(&str, &[&str]); 29] = [
     ("i,j,jx_ma,jy_ma,visit\n1,1,0.1,0.2,0\n", &["c.csv:2:13", "visit", "a whole number from 1"]),
     ("i,j,jx_ma,jy_ma,cycle\n1,1,0.1,0.2,\n", &["c.csv:2:13", "cycle", "found nothing"]),
     ("i,j,jx_ma,jy_ma,time_s\n1,1,0.1,0.2,noon\n", &["c.csv:2:13", "time_s", "a number"]),
-    ("i,j,jx_ma,jy_ma,note\n1,1,0.1,0.2,\"a, b\n", &["c.csv:2:13", "a quoted cell that does not end"]),
+    ("i,j,jx_ma,jy_ma,note\n1,1,0.1,0.2,\"a, b\n", &["c.csv:2:13", "a quoted cell without a closing quote"]),
     ("i,j,jx_ma,jy_ma,note\n1,1,0.1,0.2,a, b\n", &["c.csv:2:1", "6 values"]),
-    ("i,j,jx_ma,jx_ma,jy_ma\n", &["c.csv:1:11", "a second time"]),
+    ("i,j,jx_ma,jx_ma,jy_ma\n", &["c.csv:1:11", "duplicate column"]),
     ("1,1,0.1,0.2\n", &["c.csv:1:1", "add the header"]),
     ("ROW 1,1,0,1,0,2\n", &["c.csv:2:1", "6 values", "decimal comma"]),
     ("ROW 1,1,0.1\n", &["c.csv:2:1", "3 values"]),
     ("ROW 1,1,abc,0.2\n", &["c.csv:2:5", "jx_ma", "\"abc\"", "a number"]),
     ("ROW 1,1, NaN,0.2\n", &["c.csv:2:6", "a finite number"]),
     ("ROW 1,1,0.1,inf\n", &["c.csv:2:9", "jy_ma", "a finite number"]),
-    ("ROW 1,1,0.1,\n", &["c.csv:2:9", "found nothing", "leave out the whole row"]),
-    ("ROW 1,1,0.1mA,0.2\n", &["c.csv:2:5", "the unit is in the column's name"]),
-    ("ROW 1,1,1e6,0.2\n", &["c.csv:2:5", "1000000", "the meter's range"]),
-    ("ROW 1,1,-104.9,0.2\n", &["c.csv:2:5", "is it in microamperes?"]),
-    ("ROW 3,1,0.1,0.2\n", &["c.csv:2:1", "position (3, 1)", "is it the passport of this stand?"]),
+    ("ROW 1,1,0.1,\n", &["c.csv:2:9", "found nothing", "omit the whole row"]),
+    ("ROW 1,1,0.1mA,0.2\n", &["c.csv:2:5", "the column name states it"]),
+    ("ROW 1,1,1e6,0.2\n", &["c.csv:2:5", "1000000", "the range of the meter"]),
+    ("ROW 1,1,-104.9,0.2\n", &["c.csv:2:5", "it may be in microamperes"]),
+    ("ROW 3,1,0.1,0.2\n", &["c.csv:2:1", "position (3, 1)", "check that this is the passport of this stand"]),
     ("ROW 0,1,0.1,0.2\n", &["c.csv:2:1", "a whole number from 1"]),
     ("ROW 1,1.0,0.1,0.2\n", &["c.csv:2:3", "a whole number from 1"]),
     ("ROW 1,1,x,0.2\n1,2,0.1,2.5\n", &["c.csv:2:5", "c.csv:3:9"]),
@@ -71,7 +71,7 @@ fn a_position_missing_or_double() {
     let error = read(&setup, &without("2,3,")).unwrap_err();
     assert!(error.contains("no reading of position (2, 3)"), "{error}");
     let error = read(&setup, &good.replace("2,3,", "2,2,")).unwrap_err();
-    assert!(error.contains("position (2, 2) stands 2 times: is one of them this one?"), "{error}");
+    assert!(error.contains("position (2, 2) occurs 2 times; check whether one of these rows"), "{error}");
     assert_eq!(
         read(&setup, &format!("{good}2,2,0.1,0.1\n")).unwrap().positions()[5]
             .visits
@@ -168,6 +168,6 @@ fn other_columns_are_named_and_left_out() {
     let rows: String = lines.map(|line| format!("{line},\"N. N., \"\"day\"\" shift\" , 20.1\n")).collect();
     let found = read(&setup, &format!("{header}{rows}")).unwrap();
     assert_eq!(found.means_ma(), read(&setup, &good).unwrap().means_ma());
-    assert_eq!(found.remark(), Some("c.csv: the columns \"operator\", \"temp_c\" are left out of account"));
+    assert_eq!(found.remark(), Some("c.csv: the columns \"operator\", \"temp_c\" are ignored"));
     assert_eq!(read(&setup, &good).unwrap().remark(), None);
 }

@@ -608,7 +608,7 @@ fn a_stand_in_force_under_two_certificates_is_an_alarm() {
             .map(|alarm| alarm.words)
             .collect::<Vec<_>>()
     };
-    let due = "SPS-2/0017 is in force under C-1 and C-2; certificate C-1 was replaced by C-2 (SPS-2/0017/here/2)";
+    let due = "SPS-2/0017 has passports in force under certificate C-1 and certificate C-2; certificate C-1 was replaced by C-2 (SPS-2/0017/here/2)";
     assert_eq!(words(), [due]);
     // The one under the old certificate is not in force any more.
     factory.remove(&there);
@@ -616,7 +616,12 @@ fn a_stand_in_force_under_two_certificates_is_an_alarm() {
     // Issued from the old certificate once more, when the new one has expired or was withdrawn.
     factory.put(&factory.passport("hall", 1, day(2), under("C-1")));
     factory.write("passports/revocation-1.yaml", factory.list_of(&factory.key, &[&again]));
-    assert_eq!(words(), ["SPS-2/0017 is in force under C-1; certificate C-1 was replaced by C-2 (SPS-2/0017/here/2)"]);
+    assert_eq!(
+        words(),
+        [
+            "SPS-2/0017 has passports in force under certificate C-1; certificate C-1 was replaced by C-2 (SPS-2/0017/here/2)"
+        ]
+    );
     let (register, _) = factory.register("passports", now());
     assert_eq!(register.against_certificate("SPS-2/0017", "C-1").len(), 1);
     assert_eq!(register.against_certificate("SPS-2/0017", "C-2").len(), 1);

@@ -107,14 +107,14 @@ fn one_run_needs_evidence() {
     turned.angles_arcsec.iter_mut().for_each(|angles| angles.z += 60.0);
     let one = turned.measured(&mut stream, 1);
     let found = against(&stand, &one);
-    assert!(!found.same_stand && found.words.iter().any(|words| words.contains("turned together")), "{found:?}");
+    assert!(!found.same_stand && found.words.iter().any(|words| words.contains("rotated together")), "{found:?}");
     stand.certificate.evidence = None;
     let found = against(&stand, &one);
     assert!(found.same_stand && found.common.test.is_err());
     let said = |found: &Comparison, words: &str| {
         assert!(found.words.iter().any(|said| said.contains(words)), "{:?}", found.words)
     };
-    said(&found, "whether the stand has turned as a whole is not judged: one run does not show");
+    said(&found, "rotation of the stand as a whole was not tested: one run does not show");
     // Several runs show it themselves.
     let found = against(&stand, &turned.measured(&mut stream, 3));
     assert!(!found.same_stand, "{found:?}");
@@ -170,7 +170,7 @@ fn what_has_changed_is_named() {
     turned.angles_arcsec.iter_mut().for_each(|angles| angles.z += 60.0);
     let found = against(&turned.measured(&mut stream, 5));
     assert!(!found.same_stand && found.positions.iter().all(|at| at.repeats), "{found:?}");
-    assert!(found.words.iter().any(|words| words.contains("turned together")));
+    assert!(found.words.iter().any(|words| words.contains("rotated together")));
     assert!((found.common.platform_arcsec[2] - 60.0).abs() < 10.0);
     let other = Truth::new([1.0; 3], 2.0, 2.0).measured(&mut stream, 1);
     let backwards: Vec<_> = other.each_arcsec().iter().rev().cloned().collect();
@@ -196,5 +196,5 @@ fn a_check_needs_the_same_stand_and_an_uncertainty() {
     let mut exact = certificate;
     exact.positions[0].u_alpha_arcsec = None;
     let found = compare(&exact, &header(), &one, None).unwrap();
-    assert!(found.words.iter().any(|words| words.contains("taken as exact")));
+    assert!(found.words.iter().any(|words| words.contains("treated as exact")));
 }

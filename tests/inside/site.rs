@@ -113,7 +113,7 @@ fn without_longitude_the_latitude_alone_is_checked() {
         let answer = ask(&here, Place { latitude_deg, longitude_deg });
         assert_eq!(answer.code(CheckName::Place), Some(code), "{latitude_deg} {longitude_deg}");
         let detail = &answer.checks().last().unwrap().detail;
-        assert!(detail.contains("the site's longitude is unknown"), "{detail}");
+        assert!(detail.contains("the longitude of the site is unknown"), "{detail}");
     }
 }
 

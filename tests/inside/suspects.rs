@@ -99,7 +99,7 @@ fn two_runs_do_not_tell_which_is_off() {
     let named: Vec<_> =
         found.suspects.outliers.iter().map(|out| (out.index.j, out.run, out.residual_arcsec > 0.0)).collect();
     assert!(named.contains(&(3, 1, false)) && named.contains(&(3, 2, true)), "{named:?}");
-    assert!(found.warnings.iter().any(|words| words.contains("two runs do not tell which")), "{:?}", found.warnings);
+    assert!(found.warnings.iter().any(|words| words.contains("two runs do not show whether")), "{:?}", found.warnings);
 }
 
 /// A position all of whose readings scatter is named as a position, and the others keep their own scatter.

@@ -140,7 +140,7 @@ fn what_cannot_be_so_is_refused_with_its_place() {
         ("u_arcsec: 0.3}", "u_arcsec: -0.3}", &["type_b[0].u_arcsec", "-0.3"]),
         ("degrees_of_freedom: 8.0}", "degrees_of_freedom: 0}", &["type_b[1].degrees_of_freedom"]),
         ("runs: 5", "runs: 1", &["certificate.evidence.runs", "2 or more"]),
-        ("readings_sha256: \"", "readings_sha256: \"g", &["readings_sha256", "64 hexadecimal digits"]),
+        ("readings_sha256: \"", "readings_sha256: \"g", &["readings_sha256", "64 lower-case hexadecimal digits"]),
         // The root of 0.09 + 0.16 + 1 is 1.118, and u is 0.93 or so.
         ("u_arcsec: 0.3}", "u_arcsec: 1.0}", &["positions[0].u_alpha_arcsec", "at least 1.0770", "type_b"]),
         ("u_arcsec: 2.0}", "u_arcsec: 2.1}", &["certificate.common_base_arcsec", "at least 2.1000"]),
@@ -175,5 +175,5 @@ fn a_header_has_type_b_and_no_evidence() {
     let evidence = "  evidence: {readings_sha256: \"9c56cc51b374c3ba189210d5b6d4bf57790d351c96c47c02190ecf1e430635ab\", runs: 5}\ndatum:";
     let text = with_type_b(HEADER).replace("datum:", evidence);
     let said = Header::from_yaml("header.yaml", text.as_bytes()).unwrap_err().to_string();
-    assert!(said.contains("certificate.evidence") && said.contains("the readings give it"), "{said}");
+    assert!(said.contains("certificate.evidence") && said.contains("it is computed from the readings"), "{said}");
 }

@@ -155,9 +155,9 @@ fn uncertainties_that_are_none_are_refused() {
     let cases: [(Change, &str); 5] = [
         (|u| u.angles_rad[3][1] = -1e-6, "certified angle is -0.000001"),
         (|u| u.level_rad = f64::NAN, "the level is NaN"),
-        (|u| u.meter.gain = f64::INFINITY, "the meter's gain is inf"),
+        (|u| u.meter.gain = f64::INFINITY, "the gain of the meter is inf"),
         (|u| u.angles_degrees_of_freedom[0] = 0.0, "degrees of freedom of a certified angle are 0"),
-        (|u| u.repeatability_degrees_of_freedom = f64::NAN, "degrees of freedom of the returns are NaN"),
+        (|u| u.repeatability_degrees_of_freedom = f64::NAN, "degrees of freedom of the repeatability are NaN"),
     ];
     for (change, words) in cases {
         let mut uncertainty = InputUncertainty::of_meter(paper_meter());
@@ -229,7 +229,7 @@ fn inputs_as_stated() {
     assert_eq!(stated.uncertainty.deflection_rad, arcsec(10.0));
     assert_eq!(stated.uncertainty.azimuth_rad, arcsec(30.0));
     let words: Vec<&str> = stated.missing.iter().map(|what| what.words()).collect();
-    assert_eq!(words, ["the stand's base (common_base_arcsec)", "the gyro's seat (seating_arcsec)"]);
+    assert_eq!(words, ["common part of the base (common_base_arcsec)", "gyro seat (seating_arcsec)"]);
     laboratory.base = Some(dtg_passport::laboratory::Base { azimuth_arcsec: Some(10.0), level_arcsec: None });
     let stated = Stated::new(&stand.certificate, &stand.positions, &site, &laboratory);
     assert_eq!(stated.uncertainty.azimuth_rad, arcsec(10.0));
@@ -255,10 +255,10 @@ fn every_part_that_is_not_stated_is_named() {
     let mark = "azimuth_mark: {name: \"m\", latitude_deg: 55.776, longitude_deg: 37.6856, pillar_latitude_deg: 55.7658, \
                 pillar_longitude_deg: 37.6856, position_u_m: 0.02}\n";
     let [latitude, deflection, azimuth, of_mark, gravity] = [
-        "the latitude (latitude_arcsec)",
-        "the deflection of the vertical (deflection_arcsec.u)",
-        "the base's azimuth (azimuth_arcsec)",
-        "the azimuth of the mark (position_u_m, deflection_arcsec.u)",
+        "latitude (latitude_arcsec)",
+        "deflection of the vertical (deflection_arcsec.u)",
+        "azimuth of the base (azimuth_arcsec)",
+        "azimuth of the mark (position_u_m, deflection_arcsec.u)",
         "gravity (gravity_u_m_per_s2)",
     ];
     assert!(missing(SITE).is_empty());

@@ -67,7 +67,7 @@ fn an_agent_that_is_not_there_is_said_and_nothing_is_written() {
     bench.new_key("key");
     std::fs::remove_file(bench.path("key")).unwrap();
     let issued = issue(&bench, "key.pub", &[]);
-    assert!(!issued.good && issued.errors.contains("ssh-agent running with this key"), "{}", issued.errors);
+    assert!(!issued.good && issued.errors.contains("ssh-agent has this key"), "{}", issued.errors);
     assert!(!bench.path("out").exists());
 }
 

@@ -85,7 +85,7 @@ fn lists_of_public_keys_count_as_with_ssh_keygen_verify() {
         let theirs = !bench.verify("signers", &armor, b"text", &["-r", "revoked"]).good;
         assert_eq!(ours.revokes(&key.public_key()).is_some(), theirs);
     }
-    assert_eq!(ours.revokes(&keys[1].public_key()).as_deref(), Some("named in revoked"));
+    assert_eq!(ours.revokes(&keys[1].public_key()).as_deref(), Some("listed in revoked"));
 }
 
 #[test]

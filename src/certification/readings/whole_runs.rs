@@ -38,9 +38,9 @@ fn copies(table: &Table, rows: &[Reading]) -> Vec<Problem> {
     for (run, angles) in of_run {
         let Some(earlier) = first.insert(angles.clone(), run) else { continue };
         first.insert(angles, earlier);
-        let found = format!("run {run} with every angle of run {earlier}");
-        let advice = "delete the copy; if both were measured, record more digits than they scatter by";
-        problems.extend(at_run(table, rows, run, found, "readings of its own", advice));
+        let found = format!("run {run} with the same angles as run {earlier}");
+        let advice = "delete the copy, or, if both were measured, record more digits than the readings vary by";
+        problems.extend(at_run(table, rows, run, found, "independent readings", advice));
     }
     problems
 }
@@ -84,7 +84,13 @@ fn other_scales(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Prob
             small.extend(problem(words, &format!("the run is in {unit}; convert it to arcseconds")));
         } else if let Some((factor, unit)) = too_large {
             let words = format!("{factor:.0} times those of the other runs");
-            large.extend(problem(words, &format!("convert it only once, or the other runs are in {unit}")));
+            large.extend(problem(
+                words,
+                &format!(
+                    "convert it only once, or check whether the other runs are in \
+                     {unit}"
+                ),
+            ));
         } else if correlation < 0.0 && near(1.0) {
             small.extend(problem("those of the other runs with the opposite sign".to_owned(), "correct the sign"));
         }

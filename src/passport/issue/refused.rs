@@ -17,7 +17,7 @@ pub enum IssueRefused {
     #[error(transparent)]
     Singular(#[from] SingularPositions),
     /// The issue is dated before the certificate.
-    #[error("issued_at {issued_at} is before the certificate's day of issue, {certified}: is the clock right?")]
+    #[error("issued_at {issued_at} is earlier than the date of the certificate, {certified}; check the clock")]
     BeforeCertificate {
         /// When the passport would be issued.
         issued_at: Timestamp,
@@ -26,7 +26,8 @@ pub enum IssueRefused {
     },
     /// The issue is dated ahead of the clock.
     #[error(
-        "issued_at {issued_at} is more than a day ahead of the clock, {clock}; give the time of issue, or leave it out"
+        "issued_at {issued_at} is more than one day later than the clock, {clock}; specify the time of issue, or omit \
+         it"
     )]
     AheadOfClock {
         /// The time of issue that was asked for.
@@ -35,7 +36,10 @@ pub enum IssueRefused {
         clock: Timestamp,
     },
     /// The passport would outlast its certificate.
-    #[error("the passport's last day, {passport}, is after the certificate's, {certificate}; give a day until then")]
+    #[error(
+        "the passport would be valid until {passport}, but the certificate only until {certificate}; specify an \
+             earlier date"
+    )]
     BeyondCertificate {
         /// The last day of the passport that was asked for.
         passport: Date,
@@ -44,8 +48,8 @@ pub enum IssueRefused {
     },
     /// The passport would have ended before it began.
     #[error(
-        "issued_at {issued_at} is after the {document}'s last day, {last}: {}",
-        if *document == "certificate" { "the stand must be certified again" } else { "give a later one" }
+        "issued_at {issued_at} is later than {last}, until which the {document} is valid; {}",
+        if *document == "certificate" { "have the stand recertified" } else { "specify a later date" }
     )]
     AlreadyExpired {
         /// When the passport would be issued.
@@ -59,22 +63,22 @@ pub enum IssueRefused {
     #[error("{0}")]
     ImplausibleSite(Unreadable),
     /// What the stand is good for cannot be stated.
-    #[error("no accuracy can be stated: {0}")]
+    #[error("the expected calibration uncertainty cannot be computed: {0}")]
     Accuracy(#[from] NoAccuracy),
     /// The issuer's name is none that allowed signers could give a key to.
     #[error(transparent)]
     Identity(#[from] BadIdentity),
     /// No set of currents in these positions gives the parameters of a gyro.
     #[error(
-        "the stand's positions do not determine the parameters of a gyro at this site: no calibration is possible; \
-         certify further positions, or issue it all the same with --allow-uncalibratable"
+        "the positions of the stand do not determine the parameters of a gyro at this site; certify further \
+         positions, or issue the passport anyway with --allow-uncalibratable"
     )]
     Uncalibratable,
     /// The self-check does not give its own parameters back.
     #[error(
-        "the self-check, calibrated again, is off by {error:.1e} of a parameter (limit {SELF_CHECK_LIMIT:e}): \
-         on this stand at this site the eight positions do not determine the gyro \
-         (1/cos(latitude), by which the uncertainty of K grows, is {growth:.4})"
+        "the self-check fails: the relative error of a parameter is {error:.1e} (limit {SELF_CHECK_LIMIT:e}); on this \
+         stand at this site the eight positions do not determine the gyro (the uncertainty of K grows as \
+         1/cos(latitude), here {growth:.4})"
     )]
     SelfCheckFails {
         /// How far the worst parameter is off, relative to its size.
@@ -84,20 +88,20 @@ pub enum IssueRefused {
     },
     /// The passport would be larger than any verifier reads.
     #[error(
-        "the passport would have {bytes} bytes, at most {LARGEST_DOCUMENT_BYTES} are read: \
-         the stand has too many positions"
+        "the passport would have {bytes} bytes, more than the limit of {LARGEST_DOCUMENT_BYTES}; certify fewer \
+         positions"
     )]
     TooLarge {
         /// Its size, the signature aside.
         bytes: usize,
     },
     /// The text, read again, is not what was written: a defect of this program.
-    #[error("the text read back differs from what was written; nothing was signed. {0}")]
+    #[error("the text read back differs from the text written; nothing was signed. {0}")]
     ReadBack(Unreadable),
     /// The signer gave no signature.
     #[error(transparent)]
     Signing(#[from] SigningFailed),
     /// The signer gave a signature that does not hold.
-    #[error("the signature just made does not hold: {0}")]
+    #[error("verification of the new signature failed: {0}")]
     BadSignature(#[from] SignatureError),
 }

@@ -22,8 +22,8 @@ const BAR_HALF: f64 = 5.5;
 const HEIGHT: f64 = TOP + ROW * (MOST_BARS + 1) as f64 + 16.0;
 const WORDS_HEIGHT: f64 = 28.0;
 
-const WORDS: &str = "Bars: what each kind of input contributes to the standard uncertainty u. The frame is as wide as u, the \
-                     root of the sum of their squares.";
+const WORDS: &str = "Bars: contribution of each kind of input to the standard uncertainty. The width of the frame is u, the \
+                     root sum of squares of the bars.";
 
 /// Draws a budget, in black and white; `None` where nothing is uncertain.
 pub fn budget(budget: &Budget) -> Option<String> {

@@ -28,7 +28,7 @@ type Steps = (&'static str, fn(&ConvergenceRow) -> Option<f64>);
 const NUMBERS: [Steps; 3] = [
     ("most", |row| row.most.map(|most| most as f64)),
     ("95th percentile", |row| row.percentile_95.map(|steps| steps as f64)),
-    ("mean of those that converge", |row| row.mean),
+    ("mean of the converged", |row| row.mean),
 ];
 
 /// Kinds of deviations, and their names.
@@ -38,7 +38,7 @@ const KINDS: [(&str, &str); 2] = [("uniform", "uniform within ±D"), ("corners",
 pub fn convergence(found: &Convergence) -> Option<String> {
     let farthest = found.rows.iter().map(|row| row.limit_deg).reduce(f64::max)?;
     let x = Scale { values: [0.0, farthest.max(1.0)], places: ACROSS };
-    let title = format!("Steps of successive approximation, {} stands at each limit D", found.trials);
+    let title = format!("Steps of the iterative method, {} stands at each limit D", found.trials);
     let [left, right] = ACROSS;
     let drawing = [
         words([left, 18.0], Anchor::Start, "title", &title),
@@ -77,7 +77,7 @@ fn share(x: Scale, rows: &[ConvergenceRow]) -> Markup {
         let rows = rows.iter().filter(|row| row.deviations == kind);
         rows.map(|row| [row.limit_deg, row.not_converged_percent]).collect()
     };
-    let axis = format!("not in {LARGEST_NUMBER_OF_STEPS} steps, %:");
+    let axis = format!("not converged in {LARGEST_NUMBER_OF_STEPS} steps, %:");
     html! {
         (caption([ACROSS[0], SHARE[1] - 10.0], &axis, &entries))
         (field.axes(&limits(&x), &marks))

@@ -18,7 +18,7 @@ pub(super) fn scan<T: Field>(text: &str) -> Result<T, NotCanonical> {
     let rest = scanner.after_comments();
     document.filter(|_| rest.is_empty()).ok_or_else(|| NotCanonical {
         location: location_of(&text.as_bytes()[..text.len() - rest.len()]),
-        found: rest.lines().next().map_or_else(|| "the end".to_owned(), rule::shortened),
+        found: rest.lines().next().map_or_else(|| "the end of the file".to_owned(), rule::shortened),
         expected: "the next key of this format".to_owned(),
     })
 }

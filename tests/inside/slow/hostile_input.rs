@@ -130,7 +130,10 @@ fn of_many_mistakes_the_first_are_reported_and_that_there_are_more() {
     assert_eq!(refused(&keys(40)).problems().len(), 44);
     let many = refused(&keys(1000));
     assert_eq!(many.problems().len(), 51);
-    assert!(many.to_string().ends_with("f: found further mistakes, expected none; correct these first"), "{many}");
+    assert!(
+        many.to_string().ends_with("f: found further errors, expected none; correct the errors above first"),
+        "{many}"
+    );
     assert!(many.problems()[..50].iter().all(|problem| problem.location.is_some()));
 }
 

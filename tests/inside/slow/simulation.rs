@@ -179,7 +179,7 @@ fn the_number_of_threads_changes_nothing() {
 #[test]
 fn the_picture_reads_without_colour() {
     let svg = picture::convergence(&convergence(&ConvergenceOptions::default(), &Run::new(500, 1))).unwrap();
-    for word in ["most", "95th percentile", "mean of those that converge", "uniform within", "degrees", "paper: 15"] {
+    for word in ["most", "95th percentile", "mean of the converged", "uniform within", "degrees", "paper: 15"] {
         assert!(svg.contains(word), "{word}");
     }
     for colour in svg.split('#').skip(1).filter_map(|rest| rest.get(..6)) {

@@ -4,7 +4,7 @@ use super::texts;
 
 texts! {
     UNCERTAINTY {
-        en: "The certificate gives no uncertainty of the deviations, so no uncertainty of theirs can be stated.",
+        en: "The certificate gives no uncertainty of the deviations; it cannot be stated.",
         ru: "Неопределённость отклонений в сертификате не указана и не может быть приведена."
     }
     REPEATABILITY {

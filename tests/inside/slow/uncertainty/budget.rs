@@ -137,12 +137,11 @@ fn the_sentence_is_computed() {
         Budget::new(&setup, &readings, Method::LeastSquares, false).unwrap()
     };
     let said = Remedy::of(&seat(30.0), Some(&GyroType::gvk_6().tolerance)).unwrap().sentence();
-    let due = "ω_0x is known to 0.0029 deg/h, nearly all of it from the seat about z: \
-               seat the gyro to 14 arcsec about the spin axis and it halves";
+    let due = "u(ω_0x) is 0.0029 deg/h; nearly all of the variance comes from one source (gyro seat about z); to halve u, seat the gyro with an uncertainty of 14 arcsec about the spin axis";
     assert!(said == due || said == due.replace("0x", "0y"), "{said}");
     // Compared with their own size alone, the cross scale factors are the worst.
     let said = Remedy::of(&seat(30.0), None).unwrap().sentence();
-    assert!(said.starts_with("K_xy is known to 0.15 %") || said.starts_with("K_yx is known to 0.15 %"), "{said}");
+    assert!(said.starts_with("u(K_xy) is 0.15 %") || said.starts_with("u(K_yx) is 0.15 %"), "{said}");
     // What it asks for does halve.
     let (before, after) = (seat(30.0), seat(14.0));
     assert!(after.parameters[1].standard_uncertainty < 0.5 * before.parameters[1].standard_uncertainty);
