@@ -74,40 +74,51 @@ impl Absence {
     fn sentence(self) -> String {
         let fixed = match self {
             Self::Uncertainty => {
-                "No uncertainty of the deviations is certified (u_alpha_arcsec and so on): none can be stated."
+                "The certificate gives no uncertainty of the deviations (u_alpha_arcsec etc.); it cannot be stated."
             }
-            Self::Repeatability => "No repeatability is certified: what a return to a position adds is unknown.",
+            Self::Repeatability => {
+                "The certificate gives no repeatability; the uncertainty that positioning adds is \
+                 unknown."
+            }
             Self::CommonPart => {
-                "The part common to all positions is not certified for platform and base: it is unknown."
+                "The certificate does not give the uncertainty common to all positions for both platform and base."
             }
-            Self::Traceability => "No traceability is stated: the deviations are numbers, not traceable measurements.",
-            Self::Temperature => "No temperature is certified: whether the deviations hold at another one is unknown.",
-            Self::LastDay => {
-                "The certificate names no last day: who uses the stand decides when to have it certified again."
+            Self::Traceability => "No traceability is stated; the deviations are not shown to be traceable to the SI.",
+            Self::Temperature => {
+                "The certificate gives no temperature; the validity of the deviations at other \
+                 temperatures is unknown."
             }
+            Self::LastDay => "The certificate has no expiry date; the user sets the recertification interval.",
             Self::Datum => {
-                "No datum is stated: which surfaces to level, to turn north and to seat the gyro on is unknown."
+                "No datum surfaces are stated; the surfaces for levelling, for north alignment and for seating the \
+                 gyro are unknown."
             }
-            Self::EightPositions => "Not all of the eight positions are certified: no matrices, least squares alone.",
+            Self::EightPositions => {
+                "Some of the eight standard positions are not certified; there are no matrices, \
+                 and only least squares applies."
+            }
             Self::Deflection { cost_deg_per_h } => {
                 return format!(
-                    "The deflection of the vertical is unknown: taken as 0 with u = {UNKNOWN_DEFLECTION_U_ARCSEC} \
-                     arcsec, up to {cost_deg_per_h:.1e} deg/h in the rates."
+                    "The deflection of the vertical is unknown; it is taken as 0 with u = \
+                     {UNKNOWN_DEFLECTION_U_ARCSEC} arcsec, which adds up to {cost_deg_per_h:.1e} deg/h to the \
+                     Earth-rate components."
                 );
             }
-            Self::Longitude => "The longitude is unknown: of the place only the latitude can be checked.",
+            Self::Longitude => "The longitude is unknown; only the latitude of a place can be checked.",
             Self::GeodeticLatitude => {
                 return format!(
-                    "The geodetic latitude is unknown: the check of place allows {LATITUDE_MARGIN_ARCSEC} arcsec for it."
+                    "The geodetic latitude is unknown; the check of the place allows {LATITUDE_MARGIN_ARCSEC} arcsec \
+                     for it."
                 );
             }
             Self::Height => {
-                "The height is unknown: normal gravity is that at 0 m, 3.1e-6 m/s2 too large for each metre."
+                "The height is unknown; normal gravity is that at 0 m, which is 3.1e-6 m/s2 too large for each metre \
+                 of height."
             }
             Self::BaseUncertainty => {
-                "No uncertainty of latitude, azimuth and level of the base is stated for this site."
+                "The uncertainties of the latitude, azimuth and level of the base are not stated for this site."
             }
-            Self::AzimuthMark => "No azimuth mark is given: north must come from elsewhere.",
+            Self::AzimuthMark => "No azimuth mark is given; the north direction must be determined in another way.",
         };
         fixed.to_owned()
     }
@@ -182,13 +193,15 @@ fn those_that_are(absences: impl IntoIterator<Item = (bool, Absence)>) -> Vec<Ab
 fn of_the_stand(path: &str, absences: impl Fn() -> Vec<Absence>) -> Vec<String> {
     match path {
         "certificate" => {
-            let mut lines = vec!["What the stand's factory measured, and how well.".to_owned()];
+            let mut lines = vec!["Certified measurement of the stand, with its uncertainty.".to_owned()];
             lines.extend(sentences(absences()));
             lines
         }
         "positions" => vec![
-            "Nominal frame angle theta and platform angle phi; deviation of the real orientation from them:".to_owned(),
-            "E = Rz(gamma) Ry(beta) Rx(alpha) turns coordinates from the nominal to the real platform, eq. (4)."
+            "Nominal frame angle theta and platform angle phi; deviation of the actual orientation from the \
+             nominal:"
+                .to_owned(),
+            "E = Rz(gamma) Ry(beta) Rx(alpha) transforms coordinates from the nominal to the actual platform, eq. (4)."
                 .to_owned(),
         ],
         _ => Vec::new(),
@@ -199,8 +212,8 @@ fn comments(content: &Content, path: &str) -> Vec<String> {
     let fixed: &[&str] = match path {
         "format" => &[
             "Passport of a two-axis test stand for dynamically tuned gyros.",
-            "Signed as it stands: any change, even of a blank or of this comment, makes the signature fail.",
-            "Frames: base xi east, eta north, zeta up; case x, y, z with z along the spin axis. i and j count from 1.",
+            "Signed verbatim: any change, even of a space or of this comment, makes the signature invalid.",
+            "Axes: base xi east, eta north, zeta up; case x, y, z with z along the spin axis. i and j count from 1.",
             "Equations: Tang and Podchezertsev 2017, doi 10.18698/2308-6033-2017-10-1691.",
             "Standard uncertainties (k = 1). Matrices are lists of rows.",
         ],
@@ -213,11 +226,13 @@ fn comments(content: &Content, path: &str) -> Vec<String> {
         ],
         "vectors" => &["Specific force n = (c, d) in g and Earth rate omega_3 in deg/h along x and y, eq. (5)."],
         "self_check" => {
-            &["From these currents correct laboratory software finds each number below: |found/stated - 1| <= 1e-9."]
+            &["From these currents laboratory software should obtain each number below: |result/stated - 1| <= 1e-9."]
         }
         "accuracy" => &[
-            "What this stand at this site is good for: a gyro of this type, calibrated once in all positions with this",
-            "meter by weighted least squares. Standard uncertainties (k = 1), first order, drifts per local g.",
+            "Expected calibration uncertainty: a gyro of this type, calibrated once in all positions at this site \
+             with this",
+            "meter by weighted least squares. Standard uncertainties (k = 1), linear approximation, drifts per local \
+             g.",
         ],
         _ => &[],
     };
@@ -233,24 +248,26 @@ fn comments(content: &Content, path: &str) -> Vec<String> {
 fn of_the_earth(content: &Content) -> Vec<String> {
     let site = &content.site;
     let gravity = match (site.gravity_m_per_s2, site.gravity_u_m_per_s2()) {
-        (Some(_), Some(u)) => format!("Gravity was measured, standard uncertainty {u} m/s2."),
+        (Some(_), Some(u)) => format!("Gravity was measured; standard uncertainty {u} m/s2."),
         (None, Some(u)) => format!(
-            "Gravity is normal gravity (WGS 84) at {} m, standard uncertainty {u} m/s2.",
+            "Gravity is normal gravity (WGS 84) at {} m; standard uncertainty {u} m/s2.",
             site.height_m.unwrap_or(0.0),
         ),
         (_, None) => "Gravity was measured; its uncertainty is not stated.".to_owned(),
     };
     let mut lines = vec![
-        "Earth rate at the astronomic latitude: horizontal = rate cos(latitude), vertical = rate sin(latitude), eq. (5)."
+        "Earth rate at the astronomic latitude: horizontal = rate cos(latitude), vertical = rate sin(latitude), eq. \
+         (5)."
             .to_owned(),
         format!(
-            "The uncertainty of K grows towards the poles as 1/cos(latitude): here {:.3} times that at the equator.",
+            "The uncertainty of K grows towards the poles as 1/cos(latitude); here it is {:.3} times that at the \
+             equator.",
             site.uncertainty_growth()
         ),
         gravity,
-        "Drifts per g are per this local g.".to_owned(),
+        "g-sensitive drifts refer to this local g.".to_owned(),
         format!(
-            "Valid within {:.0} m of the site: farther north or south a rate is off by more than valid_within_deg_per_h.",
+            "Validity radius {:.0} m: farther north or south a component changes by more than valid_within_deg_per_h.",
             content.earth.valid_radius_m
         ),
     ];
@@ -258,7 +275,11 @@ fn of_the_earth(content: &Content) -> Vec<String> {
         lines
             .push("Astronomic azimuth from pillar to mark, clockwise from north: geodetic + eta tan(latitude).".into());
         if content.earth.azimuth_u_arcsec.is_none() {
-            lines.push("Its uncertainty is not stated: position_u_m or the deflection's u is unknown.".into());
+            lines.push(
+                "The uncertainty of the azimuth is not stated: position_u_m or u of the deflection is \
+                        unknown."
+                    .into(),
+            );
         }
     }
     lines
