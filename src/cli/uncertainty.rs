@@ -104,7 +104,8 @@ impl UncertaintyOptions {
         let budget = Budget::new(setup, readings, method, anisoelasticity).map_err(Failure::refused)?;
         if let Some(path) = &self.budget_svg {
             let svg = picture::budget::budget(&budget);
-            let svg = svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: no input has an uncertainty"))?;
+            let svg =
+                svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: no input has an uncertainty"))?;
             output::file(path, &svg, self.force)?;
         }
         let trials = self.monte_carlo.then(|| self.trials(setup, readings, &budget)).transpose()?;

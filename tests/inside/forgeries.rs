@@ -204,7 +204,7 @@ fn forms_of_the_file() {
             ("a zero-width joiner", bench.replaced("SPS-2", "SPS\u{200D}-2")),
             ("a soft hyphen", bench.replaced("SPS-2", "SPS\u{AD}-2")),
             ("a combining accent", bench.replaced("Two-axis", "Two\u{301}axis")),
-            ("a bidirectional override in a comment", bench.replaced("# Frames", "# \u{202E}Frames")),
+            ("a bidirectional override in a comment", bench.replaced("# Axes", "# \u{202E}Axes")),
         ],
     );
     refuse_all(&refused);

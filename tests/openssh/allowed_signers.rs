@@ -172,7 +172,10 @@ fn lines_that_ssh_keygen_accepts_and_we_refuse() {
     with_case(|case| {
         let key = case.key.public_key().to_openssh();
         for (line, words) in [
-            (format!("{PRINCIPAL} valid-after=\"20260101\" {key}"), "without it each verifier would apply its own local time"),
+            (
+                format!("{PRINCIPAL} valid-after=\"20260101\" {key}"),
+                "without it each verifier would apply its own local time",
+            ),
             (format!("{PRINCIPAL} valid-before=\"20270230Z\" {key}"), "a calendar date"),
             (format!("{PRINCIPAL} valid-before=\"20270101UTC\" {key}"), "a date in UTC"),
             (format!("{PRINCIPAL} {key}\nqa valid-after=\"soon\" {key}"), "signers:2:16: valid-after: found \"soon\""),

@@ -176,7 +176,11 @@ fn the_headline_is_the_verdict() {
     let due = [
         ("calibrated-en", "Conformity with gyro type GVK-6 is undecided", false),
         ("calibrated-ru", "Соответствие типу GVK-6 не определено", false),
-        ("bad-both", "Показания не согласуются с\u{a0}этим стендом The readings are not consistent with this stand", true),
+        (
+            "bad-both",
+            "Показания не согласуются с\u{a0}этим стендом The readings are not consistent with this stand",
+            true,
+        ),
         ("plain-ru", "Параметры определены", false),
         ("unverified-many-en", "Passport NOT VERIFIED", true),
     ];
