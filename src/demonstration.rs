@@ -34,7 +34,7 @@ const IDENTITY: &str = "factory@example.org";
 /// What stopped the demonstration.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum Stopped {
+pub(crate) enum Stopped {
     /// The folder has files in it.
     #[error("{}: already exists and is not an empty folder; specify another one with --out", shown(.0))]
     NotEmpty(PathBuf),
@@ -71,7 +71,7 @@ pub enum Stopped {
 }
 
 /// `dtg-passport-demo` in the current folder, numbered when that is there already.
-pub fn free_folder() -> PathBuf {
+pub(crate) fn free_folder() -> PathBuf {
     let first = PathBuf::from("dtg-passport-demo");
     let numbered = (2..).map(|number: u32| PathBuf::from(format!("dtg-passport-demo-{number}")));
     std::iter::once(first).chain(numbered).find(|folder| !folder.exists()).unwrap_or_default()
@@ -82,7 +82,7 @@ pub fn free_folder() -> PathBuf {
 ///
 /// # Errors
 /// See [`Stopped`].
-pub fn run(folder: &Path, now: Timestamp, tell: &mut dyn FnMut(&str) -> bool) -> Result<bool, Stopped> {
+pub(crate) fn run(folder: &Path, now: Timestamp, tell: &mut dyn FnMut(&str) -> bool) -> Result<bool, Stopped> {
     let stand = Stand::from_yaml("stand.yaml", STAND.as_bytes())?;
     // The example must also play on a machine whose clock is behind its certificate.
     let now = now.max(day(stand.certificate.issued).0);

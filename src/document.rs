@@ -6,7 +6,7 @@
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::canonical::{self, NotCanonical};
 use crate::text::problem::{Location, Unreadable};
-pub use crate::text::scalar::{is_sha256_hex, sha256_hex};
+pub(crate) use crate::text::scalar::{is_sha256_hex, sha256_hex};
 use crate::text::{Field, Printable, Problems, rule};
 use crate::trust::{AllowedSigners, KeyPoint, Message, PublicKey, Signature, SignatureError};
 #[cfg(feature = "factory")]
@@ -78,7 +78,7 @@ impl Signer for SigningKey {
 
 /// A document whose form is good (verification steps 1 to 3). Nothing of it has been parsed.
 #[derive(Debug, Clone)]
-pub struct SignedText<'a> {
+pub(crate) struct SignedText<'a> {
     payload: &'a str,
     signature: Signature,
 }
@@ -97,7 +97,7 @@ impl<'a> SignedText<'a> {
     ///
     /// # Errors
     /// [`Malformed`] with the line and the column of the first fault.
-    pub fn split(name: &str, bytes: &'a [u8], namespace: &str) -> Result<Self, Malformed> {
+    pub(crate) fn split(name: &str, bytes: &'a [u8], namespace: &str) -> Result<Self, Malformed> {
         let malformed = |fault| Malformed { fault, other_namespace: None };
         if bytes.len() > LARGEST_DOCUMENT_BYTES {
             rule::check(name, bytes).map_err(malformed)?;
@@ -143,7 +143,7 @@ impl<'a> SignedText<'a> {
     }
 
     /// The key that the signature names.
-    pub fn key(&self) -> &PublicKey {
+    pub(crate) fn key(&self) -> &PublicKey {
         self.signature.public_key()
     }
 
@@ -151,7 +151,7 @@ impl<'a> SignedText<'a> {
     ///
     /// # Errors
     /// The signature does not hold: the text is not the one that was signed.
-    pub fn signed_payload(&self) -> Result<&'a str, SignatureError> {
+    pub(crate) fn signed_payload(&self) -> Result<&'a str, SignatureError> {
         self.signature.verify(self.signature.namespace(), self.payload.as_bytes())?;
         Ok(self.payload)
     }
@@ -173,7 +173,7 @@ impl<'a> SignedText<'a> {
 ///
 /// # Errors
 /// The first line that is not in canonical form, or every rule that the content breaks.
-pub fn parse<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut Problems)) -> Result<T, Unreadable> {
+pub(crate) fn parse<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut Problems)) -> Result<T, Unreadable> {
     let content: T = canonical::read(payload).map_err(|NotCanonical { location, found, expected }| {
         let advice = "this is not the canonical form; get the file from the issuer again";
         Unreadable::whole(name, Some(location), found, expected, advice)
@@ -195,7 +195,7 @@ fn unindented(text: &str) -> Option<String> {
 }
 
 /// Puts payload and signature together, as [`SignedText::split`] takes them apart.
-pub fn join(payload: &str, signature: &Signature) -> String {
+pub(crate) fn join(payload: &str, signature: &Signature) -> String {
     let armor: String = signature.to_armor().lines().map(|line| format!("{INDENT}{line}\n")).collect();
     format!("{payload}{SIGNATURE_LINE}{armor}")
 }

@@ -81,6 +81,7 @@
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
+#![cfg_attr(not(test), warn(unreachable_pub))]
 // What only a higher feature calls is no dead code; with all of them nothing may be unused.
 #![cfg_attr(not(feature = "cli"), allow(dead_code, unused_imports))]
 

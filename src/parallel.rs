@@ -4,19 +4,19 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 /// The processors that this process may use.
-pub fn processors() -> usize {
+pub(crate) fn processors() -> usize {
     thread::available_parallelism().map_or(1, usize::from)
 }
 
 /// Does `work` on every item with up to `threads` threads; the results come in the order of the items.
 ///
 /// Where the system gives no more threads, fewer do the same.
-pub fn map<T: Sync, R: Send>(items: &[T], threads: usize, work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+pub(crate) fn map<T: Sync, R: Send>(items: &[T], threads: usize, work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     map_with(items, threads, || (), |(), item| work(item))
 }
 
 /// The same with something that every thread makes for itself and works with.
-pub fn map_with<T: Sync, R: Send, S>(
+pub(crate) fn map_with<T: Sync, R: Send, S>(
     items: &[T],
     threads: usize,
     make: impl Fn() -> S + Sync,

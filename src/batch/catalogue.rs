@@ -20,7 +20,7 @@ const KEPT: usize = 1024;
 const READ_AT_ONCE: usize = 256;
 
 /// What a catalogue is of.
-pub trait Listed: Clone + Send + Sync {
+pub(crate) trait Listed: Clone + Send + Sync {
     /// What one is called.
     const NAME: &str;
 
@@ -76,7 +76,7 @@ impl Listed for Site {
 }
 
 /// The files of a batch. Two with one id and other content are both left out: which of them counts, nobody said.
-pub struct Catalogue<T> {
+pub(crate) struct Catalogue<T> {
     files: Vec<File<T>>,
     by_id: BTreeMap<String, usize>,
     last: Mutex<Option<(usize, Arc<T>)>>,
@@ -89,7 +89,7 @@ struct File<T> {
 
 impl<T: Listed> Catalogue<T> {
     /// Reads all files, and tells what is to be known of them; gives also the failures.
-    pub fn read(
+    pub(crate) fn read(
         paths: impl Iterator<Item = Result<PathBuf, Failure>>,
         threads: usize,
         tell: Listener,
@@ -115,12 +115,12 @@ impl<T: Listed> Catalogue<T> {
     }
 
     /// No files.
-    pub fn empty() -> Self {
+    pub(crate) fn empty() -> Self {
         Self { files: Vec::new(), by_id: BTreeMap::new(), last: Mutex::new(None) }
     }
 
     /// How many ids.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.files.len()
     }
 
@@ -128,12 +128,12 @@ impl<T: Listed> Catalogue<T> {
     ///
     /// # Errors
     /// A file that was changed or removed since.
-    pub fn load(&self, places: Range<usize>, threads: usize) -> Vec<Result<Arc<T>, Failure>> {
+    pub(crate) fn load(&self, places: Range<usize>, threads: usize) -> Vec<Result<Arc<T>, Failure>> {
         parallel::map(&self.files[places], threads, File::load)
     }
 
     /// Whether one with this id was given.
-    pub fn has(&self, id: &str) -> bool {
+    pub(crate) fn has(&self, id: &str) -> bool {
         self.by_id.contains_key(id)
     }
 
@@ -141,7 +141,7 @@ impl<T: Listed> Catalogue<T> {
     ///
     /// # Errors
     /// A file that was changed or removed since.
-    pub fn get(&self, id: &str) -> Result<Option<Arc<T>>, Failure> {
+    pub(crate) fn get(&self, id: &str) -> Result<Option<Arc<T>>, Failure> {
         let Some(&place) = self.by_id.get(id) else { return Ok(None) };
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
         match &*last {

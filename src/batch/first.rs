@@ -21,7 +21,7 @@ const SITES_AT_ONCE: usize = 1024;
 
 /// By whose trust, and at what time, the passports that are there already are believed.
 #[derive(Debug, Clone, Copy)]
-pub struct Known<'a> {
+pub(crate) struct Known<'a> {
     /// The trust.
     pub trust: &'a Trust,
     /// The time.
@@ -30,7 +30,7 @@ pub struct Known<'a> {
 
 /// What is to be issued, and where.
 #[derive(Debug, Clone, Copy)]
-pub struct Job<'a> {
+pub(crate) struct Job<'a> {
     /// The folder of the passports.
     pub folder: &'a Folder,
     /// Stands: files, folders and patterns as `paths` has them.
@@ -54,7 +54,7 @@ impl Batch<'_> {
     ///
     /// All files are read first, so that every mistake in them is told before anything is signed; one that cannot be used
     /// costs its own passports and no more. A stand that by what is known has another certificate already is remarked upon.
-    pub fn issue(&self, job: &Job, list: &mut dyn BufRead, tell: Listener) {
+    pub(crate) fn issue(&self, job: &Job, list: &mut dyn BufRead, tell: Listener) {
         let (stands, bad_stands) = self.catalogue(job.stands, list, Purpose::Stands, tell);
         let (sites, bad_sites) = self.catalogue(job.sites, list, Purpose::Sites, tell);
         let bad_files = bad_sites.iter().filter(|failure| failure.passports.is_none()).count();

@@ -36,7 +36,7 @@ const LARGEST_CHUNK: usize = 4096;
 
 /// What a folder is searched for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Purpose {
+pub(crate) enum Purpose {
     /// Files `stand.yaml` or `stand.yml`, at any depth.
     Stands,
     /// Files `*.yaml` or `*.yml` in the folder itself.
@@ -45,7 +45,7 @@ pub enum Purpose {
 
 /// How a batch is done.
 #[derive(Clone, Copy)]
-pub struct Batch<'a> {
+pub(crate) struct Batch<'a> {
     /// How safe from a loss of power what was told of is.
     pub durability: Durability,
     /// Who signs; `None` for a dry run, which computes and checks everything and writes nothing.
@@ -60,7 +60,7 @@ pub struct Batch<'a> {
 
 /// What a batch tells while it goes on.
 #[derive(Debug)]
-pub enum Event {
+pub(crate) enum Event {
     /// So many more orders are known of; roughly, when this is a part of the job.
     Planned(u64),
     /// An order is done with. Of the passports in a folder those of other stands are no orders, and have no outcome.
@@ -78,7 +78,7 @@ pub enum Event {
 
 /// What became of an order, or of an input.
 #[derive(Debug)]
-pub enum Outcome {
+pub(crate) enum Outcome {
     /// The passport is there, new or as before.
     There(Issued),
     /// It would be issued, were this no dry run.
@@ -98,7 +98,7 @@ pub enum Outcome {
 
 /// A passport that would be issued.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Planned {
+pub(crate) struct Planned {
     /// Its id.
     pub id: String,
     /// Its file.
@@ -109,7 +109,7 @@ pub struct Planned {
 
 /// Why something is not there.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Failure {
+pub(crate) struct Failure {
     /// The passport's id, or the file that it hangs on.
     pub what: String,
     /// Why, in words.
@@ -124,34 +124,34 @@ pub struct Failure {
 
 impl Failure {
     /// A verdict on a document.
-    pub fn refused(path: &Path, why: String) -> Self {
+    pub(crate) fn refused(path: &Path, why: String) -> Self {
         Self { what: name_of(path), why, unusable: false, passports: None, unreadable: None }
     }
 
     /// A file that cannot be used.
-    pub fn unusable(path: &Path, why: String) -> Self {
+    pub(crate) fn unusable(path: &Path, why: String) -> Self {
         Self { unusable: true, ..Self::refused(path, why) }
     }
 
     /// A file that cannot be read as what it should be.
-    pub fn unreadable(path: &Path, error: Unreadable) -> Self {
+    pub(crate) fn unreadable(path: &Path, error: Unreadable) -> Self {
         let why = error.to_string();
         Self { unreadable: Some(Box::new(error)), ..Self::unusable(path, why) }
     }
 
     /// A file that cannot be read.
-    pub fn file(error: FileError) -> Self {
+    pub(crate) fn file(error: FileError) -> Self {
         Self::unusable(error.path(), error.to_string())
     }
 
     /// An order that the folder refused.
-    pub fn of_order(what: String, refused: &FolderRefused) -> Self {
+    pub(crate) fn of_order(what: String, refused: &FolderRefused) -> Self {
         Self { what, why: refused.to_string(), unusable: refused.is_unusable(), passports: None, unreadable: None }
     }
 }
 
 /// What listens to a batch.
-pub type Listener<'a> = &'a mut dyn FnMut(Event);
+pub(crate) type Listener<'a> = &'a mut dyn FnMut(Event);
 
 impl Batch<'_> {
     fn cancelled(&self) -> bool {

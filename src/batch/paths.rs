@@ -14,7 +14,7 @@ const LONGEST_PATH: usize = 1 << 16;
 
 /// Something that the user named.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Named {
+pub(crate) enum Named {
     /// A file, or what will turn out not to be there.
     File(PathBuf),
     /// A folder.
@@ -29,7 +29,7 @@ impl Named {
 
 /// What the user named, one after the other and none held: `-` is the list, with a path on each line or a zero byte
 /// between them; a pattern that is no file stands for what it matches, in the order of names.
-pub fn named<'a>(
+pub(crate) fn named<'a>(
     arguments: &'a [PathBuf],
     list: &'a mut dyn BufRead,
 ) -> impl Iterator<Item = Result<Named, Failure>> + 'a {
@@ -48,7 +48,7 @@ pub fn named<'a>(
 }
 
 /// The files that the user named; of a folder those that serve the purpose.
-pub fn files<'a>(
+pub(crate) fn files<'a>(
     arguments: &'a [PathBuf],
     list: &'a mut dyn BufRead,
     purpose: Purpose,
@@ -76,7 +76,7 @@ fn in_folder(folder: PathBuf, purpose: Purpose) -> Box<dyn Iterator<Item = Resul
 }
 
 /// A file of a walk; a link and what cannot be read are failures.
-pub fn found(entry: Result<Entry, FileError>) -> Result<PathBuf, Failure> {
+pub(crate) fn found(entry: Result<Entry, FileError>) -> Result<PathBuf, Failure> {
     match entry {
         Ok(Entry::File(path)) => Ok(path),
         Ok(Entry::Special(path)) => {

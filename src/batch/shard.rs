@@ -7,14 +7,14 @@ use std::str::FromStr;
 /// Part `number` of `parts`. Which part a passport is in follows from its stand and site alone: the parts have nothing
 /// in common, and together they are the whole, on whatever machine and in whatever order each is done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shard {
+pub(crate) struct Shard {
     number: u32,
     parts: u32,
 }
 
 /// What is no part.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum NoShard {
+pub(crate) enum NoShard {
     /// Not two whole numbers.
     #[error("expected K/N, the K-th of N parts, as in 2/8")]
     Form,
@@ -48,20 +48,20 @@ impl FromStr for Shard {
 
 impl Shard {
     /// The whole job.
-    pub const WHOLE: Self = Self { number: 1, parts: 1 };
+    pub(crate) const WHOLE: Self = Self { number: 1, parts: 1 };
 
     /// How many of `orders` are about to be in this part.
-    pub fn share(self, orders: u64) -> u64 {
+    pub(crate) fn share(self, orders: u64) -> u64 {
         orders.div_ceil(u64::from(self.parts))
     }
 
     /// Whether the passports of a stand (`<model>/<serial>`) for a site are in this part.
-    pub fn has(self, stand: &str, site: &str) -> bool {
+    pub(crate) fn has(self, stand: &str, site: &str) -> bool {
         self.parts == 1 || self.has_key(&format!("{stand}/{site}"))
     }
 
     /// Whether a passport's file is in this part, by where it stands: `<model>/<serial>/<site>-<revision>.yaml`.
-    pub fn has_file(self, path: &Path) -> bool {
+    pub(crate) fn has_file(self, path: &Path) -> bool {
         if self.parts == 1 {
             return true;
         }

@@ -24,7 +24,7 @@ const FORKED: &str = "its predecessor has several successors; list them with `re
                       with `revoke`";
 
 /// What is to change, and by whose trust the old passports must hold.
-pub struct Change<'a> {
+pub(crate) struct Change<'a> {
     /// What all have in common; the stand is that of [`Self::stands`].
     pub order: Order,
     /// Files of stands: each for the passports of its stand. Of a folder no others are concerned.
@@ -71,7 +71,7 @@ struct Following {
 
 impl Batch<'_> {
     /// Issues anew what was named: files, and of folders those that the change concerns.
-    pub fn reissue(&self, passports: &[PathBuf], list: &mut dyn BufRead, change: Change, tell: Listener) {
+    pub(crate) fn reissue(&self, passports: &[PathBuf], list: &mut dyn BufRead, change: Change, tell: Listener) {
         let mut none = std::io::empty();
         let files = paths::files(change.stands, &mut none, Purpose::Stands);
         let (stands, bad_stands) = Catalogue::read(files, self.threads, tell);

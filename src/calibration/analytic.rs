@@ -6,7 +6,7 @@ use nalgebra::{Matrix2, Vector2};
 
 /// What the closed solution gives: ω_n as the four numbers of (15), and the parameters of (2) in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AnalyticSolution {
+pub(crate) struct AnalyticSolution {
     /// K, ω_0, ω_g and ω_k (paper, eq. (8), (13), (14), (16)).
     pub parameters: GyroParameters,
     /// ω_n, 2×2, four free numbers (paper, eq. (15)).
@@ -38,7 +38,7 @@ pub enum NoAnalyticSolution {
 ///
 /// # Errors
 /// See [`NoAnalyticSolution`].
-pub fn solve(
+pub(crate) fn solve(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],
 ) -> Result<AnalyticSolution, NoAnalyticSolution> {

@@ -13,7 +13,7 @@ use std::fmt;
 
 /// A fit whose chi-square is less probable than this is looked into. So of good calibrations this share gets a false
 /// alarm when errors are normal, and less when they are uniform.
-pub const ALARM: f64 = 0.005;
+pub(crate) const ALARM: f64 = 0.005;
 
 /// An explanation is taken for possible when what it leaves is more probable than this.
 const POSSIBLE: f64 = 0.001;
@@ -29,7 +29,7 @@ const PRICE_OF_TWO_NUMBERS: f64 = 4.0;
 const MOST_SUSPECTS: usize = 24;
 
 /// What residuals can never tell, and what can.
-pub const CANNOT_TELL: &str = "Small residuals do not exclude all errors. The following leave no residuals but change \
+pub(crate) const CANNOT_TELL: &str = "Small residuals do not exclude all errors. The following leave no residuals but change \
                                the result: the passport of another site (latitude), a base tilted about east, a gyro \
                                rotated in its seat about the spin axis, the gain and offset of the meter, x and y \
                                exchanged, one sign reversed. A base rotated in azimuth leaves almost no residuals. To \

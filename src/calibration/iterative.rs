@@ -116,7 +116,7 @@ impl Plan {
     ///
     /// # Errors
     /// The first three of [`NoIterativeSolution`].
-    pub fn new(coefficients: &Coefficients, currents_ma: &[Vector2<f64>]) -> Result<Self, NoIterativeSolution> {
+    pub(crate) fn new(coefficients: &Coefficients, currents_ma: &[Vector2<f64>]) -> Result<Self, NoIterativeSolution> {
         let (found, expected) = (currents_ma.len(), coefficients.positions.len());
         if found != expected {
             return Err(NoIterativeSolution::WrongNumberOfCurrents { found, expected });

@@ -30,7 +30,7 @@ const SETTLED: f64 = 1e-6;
 
 /// The parameters that fit all readings best.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LeastSquaresSolution {
+pub(crate) struct LeastSquaresSolution {
     /// K, ω_0, ω_g, ω_k.
     pub parameters: GyroParameters,
     /// The anisoelastic coefficient, when asked for.
@@ -82,7 +82,7 @@ fn inseparable(groups: &[Vec<Parameter>], condition: f64) -> String {
 ///
 /// # Errors
 /// See [`NoLeastSquares`].
-pub fn solve(
+pub(crate) fn solve(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],
     meter: &MeterUncertainty,

@@ -11,10 +11,10 @@ use nalgebra::Vector2;
 use std::collections::BTreeMap;
 
 /// The columns that the file must have.
-pub const COLUMNS: [&str; 4] = ["i", "j", "jx_ma", "jy_ma"];
+pub(crate) const COLUMNS: [&str; 4] = ["i", "j", "jx_ma", "jy_ma"];
 
 /// The columns that it may have.
-pub const OPTIONAL_COLUMNS: [&str; 3] = ["cycle", "visit", "time_s"];
+pub(crate) const OPTIONAL_COLUMNS: [&str; 3] = ["cycle", "visit", "time_s"];
 
 /// One row: the currents read once.
 #[derive(Debug, Clone, Copy, PartialEq)]

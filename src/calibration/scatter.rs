@@ -13,7 +13,7 @@ use crate::statistics::scaled_f::{Part, ScaledF};
 use nalgebra::{Matrix2, Vector2};
 
 /// Scatter with a smaller probability than this, of more or of less, is not what was stated.
-pub const IMPROBABLE: f64 = 0.001;
+pub(crate) const IMPROBABLE: f64 = 0.001;
 
 /// A scatter against what was stated of it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -55,7 +55,7 @@ impl NotStated {
 
 /// What the files state, and what they do not.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Stated {
+pub(crate) struct Stated {
     /// Standard uncertainties; what is not stated is taken as exact.
     pub uncertainty: InputUncertainty,
     /// What is not stated.
@@ -64,7 +64,7 @@ pub struct Stated {
 
 impl Stated {
     /// From the certificate and its positions, the site, and the laboratory.
-    pub fn new(
+    pub(crate) fn new(
         certificate: &Certificate,
         positions: &[CertifiedPosition],
         site: &Site,
@@ -143,7 +143,7 @@ fn of_common(certificate: &Certificate, on: ActsOn, common_arcsec: Option<f64>) 
 }
 
 /// Words, when the laboratory's temperature is outside the range for which the deviations are certified.
-pub fn temperature_remark(certificate: &Certificate, laboratory: &Laboratory) -> Option<String> {
+pub(crate) fn temperature_remark(certificate: &Certificate, laboratory: &Laboratory) -> Option<String> {
     let here = laboratory.temperature_c?;
     let [low, high] = certificate.temperature_range_c?;
     (!(low..=high).contains(&here)).then(|| {

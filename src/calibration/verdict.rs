@@ -9,7 +9,7 @@ use crate::statistics::distributions::normal_below;
 use serde::Serialize;
 
 /// Expanded uncertainty is this many standard uncertainties.
-pub const COVERAGE_FACTOR: f64 = 2.0;
+pub(crate) const COVERAGE_FACTOR: f64 = 2.0;
 
 /// The parameters that are drifts per g.
 const PER_G: [Parameter; 2] = [Parameter::OmegaG, Parameter::OmegaK];
@@ -156,7 +156,7 @@ fn compare(found: &Found, reference: &Found, gyro_type: &GyroType) -> Verdict {
 
 /// The change of each parameter since an earlier result, in units of the change's standard uncertainty, in the order of
 /// [`Parameter::EIGHT`]; drifts brought to the same g.
-pub fn change_in_uncertainties(found: &Found, earlier: &Found) -> [f64; 8] {
+pub(crate) fn change_in_uncertainties(found: &Found, earlier: &Found) -> [f64; 8] {
     let gravity = found.gravity_m_per_s2;
     let brought = |one: &Found, other: &Found| one.under_the_same_gravity(other).at_gravity(gravity);
     let (found, earlier) = (brought(found, earlier), brought(earlier, found));

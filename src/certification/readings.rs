@@ -14,10 +14,10 @@ use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The columns of the file.
-pub const COLUMNS: [&str; 6] = ["i", "j", "run", "alpha_arcsec", "beta_arcsec", "gamma_arcsec"];
+pub(crate) const COLUMNS: [&str; 6] = ["i", "j", "run", "alpha_arcsec", "beta_arcsec", "gamma_arcsec"];
 
 /// Farther than this from the other runs a reading is a slip, not scatter: a stand that repeats to 10′ alone is none.
-pub const LARGEST_SCATTER_ARCSEC: f64 = 600.0;
+pub(crate) const LARGEST_SCATTER_ARCSEC: f64 = 600.0;
 
 /// Readings of every position in every run.
 #[derive(Debug, Clone, PartialEq)]

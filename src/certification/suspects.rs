@@ -7,16 +7,16 @@ use crate::coefficients::PositionIndex;
 use crate::statistics::outlier::{Bartlett, bartlett, bonferroni_student, cochran_probability};
 
 /// What is less probable than this is named (a straggler, by [ISO 5725-2](crate::bibliography::Bibliography::Iso5725)).
-pub const STRAGGLER: f64 = 0.05;
+pub(crate) const STRAGGLER: f64 = 0.05;
 
 /// What is less probable than this is called an outlier.
-pub const OUTLIER: f64 = 0.01;
+pub(crate) const OUTLIER: f64 = 0.01;
 
 /// The names of the axes of the case, in whose turns scatter is measured.
-pub const AXES: [&str; 3] = ["x", "y", "z"];
+pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// The largest number of readings that are looked for; of more it cannot be said which are wrong.
-pub const MOST_OUTLIERS: usize = 4;
+pub(crate) const MOST_OUTLIERS: usize = 4;
 
 /// Two runs agree too well when the square of their difference is less than this share of that of pairs usually.
 const TOO_WELL: f64 = 1e-3;

@@ -18,7 +18,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 #[derive(Args)]
-pub struct BatchOptions {
+pub(super) struct BatchOptions {
     /// Private key file, or a .pub file whose private half is in ssh-agent or a FIDO token
     #[arg(long, value_name = "KEY", required_unless_present = "dry_run")]
     key: Option<PathBuf>,
@@ -47,12 +47,12 @@ pub struct BatchOptions {
 
 impl BatchOptions {
     /// The key, unless nothing is going to be signed.
-    pub fn signer(&self) -> Result<Option<Box<dyn Signer + Sync>>, Failure> {
+    pub(super) fn signer(&self) -> Result<Option<Box<dyn Signer + Sync>>, Failure> {
         self.key.as_deref().filter(|_| !self.dry_run).map(signer_of).transpose()
     }
 
     /// The folder of passports at `root`.
-    pub fn folder(&self, root: &Path) -> Folder {
+    pub(super) fn folder(&self, root: &Path) -> Folder {
         Folder::new(root).with_durability(self.durability())
     }
 
@@ -61,7 +61,7 @@ impl BatchOptions {
     }
 
     /// Does a batch; what becomes of it is reported as it goes on.
-    pub fn run(
+    pub(super) fn run(
         &self,
         signer: Option<&(dyn Signer + Sync)>,
         trust: Option<&Trust>,

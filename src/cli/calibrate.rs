@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 
 /// Calibrate a gyro: parameters, their uncertainty, the fit, and the decision for its type
 #[derive(Args)]
-pub struct Options {
+pub(super) struct Options {
     #[command(flatten)]
     passport: PassportOptions,
     /// Currents: CSV with the header i,j,jx_ma,jy_ma and optionally cycle, visit, time_s; without visit, successive
@@ -73,7 +73,7 @@ fn limit(text: &str) -> Result<f64, String> {
     value.ok_or_else(|| "a number ≥ 0, with a decimal point".to_owned())
 }
 
-pub fn run(options: &Options) -> Result<Code, Failure> {
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let Read { content, bytes: passport, verification } = options.passport.read()?;
     let verified = verification.is_some();
     let laboratory = read_laboratory(options.laboratory.as_deref())?;
@@ -177,7 +177,7 @@ fn used<'a>(
 }
 
 /// Reads a laboratory file; the paper's meter without one.
-pub fn read_laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
+pub(super) fn read_laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
     let Some(path) = path else { return Ok(Laboratory::paper()) };
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
     Laboratory::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 /// Certify a stand from repeated readings of its angles, or check that it has not changed
 #[derive(Args)]
-pub struct Options {
+pub(super) struct Options {
     /// Angles: CSV with the header i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec, and every position in every run
     #[arg(value_name = "READINGS.csv")]
     readings: PathBuf,
@@ -34,7 +34,7 @@ pub struct Options {
     format: Format,
 }
 
-pub fn run(options: &Options) -> Result<Code, Failure> {
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let against = options.against.as_deref().map(read_stand).transpose()?;
     let header = match (&options.stand, &against) {
         (Some(path), _) => {

@@ -6,12 +6,12 @@ use clap_complete::Shell;
 
 /// Print the completion script for a shell
 #[derive(Args)]
-pub struct Options {
+pub(super) struct Options {
     /// Shell
     shell: Shell,
 }
 
-pub fn run(options: &Options) -> Result<Code, Failure> {
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let mut script = Vec::new();
     clap_complete::generate(options.shell, &mut Cli::command(), "dtg-passport", &mut script);
     output::own(&String::from_utf8_lossy(&script))?;

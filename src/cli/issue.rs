@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 /// STAND and SITE are files, quoted patterns, or folders. For a folder, STAND means every stand.yaml below it, and SITE
 /// every *.yaml in it (also .yml). A - reads a list of paths from standard input, separated by line feeds or NUL.
 #[derive(Args)]
-pub struct Options {
+pub(super) struct Options {
     /// Stand files (dtg-stand/1)
     #[arg(required = true, value_name = "STAND")]
     stands: Vec<PathBuf>,
@@ -56,7 +56,7 @@ pub struct Options {
     trust: Option<PathBuf>,
 }
 
-pub fn run(options: &Options) -> Result<Code, Failure> {
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let list = Path::new("-");
     if options.stands.iter().chain(&options.sites).filter(|path| *path == list).count() > 1 {
         return Err(Failure::unusable("standard input can be only one list: of stands or of sites"));
@@ -89,13 +89,13 @@ fn stated(options: &Options) -> Result<Stated, Failure> {
 }
 
 /// Reads a stand file.
-pub fn read_stand(path: &Path) -> Result<Stand, Failure> {
+pub(super) fn read_stand(path: &Path) -> Result<Stand, Failure> {
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
     Stand::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)
 }
 
 /// Reads a site file.
-pub fn read_site(path: &Path) -> Result<Site, Failure> {
+pub(super) fn read_site(path: &Path) -> Result<Site, Failure> {
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
     let site = Site::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)?;
     if let Some(words) = site.remark(path) {

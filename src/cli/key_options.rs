@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use zeroize::Zeroizing;
 
 #[derive(Args)]
-pub struct KeyOptions {
+pub(super) struct KeyOptions {
     /// Private key file, or a .pub file whose private half is in ssh-agent or a FIDO token
     #[arg(long, value_name = "KEY")]
     pub key: PathBuf,
@@ -22,18 +22,18 @@ pub struct KeyOptions {
 }
 
 impl KeyOptions {
-    pub fn signer(&self) -> Result<Box<dyn Signer + Sync>, Failure> {
+    pub(super) fn signer(&self) -> Result<Box<dyn Signer + Sync>, Failure> {
         signer_of(&self.key)
     }
 }
 
 /// An identity as the options take it.
-pub fn identity(text: &str) -> Result<String, BadIdentity> {
+pub(super) fn identity(text: &str) -> Result<String, BadIdentity> {
     check_identity(text).map(|()| text.to_owned())
 }
 
 /// The signer for a key file.
-pub fn signer_of(key: &Path) -> Result<Box<dyn Signer + Sync>, Failure> {
+pub(super) fn signer_of(key: &Path) -> Result<Box<dyn Signer + Sync>, Failure> {
     signing::forbid_core_dumps();
     signing::signer(key, &ask).map_err(Failure::unusable)
 }
@@ -44,7 +44,7 @@ fn ask(key: &Path) -> Result<Zeroizing<String>, String> {
 }
 
 /// A passphrase from the environment, or from the terminal.
-pub fn passphrase(prompt: &str) -> Result<Zeroizing<String>, String> {
+pub(super) fn passphrase(prompt: &str) -> Result<Zeroizing<String>, String> {
     if let Ok(passphrase) = std::env::var(PASSPHRASE_VARIABLE) {
         return Ok(Zeroizing::new(passphrase));
     }

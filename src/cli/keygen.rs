@@ -15,7 +15,7 @@ use zeroize::Zeroizing;
 /// The program asks for the passphrase, or reads it from DTG_PASSPORT_PASSPHRASE.
 #[derive(Args)]
 #[command(verbatim_doc_comment)]
-pub struct Options {
+pub(super) struct Options {
     /// Private key file to write; an existing file is not replaced
     key: PathBuf,
     /// Owner of the key: the issuer in allowed_signers and passports [default: the file name]
@@ -29,7 +29,7 @@ pub struct Options {
     no_passphrase: bool,
 }
 
-pub fn run(options: &Options) -> Result<Code, Failure> {
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let stem = options.key.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let identity = options.identity.clone().or(stem).unwrap_or_default();
     let public_path = with_pub(&options.key);

@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// The form of a result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Format {
+pub(super) enum Format {
     /// Text for a terminal
     Text,
     /// JSON for programs
@@ -19,7 +19,7 @@ pub enum Format {
 
 /// The form of a result that is a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum TableFormat {
+pub(super) enum TableFormat {
     /// Text for a terminal
     Text,
     /// JSON for programs
@@ -29,12 +29,12 @@ pub enum TableFormat {
 }
 
 /// Writes a result: nothing of what a terminal obeys but its line feeds and emphasis.
-pub fn result(text: &str) -> Result<(), Failure> {
+pub(super) fn result(text: &str) -> Result<(), Failure> {
     own(&style::outgoing(text))
 }
 
 /// Writes to the byte what holds nobody's words but the program's.
-pub fn own(text: &str) -> Result<(), Failure> {
+pub(super) fn own(text: &str) -> Result<(), Failure> {
     // Emphasis goes to a terminal alone, and never where NO_COLOR is set.
     let mut stdout = anstream::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
@@ -46,18 +46,18 @@ pub fn own(text: &str) -> Result<(), Failure> {
 }
 
 /// Writes a result as JSON.
-pub fn json(value: &impl serde::Serialize) -> Result<(), Failure> {
+pub(super) fn json(value: &impl serde::Serialize) -> Result<(), Failure> {
     let text = printable::json(value).map_err(Failure::unusable)?;
     result(&(text + "\n"))
 }
 
 /// Writes a result's file. One that exists is replaced on request alone.
-pub fn file(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
+pub(super) fn file(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
     files::write_replaceable(path, text.as_bytes(), force).map_err(Failure::file)
 }
 
 /// Writes words about a result. Nothing is to be done when even standard error is closed.
-pub fn say(words: &str) {
+pub(super) fn say(words: &str) {
     let lines: Vec<String> = words.trim_end().split('\n').map(printable).collect();
     let _ = writeln!(io::stderr().lock(), "dtg-passport: {}", lines.join("\n              "));
 }

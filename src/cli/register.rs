@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 /// List every passport under a folder: in force, superseded, moved, expired, revoked, broken
 #[derive(Args)]
-pub struct Options {
+pub(super) struct Options {
     /// Folder of passports; revocation lists in it and up to two levels above are used too
     #[arg(value_name = "DIR")]
     folder: PathBuf,
@@ -37,7 +37,7 @@ enum By {
     Issuer,
 }
 
-pub fn run(options: &Options) -> Result<Code, Failure> {
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let asked = Asked { question, within_days: options.within };
     let register = search::register(&options.folder, trust, &asked, parallel::processors());
@@ -60,7 +60,11 @@ pub fn run(options: &Options) -> Result<Code, Failure> {
 }
 
 /// The register that a passport is asked about in, and the trust that knows what the lists in its folder withdraw.
-pub fn asked(folder: Option<&Path>, trust: Trust, question: &Question) -> Result<(Option<Register>, Trust), Failure> {
+pub(super) fn asked(
+    folder: Option<&Path>,
+    trust: Trust,
+    question: &Question,
+) -> Result<(Option<Register>, Trust), Failure> {
     let Some(folder) = folder else { return Ok((None, trust)) };
     let (register, trust) = search::register(folder, trust, &Asked::at(question.time), parallel::processors())
         .map_err(Failure::unusable)?;

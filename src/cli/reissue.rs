@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// PASSPORT is a file, a quoted pattern, or a folder; a - reads a list of paths from standard input. For a folder, the
 /// passports that the register shows as in force or expired are re-issued; with --stand only those of these stands.
 #[derive(Args)]
-pub struct Options {
+pub(super) struct Options {
     /// Predecessors
     #[arg(required = true, value_name = "PASSPORT")]
     passports: Vec<PathBuf>,
@@ -54,7 +54,7 @@ pub struct Options {
     valid_until: Option<Date>,
 }
 
-pub fn run(options: &Options) -> Result<Code, Failure> {
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let list = Path::new("-");
     let lists = options.passports.iter().filter(|path| *path == list).count();
     if lists > 1 || options.stands.iter().chain(&options.sites).any(|path| path == list) {

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 
 /// Write the printed passport: one HTML file for paper, screen and phone
 #[derive(Args)]
-pub struct Options {
+pub(super) struct Options {
     /// Passport file
     #[arg(value_name = "PASSPORT")]
     passport: PathBuf,
@@ -49,13 +49,13 @@ impl From<Written> for Language {
 }
 
 /// The languages of a page; English when none is named.
-pub fn languages(written: &[Written]) -> Languages {
+pub(super) fn languages(written: &[Written]) -> Languages {
     let mut languages = written.iter().copied().map(Language::from);
     let first = languages.next().unwrap_or(Language::English);
     Languages::new(first, languages)
 }
 
-pub fn run(options: &Options) -> Result<Code, Failure> {
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let (register, trust) = register::asked(options.register.as_deref(), trust, &question)?;
     let bytes = files::read(&options.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;

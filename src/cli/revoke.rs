@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 /// Withdraw passports: add them to the signed list in a folder
 #[derive(Args)]
-pub struct Options {
+pub(super) struct Options {
     /// Identifiers (model/serial/site/revision, looked up in --passports) or files
     #[arg(required = true, value_name = "PASSPORT-ID")]
     ids: Vec<String>,
@@ -34,7 +34,7 @@ pub struct Options {
     trust: TrustOptions,
 }
 
-pub fn run(options: &Options) -> Result<Code, Failure> {
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let lists = search::lists(&options.list, &trust, question.time).map_err(|error| match error {
         NoNewestList::File(error) => Failure::unusable(error),

@@ -16,7 +16,7 @@ enum Kind {
 
 /// Print the JSON Schema of a format (for several, an object with one for each name), or tables of its keys
 #[derive(Args)]
-pub struct Options {
+pub(super) struct Options {
     /// Formats
     #[arg(required = true, value_enum, value_delimiter = ',', value_name = "FORMAT")]
     formats: Vec<Kind>,
@@ -33,7 +33,7 @@ enum Form {
     Markdown,
 }
 
-pub fn run(options: &Options) -> Result<Code, Failure> {
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let of = |kind: &Kind| match kind {
         Kind::Stand => ("stand", schema::stand()),
         Kind::Site => ("site", schema::site()),

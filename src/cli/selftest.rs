@@ -8,13 +8,13 @@ use clap::Args;
 
 /// Compare the computations on this machine with published reference cases
 #[derive(Args)]
-pub struct Options {
+pub(super) struct Options {
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
 
-pub fn run(options: &Options) -> Result<Code, Failure> {
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let cases = selftest::run();
     match options.format {
         Format::Json => output::json(&report::to_json(&cases))?,

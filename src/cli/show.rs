@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 /// Show a passport as tables, or in full as JSON for tools without YAML
 #[derive(Args)]
-pub struct Options {
+pub(super) struct Options {
     #[command(flatten)]
     passport: PassportOptions,
     /// Output format
@@ -23,7 +23,7 @@ pub struct Options {
 /// A passport that is used: verified, or, said loudly, not.
 #[derive(Args)]
 #[command(group(ArgGroup::new("whom").required(true).args(["trust", "no_verify"])))]
-pub struct PassportOptions {
+pub(super) struct PassportOptions {
     /// Passport file
     #[arg(value_name = "PASSPORT")]
     passport: PathBuf,
@@ -41,7 +41,7 @@ pub struct PassportOptions {
 }
 
 /// What was read, and how it was verified.
-pub struct Read {
+pub(super) struct Read {
     pub content: Content,
     pub bytes: Vec<u8>,
     /// The answer, and by what; none when nothing was verified.
@@ -50,7 +50,7 @@ pub struct Read {
 
 impl PassportOptions {
     /// Reads the passport; one that fails a check is refused with its verdict.
-    pub fn read(&self) -> Result<Read, Failure> {
+    pub(super) fn read(&self) -> Result<Read, Failure> {
         let bytes = files::read(&self.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
         let name = name_of(&self.passport);
         let Some(signers) = &self.trust else {
@@ -74,7 +74,7 @@ impl PassportOptions {
     }
 }
 
-pub fn run(options: &Options) -> Result<Code, Failure> {
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let Read { content, verification, .. } = options.passport.read()?;
     match options.format {
         Format::Json => output::json(&content.write())?,

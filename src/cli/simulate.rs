@@ -23,7 +23,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Simulate calibrations: the paper's table and its Fig. 4
 #[derive(Args)]
-pub struct Options {
+pub(super) struct Options {
     #[command(subcommand)]
     what: What,
 }
@@ -139,7 +139,7 @@ fn bounded(text: &str, low: f64, high: f64) -> Result<f64, String> {
         .ok_or_else(|| format!("a number from {low} to {high}, with a decimal point"))
 }
 
-pub fn run(options: &Options) -> Result<Code, Failure> {
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     match &options.what {
         What::Accuracy(arguments) => run_accuracy(arguments),
         What::Convergence(arguments) => run_convergence(arguments),
@@ -198,7 +198,7 @@ fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
 }
 
 /// Reads a gyro type.
-pub fn read_gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
+pub(super) fn read_gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
     let Some(path) = path else { return Ok(None) };
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
     GyroType::from_yaml(&name_of(path), &bytes).map(Some).map_err(Failure::unreadable)

@@ -14,7 +14,7 @@ use jiff::civil::Date;
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
-pub struct TrustFiles {
+pub(super) struct TrustFiles {
     /// Trusted signing keys: an OpenSSH allowed_signers file
     #[arg(long, value_name = "SIGNERS")]
     trust: PathBuf,
@@ -24,7 +24,7 @@ pub struct TrustFiles {
 }
 
 #[derive(Args)]
-pub struct Asked {
+pub(super) struct Asked {
     /// Require this issuer
     #[arg(long, value_name = "WHO")]
     issuer: Option<String>,
@@ -40,7 +40,7 @@ pub struct Asked {
 }
 
 #[derive(Args)]
-pub struct TrustOptions {
+pub(super) struct TrustOptions {
     #[command(flatten)]
     files: TrustFiles,
     #[command(flatten)]
@@ -48,14 +48,14 @@ pub struct TrustOptions {
 }
 
 impl TrustOptions {
-    pub fn load(&self) -> Result<(Trust, Question), Failure> {
+    pub(super) fn load(&self) -> Result<(Trust, Question), Failure> {
         let question = self.asked.question();
         Ok((load(&self.files.trust, &self.files.revoked, question.time)?, question))
     }
 }
 
 impl Asked {
-    pub fn question(&self) -> Question {
+    pub(super) fn question(&self) -> Question {
         Question {
             time: self.time.unwrap_or_else(now),
             issuer: self.issuer.clone(),
@@ -66,7 +66,7 @@ impl Asked {
 }
 
 /// Reads the trust files. Lists of withdrawn passports are verified at `time`; the newest of them counts.
-pub fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Result<Trust, Failure> {
+pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Result<Trust, Failure> {
     let read = |path: &Path| files::read(path, LARGEST_TRUST_FILE_BYTES).map_err(Failure::unusable);
     let name = |path: &Path| name_of(path);
     let mut trust = Trust::of(AllowedSigners::parse(&name(signers), &read(signers)?).map_err(Failure::unusable)?);
@@ -94,7 +94,7 @@ pub fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Result<Trus
 }
 
 /// A time as the options take it.
-pub fn time(text: &str) -> Result<Timestamp, String> {
+pub(super) fn time(text: &str) -> Result<Timestamp, String> {
     if let Ok(date) = date(text) {
         return Ok(day(date).0);
     }
@@ -106,7 +106,7 @@ pub fn time(text: &str) -> Result<Timestamp, String> {
 }
 
 /// A day as the options take it. A day with a time and no zone is none: whose day would that be?
-pub fn date(text: &str) -> Result<Date, String> {
+pub(super) fn date(text: &str) -> Result<Date, String> {
     let date = text.parse::<Date>().ok().filter(|date| date.to_string() == text);
     date.ok_or_else(|| "a UTC date such as 2026-11-02".to_owned())
 }
@@ -126,7 +126,7 @@ fn place(text: &str) -> Result<Place, String> {
 }
 
 /// The clock, in whole seconds: what a passport states.
-pub fn now() -> Timestamp {
+pub(super) fn now() -> Timestamp {
     let now = Timestamp::now();
     Timestamp::from_second(now.as_second()).unwrap_or(now)
 }

@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 const LONG: Duration = Duration::from_secs(10);
 
 #[derive(Args)]
-pub struct UncertaintyOptions {
+pub(super) struct UncertaintyOptions {
     /// Uncertainty budget: contribution of every input to every parameter
     #[arg(long)]
     budget: bool,
@@ -53,31 +53,31 @@ fn trials(text: &str) -> Result<u64, String> {
 }
 
 /// What was asked for.
-pub struct Found {
+pub(super) struct Found {
     budget: Option<(Budget, Option<String>)>,
     monte_carlo: Option<MonteCarlo>,
 }
 
 impl Found {
     /// For people; empty when nothing was asked for.
-    pub fn text(&self) -> String {
+    pub(super) fn text(&self) -> String {
         let budget = self.budget.as_ref().map(|(budget, words)| budget_report::text(budget, words.as_deref()));
         let trials = self.monte_carlo.as_ref().map(monte_carlo_report::text);
         budget.unwrap_or_default() + &trials.unwrap_or_default()
     }
 
     /// The budget.
-    pub fn budget(&self) -> Option<&Budget> {
+    pub(super) fn budget(&self) -> Option<&Budget> {
         self.budget.as_ref().map(|(budget, _)| budget)
     }
 
     /// The Monte Carlo.
-    pub fn monte_carlo(&self) -> Option<&MonteCarlo> {
+    pub(super) fn monte_carlo(&self) -> Option<&MonteCarlo> {
         self.monte_carlo.as_ref()
     }
 
     /// For programs.
-    pub fn documents(&self) -> (Option<BudgetDocument>, Option<MonteCarloDocument>) {
+    pub(super) fn documents(&self) -> (Option<BudgetDocument>, Option<MonteCarloDocument>) {
         let budget = self.budget.as_ref().map(|(budget, words)| BudgetDocument::new(budget, words.clone()));
         (budget, self.monte_carlo.as_ref().map(MonteCarloDocument::new))
     }
@@ -85,7 +85,7 @@ impl Found {
 
 impl UncertaintyOptions {
     /// Whether anything is asked for.
-    pub fn find(
+    pub(super) fn find(
         &self,
         setup: &Setup,
         readings: &Readings,

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 /// Check that a passport is valid for this stand, place and time
 #[derive(Args)]
-pub struct Options {
+pub(super) struct Options {
     /// Passport files
     #[arg(required = true, value_name = "PASSPORT")]
     passports: Vec<PathBuf>,
@@ -27,7 +27,7 @@ pub struct Options {
     format: Format,
 }
 
-pub fn run(options: &Options) -> Result<Code, Failure> {
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let (register, trust) = register::asked(options.register.as_deref(), trust, &question)?;
     let mut code = 0;

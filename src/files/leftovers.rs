@@ -19,7 +19,7 @@ pub(super) const SUFFIX: &str = ".tmp";
 /// Removes from a folder the temporary files that belong to no living run; gives how many.
 ///
 /// What cannot be looked at or removed stays: it is in nobody's way.
-pub fn remove(folder: &Path) -> usize {
+pub(crate) fn remove(folder: &Path) -> usize {
     let Ok(entries) = fs::read_dir(folder) else { return 0 };
     let ours = entries.flatten().filter(|entry| {
         // A link or a folder of that name is not ours.
@@ -29,7 +29,7 @@ pub fn remove(folder: &Path) -> usize {
 }
 
 /// Returns `true` if a file is not named as the temporary files of a run are.
-pub fn is_lasting(name: &OsStr) -> bool {
+pub(crate) fn is_lasting(name: &OsStr) -> bool {
     let name = name.to_string_lossy();
     !(name.starts_with(PREFIX) && name.ends_with(SUFFIX))
 }

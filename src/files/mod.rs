@@ -77,7 +77,7 @@ impl FileError {
 }
 
 /// What the system says, in words for those who do not know its error numbers.
-pub fn reason(error: &io::Error) -> String {
+pub(crate) fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "no such file or folder".to_owned(),
         io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
@@ -91,7 +91,7 @@ pub fn reason(error: &io::Error) -> String {
 ///
 /// # Errors
 /// [`FileError::Read`], [`FileError::Folder`], [`FileError::Special`], [`FileError::TooLarge`].
-pub fn read(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
+pub(crate) fn read(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     read_into(&mut bytes, path, limit)?;
     Ok(bytes)
@@ -101,7 +101,7 @@ pub fn read(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
 ///
 /// # Errors
 /// As [`read`].
-pub fn read_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(), FileError> {
+pub(crate) fn read_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(), FileError> {
     read_first_into(bytes, path, limit + 1)?;
     if bytes.len() > limit {
         return Err(FileError::TooLarge { path: path.to_owned(), limit });
@@ -113,7 +113,7 @@ pub fn read_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(), F
 ///
 /// # Errors
 /// [`FileError::Read`], [`FileError::Folder`], [`FileError::Special`].
-pub fn read_first(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
+pub(crate) fn read_first(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     read_first_into(&mut bytes, path, limit)?;
     Ok(bytes)
@@ -155,7 +155,7 @@ fn open(path: &Path) -> io::Result<File> {
 
 /// Who may read a new file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Access {
+pub(crate) enum Access {
     /// Everybody whom the user's umask lets.
     Shared,
     /// The user alone (mode 0600): private keys.
@@ -182,7 +182,7 @@ const ATTEMPTS: usize = 4;
 ///
 /// # Errors
 /// [`FileError::Exists`] when something of that name is there, [`FileError::Write`].
-pub fn write_new(path: &Path, bytes: &[u8], access: Access) -> Result<(), FileError> {
+pub(crate) fn write_new(path: &Path, bytes: &[u8], access: Access) -> Result<(), FileError> {
     write_new_as(path, bytes, access, Durability::Named)
 }
 
@@ -190,7 +190,7 @@ pub fn write_new(path: &Path, bytes: &[u8], access: Access) -> Result<(), FileEr
 ///
 /// # Errors
 /// As [`write_new`].
-pub fn write_new_as(path: &Path, bytes: &[u8], access: Access, durability: Durability) -> Result<(), FileError> {
+pub(crate) fn write_new_as(path: &Path, bytes: &[u8], access: Access, durability: Durability) -> Result<(), FileError> {
     let persist = |temporary: NamedTempFile| temporary.persist_noclobber(path);
     write(path, bytes, access, durability, persist, false)
 }
@@ -200,7 +200,7 @@ pub fn write_new_as(path: &Path, bytes: &[u8], access: Access, durability: Durab
 ///
 /// # Errors
 /// As [`write_new`].
-pub fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
+pub(crate) fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
     if path.metadata().is_ok_and(|there| !there.is_file()) || (force && is_irreplaceable(path)) {
         return Err(FileError::Exists { path: path.to_owned(), replaceable: false });
     }
@@ -225,7 +225,7 @@ fn is_irreplaceable(path: &Path) -> bool {
 ///
 /// # Errors
 /// [`FileError::Write`], also for what is no regular file; the old content is then as it was.
-pub fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+pub(crate) fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let permissions = match fs::metadata(&target) {
         Ok(found) if !found.is_file() => {
@@ -246,7 +246,7 @@ pub fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
 
 /// Waits until no other run has its turn in a folder; the turn ends when what is returned is dropped. `None` where the
 /// file system knows no locks of folders.
-pub fn wait_for_turn(folder: &Path) -> Option<File> {
+pub(crate) fn wait_for_turn(folder: &Path) -> Option<File> {
     File::open(folder).ok().filter(|folder| folder.lock().is_ok())
 }
 
@@ -282,7 +282,7 @@ fn write(
 }
 
 /// The folder that a file is in.
-pub fn folder_of(path: &Path) -> &Path {
+pub(crate) fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
@@ -348,7 +348,7 @@ fn builder(access: Access) -> tempfile::Builder<'static, 'static> {
 /// # Errors
 /// What the system says.
 #[cfg(unix)]
-pub fn sync_folder(folder: &Path) -> io::Result<()> {
+pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {
     File::open(folder)?.sync_all()
 }
 

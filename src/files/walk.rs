@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 /// Something under a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Entry {
+pub(crate) enum Entry {
     /// A file of a wanted name.
     File(PathBuf),
     /// A link of a wanted name, or to a folder; it was not followed.
@@ -19,7 +19,7 @@ pub enum Entry {
 
 /// Walks through a folder. It holds the wanted names of the folders from the top to where it is, and nothing of other
 /// files however many there are.
-pub struct Walk {
+pub(crate) struct Walk {
     wanted: fn(&OsStr) -> bool,
     deep: bool,
     next: Option<PathBuf>,
@@ -41,12 +41,12 @@ enum Kind {
 
 impl Walk {
     /// Files of wanted names under `root`, at any depth.
-    pub fn deep(root: &Path, wanted: fn(&OsStr) -> bool) -> Self {
+    pub(crate) fn deep(root: &Path, wanted: fn(&OsStr) -> bool) -> Self {
         Self { wanted, deep: true, next: Some(root.to_owned()), levels: Vec::new() }
     }
 
     /// Files of wanted names in `root` itself.
-    pub fn flat(root: &Path, wanted: fn(&OsStr) -> bool) -> Self {
+    pub(crate) fn flat(root: &Path, wanted: fn(&OsStr) -> bool) -> Self {
         Self { deep: false, ..Self::deep(root, wanted) }
     }
 

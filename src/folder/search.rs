@@ -22,7 +22,7 @@ const LEVELS_ABOVE: usize = 2;
 
 /// What a folder holds.
 #[derive(Debug, Default)]
-pub struct Found {
+pub(crate) struct Found {
     /// Files, sorted; the temporary files of runs are left out.
     pub files: Vec<PathBuf>,
     /// Links to folders, or named as YAML: they may lead out of the folder, and were not followed.
@@ -37,7 +37,7 @@ pub struct Found {
 ///
 /// # Errors
 /// [`FileError::Read`] when `root` cannot be read; of a folder below it is told in what is found.
-pub fn find(root: &Path) -> Result<Found, FileError> {
+pub(crate) fn find(root: &Path) -> Result<Found, FileError> {
     let mut found = Found::default();
     for entry in Walk::deep(root, is_lasting) {
         match entry {
@@ -196,7 +196,7 @@ fn lists_above(root: &Path) -> Vec<Claimed> {
 /// Why no list follows those in a folder.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum NoNewestList {
+pub(crate) enum NoNewestList {
     /// Something cannot be read that may be a list.
     #[error(transparent)]
     File(#[from] FileError),
@@ -213,7 +213,7 @@ pub enum NoNewestList {
 /// # Errors
 /// See [`NoNewestList`]: nothing may be added to lists of which one is damaged, missing, contradictory, or of a signer who
 /// is not trusted.
-pub fn lists(folder: &Path, trust: &Trust, time: Timestamp) -> Result<Series, NoNewestList> {
+pub(crate) fn lists(folder: &Path, trust: &Trust, time: Timestamp) -> Result<Series, NoNewestList> {
     if !folder.exists() {
         return Ok(Series::default());
     }
@@ -245,7 +245,7 @@ fn unreadable(root: &Path, error: &FileError) -> Alarm {
 }
 
 /// Returns `true` if a file is named as passports and lists are, `<name>-<number>.yaml`.
-pub fn is_numbered(name: &OsStr) -> bool {
+pub(crate) fn is_numbered(name: &OsStr) -> bool {
     numbered(name).is_some()
 }
 

@@ -14,7 +14,7 @@ pub(crate) fn payload(content: &Content) -> String {
 }
 
 /// The part of the payload that is the same at every site: the keys of [`Stand`] but for its format.
-pub fn payload_of_stand(stand: &Stand, has_matrices: bool) -> String {
+pub(crate) fn payload_of_stand(stand: &Stand, has_matrices: bool) -> String {
     let of_certificate =
         || absent_of_certificate(&stand.certificate, &stand.positions, stand.datum.as_ref(), has_matrices);
     let mut text = String::new();
@@ -23,7 +23,7 @@ pub fn payload_of_stand(stand: &Stand, has_matrices: bool) -> String {
 }
 
 /// The payload of a passport of a stand whose part of it is known: see [`payload_of_stand`].
-pub fn payload_with(content: &Content, of_stand: &str) -> String {
+pub(crate) fn payload_with(content: &Content, of_stand: &str) -> String {
     let mut text = String::with_capacity(2 * of_stand.len() + 6000);
     let comments = |path: &str| comments(content, path);
     canonical::write_some(&mut text, content, &comments, &|key| matches!(key, "format" | "passport"));
@@ -35,7 +35,7 @@ pub fn payload_with(content: &Content, of_stand: &str) -> String {
 
 /// What a passport cannot state because it was not given.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Absence {
+pub(crate) enum Absence {
     /// Of some deviation the uncertainty.
     Uncertainty,
     /// The repeatability of a return.
@@ -125,12 +125,12 @@ impl Absence {
 }
 
 /// What this passport cannot state because it was not given, and what that costs; each one sentence in ASCII.
-pub fn absences(content: &Content) -> Vec<String> {
+pub(crate) fn absences(content: &Content) -> Vec<String> {
     sentences(absent(content))
 }
 
 /// What this passport cannot state because it was not given.
-pub fn absent(content: &Content) -> Vec<Absence> {
+pub(crate) fn absent(content: &Content) -> Vec<Absence> {
     let mut absent = of_the_certificate(content);
     absent.extend(of_the_site(content));
     absent

@@ -17,7 +17,7 @@ use jiff::civil::Date;
 use nalgebra::{Matrix2, Vector2};
 
 /// The format of a passport.
-pub const PASSPORT_FORMAT: &str = "dtg-passport/1";
+pub(crate) const PASSPORT_FORMAT: &str = "dtg-passport/1";
 
 record! {
     /// Predecessor: the passport that was re-issued.
@@ -160,11 +160,11 @@ record! {
 }
 
 /// Largest |found/stated − 1| of a parameter when the self-check is calibrated again.
-pub const SELF_CHECK_LIMIT: f64 = 1e-9;
+pub(crate) const SELF_CHECK_LIMIT: f64 = 1e-9;
 
 /// Gyro of the self-check of every passport that is issued: no two parameters alike or of opposite sign, so that software
 /// that exchanges or transposes any of them finds others. Earlier passports state the GVK-6 of the paper.
-pub const REFERENCE_GYRO: Parameters = Parameters {
+pub(crate) const REFERENCE_GYRO: Parameters = Parameters {
     k_deg_per_h_per_ma: [[95.0, 9.3], [-8.7, 93.0]],
     omega0_deg_per_h: [20.0, -15.0],
     omega_g_deg_per_h_per_g: 10.0,
@@ -173,7 +173,7 @@ pub const REFERENCE_GYRO: Parameters = Parameters {
 
 /// The numbers of a passport that follow from its stand and its site.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Derived {
+pub(crate) struct Derived {
     /// What the Earth does at the site.
     pub earth: Earth,
     /// The paper's matrices.
@@ -188,17 +188,21 @@ pub struct Derived {
 ///
 /// # Errors
 /// [`SingularPositions`] when the paper's eight are there and n_2 has no inverse.
-pub fn derive(positions: &[CertifiedPosition], site: &Site, gyro: &Parameters) -> Result<Derived, SingularPositions> {
+pub(crate) fn derive(
+    positions: &[CertifiedPosition],
+    site: &Site,
+    gyro: &Parameters,
+) -> Result<Derived, SingularPositions> {
     Ok(derive_from(&stand::geometry(positions)?, site, gyro))
 }
 
 /// The same from the geometry of the positions.
-pub fn derive_from(geometry: &StandGeometry, site: &Site, gyro: &Parameters) -> Derived {
+pub(crate) fn derive_from(geometry: &StandGeometry, site: &Site, gyro: &Parameters) -> Derived {
     derive_at(geometry, site.earth(), gyro)
 }
 
 /// The same from what the Earth does at the site, too.
-pub fn derive_at(geometry: &StandGeometry, earth: Earth, gyro: &Parameters) -> Derived {
+pub(crate) fn derive_at(geometry: &StandGeometry, earth: Earth, gyro: &Parameters) -> Derived {
     let coefficients = geometry.at(earth.rate());
     let vectors = coefficients.positions.iter().map(PositionVectors::from_model).collect();
     let matrices = coefficients.matrices.as_ref().map(MatrixRows::from_model);
@@ -410,6 +414,6 @@ pub(super) fn check_inputs(
 }
 
 /// Identifier: `<model>/<serial>/<site id>/<revision>`.
-pub fn passport_id(stand: &Identity, site: &Identifier, revision: u32) -> String {
+pub(crate) fn passport_id(stand: &Identity, site: &Identifier, revision: u32) -> String {
     format!("{}/{}/{site}/{revision}", stand.model, stand.serial)
 }

@@ -8,7 +8,7 @@ use crate::units::radians_from_arcseconds;
 
 /// How far a place is from a passport's site.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Nearness {
+pub(crate) struct Nearness {
     /// The geodesic distance; along the meridian where the site has no longitude.
     pub distance_m: f64,
     /// How far the passport is valid, with what is allowed for an unknown deflection of the vertical.
@@ -19,7 +19,7 @@ pub struct Nearness {
 
 impl Nearness {
     /// How far `place` is from the site of `content`.
-    pub fn of(content: &Content, place: Place) -> Self {
+    pub(crate) fn of(content: &Content, place: Place) -> Self {
         let site = &content.site;
         let latitude_deg = site.geodetic_deg();
         let known = Place { latitude_deg, longitude_deg: site.longitude_deg.unwrap_or(place.longitude_deg) };
@@ -33,7 +33,7 @@ impl Nearness {
     }
 
     /// Whether the place is within the radius of validity.
-    pub fn within(self) -> bool {
+    pub(crate) fn within(self) -> bool {
         self.distance_m <= self.radius_m
     }
 }

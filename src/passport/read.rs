@@ -9,7 +9,7 @@ use crate::text::Unreadable;
 ///
 /// # Errors
 /// The first line that is not in its one form, or every mistake of the content.
-pub fn content(name: &str, payload: &str) -> Result<Content, Unreadable> {
+pub(crate) fn content(name: &str, payload: &str) -> Result<Content, Unreadable> {
     document::parse(name, payload, Content::check)
 }
 

@@ -8,11 +8,11 @@ use crate::earth::{AZIMUTH_QUANTUM_DEG, LENGTH_QUANTUM_M};
 use crate::text::{Field, Node};
 
 /// The largest difference allowed, relative to the largest element of each matrix, each set of vectors, each number.
-pub const LIMIT: f64 = 1e-12;
+pub(crate) const LIMIT: f64 = 1e-12;
 
 /// A number that does not follow from the passport's own inputs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct WrongNumber {
+pub(crate) struct WrongNumber {
     /// Where it stands, such as `matrices.delta[0][1]`.
     pub field: String,
     /// What the passport says; NaN where it says nothing.
@@ -35,7 +35,7 @@ impl std::fmt::Display for WrongNumber {
 ///
 /// # Errors
 /// The wrong numbers, or in words why there is nothing to compare with.
-pub fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
+pub(crate) fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
     let gyro = content.self_check.as_ref().map_or(REFERENCE_GYRO, SelfCheck::parameters);
     let Ok(mut derived) = derive(&content.positions, &content.site, &gyro) else {
         let field = "matrices.n2_inverse".to_owned();

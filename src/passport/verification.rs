@@ -183,7 +183,7 @@ pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> V
 }
 
 /// The answer about a file that could not be read: nothing was run. `why` is what the system says.
-pub fn unreadable(why: &str, question: &Question) -> Verification {
+pub(crate) fn unreadable(why: &str, question: &Question) -> Verification {
     let mut run = Run { checks: Vec::new() };
     run.note(CheckName::Grammar, Code::Unreadable, why);
     run.note_what_was_not_run(question);

@@ -10,7 +10,7 @@ use std::fmt::Write;
 const SHARE_SHOWN: f64 = 1e-4;
 
 /// The budget of every parameter, the largest contribution first, after `sentence`.
-pub fn text(budget: &Budget, sentence: Option<&str>) -> String {
+pub(crate) fn text(budget: &Budget, sentence: Option<&str>) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "\nUncertainty budget ({}), linear approximation", budget.method.key());
     if let Some(sentence) = sentence {

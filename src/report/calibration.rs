@@ -15,7 +15,7 @@ use std::fmt::Write;
 
 /// What is said of a calibration besides its numbers.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Context<'a> {
+pub(crate) struct Context<'a> {
     /// The passport's id.
     pub passport_id: &'a str,
     /// Whether it was verified.
@@ -33,7 +33,7 @@ pub struct Context<'a> {
 }
 
 /// The whole result: parameters, fit, verdict, and what the fit cannot see.
-pub fn text(calibration: &Calibration, context: &Context) -> String {
+pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
     let mut out = String::new();
     let state = if context.passport_verified { "verified" } else { "NOT VERIFIED" };
     let _ = writeln!(out, "Calibrated with passport {} ({state})", context.passport_id);

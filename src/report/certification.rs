@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// Everything as JSON: `{certification, not_certified, comparison}`, what does not apply being null.
-pub fn to_json(
+pub(crate) fn to_json(
     certification: Option<&Certification>,
     not_certified: Option<&NotCertified>,
     comparison: Option<&Comparison>,
@@ -95,7 +95,7 @@ fn comparison_json(found: &Comparison) -> Value {
 }
 
 /// A certification for people.
-pub fn certification(found: &Certification) -> String {
+pub(crate) fn certification(found: &Certification) -> String {
     let mut out = String::new();
     let (stand, runs) = (&found.stand, found.runs.len());
     let _ = writeln!(
@@ -189,7 +189,7 @@ fn tests(out: &mut String, found: &Certification) {
 }
 
 /// A check run for people.
-pub fn comparison(found: &Comparison) -> String {
+pub(crate) fn comparison(found: &Comparison) -> String {
     let mut out = String::new();
     let _ = writeln!(
         out,

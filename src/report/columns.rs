@@ -5,16 +5,16 @@ use crate::text::printable;
 use std::fmt::Write;
 
 /// The width of a terminal that nothing is wider than, but for a word or a row that cannot be broken.
-pub const COLUMNS: usize = 100;
+pub(crate) const COLUMNS: usize = 100;
 
 /// A paragraph, every line behind `indent`.
-pub fn paragraph(out: &mut String, indent: &str, words: &str) {
+pub(crate) fn paragraph(out: &mut String, indent: &str, words: &str) {
     out.push_str(indent);
     wrapped(out, indent.chars().count(), words);
 }
 
 /// A name padded to `name_columns`, and its value, which goes on under its own beginning.
-pub fn named(out: &mut String, name: &str, name_columns: usize, value: &str) {
+pub(crate) fn named(out: &mut String, name: &str, name_columns: usize, value: &str) {
     let _ = write!(out, "  {name:<name_columns$}");
     wrapped(out, 2 + name_columns, value);
 }
@@ -52,7 +52,7 @@ fn unbroken(text: &str) -> Vec<String> {
 }
 
 /// Columns as wide as their widest cell, numbers to the right.
-pub fn table(out: &mut String, names: &[&str], rows: &[Vec<String>]) {
+pub(crate) fn table(out: &mut String, names: &[&str], rows: &[Vec<String>]) {
     let width = |column: usize| {
         let cells = rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count());
         cells.chain([names[column].chars().count()]).max().unwrap_or(0)
@@ -73,7 +73,7 @@ pub fn table(out: &mut String, names: &[&str], rows: &[Vec<String>]) {
 /// Spreadsheets take a text for a formula by its first character, and whoever signs with a key of his own may choose
 /// that: an apostrophe before it makes it a text. So it does after a semicolon, at which spreadsheets of many countries
 /// begin another cell whatever the quotes say.
-pub fn csv_row<'a>(cells: impl Iterator<Item = &'a str>) -> String {
+pub(crate) fn csv_row<'a>(cells: impl Iterator<Item = &'a str>) -> String {
     let quoted = |cell: &str| {
         let cell = neutral(&printable(cell));
         if cell.contains([',', '"', ';']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell }
@@ -91,7 +91,7 @@ fn neutral(cell: &str) -> String {
 }
 
 /// Decimals that show a standard uncertainty with two significant digits (GUM, 7.2.6), at most 12.
-pub fn decimals(u: f64) -> usize {
+pub(crate) fn decimals(u: f64) -> usize {
     if !(u.is_finite() && u > 0.0) {
         return 6;
     }
@@ -102,7 +102,7 @@ pub fn decimals(u: f64) -> usize {
 }
 
 /// A probability: two digits, or that it is less than any that matters.
-pub fn probability(p: f64) -> String {
+pub(crate) fn probability(p: f64) -> String {
     if p < 1e-6 {
         "< 1e-6".to_owned()
     } else if p < 0.01 {

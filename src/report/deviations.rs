@@ -8,7 +8,7 @@ use std::fmt::Write;
 const SIDE: usize = 14;
 
 /// A line for every position, a bar for each of α, β, γ; all to one scale.
-pub fn picture(out: &mut String, positions: &[CertifiedPosition]) {
+pub(crate) fn picture(out: &mut String, positions: &[CertifiedPosition]) {
     let angles = |at: &CertifiedPosition| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec];
     let largest = positions.iter().flat_map(angles).fold(0.0, |largest: f64, angle| largest.max(angle.abs()));
     if largest == 0.0 {

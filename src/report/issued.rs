@@ -24,7 +24,7 @@ const REMARKS_TOLD: usize = 50;
 
 /// What became of one order.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Report {
+pub(crate) struct Report {
     /// The passport's id; of a re-issue that was refused, the old passport's file; of an input, its file.
     pub id: String,
     /// "issued", "unchanged", "planned" (in a dry run), "skipped" or "refused".
@@ -51,7 +51,7 @@ pub struct Report {
 
 /// Ratios of standard uncertainties, this stand's to a perfect one's.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Noise {
+pub(crate) struct Noise {
     k: f64,
     omega_0: f64,
     omega_g: f64,
@@ -71,7 +71,7 @@ impl Report {
     }
 
     /// A passport that is there now, new or as before.
-    pub fn of(issued: &Issued) -> Self {
+    pub(crate) fn of(issued: &Issued) -> Self {
         Self {
             file: Some(name_of(&issued.path)),
             sha256: Some(issued.sha256.clone()),
@@ -80,7 +80,7 @@ impl Report {
     }
 
     /// What became of an order of a batch.
-    pub fn of_outcome(outcome: &Outcome) -> Self {
+    pub(crate) fn of_outcome(outcome: &Outcome) -> Self {
         match outcome {
             Outcome::There(issued) => Self::of(issued),
             Outcome::Planned(planned) => Self {
@@ -102,7 +102,7 @@ impl Report {
 }
 
 /// What failed, in words: with its name, unless the reason begins with it, and with what it costs.
-pub fn failure(failure: &Failure) -> String {
+pub(crate) fn failure(failure: &Failure) -> String {
     let Failure { what, why, passports, unreadable, .. } = failure;
     let cost = match passports {
         None | Some(0 | 1) => String::new(),
@@ -117,7 +117,7 @@ pub fn failure(failure: &Failure) -> String {
 }
 
 /// Warnings for the factory, and what the passport cannot state.
-pub fn warnings(remarks: &Remarks) -> Vec<String> {
+pub(crate) fn warnings(remarks: &Remarks) -> Vec<String> {
     let mut words = Vec::new();
     match &remarks.noise {
         None => words.push(
@@ -174,7 +174,7 @@ fn grouped(number: u64) -> String {
 
 /// How many orders had which end.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Totals {
+pub(crate) struct Totals {
     issued: u64,
     unchanged: u64,
     planned: u64,
@@ -216,7 +216,7 @@ impl Totals {
 
 /// The form of the reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Form {
+pub(crate) enum Form {
     /// For people.
     Text,
     /// A list.
@@ -227,7 +227,7 @@ pub enum Form {
 
 /// Writes reports as they come.
 #[derive(Debug)]
-pub struct Reports {
+pub(crate) struct Reports {
     form: Form,
     count: usize,
     held: Vec<Report>,
@@ -236,12 +236,12 @@ pub struct Reports {
 
 impl Reports {
     /// None yet.
-    pub fn new(form: Form) -> Self {
+    pub(crate) fn new(form: Form) -> Self {
         Self { form, count: 0, held: Vec::new(), totals: Totals::default() }
     }
 
     /// What is to be written now.
-    pub fn add(&mut self, report: Report) -> String {
+    pub(crate) fn add(&mut self, report: Report) -> String {
         self.totals.add(&report);
         if self.form == Form::Text && report.passports.is_some() {
             // An input is no passport, and words enough are said of it.
@@ -273,7 +273,7 @@ impl Reports {
     }
 
     /// What is to be written at the end.
-    pub fn end(self) -> String {
+    pub(crate) fn end(self) -> String {
         match self.form {
             Form::Json if self.count == 0 => "[]\n".to_owned(),
             Form::Json => "\n]\n".to_owned(),
@@ -291,14 +291,14 @@ const CSV_HEADER: &str = "state,id,file,sha256,reason\n";
 
 /// Remarks, each said once however many passports it is about.
 #[derive(Debug, Default)]
-pub struct Told {
+pub(crate) struct Told {
     remarks: Vec<(String, String, u64)>,
     others: u64,
 }
 
 impl Told {
     /// Remembers a remark about a passport or a file.
-    pub fn add(&mut self, about: &str, words: String) {
+    pub(crate) fn add(&mut self, about: &str, words: String) {
         match self.remarks.iter().position(|(known, ..)| *known == words) {
             Some(known) => self.remarks[known].2 += 1,
             None if self.remarks.len() == REMARKS_TOLD => self.others += 1,
@@ -307,7 +307,7 @@ impl Told {
     }
 
     /// The lines.
-    pub fn lines(&self) -> Vec<String> {
+    pub(crate) fn lines(&self) -> Vec<String> {
         let told = self.remarks.iter().map(|(words, first, count)| match count {
             1 => format!("{first}: {words}"),
             count => format!("{first} and {} more: {words}", grouped(count - 1)),

@@ -9,7 +9,7 @@ use crate::calibration::mistake::{CurrentsMistaken, Mistake};
 const MICROAMPERES: i32 = 3;
 
 /// Returns what is found, what explains it, and what to do; whole sentences.
-pub fn words(mistake: &Mistake, language: Language) -> String {
+pub(crate) fn words(mistake: &Mistake, language: Language) -> String {
     match mistake {
         Mistake::Currents(mistaken) => {
             let causes = causes(mistaken, language).join(&format!(", {} ", texts::MISTAKE_AND.of(language)));

@@ -6,7 +6,7 @@ use crate::uncertainty::budget::COVERAGE;
 use std::fmt::Write;
 
 /// Uncertainties, intervals, and for every parameter whether first order is valid.
-pub fn text(found: &MonteCarlo) -> String {
+pub(crate) fn text(found: &MonteCarlo) -> String {
     let mut out = String::new();
     let _ = writeln!(
         out,

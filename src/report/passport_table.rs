@@ -11,7 +11,7 @@ use std::fmt::{Display, Write};
 const NAME_COLUMNS: usize = 26;
 
 /// The whole passport as tables. `verified` is said in the first line.
-pub fn text(content: &Content, verified: bool) -> String {
+pub(crate) fn text(content: &Content, verified: bool) -> String {
     let mut out = String::new();
     let header = &content.passport;
     let state = if verified { style::good("verified") } else { style::bad("NOT VERIFIED") };

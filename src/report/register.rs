@@ -23,7 +23,7 @@ impl State {
 }
 
 /// A line for each passport, the alarms, and how many are in each state.
-pub fn text(register: &Register) -> String {
+pub(crate) fn text(register: &Register) -> String {
     let mut out = String::new();
     for line in &register.passports {
         let id = line.id.as_deref().unwrap_or("(id not verified)");
@@ -41,7 +41,7 @@ pub fn text(register: &Register) -> String {
 }
 
 /// The passports as CSV with the header `state,id,stand,site,issuer,valid_until,sha256,file,why`.
-pub fn csv(register: &Register) -> String {
+pub(crate) fn csv(register: &Register) -> String {
     let mut out = String::from("state,id,stand,site,issuer,valid_until,sha256,file,why\n");
     for line in &register.passports {
         let valid_until = line.valid_until.map(|day| day.to_string());

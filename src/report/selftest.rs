@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// `{passed, failed, cases: [{example, quantity, source, expected, tolerance, found, digits, passed}]}`.
-pub fn to_json(cases: &[Case]) -> Value {
+pub(crate) fn to_json(cases: &[Case]) -> Value {
     let each = cases.iter().map(|case| {
         json!({
             "example": case.example, "quantity": case.quantity, "source": case.source, "expected": case.expected,
@@ -18,7 +18,7 @@ pub fn to_json(cases: &[Case]) -> Value {
 }
 
 /// A table for each example.
-pub fn text(cases: &[Case]) -> String {
+pub(crate) fn text(cases: &[Case]) -> String {
     let mut out = String::new();
     for group in cases.chunk_by(|one, other| one.example == other.example) {
         let Some(first) = group.first() else { continue };

@@ -6,7 +6,7 @@ use crate::units::printed;
 use std::fmt::Write;
 
 /// The paper's table: worst error and standard deviation of every parameter by every method.
-pub fn accuracy(found: &Accuracy) -> String {
+pub(crate) fn accuracy(found: &Accuracy) -> String {
     let mut out = String::new();
     let stands = match found.limit_deg {
         Some(limit) => format!("all deviations uniform within {limit} degrees"),
@@ -37,7 +37,7 @@ pub fn accuracy(found: &Accuracy) -> String {
 }
 
 /// The paper's Fig. 4 as numbers.
-pub fn convergence(found: &Convergence) -> String {
+pub(crate) fn convergence(found: &Convergence) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "Steps of the iterative method, {} stands at each limit, seed {}", found.trials, found.seed);
     let names = ["limit, deg", "angles", "mean", "95th perc.", "most", "not converged, %"];

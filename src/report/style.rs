@@ -5,22 +5,22 @@ use crate::text::printable;
 use anstyle::{AnsiColor, Style};
 
 /// A heading.
-pub fn heading(words: &str) -> String {
+pub(crate) fn heading(words: &str) -> String {
     styled(Style::new().bold(), words)
 }
 
 /// What only names the columns.
-pub fn faint(words: &str) -> String {
+pub(crate) fn faint(words: &str) -> String {
     styled(Style::new().dimmed(), words)
 }
 
 /// What is as it should be.
-pub fn good(words: &str) -> String {
+pub(crate) fn good(words: &str) -> String {
     styled(AnsiColor::Green.on_default().bold(), words)
 }
 
 /// What must not be overlooked.
-pub fn bad(words: &str) -> String {
+pub(crate) fn bad(words: &str) -> String {
     styled(AnsiColor::Red.on_default().bold(), words)
 }
 
@@ -28,12 +28,12 @@ pub fn bad(words: &str) -> String {
 const CODES: [&str; 5] = ["[0m", "[1m", "[2m", "[31m", "[32m"];
 
 /// The text as it may go to a terminal.
-pub fn outgoing(text: &str) -> String {
+pub(crate) fn outgoing(text: &str) -> String {
     printable::outgoing(text, &CODES)
 }
 
 /// The text without any emphasis.
-pub fn plain(text: &str) -> String {
+pub(crate) fn plain(text: &str) -> String {
     anstream::adapter::strip_str(text).to_string()
 }
 

@@ -8,7 +8,7 @@ use std::fmt::Write;
 
 /// The verdict on one file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Verdict {
+pub(crate) struct Verdict {
     /// The file.
     pub file: String,
     /// Whether every check passed.
@@ -21,7 +21,7 @@ pub struct Verdict {
 
 /// One check.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct CheckLine {
+pub(crate) struct CheckLine {
     /// Its name.
     pub name: &'static str,
     /// Whether it passed; null when not run.
@@ -34,7 +34,7 @@ pub struct CheckLine {
 
 impl Verdict {
     /// The verdict of `verification` on the file `file`.
-    pub fn of(file: &str, verification: &Verification) -> Self {
+    pub(crate) fn of(file: &str, verification: &Verification) -> Self {
         let checks = verification.checks().iter().map(|check| CheckLine {
             name: check.name.as_str(),
             passed: check.passed(),
@@ -47,7 +47,7 @@ impl Verdict {
 }
 
 /// A line for each check, under a line for each file.
-pub fn text(verdicts: &[Verdict]) -> String {
+pub(crate) fn text(verdicts: &[Verdict]) -> String {
     let mut text = String::new();
     for verdict in verdicts {
         let answer = if verdict.valid { style::good("VALID") } else { style::bad("REFUSED") };

@@ -2,7 +2,7 @@
 
 mod reference;
 
-pub use reference::tables;
+pub(crate) use reference::tables;
 
 use crate::gyro::{GYRO_FORMAT, GyroType};
 use crate::laboratory::{LABORATORY_FORMAT, Laboratory};
@@ -15,27 +15,27 @@ use schemars::{JsonSchema, Schema, schema_for};
 use serde_json::{Value, json};
 
 /// Of a stand file.
-pub fn stand() -> Schema {
+pub(crate) fn stand() -> Schema {
     with_format(schema_for!(Stand), STAND_FORMAT)
 }
 
 /// Of a site file.
-pub fn site() -> Schema {
+pub(crate) fn site() -> Schema {
     with_format(schema_for!(SiteFile), SITE_FORMAT)
 }
 
 /// Of a gyro type.
-pub fn gyro() -> Schema {
+pub(crate) fn gyro() -> Schema {
     with_format(schema_for!(GyroType), GYRO_FORMAT)
 }
 
 /// Of a laboratory.
-pub fn laboratory() -> Schema {
+pub(crate) fn laboratory() -> Schema {
     with_format(schema_for!(Laboratory), LABORATORY_FORMAT)
 }
 
 /// Of a passport, its signature included. A text that fits the schema need not be a passport: see `verify`.
-pub fn passport() -> Schema {
+pub(crate) fn passport() -> Schema {
     #[derive(JsonSchema)]
     #[allow(dead_code)]
     #[schemars(rename = "Passport", deny_unknown_fields)]
@@ -49,7 +49,7 @@ pub fn passport() -> Schema {
 }
 
 /// Of a list of withdrawn passports, its signature included.
-pub fn revocation() -> Schema {
+pub(crate) fn revocation() -> Schema {
     #[derive(JsonSchema)]
     #[allow(dead_code)]
     #[schemars(rename = "RevocationList", deny_unknown_fields)]

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::fmt::Write;
 
 /// The keys of every format as Markdown, a section for each; parts that formats share stand in the first.
-pub fn tables(schemas: &[Schema]) -> String {
+pub(crate) fn tables(schemas: &[Schema]) -> String {
     let mut seen = HashMap::new();
     schemas.iter().map(|schema| Section { schema, seen: &mut seen }.write()).collect::<Vec<_>>().join("\n")
 }

@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 const BY_GTC: &str = "GTC 1.5.1 (Measurement Standards Laboratory of New Zealand) with the same inputs";
 
 /// The three examples.
-pub fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     let mut cases = end_gauge();
     cases.extend(impedance());
     cases.extend(thermometer());

@@ -17,7 +17,7 @@ const COEFFICIENT_LIMIT: f64 = 1e-12;
 const PARAMETER_LIMIT: f64 = 1e-9;
 
 /// The worst of all stands of the reference, for coefficients and for parameters.
-pub fn cases() -> [Case; 2] {
+pub(crate) fn cases() -> [Case; 2] {
     let reference: Value = serde_json::from_str(REFERENCE).unwrap_or(Value::Null);
     let stands = reference["cases"].as_array().map_or(&[][..], Vec::as_slice);
     let errors: Vec<[f64; 2]> = stands.iter().map(errors).collect();

@@ -40,7 +40,7 @@ struct Printed {
 }
 
 /// The four examples.
-pub fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     let normals = Printed {
         example: "JCGM 101 9.2.2 four normal inputs",

@@ -15,7 +15,7 @@ const FAR_OUT: f64 = 20.0;
 const SMALL_ARCSEC: f64 = 60.0;
 
 /// Returns a sentence for everything that is odd in a certificate and its positions.
-pub fn of(certificate: &Certificate, positions: &[CertifiedPosition]) -> Vec<String> {
+pub(crate) fn of(certificate: &Certificate, positions: &[CertifiedPosition]) -> Vec<String> {
     let mut said = temperatures(certificate);
     type Angle = fn(&CertifiedPosition) -> f64;
     let angles: [(&str, Angle); 3] = [

@@ -56,7 +56,7 @@ fn fraction(x: f64, y: f64, a: f64, b: f64) -> f64 {
 }
 
 /// Returns the probability that |t| of Student's distribution is larger than |`value`|.
-pub fn student_beyond(value: f64, degrees_of_freedom: f64) -> f64 {
+pub(crate) fn student_beyond(value: f64, degrees_of_freedom: f64) -> f64 {
     if degrees_of_freedom == f64::INFINITY {
         return 2.0 * normal_below(-value.abs());
     }
@@ -65,7 +65,7 @@ pub fn student_beyond(value: f64, degrees_of_freedom: f64) -> f64 {
 
 /// Returns the probability that F with `numerator` and `denominator` degrees of freedom, both finite, is larger than
 /// `value`; NaN where one of the three is NaN or a number of degrees of freedom is not positive.
-pub fn f_beyond(value: f64, numerator: f64, denominator: f64) -> f64 {
+pub(crate) fn f_beyond(value: f64, numerator: f64, denominator: f64) -> f64 {
     if value.is_nan() || !(numerator > 0.0 && denominator > 0.0) {
         return f64::NAN;
     }
@@ -81,7 +81,7 @@ pub fn f_beyond(value: f64, numerator: f64, denominator: f64) -> f64 {
 /// The t ≥ 0 that |t| of Student's distribution exceeds with `probability`: the coverage factor for 1 − `probability`.
 ///
 /// NaN for a probability that is not between 0 and 1 or degrees of freedom that are not positive.
-pub fn student_factor(probability: f64, degrees_of_freedom: f64) -> f64 {
+pub(crate) fn student_factor(probability: f64, degrees_of_freedom: f64) -> f64 {
     if !(probability > 0.0 && probability < 1.0 && degrees_of_freedom > 0.0) {
         return f64::NAN;
     }
@@ -89,7 +89,7 @@ pub fn student_factor(probability: f64, degrees_of_freedom: f64) -> f64 {
 }
 
 /// Returns the probability that F with the given degrees of freedom (numerator, denominator) is larger than `value`.
-pub fn f_larger(value: f64, numerator: usize, denominator: f64) -> f64 {
+pub(crate) fn f_larger(value: f64, numerator: usize, denominator: f64) -> f64 {
     let n = numerator as f64;
     if denominator == f64::INFINITY {
         return chi_square_larger(value * n, numerator);
@@ -101,7 +101,7 @@ pub fn f_larger(value: f64, numerator: usize, denominator: f64) -> f64 {
 }
 
 /// The value that chi-square with `degrees_of_freedom` exceeds with `probability`; NaN unless that is between 0 and 1.
-pub fn chi_square_point(probability: f64, degrees_of_freedom: usize) -> f64 {
+pub(crate) fn chi_square_point(probability: f64, degrees_of_freedom: usize) -> f64 {
     if !(probability > 0.0 && probability < 1.0) {
         return f64::NAN;
     }

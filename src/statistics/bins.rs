@@ -5,14 +5,14 @@
 //! density f is smooth over a bin of width w: for a normal distribution 6e-6 standard deviations at 2.5 % and 97.5 %.
 
 /// Bins of a sample; a power of two.
-pub const BINS: usize = 4096;
+pub(crate) const BINS: usize = 4096;
 
 /// How far they reach either way.
-pub const REACH: f64 = 10.0;
+pub(crate) const REACH: f64 = 10.0;
 
 /// The bin of a value; the first or the last one beyond their reach.
 #[inline(always)]
-pub fn bin(value: f64) -> usize {
+pub(crate) fn bin(value: f64) -> usize {
     const PER_UNIT: f64 = BINS as f64 / (2.0 * REACH);
     // 2^52: the mantissa's lowest bits are then the whole number nearest to what was added.
     const WHOLE: f64 = 4_503_599_627_370_496.0;
@@ -24,7 +24,7 @@ pub fn bin(value: f64) -> usize {
 
 /// Counts of a sample, bin by bin.
 #[derive(Debug, Clone, Copy)]
-pub struct Bins<'a, T>(&'a [T]);
+pub(crate) struct Bins<'a, T>(&'a [T]);
 
 /// The value at a place counted in bins from the lower end.
 fn value_at(bins: f64) -> f64 {
@@ -33,7 +33,7 @@ fn value_at(bins: f64) -> f64 {
 
 impl<'a, T: Copy + Into<u64>> Bins<'a, T> {
     /// Of [`BINS`] counts, the lowest bin first.
-    pub fn new(counts: &'a [T]) -> Self {
+    pub(crate) fn new(counts: &'a [T]) -> Self {
         Self(counts)
     }
 
@@ -42,7 +42,7 @@ impl<'a, T: Copy + Into<u64>> Bins<'a, T> {
     }
 
     /// The value that `share` of the sample does not exceed, 0 of nothing.
-    pub fn quantile(&self, share: f64) -> f64 {
+    pub(crate) fn quantile(&self, share: f64) -> f64 {
         let due = share * self.total() as f64;
         let mut below = 0.0;
         for (bin, count) in self.0.iter().enumerate() {
@@ -57,7 +57,7 @@ impl<'a, T: Copy + Into<u64>> Bins<'a, T> {
 
     /// The shortest interval that holds `share` of the sample ([JCGM 101](crate::bibliography::Bibliography::Jcgm101),
     /// 5.3.4 and 7.7.3).
-    pub fn shortest(&self, share: f64) -> [f64; 2] {
+    pub(crate) fn shortest(&self, share: f64) -> [f64; 2] {
         let total = self.total() as f64;
         let (mut best, mut width) = ([self.quantile(0.0), self.quantile(1.0)], f64::INFINITY);
         let mut below = 0.0;

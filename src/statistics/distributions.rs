@@ -10,7 +10,7 @@ use std::f64::consts::SQRT_2;
 /// Above the mean, Q(k/2, x/2) for whole k is a finite sum of positive terms: Q(a + 1, t) = Q(a, t) + tᵃ e⁻ᵗ/Γ(a + 1),
 /// from Q(1, t) = e⁻ᵗ or Q(1/2, t) = erfc √t. So no digits are lost however far out in the tail. Below the mean, where
 /// the probability is never small, it is 1 less the series DLMF 8.11.4.
-pub fn chi_square_larger(value: f64, degrees_of_freedom: usize) -> f64 {
+pub(crate) fn chi_square_larger(value: f64, degrees_of_freedom: usize) -> f64 {
     if value.is_nan() || value == f64::INFINITY {
         return if value.is_nan() { f64::NAN } else { 0.0 };
     }
@@ -48,7 +48,7 @@ fn gamma_above(a: f64, t: f64) -> f64 {
 }
 
 /// The probability that a standard normal variable is below `x`.
-pub fn normal_below(x: f64) -> f64 {
+pub(crate) fn normal_below(x: f64) -> f64 {
     0.5 * libm::erfc(-x / SQRT_2)
 }
 

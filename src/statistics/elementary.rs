@@ -4,7 +4,7 @@
 use std::f64::consts::LN_2;
 
 /// Beyond this angle [`small_sin`] and [`small_cos_less_one`] are not used: about 4,100 arcseconds.
-pub const SMALL_RAD: f64 = 0.02;
+pub(crate) const SMALL_RAD: f64 = 0.02;
 
 /// sin x for |x| ≤ [`SMALL_RAD`], in radians, within 0.51 units of the last place.
 ///
@@ -12,7 +12,7 @@ pub const SMALL_RAD: f64 = 0.02;
 /// x²/6 = 6.7e-5 of it and has a relative error below 8 · 2⁻⁵³, so it adds less than 0.001 units to the half unit of the
 /// last sum.
 #[inline(always)]
-pub fn small_sin(x: f64) -> f64 {
+pub(crate) fn small_sin(x: f64) -> f64 {
     let square = x * x;
     let rest = square * (-1.0 / 6.0 + square * (1.0 / 120.0 + square * (-1.0 / 5040.0)));
     x + x * rest
@@ -22,7 +22,7 @@ pub fn small_sin(x: f64) -> f64 {
 ///
 /// The series after x⁸ leaves at most x¹⁰/3628800, 5.7e-21 of x²/2.
 #[inline(always)]
-pub fn small_cos_less_one(x: f64) -> f64 {
+pub(crate) fn small_cos_less_one(x: f64) -> f64 {
     let square = x * x;
     square * (-0.5 + square * (1.0 / 24.0 + square * (-1.0 / 720.0 + square * (1.0 / 40320.0))))
 }
@@ -31,7 +31,7 @@ pub fn small_cos_less_one(x: f64) -> f64 {
 ///
 /// The series after x¹⁵ and x¹⁶ leave at most 6.5e-17 and 2.9e-18 of the result.
 #[inline(always)]
-pub fn octant_sin_cos(x: f64) -> (f64, f64) {
+pub(crate) fn octant_sin_cos(x: f64) -> (f64, f64) {
     let s = x * x;
     let sin = -1.0 / 6.0
         + s * (1.0 / 120.0
@@ -53,7 +53,7 @@ pub fn octant_sin_cos(x: f64) -> (f64, f64) {
 /// x = 2ᵏ z with √½ ≤ z < √2, and ln z = 2 artanh((z − 1)/(z + 1)), whose argument is below 0.1716: the series after the
 /// 19th power leaves at most 2.3e-17 of the result.
 #[inline(always)]
-pub fn ln(x: f64) -> f64 {
+pub(crate) fn ln(x: f64) -> f64 {
     const ROOT_HALF: u64 = 0x3fe6_a09e_0000_0000;
     const TO_ONE: u64 = 0x3ff0_0000_0000_0000 - ROOT_HALF;
     const MANTISSA: u64 = 0x000f_ffff_ffff_ffff;

@@ -13,14 +13,14 @@ use super::elementary::{ln, on_circle};
 const GENERATORS: usize = 8;
 
 /// Trials side by side.
-pub const WIDTH: usize = 32;
+pub(crate) const WIDTH: usize = 32;
 
 /// A number of every one of the trials that run side by side.
-pub type Column = [f64; WIDTH];
+pub(crate) type Column = [f64; WIDTH];
 
 /// Random numbers of one block of trials.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Lanes {
+pub(crate) struct Lanes {
     state: [[u64; GENERATORS]; 4],
 }
 
@@ -29,7 +29,7 @@ const ONE: u64 = 0x3ff0_0000_0000_0000;
 
 impl Lanes {
     /// Block 0 of a seed.
-    pub fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         let mut counter = seed;
         let mut split_mix = || {
             counter = counter.wrapping_add(0x9e37_79b9_7f4a_7c15);
@@ -49,7 +49,7 @@ impl Lanes {
     }
 
     /// The next block.
-    pub fn jump(&mut self) {
+    pub(crate) fn jump(&mut self) {
         self.ahead(&JUMP);
     }
 
@@ -98,7 +98,7 @@ impl Lanes {
 
     /// Uniform in [-1, 1), 52 bits each.
     #[inline(always)]
-    pub fn uniform(&mut self, column: &mut Column) {
+    pub(crate) fn uniform(&mut self, column: &mut Column) {
         let bits = self.bits();
         for (value, bits) in column.iter_mut().zip(&bits) {
             *value = 2.0 * f64::from_bits((bits >> 12) | ONE) - 3.0;
@@ -107,7 +107,7 @@ impl Lanes {
 
     /// Standard normal, two columns at a time; none beyond 8.5.
     #[inline(always)]
-    pub fn normals(&mut self, one: &mut Column, other: &mut Column) {
+    pub(crate) fn normals(&mut self, one: &mut Column, other: &mut Column) {
         let (of_radius, of_angle) = (self.bits(), self.bits());
         let (mut first, mut second) = ([0.0; WIDTH], [0.0; WIDTH]);
         for trial in 0..WIDTH {

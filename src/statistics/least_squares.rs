@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, Dyn, QR, SVD};
 
 /// X = Q R, factorised.
 #[derive(Debug, Clone)]
-pub struct Factorised {
+pub(crate) struct Factorised {
     qr: QR<f64, Dyn, Dyn>,
     r_inverse: DMatrix<f64>,
     rows: usize,
@@ -17,14 +17,14 @@ pub struct Factorised {
 /// X has fewer independent columns than columns, or fewer rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the model is singular: it does not determine all of its parameters")]
-pub struct Singular;
+pub(crate) struct Singular;
 
 impl Factorised {
     /// Factorises X, rows × columns, with at least as many rows as columns.
     ///
     /// # Errors
     /// [`Singular`] when R has no inverse in binary64. Nearly singular is another question: see [`condition`].
-    pub fn new(design: DMatrix<f64>) -> Result<Self, Singular> {
+    pub(crate) fn new(design: DMatrix<f64>) -> Result<Self, Singular> {
         let (rows, columns) = design.shape();
         if rows < columns || columns == 0 || design.iter().any(|x| !x.is_finite()) {
             return Err(Singular);
@@ -39,23 +39,23 @@ impl Factorised {
     }
 
     /// Rows of X.
-    pub fn rows(&self) -> usize {
+    pub(crate) fn rows(&self) -> usize {
         self.rows
     }
 
     /// Columns of X.
-    pub fn columns(&self) -> usize {
+    pub(crate) fn columns(&self) -> usize {
         self.columns
     }
 
     /// Q'M in place of M (rows × any): the first `columns()` rows determine parameters, the others are residual.
-    pub fn rotate(&self, matrix: &mut DMatrix<f64>) {
+    pub(crate) fn rotate(&self, matrix: &mut DMatrix<f64>) {
         self.qr.q_tr_mul(matrix);
     }
 
     /// The parameters for a right side already rotated, and the length of Q₁'y: how far the parameters are from
     /// zero in units of their own covariance.
-    pub fn solve_rotated(&self, rotated: &DMatrix<f64>) -> (DVector<f64>, f64) {
+    pub(crate) fn solve_rotated(&self, rotated: &DMatrix<f64>) -> (DVector<f64>, f64) {
         let mut solution = DVector::zeros(self.columns);
         let mut squared = 0.0;
         for (column, value) in rotated.column(0).iter().take(self.columns).enumerate() {
@@ -66,19 +66,19 @@ impl Factorised {
     }
 
     /// An upper bound of the condition number of X, from the Frobenius norms of R and R⁻¹.
-    pub fn condition_bound(&self) -> f64 {
+    pub(crate) fn condition_bound(&self) -> f64 {
         self.qr.r().norm() * self.r_inverse.norm()
     }
 
     /// R⁻¹, columns × columns: R⁻¹ times the first rows of a rotated right side are its parameters.
-    pub fn r_inverse(&self) -> &DMatrix<f64> {
+    pub(crate) fn r_inverse(&self) -> &DMatrix<f64> {
         &self.r_inverse
     }
 }
 
 /// The condition of a model and, where it is bad, which parameters it mixes.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Condition {
+pub(crate) struct Condition {
     /// Largest over smallest singular value; infinite at rank deficiency.
     pub number: f64,
     /// Singular vectors (each of as many elements as X has columns) whose singular value is below the largest by
@@ -89,7 +89,7 @@ pub struct Condition {
 /// The condition of X, rows × columns; directions weaker than 1/`limit` of the strongest are undetermined.
 ///
 /// `None` when the singular values cannot be found (values that are not finite).
-pub fn condition(design: &DMatrix<f64>, limit: f64) -> Option<Condition> {
+pub(crate) fn condition(design: &DMatrix<f64>, limit: f64) -> Option<Condition> {
     if design.iter().any(|x| !x.is_finite()) {
         return None;
     }

@@ -6,7 +6,7 @@ use super::saddle_point::deviance;
 
 /// The result of Bartlett's test that several variances are equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bartlett {
+pub(crate) struct Bartlett {
     /// The statistic, which has the chi-square distribution approximately.
     pub statistic: f64,
     /// Groups less one.
@@ -22,7 +22,7 @@ pub struct Bartlett {
 ///
 /// `None` with fewer than two groups, or when a variance or its degrees of freedom is not a positive number: a group
 /// that does not scatter at all is no sample of a normal distribution.
-pub fn bartlett(groups: &[(f64, f64)]) -> Option<Bartlett> {
+pub(crate) fn bartlett(groups: &[(f64, f64)]) -> Option<Bartlett> {
     let positive = |value: f64| value > 0.0 && value.is_finite();
     if groups.len() < 2 || !groups.iter().all(|&(variance, nu)| positive(variance) && positive(nu)) {
         return None;
@@ -43,7 +43,7 @@ pub fn bartlett(groups: &[(f64, f64)]) -> Option<Bartlett> {
 ///
 /// Source: [ISO 5725-2](crate::bibliography::Bibliography::Iso5725), 7.3.3, whose critical values are those of this bound. NaN
 /// for fewer than two groups or when the others do not vary.
-pub fn cochran_probability(groups: &[(f64, f64)], at: usize) -> f64 {
+pub(crate) fn cochran_probability(groups: &[(f64, f64)], at: usize) -> f64 {
     let Some(&(variance, own)) = groups.get(at) else { return f64::NAN };
     let others = groups.iter().enumerate().filter(|(place, _)| *place != at).map(|(_, group)| group);
     let (sum, rest) = others.fold((0.0, 0.0), |(sum, rest), (variance, nu)| (sum + variance * nu, rest + nu));
@@ -60,7 +60,7 @@ pub fn cochran_probability(groups: &[(f64, f64)], at: usize) -> f64 {
 /// several means it is Stefansky's ([maximum normed residual](crate::bibliography::Bibliography::Stefansky72)). The bound is
 /// the exact probability where no two residuals can be so far out together, as at the usual critical values, and never too
 /// small elsewhere. NaN without degrees of freedom.
-pub fn bonferroni_student(t: f64, values: usize, degrees_of_freedom: f64) -> f64 {
+pub(crate) fn bonferroni_student(t: f64, values: usize, degrees_of_freedom: f64) -> f64 {
     (values as f64 * student_beyond(t, degrees_of_freedom)).clamp(0.0, 1.0)
 }
 

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// A model at one point: its results and how they change with its inputs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Linearised {
+pub(crate) struct Linearised {
     /// Results.
     pub values: DVector<f64>,
     /// Derivatives, results × inputs.
@@ -15,7 +15,7 @@ pub struct Linearised {
 
 /// Results with their covariance.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Propagated {
+pub(crate) struct Propagated {
     /// Results.
     pub values: DVector<f64>,
     /// Their covariance.
@@ -24,21 +24,21 @@ pub struct Propagated {
 
 impl Propagated {
     /// Standard uncertainty of a result.
-    pub fn standard_uncertainty(&self, result: usize) -> f64 {
+    pub(crate) fn standard_uncertainty(&self, result: usize) -> f64 {
         let variance = self.covariance[(result, result)];
         // Rounding may leave less than nothing of a variance of zero; NaN stays NaN.
         if variance < 0.0 { 0.0 } else { variance.sqrt() }
     }
 
     /// Correlation coefficient of two results; NaN when one of them is exact.
-    pub fn correlation(&self, one: usize, other: usize) -> f64 {
+    pub(crate) fn correlation(&self, one: usize, other: usize) -> f64 {
         self.covariance[(one, other)] / (self.standard_uncertainty(one) * self.standard_uncertainty(other))
     }
 }
 
 /// A matrix that is the covariance of nothing. Quantities count from 0.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum NotACovariance {
+pub(crate) enum NotACovariance {
     /// Another number of rows or columns than there are quantities.
     #[error("{rows} rows and {columns} columns for {quantities} quantities")]
     Shape {
@@ -69,7 +69,7 @@ pub enum NotACovariance {
 ///
 /// # Errors
 /// See [`NotACovariance`].
-pub fn check_covariance(covariance: &DMatrix<f64>, quantities: usize) -> Result<(), NotACovariance> {
+pub(crate) fn check_covariance(covariance: &DMatrix<f64>, quantities: usize) -> Result<(), NotACovariance> {
     /// Of a correlation coefficient: what rounding may leave.
     const ROUNDING: f64 = 1e-12;
     let (rows, columns) = covariance.shape();
@@ -105,7 +105,7 @@ pub fn check_covariance(covariance: &DMatrix<f64>, quantities: usize) -> Result<
 ///
 /// # Errors
 /// [`NotACovariance`] when nothing can have that covariance.
-pub fn propagate(
+pub(crate) fn propagate(
     model: impl Fn(&DVector<f64>) -> Linearised,
     estimates: &DVector<f64>,
     covariance: &DMatrix<f64>,
@@ -119,7 +119,7 @@ pub fn propagate(
 /// Means of simultaneous readings (rows: readings, columns: quantities) and the covariance of the means.
 ///
 /// Without at least two readings nothing is known of the covariance: its elements are NaN.
-pub fn of_means(readings: &DMatrix<f64>) -> Propagated {
+pub(crate) fn of_means(readings: &DMatrix<f64>) -> Propagated {
     let number = readings.nrows() as f64;
     let values = readings.row_sum().transpose() / number;
     let differences =
@@ -131,7 +131,7 @@ pub fn of_means(readings: &DMatrix<f64>) -> Propagated {
 
 /// Effective degrees of freedom of a sum of independent contributions, each (standard uncertainty, degrees of freedom),
 /// by Welch and Satterthwaite's formula; infinite when all of them are known exactly.
-pub fn effective_degrees_of_freedom(contributions: &[(f64, f64)]) -> f64 {
+pub(crate) fn effective_degrees_of_freedom(contributions: &[(f64, f64)]) -> f64 {
     let variance: f64 = contributions.iter().map(|(u, _)| u * u).sum();
     let doubt: f64 = contributions.iter().map(|(u, nu)| u * u * u * u / nu).sum();
     if doubt > 0.0 { variance * variance / doubt } else { f64::INFINITY }

@@ -51,7 +51,7 @@ impl Stream {
 }
 
 /// Trials of one block.
-pub const BLOCK: u64 = 500;
+pub(crate) const BLOCK: u64 = 500;
 
 /// How a series of trials is run.
 #[derive(Clone, Copy)]

@@ -2,7 +2,7 @@
 
 /// Largest magnitude, mean and standard deviation of a sample, added up value by value.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Summary {
+pub(crate) struct Summary {
     count: u64,
     sum: f64,
     sum_of_squares: f64,
@@ -11,7 +11,7 @@ pub struct Summary {
 
 impl Summary {
     /// One value more.
-    pub fn add(&mut self, value: f64) {
+    pub(crate) fn add(&mut self, value: f64) {
         self.count += 1;
         self.sum += value;
         self.sum_of_squares += value * value;
@@ -20,7 +20,7 @@ impl Summary {
 
     /// This sample with another one.
     #[must_use]
-    pub fn with(self, other: &Self) -> Self {
+    pub(crate) fn with(self, other: &Self) -> Self {
         Self {
             count: self.count + other.count,
             sum: self.sum + other.sum,
@@ -30,24 +30,24 @@ impl Summary {
     }
 
     /// How many values.
-    pub fn count(&self) -> u64 {
+    pub(crate) fn count(&self) -> u64 {
         self.count
     }
 
     /// The largest magnitude; 0 of an empty sample.
-    pub fn worst(&self) -> f64 {
+    pub(crate) fn worst(&self) -> f64 {
         self.worst
     }
 
     /// The mean; 0 of an empty sample.
-    pub fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         self.sum / self.count.max(1) as f64
     }
 
     /// The standard deviation about the mean; 0 of fewer than two values.
     ///
     /// The values are errors about zero, far from any offset: the difference of sums loses nothing that matters.
-    pub fn standard_deviation(&self) -> f64 {
+    pub(crate) fn standard_deviation(&self) -> f64 {
         if self.count < 2 {
             return 0.0;
         }
@@ -58,16 +58,16 @@ impl Summary {
 
 /// How often every whole number below a limit occurred.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Histogram(Vec<u64>);
+pub(crate) struct Histogram(Vec<u64>);
 
 impl Histogram {
     /// Nothing counted, numbers up to `largest`.
-    pub fn up_to(largest: usize) -> Self {
+    pub(crate) fn up_to(largest: usize) -> Self {
         Self(vec![0; largest + 1])
     }
 
     /// Counts `value`; a value above the limit counts as the limit.
-    pub fn add(&mut self, value: usize) {
+    pub(crate) fn add(&mut self, value: usize) {
         let last = self.0.len() - 1;
         if let Some(count) = self.0.get_mut(value.min(last)) {
             *count += 1;
@@ -75,25 +75,25 @@ impl Histogram {
     }
 
     /// Adds what another one of the same limit counted.
-    pub fn merge(&mut self, other: &Self) {
+    pub(crate) fn merge(&mut self, other: &Self) {
         for (count, more) in self.0.iter_mut().zip(&other.0) {
             *count += more;
         }
     }
 
     /// How many were counted.
-    pub fn count(&self) -> u64 {
+    pub(crate) fn count(&self) -> u64 {
         self.0.iter().sum()
     }
 
     /// Their mean; `None` when nothing was counted.
-    pub fn mean(&self) -> Option<f64> {
+    pub(crate) fn mean(&self) -> Option<f64> {
         let sum: u64 = self.0.iter().enumerate().map(|(value, count)| value as u64 * count).sum();
         (self.count() > 0).then(|| sum as f64 / self.count() as f64)
     }
 
     /// The smallest number that at least `share` of the sample does not exceed; `None` when nothing was counted.
-    pub fn percentile(&self, share: f64) -> Option<usize> {
+    pub(crate) fn percentile(&self, share: f64) -> Option<usize> {
         let due = (share * self.count() as f64).ceil() as u64;
         let mut below = 0;
         self.0.iter().position(|count| {
@@ -103,13 +103,13 @@ impl Histogram {
     }
 
     /// The largest number counted.
-    pub fn most(&self) -> Option<usize> {
+    pub(crate) fn most(&self) -> Option<usize> {
         self.0.iter().rposition(|count| *count > 0)
     }
 }
 
 /// The standard error of a share `part` / `whole` of independent trials (binomial); 0 of an empty sample.
-pub fn binomial_standard_error(part: u64, whole: u64) -> f64 {
+pub(crate) fn binomial_standard_error(part: u64, whole: u64) -> f64 {
     if whole == 0 {
         return 0.0;
     }

@@ -15,7 +15,7 @@ const CUT: &str = "…";
 ///
 /// Displayed as two lines without a line feed at the end: the source with its line number, and a mark under the place.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Excerpt {
+pub(crate) struct Excerpt {
     line: usize,
     before: String,
     after: String,
@@ -23,7 +23,7 @@ pub struct Excerpt {
 
 impl Excerpt {
     /// Returns the line of `text` around `at`, or `None` if the text has no such line.
-    pub fn new(text: &[u8], at: Location) -> Option<Self> {
+    pub(crate) fn new(text: &[u8], at: Location) -> Option<Self> {
         let line = text.split(|byte| *byte == b'\n').nth(at.line.checked_sub(1)?)?;
         let line = String::from_utf8_lossy(line);
         let column = at.column.saturating_sub(1);

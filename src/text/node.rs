@@ -7,7 +7,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// A value of a document.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Node {
+pub(crate) enum Node {
     /// Nothing after the colon.
     Null,
     /// `true` or `false`.
@@ -26,7 +26,7 @@ pub enum Node {
 
 impl Node {
     /// What it is, in the words of a message: its value when that is short, else its kind.
-    pub fn describe(&self) -> String {
+    pub(crate) fn describe(&self) -> String {
         match self {
             Node::Null => "nothing".to_owned(),
             Node::Bool(value) => format!("{value}"),
@@ -40,7 +40,7 @@ impl Node {
     }
 
     /// The value under `key` of a mapping.
-    pub fn get(&self, key: &str) -> Option<&Node> {
+    pub(crate) fn get(&self, key: &str) -> Option<&Node> {
         match self {
             Node::Map(entries) => entries.iter().find(|(name, _)| name == key).map(|(_, value)| value),
             _ => None,
@@ -49,7 +49,7 @@ impl Node {
 }
 
 /// The bytes as text, when they are UTF-8 without a byte order mark and with LF alone.
-pub fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
+pub(crate) fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
     let refuse = |location, found: &str, expected: &str, advice: &str| {
         Err(Unreadable::whole(name, location, found, expected, advice))
     };

@@ -7,7 +7,7 @@
 ///
 /// # Panics
 /// Never for a finite value; a value that is not finite is not a number of any document, and refused before.
-pub fn decimal(value: f64) -> String {
+pub(crate) fn decimal(value: f64) -> String {
     let mut text = String::new();
     write(value, |part| text.push_str(part));
     text

@@ -25,7 +25,7 @@ fn visible(c: char) -> bool {
 ///
 /// What is printable already stays as it is: to escape it twice does no harm.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Printable<T>(pub T);
+pub(crate) struct Printable<T>(pub T);
 
 impl<T: Display> Display for Printable<T> {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
@@ -34,17 +34,17 @@ impl<T: Display> Display for Printable<T> {
 }
 
 /// The text as [`Printable`] displays it.
-pub fn printable(text: impl Display) -> String {
+pub(crate) fn printable(text: impl Display) -> String {
     Printable(text).to_string()
 }
 
 /// A path for a message.
-pub fn shown(path: &Path) -> Printable<path::Display<'_>> {
+pub(crate) fn shown(path: &Path) -> Printable<path::Display<'_>> {
     Printable(path.display())
 }
 
 /// A path as the name of a document: a value, which is escaped where it goes out.
-pub fn name_of(path: &Path) -> String {
+pub(crate) fn name_of(path: &Path) -> String {
     path.display().to_string()
 }
 
@@ -64,7 +64,7 @@ impl<W: Write> Write for Escaping<'_, W> {
 }
 
 /// A page, in which besides line feeds the blanks of typesetting are kept: U+00A0, U+2002, U+202F.
-pub fn page(text: &str) -> String {
+pub(crate) fn page(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     // A string takes all that is written.
     let _ = Escaping(&mut shown, |c| visible(c) || "\n\u{A0}\u{2002}\u{202F}".contains(c)).write_str(text);
@@ -72,7 +72,7 @@ pub fn page(text: &str) -> String {
 }
 
 /// A result or a message on its way out, of which line feeds are kept, and `codes`, the emphasis of a terminal.
-pub fn outgoing(text: &str, codes: &[&str]) -> String {
+pub(crate) fn outgoing(text: &str, codes: &[&str]) -> String {
     let mut shown = String::with_capacity(text.len());
     let mut rest = text;
     loop {
@@ -89,7 +89,7 @@ pub fn outgoing(text: &str, codes: &[&str]) -> String {
 ///
 /// # Errors
 /// When the value cannot be written as JSON.
-pub fn json(value: &impl Serialize) -> Result<String, serde_json::Error> {
+pub(crate) fn json(value: &impl Serialize) -> Result<String, serde_json::Error> {
     // Outside of strings JSON is ASCII.
     let text = serde_json::to_string_pretty(value)?;
     let mut escaped = String::with_capacity(text.len());

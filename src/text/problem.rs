@@ -8,7 +8,7 @@ use std::fmt::{self, Display, Formatter};
 ///
 /// It borrows its parent, so that walking a good document allocates nothing. Items of a list count from 0.
 #[derive(Debug, Clone, Copy)]
-pub enum Path<'a> {
+pub(crate) enum Path<'a> {
     /// The document itself.
     Root,
     /// A key of a mapping.
@@ -26,17 +26,17 @@ pub(crate) enum Step {
 
 impl<'a> Path<'a> {
     /// The value under `key`.
-    pub fn key(&'a self, key: &'a str) -> Path<'a> {
+    pub(crate) fn key(&'a self, key: &'a str) -> Path<'a> {
         Path::Key(self, key)
     }
 
     /// The item `index` of a list, counted from 0.
-    pub fn item(&'a self, index: usize) -> Path<'a> {
+    pub(crate) fn item(&'a self, index: usize) -> Path<'a> {
         Path::Item(self, index)
     }
 
     /// The last key on the way, which carries the unit of a number.
-    pub fn last_key(&self) -> &str {
+    pub(crate) fn last_key(&self) -> &str {
         match self {
             Path::Root => "",
             Path::Key(_, key) => key,
@@ -111,7 +111,7 @@ impl Display for Problem {
 }
 
 /// The most mistakes of a document that are reported, each with its place.
-pub const MOST_PROBLEMS: usize = 50;
+pub(crate) const MOST_PROBLEMS: usize = 50;
 
 /// How much is read again to find those places, once the text for each: of a text so large that it comes to more, fewer
 /// mistakes are reported. A hostile text of a hundred thousand mistakes must not keep its reader busy for hours.
@@ -130,34 +130,40 @@ const CORRECT_FIRST: &str = "correct the errors above first";
 
 /// Mistakes collected while a document is read; [`Problems::refuse`] finds their lines and columns.
 #[derive(Debug, Default)]
-pub struct Problems {
+pub(crate) struct Problems {
     found: Vec<(Option<Target>, Problem)>,
     more: bool,
 }
 
 impl Problems {
     /// Nothing is wrong so far.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self::default()
     }
 
     /// Whether nothing is wrong so far.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.found.is_empty()
     }
 
     /// Whether no further mistake will be reported: [`MOST_PROBLEMS`] are noted, and that there are more.
-    pub fn is_full(&self) -> bool {
+    pub(crate) fn is_full(&self) -> bool {
         self.more
     }
 
     /// Notes that the value at `at` is `found` where `expected` was due.
-    pub fn at(&mut self, at: &Path, found: impl Into<String>, expected: impl Into<String>, advice: impl Into<String>) {
+    pub(crate) fn at(
+        &mut self,
+        at: &Path,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+        advice: impl Into<String>,
+    ) {
         self.push(at, None, found.into(), expected.into(), advice.into());
     }
 
     /// Notes a mistake in the n-th key (from 0) of the mapping at `at`.
-    pub fn at_entry(
+    pub(crate) fn at_entry(
         &mut self,
         at: &Path,
         entry: usize,
@@ -169,7 +175,7 @@ impl Problems {
     }
 
     /// Notes that the mapping at `at` lacks `key`; its place is the mapping's.
-    pub fn missing(&mut self, at: &Path, key: &str, expected: impl Into<String>, advice: impl Into<String>) {
+    pub(crate) fn missing(&mut self, at: &Path, key: &str, expected: impl Into<String>, advice: impl Into<String>) {
         let target = Target { steps: at.steps(), entry: None };
         self.note(target, at.key(key).to_string(), MISSING.to_owned(), expected.into(), advice.into());
     }
@@ -185,7 +191,7 @@ impl Problems {
     }
 
     /// Notes a number that is there and not within `low..=high`.
-    pub fn within(&mut self, at: &Path, value: Option<f64>, low: f64, high: f64) {
+    pub(crate) fn within(&mut self, at: &Path, value: Option<f64>, low: f64, high: f64) {
         let Some(value) = value else { return };
         if !(low..=high).contains(&value) {
             let expected = match (low, high) {
@@ -216,7 +222,7 @@ impl Problems {
     /// Returns the refusal of the hand-written document `name` whose text is `text`: the first mistakes with their lines
     /// and columns, in the order of the text, and that there are more when there are.
     #[cfg(feature = "factory")]
-    pub fn refuse(self, name: &str, text: &str) -> Unreadable {
+    pub(crate) fn refuse(self, name: &str, text: &str) -> Unreadable {
         let affordable = (READ_AGAIN_BYTES / text.len().max(1)).max(1);
         self.refused(name, affordable, |target| super::yaml::locate(text, target))
     }

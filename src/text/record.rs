@@ -6,7 +6,7 @@ use super::{Node, Path, Problems};
 use std::collections::HashSet;
 
 /// A type that a field of a document can have.
-pub trait Field: Sized + Clone + Send + Sync + 'static {
+pub(crate) trait Field: Sized + Clone + Send + Sync + 'static {
     /// Reads it; `None` when something is wrong, which is then in `problems`.
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self>;
 
@@ -115,7 +115,7 @@ macro_rules! record {
 pub(crate) use record;
 
 /// The key that a field's name stands for: `type` is a word of Rust, so its field is `r#type`.
-pub const fn key(field: &str) -> &str {
+pub(crate) const fn key(field: &str) -> &str {
     match field.as_bytes() {
         [b'r', b'#', ..] => field.split_at(2).1,
         _ => field,
@@ -123,7 +123,12 @@ pub const fn key(field: &str) -> &str {
 }
 
 /// The entries of a mapping, once unknown and double keys have been reported.
-pub fn entries<'n>(node: &'n Node, at: &Path, problems: &mut Problems, known: &[&str]) -> Option<&'n [(String, Node)]> {
+pub(crate) fn entries<'n>(
+    node: &'n Node,
+    at: &Path,
+    problems: &mut Problems,
+    known: &[&str],
+) -> Option<&'n [(String, Node)]> {
     let Node::Map(entries) = node else {
         problems.at(at, node.describe(), format!("a mapping with the keys {}", known.join(", ")), "");
         return None;
@@ -169,7 +174,12 @@ fn unknown_key_advice(entries: &[(String, Node)], index: usize, key: &str, value
 const ALIKE: f64 = 0.85;
 
 /// Reads the field `key`, or its value when absent.
-pub fn read_field<T: Field>(entries: &[(String, Node)], key: &str, at: &Path, problems: &mut Problems) -> Option<T> {
+pub(crate) fn read_field<T: Field>(
+    entries: &[(String, Node)],
+    key: &str,
+    at: &Path,
+    problems: &mut Problems,
+) -> Option<T> {
     match entries.iter().find(|(name, _)| name == key) {
         Some((_, node)) => T::read(node, &at.key(key), problems),
         None => T::absent().or_else(|| {

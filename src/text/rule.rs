@@ -35,7 +35,7 @@ const BEYOND_ASCII: [RangeInclusive<char>; 22] = [
 ];
 
 /// Whether a string of a signed document may hold `c`.
-pub fn allowed_in_string(c: char) -> bool {
+pub(crate) fn allowed_in_string(c: char) -> bool {
     (' '..='~').contains(&c) || BEYOND_ASCII.iter().any(|range| range.contains(&c))
 }
 
@@ -59,7 +59,7 @@ pub(super) fn write_quoted(text: &str, mut push: impl FnMut(&str)) {
 }
 
 /// Checks the bytes against the rule, before anything is parsed; gives the text.
-pub fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
+pub(crate) fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
     let text = plain_text(name, bytes)?;
     if !text.ends_with('\n') {
         let at = location_of(bytes);
@@ -196,7 +196,7 @@ fn named(c: char) -> String {
 }
 
 /// Where `text`, its comments and blank lines aside, differs from `canonical`: line number, found, expected.
-pub fn differs(text: &str, canonical: &str) -> Option<(usize, String, String)> {
+pub(crate) fn differs(text: &str, canonical: &str) -> Option<(usize, String, String)> {
     let mut expected = canonical.lines();
     let content = text
         .lines()

@@ -153,7 +153,7 @@ impl Field for Timestamp {
 ///
 /// The calendar is a little longer than the instants that can be told apart: "9999-12-31", a last day for what never
 /// ends, is their end.
-pub fn day(date: Date) -> (Timestamp, Timestamp) {
+pub(crate) fn day(date: Date) -> (Timestamp, Timestamp) {
     let beyond = if date.year() > 0 { Timestamp::MAX } else { Timestamp::MIN };
     let start = TimeZone::UTC.to_timestamp(date.at(0, 0, 0, 0)).unwrap_or(beyond);
     let end = start.as_second().saturating_add(86_399);
@@ -161,14 +161,14 @@ pub fn day(date: Date) -> (Timestamp, Timestamp) {
 }
 
 /// SHA-256 of a file, lower-case hexadecimal.
-pub fn sha256_hex(bytes: &[u8]) -> String {
+pub(crate) fn sha256_hex(bytes: &[u8]) -> String {
     const DIGITS: [char; 16] = ['0', '1', '2', '3', '4', '5', '6', '7', '8', '9', 'a', 'b', 'c', 'd', 'e', 'f'];
     let halves = |byte: u8| [byte >> 4, byte & 0xF].map(|half| DIGITS[usize::from(half)]);
     Sha256::digest(bytes).into_iter().flat_map(halves).collect()
 }
 
 /// Whether a text has the form that [`sha256_hex`] gives.
-pub fn is_sha256_hex(text: &str) -> bool {
+pub(crate) fn is_sha256_hex(text: &str) -> bool {
     text.len() == 64 && text.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte))
 }
 

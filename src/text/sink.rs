@@ -5,7 +5,7 @@ use super::{Field, Node};
 /// Takes the values of a document in their order.
 ///
 /// One walk over the fields of a record ([`Field::emit`]) serves every form that a document is written in.
-pub trait Sink: Sized {
+pub(crate) trait Sink: Sized {
     /// Nothing.
     fn null(&mut self);
     /// `true` or `false`.

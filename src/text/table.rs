@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 /// A table: its rows of cells, in the order of the columns asked for.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Table<'a> {
+pub(crate) struct Table<'a> {
     name: &'a str,
     bytes: &'a [u8],
     columns: Vec<&'a str>,
@@ -22,14 +22,14 @@ pub struct Table<'a> {
 
 /// A row of a table.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub(crate) struct Row {
     /// One cell for each column asked for that is there.
     pub cells: Vec<Cell>,
 }
 
 /// A cell: its text, blanks around it removed, and its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Cell {
+pub(crate) struct Cell {
     /// What stands there, without the quotes of a quoted cell.
     pub text: String,
     /// Where.
@@ -41,7 +41,7 @@ impl<'a> Table<'a> {
     ///
     /// # Errors
     /// [`Unreadable`] with every mistake in form; what the cells mean is the caller's.
-    pub fn read(
+    pub(crate) fn read(
         name: &'a str,
         bytes: &'a [u8],
         required: &[&'a str],
@@ -84,7 +84,7 @@ impl<'a> Table<'a> {
     }
 
     /// Names the columns that are left out of account, in words; `None` when there are none.
-    pub fn remark(&self) -> Option<String> {
+    pub(crate) fn remark(&self) -> Option<String> {
         let names: Vec<String> = self.left_out.iter().map(|name| format!("{name:?}")).collect();
         let (words, are) = if names.len() == 1 { ("column", "is") } else { ("columns", "are") };
         let name = self.name;
@@ -92,12 +92,12 @@ impl<'a> Table<'a> {
     }
 
     /// The place of a column among the cells of a row; `None` for an optional one that is not there.
-    pub fn place(&self, column: &str) -> Option<usize> {
+    pub(crate) fn place(&self, column: &str) -> Option<usize> {
         self.columns.iter().position(|name| *name == column)
     }
 
     /// A finite number in a cell; a mistake is added to `problems`.
-    pub fn number(&self, row: &Row, column: usize, problems: &mut Vec<Problem>) -> Option<f64> {
+    pub(crate) fn number(&self, row: &Row, column: usize, problems: &mut Vec<Problem>) -> Option<f64> {
         let cell = &row.cells[column];
         match cell.text.parse::<f64>() {
             Ok(value) if value.is_finite() => Some(value),
@@ -115,7 +115,7 @@ impl<'a> Table<'a> {
     }
 
     /// A whole number from 1 in a cell; a mistake is added to `problems`.
-    pub fn index(&self, row: &Row, column: usize, problems: &mut Vec<Problem>) -> Option<u32> {
+    pub(crate) fn index(&self, row: &Row, column: usize, problems: &mut Vec<Problem>) -> Option<u32> {
         let cell = &row.cells[column];
         let index = cell.text.parse::<u32>().ok().filter(|&index| index > 0);
         if index.is_none() {
@@ -125,7 +125,7 @@ impl<'a> Table<'a> {
     }
 
     /// A mistake at a cell.
-    pub fn problem(&self, cell: &Cell, column: usize, found: String, expected: &str, advice: &str) -> Problem {
+    pub(crate) fn problem(&self, cell: &Cell, column: usize, found: String, expected: &str, advice: &str) -> Problem {
         Problem {
             location: Some(cell.location),
             field: self.columns.get(column).copied().unwrap_or_default().to_owned(),
@@ -136,7 +136,7 @@ impl<'a> Table<'a> {
     }
 
     /// The refusal of this table. Of many cells that want the same advice the first is shown, the others are counted.
-    pub fn refuse(&self, problems: Vec<Problem>) -> Unreadable {
+    pub(crate) fn refuse(&self, problems: Vec<Problem>) -> Unreadable {
         Unreadable::of(self.name, counted(problems)).in_text(self.bytes)
     }
 }

@@ -11,7 +11,7 @@ use std::fmt;
 ///
 /// `name` is the file's name, for messages. Refused are: more than [`super::LARGEST_DOCUMENT_BYTES`], bytes that are
 /// no UTF-8, a byte order mark, CR, and whatever `serde_yaml` cannot read (with line and column).
-pub fn tree(name: &str, bytes: &[u8]) -> Result<(Node, String), Unreadable> {
+pub(crate) fn tree(name: &str, bytes: &[u8]) -> Result<(Node, String), Unreadable> {
     let text = plain_text(name, bytes)?;
     if text.lines().all(|line| line.trim_start().is_empty() || line.trim_start().starts_with('#')) {
         return Err(Unreadable::whole(name, None, "only spaces and comments", "a YAML document", ""));
@@ -293,7 +293,7 @@ impl<'de> Visitor<'de> for Probe<'_> {
 
 /// Reads a document of the record type `T`: the tree, its `format`, then the fields, then the rules of its content
 /// (`check`). Every mistake of the stage that fails is reported.
-pub fn read_document<T: Field>(
+pub(crate) fn read_document<T: Field>(
     name: &str,
     bytes: &[u8],
     format: &str,

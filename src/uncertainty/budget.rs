@@ -15,7 +15,7 @@ use crate::statistics::propagation;
 use nalgebra::DMatrix;
 
 /// The coverage probability of expanded uncertainties.
-pub const COVERAGE: f64 = 0.95;
+pub(crate) const COVERAGE: f64 = 0.95;
 
 /// The uncertainty of one method's parameters and where it comes from.
 #[derive(Debug, Clone, PartialEq)]

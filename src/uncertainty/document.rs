@@ -192,7 +192,7 @@ pub(crate) struct DistributionDocument {
 
 impl MonteCarloDocument {
     /// Of a Monte Carlo.
-    pub fn new(found: &MonteCarlo) -> Self {
+    pub(crate) fn new(found: &MonteCarlo) -> Self {
         let parameters = found.parameters.iter().map(|line| DistributionDocument {
             parameter: line.parameter.key(),
             unit: line.parameter.unit(),

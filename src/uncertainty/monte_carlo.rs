@@ -27,7 +27,7 @@ const FIRST_BLOCKS: u64 = 10;
 const MOST_BLOCKS_IN_A_WAVE: u64 = 512;
 
 /// Trials after which an adaptive run gives up.
-pub const MOST_TRIALS: u64 = 200_000_000;
+pub(crate) const MOST_TRIALS: u64 = 200_000_000;
 
 /// How a Monte Carlo is run.
 #[derive(Clone, Copy)]
@@ -334,7 +334,7 @@ fn valid(differences: [f64; 2], tolerance: f64, numerical: [f64; 2]) -> Option<b
 }
 
 /// δ = ½ · 10ˡ for u = c · 10ˡ with c of two digits (JCGM 101, 7.9.2).
-pub fn tolerance(u: f64) -> f64 {
+pub(crate) fn tolerance(u: f64) -> f64 {
     if !(u.is_finite() && u > 0.0) {
         return f64::INFINITY;
     }

@@ -25,7 +25,7 @@ fn weight(line: &ParameterBudget, tolerance: Option<&Tolerance>) -> f64 {
 
 /// What a budget comes to.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Remedy<'a> {
+pub(crate) struct Remedy<'a> {
     /// The parameter whose uncertainty is the largest share of its tolerance; without a type's tolerance, of its own size.
     pub worst: &'a ParameterBudget,
     /// Its largest contribution.
@@ -36,7 +36,7 @@ pub struct Remedy<'a> {
 
 /// What may be expected of the largest contribution alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Effect {
+pub(crate) enum Effect {
     /// The parameter's uncertainty halves when that of the input is at most this, in the unit of
     /// [`Cause::unit`](crate::calibration::causes::Cause::unit); two digits, rounded down, so that what is asked for is enough.
     HalvesAt(f64),
@@ -46,7 +46,7 @@ pub enum Effect {
 
 /// How much of a variance the largest contribution is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
+pub(crate) enum Part {
     /// From 90 % on.
     NearlyAll,
     /// From a half on.
@@ -57,7 +57,7 @@ pub enum Part {
 
 impl<'a> Remedy<'a> {
     /// Of a budget; `None` when nothing is uncertain.
-    pub fn of(budget: &'a Budget, tolerance: Option<&Tolerance>) -> Option<Self> {
+    pub(crate) fn of(budget: &'a Budget, tolerance: Option<&Tolerance>) -> Option<Self> {
         let heaviest =
             |a: &&ParameterBudget, b: &&ParameterBudget| weight(a, tolerance).total_cmp(&weight(b, tolerance));
         let worst = budget.parameters.iter().max_by(heaviest)?;
@@ -77,7 +77,7 @@ impl<'a> Remedy<'a> {
     }
 
     /// How much of the variance its largest contribution is.
-    pub fn part(&self) -> Part {
+    pub(crate) fn part(&self) -> Part {
         match self.first.share {
             share if share >= NEARLY_ALL => Part::NearlyAll,
             share if share >= 0.5 => Part::Most,
@@ -86,7 +86,7 @@ impl<'a> Remedy<'a> {
     }
 
     /// All of it in one sentence without a full stop.
-    pub fn sentence(&self) -> String {
+    pub(crate) fn sentence(&self) -> String {
         let (worst, kind, percent) = (self.worst, self.first.cause.kind(), 100.0 * self.first.share);
         let from = match self.part() {
             Part::NearlyAll => format!("nearly all of the variance comes from one source ({kind})"),
@@ -103,7 +103,7 @@ impl<'a> Remedy<'a> {
 }
 
 /// Percent that an uncertainty of a scale factor is of it; `None` for other parameters, and of a factor of 0.
-pub fn percent(line: &ParameterBudget, u: f64) -> Option<f64> {
+pub(crate) fn percent(line: &ParameterBudget, u: f64) -> Option<f64> {
     let of_factor = matches!(line.parameter, Parameter::Kx | Parameter::Kxy | Parameter::Kyx | Parameter::Ky);
     (of_factor && line.value != 0.0).then(|| 100.0 * u / line.value.abs())
 }

@@ -17,7 +17,7 @@ const PAIRS: usize = PARAMETERS * (PARAMETERS + 1) / 2;
 
 /// The scale of every parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scale {
+pub(crate) struct Scale {
     /// Middle of the histogram.
     pub centre: [f64; PARAMETERS],
     /// One standard deviation.
@@ -27,7 +27,7 @@ pub struct Scale {
 impl Scale {
     /// From a pilot sample of every parameter: median, and a quarter of the width of the middle 95 % (3.92 standard
     /// deviations of a normal distribution).
-    pub fn of_pilot(mut samples: [Vec<f64>; PARAMETERS]) -> Self {
+    pub(crate) fn of_pilot(mut samples: [Vec<f64>; PARAMETERS]) -> Self {
         let (mut centre, mut unit) = ([0.0; PARAMETERS], [1.0; PARAMETERS]);
         for (place, sample) in samples.iter_mut().enumerate() {
             sample.retain(|value| value.is_finite());
@@ -43,7 +43,7 @@ impl Scale {
 
 /// Means, standard deviations and quantiles of one block, in units of the scale.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BlockSummary {
+pub(crate) struct BlockSummary {
     /// Good trials.
     pub count: u64,
     /// Trials that gave no finite parameters.
@@ -58,7 +58,7 @@ pub struct BlockSummary {
 
 /// Counts of every parameter's bins.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Histograms {
+pub(crate) struct Histograms {
     counts: Vec<u64>,
 }
 
@@ -70,21 +70,21 @@ impl Default for Histograms {
 
 impl Histograms {
     /// Adds what another one counted. The order does not matter.
-    pub fn merge(&mut self, other: &Self) {
+    pub(crate) fn merge(&mut self, other: &Self) {
         for (count, more) in self.counts.iter_mut().zip(&other.counts) {
             *count += more;
         }
     }
 
     /// The bins of a parameter.
-    pub fn of(&self, place: usize) -> Bins<'_, u64> {
+    pub(crate) fn of(&self, place: usize) -> Bins<'_, u64> {
         Bins::new(&self.counts[place * BINS..(place + 1) * BINS])
     }
 }
 
 /// Counts the trials of one thread.
 #[derive(Debug, Clone)]
-pub struct Tally {
+pub(crate) struct Tally {
     scale: Scale,
     /// Bins of the block, then of all blocks.
     block: Vec<u32>,
@@ -97,7 +97,7 @@ pub struct Tally {
 
 impl Tally {
     /// Nothing counted yet.
-    pub fn new(scale: Scale) -> Self {
+    pub(crate) fn new(scale: Scale) -> Self {
         Self {
             scale,
             block: vec![0; PARAMETERS * BINS],
@@ -111,7 +111,7 @@ impl Tally {
 
     /// A chunk of trials.
     #[inline(always)]
-    pub fn add(&mut self, solutions: &Solutions) {
+    pub(crate) fn add(&mut self, solutions: &Solutions) {
         let mut scaled = [[0.0; WIDTH]; PARAMETERS];
         let mut together = [0.0; WIDTH];
         for place in 0..PARAMETERS {
@@ -172,7 +172,7 @@ impl Tally {
     }
 
     /// What the block says, and on to the next.
-    pub fn end_of_block(&mut self) -> BlockSummary {
+    pub(crate) fn end_of_block(&mut self) -> BlockSummary {
         let mut quantiles = [[0.0; 2]; PARAMETERS];
         for (place, quantiles) in quantiles.iter_mut().enumerate() {
             let bins = Bins::new(&self.block[place * BINS..(place + 1) * BINS]);
@@ -191,7 +191,7 @@ impl Tally {
     }
 
     /// The histograms of all blocks.
-    pub fn histograms(&self) -> &Histograms {
+    pub(crate) fn histograms(&self) -> &Histograms {
         &self.all
     }
 }

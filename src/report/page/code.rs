@@ -9,7 +9,7 @@ const QUIET: usize = 4;
 
 /// The code of `text`, dark on white in every mode, and what it says for those who do not see it; `None` when `text` is
 /// too long for any code.
-pub fn picture(text: &str, label: &str) -> Option<Markup> {
+pub(crate) fn picture(text: &str, label: &str) -> Option<Markup> {
     let code = QrCode::with_error_correction_level(text, EcLevel::M).ok()?;
     let size = code.width() + 2 * QUIET;
     Some(html! {

@@ -26,7 +26,7 @@ impl Language {
 
 /// A text in every language: another language is another field, which the compiler then asks of every text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Text {
+pub(crate) struct Text {
     /// English.
     pub en: &'static str,
     /// Russian.
@@ -35,7 +35,7 @@ pub struct Text {
 
 impl Text {
     /// What it says in `language`.
-    pub fn of(&self, language: Language) -> &'static str {
+    pub(crate) fn of(&self, language: Language) -> &'static str {
         match language {
             Language::English => self.en,
             Language::Russian => self.ru,
@@ -43,7 +43,7 @@ impl Text {
     }
 
     /// The same with every `{name}` replaced by its value.
-    pub fn filled(&self, language: Language, values: &[(&str, &str)]) -> String {
+    pub(crate) fn filled(&self, language: Language, values: &[(&str, &str)]) -> String {
         let piece = |piece| match piece {
             Piece::Words(words) => words,
             Piece::Name(name) => values.iter().find(|(key, _)| *key == name).map_or("", |(_, value)| value),
@@ -52,7 +52,7 @@ impl Text {
     }
 
     /// The same with values that are elements of the page.
-    pub fn marked_up(&self, language: Language, values: &[(&str, Markup)]) -> Markup {
+    pub(crate) fn marked_up(&self, language: Language, values: &[(&str, Markup)]) -> Markup {
         let value = |name: &str| values.iter().find(|(key, _)| *key == name).map(|(_, value)| value);
         html! {
             @for piece in pieces(self.of(language)) {

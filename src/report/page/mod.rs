@@ -20,5 +20,5 @@ pub(crate) mod texts;
 
 pub use calibration::{CalibrationPage, UsedPassport};
 pub use language::{Language, Languages};
-pub use number::Number;
+pub(crate) use number::Number;
 pub use passport::PassportPage;

@@ -8,14 +8,14 @@ use crate::text::number;
 use maud::{Markup, html};
 
 /// A blank that does not break, half as wide: between groups of digits.
-pub const THIN_BLANK: char = '\u{202F}';
+pub(crate) const THIN_BLANK: char = '\u{202F}';
 
 /// A blank that does not break: between a number and its unit.
-pub const BLANK: char = '\u{00A0}';
+pub(crate) const BLANK: char = '\u{00A0}';
 
 /// A number of a document and the digits of it that are printed.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Number {
+pub(crate) struct Number {
     value: f64,
     /// With a decimal point and an ASCII minus.
     digits: String,
@@ -23,17 +23,17 @@ pub struct Number {
 
 impl Number {
     /// With so many decimals.
-    pub fn fixed(value: f64, decimals: usize) -> Self {
+    pub(crate) fn fixed(value: f64, decimals: usize) -> Self {
         Self { value, digits: without_minus_zero(format!("{value:.decimals$}")) }
     }
 
     /// With so many significant digits.
-    pub fn significant(value: f64, digits: i32) -> Self {
+    pub(crate) fn significant(value: f64, digits: i32) -> Self {
         Self::to_place(value, rounded_exponent(value, digits) - digits + 1)
     }
 
     /// With so many significant digits, and a power of ten where there would be many zeros.
-    pub fn scientific(value: f64, digits: i32) -> Self {
+    pub(crate) fn scientific(value: f64, digits: i32) -> Self {
         let plain = value == 0.0 || (1e-3..1e5).contains(&value.abs());
         if plain {
             return if value == 0.0 { Self::exact(value) } else { Self::significant(value, digits) };
@@ -43,7 +43,7 @@ impl Number {
     }
 
     /// The shortest decimal that gives the value back.
-    pub fn exact(value: f64) -> Self {
+    pub(crate) fn exact(value: f64) -> Self {
         let magnitude = value.abs();
         let plain = magnitude == 0.0 || (1e-6..1e16).contains(&magnitude);
         let digits = if plain { format!("{value}") } else { format!("{value:e}") };
@@ -51,12 +51,12 @@ impl Number {
     }
 
     /// A standard uncertainty: two significant digits, or a plain 0.
-    pub fn uncertainty(u: f64) -> Self {
+    pub(crate) fn uncertainty(u: f64) -> Self {
         Self::to_place(u, place(u))
     }
 
     /// A value with the standard uncertainty `u`: to the place of the second digit of `u`; as it stands when `u` is 0.
-    pub fn measured(value: f64, u: f64) -> Self {
+    pub(crate) fn measured(value: f64, u: f64) -> Self {
         if u > 0.0 { Self::to_place(value, place(u)) } else { Self::exact(value) }
     }
 
@@ -77,22 +77,22 @@ impl Number {
     }
 
     /// The digits with the marks of `language`.
-    pub fn text(&self, language: Language) -> String {
+    pub(crate) fn text(&self, language: Language) -> String {
         localised(&self.digits, language)
     }
 
     /// How many decimals are printed.
-    pub fn decimals(&self) -> usize {
+    pub(crate) fn decimals(&self) -> usize {
         self.digits.split_once('.').map_or(0, |(_, decimals)| decimals.len())
     }
 
     /// As an element that carries the value itself for programs, written as signed documents write it.
-    pub fn markup(&self, languages: &Languages) -> Markup {
+    pub(crate) fn markup(&self, languages: &Languages) -> Markup {
         html! { data value=(number::decimal(self.value)) { (self.text(languages.first())) } }
     }
 
     /// The same, with room for so many decimals: the marks of a column stand one below the other.
-    pub fn aligned(&self, languages: &Languages, decimals: usize) -> Markup {
+    pub(crate) fn aligned(&self, languages: &Languages, decimals: usize) -> Markup {
         let own = self.decimals();
         // What the column's longest number has more: decimals, blanks between their groups, the mark itself.
         let zeros = |decimals: usize| localised(&format!("{:.decimals$}", 0.0), languages.first());
@@ -105,7 +105,7 @@ impl Number {
 }
 
 /// A column of numbers, their decimal marks one below the other.
-pub fn column(languages: &Languages, numbers: &[Option<Number>]) -> Vec<Option<Markup>> {
+pub(crate) fn column(languages: &Languages, numbers: &[Option<Number>]) -> Vec<Option<Markup>> {
     let decimals = numbers.iter().flatten().map(Number::decimals).max().unwrap_or(0);
     numbers.iter().map(|number| number.as_ref().map(|number| number.aligned(languages, decimals))).collect()
 }
@@ -146,7 +146,7 @@ fn without_minus_zero(digits: String) -> String {
 }
 
 /// A decimal number written with point and ASCII minus, in the manner of `language`.
-pub fn localised(ascii: &str, language: Language) -> String {
+pub(crate) fn localised(ascii: &str, language: Language) -> String {
     let (sign, unsigned) = match ascii.strip_prefix('-') {
         Some(rest) => ("\u{2212}", rest),
         None => ("", ascii),

@@ -9,7 +9,7 @@ use jiff::tz::TimeZone;
 use maud::{Markup, html};
 
 /// A section with its number and heading; `id` is its anchor.
-pub fn section(languages: &Languages, id: &str, number: &str, heading: Text, body: &Markup) -> Markup {
+pub(crate) fn section(languages: &Languages, id: &str, number: &str, heading: Text, body: &Markup) -> Markup {
     let heading_id = format!("{id}-heading");
     html! {
         section id=(id) aria-labelledby=(heading_id) {
@@ -23,22 +23,22 @@ pub fn section(languages: &Languages, id: &str, number: &str, heading: Text, bod
 }
 
 /// A heading within a section.
-pub fn heading(languages: &Languages, text: Text) -> Markup {
+pub(crate) fn heading(languages: &Languages, text: Text) -> Markup {
     html! { h3 { (languages.label(text)) } }
 }
 
 /// Words of the file, in whatever language they are.
-pub fn given(words: &str) -> Markup {
+pub(crate) fn given(words: &str) -> Markup {
     html! { span.given lang="" { (words) } }
 }
 
 /// A place for a pen.
-pub fn blank(languages: &Languages) -> Markup {
+pub(crate) fn blank(languages: &Languages) -> Markup {
     html! { span.blank role="img" aria-label=(languages.spoken(words::EMPTY)) {} }
 }
 
 /// A name and what it names: a place for a pen when it is not known.
-pub fn field(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
+pub(crate) fn field(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
     html! {
         div {
             dt { (languages.label(name)) }
@@ -48,7 +48,7 @@ pub fn field(languages: &Languages, name: Text, value: Option<Markup>) -> Markup
 }
 
 /// The same over the whole width: for long texts.
-pub fn wide_field(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
+pub(crate) fn wide_field(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
     html! {
         div.wide {
             dt { (languages.label(name)) }
@@ -58,12 +58,12 @@ pub fn wide_field(languages: &Languages, name: Text, value: Option<Markup>) -> M
 }
 
 /// Fields, in as many columns as there is room for.
-pub fn fields(fields: impl IntoIterator<Item = Markup>) -> Markup {
+pub(crate) fn fields(fields: impl IntoIterator<Item = Markup>) -> Markup {
     html! { dl.fields { @for field in fields { (field) } } }
 }
 
 /// A number and its unit, which no line break parts.
-pub fn quantity(languages: &Languages, number: &Number, unit: Text) -> Markup {
+pub(crate) fn quantity(languages: &Languages, number: &Number, unit: Text) -> Markup {
     html! { span.quantity { (number.markup(languages)) (unit_after(languages, unit)) } }
 }
 
@@ -74,12 +74,12 @@ fn unit_after(languages: &Languages, unit: Text) -> Markup {
 }
 
 /// A day, as the page's language writes it.
-pub fn date(languages: &Languages, date: Date) -> Markup {
+pub(crate) fn date(languages: &Languages, date: Date) -> Markup {
     html! { time datetime=(date) { (date_text(languages.first(), date)) } }
 }
 
 /// A day as `language` writes it: ISO 8601, or day, month and year with points.
-pub fn date_text(language: Language, date: Date) -> String {
+pub(crate) fn date_text(language: Language, date: Date) -> String {
     match language {
         Language::English => date.to_string(),
         Language::Russian => format!("{:02}.{:02}.{:04}", date.day(), date.month(), date.year()),
@@ -87,12 +87,12 @@ pub fn date_text(language: Language, date: Date) -> String {
 }
 
 /// A time in UTC.
-pub fn time(languages: &Languages, time: Timestamp) -> Markup {
+pub(crate) fn time(languages: &Languages, time: Timestamp) -> Markup {
     html! { time datetime=(time) { (time_text(languages.first(), time)) } }
 }
 
 /// A time in UTC as `language` writes it.
-pub fn time_text(language: Language, time: Timestamp) -> String {
+pub(crate) fn time_text(language: Language, time: Timestamp) -> String {
     let at = time.to_zoned(TimeZone::UTC);
     let clock = at.time();
     let (hour, minute, second) = (clock.hour(), clock.minute(), clock.second());
@@ -100,18 +100,18 @@ pub fn time_text(language: Language, time: Timestamp) -> String {
 }
 
 /// A symbol with its subscript.
-pub fn symbol(letter: &str, subscript: &str) -> Markup {
+pub(crate) fn symbol(letter: &str, subscript: &str) -> Markup {
     html! { span.symbol { i { (letter) } @if !subscript.is_empty() { sub { (subscript) } } } }
 }
 
 /// A symbol in the head of a column, with its unit; another language's unit stands below.
-pub fn symbol_and_unit(languages: &Languages, symbol: &Markup, unit: Text) -> Markup {
+pub(crate) fn symbol_and_unit(languages: &Languages, symbol: &Markup, unit: Text) -> Markup {
     html! { (symbol) "," (BLANK) (languages.label(unit)) }
 }
 
 /// A picture with its caption; `id` names it for the style. The picture says for itself what it shows to those who do not see
 /// it.
-pub fn figure(languages: &Languages, id: &str, drawing: &Markup, caption: Text) -> Markup {
+pub(crate) fn figure(languages: &Languages, id: &str, drawing: &Markup, caption: Text) -> Markup {
     html! {
         figure id={ "figure-" (id) } {
             (drawing)
@@ -122,7 +122,7 @@ pub fn figure(languages: &Languages, id: &str, drawing: &Markup, caption: Text) 
 
 /// A table: its caption, its row of headings, which every sheet repeats, and its rows.
 #[derive(Debug, Clone, Default)]
-pub struct Table {
+pub(crate) struct Table {
     /// What it shows.
     pub caption: Option<Markup>,
     /// Headings over several columns: how many, and what they say; none in most tables.
@@ -139,7 +139,7 @@ pub struct Table {
 
 impl Table {
     /// As markup; it scrolls sideways where the screen is too narrow, and a keyboard reaches it then.
-    pub fn markup(&self, name: &str) -> Markup {
+    pub(crate) fn markup(&self, name: &str) -> Markup {
         html! {
             div.scroll tabindex="0" role="group" aria-label=(name) {
                 table class=(self.class) {

@@ -10,7 +10,7 @@ const STYLE: &str = include_str!("style.css");
 
 /// Words in the margins of every printed sheet. Page numbers stand at the lower right.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Margins {
+pub(crate) struct Margins {
     /// Upper left: which document.
     pub top_left: String,
     /// Upper right: what must not be overlooked on any sheet.
@@ -20,7 +20,7 @@ pub struct Margins {
 }
 
 /// A whole page: one file, no script, nothing from outside.
-pub fn document(languages: &Languages, title: &str, margins: &Margins, body: &Markup) -> String {
+pub(crate) fn document(languages: &Languages, title: &str, margins: &Margins, body: &Markup) -> String {
     // The browser itself is told to load nothing: whatever a text should smuggle in stays without effect.
     let policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
     let page = html! {

@@ -15,8 +15,8 @@ const PANEL_PIXELS: u32 = 330;
 const WIDTH: f64 = 440.0;
 const BARS: [f64; 2] = [44.0, 300.0];
 const TOP: f64 = 12.0;
-const ROW: f64 = 22.0;
-const BAR_HALF: f64 = 6.0;
+const ROW: f64 = 17.0;
+const BAR_HALF: f64 = 5.0;
 const AXIS_HEIGHT: f64 = 36.0;
 
 /// No axis reaches farther; what is worse is at its end.
@@ -31,7 +31,7 @@ struct Row {
 
 /// Draws what a passport states about its accuracy; the drifts' tolerances are compared at the type's g, so the passport's
 /// `gravity_m_per_s2` is needed.
-pub fn accuracy(languages: &Languages, accuracy: &Accuracy, gravity_m_per_s2: f64) -> Markup {
+pub(crate) fn accuracy(languages: &Languages, accuracy: &Accuracy, gravity_m_per_s2: f64) -> Markup {
     let rows = rows(accuracy, gravity_m_per_s2);
     let largest = rows.iter().filter_map(|row| row.share).fold(0.5, f64::max);
     let reach = (1.08 * COVERAGE_FACTOR * largest).clamp(1.25, LARGEST_SHARE);
@@ -80,7 +80,7 @@ fn rows(accuracy: &Accuracy, gravity_m_per_s2: f64) -> Vec<Row> {
 }
 
 /// The unit of a parameter on pages.
-pub fn unit(parameter: Parameter) -> Text {
+pub(crate) fn unit(parameter: Parameter) -> Text {
     match parameter {
         Parameter::Kx | Parameter::Kxy | Parameter::Kyx | Parameter::Ky => units::DEG_PER_H_PER_MA,
         Parameter::Omega0x | Parameter::Omega0y => units::DEG_PER_H,

@@ -26,7 +26,7 @@ const WORDS: &str = "Bars: contribution of each kind of input to the standard un
                      root sum of squares of the bars.";
 
 /// Draws a budget, in black and white; `None` where nothing is uncertain.
-pub fn budget(budget: &Budget) -> Option<String> {
+pub(crate) fn budget(budget: &Budget) -> Option<String> {
     if budget.parameters.is_empty() || budget.inputs.is_empty() {
         return None;
     }

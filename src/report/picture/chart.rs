@@ -4,11 +4,11 @@ use super::drawing::{Anchor, Point, Scale, line, list, mark, words};
 use maud::{Markup, html};
 
 /// How a series looks: the frame index whose mark it borrows, and the class of its line.
-pub type Look = (u32, &'static str);
+pub(crate) type Look = (u32, &'static str);
 
 /// A field: values to the right along `x`, upwards along `y`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Field {
+pub(crate) struct Field {
     /// From its left end to its right end.
     pub x: Scale,
     /// From its lower end to its upper end.
@@ -17,7 +17,7 @@ pub struct Field {
 
 impl Field {
     /// Both axes, and a faint line with its number at each of their marks.
-    pub fn axes(&self, x_marks: &[(f64, String)], y_marks: &[(f64, String)]) -> Markup {
+    pub(crate) fn axes(&self, x_marks: &[(f64, String)], y_marks: &[(f64, String)]) -> Markup {
         let ([left, right], [bottom, top]) = (self.x.places, self.y.places);
         html! {
             @for (value, printed) in x_marks {
@@ -36,7 +36,7 @@ impl Field {
     }
 
     /// A line through `values`, with the mark of `index` at each; what is beyond an axis is at its end.
-    pub fn series(&self, values: &[Point], (index, class): Look) -> Markup {
+    pub(crate) fn series(&self, values: &[Point], (index, class): Look) -> Markup {
         let points: Vec<Point> = values.iter().map(|[x, y]| [self.x.clamped(*x), self.y.clamped(*y)]).collect();
         html! {
             polyline class=(class) points=(list(&points)) {}
@@ -46,6 +46,6 @@ impl Field {
 }
 
 /// A series as a legend shows it.
-pub fn sample((index, class): Look) -> Markup {
+pub(crate) fn sample((index, class): Look) -> Markup {
     html! { (line([1.0, 7.0], [27.0, 7.0], class)) (mark([14.0, 7.0], index, "mark")) }
 }

@@ -27,7 +27,7 @@ const SERIES: [(Look, Share); 2] = [
 
 /// Draws the steps of a result by successive approximation; `None` for other methods, and where a limit is 0, which no
 /// logarithm knows.
-pub fn convergence(languages: &Languages, result: &ResultDocument) -> Option<Markup> {
+pub(crate) fn convergence(languages: &Languages, result: &ResultDocument) -> Option<Markup> {
     let (changes, rule) = result.changes.as_deref().zip(result.stop_rule)?;
     if changes.is_empty() || rule.delta1_percent <= 0.0 || rule.delta2_deg_per_h <= 0.0 {
         return None;

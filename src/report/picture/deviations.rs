@@ -36,7 +36,7 @@ const ANGLES: [(&str, &str, OfPosition); 3] = [
 ];
 
 /// Draws the deviations of `positions`, those of a stand or of a passport, with their uncertainties where there are any.
-pub fn deviations(languages: &Languages, positions: &[CertifiedPosition]) -> Markup {
+pub(crate) fn deviations(languages: &Languages, positions: &[CertifiedPosition]) -> Markup {
     let all = positions.iter().flat_map(|at| ANGLES.map(|(_, _, of)| of(at)));
     let ends = all.clone().flat_map(|(value, u)| {
         let half = COVERAGE_FACTOR * u.unwrap_or(0.0);

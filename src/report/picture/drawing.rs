@@ -8,14 +8,14 @@ use crate::report::page::number::{Number, localised};
 use maud::{Markup, PreEscaped, html};
 
 /// A point of a drawing: to the right and down, in its own units.
-pub type Point = [f64; 2];
+pub(crate) type Point = [f64; 2];
 
 /// Panels are drawn at most so many times their size.
 const LARGEST: f64 = 1.15;
 
 /// One drawing with its words.
 #[derive(Debug, Clone, Copy)]
-pub struct Panel<'a> {
+pub(crate) struct Panel<'a> {
     /// Of a page, unique: the ids within begin with it.
     pub name: &'a str,
     /// The languages of its words.
@@ -26,13 +26,13 @@ pub struct Panel<'a> {
 
 impl Panel<'_> {
     /// An id for `part`, unique on a page even where the page stands once for each language.
-    pub fn id(&self, part: &str) -> String {
+    pub(crate) fn id(&self, part: &str) -> String {
         let tags: Vec<&str> = self.languages.iter().map(Language::tag).collect();
         format!("{}-{part}-{}", self.name, tags.join("-"))
     }
 
     /// The drawing as an image that says what it shows: a title, and the numbers in words.
-    pub fn svg(
+    pub(crate) fn svg(
         &self,
         title: impl Fn(Language) -> String,
         description: impl Fn(Language) -> String,
@@ -56,7 +56,7 @@ impl Panel<'_> {
     }
 
     /// A hatch under the id of `part`, for a `fill` by [`Panel::filled_with`].
-    pub fn hatch(&self, part: &str) -> Markup {
+    pub(crate) fn hatch(&self, part: &str) -> Markup {
         html! {
             pattern id=(self.id(part)) width="5" height="5" patternUnits="userSpaceOnUse" patternTransform="rotate(45)" {
                 line.hatch x1="0" y1="0" x2="0" y2="5" {}
@@ -65,13 +65,13 @@ impl Panel<'_> {
     }
 
     /// The `fill` of what is hatched.
-    pub fn filled_with(&self, part: &str) -> String {
+    pub(crate) fn filled_with(&self, part: &str) -> String {
         format!("url(#{})", self.id(part))
     }
 }
 
 /// The panels of a picture, up to `columns` side by side where there is room for `width` pixels of a screen each, and the legend beneath.
-pub fn panels(columns: u32, width: u32, drawings: &[Markup], legend: &Markup) -> Markup {
+pub(crate) fn panels(columns: u32, width: u32, drawings: &[Markup], legend: &Markup) -> Markup {
     html! {
         div.panels style={ "--columns:" (columns) ";--panel:" (rem(f64::from(width))) } { @for drawing in drawings { (drawing) } }
         (legend)
@@ -79,7 +79,7 @@ pub fn panels(columns: u32, width: u32, drawings: &[Markup], legend: &Markup) ->
 }
 
 /// What the marks mean: a sample of each, and its words.
-pub fn legend(languages: &Languages, entries: &[(Markup, Text)]) -> Markup {
+pub(crate) fn legend(languages: &Languages, entries: &[(Markup, Text)]) -> Markup {
     html! {
         ul.legend {
             @for (sample, words) in entries {
@@ -99,30 +99,30 @@ fn rem(pixels: f64) -> String {
 }
 
 /// A coordinate to a tenth, which is finer than print.
-pub fn coordinate(value: f64) -> String {
+pub(crate) fn coordinate(value: f64) -> String {
     let text = format!("{value:.1}");
     let text = text.strip_suffix(".0").unwrap_or(&text);
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
 /// Points as `points` and `d` have them.
-pub fn list(points: &[Point]) -> String {
+pub(crate) fn list(points: &[Point]) -> String {
     let each: Vec<String> = points.iter().map(|[x, y]| format!("{},{}", coordinate(*x), coordinate(*y))).collect();
     each.join(" ")
 }
 
 /// A straight line.
-pub fn line([x1, y1]: Point, [x2, y2]: Point, class: &str) -> Markup {
+pub(crate) fn line([x1, y1]: Point, [x2, y2]: Point, class: &str) -> Markup {
     html! { line class=(class) x1=(coordinate(x1)) y1=(coordinate(y1)) x2=(coordinate(x2)) y2=(coordinate(y2)) {} }
 }
 
 /// A closed shape.
-pub fn polygon(points: &[Point], class: &str) -> Markup {
+pub(crate) fn polygon(points: &[Point], class: &str) -> Markup {
     html! { polygon class=(class) points=(list(points)) {} }
 }
 
 /// A rectangle between two corners, whichever they are.
-pub fn rectangle([x1, y1]: Point, [x2, y2]: Point, class: &str, fill: Option<&str>) -> Markup {
+pub(crate) fn rectangle([x1, y1]: Point, [x2, y2]: Point, class: &str, fill: Option<&str>) -> Markup {
     html! {
         rect class=(class) x=(coordinate(x1.min(x2))) y=(coordinate(y1.min(y2))) width=(coordinate((x2 - x1).abs()))
             height=(coordinate((y2 - y1).abs())) fill=[fill] {}
@@ -131,7 +131,7 @@ pub fn rectangle([x1, y1]: Point, [x2, y2]: Point, class: &str, fill: Option<&st
 
 /// Where a label stands to its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Anchor {
+pub(crate) enum Anchor {
     /// The label begins there.
     Start,
     /// Its middle is there.
@@ -141,7 +141,7 @@ pub enum Anchor {
 }
 
 /// Words or a symbol with its baseline at a point.
-pub fn label([x, y]: Point, anchor: Anchor, class: &str, words: &Markup) -> Markup {
+pub(crate) fn label([x, y]: Point, anchor: Anchor, class: &str, words: &Markup) -> Markup {
     let anchor = match anchor {
         Anchor::Start => None,
         Anchor::Middle => Some("middle"),
@@ -151,17 +151,17 @@ pub fn label([x, y]: Point, anchor: Anchor, class: &str, words: &Markup) -> Mark
 }
 
 /// The same of plain words.
-pub fn words(at: Point, anchor: Anchor, class: &str, words: &str) -> Markup {
+pub(crate) fn words(at: Point, anchor: Anchor, class: &str, words: &str) -> Markup {
     label(at, anchor, class, &html! { (words) })
 }
 
 /// The number of a document, which a program finds again by its value.
-pub fn number(at: Point, anchor: Anchor, value: f64, printed: &str) -> Markup {
+pub(crate) fn number(at: Point, anchor: Anchor, value: f64, printed: &str) -> Markup {
     label(at, anchor, "", &html! { tspan data-value=(crate::text::number::decimal(value)) { (printed) } })
 }
 
 /// A symbol of the paper: what follows the underscore stands lower.
-pub fn symbol(name: &str) -> Markup {
+pub(crate) fn symbol(name: &str) -> Markup {
     let (letter, index) = name.split_once('_').unwrap_or((name, ""));
     html! {
         tspan.letter { (letter) }
@@ -170,12 +170,12 @@ pub fn symbol(name: &str) -> Markup {
 }
 
 /// The same within plain words: `K_x` is Kx.
-pub fn plain_symbol(name: &str) -> String {
+pub(crate) fn plain_symbol(name: &str) -> String {
     name.replace('_', "")
 }
 
 /// A title, in lines for each language, and how much room the lines beyond the first one take.
-pub fn heading(languages: &Languages, at: Point, text: Text) -> (Markup, f64) {
+pub(crate) fn heading(languages: &Languages, at: Point, text: Text) -> (Markup, f64) {
     const LINE: f64 = 15.0;
     let mut said: Vec<&str> = Vec::new();
     let mut lines: Vec<(&str, String)> = Vec::new();
@@ -209,7 +209,7 @@ fn lines_of(title: &str) -> Vec<String> {
 }
 
 /// A line with a head at its end. One that is shorter than its head is the head alone, and a point is nothing.
-pub fn arrow(from: Point, to: Point, class: &str) -> Markup {
+pub(crate) fn arrow(from: Point, to: Point, class: &str) -> Markup {
     const HEAD: f64 = 8.0;
     const HALF_WIDTH: f64 = 3.2;
     let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
@@ -231,7 +231,7 @@ pub fn arrow(from: Point, to: Point, class: &str) -> Markup {
 }
 
 /// A mark of a point: frame index by frame index another shape, so that no colour is needed to tell them apart.
-pub fn mark([x, y]: Point, index: u32, class: &str) -> Markup {
+pub(crate) fn mark([x, y]: Point, index: u32, class: &str) -> Markup {
     const R: f64 = 3.6;
     match index % 4 {
         1 => html! { circle class=(class) cx=(coordinate(x)) cy=(coordinate(y)) r=(R) {} },
@@ -243,7 +243,7 @@ pub fn mark([x, y]: Point, index: u32, class: &str) -> Markup {
 
 /// A scale: values to places along an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scale {
+pub(crate) struct Scale {
     /// The two values at its ends.
     pub values: [f64; 2],
     /// Where they stand.
@@ -252,13 +252,13 @@ pub struct Scale {
 
 impl Scale {
     /// The place of a value.
-    pub fn place(&self, value: f64) -> f64 {
+    pub(crate) fn place(&self, value: f64) -> f64 {
         let ([from, to], [start, end]) = (self.values, self.places);
         start + (value - from) / (to - from) * (end - start)
     }
 
     /// The same, at an end of the scale when it is beyond: for values that nobody limits.
-    pub fn clamped(&self, value: f64) -> f64 {
+    pub(crate) fn clamped(&self, value: f64) -> f64 {
         let [from, to] = self.values;
         self.place(value.clamp(from.min(to), from.max(to)))
     }
@@ -266,7 +266,7 @@ impl Scale {
 
 /// Round values for the marks of an axis: multiples of 1, 2 or 5 times a power of ten.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Ticks {
+pub(crate) struct Ticks {
     /// The distance of one from the next.
     pub step: f64,
     /// From the lowest to the highest.
@@ -276,7 +276,7 @@ pub struct Ticks {
 
 impl Ticks {
     /// At most about `most` of them between `low` and `high`.
-    pub fn between(low: f64, high: f64, most: usize) -> Self {
+    pub(crate) fn between(low: f64, high: f64, most: usize) -> Self {
         let (step, exponent) = round_step((high - low) / most.max(1) as f64);
         let first = (low / step - 1e-9).ceil() as i64;
         let last = (high / step + 1e-9).floor() as i64;
@@ -285,7 +285,7 @@ impl Ticks {
     }
 
     /// As many as have room for their numbers along `scale`.
-    pub fn along(scale: &Scale, language: Language) -> Self {
+    pub(crate) fn along(scale: &Scale, language: Language) -> Self {
         const LETTER: f64 = 6.0;
         const GAP: f64 = 10.0;
         let [low, high] = scale.values;
@@ -300,7 +300,7 @@ impl Ticks {
     }
 
     /// A value as the axis prints it.
-    pub fn text(&self, value: f64, language: Language) -> String {
+    pub(crate) fn text(&self, value: f64, language: Language) -> String {
         Number::fixed(value, self.decimals).text(language)
     }
 }
@@ -319,19 +319,19 @@ fn round_step(step: f64) -> (f64, i32) {
 }
 
 /// 10 to the power `exponent`.
-pub fn power_of_ten(exponent: i32) -> f64 {
+pub(crate) fn power_of_ten(exponent: i32) -> f64 {
     libm::pow(10.0, f64::from(exponent))
 }
 
 /// The largest value of 1, 2 or 5 times a power of ten that is not above `value`: the length of a scale bar.
-pub fn round_below(value: f64) -> f64 {
+pub(crate) fn round_below(value: f64) -> f64 {
     let exponent = libm::floor(libm::log10(value)) as i32;
     let digit = [5.0, 2.0, 1.0].into_iter().find(|digit| digit * power_of_ten(exponent) <= value * (1.0 + 1e-9));
     digit.unwrap_or(1.0) * power_of_ten(exponent)
 }
 
 /// `10⁻³` as a factor of a unit.
-pub fn power(exponent: i32, language: Language) -> String {
+pub(crate) fn power(exponent: i32, language: Language) -> String {
     let one = localised(&format!("1e{exponent}"), language);
     one.find("10").map_or_else(String::new, |at| one[at..].to_owned())
 }
@@ -342,12 +342,12 @@ fn exponent(value: f64) -> i32 {
 }
 
 /// The power of ten to take out of the numbers of an axis that reaches to `reach`: 0 unless they had many zeros.
-pub fn crowding(reach: f64) -> i32 {
+pub(crate) fn crowding(reach: f64) -> i32 {
     Some(exponent(reach)).filter(|exponent| !(-2..4).contains(exponent)).unwrap_or(0)
 }
 
 /// Nothing.
-pub fn nothing() -> Markup {
+pub(crate) fn nothing() -> Markup {
     PreEscaped(String::new())
 }
 

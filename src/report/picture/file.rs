@@ -8,7 +8,7 @@ use maud::{Markup, PreEscaped, html};
 const STYLE: &str = include_str!("file.css");
 
 /// The file of a picture that is `panel` alone; its first language speaks.
-pub fn file(panel: &Panel, title: &str, description: &str, drawing: &[Markup]) -> String {
+pub(crate) fn file(panel: &Panel, title: &str, description: &str, drawing: &[Markup]) -> String {
     let [width, height] = panel.size.map(coordinate);
     let picture = panel.svg(|_| title.to_owned(), |_| description.to_owned(), drawing);
     let file = html! {
@@ -22,7 +22,7 @@ pub fn file(panel: &Panel, title: &str, description: &str, drawing: &[Markup]) -
 }
 
 /// One line above a field: what its upright axis counts, and what the marks mean.
-pub fn caption([x, y]: Point, axis: &str, entries: &[(Markup, &str)]) -> Markup {
+pub(crate) fn caption([x, y]: Point, axis: &str, entries: &[(Markup, &str)]) -> Markup {
     const GAP: f64 = 16.0;
     const SAMPLE: f64 = 34.0;
     let mut end = x + width(axis) + GAP;

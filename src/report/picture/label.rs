@@ -17,14 +17,14 @@ const DISTANCES: [f64; 6] = [8.0, 16.0, 26.0, 38.0, 52.0, 68.0];
 
 /// A label to be placed.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Label {
+pub(crate) struct Label {
     at: Point,
     words: String,
 }
 
 /// A box on the drawing: its lowest and highest coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Area {
+pub(crate) struct Area {
     /// Left and upper end.
     pub low: Point,
     /// Right and lower end.
@@ -33,7 +33,7 @@ pub struct Area {
 
 impl Area {
     /// By how much two boxes overlap, as an area.
-    pub fn overlap(&self, other: &Self) -> f64 {
+    pub(crate) fn overlap(&self, other: &Self) -> f64 {
         let along =
             |axis: usize| (self.high[axis].min(other.high[axis]) - self.low[axis].max(other.low[axis])).max(0.0);
         along(0) * along(1)
@@ -51,7 +51,7 @@ impl Area {
 }
 
 /// Points that are one for the reader get one label: "1,1–1,4" or "1,1 2,3".
-pub fn together(points: &[(Point, String)]) -> Vec<Label> {
+pub(crate) fn together(points: &[(Point, String)]) -> Vec<Label> {
     let mut groups: Vec<(Point, Vec<&str>)> = Vec::new();
     for (at, words) in points {
         let near = |place: &Point| libm::hypot(place[0] - at[0], place[1] - at[1]) < SAME;
@@ -72,7 +72,7 @@ pub fn together(points: &[(Point, String)]) -> Vec<Label> {
 
 /// Draws the labels within `field`, off `words` that stand there already, and clear of `obstacles` (points that lines run
 /// through) where that can be.
-pub fn place(labels: &[Label], words: &[Area], obstacles: &[Point], field: &Area) -> Markup {
+pub(crate) fn place(labels: &[Label], words: &[Area], obstacles: &[Point], field: &Area) -> Markup {
     let marks: Vec<Area> = labels.iter().map(|label| Area::about(label.at, 5.0)).collect();
     let lines: Vec<Area> = obstacles.iter().map(|at| Area::about(*at, 1.0)).collect();
     let mut taken = words.to_vec();
@@ -100,7 +100,7 @@ pub fn place(labels: &[Label], words: &[Area], obstacles: &[Point], field: &Area
 }
 
 /// How wide words of the class `small` are, at most.
-pub fn width(words: &str) -> f64 {
+pub(crate) fn width(words: &str) -> f64 {
     let letter = |c: char| match c {
         ',' | '.' | ' ' => NARROW,
         '…' => WIDE,

@@ -28,4 +28,4 @@ pub(crate) mod tolerances;
 pub(crate) mod vectors;
 
 /// The style of the pictures within a page; it follows the colours of the page around them.
-pub const STYLE: &str = include_str!("style.css");
+pub(crate) const STYLE: &str = include_str!("style.css");

@@ -25,7 +25,7 @@ const LINE: f64 = 15.0;
 const MOST_DECIMALS: usize = 6;
 
 /// Draws the radius of validity of a passport; a band of latitude where its site has no longitude.
-pub fn place(languages: &Languages, content: &Content) -> Markup {
+pub(crate) fn place(languages: &Languages, content: &Content) -> Markup {
     let panel = Panel { name: "place", languages, size: SIZE };
     let band = content.site.longitude_deg.is_none();
     let area = if band { band_area() } else { circle_area() };

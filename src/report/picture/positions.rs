@@ -40,7 +40,7 @@ const AXIS_HEIGHT: f64 = 1.32;
 const AXIS: f64 = 1.27;
 
 /// Draws `positions`: those of a stand or of a passport, any number of them, at any angles.
-pub fn positions(languages: &Languages, positions: &[CertifiedPosition]) -> Markup {
+pub(crate) fn positions(languages: &Languages, positions: &[CertifiedPosition]) -> Markup {
     let drawings: Vec<Markup> = positions.iter().map(|at| position(languages, at)).collect();
     panels(COLUMNS, PANEL_PIXELS, &drawings, &key(languages))
 }

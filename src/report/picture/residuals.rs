@@ -19,7 +19,7 @@ const ROW: f64 = 17.0;
 const AXIS_HEIGHT: f64 = 24.0;
 
 /// Limits are at plus and minus so many standard uncertainties of the residual.
-pub const LIMIT: f64 = 2.0;
+pub(crate) const LIMIT: f64 = 2.0;
 
 /// A residual along one axis, and its standard uncertainty.
 type Along = fn(&ResidualDocument) -> (f64, Option<f64>);
@@ -27,7 +27,7 @@ type Along = fn(&ResidualDocument) -> (f64, Option<f64>);
 const AXES: [(&str, Along); 2] = [("x", |at| (at.x, at.u_x)), ("y", |at| (at.y, at.u_y))];
 
 /// Draws the residuals of one method's result with their limits.
-pub fn residuals(languages: &Languages, result: &ResultDocument) -> Markup {
+pub(crate) fn residuals(languages: &Languages, result: &ResultDocument) -> Markup {
     let all = result.residuals_deg_per_h.iter().flat_map(|at| AXES.map(|(_, along)| along(at)));
     let reach = all.fold(0.0, |most, (value, u)| f64::max(most, value.abs().max(LIMIT * u.unwrap_or(0.0))));
     let reach = if reach > 0.0 && reach.is_finite() { 1.05 * reach } else { 1.0 };

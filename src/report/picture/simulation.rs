@@ -35,7 +35,7 @@ const NUMBERS: [Steps; 3] = [
 const KINDS: [(&str, &str); 2] = [("uniform", "uniform within ±D"), ("corners", "every angle +D or −D")];
 
 /// Draws Fig. 4, in black and white; `None` without a row.
-pub fn convergence(found: &Convergence) -> Option<String> {
+pub(crate) fn convergence(found: &Convergence) -> Option<String> {
     let farthest = found.rows.iter().map(|row| row.limit_deg).reduce(f64::max)?;
     let x = Scale { values: [0.0, farthest.max(1.0)], places: ACROSS };
     let title = format!("Steps of the iterative method, {} stands at each limit D", found.trials);

@@ -24,7 +24,7 @@ const REACH: [f64; 2] = [1.3, 4.0];
 const ROOM_FOR_ARROW: f64 = 22.0;
 
 /// Draws a verdict: against a type, or of a change since an earlier result. `name` tells two pictures of a page apart.
-pub fn tolerances(languages: &Languages, name: &str, verdict: &Verdict) -> Markup {
+pub(crate) fn tolerances(languages: &Languages, name: &str, verdict: &Verdict) -> Markup {
     let ends = verdict.parameters.iter().filter(|row| row.tolerance > 0.0);
     let farthest = ends.map(|row| (row.deviation.abs() + row.expanded_uncertainty) / row.tolerance).fold(0.0, f64::max);
     let reach = (1.1 * farthest).clamp(REACH[0], REACH[1]);
@@ -137,18 +137,18 @@ fn parameter(languages: &Languages, row: &ParameterVerdict, scale: &Scale, y: f6
 }
 
 /// Deviation and expanded uncertainty, to the second digit of the standard uncertainty.
-pub fn printed(row: &ParameterVerdict) -> (Number, Number) {
+pub(crate) fn printed(row: &ParameterVerdict) -> (Number, Number) {
     let u = row.expanded_uncertainty / COVERAGE_FACTOR;
     (Number::measured(row.deviation, u), Number::measured(row.expanded_uncertainty, u))
 }
 
 /// Which parameter a line of a verdict is about.
-pub fn parameter_of(row: &ParameterVerdict) -> Option<Parameter> {
+pub(crate) fn parameter_of(row: &ParameterVerdict) -> Option<Parameter> {
     Parameter::NINE.into_iter().find(|parameter| parameter.key() == row.parameter)
 }
 
 /// The unit of a line of a verdict: percent for scale factors, the parameter's own otherwise.
-pub fn unit_of(row: &ParameterVerdict) -> Text {
+pub(crate) fn unit_of(row: &ParameterVerdict) -> Text {
     match (row.unit, parameter_of(row)) {
         ("%", _) | (_, None) => units::PERCENT,
         (_, Some(parameter)) => unit(parameter),
@@ -156,7 +156,7 @@ pub fn unit_of(row: &ParameterVerdict) -> Text {
 }
 
 /// A decision on pages.
-pub fn decision(decision: Decision) -> Text {
+pub(crate) fn decision(decision: Decision) -> Text {
     match decision {
         Decision::Pass => texts::DECISION_PASS,
         Decision::Fail => texts::DECISION_FAIL,

@@ -45,7 +45,7 @@ struct Subject {
 }
 
 /// Draws ω_3 and n of every position of a passport, its own numbers, against those at the nominal angles.
-pub fn vectors(languages: &Languages, content: &Content) -> Markup {
+pub(crate) fn vectors(languages: &Languages, content: &Content) -> Markup {
     let subjects = subjects(content);
     let drawings: Vec<Markup> = subjects
         .iter()

@@ -6,7 +6,7 @@
 mod scanner;
 mod writer;
 
-pub use scanner::Scanner;
+pub(crate) use scanner::Scanner;
 #[cfg(test)]
 pub(crate) use writer::write_bare;
 pub(crate) use writer::{write, write_some};
@@ -16,7 +16,7 @@ use super::{Field, rule};
 
 /// The first place at which a text is not in canonical form.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct NotCanonical {
+pub(crate) struct NotCanonical {
     /// The place.
     pub location: Location,
     /// The text found there, to the end of its line, in the words of a message.
@@ -31,7 +31,7 @@ pub struct NotCanonical {
 ///
 /// # Errors
 /// The first place that is not in canonical form.
-pub fn read<T: Field>(text: &str) -> Result<T, NotCanonical> {
+pub(crate) fn read<T: Field>(text: &str) -> Result<T, NotCanonical> {
     let document = scanner::scan::<T>(text)?;
     if writer::is_written(&document, text) {
         return Ok(document);

@@ -25,7 +25,7 @@ pub(super) fn scan<T: Field>(text: &str) -> Result<T, NotCanonical> {
 
 /// A place in a text in canonical form.
 #[derive(Debug)]
-pub struct Scanner<'t> {
+pub(crate) struct Scanner<'t> {
     rest: &'t str,
     /// Blocks around the current key.
     depth: usize,
@@ -47,7 +47,7 @@ impl<'t> Scanner<'t> {
     }
 
     /// The keys of a mapping, which [`Scanner::entry`] reads one after the other.
-    pub fn mapping<T>(&mut self, entries: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+    pub(crate) fn mapping<T>(&mut self, entries: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
         if self.inline || (self.depth > 0 && self.rest.starts_with(" {")) {
             return self.on_the_line(|scanner| {
                 scanner.take("{")?;
@@ -68,7 +68,7 @@ impl<'t> Scanner<'t> {
     }
 
     /// The value of `key` when that is the next key, otherwise its value when absent.
-    pub fn entry<T: Field>(&mut self, key: &'static str) -> Option<T> {
+    pub(crate) fn entry<T: Field>(&mut self, key: &'static str) -> Option<T> {
         if self.at_key(key).is_none() {
             return T::absent();
         }
@@ -115,7 +115,7 @@ impl<'t> Scanner<'t> {
     }
 
     /// The items of a list.
-    pub fn list<T: Field>(&mut self) -> Option<Vec<T>> {
+    pub(crate) fn list<T: Field>(&mut self) -> Option<Vec<T>> {
         let mut items = Vec::new();
         if !self.inline && self.rest.starts_with('\n') {
             self.take("\n")?;
@@ -144,7 +144,7 @@ impl<'t> Scanner<'t> {
     }
 
     /// The items of a list of so many, which are no mappings.
-    pub fn array<T: Field, const N: usize>(&mut self) -> Option<[T; N]> {
+    pub(crate) fn array<T: Field, const N: usize>(&mut self) -> Option<[T; N]> {
         self.on_the_line(|scanner| {
             scanner.take("[")?;
             let mut item = T::scan(scanner)?;
@@ -164,7 +164,7 @@ impl<'t> Scanner<'t> {
     }
 
     /// A value that is neither list nor mapping.
-    pub fn scalar(&mut self) -> Option<Node> {
+    pub(crate) fn scalar(&mut self) -> Option<Node> {
         self.on_the_line(|scanner| match scanner.rest.strip_prefix('"') {
             Some(text) => scanner.quoted(text).map(Node::Text),
             None => match scanner.word()? {
@@ -176,12 +176,12 @@ impl<'t> Scanner<'t> {
     }
 
     /// A string.
-    pub fn string(&mut self) -> Option<String> {
+    pub(crate) fn string(&mut self) -> Option<String> {
         self.on_the_line(|scanner| scanner.quoted(scanner.rest.strip_prefix('"')?))
     }
 
     /// A number with a point.
-    pub fn number(&mut self) -> Option<f64> {
+    pub(crate) fn number(&mut self) -> Option<f64> {
         self.on_the_line(|scanner| scanner.word()?.parse().ok())
     }
 

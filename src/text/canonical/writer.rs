@@ -5,28 +5,28 @@ use crate::text::sink::Sink;
 use crate::text::{Field, number, rule};
 
 /// The comment lines above a key, given as a path like `earth.gravity_m_per_s2`; without the `# `.
-pub type Comments<'a> = &'a dyn Fn(&str) -> Vec<String>;
+pub(super) type Comments<'a> = &'a dyn Fn(&str) -> Vec<String>;
 
 /// Writes a mapping: nested mappings as blocks, each item of a list of mappings on its own line, a matrix on one line.
-pub fn write(document: &impl Field, comments: Comments) -> String {
+pub(crate) fn write(document: &impl Field, comments: Comments) -> String {
     let mut text = String::with_capacity(USUAL_BYTES);
     write_some(&mut text, document, comments, &|_| true);
     text
 }
 
 /// The same without comments: the form that texts are compared in.
-pub fn write_bare(document: &impl Field) -> String {
+pub(crate) fn write_bare(document: &impl Field) -> String {
     Writer::new(String::with_capacity(USUAL_BYTES)).written(document)
 }
 
 /// Writes those keys of a mapping that are `wanted` to the end of a text, nested ones aside, which go with theirs.
-pub fn write_some(text: &mut String, document: &impl Field, comments: Comments, wanted: &dyn Fn(&str) -> bool) {
+pub(crate) fn write_some(text: &mut String, document: &impl Field, comments: Comments, wanted: &dyn Fn(&str) -> bool) {
     let writer = Writer { wanted, comments: Some(comments), ..Writer::new(std::mem::take(text)) };
     *text = writer.written(document);
 }
 
 /// Whether `text`, its comments and blank lines aside, is what [`write()`] makes of the document.
-pub fn is_written(document: &impl Field, text: &str) -> bool {
+pub(super) fn is_written(document: &impl Field, text: &str) -> bool {
     let compared = Writer::new(Compared(Some(text.as_bytes()))).written(document);
     compared.0.is_some_and(|rest| after_comments(rest).is_empty())
 }

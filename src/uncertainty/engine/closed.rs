@@ -9,7 +9,7 @@ use crate::statistics::lanes::WIDTH;
 
 /// Where the eight positions are, and how many there are in all.
 #[derive(Debug, Clone)]
-pub struct Closed {
+pub(crate) struct Closed {
     eight: [usize; 8],
 }
 

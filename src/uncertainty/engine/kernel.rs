@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// What one position sees in every trial of a chunk.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct At {
+pub(crate) struct At {
     /// Specific force along x and y, g.
     pub n: [Column; 2],
     /// Earth rate along x and y, °/h.
@@ -49,7 +49,7 @@ struct Place {
 
 /// All positions.
 #[derive(Debug, Clone)]
-pub struct Kernel {
+pub(crate) struct Kernel {
     places: Vec<Place>,
     /// Of each axis: what is known, and what an estimate with few degrees of freedom gives.
     case: [[Scaled; 2]; 3],

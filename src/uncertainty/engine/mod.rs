@@ -31,7 +31,7 @@ use refit::Refit;
 const CHUNKS_PER_BLOCK: u64 = 512;
 
 /// Trials of a block.
-pub const BLOCK: u64 = CHUNKS_PER_BLOCK * WIDTH as u64;
+pub(crate) const BLOCK: u64 = CHUNKS_PER_BLOCK * WIDTH as u64;
 
 /// How a current's own error is distributed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,7 +58,7 @@ pub struct Engine {
 }
 
 /// The eight parameters of every trial of a chunk, in the order of [`crate::calibration::parameter::Parameter::EIGHT`].
-pub type Solutions = [Column; 8];
+pub(crate) type Solutions = [Column; 8];
 
 /// The columns that a chunk works on, kept from chunk to chunk.
 #[derive(Debug, Clone)]

@@ -16,7 +16,7 @@ pub(crate) type Slot = usize;
 /// What an input of the engine is. Normal inputs that turn the same thing about the same axis are one, their variances
 /// added up: so there are fewer than in a budget.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Drawn {
+pub(crate) enum Drawn {
     /// A certified angle of the position of that place: 0, 1, 2 are α, β, γ.
     Angle(usize, usize),
     /// The return to the position of that place, about axis 0, 1, 2 of the case.
@@ -43,7 +43,7 @@ pub enum Drawn {
 
 /// An input that is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DrawnInput {
+pub(crate) struct DrawnInput {
     /// Which.
     pub what: Drawn,
     /// rad, mA, or a share.
@@ -56,7 +56,7 @@ pub struct DrawnInput {
 
 /// All inputs that are drawn, in the order of their columns.
 #[derive(Debug, Clone)]
-pub struct Plan {
+pub(crate) struct Plan {
     inputs: Vec<DrawnInput>,
     /// Degrees of freedom of the estimates that some of them rest on.
     estimates: Vec<f64>,

@@ -12,14 +12,14 @@ use crate::statistics::lanes::{Column, WIDTH};
 use nalgebra::Matrix2;
 
 /// Steps from the best fit: what is left is of third order in the uncertainties.
-pub const STEPS: usize = 2;
+pub(crate) const STEPS: usize = 2;
 
 /// Elements of the lower triangle of 8×8.
 const TRIANGLE: usize = 36;
 
 /// The best fit and its weights.
 #[derive(Debug, Clone)]
-pub struct Refit {
+pub(crate) struct Refit {
     /// K_x, K_xy, K_yx, K_y, ω_0x, ω_0y, ω_g, ω_k.
     start: [f64; 8],
     /// P = W'W of every position: p11, p12, p22.

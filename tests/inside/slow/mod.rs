@@ -12,7 +12,7 @@ mod hostile_input;
 mod hostile_memory;
 #[cfg(feature = "factory")]
 mod noise;
-#[cfg(feature = "monte-carlo")]
+#[cfg(feature = "report")]
 mod simulation;
 #[cfg(feature = "factory")]
 mod tampering;

@@ -11,7 +11,7 @@ use serde_json::Serializer;
 use serde_json::ser::Formatter;
 use std::io::{self, Write};
 
-pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
+pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
     let signatures = html! {
         (languages.paragraph(texts::ONLY_THIS_ONE))
         div.pair { (signature(languages, texts::CALIBRATED_BY)) (signature(languages, texts::APPROVED_BY)) }

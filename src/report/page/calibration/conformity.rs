@@ -13,7 +13,7 @@ use maud::{Markup, html};
 /// Smaller risks matter to nobody.
 const LEAST_RISK: f64 = 1e-6;
 
-pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
+pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
     let Some((gyro, verdict)) = page.judged() else { return html! {} };
     let body = html! {
         p { (languages.inline_with(|language| texts::CONFORMITY.filled(language, &[("type", &gyro.r#type)]))) }
@@ -100,7 +100,7 @@ fn cells(languages: &Languages, row: &ParameterVerdict) -> Vec<Markup> {
 }
 
 /// A probability: two digits, or that it is less than any that matters.
-pub fn probability(languages: &Languages, p: f64) -> Markup {
+pub(super) fn probability(languages: &Languages, p: f64) -> Markup {
     if p < LEAST_RISK {
         let limit = Number::scientific(LEAST_RISK, 1);
         return languages

@@ -13,7 +13,7 @@ use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::residuals::residuals;
 use maud::{Markup, html};
 
-pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
+pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
     let results = &page.result().results;
     let answer = results.iter().find(|result| result.method == "least-squares").or(results.last());
     let fit = html! {

@@ -12,7 +12,7 @@ use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::convergence::convergence;
 use maud::{Markup, html};
 
-pub fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
+pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
     let results = &page.result().results;
     let body = html! {
         (table(page, languages))

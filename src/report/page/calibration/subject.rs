@@ -10,7 +10,7 @@ use crate::report::page::passport::{accuracy, checks};
 use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units};
 use maud::{Markup, html};
 
-pub fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
+pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
     let body = html! {
         (gyro(page, languages))
         (heading(languages, texts::PASSPORT))

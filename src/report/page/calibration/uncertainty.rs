@@ -21,7 +21,7 @@ const MANY: f64 = 1e4;
 /// A share of a variance that rounding alone leaves.
 const LEAST_SHARE: f64 = 1e-20;
 
-pub fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
+pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
     html! {
         @if let Some(budget) = page.budget {
             @let tolerance = page.gyro.map(|gyro| &gyro.tolerance);

@@ -15,7 +15,7 @@ use maud::{Markup, html};
 /// How much normal gravity falls with each metre, in m/s² (free air), as the signed comments say it.
 const GRAVITY_SLOPE_M_PER_S2_PER_M: f64 = 3.1e-6;
 
-pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
+pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
     let body = html! {
         @match &content.accuracy {
@@ -58,7 +58,7 @@ fn stated_for(accuracy: &Accuracy, languages: &Languages) -> Markup {
 }
 
 /// The meter, in a sentence.
-pub fn meter(laboratory: &StatedLaboratory, languages: &Languages) -> Markup {
+pub(crate) fn meter(laboratory: &StatedLaboratory, languages: &Languages) -> Markup {
     let meter = &laboratory.meter;
     let values = [
         ("reading", meter.reading_percent),

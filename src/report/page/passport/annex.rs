@@ -7,7 +7,7 @@ use crate::report::page::texts::passport as texts;
 use base64ct::{Base64, Encoding};
 use maud::{Markup, html};
 
-pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
+pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let name = page.file_name();
     let address = format!("data:application/yaml;base64,{}", Base64::encode_string(page.text.as_bytes()));
     let body = html! {

@@ -13,7 +13,7 @@ use crate::stand::{ActsOn, Certificate, CertifiedPosition, TypeB};
 use crate::units::ARCSECONDS_PER_DEGREE;
 use maud::{Markup, html};
 
-pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
+pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
     let body = html! {
         (heading(languages, texts::DEVIATIONS))

@@ -11,7 +11,7 @@ use crate::report::page::texts::checks as texts;
 use maud::{Markup, html};
 
 /// The verdict, large, and when it was reached.
-pub fn verdict(page: &PassportPage, languages: &Languages) -> Markup {
+pub(crate) fn verdict(page: &PassportPage, languages: &Languages) -> Markup {
     let good = page.verification.valid();
     let when = if good { texts::ALL_PASSED } else { texts::GENUINE };
     html! {
@@ -25,7 +25,7 @@ pub fn verdict(page: &PassportPage, languages: &Languages) -> Markup {
 }
 
 /// "In force", or why the passport may not be used.
-pub fn headline(page: &PassportPage, language: Language) -> String {
+pub(crate) fn headline(page: &PassportPage, language: Language) -> String {
     let failed: Vec<&str> = failed(page).map(|check| reason(check.code).of(language)).collect();
     if failed.is_empty() {
         return texts::IN_FORCE.of(language).to_owned();
@@ -50,7 +50,7 @@ fn reason(code: Code) -> Text {
 }
 
 /// Every check with its verdict.
-pub fn table(page: &PassportPage, languages: &Languages) -> Markup {
+pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
     let caption = languages
         .label_with(|language| texts::CAPTION.filled(language, &[("time", &time_text(language, page.question.time))]));
     let rows = page.verification.checks().iter().map(|check| {

@@ -9,7 +9,7 @@ use maud::{Markup, html};
 
 /// A place for a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Slot {
+pub(super) enum Slot {
     /// The stand in each position.
     Positions,
     /// The certified deviations.
@@ -23,7 +23,7 @@ pub enum Slot {
 }
 
 /// The picture for a place, with its caption; nothing where the passport has not what it shows.
-pub fn figure(slot: Slot, content: &Content, languages: &Languages) -> Markup {
+pub(super) fn figure(slot: Slot, content: &Content, languages: &Languages) -> Markup {
     let (id, drawing, caption) = match slot {
         Slot::Positions => {
             ("positions", picture::positions::positions(languages, &content.positions), texts::FIGURE_POSITIONS)

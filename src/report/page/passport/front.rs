@@ -7,7 +7,7 @@ use crate::report::page::parts::{date, field, fields, given, time, wide_field};
 use crate::report::page::texts::{passport as texts, words};
 use maud::{Markup, html};
 
-pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
+pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let heading = "verification-heading";
     html! {
         section id="verification" aria-labelledby=(heading) {

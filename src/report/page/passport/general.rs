@@ -8,7 +8,7 @@ use crate::report::page::parts::{date, field, fields, given, heading, quantity, 
 use crate::report::page::texts::{passport as texts, record, units};
 use maud::{Markup, html};
 
-pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
+pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let body = html! {
         (stand(page, languages))
         (certificate(page, languages))

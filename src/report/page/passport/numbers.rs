@@ -14,7 +14,7 @@ use maud::{Markup, html};
 /// Decimals of numbers that carry no uncertainty: 1e-9 °/h and 1e-9 g are far below what any reading shows.
 const DECIMALS: usize = 9;
 
-pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
+pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
     let body = html! {
         @match &content.matrices {
@@ -123,7 +123,7 @@ fn self_check(check: &SelfCheck, languages: &Languages) -> Markup {
 
 /// A table of the eight parameters of a gyro, in the paper's groups, a row for each thing said of them. Cells stand in the
 /// order of [`numbers_of`].
-pub fn parameters(languages: &Languages, caption: Option<Markup>, rows: Vec<(Markup, [Markup; 8])>) -> Table {
+pub(crate) fn parameters(languages: &Languages, caption: Option<Markup>, rows: Vec<(Markup, [Markup; 8])>) -> Table {
     let groups = [texts::SCALE_FACTORS_MAIN, texts::SCALE_FACTORS_CROSS, texts::DRIFT_CONSTANT, texts::DRIFT_G];
     let columns = [
         ("K", "x", units::DEG_PER_H_PER_MA),
@@ -147,7 +147,7 @@ pub fn parameters(languages: &Languages, caption: Option<Markup>, rows: Vec<(Mar
 }
 
 /// The numbers of the eight parameters: K_x, K_y, K_xy, K_yx, ω_0x, ω_0y, ω_g, ω_k.
-pub fn numbers_of(parameters: &Parameters) -> [f64; 8] {
+pub(crate) fn numbers_of(parameters: &Parameters) -> [f64; 8] {
     let [[kx, kxy], [kyx, ky]] = parameters.k_deg_per_h_per_ma;
     let [w0x, w0y] = parameters.omega0_deg_per_h;
     [kx, ky, kxy, kyx, w0x, w0y, parameters.omega_g_deg_per_h_per_g, parameters.omega_k_deg_per_h_per_g]

@@ -8,7 +8,7 @@ use crate::report::page::parts::{Table, blank, field, fields, given, heading, se
 use crate::report::page::texts::record as texts;
 use maud::{Markup, html};
 
-pub fn section(page: &PassportPage, languages: &Languages) -> Markup {
+pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let form = |heading, headings: &[Text], rows| table(languages, heading, headings, rows);
     let words = |heading_text, names: &[Text]| {
         html! {

@@ -51,9 +51,9 @@ texts! {
     DEVIATION_NO_U { en: "the certificate gives no uncertainty", ru: "неопределённость в\u{a0}сертификате не указана" }
 
     EARTH_RATE { en: "Earth rate ω₃ along x and y", ru: "Угловая скорость Земли ω₃ по x и\u{a0}y" }
-    EARTH_RATE_DIFFERENCE { en: "ω₃: actual minus nominal", ru: "ω₃ при реальной ориентации минус ω₃ при номинальной" }
+    EARTH_RATE_DIFFERENCE { en: "ω₃: actual minus nominal", ru: "Отклонение ω₃ от номинальной" }
     SPECIFIC_FORCE { en: "Specific force n along x and y", ru: "Перегрузка n по x и\u{a0}y" }
-    SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus nominal", ru: "n при реальной ориентации минус n при номинальной" }
+    SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus nominal", ru: "Отклонение n от номинальной" }
     VECTOR_IN_WORDS { en: "position {index}: x {x}, y {y}", ru: "положение {index}: x {x}, y {y}" }
     VECTORS_DESCRIPTION { en: "In {unit}: {list}.", ru: "В {unit}: {list}." }
     VECTOR_REAL { en: "actual orientation, as certified", ru: "реальная ориентация (аттестованная)" }
