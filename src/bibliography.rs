@@ -2,6 +2,7 @@
 
 /// A source of formulas, constants or rules.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Bibliography {
     /// Tang Xingyuan and V. P. Podchezertsev, "Algorithms of dynamically tuned gyroscope certification under
     /// conditions of real-world orientation relative to the geographic coordinate system", Engineering Journal:

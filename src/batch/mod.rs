@@ -8,11 +8,11 @@
 //! * `paths`: what a user names: files, folders, patterns, lists.
 //! * `catalogue`: stand and site files by their ids.
 //! * `shard`: a part of a job, for one of several machines.
-//! * `first`: every stand at every site.
+//! * `issue`: every stand at every site.
 //! * `successors`: passports issued anew.
 
 pub(crate) mod catalogue;
-pub(crate) mod first;
+pub(crate) mod issue;
 pub(crate) mod paths;
 pub(crate) mod shard;
 pub(crate) mod successors;

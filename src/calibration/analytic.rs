@@ -15,6 +15,7 @@ pub(crate) struct AnalyticSolution {
 
 /// Why there is no closed solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NoAnalyticSolution {
     /// The method is for the paper's eight positions.
     #[error("the stand lacks some of the eight positions that the analytic method requires")]

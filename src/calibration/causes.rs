@@ -14,6 +14,7 @@ use nalgebra::{DMatrix, Vector2, Vector3};
 
 /// An input quantity that is uncertain. Axes count from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Cause {
     /// A certified angle of a position: 0, 1, 2 are α, β, γ.
     Angle(PositionIndex, usize),

@@ -47,6 +47,7 @@ pub struct Hint {
 
 /// One explanation.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Explanation {
     /// The readings of two positions are exchanged.
     Exchanged(PositionIndex, PositionIndex),

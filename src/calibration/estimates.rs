@@ -17,6 +17,7 @@ const ROUNDING: f64 = 0.5;
 
 /// What a standard uncertainty rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Basis {
     /// It is taken as known.
     Known,

@@ -126,6 +126,7 @@ pub(crate) struct Turn {
 
 /// Why there is no setup.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NoSetup {
     /// n_2 has no inverse.
     #[error(transparent)]

@@ -30,6 +30,7 @@ impl Default for StopRule {
 
 /// Why successive approximation gives nothing.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NoIterativeSolution {
     /// The method is for the paper's eight positions.
     #[error(

@@ -39,6 +39,7 @@ pub(crate) struct LeastSquaresSolution {
 
 /// Why there is no least-squares solution.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NoLeastSquares {
     /// The number of current pairs is not that of the positions.
     #[error("found {found} pairs of currents, expected {expected}, one for each position")]

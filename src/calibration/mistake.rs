@@ -29,6 +29,7 @@ const MOST_DEG: f64 = 89.9;
 /// A mistake that explains why a result is not that of the gyro.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Mistake {
     /// The columns of the currents are not what they are taken for.
     Currents(CurrentsMistaken),

@@ -5,6 +5,7 @@ use nalgebra::{Matrix2, Vector2};
 
 /// One unknown of the drift model (paper, eq. (2)).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Parameter {
     /// K_x, °/h/mA.
     Kx,

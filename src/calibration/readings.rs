@@ -75,6 +75,7 @@ pub struct Readings {
 
 /// Why readings do not fit the positions.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NoReadings {
     /// A position that has none.
     #[error("found no reading of position {0}")]

@@ -13,6 +13,7 @@ use nalgebra::{DMatrix, Matrix2, Vector2};
 
 /// A method of calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Method {
     /// The paper's closed solution.
     Analytic,
@@ -69,6 +70,7 @@ impl Calibration {
 
 /// Why one method gave nothing.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MethodRefusal {
     /// The closed solution.
     #[error(transparent)]

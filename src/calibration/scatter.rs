@@ -30,6 +30,7 @@ pub struct Scatter {
 
 /// How a scatter compares with what was stated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Agreement {
     /// More: the variance was enlarged.
     More,

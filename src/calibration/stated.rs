@@ -9,6 +9,7 @@ use crate::units::radians_from_arcseconds;
 
 /// What nobody states: the uncertainty of a result is without it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum NotStated {
     /// The certified angles' own part.
     Angles,

@@ -17,6 +17,7 @@ const PER_G: [Parameter; 2] = [Parameter::OmegaG, Parameter::OmegaK];
 /// A decision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Decision {
     /// Within tolerance.
     Pass,

@@ -20,7 +20,7 @@ record! {
 
 impl NominalPosition {
     /// Which position it is.
-    pub fn index(&self) -> PositionIndex {
+    pub(crate) fn index(&self) -> PositionIndex {
         PositionIndex { i: self.i, j: self.j }
     }
 

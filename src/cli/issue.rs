@@ -5,7 +5,7 @@ use super::calibrate::read_laboratory;
 use super::simulate::read_gyro;
 use super::{Code, Failure, output, trust_options};
 use crate::batch::catalogue::Listed;
-use crate::batch::first::{Job, Known};
+use crate::batch::issue::{Job, Known};
 use crate::files;
 use crate::gyro::GyroType;
 use crate::passport::accuracy::Stated;

@@ -5,9 +5,9 @@ use crate::calibration::{Calibration, Method, Readings, Setup};
 use crate::gyro::Tolerance;
 use crate::report::{budget as budget_report, monte_carlo as monte_carlo_report, picture};
 use crate::uncertainty::document::{BudgetDocument, MonteCarloDocument};
+use crate::uncertainty::dominant::Dominant;
 use crate::uncertainty::engine::{Engine, ReadingShape};
 use crate::uncertainty::monte_carlo::Trials;
-use crate::uncertainty::remedy::Remedy;
 use crate::uncertainty::{Budget, MonteCarlo, monte_carlo};
 use clap::Args;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
@@ -109,7 +109,7 @@ impl UncertaintyOptions {
             output::file(path, &svg, self.force)?;
         }
         let trials = self.monte_carlo.then(|| self.trials(setup, readings, &budget)).transpose()?;
-        let sentence = Remedy::of(&budget, tolerance).map(|remedy| remedy.sentence());
+        let sentence = Dominant::of(&budget, tolerance).map(|remedy| remedy.sentence());
         Ok(Found { budget: self.budget.then_some((budget, sentence)), monte_carlo: trials })
     }
 

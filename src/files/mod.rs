@@ -164,6 +164,7 @@ pub(crate) enum Access {
 
 /// What of a new file is safe from a loss of power once it has been written. To kill the program loses nothing of any.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Durability {
     /// The file, under its name.
     Named,

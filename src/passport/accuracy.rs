@@ -95,6 +95,7 @@ pub struct Stated {
 
 /// Why no accuracy can be stated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NoAccuracy {
     /// The stand cannot be used, or an uncertainty is none.
     #[error(transparent)]

@@ -5,6 +5,7 @@ use std::fmt::Display;
 
 /// The checks, in their order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum CheckName {
     /// The text rule, the split, the form of the signature.
     Grammar,
@@ -51,6 +52,7 @@ impl CheckName {
 
 /// The verdict of a check, for programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Code {
     /// Passed.
     Ok,

@@ -29,6 +29,15 @@ const LONGEST_SIGNATURE: usize = 2000;
 /// From this much more noise on than on a perfect stand the factory is warned.
 pub(crate) const NOISE_WARNING: f64 = 2.0;
 
+/// The passport that a re-issued one is made from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reissued {
+    /// Its id and the SHA-256 of its file.
+    pub from: Predecessor,
+    /// Whether the new passport supersedes it.
+    pub supersedes: bool,
+}
+
 /// Who issues, and when.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Issue {
@@ -40,8 +49,8 @@ pub struct Issue {
     pub valid_until: Option<Date>,
     /// Counts from 1 at each site of a stand.
     pub revision: u32,
-    /// After a re-issue: the passport it was made from, and whether that one is superseded.
-    pub predecessor: Option<(Predecessor, bool)>,
+    /// The passport that it is made from, for a re-issue.
+    pub reissued: Option<Reissued>,
     /// For whom the passport states what the stand is good for; nothing when `None`.
     pub accuracy: Option<Stated>,
     /// Whether a passport is issued even if its positions do not determine the parameters of a gyro.
@@ -57,7 +66,7 @@ impl Issue {
             issued_at,
             valid_until: None,
             revision: 1,
-            predecessor: None,
+            reissued: None,
             accuracy: None,
             allow_uncalibratable: false,
         }
@@ -149,7 +158,8 @@ pub fn draft(stand: &Stand, site: &Site, issue: &Issue) -> Result<Draft, IssueRe
 
 fn content(stand: &Stand, geometry: &StandGeometry, site: &Site, issue: &Issue) -> Result<Content, IssueRefused> {
     let derived = derive_from(geometry, site, &REFERENCE_GYRO);
-    let (reissued_from, supersedes) = issue.predecessor.clone().unzip();
+    let (reissued_from, supersedes) =
+        issue.reissued.clone().map(|reissued| (reissued.from, reissued.supersedes)).unzip();
     Ok(Content {
         format: PASSPORT_FORMAT.to_owned(),
         passport: Header {

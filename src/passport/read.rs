@@ -39,7 +39,7 @@ mod tests {
         use crate::laboratory::Laboratory;
         use crate::passport::accuracy::Stated;
         use crate::passport::content::Predecessor;
-        use crate::passport::issue::{Issue, draft};
+        use crate::passport::issue::{Issue, Reissued, draft};
         let site = r#"format: "dtg-site/1"
 id: "bench"
 name: "A bench \\ with a \"mark\", 北京"
@@ -63,7 +63,7 @@ uncertainty: {}
             changed: "site".to_owned(),
         };
         let order = Issue {
-            predecessor: Some((predecessor, true)),
+            reissued: Some(Reissued { from: predecessor, supersedes: true }),
             accuracy: Some(Stated { gyro: GyroType::gvk_6().into(), laboratory: Laboratory::paper().into() }),
             ..Issue::first("factory@example.org", "2026-11-09T08:00:00Z".parse().unwrap())
         };

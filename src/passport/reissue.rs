@@ -3,7 +3,7 @@
 use super::accuracy::Stated;
 use super::checks::{CheckName, Code};
 use super::content::{Content, Predecessor};
-use super::issue::{Draft, Issue, IssueRefused, PreparedStand};
+use super::issue::{Draft, Issue, IssueRefused, PreparedStand, Reissued};
 use super::verification::Verification;
 use crate::document::sha256_hex;
 use crate::site::Site;
@@ -152,7 +152,7 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         issued_at: order.issued_at,
         valid_until: order.valid_until.or(old_last_day),
         revision: 0,
-        predecessor: Some((predecessor, same_site || order.moved)),
+        reissued: Some(Reissued { from: predecessor, supersedes: same_site || order.moved }),
         // Of a passport that may only be named nothing is taken over, whoever may have signed it.
         accuracy: match &usable {
             Usable::Whole => old.accuracy.as_ref().map(Stated::of),
@@ -231,7 +231,7 @@ impl Successor {
 
     /// Returns `true` if the old passport will no longer be used.
     pub(crate) fn supersedes(&self) -> bool {
-        self.issue.predecessor.as_ref().is_some_and(|(_, supersedes)| *supersedes)
+        self.issue.reissued.as_ref().is_some_and(|reissued| reissued.supersedes)
     }
 
     /// Returns the same successor beside `rival`, the file of a passport that supersedes the same old one.
@@ -256,7 +256,7 @@ impl Successor {
 
     /// SHA-256 of the old passport.
     pub(crate) fn old_sha256(&self) -> &str {
-        self.issue.predecessor.as_ref().map_or("", |(predecessor, _)| &predecessor.sha256)
+        self.issue.reissued.as_ref().map_or("", |reissued| &reissued.from.sha256)
     }
 
     /// The revision that it has at least: the next one at the same site, 1 at another.

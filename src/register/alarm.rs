@@ -24,6 +24,7 @@ pub struct Alarm {
 
 /// The passports whose state is not known.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Concern {
     /// All.
     Everything,
@@ -34,6 +35,7 @@ pub enum Concern {
 /// Kinds of alarm.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum AlarmKind {
     /// Two successors of one passport.
     Forked,

@@ -24,6 +24,7 @@ use successors::Successors;
 /// What is to be said of a passport.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum State {
     /// It may be used.
     InForce,

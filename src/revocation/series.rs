@@ -21,6 +21,7 @@ pub struct Series {
 
 /// What is wrong with a series of lists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SeriesAlarm {
     /// Its beginning is not there.
     #[error("gap: the series of revocation lists begins with {first}, not with 1")]

@@ -13,8 +13,8 @@
 
 use super::Case;
 use crate::statistics::bins::{BINS, Bins, bin};
-use crate::statistics::lanes::{Column, Lanes, WIDTH};
 use crate::statistics::summary::Summary;
+use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
 
 /// Trials of each example, as the guide has: whole columns.
 const COLUMNS: usize = 1_000_000 / WIDTH;
@@ -82,7 +82,7 @@ pub(crate) fn cases() -> Vec<Case> {
     cases
 }
 
-fn normal_columns(lanes: &mut Lanes) -> [Column; 4] {
+fn normal_columns(lanes: &mut WideRandom) -> [Column; 4] {
     let mut columns = [[0.0; WIDTH]; 4];
     let [a, b, c, d] = &mut columns;
     lanes.normals(a, b);
@@ -91,7 +91,7 @@ fn normal_columns(lanes: &mut Lanes) -> [Column; 4] {
 }
 
 /// Rectangular, mean 0 and standard deviation `u`.
-fn rectangle(lanes: &mut Lanes, u: f64) -> Column {
+fn rectangle(lanes: &mut WideRandom, u: f64) -> Column {
     let mut column = [0.0; WIDTH];
     lanes.uniform(&mut column);
     column.map(|share| share * u * 3_f64.sqrt())
@@ -103,7 +103,7 @@ fn sum(columns: &[Column; 4]) -> Column {
 
 /// δm = (m_R,c + δm_R,c) (1 + (ρ_a − 1.2 kg/m³)(1/ρ_W − 1/ρ_R)) − 100 g, in mg (9.3.1.3, eq. (24), with the inputs of
 /// table 5).
-fn mass_difference_mg(lanes: &mut Lanes) -> Column {
+fn mass_difference_mg(lanes: &mut WideRandom) -> Column {
     const NOMINAL_MG: f64 = 100_000.0;
     let (mut reference, mut difference) = ([0.0; WIDTH], [0.0; WIDTH]);
     lanes.normals(&mut reference, &mut difference);
@@ -119,9 +119,9 @@ fn mass_difference_mg(lanes: &mut Lanes) -> Column {
     })
 }
 
-fn compared(printed: &Printed, draw: impl Fn(&mut Lanes) -> Column) -> Vec<Case> {
+fn compared(printed: &Printed, draw: impl Fn(&mut WideRandom) -> Column) -> Vec<Case> {
     let (centre, unit) = printed.scale;
-    let mut lanes = Lanes::new(SEED);
+    let mut lanes = WideRandom::new(SEED);
     let mut summary = Summary::default();
     let mut counts = vec![0_u32; BINS];
     for _ in 0..COLUMNS {

@@ -22,6 +22,7 @@ pub const PAPER_LATITUDE_DEG: f64 = 55.7658;
 
 /// Whose stands.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Stands {
     /// Drawn for every trial, every angle uniform within ±`limit_deg`.
     Drawn {

@@ -9,6 +9,7 @@ use nalgebra::{Matrix2, Vector2};
 
 /// How every angle of a stand is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Deviations {
     /// Uniform within ±D.
     Uniform,
@@ -55,6 +56,7 @@ pub fn gyro(stream: &mut Stream, gyro_type: &GyroType) -> GyroParameters {
 
 /// Which readings share an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum CurrentError {
     /// One for every reading: what a laboratory meets.
     Independent,

@@ -9,6 +9,7 @@ use crate::text::{Field, Node, Path, Problems, record};
 /// What a contribution of type B turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(rename_all = "snake_case"))]
+#[non_exhaustive]
 pub enum ActsOn {
     /// Each position by itself, per axis of the platform; part of u_alpha_arcsec, u_beta_arcsec and u_gamma_arcsec.
     Position,

@@ -7,7 +7,7 @@
 //! * [`outlier`]: Bartlett's test for a group that scatters more, Grubbs' for a value that is out.
 //! * [`propagation`]: the law of propagation of uncertainty for any model with its gradient.
 //! * [`random`]: streams of random numbers that do not depend on the number of threads or on the platform.
-//! * [`lanes`]: random numbers many at a time; [`elementary`]: what they need of sine, cosine and logarithm.
+//! * [`wide_random`]: random numbers many at a time; [`elementary`]: what they need of sine, cosine and logarithm.
 //! * [`bins`]: quantiles and coverage intervals of a sample of any size.
 //! * [`summary`]: largest, mean, deviation, percentile, and what a share of a sample is worth.
 
@@ -16,8 +16,6 @@ pub(crate) mod beta;
 pub(crate) mod bins;
 pub(crate) mod distributions;
 pub(crate) mod elementary;
-#[cfg(feature = "monte-carlo")]
-pub(crate) mod lanes;
 pub(crate) mod least_squares;
 pub(crate) mod outlier;
 pub(crate) mod propagation;
@@ -26,3 +24,5 @@ pub(crate) mod random;
 pub(crate) mod saddle_point;
 pub(crate) mod scaled_f;
 pub(crate) mod summary;
+#[cfg(feature = "monte-carlo")]
+pub(crate) mod wide_random;

@@ -22,6 +22,7 @@ pub struct AllowedSigners {
 /// Why a key does not count for an identity, a purpose and a time. Of several lines for one key the nearest miss is
 /// reported: the later in this list, the nearer.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum NotAuthorised {
     /// No line names the key.
     #[error("the signing key is not in the list of allowed signers")]

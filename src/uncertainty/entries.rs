@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, Matrix2, Vector3};
 
 /// A number of a passport, by its keys.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Entry {
     /// An element of `vectors`: position, key, and place in the list where the key has one.
     Vector(PositionIndex, &'static str, Option<usize>),

@@ -5,13 +5,13 @@
 //! (validation of first order). The same seed gives the same bytes on any number of threads; memory does not grow with
 //! the number of trials.
 
+use super::accumulator::{Accumulator, BlockSummary, Histograms, Scale};
 use super::budget::{Budget, COVERAGE, ParameterBudget};
 use super::engine::{BLOCK, Engine};
-use super::tally::{BlockSummary, Histograms, Scale, Tally};
 use crate::calibration::Method;
 use crate::calibration::parameter::Parameter;
 use crate::parallel;
-use crate::statistics::lanes::Lanes;
+use crate::statistics::wide_random::WideRandom;
 use nalgebra::DMatrix;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -142,7 +142,7 @@ pub fn monte_carlo(engine: &Engine, budget: &Budget, run: &Trials) -> MonteCarlo
 fn pilot(engine: &Engine, seed: u64) -> Scale {
     let mut samples: [Vec<f64>; 8] = Default::default();
     let mut work = engine.workspace();
-    engine.block(&mut Lanes::new(seed), &mut work, |solutions| {
+    engine.block(&mut WideRandom::new(seed), &mut work, |solutions| {
         for (sample, column) in samples.iter_mut().zip(solutions) {
             sample.extend_from_slice(column);
         }
@@ -153,7 +153,7 @@ fn pilot(engine: &Engine, seed: u64) -> Scale {
 /// Everything that blocks leave behind, of a fixed size.
 struct Series {
     scale: Scale,
-    lanes: Lanes,
+    lanes: WideRandom,
     blocks: u64,
     count: u64,
     failed: u64,
@@ -174,7 +174,7 @@ impl Series {
     fn new(scale: Scale, seed: u64) -> Self {
         Self {
             scale,
-            lanes: Lanes::new(seed),
+            lanes: WideRandom::new(seed),
             blocks: 0,
             count: 0,
             failed: 0,
@@ -190,7 +190,7 @@ impl Series {
         let queue = Mutex::new((0, self.lanes.clone()));
         let done: Mutex<(Vec<(u64, BlockSummary)>, Histograms)> = Mutex::default();
         let worker = || {
-            let mut tally = Tally::new(self.scale);
+            let mut tally = Accumulator::new(self.scale);
             let mut work = engine.workspace();
             let mut summaries = Vec::new();
             loop {

@@ -24,7 +24,7 @@ struct Job {
 
 /// What the kills met.
 #[derive(Debug, Default)]
-struct Tally {
+struct Accumulator {
     kills: usize,
     /// Runs that had written something before.
     at_work: usize,
@@ -110,10 +110,10 @@ impl Job {
 }
 
 /// Kills so many runs at random moments.
-fn kill(kills: usize, seed: u64) -> Tally {
+fn kill(kills: usize, seed: u64) -> Accumulator {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut below = |end: usize| (random.next_u64() % end as u64) as usize;
-    let mut tally = Tally::default();
+    let mut tally = Accumulator::default();
     let mut job = Job::new();
     while tally.kills < kills {
         let moment = Duration::from_micros(below(5000) as u64);

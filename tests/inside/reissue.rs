@@ -33,7 +33,7 @@ fn of_a_passport_that_may_only_be_named_nothing_but_its_id_and_hash_is_taken_ove
         issued_at: time("2026-11-03T00:00:00Z"),
         valid_until: Some("2027-11-02".parse().unwrap()),
         revision: 1,
-        predecessor: None,
+        reissued: None,
         allow_uncalibratable: false,
     };
     let (lost, new) = (SigningKey::generate().unwrap(), SigningKey::generate().unwrap());

@@ -6,7 +6,7 @@ use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::Predecessor;
 use dtg_passport::passport::Stated;
-use dtg_passport::passport::issue::{Issue, draft};
+use dtg_passport::passport::issue::{Issue, Reissued, draft};
 use dtg_passport::passport::{Question, Trust};
 use dtg_passport::report::Language::{English, Russian};
 use dtg_passport::report::{Language, Languages, PassportPage};
@@ -102,7 +102,7 @@ fn full(name: &'static str, languages: &[Language]) -> Case {
     let order = Issue {
         accuracy: Some(Stated { gyro: gyro.into(), laboratory: laboratory.into() }),
         revision: 2,
-        predecessor: Some((predecessor, true)),
+        reissued: Some(Reissued { from: predecessor, supersedes: true }),
         ..Issue::first(fixtures::ISSUER, fixtures::at(fixtures::ISSUED_AT))
     };
     let stand = fixtures::ARC_MINUTES

@@ -57,7 +57,7 @@ pub fn drafted(stand: &Stand, site: &Site, revision: u32) -> Draft {
         issued_at: at(ISSUED_AT),
         valid_until: None,
         revision,
-        predecessor: None,
+        reissued: None,
         allow_uncalibratable: false,
     };
     draft(stand, site, &order).unwrap()

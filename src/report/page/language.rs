@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 /// A language that pages are written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Language {
     /// English, with decimal points.
     English,

@@ -5,7 +5,7 @@ use super::Solutions;
 use super::kernel::At;
 use crate::calibration::Setup;
 use crate::calibration::analytic::{NoAnalyticSolution, places_of_the_eight};
-use crate::statistics::lanes::WIDTH;
+use crate::statistics::wide_random::WIDTH;
 
 /// Where the eight positions are, and how many there are in all.
 #[derive(Debug, Clone)]
@@ -87,7 +87,7 @@ impl Closed {
 #[inline(always)]
 fn pair<'a>(
     trial: usize,
-    of: impl Fn(&'a At, usize) -> &'a crate::statistics::lanes::Column,
+    of: impl Fn(&'a At, usize) -> &'a crate::statistics::wide_random::Column,
     [p, q, r, s]: [&'a At; 4],
 ) -> M2 {
     let difference = |one: &'a At, other: &'a At, axis: usize| of(one, axis)[trial] - of(other, axis)[trial];

@@ -7,7 +7,7 @@
 use super::plan::{Drawn, Plan, Slot};
 use crate::calibration::Setup;
 use crate::statistics::elementary::{SMALL_RAD, small_cos_less_one, small_sin};
-use crate::statistics::lanes::{Column, WIDTH};
+use crate::statistics::wide_random::{Column, WIDTH};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// What one position sees in every trial of a chunk.

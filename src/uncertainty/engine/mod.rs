@@ -21,7 +21,7 @@ mod student;
 use crate::calibration::procedure::{Linearised, linearise};
 use crate::calibration::result::MethodRefusal;
 use crate::calibration::{Method, Readings, Setup};
-use crate::statistics::lanes::{Column, Lanes, WIDTH};
+use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
 use closed::Closed;
 use kernel::Kernel;
 use plan::Plan;
@@ -35,6 +35,7 @@ pub(crate) const BLOCK: u64 = CHUNKS_PER_BLOCK * WIDTH as u64;
 
 /// How a current's own error is distributed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ReadingShape {
     /// Normal with the stated standard uncertainty.
     Normal,
@@ -95,7 +96,7 @@ impl Engine {
     }
 
     /// A block of trials; `each` gets the parameters of every chunk.
-    pub(crate) fn block(&self, lanes: &mut Lanes, work: &mut Workspace, each: impl FnMut(&Solutions)) {
+    pub(crate) fn block(&self, lanes: &mut WideRandom, work: &mut Workspace, each: impl FnMut(&Solutions)) {
         pulp::Arch::new().dispatch(Block { engine: self, lanes, work, each });
     }
 
@@ -133,7 +134,7 @@ impl Engine {
 /// What runs with instructions as wide as the processor has them: everything that these call is inlined into them.
 struct Block<'a, F> {
     engine: &'a Engine,
-    lanes: &'a mut Lanes,
+    lanes: &'a mut WideRandom,
     work: &'a mut Workspace,
     each: F,
 }
@@ -202,9 +203,10 @@ mod tests {
             for known in [f64::INFINITY, 4.0, 4.5] {
                 let engine = engine(method, known);
                 let (mut wide, mut narrow) = (Vec::new(), Vec::new());
-                engine
-                    .block(&mut Lanes::new(5), &mut engine.workspace(), |found| wide.push(found[0].map(f64::to_bits)));
-                let (mut lanes, mut work) = (Lanes::new(5), engine.workspace());
+                engine.block(&mut WideRandom::new(5), &mut engine.workspace(), |found| {
+                    wide.push(found[0].map(f64::to_bits))
+                });
+                let (mut lanes, mut work) = (WideRandom::new(5), engine.workspace());
                 let each = |found: &Solutions| narrow.push(found[0].map(f64::to_bits));
                 Block { engine: &engine, lanes: &mut lanes, work: &mut work, each }.with_simd(pulp::Scalar);
                 assert!(wide == narrow);

@@ -7,7 +7,7 @@ use super::{ReadingShape, student};
 use crate::calibration::Setup;
 use crate::calibration::estimates::{Basis, Estimates};
 use crate::calibration::scatter::Repeats;
-use crate::statistics::lanes::{Column, Lanes, WIDTH};
+use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
 use nalgebra::Vector2;
 
 /// A column of standard deviates by its place; place 0 is all zeros.
@@ -134,7 +134,7 @@ impl Plan {
 
     /// New standard deviates: variance 1, or of Student's t.
     #[inline(always)]
-    pub(crate) fn draw(&self, lanes: &mut Lanes, deviates: &mut [Column]) {
+    pub(crate) fn draw(&self, lanes: &mut WideRandom, deviates: &mut [Column]) {
         const ROOT_OF_THREE: f64 = 1.732_050_807_568_877_2;
         let mut waiting: Option<usize> = None;
         for (place, input) in self.inputs.iter().enumerate() {
@@ -163,7 +163,7 @@ impl Plan {
 
     /// Makes Student's t of what rests on estimates, one χ² a trial for all that rests on one.
     #[inline(always)]
-    fn scale(&self, lanes: &mut Lanes, deviates: &mut [Column]) {
+    fn scale(&self, lanes: &mut WideRandom, deviates: &mut [Column]) {
         let (drawn, factors) = deviates.split_at_mut(self.inputs.len() + 1);
         for (factor, degrees_of_freedom) in factors.iter_mut().zip(&self.estimates) {
             student::variance(lanes, factor, *degrees_of_freedom);

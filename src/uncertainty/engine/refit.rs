@@ -8,7 +8,7 @@
 use super::Solutions;
 use super::kernel::At;
 use crate::calibration::least_squares::Fit;
-use crate::statistics::lanes::{Column, WIDTH};
+use crate::statistics::wide_random::{Column, WIDTH};
 use nalgebra::Matrix2;
 
 /// Steps from the best fit: what is left is of third order in the uncertainties.

@@ -2,7 +2,7 @@
 //! 6.4.9](crate::bibliography::Bibliography::Jcgm101)).
 
 use crate::statistics::elementary::ln;
-use crate::statistics::lanes::{Column, Lanes, WIDTH};
+use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
 
 /// Up to here a whole number of degrees of freedom is drawn without branches: the product of so many uniform numbers, none
 /// below 2⁻⁵², is far from the smallest number of binary64.
@@ -10,7 +10,7 @@ const MOST_WITHOUT_BRANCHES: f64 = 38.0;
 
 /// Draws ν/χ² of every trial: the variance that is behind an estimate of 1 with ν degrees of freedom.
 #[inline(always)]
-pub(crate) fn variance(lanes: &mut Lanes, factor: &mut Column, degrees_of_freedom: f64) {
+pub(crate) fn variance(lanes: &mut WideRandom, factor: &mut Column, degrees_of_freedom: f64) {
     *factor = if degrees_of_freedom <= MOST_WITHOUT_BRANCHES && degrees_of_freedom.fract() == 0.0 {
         whole(lanes, degrees_of_freedom)
     } else {
@@ -23,7 +23,7 @@ pub(crate) fn variance(lanes: &mut Lanes, factor: &mut Column, degrees_of_freedo
 
 /// χ² with 2 m degrees of freedom is −2 ln of the product of m uniform numbers; one more is the square of a normal one.
 #[inline(always)]
-fn whole(lanes: &mut Lanes, degrees_of_freedom: f64) -> Column {
+fn whole(lanes: &mut WideRandom, degrees_of_freedom: f64) -> Column {
     let pairs = (0.5 * degrees_of_freedom) as u32;
     let mut product = [1.0; WIDTH];
     let mut uniform = [0.0; WIDTH];
@@ -52,14 +52,14 @@ fn whole(lanes: &mut Lanes, degrees_of_freedom: f64) -> Column {
 /// [Marsaglia and Tsang](crate::bibliography::Bibliography::MarsagliaTsang00) for the gamma distribution.
 #[cold]
 #[inline(never)]
-fn any(lanes: &mut Lanes, degrees_of_freedom: f64) -> Column {
+fn any(lanes: &mut WideRandom, degrees_of_freedom: f64) -> Column {
     let mut source = Source { lanes, normals: [[0.0; WIDTH]; 2], uniform: [0.0; WIDTH], left: [0; 2] };
     std::array::from_fn(|_| source.chi_square(degrees_of_freedom))
 }
 
 /// Single random numbers from columns.
 struct Source<'a> {
-    lanes: &'a mut Lanes,
+    lanes: &'a mut WideRandom,
     normals: [Column; 2],
     uniform: Column,
     /// Numbers left of normals and of uniforms.
@@ -113,7 +113,7 @@ mod tests {
     /// Expected: chi-square has mean ν, variance 2 ν and third central moment 8 ν; five standard errors of the first two.
     #[test]
     fn chi_squares() {
-        let mut lanes = Lanes::new(9);
+        let mut lanes = WideRandom::new(9);
         for degrees_of_freedom in [1.0, 2.0, 5.0, 38.0, 0.7, 4.5, 60.0] {
             let n = 3000 * WIDTH;
             let mut values = Vec::with_capacity(n);

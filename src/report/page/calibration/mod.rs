@@ -36,6 +36,7 @@ use maud::{Markup, html};
 
 /// The passport that a calibration was made with.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub enum UsedPassport<'a> {
     /// It passed every check that was asked for.
     Verified(Box<PassportPage<'a>>),

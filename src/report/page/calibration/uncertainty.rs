@@ -10,8 +10,8 @@ use crate::report::page::passport::numbers::parameters;
 use crate::report::page::texts::{calibration as texts, units, words};
 use crate::report::picture::accuracy::unit as parameter_unit;
 use crate::uncertainty::budget::{Contribution, ParameterBudget};
+use crate::uncertainty::dominant::{Dominant, Effect, Part, percent};
 use crate::uncertainty::monte_carlo::Distribution;
-use crate::uncertainty::remedy::{Effect, Part, Remedy, percent};
 use crate::uncertainty::{Budget, MonteCarlo};
 use maud::{Markup, html};
 
@@ -27,7 +27,7 @@ pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup 
             @let tolerance = page.gyro.map(|gyro| &gyro.tolerance);
             @let worst = if tolerance.is_some() { texts::BUDGET_WORST } else { texts::BUDGET_WORST_OF_SIZE };
             (page.section(languages, Section::Budget, texts::BUDGET, &html! {
-                @if let Some(remedy) = Remedy::of(budget, tolerance) { (sentences(&remedy, worst, languages)) }
+                @if let Some(remedy) = Dominant::of(budget, tolerance) { (sentences(&remedy, worst, languages)) }
                 (budget_table(budget, languages))
             }))
         }
@@ -38,7 +38,7 @@ pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup 
 }
 
 /// What the budget comes to.
-fn sentences(remedy: &Remedy, worst: Text, languages: &Languages) -> Markup {
+fn sentences(remedy: &Dominant, worst: Text, languages: &Languages) -> Markup {
     let (line, first) = (remedy.worst, remedy.first);
     let share = match remedy.part() {
         Part::NearlyAll => texts::BUDGET_NEARLY_ALL,

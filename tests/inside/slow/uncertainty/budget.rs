@@ -10,8 +10,8 @@ use dtg_passport::calibration::{InputUncertainty, Method, Options, calibrate};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::report::picture;
 use dtg_passport::uncertainty::Budget;
+use dtg_passport::uncertainty::dominant::Dominant;
 use dtg_passport::uncertainty::entries::{Entry, EntryUncertainty};
-use dtg_passport::uncertainty::remedy::Remedy;
 use dtg_passport::units::{radians_from_arcseconds, radians_from_degrees};
 use roxmltree::{Document, Node};
 use serde_json::{Value, json};
@@ -136,11 +136,11 @@ fn the_sentence_is_computed() {
         let readings = readings(&setup, &currents(&setup, &gvk_6()));
         Budget::new(&setup, &readings, Method::LeastSquares, false).unwrap()
     };
-    let said = Remedy::of(&seat(30.0), Some(&GyroType::gvk_6().tolerance)).unwrap().sentence();
+    let said = Dominant::of(&seat(30.0), Some(&GyroType::gvk_6().tolerance)).unwrap().sentence();
     let due = "u(ω_0x) is 0.0029 deg/h; nearly all of the variance comes from one source (gyro seat about z); to halve u, seat the gyro with an uncertainty of 14 arcsec about the spin axis";
     assert!(said == due || said == due.replace("0x", "0y"), "{said}");
     // Compared with their own size alone, the cross scale factors are the worst.
-    let said = Remedy::of(&seat(30.0), None).unwrap().sentence();
+    let said = Dominant::of(&seat(30.0), None).unwrap().sentence();
     assert!(said.starts_with("u(K_xy) is 0.15 %") || said.starts_with("u(K_yx) is 0.15 %"), "{said}");
     // What it asks for does halve.
     let (before, after) = (seat(30.0), seat(14.0));

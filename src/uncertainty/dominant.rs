@@ -25,7 +25,7 @@ fn weight(line: &ParameterBudget, tolerance: Option<&Tolerance>) -> f64 {
 
 /// What a budget comes to.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Remedy<'a> {
+pub(crate) struct Dominant<'a> {
     /// The parameter whose uncertainty is the largest share of its tolerance; without a type's tolerance, of its own size.
     pub worst: &'a ParameterBudget,
     /// Its largest contribution.
@@ -55,7 +55,7 @@ pub(crate) enum Part {
     Largest,
 }
 
-impl<'a> Remedy<'a> {
+impl<'a> Dominant<'a> {
     /// Of a budget; `None` when nothing is uncertain.
     pub(crate) fn of(budget: &'a Budget, tolerance: Option<&Tolerance>) -> Option<Self> {
         let heaviest =

@@ -7,7 +7,7 @@
 
 use super::engine::Solutions;
 use crate::statistics::bins::{BINS, Bins, bin};
-use crate::statistics::lanes::{Column, WIDTH};
+use crate::statistics::wide_random::{Column, WIDTH};
 
 /// Parameters counted.
 const PARAMETERS: usize = 8;
@@ -84,7 +84,7 @@ impl Histograms {
 
 /// Counts the trials of one thread.
 #[derive(Debug, Clone)]
-pub(crate) struct Tally {
+pub(crate) struct Accumulator {
     scale: Scale,
     /// Bins of the block, then of all blocks.
     block: Vec<u32>,
@@ -95,7 +95,7 @@ pub(crate) struct Tally {
     failed: u64,
 }
 
-impl Tally {
+impl Accumulator {
     /// Nothing counted yet.
     pub(crate) fn new(scale: Scale) -> Self {
         Self {
@@ -216,7 +216,7 @@ mod tests {
     fn quantiles_of_a_normal_sample() {
         use crate::statistics::distributions::normal_quantile;
         let scale = Scale { centre: [5.0; PARAMETERS], unit: [2.0; PARAMETERS] };
-        let mut tally = Tally::new(scale);
+        let mut tally = Accumulator::new(scale);
         let chunks = 4000;
         for chunk in 0..chunks {
             let column = std::array::from_fn(|trial| {
@@ -240,7 +240,7 @@ mod tests {
 
     #[test]
     fn a_trial_that_fails_is_told() {
-        let mut tally = Tally::new(Scale { centre: [0.0; PARAMETERS], unit: [1.0; PARAMETERS] });
+        let mut tally = Accumulator::new(Scale { centre: [0.0; PARAMETERS], unit: [1.0; PARAMETERS] });
         let mut column = [0.5; WIDTH];
         column[3] = f64::NAN;
         column[4] = f64::INFINITY;

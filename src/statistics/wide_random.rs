@@ -20,14 +20,14 @@ pub(crate) type Column = [f64; WIDTH];
 
 /// Random numbers of one block of trials.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Lanes {
+pub(crate) struct WideRandom {
     state: [[u64; GENERATORS]; 4],
 }
 
 /// 1.0 as bits: 52 random bits in its mantissa are uniform in [1, 2).
 const ONE: u64 = 0x3ff0_0000_0000_0000;
 
-impl Lanes {
+impl WideRandom {
     /// Block 0 of a seed.
     pub(crate) fn new(seed: u64) -> Self {
         let mut counter = seed;
@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn generators_are_those_of_rand_xoshiro() {
         for blocks in [0, 1, 3] {
-            let mut lanes = Lanes::new(42);
+            let mut lanes = WideRandom::new(42);
             (0..blocks).for_each(|_| lanes.jump());
             let mut first = Xoshiro256PlusPlus::seed_from_u64(42);
             let mut due = Vec::new();
@@ -161,7 +161,7 @@ mod tests {
     /// limit of Kolmogorov and Smirnov (probability 1e-6: 2.7/√n).
     #[test]
     fn normals_are_normal() {
-        let mut lanes = Lanes::new(7);
+        let mut lanes = WideRandom::new(7);
         let mut values: Vec<f64> = Vec::new();
         let (mut one, mut other) = ([0.0; WIDTH], [0.0; WIDTH]);
         let mut products = 0.0;
