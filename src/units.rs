@@ -53,7 +53,7 @@ pub(crate) fn sin_cos_of_degrees(degrees: f64) -> (f64, f64) {
 
 /// Returns a unit as it is printed: one solidus, with brackets around a compound denominator (SI Brochure, 5.1). Keys of
 /// files and JSON keep `unit` as it is.
-pub fn printed(unit: &str) -> String {
+pub(crate) fn printed(unit: &str) -> String {
     match unit.split_once('/') {
         Some((above, below)) if below.contains('/') => format!("{above}/({})", below.replace('/', "·")),
         _ => unit.to_owned(),
