@@ -3,12 +3,10 @@
 use super::key_options::KeyOptions;
 use super::trust_options::{TrustOptions, now};
 use super::{Code, Failure, output};
-use crate::document::sha256_hex;
 use crate::files::{self, Access};
 use crate::folder::Folder;
 use crate::folder::search::{self, NoNewestList};
-use crate::passport::{CheckName, Code as Verdict, verify};
-use crate::revocation::{Entry, RevocationList};
+use crate::passport::verify;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -45,25 +43,16 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         let path = file_of(id, &options.passports);
         let bytes = read(&path)?;
         let verification = verify(&name_of(&path), &bytes, &trust, &question);
-        // A passport with wrong numbers, or past its time, can be withdrawn; one of another signer cannot: its id may be
-        // that of a good passport.
-        let signed = verification.code(CheckName::Signer) == Some(Verdict::Ok);
-        let Some(content) = verification.content_from_anyone().filter(|_| signed) else {
-            let failed = verification.checks().iter().find(|check| check.passed() == Some(false));
-            let words = failed.map_or_else(String::new, |check| check.detail.clone());
-            return Err(Failure::refused(format!("{}: cannot be withdrawn: {words}", shown(&path))));
-        };
-        let (id, sha256) = (content.passport.id.clone(), sha256_hex(&bytes));
-        entries.push(Entry { id, sha256, revoked_at: now(), reason: options.reason.clone() });
+        entries.push(verification.withdrawal(&bytes, now(), &options.reason).map_err(|failed| {
+            let words = failed.map_or("", |check| &check.detail);
+            Failure::refused(format!("{}: cannot be withdrawn: {words}", shown(&path)))
+        })?);
     }
     let count = lists.count() + entries.len();
     let list = lists.following(&options.key.identity, now(), entries).map_err(Failure::refused)?;
-    let text = list.sign(options.key.signer()?.as_ref()).map_err(Failure::refused)?;
+    let signer = options.key.signer()?;
+    let text = list.sign_for(signer.as_ref(), &trust.signers, &trust.revoked).map_err(Failure::refused)?;
     let path = options.list.join(list.file_name());
-    // A list that nobody can verify would withdraw nothing.
-    RevocationList::verify(&name_of(&path), text.as_bytes(), &trust.signers, &trust.revoked, list.issued_at).map_err(
-        |refused| Failure::refused(format!("the new list failed verification ({refused}); nothing was written")),
-    )?;
     files::write_new(&path, text.as_bytes(), Access::Shared).map_err(Failure::file)?;
     output::result(&format!("revoked    passports in all: {}  {}\n", count, shown(&path)))?;
     Ok(0)

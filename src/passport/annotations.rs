@@ -8,7 +8,7 @@ use crate::text::canonical;
 use crate::{earth, units};
 
 /// The payload of a passport: its content in canonical form, with its comments.
-#[cfg(test)]
+#[cfg(any(test, fuzzing))]
 pub(crate) fn payload(content: &Content) -> String {
     canonical::write(content, &|path| comments(content, path))
 }

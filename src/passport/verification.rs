@@ -11,7 +11,7 @@ use crate::coefficients::Coefficients;
 use crate::document::sha256_hex;
 use crate::document::{Malformed, SignedText};
 use crate::earth::Place;
-use crate::revocation::Series;
+use crate::revocation::{Entry, Series};
 use crate::text::scalar::day;
 use crate::trust::{AllowedSigners, NotAuthorised, PublicKey, RevokedKeys};
 use jiff::Timestamp;
@@ -145,6 +145,26 @@ impl Verification {
         // They are not computed for a signer who is not trusted, or whose key is revoked.
         let numbers = self.code(CheckName::Recomputed) == Some(Code::Ok);
         self.content_from_anyone().filter(|_| issuer && numbers).zip(self.key_from_anyone())
+    }
+
+    /// Returns the entry that withdraws this passport, whose file is `bytes`.
+    ///
+    /// A passport with wrong numbers, or past its time, can be withdrawn; one of another signer cannot: its id may be
+    /// that of a good passport.
+    ///
+    /// # Errors
+    /// The first check that failed, if the signer is not trusted or nothing is known of the content.
+    pub(crate) fn withdrawal(
+        &self,
+        bytes: &[u8],
+        revoked_at: Timestamp,
+        reason: &str,
+    ) -> Result<Entry, Option<&Check>> {
+        let signed = self.code(CheckName::Signer) == Some(Code::Ok);
+        let Some(id) = self.id_from_anyone().filter(|_| signed) else {
+            return Err(self.checks.iter().find(|check| check.passed() == Some(false)));
+        };
+        Ok(Entry { id: id.to_owned(), sha256: sha256_hex(bytes), revoked_at, reason: reason.to_owned() })
     }
 
     /// The passport, when every check passed; otherwise the checks say what failed.

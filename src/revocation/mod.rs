@@ -164,6 +164,9 @@ pub enum NoNewList {
     /// The issuer's name is none that allowed signers could give a key to.
     #[error(transparent)]
     Identity(#[from] BadIdentity),
+    /// The new list does not verify.
+    #[error("the new list failed verification ({0}); nothing was written")]
+    Refused(#[from] ListRefused),
     /// The signer gave no signature.
     #[error(transparent)]
     Signing(#[from] SigningFailed),
@@ -278,6 +281,22 @@ impl RevocationList {
         let signature = signer.sign_message(&message)?;
         signature.verify_message(&message, None)?;
         Ok(document::join(&payload, &signature))
+    }
+
+    /// Returns the signed file, verified as those will verify it who have the lists of `signers` and `revoked_keys`: a
+    /// list that nobody can verify would withdraw nothing.
+    ///
+    /// # Errors
+    /// Those of [`RevocationList::sign`], and [`NoNewList::Refused`].
+    pub(crate) fn sign_for(
+        &self,
+        signer: &dyn Signer,
+        signers: &AllowedSigners,
+        revoked_keys: &[RevokedKeys],
+    ) -> Result<String, NoNewList> {
+        let text = self.sign(signer)?;
+        Self::verify(&self.file_name(), text.as_bytes(), signers, revoked_keys, self.issued_at)?;
+        Ok(text)
     }
 }
 

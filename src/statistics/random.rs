@@ -36,7 +36,7 @@ impl Stream {
     }
 
     /// A whole number below `end`; 0 when `end` is 0.
-    #[cfg(test)]
+    #[cfg(any(test, fuzzing))]
     pub(crate) fn below(&mut self, end: usize) -> usize {
         ((self.unit() * end as f64) as usize).min(end.saturating_sub(1))
     }

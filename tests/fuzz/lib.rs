@@ -20,7 +20,7 @@ macro_rules! target {
             dtg_passport_fuzz::target($name).hold(bytes);
         });
         libfuzzer_sys::fuzz_mutator!(|data: &mut [u8], size: usize, max_size: usize, seed: u32| {
-            dtg_passport_fuzz::mutation::in_place(data, size, max_size, seed)
+            dtg_passport_fuzz::mutation::in_place(data, size, max_size, seed, libfuzzer_sys::fuzzer_mutate)
         });
     };
 }

@@ -96,11 +96,17 @@ pub fn mutate(bytes: &mut Vec<u8>, stream: &mut Stream, longest: usize) {
 }
 
 /// The same for a fuzzer's buffer, in turn with the fuzzer's own changes; gives the new length.
-#[cfg(not(test))]
-pub fn in_place(data: &mut [u8], size: usize, max_size: usize, seed: u32) -> usize {
+#[cfg(fuzzing)]
+pub fn in_place(
+    data: &mut [u8],
+    size: usize,
+    max_size: usize,
+    seed: u32,
+    fuzzers_own: impl FnOnce(&mut [u8], usize, usize) -> usize,
+) -> usize {
     let mut stream = Stream::new(u64::from(seed));
     if below(&mut stream, 2) == 0 {
-        return libfuzzer_sys::fuzzer_mutate(data, size, max_size);
+        return fuzzers_own(data, size, max_size);
     }
     let mut bytes = data[..size].to_vec();
     mutate(&mut bytes, &mut stream, max_size);

@@ -7,7 +7,7 @@ mod scanner;
 mod writer;
 
 pub(crate) use scanner::Scanner;
-#[cfg(test)]
+#[cfg(any(test, fuzzing))]
 pub(crate) use writer::write_bare;
 pub(crate) use writer::{write, write_some};
 
