@@ -251,7 +251,7 @@ impl Stage<'_> {
         let csv = files::read(&path, LARGEST_DOCUMENT_BYTES)?;
         let readings = Readings::from_csv("currents.csv", &csv, setup.coefficients(), laboratory.meter.range_ma)?;
         let calibration = calibration::calibrate(&setup, &readings, &Options::default())?;
-        let Some(found) = calibration.results.last() else { return Err(Stopped::Refused) };
+        let Some(found) = calibration.answer() else { return Err(Stopped::Refused) };
         self.line("8. The currents and the passport give its scale factors and drifts (true: 95, 9.5, 20, 10):")?;
         for parameters in Parameter::EIGHT.chunks(4) {
             let words: Vec<String> = parameters

@@ -2,6 +2,7 @@
 
 use dtg_passport::calibration::Parameter;
 use dtg_passport::calibration::{Options, Readings, Setup, calibrate};
+use dtg_passport::earth::Place;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::{CheckName, Code, Question, Trust, verify};
 use dtg_passport::trust::AllowedSigners;
@@ -29,6 +30,21 @@ fn a_signed_passport_is_verified_and_an_altered_one_refused() {
     let answer = verify("altered", altered.as_bytes(), &trust(), &question());
     assert_eq!(answer.code(CheckName::Signature), Some(Code::Altered));
     assert!(answer.passport().is_none());
+}
+
+/// Expected: the coordinates of sites/moscow-bmstu.yaml, in the wrong order, and those of Beijing.
+#[test]
+fn exchanged_coordinates_are_recognised() {
+    let file = read("passports/SPS-2/0017/moscow-bmstu-1.yaml");
+    let detail = |latitude_deg, longitude_deg| {
+        let place = Some(Place { latitude_deg, longitude_deg });
+        let answer = verify("good", &file, &trust(), &Question { place, ..question() });
+        assert_eq!(answer.code(CheckName::Place), Some(Code::WrongPlace));
+        answer.checks().iter().find(|check| check.name == CheckName::Place).unwrap().detail.clone()
+    };
+    assert!(detail(37.6856, 55.7658).ends_with("; check whether latitude and longitude are exchanged"));
+    assert!(detail(40.2455, 116.2240).ends_with("; request a re-issue for this place from the factory"));
+    assert!(detail(-55.7658, 175.0).ends_with("; request a re-issue for this place from the factory"));
 }
 
 /// Expected: the gyro of docs/currents.csv is the paper's, K_x = 95 °/h/mA, read with the paper's meter.

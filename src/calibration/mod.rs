@@ -33,7 +33,7 @@
 //!
 //! let readings = Readings::from_csv("currents.csv", csv.as_bytes(), setup.coefficients(), laboratory.meter.range_ma)?;
 //! let calibration = calibrate(&setup, &readings, &Options::default())?;
-//! let answer = &calibration.results[2];
+//! let answer = calibration.answer().ok_or("the readings do not determine the parameters")?;
 //! # assert!((answer.parameters.k_deg_per_h_per_ma.m11 / 95.0 - 1.0).abs() < 0.01, "{answer:?}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -51,8 +51,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let count = lists.count() + entries.len();
     let list = lists.following(&options.key.identity, now(), entries).map_err(Failure::refused)?;
     let signer = options.key.signer()?;
-    let text = list.sign_for(signer.as_ref(), &trust.signers, &trust.revoked).map_err(Failure::refused)?;
     let path = options.list.join(list.file_name());
+    let text = list.sign_for(&name_of(&path), signer.as_ref(), &trust.signers, &trust.revoked);
+    let text = text.map_err(Failure::refused)?;
     files::write_new(&path, text.as_bytes(), Access::Shared).map_err(Failure::file)?;
     output::result(&format!("revoked    passports in all: {}  {}\n", count, shown(&path)))?;
     Ok(0)

@@ -15,6 +15,7 @@ use crate::text::{Path, Problems, record};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use nalgebra::{Matrix2, Vector2};
+use std::fmt::{self, Display, Formatter};
 
 /// The format of a passport.
 pub(crate) const PASSPORT_FORMAT: &str = "dtg-passport/1";
@@ -328,6 +329,25 @@ fn largest_relative_difference(found: &GyroParameters, due: &GyroParameters) -> 
     differences.fold(0.0, |worst, next| if next <= worst { worst } else { next })
 }
 
+/// A document with an expiry date.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Dated {
+    /// The passport itself.
+    Passport,
+    /// The calibration certificate of the stand.
+    Certificate,
+}
+
+impl Display for Dated {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Passport => "passport",
+            Self::Certificate => "certificate",
+        })
+    }
+}
+
 impl Content {
     /// What the passport's calibration works with: the numbers that are signed.
     pub fn coefficients(&self) -> Coefficients {
@@ -343,9 +363,9 @@ impl Content {
     }
 
     /// The last second in which the passport may be used, and which of its two dates ends it.
-    pub(crate) fn last_day(&self) -> Option<(Date, &'static str)> {
-        let passport = self.passport.valid_until.map(|day| (day, "passport"));
-        let certificate = self.certificate.valid_until.map(|day| (day, "certificate"));
+    pub(crate) fn last_day(&self) -> Option<(Date, Dated)> {
+        let passport = self.passport.valid_until.map(|day| (day, Dated::Passport));
+        let certificate = self.certificate.valid_until.map(|day| (day, Dated::Certificate));
         // Of equal ones the certificate's is named: it is the one that no new passport helps against.
         certificate.into_iter().chain(passport).min_by_key(|(day, _)| *day)
     }

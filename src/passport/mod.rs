@@ -27,7 +27,9 @@ pub(crate) mod verification;
 pub use crate::document::Malformed;
 pub use accuracy::{Accuracy, NoAccuracy, Stated, StatedGyro, StatedLaboratory};
 pub use checks::{Check, CheckName, Code};
-pub use content::{Content, Header, MatrixRows, PositionCurrents, PositionVectors, Predecessor, Rows, SelfCheck};
+pub use content::{
+    Content, Dated, Header, MatrixRows, PositionCurrents, PositionVectors, Predecessor, Rows, SelfCheck,
+};
 pub use read::content_from_anyone;
 pub use verification::{Question, Trust, Verification, VerifiedPassport, verify};
 

@@ -54,8 +54,14 @@ pub(super) fn verdict(content: &Content, place: Place) -> (Code, String) {
     };
     let words = format!("{distance_m:.0} m from {}{how}; validity radius {radius_m:.0} m{allowance}", site.id);
     if nearness.within() {
-        (Code::Ok, words)
-    } else {
-        (Code::WrongPlace, format!("{words}; request a re-issue for this place from the factory"))
+        return (Code::Ok, words);
     }
+    let exchanged = Place { latitude_deg: place.longitude_deg, longitude_deg: place.latitude_deg };
+    let is_exchanged = exchanged.latitude_deg.abs() <= 90.0 && Nearness::of(content, exchanged).within();
+    let advice = if is_exchanged && site.longitude_deg.is_some() {
+        "check whether latitude and longitude are exchanged"
+    } else {
+        "request a re-issue for this place from the factory"
+    };
+    (Code::WrongPlace, format!("{words}; {advice}"))
 }

@@ -5,7 +5,7 @@
 //! trusted: anybody can sign a file that costs much to compute.
 
 use super::checks::{Check, CheckName, Code};
-use super::content::{Content, PASSPORT_FORMAT};
+use super::content::{Content, Dated, PASSPORT_FORMAT};
 use super::{NAMESPACE, place, read, recomputed};
 use crate::coefficients::Coefficients;
 use crate::document::sha256_hex;
@@ -350,8 +350,8 @@ impl Run {
             // The whole of the last second belongs to the last day.
             Some((last, which)) if time.as_second() > day(last).1.as_second() => {
                 let remedy = match which {
-                    "certificate" => "have the stand recertified",
-                    _ => "request a new passport from the issuer",
+                    Dated::Certificate => "have the stand recertified",
+                    Dated::Passport => "request a new passport from the issuer",
                 };
                 (
                     Code::Expired,

@@ -22,13 +22,42 @@ const FEW: usize = 20;
 /// Remarks that are told apart; the others are counted.
 const REMARKS_TOLD: usize = 50;
 
+/// The result of an order, in one word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum State {
+    /// The passport is new.
+    Issued,
+    /// An equal passport was there, and was left.
+    Unchanged,
+    /// A dry run: it would be issued.
+    Planned,
+    /// The work was done before.
+    Skipped,
+    /// Nothing was written.
+    Refused,
+}
+
+impl State {
+    /// Returns its name in tables and results.
+    fn key(self) -> &'static str {
+        match self {
+            Self::Issued => "issued",
+            Self::Unchanged => "unchanged",
+            Self::Planned => "planned",
+            Self::Skipped => "skipped",
+            Self::Refused => "refused",
+        }
+    }
+}
+
 /// What became of one order.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Report {
     /// The passport's id; of a re-issue that was refused, the old passport's file; of an input, its file.
     pub id: String,
-    /// "issued", "unchanged", "planned" (in a dry run), "skipped" or "refused".
-    pub state: &'static str,
+    /// The result.
+    pub state: State,
     /// The passport's file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
@@ -65,7 +94,7 @@ impl From<NoiseGrowth> for Noise {
 }
 
 impl Report {
-    fn new(id: String, state: &'static str) -> Self {
+    fn new(id: String, state: State) -> Self {
         let absences = Vec::new();
         Self { id, state, file: None, sha256: None, noise_growth: None, absences, reason: None, passports: None }
     }
@@ -75,7 +104,8 @@ impl Report {
         Self {
             file: Some(name_of(&issued.path)),
             sha256: Some(issued.sha256.clone()),
-            ..Self::new(issued.id.clone(), if issued.new { "issued" } else { "unchanged" }).with(&issued.remarks)
+            ..Self::new(issued.id.clone(), if issued.new { State::Issued } else { State::Unchanged })
+                .with(&issued.remarks)
         }
     }
 
@@ -85,13 +115,13 @@ impl Report {
             Outcome::There(issued) => Self::of(issued),
             Outcome::Planned(planned) => Self {
                 file: Some(name_of(&planned.path)),
-                ..Self::new(planned.id.clone(), "planned").with(&planned.remarks)
+                ..Self::new(planned.id.clone(), State::Planned).with(&planned.remarks)
             },
             Outcome::Skipped { id, file, why } => {
-                Self { file: Some(name_of(file)), reason: Some(why.clone()), ..Self::new(id.clone(), "skipped") }
+                Self { file: Some(name_of(file)), reason: Some(why.clone()), ..Self::new(id.clone(), State::Skipped) }
             }
             Outcome::Failed(Failure { what, why, passports, .. }) => {
-                Self { reason: Some(why.clone()), passports: *passports, ..Self::new(what.clone(), "refused") }
+                Self { reason: Some(why.clone()), passports: *passports, ..Self::new(what.clone(), State::Refused) }
             }
         }
     }
@@ -154,7 +184,7 @@ fn text(report: &Report) -> String {
              omega_k {omega_k:.2}"
         );
     }
-    if let (Some(why), "skipped") = (&report.reason, report.state) {
+    if let (Some(why), State::Skipped) = (&report.reason, report.state) {
         let _ = writeln!(text, "           {}", Printable(why));
     }
     text
@@ -162,7 +192,7 @@ fn text(report: &Report) -> String {
 
 fn line(report: &Report) -> String {
     let file = report.file.as_deref().unwrap_or("nothing was written");
-    format!("{:<9}  {}  {}\n", report.state, Printable(&report.id), Printable(file))
+    format!("{:<9}  {}  {}\n", report.state.key(), Printable(&report.id), Printable(file))
 }
 
 /// A number with commas between its thousands.
@@ -186,11 +216,11 @@ pub(crate) struct Totals {
 impl Totals {
     fn add(&mut self, report: &Report) {
         match report.state {
-            "issued" => self.issued += 1,
-            "unchanged" => self.unchanged += 1,
-            "planned" => self.planned += 1,
-            "skipped" => self.skipped += 1,
-            _ => {
+            State::Issued => self.issued += 1,
+            State::Unchanged => self.unchanged += 1,
+            State::Planned => self.planned += 1,
+            State::Skipped => self.skipped += 1,
+            State::Refused => {
                 self.refused += report.passports.unwrap_or(1);
                 self.inputs += u64::from(report.passports.is_some());
             }
@@ -259,7 +289,7 @@ impl Reports {
                 String::new()
             }
             Form::Text => {
-                let failed = self.held.drain(..).chain([report]).filter(|report| report.state == "refused");
+                let failed = self.held.drain(..).chain([report]).filter(|report| report.state == State::Refused);
                 failed.map(|report| line(&report)).collect()
             }
         }
@@ -268,7 +298,7 @@ impl Reports {
     fn csv(&self, report: &Report) -> String {
         let head = if self.count == 1 { CSV_HEADER } else { "" };
         let text = |text: &Option<String>| text.clone().unwrap_or_default();
-        let cells = [report.state.to_owned(), report.id.clone(), text(&report.file), text(&report.sha256)];
+        let cells = [report.state.key().to_owned(), report.id.clone(), text(&report.file), text(&report.sha256)];
         format!("{head}{}", csv_row(cells.iter().map(String::as_str).chain([text(&report.reason).as_str()])))
     }
 
@@ -334,7 +364,7 @@ mod tests {
             let mut reports = Reports::new(Form::Json);
             let mut text = String::new();
             for number in 0..count {
-                text += &reports.add(Report::new(number.to_string(), "issued"));
+                text += &reports.add(Report::new(number.to_string(), State::Issued));
             }
             text += &reports.end();
             let list: Vec<serde_json::Value> = serde_json::from_str(&text).unwrap();
@@ -349,7 +379,7 @@ mod tests {
         let mut reports = Reports::new(Form::Text);
         let mut text = String::new();
         for number in 0..2000 {
-            let state = if number % 1000 == 7 { "refused" } else { "issued" };
+            let state = if number % 1000 == 7 { State::Refused } else { State::Issued };
             text += &reports.add(Report::new(number.to_string(), state));
         }
         text += &reports.end();

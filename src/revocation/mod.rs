@@ -290,12 +290,13 @@ impl RevocationList {
     /// Those of [`RevocationList::sign`], and [`NoNewList::Refused`].
     pub(crate) fn sign_for(
         &self,
+        name: &str,
         signer: &dyn Signer,
         signers: &AllowedSigners,
         revoked_keys: &[RevokedKeys],
     ) -> Result<String, NoNewList> {
         let text = self.sign(signer)?;
-        Self::verify(&self.file_name(), text.as_bytes(), signers, revoked_keys, self.issued_at)?;
+        Self::verify(name, text.as_bytes(), signers, revoked_keys, self.issued_at)?;
         Ok(text)
     }
 }

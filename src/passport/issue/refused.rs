@@ -3,7 +3,7 @@
 use crate::coefficients::SingularPositions;
 use crate::document::SigningFailed;
 use crate::passport::accuracy::NoAccuracy;
-use crate::passport::content::SELF_CHECK_LIMIT;
+use crate::passport::content::{Dated, SELF_CHECK_LIMIT};
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable};
 use crate::trust::{BadIdentity, SignatureError};
 use jiff::Timestamp;
@@ -49,15 +49,15 @@ pub enum IssueRefused {
     /// The passport would have ended before it began.
     #[error(
         "issued_at {issued_at} is later than {last}, until which the {document} is valid; {}",
-        if *document == "certificate" { "have the stand recertified" } else { "specify a later date" }
+        if *document == Dated::Certificate { "have the stand recertified" } else { "specify a later date" }
     )]
     AlreadyExpired {
         /// When the passport would be issued.
         issued_at: Timestamp,
         /// The earlier one of the two last days.
         last: Date,
-        /// Whose last day that is: "certificate" or "passport".
-        document: &'static str,
+        /// The document that ends on this day.
+        document: Dated,
     },
     /// The statements of the site contradict each other.
     #[error("{0}")]

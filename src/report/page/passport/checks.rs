@@ -3,7 +3,7 @@
 
 use super::PassportPage;
 use crate::passport::place::Nearness;
-use crate::passport::{Check, CheckName, Code};
+use crate::passport::{Check, CheckName, Code, Dated};
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{Table, date_text, time_text};
@@ -135,7 +135,7 @@ fn validity(page: &PassportPage, code: Code, language: Language) -> String {
         }
         (Code::Ok, None) => texts::VALIDITY_NO_END,
         (Code::Ok, Some(_)) => texts::VALIDITY_OK,
-        (_, Some((_, "certificate"))) => texts::VALIDITY_CERTIFICATE_EXPIRED,
+        (_, Some((_, Dated::Certificate))) => texts::VALIDITY_CERTIFICATE_EXPIRED,
         _ => texts::VALIDITY_EXPIRED,
     };
     text.filled(language, &[("day", &day)])
