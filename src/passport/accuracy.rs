@@ -1,7 +1,8 @@
-//! What a stand at a site is good for: the uncertainty of a stated type of gyro calibrated there with a stated meter.
+//! Expected calibration uncertainty of a stated gyro type on a stand at a site with a stated meter.
 //!
-//! First order ([JCGM 100](crate::bibliography::Bibliography::Gum), 5.1.2 and 5.2.2), one reading for each position,
-//! weighted least squares: what `calibrate` will state for such a gyro, known before delivery.
+//! Computed by first-order propagation ([JCGM 100](crate::bibliography::Bibliography::Gum), 5.1.2 and 5.2.2) for
+//! weighted least squares with one reading in each position. `calibrate` will state this uncertainty for such a gyro;
+//! here it is known before delivery.
 
 use crate::calibration::least_squares::NoLeastSquares;
 use crate::calibration::parameter::Parameter;
@@ -63,7 +64,7 @@ impl From<GyroType> for StatedGyro {
 }
 
 impl StatedGyro {
-    /// As the file of the type states it.
+    /// Returns the gyro type as its file states it.
     pub(crate) fn to_type(&self) -> GyroType {
         let Self { r#type, nominal, tolerance, gravity_m_per_s2 } = self.clone();
         GyroType { format: GYRO_FORMAT.to_owned(), r#type, nominal, tolerance, gravity_m_per_s2 }
@@ -84,7 +85,7 @@ impl StatedLaboratory {
     }
 }
 
-/// For whom an accuracy is stated.
+/// Gyro type and laboratory for which an accuracy is stated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stated {
     /// Gyro type.
@@ -93,34 +94,34 @@ pub struct Stated {
     pub laboratory: StatedLaboratory,
 }
 
-/// Why no accuracy can be stated.
+/// Reason why no accuracy can be stated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoAccuracy {
-    /// The stand cannot be used, or an uncertainty is none.
+    /// The stand cannot be used, or an uncertainty is invalid.
     #[error(transparent)]
     Setup(#[from] NoSetup),
-    /// The positions do not determine the gyro.
+    /// The positions do not determine the parameters of the gyro.
     #[error(transparent)]
     LeastSquares(#[from] NoLeastSquares),
-    /// The gyro's currents are not finite.
+    /// The currents of the gyro are not finite.
     #[error(transparent)]
     Currents(#[from] NoReadings),
-    /// K has no inverse.
+    /// The nominal K has no inverse.
     #[error("the nominal K of this gyro type has no inverse")]
     SingularGyro,
 }
 
 impl Stated {
-    /// The same as a passport states it.
+    /// Returns the gyro type and the laboratory that a passport states.
     pub(crate) fn of(accuracy: &Accuracy) -> Self {
         Self { gyro: accuracy.gyro.clone(), laboratory: accuracy.laboratory.clone() }
     }
 
-    /// Computes the standard uncertainties on a certified stand at a site.
+    /// Computes the standard uncertainties of the parameters on a certified stand at a site.
     ///
     /// # Errors
-    /// See [`NoAccuracy`].
+    /// Returns [`NoAccuracy`] if the inputs are unusable or do not determine the parameters.
     pub fn accuracy(
         &self,
         certificate: &Certificate,
@@ -146,7 +147,7 @@ impl Stated {
     }
 }
 
-/// The nominal gyro with its drifts per local g.
+/// Returns the nominal parameters of the gyro with the drifts per local g.
 fn at_gravity(gyro: &GyroType, gravity_m_per_s2: f64) -> GyroParameters {
     let ratio = gravity_m_per_s2 / gyro.gravity();
     let nominal = gyro.nominal.to_model();
@@ -158,7 +159,7 @@ fn at_gravity(gyro: &GyroType, gravity_m_per_s2: f64) -> GyroParameters {
 }
 
 impl Accuracy {
-    /// The rules of its inputs, which are those of the files that they came from.
+    /// Checks the inputs by the rules of the files that they came from.
     pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
         self.gyro.to_type().check(&at.key("gyro"), problems);
         self.laboratory.to_laboratory().check(&at.key("laboratory"), problems);

@@ -1,5 +1,5 @@
-//! The comments of a passport: units, equations, and what is absent with what it costs. They are signed with the rest
-//! and mean nothing to a program.
+//! Comments of a passport: units, equations, missing statements and their effects. The signature covers them; programs
+//! ignore them.
 
 use super::content::Content;
 use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
@@ -7,13 +7,13 @@ use crate::stand::{Certificate, CertifiedPosition, Datum, Stand};
 use crate::text::canonical;
 use crate::{earth, units};
 
-/// The payload of a passport: its content in canonical form, with its comments.
+/// Writes the payload of a passport: its content in canonical form, with its comments.
 #[cfg(any(test, fuzzing))]
 pub(crate) fn payload(content: &Content) -> String {
     canonical::write(content, &|path| comments(content, path))
 }
 
-/// The part of the payload that is the same at every site: the keys of [`Stand`] but for its format.
+/// Writes the part of the payload that is the same at every site: the keys of [`Stand`] except its format.
 pub(crate) fn payload_of_stand(stand: &Stand, has_matrices: bool) -> String {
     let of_certificate =
         || absent_of_certificate(&stand.certificate, &stand.positions, stand.datum.as_ref(), has_matrices);
@@ -22,7 +22,7 @@ pub(crate) fn payload_of_stand(stand: &Stand, has_matrices: bool) -> String {
     text
 }
 
-/// The payload of a passport of a stand whose part of it is known: see [`payload_of_stand`].
+/// Writes the payload of a passport, given the part that [`payload_of_stand`] wrote.
 pub(crate) fn payload_with(content: &Content, of_stand: &str) -> String {
     let mut text = String::with_capacity(2 * of_stand.len() + 6000);
     let comments = |path: &str| comments(content, path);
@@ -33,44 +33,44 @@ pub(crate) fn payload_with(content: &Content, of_stand: &str) -> String {
     text
 }
 
-/// What a passport cannot state because it was not given.
+/// Statement that is missing in a passport because its input was not given.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Absence {
-    /// Of some deviation the uncertainty.
+    /// Uncertainty of at least one deviation.
     Uncertainty,
-    /// The repeatability of a return.
+    /// Repeatability of positioning.
     Repeatability,
-    /// The part common to all positions, of platform or base.
+    /// Common part of the uncertainty, shared by all positions, of platform or base.
     CommonPart,
     /// Traceability.
     Traceability,
-    /// Temperature, during the measurement and for use.
+    /// Temperature, during the measurement or for use.
     Temperature,
-    /// The certificate's last day.
+    /// Expiry date of the certificate.
     LastDay,
-    /// The surfaces that realise the axes.
+    /// Datum surfaces, which realise the axes.
     Datum,
-    /// One of the paper's eight positions.
+    /// At least one of the paper's eight positions.
     EightPositions,
-    /// The deflection of the vertical, with what it costs in the rates at most.
+    /// Deflection of the vertical.
     Deflection {
-        /// What `UNKNOWN_DEFLECTION_U_ARCSEC` costs.
+        /// Largest change of the Earth-rate components for a deflection of `UNKNOWN_DEFLECTION_U_ARCSEC`.
         cost_deg_per_h: f64,
     },
-    /// The longitude.
+    /// Longitude.
     Longitude,
-    /// The geodetic latitude.
+    /// Geodetic latitude.
     GeodeticLatitude,
-    /// The height.
+    /// Height.
     Height,
     /// Uncertainties of the base as set up.
     BaseUncertainty,
-    /// The azimuth mark.
+    /// Azimuth mark.
     AzimuthMark,
 }
 
 impl Absence {
-    /// What is absent and what that costs; one sentence in ASCII.
+    /// Returns the missing statement and its effect, one sentence in ASCII.
     fn sentence(self) -> String {
         let fixed = match self {
             Self::Uncertainty => {
@@ -124,12 +124,12 @@ impl Absence {
     }
 }
 
-/// What this passport cannot state because it was not given, and what that costs; each one sentence in ASCII.
+/// Returns the missing statements of this passport and their effects, one sentence each, in ASCII.
 pub(crate) fn absences(content: &Content) -> Vec<String> {
     sentences(absent(content))
 }
 
-/// What this passport cannot state because it was not given.
+/// Returns the missing statements of this passport.
 pub(crate) fn absent(content: &Content) -> Vec<Absence> {
     let mut absent = of_the_certificate(content);
     absent.extend(of_the_site(content));
@@ -189,7 +189,8 @@ fn those_that_are(absences: impl IntoIterator<Item = (bool, Absence)>) -> Vec<Ab
     absences.into_iter().filter_map(|(is, absence)| is.then_some(absence)).collect()
 }
 
-/// The comments above the keys that every passport of a stand has alike; `absences` are those of its certificate.
+/// Returns the comments above the keys that are the same in every passport of a stand; `absences` are those of its
+/// certificate.
 fn of_the_stand(path: &str, absences: impl Fn() -> Vec<Absence>) -> Vec<String> {
     match path {
         "certificate" => {

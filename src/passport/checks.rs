@@ -1,38 +1,38 @@
-//! The checks of a verification: their names and verdicts, in words and for programs.
+//! Checks of a verification: names, result codes and details.
 
 use crate::text::printable;
 use std::fmt::Display;
 
-/// The checks, in their order.
+/// Name of a check; the variants are in the order of the report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum CheckName {
-    /// The text rule, the split, the form of the signature.
+    /// Text rule, split into text and signature, and form of the signature.
     Grammar,
-    /// The signature over the text.
+    /// Signature over the text.
     Signature,
-    /// The content in its one form, and every rule of it.
+    /// Canonical form of the content, and all of its rules.
     Schema,
-    /// The key is the issuer's, for passports, at the time of issue.
+    /// Key of the issuer, trusted for passports at the time of issue.
     Signer,
-    /// Neither key nor passport is revoked.
+    /// Revocation of the key, and withdrawal of the passport.
     Revocation,
-    /// Every number follows from the signed inputs.
+    /// Recomputation of every number from the signed inputs.
     Recomputed,
-    /// Issued, and not expired.
+    /// Time of verification: not before the time of issue, not after the expiry date.
     InForce,
-    /// The issuer is the one asked for.
+    /// Issuer, compared with the required one.
     Issuer,
-    /// The stand is the one asked for.
+    /// Serial number of the stand, compared with the required one.
     Stand,
-    /// The place is within the radius of validity.
+    /// Distance from the site, compared with the validity radius.
     Place,
-    /// No successor supersedes it in the folder asked about.
+    /// Absence of a superseding successor in the given register folder.
     Register,
 }
 
 impl CheckName {
-    /// As `verify --format json` names it.
+    /// Returns the name that `verify --format json` uses.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Grammar => "grammar",
@@ -50,13 +50,13 @@ impl CheckName {
     }
 }
 
-/// The verdict of a check, for programs.
+/// Result code of a check, for programs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Code {
-    /// Passed.
+    /// The check passed.
     Ok,
-    /// An earlier check failed, and this one needs it.
+    /// Not run, because it depends on an earlier check that failed.
     NotRun,
     /// The file could not be opened or read.
     Unreadable,
@@ -64,42 +64,42 @@ pub enum Code {
     Malformed,
     /// The text is not the one that was signed.
     Altered,
-    /// Signed as another kind of document.
+    /// The signature was made for another kind of document.
     WrongNamespace,
-    /// The content breaks a rule, or is not in its one form.
+    /// The content breaks a rule or is not in canonical form.
     BadContent,
-    /// The key is nobody's that is trusted.
+    /// No trusted signer has this key.
     UnknownKey,
-    /// The key is somebody else's.
+    /// The key belongs to another signer.
     WrongPrincipal,
-    /// The key's time had not begun when the passport was issued.
+    /// The passport was issued before the validity of the key began.
     KeyNotYetValid,
-    /// The key's time had ended when the passport was issued.
+    /// The passport was issued after the validity of the key had ended.
     KeyExpired,
-    /// The key was revoked.
+    /// The key is revoked.
     KeyRevoked,
-    /// The passport was withdrawn.
+    /// The passport is withdrawn.
     PassportRevoked,
     /// A number does not follow from the signed inputs.
     WrongNumber,
-    /// Issued later than the time asked about.
+    /// The time of issue is later than the time of verification.
     NotYetValid,
-    /// Past its last day.
+    /// The expiry date has passed.
     Expired,
-    /// From another issuer.
+    /// The passport is from another issuer.
     WrongIssuer,
-    /// Of another stand.
+    /// The passport is for another stand.
     WrongStand,
-    /// For another place.
+    /// The passport is for another place.
     WrongPlace,
-    /// A successor counts in its place.
+    /// A successor supersedes the passport.
     Superseded,
-    /// Something in the register that may supersede or withdraw it cannot be read.
+    /// A file in the register that may supersede or withdraw the passport cannot be read.
     RegisterUnknown,
 }
 
 impl Code {
-    /// As `verify --format json` writes it.
+    /// Returns the code that `verify --format json` writes.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Ok => "ok",
@@ -127,24 +127,24 @@ impl Code {
     }
 }
 
-/// One check.
+/// Result of one check of a verification.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Check {
-    /// Which.
+    /// Name of the check.
     pub name: CheckName,
-    /// Its verdict.
+    /// Result code.
     pub code: Code,
-    /// One line that a laboratory engineer understands, or one for each mistake in the content.
+    /// Explanation for a laboratory engineer: one line, or one line for each error in the content.
     pub detail: String,
 }
 
 impl Check {
-    /// The verdict of a check in one line; whatever is in `detail`, it stays one.
+    /// Creates the result of a check, with `detail` as a single printable line.
     pub(crate) fn new(name: CheckName, code: Code, detail: impl Display) -> Self {
         Self { name, code, detail: printable(detail) }
     }
 
-    /// Whether it passed; `None` when it was not run.
+    /// Returns whether the check passed, or `None` if it was not run.
     pub fn passed(&self) -> Option<bool> {
         match self.code {
             Code::Ok => Some(true),

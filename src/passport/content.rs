@@ -1,4 +1,4 @@
-//! What a passport says (`dtg-passport/1`), and how its numbers follow from the stand and the site.
+//! Content of a passport (`dtg-passport/1`), and the numbers in it that are computed from the stand and the site.
 
 use super::accuracy::Accuracy;
 use crate::calibration::{analytic, least_squares};
@@ -17,7 +17,7 @@ use jiff::civil::Date;
 use nalgebra::{Matrix2, Vector2};
 use std::fmt::{self, Display, Formatter};
 
-/// The format of a passport.
+/// Format name of a passport.
 pub(crate) const PASSPORT_FORMAT: &str = "dtg-passport/1";
 
 record! {
@@ -160,11 +160,12 @@ record! {
     }
 }
 
-/// Largest |found/stated − 1| of a parameter when the self-check is calibrated again.
+/// Largest relative error |found/stated − 1| of a parameter in the self-check.
 pub(crate) const SELF_CHECK_LIMIT: f64 = 1e-9;
 
-/// Gyro of the self-check of every passport that is issued: no two parameters alike or of opposite sign, so that software
-/// that exchanges or transposes any of them finds others. Earlier passports state the GVK-6 of the paper.
+/// Gyro of the self-check in every passport that this program issues. No two parameters are equal or opposite, so that
+/// software which exchanges or transposes any of them obtains wrong values. Earlier passports use the GVK-6 of the
+/// paper.
 pub(crate) const REFERENCE_GYRO: Parameters = Parameters {
     k_deg_per_h_per_ma: [[95.0, 9.3], [-8.7, 93.0]],
     omega0_deg_per_h: [20.0, -15.0],
@@ -172,23 +173,24 @@ pub(crate) const REFERENCE_GYRO: Parameters = Parameters {
     omega_k_deg_per_h_per_g: -7.0,
 };
 
-/// The numbers of a passport that follow from its stand and its site.
+/// Numbers of a passport that are computed from its stand and its site.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Derived {
-    /// What the Earth does at the site.
+    /// Earth parameters at the site.
     pub earth: Earth,
-    /// The paper's matrices.
+    /// Matrices of the paper, or `None` without its eight positions.
     pub matrices: Option<MatrixRows>,
-    /// Specific force and Earth rate.
+    /// Specific force and Earth rate in every position.
     pub vectors: Vec<PositionVectors>,
-    /// The test of laboratory software, for the gyro given.
+    /// Self-check of laboratory software for the given gyro, or `None` if the positions do not determine the
+    /// parameters.
     pub self_check: Option<SelfCheck>,
 }
 
-/// Computes all that follows from certified positions and a site; `gyro` is that of the self-check.
+/// Computes all numbers that follow from certified positions and a site; `gyro` is the gyro of the self-check.
 ///
 /// # Errors
-/// [`SingularPositions`] when the paper's eight are there and n_2 has no inverse.
+/// Returns [`SingularPositions`] if the stand has the paper's eight positions and n_2 has no inverse.
 pub(crate) fn derive(
     positions: &[CertifiedPosition],
     site: &Site,
@@ -197,24 +199,25 @@ pub(crate) fn derive(
     Ok(derive_from(&stand::geometry(positions)?, site, gyro))
 }
 
-/// The same from the geometry of the positions.
+/// Computes all numbers that follow from the geometry of the positions and a site.
 pub(crate) fn derive_from(geometry: &StandGeometry, site: &Site, gyro: &Parameters) -> Derived {
     derive_at(geometry, site.earth(), gyro)
 }
 
-/// The same from what the Earth does at the site, too.
+/// Computes all numbers that follow from the geometry of the positions and the Earth parameters at the site.
 pub(crate) fn derive_at(geometry: &StandGeometry, earth: Earth, gyro: &Parameters) -> Derived {
     let coefficients = geometry.at(earth.rate());
     let vectors = coefficients.positions.iter().map(PositionVectors::from_model).collect();
     let matrices = coefficients.matrices.as_ref().map(MatrixRows::from_model);
-    // Other positions than the eight may not determine all parameters: then there is nothing to check software with.
+    // Positions other than the paper's eight may not determine all parameters; laboratory software then cannot be
+    // checked.
     let determined = |check: &SelfCheck| matrices.is_some() || check.error(&coefficients) <= SELF_CHECK_LIMIT;
     let self_check = SelfCheck::of(gyro, &coefficients).filter(determined);
     Derived { earth, matrices, vectors, self_check }
 }
 
 fn rows(matrix: &Matrix2<f64>) -> Rows {
-    // Adding zero turns -0.0, which products of exact zeros leave, into the only zero that a document knows.
+    // Products of exact zeros can be -0.0. Adding zero makes them 0.0, the only zero that a document can contain.
     [[matrix.m11 + 0.0, matrix.m12 + 0.0], [matrix.m21 + 0.0, matrix.m22 + 0.0]]
 }
 
@@ -277,7 +280,7 @@ impl PositionVectors {
 }
 
 impl SelfCheck {
-    /// The exact currents of `gyro`; `None` when its K has no inverse.
+    /// Computes the exact currents of `gyro`; returns `None` if its K has no inverse.
     fn of(gyro: &Parameters, coefficients: &Coefficients) -> Option<Self> {
         let model = gyro.to_model();
         let currents = coefficients.positions.iter().map(|at| {
@@ -293,7 +296,7 @@ impl SelfCheck {
         })
     }
 
-    /// The parameters that the currents must give.
+    /// Returns the parameters that laboratory software should obtain from the currents.
     pub fn parameters(&self) -> Parameters {
         Parameters {
             k_deg_per_h_per_ma: self.k_deg_per_h_per_ma,
@@ -303,8 +306,8 @@ impl SelfCheck {
         }
     }
 
-    /// Calibrates the currents again, by the paper's closed solution or, without its eight positions, by least squares.
-    /// Returns how far the worst parameter is off, relative to its own size; infinite when there is no solution.
+    /// Calibrates from the currents, by the paper's analytic method or, without its eight positions, by least squares.
+    /// Returns the largest relative error of a parameter; infinite if there is no solution.
     pub(crate) fn error(&self, coefficients: &Coefficients) -> f64 {
         let currents: Vec<_> = self.currents.iter().map(|at| Vector2::new(at.jx_ma, at.jy_ma)).collect();
         let found = if coefficients.matrices.is_some() {
@@ -325,7 +328,7 @@ fn largest_relative_difference(found: &GyroParameters, due: &GyroParameters) -> 
     };
     let relative = |(found, due): (f64, f64)| if due == 0.0 { found.abs() } else { (found / due - 1.0).abs() };
     let differences = numbers(found).into_iter().zip(numbers(due)).map(relative);
-    // `f64::max` would pass over a NaN.
+    // `f64::max` would ignore a NaN.
     differences.fold(0.0, |worst, next| if next <= worst { worst } else { next })
 }
 
@@ -349,7 +352,7 @@ impl Display for Dated {
 }
 
 impl Content {
-    /// What the passport's calibration works with: the numbers that are signed.
+    /// Returns the coefficients of the calibration equations, built from the signed numbers.
     pub fn coefficients(&self) -> Coefficients {
         Coefficients {
             positions: self.vectors.iter().map(PositionVectors::to_model).collect(),
@@ -357,26 +360,27 @@ impl Content {
         }
     }
 
-    /// `<model>/<serial>/<site id>/<revision>`, as the parts say.
+    /// Returns the id composed of the parts of the content: `<model>/<serial>/<site id>/<revision>`.
     pub(crate) fn id_of_parts(&self) -> String {
         passport_id(&self.stand, &self.site.id, self.passport.revision)
     }
 
-    /// The last second in which the passport may be used, and which of its two dates ends it.
+    /// Returns the earlier of the two expiry dates (inclusive) and the document that states it, or `None` if neither
+    /// states one.
     pub(crate) fn last_day(&self) -> Option<(Date, Dated)> {
         let passport = self.passport.valid_until.map(|day| (day, Dated::Passport));
         let certificate = self.certificate.valid_until.map(|day| (day, Dated::Certificate));
-        // Of equal ones the certificate's is named: it is the one that no new passport helps against.
+        // If both dates are equal, report the certificate, because a new passport would not help.
         certificate.into_iter().chain(passport).min_by_key(|(day, _)| *day)
     }
 
-    /// Every rule of the content that its own inputs do not already settle.
+    /// Checks all rules of the content that its inputs do not already ensure.
     pub(crate) fn check(&self, problems: &mut Problems) {
         check_inputs(&self.certificate, &self.positions, &self.site, problems);
         self.check_but_for_inputs(problems);
     }
 
-    /// The same without [`check_inputs`].
+    /// Checks the rules of [`Content::check`] without those of [`check_inputs`].
     pub(super) fn check_but_for_inputs(&self, problems: &mut Problems) {
         let at = Path::Root;
         if self.format != PASSPORT_FORMAT {
@@ -422,7 +426,7 @@ impl Content {
     }
 }
 
-/// The rules of what the numbers are computed from.
+/// Checks the rules of the inputs: certificate, positions and site.
 pub(super) fn check_inputs(
     certificate: &Certificate,
     positions: &[CertifiedPosition],
@@ -433,7 +437,7 @@ pub(super) fn check_inputs(
     site.check(&Path::Root.key("site"), problems);
 }
 
-/// Identifier: `<model>/<serial>/<site id>/<revision>`.
+/// Returns the identifier of a passport: `<model>/<serial>/<site id>/<revision>`.
 pub(crate) fn passport_id(stand: &Identity, site: &Identifier, revision: u32) -> String {
     format!("{}/{}/{site}/{revision}", stand.model, stand.serial)
 }

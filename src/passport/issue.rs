@@ -1,4 +1,4 @@
-//! From a certified stand and a site to a signed passport.
+//! Issue of a signed passport from a certified stand and a site.
 
 mod refused;
 
@@ -23,42 +23,44 @@ use crate::trust::{Message, check_identity};
 use jiff::Timestamp;
 use jiff::civil::Date;
 
-/// A signature in its armor takes a quarter of this many bytes; one by a token, which names its application, less than all.
+/// Upper limit for the size of an armored signature, bytes. Usual signatures take a quarter of it; that of a token,
+/// which includes its application string, takes less than all of it.
 const LONGEST_SIGNATURE: usize = 2000;
 
-/// From this much more noise on than on a perfect stand the factory is warned.
+/// Noise growth relative to the ideal stand from which the factory is warned.
 pub(crate) const NOISE_WARNING: f64 = 2.0;
 
-/// The passport that a re-issued one is made from.
+/// Link from a re-issued passport to its predecessor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reissued {
-    /// Its id and the SHA-256 of its file.
+    /// Identifier of the predecessor and SHA-256 of its file.
     pub from: Predecessor,
-    /// Whether the new passport supersedes it.
+    /// Whether the new passport supersedes its predecessor.
     pub supersedes: bool,
 }
 
-/// Who issues, and when.
+/// Issuer, dates and options of a new passport.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Issue {
-    /// The issuer: a principal of allowed_signers.
+    /// Issuer: a principal of allowed_signers.
     pub issuer: String,
-    /// When; whole seconds.
+    /// Time of issue, whole seconds.
     pub issued_at: Timestamp,
-    /// Last day of the passport; the certificate's when `None`.
+    /// Expiry date of the passport (inclusive); that of the certificate if `None`.
     pub valid_until: Option<Date>,
-    /// Counts from 1 at each site of a stand.
+    /// Revision, from 1 for each site of a stand.
     pub revision: u32,
-    /// The passport that it is made from, for a re-issue.
+    /// Link to the predecessor of a re-issue; `None` for a first issue.
     pub reissued: Option<Reissued>,
-    /// For whom the passport states what the stand is good for; nothing when `None`.
+    /// Gyro type and laboratory for which the passport states the expected calibration uncertainty; not stated if
+    /// `None`.
     pub accuracy: Option<Stated>,
-    /// Whether a passport is issued even if its positions do not determine the parameters of a gyro.
+    /// Whether to issue a passport even if its positions do not determine the parameters of a gyro.
     pub allow_uncalibratable: bool,
 }
 
 impl Issue {
-    /// Revision 1, to the certificate's last day.
+    /// Creates an issue with revision 1 that expires with the certificate.
     pub fn first(issuer: &str, issued_at: Timestamp) -> Self {
         let issuer = issuer.to_owned();
         Self {
@@ -73,11 +75,11 @@ impl Issue {
     }
 }
 
-/// Returns the time of issue: `asked`, or that of the `clock` if no time is asked for.
+/// Returns the time of issue: `asked`, or the time of the `clock` if `asked` is `None`.
 ///
 /// # Errors
-/// [`IssueRefused::AheadOfClock`] for a time more than a day ahead of the clock: such a passport would not be valid yet,
-/// and would count as later than every passport issued until then.
+/// Returns [`IssueRefused::AheadOfClock`] if the time is more than a day ahead of the clock. Such a passport would not
+/// be valid yet, and would rank as later than every passport issued until then.
 pub(crate) fn time_of_issue(asked: Option<Timestamp>, clock: Timestamp) -> Result<Timestamp, IssueRefused> {
     const DAY_S: i64 = 86_400;
     match asked {
@@ -88,16 +90,16 @@ pub(crate) fn time_of_issue(asked: Option<Timestamp>, clock: Timestamp) -> Resul
     }
 }
 
-/// A passport ready to be signed.
+/// Unsigned passport, checked and ready to be signed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Draft {
     content: Content,
     payload: String,
 }
 
-/// A stand with all that its passports have in common, whatever the site: its geometry, and its part of the text.
+/// Certified stand with the parts that all of its passports share: its geometry and its part of the text.
 ///
-/// Both are found once, and every passport is the same as if they had been found for it alone.
+/// Both are computed once. Every passport is the same as if they had been computed for it alone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreparedStand {
     stand: Stand,
@@ -105,7 +107,7 @@ pub struct PreparedStand {
 }
 
 impl PreparedStand {
-    /// Prepares a stand. One without passports, since n_2 has no inverse, says so when a passport is asked for.
+    /// Prepares a stand. If n_2 has no inverse, [`PreparedStand::draft`] returns that error for every site.
     pub fn new(stand: Stand) -> Self {
         let geometry = stand.geometry().map(|geometry| {
             let text = annotations::payload_of_stand(&stand, geometry.has_eight());
@@ -114,22 +116,23 @@ impl PreparedStand {
         Self { stand, geometry }
     }
 
-    /// The stand.
+    /// Returns the stand.
     pub(crate) fn stand(&self) -> &Stand {
         &self.stand
     }
 
-    /// Computes everything that the passport at `site` says, writes it, and checks what was written.
+    /// Computes all numbers of the passport at `site`, writes the text, and reads it back as a check.
     ///
     /// # Errors
-    /// See [`IssueRefused`]: nothing is signed whose self-check fails, or that does not read back bit for bit.
+    /// Returns [`IssueRefused`] if an input breaks a rule, the self-check fails, or the text does not read back bit for
+    /// bit.
     pub fn draft(&self, site: &Site, issue: &Issue) -> Result<Draft, IssueRefused> {
         check_identity(&issue.issuer)?;
         check_site(site)?;
         let (geometry, text) = self.geometry.as_ref().map_err(|singular| *singular)?;
         let content = content(&self.stand, geometry, site, issue)?;
         check_dates(&content)?;
-        // There is a self-check wherever the positions determine the gyro.
+        // Whenever the positions determine the parameters of a gyro, there is a self-check.
         if !issue.allow_uncalibratable && content.self_check.is_none() {
             return Err(IssueRefused::Uncalibratable);
         }
@@ -148,10 +151,10 @@ impl PreparedStand {
     }
 }
 
-/// The passport of a stand for one site: see [`PreparedStand::draft`], which is for many.
+/// Drafts the passport of a stand for one site; for many sites, use [`PreparedStand::draft`].
 ///
 /// # Errors
-/// See [`IssueRefused`].
+/// Returns the errors of [`PreparedStand::draft`].
 pub fn draft(stand: &Stand, site: &Site, issue: &Issue) -> Result<Draft, IssueRefused> {
     PreparedStand::new(stand.clone()).draft(site, issue)
 }
@@ -189,7 +192,7 @@ fn content(stand: &Stand, geometry: &StandGeometry, site: &Site, issue: &Issue) 
     })
 }
 
-/// A site that no file was read of, such as that of an earlier passport, obeys the same rules.
+/// Checks the site, because one that was not read from a file, such as that of a predecessor, must obey the same rules.
 fn check_site(site: &Site) -> Result<(), IssueRefused> {
     let mut problems = Problems::new();
     site.check_consistency(&Path::Root.key("site"), &mut problems);
@@ -218,7 +221,7 @@ fn check_dates(content: &Content) -> Result<(), IssueRefused> {
     }
 }
 
-/// The written text is read again by the verifier's reader, and its content compared with what was written.
+/// Reads the written text with the verifier's reader and compares its content with the original.
 fn read_back(payload: &str, content: &Content) -> Result<Content, IssueRefused> {
     const NAME: &str = "the new passport";
     rule::check(NAME, payload.as_bytes()).map_err(IssueRefused::ReadBack)?;
@@ -231,20 +234,21 @@ fn read_back(payload: &str, content: &Content) -> Result<Content, IssueRefused> 
 }
 
 impl Draft {
-    /// What the passport will say.
+    /// Returns the content of the passport.
     pub fn content(&self) -> &Content {
         &self.content
     }
 
-    /// The text that will be signed.
+    /// Returns the text to be signed.
     pub fn payload(&self) -> &str {
         &self.payload
     }
 
-    /// Signs it; gives the whole file. The signature is checked before it is given out.
+    /// Signs the text and returns the whole file. The new signature is verified first.
     ///
     /// # Errors
-    /// [`IssueRefused::Signing`] and [`IssueRefused::BadSignature`].
+    /// Returns [`IssueRefused::Signing`] if the signer fails, and [`IssueRefused::BadSignature`] if its signature is
+    /// wrong.
     pub fn sign(&self, signer: &dyn Signer) -> Result<String, IssueRefused> {
         let message = Message::new(NAMESPACE, self.payload.as_bytes());
         let signature = signer.sign_message(&message)?;
@@ -252,8 +256,8 @@ impl Draft {
         Ok(join(&self.payload, &signature))
     }
 
-    /// Words about the passport for the factory: how much noisier a calibration is on this stand than on a perfect
-    /// one, what is not known, and where K grows uncertain.
+    /// Computes remarks on the passport for the factory: noise of a calibration relative to the ideal stand, missing
+    /// statements, and the growth of the uncertainty of K with latitude.
     pub fn remarks(&self) -> Remarks {
         let content = &self.content;
         let positions: Vec<_> = content.positions.iter().map(CertifiedPosition::to_model).collect();
@@ -265,16 +269,16 @@ impl Draft {
     }
 }
 
-/// What the factory should know about a passport before it hands it over.
+/// Remarks for the factory to read before it delivers a passport.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remarks {
-    /// How much noisier than on a perfect stand; `None` when the positions do not determine all parameters.
+    /// Noise relative to the ideal stand; `None` if the positions do not determine all parameters.
     pub(crate) noise: Option<NoiseGrowth>,
-    /// 1/cos Φ.
+    /// Growth of the uncertainty with latitude, 1/cos Φ.
     pub uncertainty_growth: f64,
-    /// What is odd in the certificate, a sentence each.
+    /// Implausible statements of the certificate, one sentence each.
     pub odd: Vec<String>,
-    /// What is not known, and what that costs.
+    /// Missing statements and their effects, one sentence each.
     pub absences: Vec<String>,
 }
 
@@ -291,7 +295,8 @@ mod tests {
         include_str!("../../sites/singapore-nus.yaml"),
     ];
 
-    /// The shipped stands, and each with less: no datum, seven positions, nothing certified that need not be.
+    /// The shipped stands, and reduced copies of each: without datum, with seven positions, without any optional
+    /// statement.
     fn stands() -> Vec<Stand> {
         let whole = STANDS.iter().map(|text| Stand::from_yaml("stand", text.as_bytes()).unwrap());
         whole
@@ -379,7 +384,7 @@ mod tests {
         }
     }
 
-    /// Positions that are all the same orientation: n_2 is zero.
+    /// All positions have the same orientation, so n_2 is zero.
     #[test]
     fn a_stand_without_passports_says_so_for_each() {
         let mut stand = Stand::from_yaml("stand", STANDS[0].as_bytes()).unwrap();

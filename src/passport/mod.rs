@@ -1,15 +1,15 @@
-//! The signed passport: what it says, how it is written and read, issued, re-issued and verified.
+//! Signed passports: content, text form, issue, re-issue and verification.
 //!
-//! * `content`: the records, and the numbers that follow from stand and site.
-//! * `accuracy`: what the stand is good for, for a stated gyro and meter.
-//! * `annotations`: the comments that stand between them.
-//! * `read`: signed text to content, canonical form required.
-//! * [`issue`]: a stand and a site to a signed passport.
-//! * `recomputed`: every number again from the signed inputs.
-//! * `checks`: names and verdicts of the checks.
-//! * `place`: whether a place is near enough to the site.
+//! * `content`: records, and the numbers computed from stand and site.
+//! * `accuracy`: expected calibration uncertainty for a stated gyro type and meter.
+//! * `annotations`: comments between the records.
+//! * `read`: parsing of the signed text, which must be in canonical form.
+//! * [`issue`]: issue of a signed passport from a stand and a site.
+//! * `recomputed`: recomputation of every number from the signed inputs.
+//! * `checks`: names and results of the checks.
+//! * `place`: comparison of a place with the site.
 //! * `verification`: the six steps, and "may I use this passport, on this stand, here, now?".
-//! * [`reissue`]: a new passport from an old one.
+//! * [`reissue`]: re-issue of a passport as its successor.
 
 pub(crate) mod accuracy;
 pub(crate) mod annotations;
@@ -33,5 +33,5 @@ pub use content::{
 pub use read::content_from_anyone;
 pub use verification::{Question, Trust, Verification, VerifiedPassport, verify};
 
-/// The namespace that passports are signed for.
+/// Namespace of the signatures of passports.
 pub const NAMESPACE: &str = "dtg-passport";

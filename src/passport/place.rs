@@ -1,4 +1,4 @@
-//! Whether a place is near enough to the site that a passport was made for.
+//! Comparison of a place with the site that a passport was issued for.
 
 use super::checks::Code;
 use super::content::Content;
@@ -6,19 +6,19 @@ use crate::earth::{self, Place};
 use crate::site::LATITUDE_MARGIN_ARCSEC;
 use crate::units::radians_from_arcseconds;
 
-/// How far a place is from a passport's site.
+/// Distance of a place from a passport's site, and the limit for it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Nearness {
-    /// The geodesic distance; along the meridian where the site has no longitude.
+    /// Geodesic distance; along the meridian if the site has no longitude.
     pub distance_m: f64,
-    /// How far the passport is valid, with what is allowed for an unknown deflection of the vertical.
+    /// Validity radius, including the allowance.
     pub radius_m: f64,
-    /// That allowance.
+    /// Allowance for an unknown deflection of the vertical; 0 if it is known.
     pub allowance_m: f64,
 }
 
 impl Nearness {
-    /// How far `place` is from the site of `content`.
+    /// Computes the distance of `place` from the site of `content`.
     pub(crate) fn of(content: &Content, place: Place) -> Self {
         let site = &content.site;
         let latitude_deg = site.geodetic_deg();
@@ -32,13 +32,13 @@ impl Nearness {
         Self { distance_m: earth::distance_m(known, place), radius_m, allowance_m }
     }
 
-    /// Whether the place is within the radius of validity.
+    /// Returns `true` if the place is within the validity radius.
     pub(crate) fn within(self) -> bool {
         self.distance_m <= self.radius_m
     }
 }
 
-/// The verdict on a place, with words for it.
+/// Returns the result code for a place, with an explanation.
 pub(super) fn verdict(content: &Content, place: Place) -> (Code, String) {
     let site = &content.site;
     let nearness = Nearness::of(content, place);

@@ -1,4 +1,4 @@
-//! Step 5 of verification: the signed text, and nothing else, becomes the content of a passport.
+//! Step 5 of verification: parsing the signed text, and nothing else, into the content of a passport.
 
 use super::NAMESPACE;
 use super::content::Content;
@@ -8,15 +8,15 @@ use crate::text::Unreadable;
 /// Parses the payload of a passport: see [`document::parse`].
 ///
 /// # Errors
-/// The first line that is not in its one form, or every mistake of the content.
+/// Returns the first line that is not in canonical form, or every error in the content.
 pub(crate) fn content(name: &str, payload: &str) -> Result<Content, Unreadable> {
     document::parse(name, payload, Content::check)
 }
 
-/// The content of a passport file of which nothing is verified but its form: anybody may have written it.
+/// Parses the content of a passport file without verifying its signature: anyone may have written it.
 ///
 /// # Errors
-/// The file has not the form of a passport, or its content breaks a rule.
+/// Returns an error if the file does not have the form of a passport, or if its content breaks a rule.
 pub fn content_from_anyone(name: &str, bytes: &[u8]) -> Result<Content, Unreadable> {
     let text = SignedText::split(name, bytes, NAMESPACE).map_err(|malformed| malformed.fault)?;
     content(name, text.unverified_payload())
@@ -33,7 +33,7 @@ mod tests {
         include_str!("../../passports/SPS-2/0017/beijing-nim-1.yaml"),
     ];
 
-    /// Everything that a passport may say, in one.
+    /// Returns a payload that uses every key of a passport.
     fn full() -> String {
         use crate::gyro::GyroType;
         use crate::laboratory::Laboratory;
@@ -75,7 +75,7 @@ uncertainty: {}
         shipped.chain([full()]).collect()
     }
 
-    /// What a general reader of YAML makes of the text, when its content, written again, gives the same lines.
+    /// Parses the text with a general YAML reader; returns `None` if its content, written again, gives different lines.
     fn general(text: &str) -> Option<Content> {
         let (node, _) = yaml::tree("t", text.as_bytes()).ok()?;
         let mut problems = Problems::new();
@@ -85,12 +85,12 @@ uncertainty: {}
         (problems.is_empty() && same).then_some(content)
     }
 
-    /// Whether the reader takes the text. It takes what a general reader of YAML takes, with the same content, and nothing
-    /// else, of all texts that obey the rule of signed texts.
+    /// Returns `true` if the reader accepts the text. Among the texts that obey the rule of signed texts, it must
+    /// accept exactly those that a general YAML reader accepts, with the same content.
     fn readers_agree(text: &str) -> bool {
         let read = content("t", text).ok();
         if read.is_some() || rule::check("t", text.as_bytes()).is_ok() {
-            // Of equal numbers 0.0 and -0.0 are two.
+            // Compare as text, because 0.0 and -0.0 are equal as numbers.
             assert_eq!(format!("{read:?}"), format!("{:?}", general(text)), "{text}");
         }
         read.is_some()
@@ -109,7 +109,7 @@ uncertainty: {}
     fn readers_agree_on_every_altered_byte() {
         const OTHERS: &[u8] = b" \n:,-+.e09\"\\[]{}a#_\t~";
         let mut taken = 0;
-        // The shipped ones say nothing that the full one does not.
+        // The shipped payloads contain nothing that the full one does not.
         for payload in payloads().split_off(1) {
             for at in (0..payload.len())
                 .step_by(2)
@@ -117,7 +117,7 @@ uncertainty: {}
             {
                 let (before, after) = payload.split_at(at);
                 let other = char::from(OTHERS[(at / 3) % OTHERS.len()]);
-                // Every byte in one of three ways; which one turns with the place.
+                // Alter every byte in one of three ways, chosen by its place.
                 let altered = match at % 3 {
                     0 => format!("{before}{other}{}", &after[1..]),
                     1 => format!("{before}{}", &after[1..]),
@@ -126,7 +126,7 @@ uncertainty: {}
                 taken += usize::from(readers_agree(&altered));
             }
         }
-        // Altered comments, names and numbers without a consequence.
+        // Some altered comments, names and independent numbers are still accepted.
         assert!(taken > 1000, "{taken}");
     }
 

@@ -1,4 +1,4 @@
-//! Every number of a passport that follows from its inputs, computed again and compared.
+//! Recomputation of every number of a passport that follows from its inputs, and comparison with the stated ones.
 
 use super::accuracy::Stated;
 use super::content::{
@@ -7,17 +7,17 @@ use super::content::{
 use crate::earth::{AZIMUTH_QUANTUM_DEG, LENGTH_QUANTUM_M};
 use crate::text::{Field, Node};
 
-/// The largest difference allowed, relative to the largest element of each matrix, each set of vectors, each number.
+/// Largest allowed difference, relative to the largest element of each matrix, each set of vectors or each number.
 pub(crate) const LIMIT: f64 = 1e-12;
 
 /// A number that does not follow from the passport's own inputs.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct WrongNumber {
-    /// Where it stands, such as `matrices.delta[0][1]`.
+    /// Path of the field, such as `matrices.delta[0][1]`.
     pub field: String,
-    /// What the passport says; NaN where it says nothing.
+    /// Value that the passport states; NaN if it states none.
     pub stated: f64,
-    /// What follows from its inputs; NaN where nothing does.
+    /// Value computed from the inputs; NaN if there is none.
     pub computed: f64,
 }
 
@@ -29,12 +29,13 @@ impl std::fmt::Display for WrongNumber {
     }
 }
 
-/// Compares earth, matrices, vectors, self-check and accuracy with what the signed inputs give; the worst number first.
+/// Compares Earth parameters, matrices, vectors, self-check and accuracy with the values computed from the signed
+/// inputs.
 ///
-/// The self-check is computed for the gyro that it states itself; a passport may have none, because no calibration needs it.
+/// The self-check is computed for the gyro that it states. A passport may have none, because no calibration needs it.
 ///
 /// # Errors
-/// The wrong numbers, or in words why there is nothing to compare with.
+/// Returns the wrong numbers, largest difference first, or the reason why there is nothing to compare with.
 pub(crate) fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
     let gyro = content.self_check.as_ref().map_or(REFERENCE_GYRO, SelfCheck::parameters);
     let Ok(mut derived) = derive(&content.positions, &content.site, &gyro) else {
@@ -48,7 +49,7 @@ pub(crate) fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
     if !states_the_same(content, &derived) {
         compare_derived(content, &derived, &mut wrong);
     }
-    // Consistent numbers are not enough: of an absurd gyro no software finds the parameters again.
+    // Consistent numbers are not enough: if the stated gyro is absurd, no software can recover its parameters.
     if let Some(self_check) = &content.self_check {
         let error = self_check.error(&content.coefficients());
         if error.is_nan() || error > SELF_CHECK_LIMIT {
@@ -60,7 +61,7 @@ pub(crate) fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
     if wrong.is_empty() { Ok(()) } else { Err(wrong) }
 }
 
-/// Whether every number is the one computed, bit for bit: so it is where the same program computed both.
+/// Returns `true` if every number equals the computed one bit for bit, as it does if the same program computed both.
 fn states_the_same(content: &Content, derived: &Derived) -> bool {
     content.earth == derived.earth
         && content.matrices == derived.matrices
@@ -68,7 +69,7 @@ fn states_the_same(content: &Content, derived: &Derived) -> bool {
         && content.self_check == derived.self_check
 }
 
-/// Compares number by number, with the limits.
+/// Compares number by number, within the limits.
 fn compare_derived(content: &Content, derived: &Derived, wrong: &mut Vec<WrongNumber>) {
     for (key, stated, computed) in [
         ("earth", content.earth.write(), derived.earth.write()),
@@ -83,7 +84,7 @@ fn compare_derived(content: &Content, derived: &Derived, wrong: &mut Vec<WrongNu
     compare_sets("vectors", &content.vectors, &derived.vectors, &VECTORS, wrong);
 }
 
-/// Compares what the stand is said to be good for, each number by itself.
+/// Compares the expected calibration uncertainty, each number by itself.
 fn compare_accuracy(content: &Content, wrong: &mut Vec<WrongNumber>) {
     let Some(accuracy) = &content.accuracy else { return };
     let computed = Stated::of(accuracy).accuracy(&content.certificate, &content.positions, &content.site);
@@ -102,7 +103,7 @@ fn compare_accuracy(content: &Content, wrong: &mut Vec<WrongNumber>) {
     }
 }
 
-/// Compares the values of two mappings key by key, each value against its own largest element.
+/// Compares the values of two mappings key by key, each value relative to its own largest element.
 fn compare_entries(path: &str, stated: &Option<Node>, computed: &Option<Node>, wrong: &mut Vec<WrongNumber>) {
     let entries = |node: &Option<Node>| match node {
         Some(Node::Map(entries)) => entries.clone(),
@@ -127,7 +128,7 @@ fn compare_entries(path: &str, stated: &Option<Node>, computed: &Option<Node>, w
     }
 }
 
-/// What a number was rounded to: the platform's trigonometry may have rounded it the other way.
+/// Returns the step to which a number was rounded, because another platform's trigonometry may round it the other way.
 fn quantum(key: &str) -> f64 {
     match key {
         "valid_radius_m" => LENGTH_QUANTUM_M,
@@ -155,15 +156,15 @@ fn collect(node: &Node, path: &str, numbers: &mut Vec<(String, f64)>) {
     }
 }
 
-/// The parameters of a self-check; its currents are compared as a set of vectors.
+/// Returns the parameters of a self-check; its currents are compared as a set of vectors.
 fn parameters(self_check: &Option<SelfCheck>) -> Option<Node> {
     self_check.as_ref().and_then(|check| check.parameters().write())
 }
 
-/// Numbers of a position that are compared together, against the largest of them in any position.
+/// Numbers of a position that are compared together, relative to the largest of them in any position.
 type Set<T> = (&'static str, fn(&T) -> Vec<f64>);
 
-/// Specific forces are one set of vectors, Earth rates another; indices, which may be large, are a set of their own.
+/// Sets of numbers in the vectors: specific forces, Earth rates, and the indices, which may be large.
 const VECTORS: [Set<PositionVectors>; 4] = [
     ("i, j", |at| vec![f64::from(at.i), f64::from(at.j)]),
     ("specific_force_g", |at| at.specific_force_g.to_vec()),
@@ -171,7 +172,7 @@ const VECTORS: [Set<PositionVectors>; 4] = [
     ("omega_deg_per_h", |at| at.omega_deg_per_h.to_vec()),
 ];
 
-/// Currents of the self-check: each axis is a set, because the two may differ in size.
+/// Sets of numbers in the currents of the self-check: one for each axis, because their sizes may differ.
 const CURRENTS: [Set<PositionCurrents>; 3] = [
     ("i, j", |at| vec![f64::from(at.i), f64::from(at.j)]),
     ("jx_ma", |at| vec![at.jx_ma]),
@@ -191,12 +192,13 @@ fn compare_sets<T>(path: &str, stated: &[T], computed: &[T], sets: &[Set<T>], wr
 
 fn compare_numbers(stated: &[(String, f64)], computed: &[(String, f64)], quantum: f64, wrong: &mut Vec<WrongNumber>) {
     let largest = computed.iter().fold(0.0, |largest: f64, (_, value)| largest.max(value.abs()));
-    // One and a half quanta: two neighbours on the grid of rounded values, and their own binary64 rounding.
+    // Allow 1.5 steps: neighbouring rounded values, plus their own binary64 rounding.
     let limit = (LIMIT * largest).max(1.5 * quantum);
     for index in 0..stated.len().max(computed.len()) {
         let number = |numbers: &[(String, f64)]| numbers.get(index).map_or(f64::NAN, |(_, value)| *value);
         let (s, c) = (number(stated), number(computed));
-        // A NaN differs from everything, itself included; an infinity, whose share is infinite, would agree with all.
+        // Check that `c` is finite, because the limit would be infinite for an infinite number. A NaN fails every
+        // comparison.
         let agrees = c.is_finite() && (s - c).abs() <= limit;
         if !agrees {
             let field = stated.get(index).or(computed.get(index)).map(|(field, _)| field.clone()).unwrap_or_default();

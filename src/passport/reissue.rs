@@ -1,4 +1,4 @@
-//! A new passport from an old one: another site, a corrected stand, a corrected site, another key.
+//! Re-issue of a passport: for another site, a corrected stand, a corrected site or another key.
 
 use super::accuracy::Stated;
 use super::checks::{CheckName, Code};
@@ -14,81 +14,81 @@ use jiff::civil::Date;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What is to be issued anew, and by whom.
+/// Changes, reason and issuer of a re-issue.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Order {
-    /// A corrected stand, or the factory's file of it; the old passport's when `None`.
+    /// Corrected stand, or the factory's file of the stand; that of the predecessor if `None`.
     pub stand: Option<Arc<PreparedStand>>,
-    /// Another or a corrected site; the old passport's when `None`.
+    /// Other or corrected site; that of the predecessor if `None`.
     pub site: Option<Site>,
-    /// The stand has left the old site, whose passport is superseded.
+    /// Whether the stand has left the predecessor's site, so that the predecessor is superseded.
     pub moved: bool,
-    /// Why.
+    /// Reason for the re-issue.
     pub reason: String,
-    /// The issuer.
+    /// Issuer.
     pub issuer: String,
-    /// When.
+    /// Time of issue.
     pub issued_at: Timestamp,
-    /// Last day of the passport; when `None` the old passport's, or a new stand's certificate's.
+    /// Expiry date (inclusive); if `None`, that of the predecessor, or of the certificate if a stand is given.
     pub valid_until: Option<Date>,
-    /// Whether a passport is issued even if its positions do not determine the parameters of a gyro.
+    /// Whether to issue a passport even if its positions do not determine the parameters of a gyro.
     pub allow_uncalibratable: bool,
 }
 
-/// Why a passport is not issued anew.
+/// Reason why a passport was not re-issued.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReissueRefused {
-    /// The old passport does not hold.
+    /// The predecessor failed verification.
     #[error("the predecessor failed verification ({check}: {detail})")]
     OldDoesNotHold {
-        /// The check that failed.
+        /// Name of the check that failed.
         check: &'static str,
-        /// In its words.
+        /// Detail of that check.
         detail: String,
     },
-    /// Its signature no longer counts, and the factory's files were not given.
+    /// The predecessor can only be referenced, and the factory's files were not given.
     #[error(
         "the predecessor can be referenced but not used as input ({check}: {detail}); pass the factory's files with \
          --stand and --site (for many passports: --sites)"
     )]
     NeedsFactoryFiles {
-        /// The check that failed.
+        /// Name of the check that failed.
         check: &'static str,
-        /// In its words.
+        /// Detail of that check.
         detail: String,
     },
-    /// The stand file is of another stand.
+    /// The stand file is for another stand.
     #[error("the stand file is for {given}, but the predecessor is for {old}; use `issue` for another stand")]
     OtherStand {
-        /// Model and serial in the file.
+        /// Model and serial number in the file.
         given: String,
-        /// Model and serial in the passport.
+        /// Model and serial number in the predecessor.
         old: String,
     },
-    /// `moved` without another site.
+    /// `moved` was given, but the site is the same.
     #[error(
         "the site is the same ({0}); omit --moved, because a new passport for the same site always supersedes its \
              predecessor"
     )]
     NotMoved(String),
-    /// The reason cannot stand in a passport.
+    /// The reason is empty or contains a character that a passport cannot contain.
     #[error("the reason is empty or contains a character that is not allowed in signed files")]
     BadReason,
-    /// The new passport would be older than the old one.
+    /// The new passport would be dated before its predecessor.
     #[error("issued_at {issued_at} is earlier than that of the predecessor, {old}; check the clock")]
     BeforeOld {
-        /// When the new one would be issued.
+        /// Time of issue of the new passport.
         issued_at: Timestamp,
-        /// When the old one was.
+        /// Time of issue of the predecessor.
         old: Timestamp,
     },
-    /// No such passport can be issued.
+    /// The new passport cannot be issued.
     #[error(transparent)]
     Issue(#[from] IssueRefused),
 }
 
-/// What a new passport is made of; only its revision is open.
+/// Inputs of a new passport, complete except for its revision.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Successor {
     stand: Arc<PreparedStand>,
@@ -101,13 +101,13 @@ pub struct Successor {
     rival: Option<PathBuf>,
 }
 
-/// Decides what follows from the old passport: everything, when every check passed; its id and hash alone, when its key
-/// is no longer trusted or its time is over; nothing, when it does not hold.
+/// Prepares the successor of a passport. If every check passed, the whole predecessor is used. If its key is no longer
+/// trusted or it has expired, only its id and its hash are used. Otherwise it cannot be re-issued.
 ///
-/// `old_bytes` is the whole old file, `verification` the answer about it.
+/// `old_bytes` is the whole file of the predecessor, `verification` the result of verifying it.
 ///
 /// # Errors
-/// See [`ReissueRefused`].
+/// Returns [`ReissueRefused`] if the predecessor cannot be used or the order contradicts it.
 pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -> Result<Successor, ReissueRefused> {
     if order.reason.is_empty() || !order.reason.chars().all(rule::allowed_in_string) {
         return Err(ReissueRefused::BadReason);
@@ -153,7 +153,7 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         valid_until: order.valid_until.or(old_last_day),
         revision: 0,
         reissued: Some(Reissued { from: predecessor, supersedes: same_site || order.moved }),
-        // Of a passport that may only be named nothing is taken over, whoever may have signed it.
+        // A predecessor that can only be referenced may have been signed by anyone, so nothing is taken from it.
         accuracy: match &usable {
             Usable::Whole => old.accuracy.as_ref().map(Stated::of),
             Usable::NameOnly { .. } => None,
@@ -179,11 +179,11 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
     })
 }
 
-/// How much of an old passport may be used.
+/// Extent to which a predecessor may be used.
 enum Usable {
-    /// All of it.
+    /// The whole content.
     Whole,
-    /// Its id and its hash: the key was lost or revoked, or its time is over.
+    /// The id and the hash only, because the key was lost or revoked, or the passport has expired.
     NameOnly { check: &'static str, detail: String },
 }
 
@@ -192,7 +192,7 @@ fn usable(verification: &Verification) -> Result<Usable, ReissueRefused> {
     for check in verification.checks() {
         let (name, detail) = (check.name.as_str(), check.detail.clone());
         match (check.name, check.code) {
-            // What is not computed of a signer who is no longer trusted is not needed to name the passport.
+            // A predecessor whose signer is no longer trusted is not recomputed, but it can still be referenced.
             (_, Code::Ok) | (CheckName::Recomputed | CheckName::InForce, Code::NotRun) => {}
             (CheckName::Signer, Code::UnknownKey)
             | (CheckName::Revocation, Code::KeyRevoked)
@@ -214,66 +214,67 @@ fn stand_of(old: &Content) -> Stand {
 }
 
 impl Successor {
-    /// Whether it is for the old passport's site: then it is its next revision, and supersedes it.
+    /// Returns `true` if the new passport is for the predecessor's site; it is then the next revision and supersedes
+    /// it.
     pub(crate) fn same_site(&self) -> bool {
         self.same_site
     }
 
-    /// Whether it would say of stand, site, issuer and last day what the old passport says.
+    /// Returns `true` if stand, site, issuer and expiry date equal those of the predecessor.
     pub(crate) fn says_the_same(&self) -> bool {
         self.says_the_same
     }
 
-    /// Whether the old passport was itself issued anew, and for the reason given now.
+    /// Returns `true` if the predecessor was itself re-issued for the same reason.
     pub(crate) fn for_the_same_reason(&self) -> bool {
         self.for_the_same_reason
     }
 
-    /// Returns `true` if the old passport will no longer be used.
+    /// Returns `true` if the new passport supersedes its predecessor.
     pub(crate) fn supersedes(&self) -> bool {
         self.issue.reissued.as_ref().is_some_and(|reissued| reissued.supersedes)
     }
 
-    /// Returns the same successor beside `rival`, the file of a passport that supersedes the same old one.
+    /// Returns the successor with `rival`, the file of another passport that supersedes the same predecessor.
     pub(crate) fn beside(self, rival: Option<PathBuf>) -> Self {
         Self { rival, ..self }
     }
 
-    /// Returns the file of another passport that supersedes the same old one, or `None` if none is known.
+    /// Returns the file of another passport that supersedes the same predecessor, or `None` if none is known.
     pub(crate) fn rival(&self) -> Option<&Path> {
         self.rival.as_deref()
     }
 
-    /// The stand it is of.
+    /// Returns the stand of the new passport.
     pub(crate) fn stand(&self) -> &Stand {
         self.stand.stand()
     }
 
-    /// The site it is for.
+    /// Returns the site of the new passport.
     pub(crate) fn site(&self) -> &Site {
         &self.site
     }
 
-    /// SHA-256 of the old passport.
+    /// Returns the SHA-256 of the predecessor.
     pub(crate) fn old_sha256(&self) -> &str {
         self.issue.reissued.as_ref().map_or("", |reissued| &reissued.from.sha256)
     }
 
-    /// The revision that it has at least: the next one at the same site, 1 at another.
+    /// Returns the lowest possible revision: the next one at the same site, 1 at another.
     pub(crate) fn first_revision(&self) -> u32 {
         if self.same_site { self.old_revision.saturating_add(1) } else { 1 }
     }
 
-    /// The passport with this revision, ready to be signed.
+    /// Drafts the passport with this revision, ready to be signed.
     ///
     /// # Errors
-    /// See [`IssueRefused`].
+    /// Returns the errors of [`PreparedStand::draft`].
     pub fn draft(&self, revision: u32) -> Result<Draft, IssueRefused> {
         self.stand.draft(&self.site, &Issue { revision, ..self.issue.clone() })
     }
 }
 
-/// What differs from the old passport, in words.
+/// Describes the differences from the predecessor.
 pub(crate) fn changes(old: &Content, stand: &Stand, site: &Site, issuer: &str) -> String {
     const MOST: usize = 12;
     let mut changes = Vec::new();

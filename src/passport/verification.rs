@@ -1,8 +1,8 @@
-//! "May I use this passport, on this stand, here, now?"
+//! Verification of a passport: "May I use this passport, on this stand, here, now?"
 //!
-//! Verification is a function of bytes, trusted keys and a time: no file, no clock, so that it can run anywhere. The
-//! steps come in an order that parses nothing before the signature holds, and computes nothing before the signer is
-//! trusted: anybody can sign a file that costs much to compute.
+//! Verification is a function of bytes, trusted keys and a time. It reads no file and no clock, so that it can run
+//! anywhere. It parses no content before the signature is verified, and computes nothing before the signer is trusted,
+//! because anyone can sign a file that is expensive to compute.
 
 use super::checks::{Check, CheckName, Code};
 use super::content::{Content, Dated, PASSPORT_FORMAT};
@@ -17,49 +17,49 @@ use crate::trust::{AllowedSigners, NotAuthorised, PublicKey, RevokedKeys};
 use jiff::Timestamp;
 use std::fmt::Display;
 
-/// Whom to trust.
+/// Trusted signers, revoked keys and withdrawn passports.
 #[derive(Debug, Clone)]
 pub struct Trust {
-    /// The keys that may sign, each with its principals, purposes and times.
+    /// Keys that may sign, each with its principals, purposes and validity period.
     pub signers: AllowedSigners,
-    /// Keys that no longer count, whatever they signed and when.
+    /// Revoked keys; their signatures are rejected, whatever they signed and when.
     pub revoked: Vec<RevokedKeys>,
-    /// The lists of withdrawn passports, themselves verified.
+    /// Verified lists of withdrawn passports.
     pub withdrawn: Series,
 }
 
 impl Trust {
-    /// These signers, nothing revoked and nothing withdrawn.
+    /// Creates a trust in `signers`, with no key revoked and no passport withdrawn.
     pub fn of(signers: AllowedSigners) -> Self {
         Self { signers, revoked: Vec::new(), withdrawn: Series::default() }
     }
 }
 
-/// What is asked.
+/// Time, issuer, stand and place to verify a passport for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Question {
-    /// Now, or the time that is asked about.
+    /// Time of verification.
     pub time: Timestamp,
-    /// The issuer it must be.
+    /// Required issuer; any issuer if `None`.
     pub issuer: Option<String>,
-    /// The serial number of the stand that stands here.
+    /// Required serial number of the stand; any stand if `None`.
     pub serial: Option<String>,
-    /// Where it stands.
+    /// Place of use; not checked if `None`.
     pub place: Option<Place>,
 }
 
 impl Question {
-    /// Only whether the passport is good and in force at `time`.
+    /// Creates a question about validity at `time` only, for any issuer, stand and place.
     pub fn at(time: Timestamp) -> Self {
         Self { time, issuer: None, serial: None, place: None }
     }
 
-    /// Returns `true` if it asks for no issuer, stand or place.
+    /// Returns `true` if no issuer, stand or place is required.
     pub(crate) fn is_open(&self) -> bool {
         self.issuer.is_none() && self.serial.is_none() && self.place.is_none()
     }
 
-    /// Returns `true` if a passport with this content is of the issuer, the stand and the place asked for.
+    /// Returns `true` if the issuer, the stand and the place match a passport with this content.
     pub(crate) fn concerns(&self, content: &Content) -> bool {
         self.issuer.as_ref().is_none_or(|issuer| content.passport.issuer == *issuer)
             && self.serial.as_ref().is_none_or(|serial| content.stand.serial.as_str() == serial)
@@ -67,7 +67,7 @@ impl Question {
     }
 }
 
-/// The answer: every check, and the passport's content as far as it may be believed.
+/// Result of a verification: every check, and the content as far as it was verified.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verification {
     checks: Vec<Check>,
@@ -75,7 +75,7 @@ pub struct Verification {
     content: Option<Box<Content>>,
 }
 
-/// A passport that passed every check that was asked for.
+/// Passport that passed every requested check.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VerifiedPassport {
     content: Box<Content>,
@@ -83,45 +83,46 @@ pub struct VerifiedPassport {
 }
 
 impl VerifiedPassport {
-    /// What it says.
+    /// Returns the content of the passport.
     pub fn content(&self) -> &Content {
         &self.content
     }
 
-    /// The key that signed it.
+    /// Returns the key that signed the passport.
     pub fn key(&self) -> &PublicKey {
         &self.key
     }
 
-    /// What a calibration with it works with.
+    /// Returns the coefficients of the calibration equations at the site of the passport.
     pub fn coefficients(&self) -> Coefficients {
         self.content.coefficients()
     }
 }
 
 impl Verification {
-    /// Every check, in the order of [`CheckName`].
+    /// Returns every check, in the order of [`CheckName`].
     pub fn checks(&self) -> &[Check] {
         &self.checks
     }
 
-    /// Whether every check passed.
+    /// Returns `true` if every requested check passed.
     pub fn valid(&self) -> bool {
         self.checks.iter().all(|check| check.code == Code::Ok)
     }
 
-    /// The code of one check.
+    /// Returns the result code of the check `name`, or `None` if that check was not requested.
     pub fn code(&self, name: CheckName) -> Option<Code> {
         self.checks.iter().find(|check| check.name == name).map(|check| check.code)
     }
 
-    /// Returns the passport's id, once its signature is correct and its content is good, whoever signed it.
+    /// Returns the passport's id if the signature and the content are correct, whoever signed it; otherwise `None`.
     pub fn id_from_anyone(&self) -> Option<&str> {
         self.content.as_ref().map(|content| content.passport.id.as_str())
     }
 
-    /// Returns the content, once the signature is correct and the content is good: whoever signed it, and whatever else
-    /// failed. For what the issuer says, call [`Verification::passport`] or [`Verification::authentic`].
+    /// Returns the content if the signature and the content are correct, otherwise `None`. The signer may be anyone,
+    /// and other checks may have failed. For the issuer's own statements, call [`Verification::passport`] or
+    /// [`Verification::authentic`].
     pub fn content_from_anyone(&self) -> Option<&Content> {
         self.content.as_deref()
     }
@@ -132,28 +133,29 @@ impl Verification {
         self
     }
 
-    /// Returns the key that the signature names, once the signature's form is good: anyone can name a key.
+    /// Returns the key stated in the signature if the form of the signature is correct, otherwise `None`. Anyone can
+    /// state any key there.
     pub fn key_from_anyone(&self) -> Option<&PublicKey> {
         self.key.as_ref()
     }
 
-    /// The content and the key that signed it, when it is the issuer's own word: text, signature, numbers and signer
-    /// hold, the key is not revoked, and the issuer is the one asked for. Whether it may be used, here and now, the other
-    /// checks say.
+    /// Returns the content and the signing key if the passport is authentic, otherwise `None`. Authentic means: form,
+    /// signature, content, signer and numbers pass, the key is not revoked, and the issuer is the required one. The
+    /// other checks tell whether the passport may be used here and now.
     pub fn authentic(&self) -> Option<(&Content, &PublicKey)> {
         let issuer = self.code(CheckName::Issuer).is_none_or(|code| code == Code::Ok);
-        // They are not computed for a signer who is not trusted, or whose key is revoked.
+        // The numbers are not computed if the signer is not trusted or the key is revoked.
         let numbers = self.code(CheckName::Recomputed) == Some(Code::Ok);
         self.content_from_anyone().filter(|_| issuer && numbers).zip(self.key_from_anyone())
     }
 
     /// Returns the entry that withdraws this passport, whose file is `bytes`.
     ///
-    /// A passport with wrong numbers, or past its time, can be withdrawn; one of another signer cannot: its id may be
-    /// that of a good passport.
+    /// A passport with wrong numbers or past its expiry date can be withdrawn. A passport of another signer cannot,
+    /// because its id may be that of an authentic passport.
     ///
     /// # Errors
-    /// The first check that failed, if the signer is not trusted or nothing is known of the content.
+    /// Returns the first check that failed, if the signer is not trusted or the content is unknown.
     pub(crate) fn withdrawal(
         &self,
         bytes: &[u8],
@@ -167,17 +169,19 @@ impl Verification {
         Ok(Entry { id: id.to_owned(), sha256: sha256_hex(bytes), revoked_at, reason: reason.to_owned() })
     }
 
-    /// The passport, when every check passed; otherwise the checks say what failed.
+    /// Returns the passport if every requested check passed, otherwise `None`; [`Verification::checks`] then tells what
+    /// failed.
     pub fn passport(&self) -> Option<VerifiedPassport> {
         let (content, key) = self.content.clone().zip(self.key.clone()).filter(|_| self.valid())?;
         Some(VerifiedPassport { content, key })
     }
 }
 
-/// Verifies the bytes of a passport; `name` is the file's name, for messages.
+/// Verifies the bytes of a passport; `name` is the file name used in messages.
 ///
-/// Steps 1 to 3 are the check `grammar`, 4 `signature`, 5 `schema`, 6 `signer`, `revocation` and `in_force`; then every
-/// number is computed again, and what the question names is compared. Behind a signer who is not trusted nothing is run.
+/// Steps 1 to 3 are the check `grammar`, step 4 is `signature`, step 5 is `schema`, and step 6 is `signer`, `revocation`
+/// and `in_force`. Every number is then recomputed, and the requirements of the question are compared. If the signer is
+/// not trusted or the key is revoked, `recomputed`, `in_force` and these requirements are not checked.
 pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> Verification {
     let mut run = Run { checks: Vec::new() };
     let mut verification = Verification { checks: Vec::new(), key: None, content: None };
@@ -202,7 +206,7 @@ pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> V
     verification
 }
 
-/// The answer about a file that could not be read: nothing was run. `why` is what the system says.
+/// Creates the result for a file that could not be read; no check was run. `why` is the system's error message.
 pub(crate) fn unreadable(why: &str, question: &Question) -> Verification {
     let mut run = Run { checks: Vec::new() };
     run.note(CheckName::Grammar, Code::Unreadable, why);
@@ -211,7 +215,7 @@ pub(crate) fn unreadable(why: &str, question: &Question) -> Verification {
     Verification { checks: run.checks, key: None, content: None }
 }
 
-/// The checks made so far.
+/// Checks completed so far.
 struct Run {
     checks: Vec<Check>,
 }
@@ -272,7 +276,7 @@ impl Run {
                 Some(content)
             }
             Err(error) => {
-                // A line for each mistake.
+                // The detail has one line for each error, so `Check::new`, which makes a single line, is not used.
                 let (name, detail) = (CheckName::Schema, error.to_string());
                 self.checks.push(Check { name, code: Code::BadContent, detail });
                 None
@@ -280,7 +284,7 @@ impl Run {
         }
     }
 
-    /// Returns `true` if the key is not revoked, whatever became of the passport.
+    /// Returns `true` if the key is not revoked, even if the passport is withdrawn.
     fn revocation(&mut self, bytes: &[u8], key: &PublicKey, trust: &Trust) -> bool {
         if let Some(why) = trust.revoked.iter().find_map(|list| list.revokes(key)) {
             let detail = format!("the signing key {} was revoked: {why}", key.fingerprint());
@@ -347,7 +351,7 @@ impl Run {
             _ if issued_at > time => {
                 (Code::NotYetValid, format!("issued at {issued_at}, which is later than {time}; check the clock"))
             }
-            // The whole of the last second belongs to the last day.
+            // A passport is valid until the last second of its expiry date.
             Some((last, which)) if time.as_second() > day(last).1.as_second() => {
                 let remedy = match which {
                     Dated::Certificate => "have the stand recertified",
