@@ -35,7 +35,7 @@ impl std::fmt::Display for WrongNumber {
 /// The self-check is computed for the gyro that it states. A passport may have none, because no calibration needs it.
 ///
 /// # Errors
-/// Returns the wrong numbers, largest difference first, or the reason why there is nothing to compare with.
+/// Returns the wrong numbers in the order of comparison, or the reason why there is nothing to compare with.
 pub(crate) fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
     let gyro = content.self_check.as_ref().map_or(REFERENCE_GYRO, SelfCheck::parameters);
     let Ok(mut derived) = derive(&content.positions, &content.site, &gyro) else {

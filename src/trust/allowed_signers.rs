@@ -1,7 +1,7 @@
-//! Allowed signers: whose key it is, for what and when (ssh-keygen(1), ALLOWED SIGNERS).
+//! Allowed signers: keys with their principals, namespaces and validity periods (ssh-keygen(1), ALLOWED SIGNERS).
 //!
-//! Stricter than OpenSSH, which passes over a line that it cannot read: such a line is an error here, because
-//! whoever wrote it meant to trust somebody, or to end that trust.
+//! This reader is stricter than OpenSSH, which skips a line that it cannot read. Here such a line is an error, because
+//! its author meant to trust a key or to end that trust.
 
 use super::PublicKey;
 use super::lines;
@@ -13,55 +13,55 @@ use crate::text::{Printable, Unreadable};
 use jiff::Timestamp;
 use thiserror::Error;
 
-/// The keys that are trusted, each with the identities, purposes and time it is trusted for.
+/// Trusted keys, each with the principals, namespaces and validity period that it is trusted for.
 #[derive(Debug, Clone)]
 pub struct AllowedSigners {
     lines: Vec<SignerLine>,
 }
 
-/// Why a key does not count for an identity, a purpose and a time. Of several lines for one key the nearest miss is
-/// reported: the later in this list, the nearer.
+/// Reason why a key is not trusted for an identity, a namespace and a time. If several lines contain the key, the
+/// nearest miss is reported; later variants are nearer.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum NotAuthorised {
-    /// No line names the key.
+    /// No line contains the key.
     #[error("the signing key is not in the list of allowed signers")]
     UnknownKey,
-    /// The key belongs to somebody else.
+    /// The key belongs to another signer.
     #[error("the signing key belongs to {}, not to the issuer given in the document", Printable(allowed.join(" or ")))]
     WrongPrincipal {
-        /// The patterns of principals that the key is trusted for.
+        /// Patterns of principals that the key is trusted for.
         allowed: Vec<String>,
     },
-    /// The key is trusted for other purposes.
+    /// The key is trusted for other namespaces.
     #[error("the signing key is trusted only for {}, not for this kind of document", Printable(allowed))]
     WrongNamespace {
-        /// The patterns of namespaces that the key is trusted for.
+        /// Patterns of namespaces that the key is trusted for.
         allowed: String,
     },
     /// The key was not valid yet.
     #[error("the signing key is valid from {from}; the document was issued earlier")]
     NotYetValid {
-        /// The first instant of its validity.
+        /// First instant of the validity period.
         from: Timestamp,
     },
     /// The key was no longer valid.
     #[error("the signing key was valid until {until}; the document was issued later")]
     Expired {
-        /// The last instant of its validity.
+        /// Last instant of the validity period.
         until: Timestamp,
     },
 }
 
 impl AllowedSigners {
-    /// Reads a list of allowed signers in OpenSSH's format; `name` is the file's name for messages.
+    /// Reads a list of allowed signers in OpenSSH's format; `name` is the file name used in messages.
     ///
-    /// A line holds patterns of principals, options (`namespaces`, `valid-after`, `valid-before`) and a public key of any
-    /// type that OpenSSH knows.
+    /// A line contains patterns of principals, options (`namespaces`, `valid-after`, `valid-before`) and a public key
+    /// of any type that OpenSSH knows.
     ///
     /// # Errors
-    /// [`Unreadable`] with every mistake of every line, as far as they are reported. Refused with the reason are `cert-authority`, and dates without
-    /// `Z`: the local time of whoever verifies would decide. A list without any key is refused too.
+    /// Returns [`Unreadable`] with the errors of all lines, up to a limit. `cert-authority` is an error, and so is a
+    /// date without `Z`, because it would depend on the verifier's local time. A list without any key is an error too.
     pub fn parse(name: &str, text: &[u8]) -> Result<Self, Unreadable> {
         let mut kept = Vec::new();
         let mut problems = Vec::new();
@@ -84,18 +84,19 @@ impl AllowedSigners {
         Ok(Self { lines: kept })
     }
 
-    /// The point of a key of the list, found once; `None` for any other key.
+    /// Returns the curve point of a key in the list, decoded once; `None` for any other key.
     pub(crate) fn point(&self, key: &PublicKey) -> Option<&KeyPoint> {
         let line = self.lines.iter().find(|line| line.key == key.blob())?;
         line.point.get_or_init(|| KeyPoint::of(key)).as_ref()
     }
 
-    /// Whether `key` is trusted for a document of `namespace` that `principal` issued at the instant `at`.
+    /// Checks that `key` is trusted for a document of `namespace` that `principal` issued at the instant `at`.
     ///
-    /// Patterns are OpenSSH's; both ends of a key's validity belong to it; instants are compared in whole seconds.
+    /// Patterns are matched as by OpenSSH. The validity period includes both of its ends. Instants are compared in
+    /// whole seconds.
     ///
     /// # Errors
-    /// [`NotAuthorised`] with the nearest miss.
+    /// Returns [`NotAuthorised`] with the nearest miss if no line authorises the key.
     pub fn authorise(
         &self,
         key: &PublicKey,
@@ -133,7 +134,7 @@ impl SignerLine {
 }
 
 impl NotAuthorised {
-    /// The nearer of two misses; of two of one kind what both say together.
+    /// Returns the nearer of two misses, or merges two of the same kind.
     fn nearer(self, other: Self) -> Self {
         match (self, other) {
             (Self::WrongPrincipal { mut allowed }, Self::WrongPrincipal { allowed: more }) => {

@@ -1,10 +1,10 @@
-//! Identities: the names by which allowed signers know who signs.
+//! Identities: the names of signers in lists of allowed signers.
 
 use super::pattern::LONGEST_PATTERN;
 use super::public_key::AnyKey;
 use crate::text::{Printable, rule};
 
-/// An identity that allowed signers would not read as itself, or that no signed text may contain.
+/// Identity that a list of allowed signers would not read as one principal, or that a signed text cannot contain.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "the identity \"{}\" is empty or too long, begins with a key type, or contains a space, a quote, one of , * ? ! # \
@@ -14,11 +14,11 @@ use crate::text::{Printable, rule};
 )]
 pub struct BadIdentity(String);
 
-/// Checks a name under which a key is to be trusted, or a document to be issued: one rule for both, since a document is
-/// good only if allowed signers give its issuer the key.
+/// Checks an identity to which a key or a document is to be assigned. Both uses have one rule, because a document is
+/// valid only if allowed signers assign the key to its issuer.
 ///
 /// # Errors
-/// [`BadIdentity`] if allowed signers would read it as something else than one principal.
+/// Returns [`BadIdentity`] if a list of allowed signers would not read it as exactly one principal.
 pub fn check_identity(identity: &str) -> Result<(), BadIdentity> {
     let plain = |c: char| rule::allowed_in_string(c) && !c.is_whitespace() && !"\"',*?!#".contains(c);
     let good = !identity.is_empty()

@@ -1,17 +1,18 @@
 //! OpenSSH's binary key revocation list (OpenSSH's PROTOCOL.krl), as far as it revokes plain keys.
 //!
-//! Certificate sections revoke nothing here, because no certificate signs a passport, but every byte of them is read as
-//! OpenSSH reads it: one changed bit can turn a section of fingerprints into a section of certificates. A signature in
-//! the list is refused for the same reason; `ssh-keygen` writes none, and PROTOCOL.krl says that OpenSSH supports none.
+//! Certificate sections revoke nothing here, because passports are not signed with certificates. Every byte of them is
+//! still read as OpenSSH reads it, because one changed bit can turn a section of fingerprints into a section of
+//! certificates. A signature in the list is refused for the same reason; `ssh-keygen` writes none, and PROTOCOL.krl
+//! says that OpenSSH supports none.
 
 use super::public_key::{check_blob, shortened};
 use super::wire::{Truncated, Wire};
 use std::collections::BTreeSet;
 
-/// What a key revocation list begins with.
+/// First bytes of a key revocation list.
 pub(super) const MAGIC: &[u8] = b"SSHKRL\n\0";
 
-/// The keys that are revoked: themselves, or by the hash of what SSH transmits of them.
+/// Revoked keys: the keys as SSH transmits them, and SHA-1 and SHA-256 hashes of such keys.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Revoked {
     pub(super) keys: BTreeSet<Vec<u8>>,
@@ -19,7 +20,7 @@ pub(super) struct Revoked {
     pub(super) sha256: BTreeSet<Vec<u8>>,
 }
 
-/// What was found in place of what was expected.
+/// Found content and expected content.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Refusal {
     pub(super) found: String,
@@ -54,10 +55,10 @@ mod certificates {
     pub(super) const EXTENSION: u8 = 0x39;
 }
 
-/// The largest bitmap of serial numbers that OpenSSH reads, in bytes.
+/// Largest bitmap of serial numbers that OpenSSH reads, in bytes.
 const LARGEST_BITMAP_BYTES: usize = 2048;
 
-/// Reads a list; every byte of it is accounted for.
+/// Reads a list without skipping any byte.
 pub(super) fn read(bytes: &[u8]) -> Result<Revoked, Refusal> {
     let mut wire = Wire::new(bytes);
     if wire.take(MAGIC.len())? != MAGIC {
@@ -93,7 +94,7 @@ fn unknown_section(kind: u8, at: usize) -> Refusal {
     refusal(format!("a section of type {kind} at byte {at}"), "a section type that OpenSSH reads")
 }
 
-/// The strings of a section, each of the length given.
+/// Collects the strings of a section, each with the given length if any.
 fn collect(mut body: Wire, length: Option<usize>, into: &mut BTreeSet<Vec<u8>>) -> Result<(), Refusal> {
     while !body.is_empty() {
         let at = body.offset();
@@ -107,7 +108,7 @@ fn collect(mut body: Wire, length: Option<usize>, into: &mut BTreeSet<Vec<u8>>) 
     Ok(())
 }
 
-/// A section of certificates of one authority, or of any. None of them revokes a plain key.
+/// Checks a section of certificates of one or any authority; it revokes no plain key.
 fn certificates(mut body: Wire) -> Result<(), Refusal> {
     let at = body.offset();
     let authority = body.string()?;
@@ -149,7 +150,7 @@ fn certificates(mut body: Wire) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// Serial numbers from `first` on, `more` behind it: zero means that there is none, and the last has to fit 64 bits.
+/// Checks the serial numbers `first` to `first + more`: zero is not allowed, and the last one must fit in 64 bits.
 fn serials(first: u64, more: u64, at: usize) -> Result<(), Refusal> {
     if first == 0 || first.checked_add(more).is_none() { Err(bad_serials(at)) } else { Ok(()) }
 }
@@ -158,7 +159,7 @@ fn bad_serials(at: usize) -> Refusal {
     refusal(format!("invalid serial numbers at byte {at}"), "numbers from 1 to 2^64 - 1, in order")
 }
 
-/// A bitmap of serial numbers: an mpint (RFC 4251, section 5) whose bit N is the number N behind the first.
+/// Checks a bitmap of serial numbers: an mpint (RFC 4251, section 5) in which bit N stands for the first number plus N.
 fn bitmap(part: &mut Wire, at: usize) -> Result<(), Refusal> {
     let (first, bits) = (part.u64()?, part.string()?);
     let negative = bits.first().is_some_and(|byte| byte & 0x80 != 0);
@@ -169,11 +170,11 @@ fn bitmap(part: &mut Wire, at: usize) -> Result<(), Refusal> {
     }
     let lowest_is_set = significant.last().is_some_and(|byte| byte & 1 != 0);
     let highest = 8 * significant.len() as u64 - 1 - u64::from(top.leading_zeros());
-    // Only a set bit names a number; without the lowest one the numbers begin behind `first`.
+    // Only set bits are serial numbers; if the lowest bit is not set, the first number is larger than `first`.
     serials(if lowest_is_set { first } else { first.max(1) }, highest, at)
 }
 
-/// A string that OpenSSH reads as a C string: a NUL may end it and nothing else.
+/// Reads a string that OpenSSH treats as a C string: NUL is allowed only at its end.
 fn name<'a>(wire: &mut Wire<'a>) -> Result<&'a [u8], Refusal> {
     let at = wire.offset();
     let text = wire.string()?;
@@ -184,7 +185,7 @@ fn name<'a>(wire: &mut Wire<'a>) -> Result<&'a [u8], Refusal> {
     Ok(text)
 }
 
-/// An extension that must be understood is refused, as none is known; any other is passed over.
+/// Refuses a critical extension, because none is known; skips any other.
 fn extension(mut body: Wire) -> Result<(), Refusal> {
     let at = body.offset();
     let name = String::from_utf8_lossy(name(&mut body)?).into_owned();

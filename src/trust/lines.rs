@@ -1,4 +1,4 @@
-//! Trust files that are text: what holds for each of them before its lines are read.
+//! Checks that apply to all textual trust files before their lines are read.
 
 use super::LARGEST_TRUST_FILE_BYTES;
 use crate::text::Unreadable;
@@ -8,14 +8,14 @@ use crate::text::problem::{Location, Problem};
 /// A line that is neither empty nor a comment.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Line<'a> {
-    /// From 1.
+    /// Line number, from 1.
     pub(super) number: usize,
-    /// Without its line end.
+    /// Text without the line ending.
     pub(super) text: &'a str,
 }
 
 impl Line<'_> {
-    /// A mistake in this line, `at` bytes from its beginning.
+    /// Creates the report of an error in this line, `at` bytes from its beginning.
     pub(super) fn problem(
         &self,
         at: usize,
@@ -34,7 +34,7 @@ impl Line<'_> {
         }
     }
 
-    /// The control character in this line, if it holds one (a tab is none).
+    /// Returns the problem of the first control character in this line except tab, or `None` if there is none.
     pub(super) fn control_character(&self) -> Option<Problem> {
         let (at, c) = self.text.char_indices().find(|(_, c)| c.is_control() && *c != '\t')?;
         let found = format!("control character U+{:04X}", u32::from(c));
@@ -42,11 +42,11 @@ impl Line<'_> {
     }
 }
 
-/// The lines of a trust file that say something; line ends are LF or CRLF.
+/// Returns the lines of a trust file that are neither empty nor comments; line endings are LF or CRLF.
 ///
 /// # Errors
-/// When the file is larger than [`LARGEST_TRUST_FILE_BYTES`], not UTF-8, a private key, or begins with a byte order mark,
-/// which OpenSSH would take for a part of the first line.
+/// Returns [`Unreadable`] if the file is larger than [`LARGEST_TRUST_FILE_BYTES`], is not UTF-8, contains a private
+/// key, or begins with a byte order mark, which OpenSSH would read as part of the first line.
 pub(super) fn of<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Line<'a>>, Unreadable> {
     let start = Some(Location { line: 1, column: 1 });
     if bytes.len() > LARGEST_TRUST_FILE_BYTES {
@@ -78,7 +78,7 @@ pub(super) fn of<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Line<'a>>, Unrea
         Unreadable::whole(name, Some(Location { line, column }), found, "UTF-8", "save the file as UTF-8")
     })?;
     if text.contains("PRIVATE KEY-----") {
-        // Its lines must not come back in messages, which end in logs.
+        // The lines of a private key must not appear in messages, because messages end up in logs.
         let advice = "use the line of the .pub file, and keep the private key secret";
         return Err(Unreadable::whole(name, None, "a private key", "public keys", advice));
     }

@@ -1,19 +1,20 @@
-//! Trust: bytes and time in, a verdict out. No files, no clock, no process, no environment.
+//! Trust: keys, signatures, allowed signers and revoked keys. Its results depend only on bytes and a time; it uses no
+//! files, clock, process or environment.
 //!
-//! Everything here is OpenSSH's own format, so that stock `ssh-keygen` verifies what this program signs and this
-//! program verifies what `ssh-keygen -Y sign` signs, also through ssh-agent or a FIDO token.
+//! All formats are OpenSSH's own. Stock `ssh-keygen` therefore verifies the signatures of this program, and this
+//! program verifies those of `ssh-keygen -Y sign`, also through ssh-agent or a FIDO token.
 //!
-//! * `sshsig`: a signature over a message for one namespace (OpenSSH's PROTOCOL.sshsig, PROTOCOL.u2f).
-//! * `public_key`: who can have signed.
-//! * `signing_key`: the private key that signs (OpenSSH's PROTOCOL.key).
-//! * `allowed_signers`: whose key it is, for what and when (ssh-keygen(1), ALLOWED SIGNERS).
-//! * `revoked_keys`: keys that are no longer trusted, as a key revocation list (OpenSSH's PROTOCOL.krl) or as a
-//!   list of public keys.
-//! * `identity`: the names by which allowed signers know who signs.
-//! * `error`: what can be wrong with a key or a signature.
+//! * `sshsig`: signatures over a message for one namespace (OpenSSH's PROTOCOL.sshsig, PROTOCOL.u2f).
+//! * `public_key`: keys that can sign passports.
+//! * `signing_key`: private signing keys (OpenSSH's PROTOCOL.key).
+//! * `allowed_signers`: principals, namespaces and validity periods of keys (ssh-keygen(1), ALLOWED SIGNERS).
+//! * `revoked_keys`: keys that are no longer trusted, in a key revocation list (OpenSSH's PROTOCOL.krl) or a list of
+//!   public keys.
+//! * `identity`: names of signers in lists of allowed signers.
+//! * `error`: errors of keys and signatures.
 //!
-//! A good signature says that the bytes are those that the key signed; [`AllowedSigners`] and [`RevokedKeys`] say
-//! whether that key counts.
+//! A correct signature shows that the bytes are those that the key signed; [`AllowedSigners`] and [`RevokedKeys`]
+//! decide whether the key is trusted.
 
 pub(crate) mod allowed_signers;
 pub(crate) mod error;
@@ -39,7 +40,7 @@ pub use revoked_keys::RevokedKeys;
 pub use signing_key::SigningKey;
 pub use sshsig::{KeyPoint, Message, Signature};
 
-/// The largest trust file (allowed signers, revoked keys) that is read at all, in bytes: room for 100,000 keys.
+/// Largest trust file (allowed signers, revoked keys) that is read, in bytes: enough for 100,000 keys.
 pub(crate) const LARGEST_TRUST_FILE_BYTES: usize = 1 << 24;
 
 #[cfg(all(test, feature = "factory"))]
@@ -47,7 +48,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Every reader of this module on the same bytes: none may panic.
+    /// Reads the bytes with every reader of this module; none may panic.
     fn read_all(bytes: &[u8]) {
         let _ = AllowedSigners::parse("f", bytes).map_err(|error| error.to_string());
         let _ = RevokedKeys::parse("f", bytes).map_err(|error| error.to_string());

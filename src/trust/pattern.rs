@@ -1,12 +1,12 @@
-//! OpenSSH's lists of patterns (ssh_config(5), PATTERNS): separated by commas, `*` for any characters, `?` for one,
-//! a leading `!` for "not".
+//! OpenSSH's lists of patterns (ssh_config(5), PATTERNS): separated by commas, with `*` for any characters, `?` for one
+//! character and a leading `!` for negation.
 
-/// The longest pattern, in bytes, that OpenSSH matches; with a longer one a list matches nothing.
+/// Longest pattern that OpenSSH matches, in bytes; a list with a longer pattern matches nothing.
 pub(super) const LONGEST_PATTERN: usize = 1022;
 
-/// Whether one pattern of `list` matches `text` and none that begins with `!` does.
+/// Returns `true` if at least one pattern of `list` matches `text` and no negated pattern does.
 ///
-/// As in OpenSSH `?` stands for one byte, upper and lower case differ, and a list of nothing but `!` matches nothing.
+/// As in OpenSSH, `?` matches one byte, case matters, and a list of negated patterns alone matches nothing.
 pub(super) fn matches_list(text: &str, list: &str) -> bool {
     let mut matched = false;
     for pattern in list.split(',') {
@@ -19,7 +19,7 @@ pub(super) fn matches_list(text: &str, list: &str) -> bool {
     matched
 }
 
-/// Whether one pattern matches; the time taken grows with the product of the lengths at worst.
+/// Returns `true` if the pattern matches; the worst-case time is proportional to the product of the lengths.
 fn matches(text: &[u8], pattern: &[u8]) -> bool {
     let (mut at, mut in_pattern) = (0, 0);
     let mut last_star = None;
@@ -34,7 +34,7 @@ fn matches(text: &[u8], pattern: &[u8]) -> bool {
                 in_pattern += 1;
             }
             _ => match last_star {
-                // The star takes one byte more, and the rest of the pattern is tried again behind it.
+                // Let the star match one more byte, and try the rest of the pattern again after it.
                 Some((start, star)) => {
                     last_star = Some((start + 1, star));
                     at = start + 1;

@@ -1,4 +1,4 @@
-//! Public keys: who can have signed.
+//! Public keys that can sign passports.
 
 use super::error::KeyError;
 use super::wire::{Truncated, Wire};
@@ -7,8 +7,8 @@ use sha2::{Digest, Sha256};
 use ssh_key::Algorithm;
 use ssh_key::public::KeyData;
 
-/// Every key type that OpenSSH writes into a public key line, with the number of its fields after the type.
-/// Certificates are not among them: this project trusts keys, not authorities.
+/// Key types that OpenSSH writes into a public key line, with the number of fields after the type. Certificates are
+/// excluded, because this project trusts keys, not authorities.
 const KEY_TYPES: [(&str, usize); 8] = [
     ("ssh-ed25519", 1),
     ("sk-ssh-ed25519@openssh.com", 2),
@@ -20,7 +20,7 @@ const KEY_TYPES: [(&str, usize); 8] = [
     ("ssh-dss", 4),
 ];
 
-/// A public key that can sign passports: `ssh-ed25519` or `sk-ssh-ed25519@openssh.com`.
+/// Public key that can sign passports: `ssh-ed25519` or `sk-ssh-ed25519@openssh.com`.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PublicKey {
     data: KeyData,
@@ -28,12 +28,12 @@ pub struct PublicKey {
 }
 
 impl PublicKey {
-    /// Reads one line of OpenSSH's public key format, `ssh-ed25519 AAAA… comment` (sshd(8), AUTHORIZED_KEYS FILE
-    /// FORMAT, without options).
+    /// Reads a line of OpenSSH's public key format, `ssh-ed25519 AAAA… comment` (sshd(8), AUTHORIZED_KEYS FILE FORMAT,
+    /// without options).
     ///
     /// # Errors
-    /// [`KeyError::NotAPublicKey`] for another kind of text, [`KeyError::DamagedPublicKey`] when type and base64 do
-    /// not hold together, [`KeyError::OtherKeyType`] for a good key that signs no passport.
+    /// Returns [`KeyError::NotAPublicKey`] for any other text, [`KeyError::DamagedPublicKey`] if type and base64 are
+    /// inconsistent, and [`KeyError::OtherKeyType`] for a correct key that cannot sign passports.
     pub fn from_openssh(line: &str) -> Result<Self, KeyError> {
         let mut words = line.split_ascii_whitespace();
         match (words.next(), words.next()) {
@@ -45,23 +45,23 @@ impl PublicKey {
         }
     }
 
-    /// The key as OpenSSH writes it, without a comment.
+    /// Returns the key as OpenSSH writes it, without a comment.
     pub fn to_openssh(&self) -> String {
         format!("{} {}", self.algorithm(), Base64::encode_string(&self.blob))
     }
 
-    /// The fingerprint as `ssh-keygen -l` prints it, `SHA256:…`.
+    /// Returns the fingerprint as `ssh-keygen -l` prints it, `SHA256:…`.
     pub fn fingerprint(&self) -> String {
         let base64 = Base64::encode_string(&Sha256::digest(&self.blob));
         format!("SHA256:{}", base64.trim_end_matches('='))
     }
 
-    /// The key's type as OpenSSH names it.
+    /// Returns the key type as OpenSSH names it.
     pub(crate) fn algorithm(&self) -> &'static str {
         if self.data.is_sk_ed25519() { KEY_TYPES[1].0 } else { KEY_TYPES[0].0 }
     }
 
-    /// Whether the private half is in a security key (FIDO token).
+    /// Returns `true` if the private half is in a security key (FIDO token).
     pub fn is_security_key(&self) -> bool {
         self.data.is_sk_ed25519()
     }
@@ -70,12 +70,12 @@ impl PublicKey {
         &self.data
     }
 
-    /// The key as SSH transmits it: what fingerprints are taken of.
+    /// Returns the key as SSH transmits it, from which fingerprints are computed.
     pub(super) fn blob(&self) -> &[u8] {
         &self.blob
     }
 
-    /// The public half of a key that is held here.
+    /// Creates the public half of a private key of this process.
     #[cfg(feature = "factory")]
     pub(super) fn of_ed25519(key: ssh_key::public::Ed25519PublicKey) -> Self {
         let field = |bytes: &[u8]| [&(bytes.len() as u32).to_be_bytes()[..], bytes].concat();
@@ -83,9 +83,9 @@ impl PublicKey {
         Self { data: key.into(), blob }
     }
 
-    /// The same check as for a line, for a key that is already read.
+    /// Checks a decoded key by the rules for a key line.
     pub(super) fn from_data(data: KeyData) -> Result<Self, KeyError> {
-        // OpenSSH reads the application as a C string and refuses one that would end early.
+        // OpenSSH reads the application as a C string, and refuses one with an embedded NUL.
         if data.sk_ed25519().is_some_and(|key| key.application().contains('\0')) {
             return Err(KeyError::DamagedPublicKey("its application contains a NUL byte".to_owned()));
         }
@@ -103,7 +103,7 @@ fn not_a_public_key<T>(found: &str) -> Result<T, KeyError> {
     Err(KeyError::NotAPublicKey { found: found.to_owned() })
 }
 
-/// A public key of any type that OpenSSH knows: lists may name keys that can never sign here.
+/// Public key of any type that OpenSSH knows, because lists may contain keys that cannot sign passports.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct AnyKey {
     algorithm: &'static str,
@@ -111,12 +111,12 @@ pub(super) struct AnyKey {
 }
 
 impl AnyKey {
-    /// Whether `word` names a key type, known or not.
+    /// Returns `true` if `word` has the form of a key type, known or not.
     pub(super) fn is_type(word: &str) -> bool {
         ["ssh-", "ecdsa-", "sk-"].iter().any(|family| word.starts_with(family)) && !word.contains(['=', ',', '"'])
     }
 
-    /// The key of two words of a line: its type and its base64.
+    /// Reads a key from two words of a line: its type and its base64.
     pub(super) fn read(algorithm: &str, base64: &str) -> Result<Self, KeyError> {
         let Some(&(algorithm, fields)) = KEY_TYPES.iter().find(|(name, _)| *name == algorithm) else {
             return match algorithm {
@@ -132,7 +132,7 @@ impl AnyKey {
         Ok(Self { algorithm, blob })
     }
 
-    /// The key as one that can sign.
+    /// Converts the key to one that can sign passports.
     pub(super) fn signing(self) -> Result<PublicKey, KeyError> {
         if self.algorithm != KEY_TYPES[0].0 && self.algorithm != KEY_TYPES[1].0 {
             return Err(KeyError::OtherKeyType { found: self.algorithm.to_owned() });
@@ -142,13 +142,13 @@ impl AnyKey {
         PublicKey::from_data(key.key_data().clone())
     }
 
-    /// The key as SSH transmits it.
+    /// Returns the key as SSH transmits it.
     pub(super) fn into_blob(self) -> Vec<u8> {
         self.blob
     }
 }
 
-/// A word of a file, short enough for a message.
+/// Shortens a word of a file for a message.
 pub(super) fn shortened(word: &str) -> String {
     const LONGEST: usize = 60;
     match word.char_indices().nth(LONGEST) {
@@ -166,7 +166,7 @@ pub(super) fn check_blob(blob: &[u8]) -> Result<(), String> {
     }
 }
 
-/// Checks that a key is its type's name and as many strings as the type has fields.
+/// Checks that a key consists of the name of its type and as many strings as the type has fields.
 fn check_fields(blob: &[u8], algorithm: &str, fields: usize) -> Result<(), String> {
     let short = |error: Truncated| error.to_string();
     let mut wire = Wire::new(blob);

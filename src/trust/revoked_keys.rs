@@ -1,4 +1,4 @@
-//! Keys that are no longer trusted: OpenSSH's key revocation list (`ssh-keygen -k`) or a list of public keys, one a line.
+//! Revoked keys: OpenSSH's key revocation list (`ssh-keygen -k`), or a list of public keys, one per line.
 
 use super::krl::{self, Revoked};
 use super::signer_line::read_key;
@@ -8,7 +8,7 @@ use crate::text::problem::MOST_PROBLEMS;
 use sha1::Sha1;
 use sha2::{Digest, Sha256};
 
-/// The keys that one file revokes.
+/// Keys that one file revokes.
 #[derive(Debug, Clone)]
 pub struct RevokedKeys {
     name: String,
@@ -16,20 +16,22 @@ pub struct RevokedKeys {
 }
 
 impl RevokedKeys {
-    /// Reads a key revocation list or a list of public keys, told apart by content; `name` is the file's name for messages.
+    /// Reads a key revocation list or a list of public keys, distinguished by content; `name` is the file name used in
+    /// messages.
     ///
-    /// A list of public keys has a key of any type that OpenSSH knows on each line, without options; `#` begins a comment
-    /// line. One that revokes nothing so far must say so in a comment: an empty file could be what is left of another.
+    /// A list of public keys has on each line one key of any type that OpenSSH knows, without options; `#` begins a
+    /// comment line. A list that revokes no key yet must contain a comment, because an empty file may be the remainder
+    /// of a truncated list.
     ///
     /// # Errors
-    /// [`Unreadable`] with every mistake of a list of public keys, or with the first of a key revocation list and its place
-    /// in bytes from the beginning.
+    /// Returns [`Unreadable`] with every error in a list of public keys, or with the first error in a key revocation
+    /// list and its offset in bytes.
     pub fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         let revoked = if bytes.starts_with(b"SSHKRL") { binary(name, bytes)? } else { text(name, bytes)? };
         Ok(Self { name: name.to_owned(), revoked })
     }
 
-    /// Why `key` is revoked, in words, if it is.
+    /// Returns the reason why `key` is revoked, or `None` if it is not revoked.
     pub fn revokes(&self, key: &PublicKey) -> Option<String> {
         let blob = key.blob();
         if self.revoked.keys.contains(blob) {
@@ -126,7 +128,7 @@ mod tests {
         let sha256 = Sha256::digest(key.blob());
         assert_eq!(why(section(5, &[&sha256])).as_deref(), Some("its SHA-256 fingerprint is in krl"));
         assert_eq!(why(section(2, &[other.blob()])), None);
-        // A section of certificates of one authority, and none of them: it revokes no plain key.
+        // A section of certificates of one authority, without any certificate, revokes no plain key.
         assert_eq!(why(section(1, &[key.blob(), b""])), None);
         let lines = format!("# lost\n{} bench\r\n", key.to_openssh());
         let lines = RevokedKeys::parse("keys", lines.as_bytes()).unwrap();

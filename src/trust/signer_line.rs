@@ -1,4 +1,4 @@
-//! One line of allowed signers: `principals [options] key-type base64-key [comment]`.
+//! A line of allowed signers: `principals [options] key-type base64-key [comment]`.
 
 use super::error::KeyError;
 use super::lines::Line;
@@ -10,24 +10,24 @@ use crate::text::problem::{MOST_PROBLEMS, Problem};
 use jiff::Timestamp;
 use std::sync::OnceLock;
 
-/// A key with what it may sign, as whom and when.
+/// Key with the principals, namespaces and validity period that it is trusted for.
 #[derive(Debug, Clone)]
 pub(super) struct SignerLine {
-    /// Patterns of the identities that the key may sign as.
+    /// Patterns of the principals that the key may sign as.
     pub(super) principals: String,
-    /// Patterns of the purposes that it may sign for; none: any.
+    /// Patterns of the namespaces that the key may sign for; any namespace if `None`.
     pub(super) namespaces: Option<String>,
-    /// The first instant of its validity.
+    /// First instant of the validity period; unlimited if `None`.
     pub(super) valid_after: Option<Timestamp>,
-    /// The last instant of its validity.
+    /// Last instant of the validity period; unlimited if `None`.
     pub(super) valid_before: Option<Timestamp>,
-    /// The key as SSH transmits it.
+    /// Key as SSH transmits it.
     pub(super) key: Vec<u8>,
-    /// Its point, once it has been asked for.
+    /// Curve point of the key, decoded at the first request.
     pub(super) point: OnceLock<Option<KeyPoint>>,
 }
 
-/// Options of a line, each with the place where it stands.
+/// Options of a line, and the names of those already read.
 #[derive(Default)]
 struct Options {
     namespaces: Option<String>,
@@ -36,7 +36,7 @@ struct Options {
     seen: Vec<String>,
 }
 
-/// Reads a line; every mistake in it is reported.
+/// Reads a line and reports every error in it.
 pub(super) fn read(line: &Line) -> Result<SignerLine, Vec<Problem>> {
     if let Some(problem) = line.control_character() {
         return Err(vec![problem]);
@@ -75,18 +75,18 @@ pub(super) fn read(line: &Line) -> Result<SignerLine, Vec<Problem>> {
 
 const BLANKS: [char; 2] = [' ', '\t'];
 
-/// The end of the blanks that begin at `at`.
+/// Returns the end of the whitespace that begins at `at`.
 fn blanks(text: &str, at: usize) -> usize {
     let rest = &text[at..];
     text.len() - rest.trim_start_matches(BLANKS).len()
 }
 
-/// The word that begins at `at`.
+/// Returns the word that begins at `at`.
 fn word(text: &str, at: usize) -> &str {
     text[at..].split(BLANKS).next().unwrap_or_default()
 }
 
-/// The principals, out of their quotes, and where the next word begins.
+/// Returns the principals without their quotes, and the position of the next word.
 fn principals(line: &Line, start: usize) -> Result<(String, usize), Problem> {
     let text = line.text;
     let (value, end) = match text[start..].strip_prefix('"') {
@@ -112,7 +112,7 @@ fn principals(line: &Line, start: usize) -> Result<(String, usize), Problem> {
     Ok((value.to_owned(), next))
 }
 
-/// A list of patterns must name something, and no pattern that OpenSSH gives up on.
+/// Reports an empty list of patterns, and patterns too long for OpenSSH.
 fn check_patterns(line: &Line, at: usize, field: &str, list: &str, problems: &mut Vec<Problem>) {
     if list.is_empty() {
         problems.push(line.problem(at, field, "an empty list", "at least one pattern", "use * for any"));
@@ -130,7 +130,7 @@ fn check_patterns(line: &Line, at: usize, field: &str, list: &str, problems: &mu
     }
 }
 
-/// Where the options that begin at `at` end: at the first blank outside quotes.
+/// Returns the end of the options that begin at `at`: the first whitespace outside quotes.
 fn options_end(line: &Line, at: usize) -> Result<usize, Problem> {
     let mut quote = None;
     let mut escaped = false;
@@ -184,7 +184,7 @@ fn options(line: &Line, start: usize, end: usize, problems: &mut Vec<Problem>) -
     options
 }
 
-/// The length of the option that `text` begins with: up to a comma outside quotes.
+/// Returns the length of the first option in `text`, which ends at a comma outside quotes.
 fn option_length(text: &str) -> usize {
     let (mut quoted, mut escaped) = (false, false);
     for (index, c) in text.char_indices() {
@@ -200,7 +200,7 @@ fn option_length(text: &str) -> usize {
 }
 
 impl Options {
-    /// Reads one option; its name may be in upper or lower case, as with OpenSSH.
+    /// Reads one option; as in OpenSSH, its name may be in upper or lower case.
     fn read(&mut self, line: &Line, at: usize, option: &str, problems: &mut Vec<Problem>) -> Result<(), Problem> {
         let (name, value) = option.split_once('=').map_or((option, None), |(name, value)| (name, Some(value)));
         let name = name.to_ascii_lowercase();
@@ -238,7 +238,7 @@ fn unknown(line: &Line, at: usize, option: &str) -> Problem {
     line.problem(at, "", found, expected, "write the line as: principals, options separated by commas, key")
 }
 
-/// The value of an option, out of its quotes; `\"` is a quote.
+/// Returns the value of an option without its quotes; `\"` is a quote.
 fn unquoted(line: &Line, at: usize, field: &str, value: &str) -> Result<String, Problem> {
     let inner =
         value.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).map(|inner| inner.replace("\\\"", "\u{0}"));
@@ -257,12 +257,12 @@ fn date(line: &Line, at: usize, field: &str, value: &str) -> Result<Timestamp, P
         .map_err(|(expected, advice)| line.problem(at, field, format!("\"{}\"", shortened(&text)), expected, advice))
 }
 
-/// The key that begins at `at`, of any type.
+/// Reads the key of any type that begins at `at`.
 fn key(line: &Line, at: usize) -> Result<Vec<u8>, Problem> {
     read_key(line, at).map(AnyKey::into_blob)
 }
 
-/// The key that begins at `at` of any line of a trust file.
+/// Reads the key that begins at `at`, in a line of any trust file.
 pub(super) fn read_key(line: &Line, at: usize) -> Result<AnyKey, Problem> {
     const EXPECTED: &str = "a public key such as ssh-ed25519 AAAA…";
     let algorithm = word(line.text, at);

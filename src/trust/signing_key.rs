@@ -1,4 +1,4 @@
-//! The private key that signs: Ed25519, in OpenSSH's file format (OpenSSH's PROTOCOL.key).
+//! Private signing keys: Ed25519, in OpenSSH's file format (OpenSSH's PROTOCOL.key).
 
 use super::error::{KeyError, SignatureError};
 use super::public_key::{AnyKey, PublicKey, shortened};
@@ -13,16 +13,16 @@ use ssh_key::{Algorithm, Cipher, HashAlg, Kdf, LineEnding, PrivateKey, SshSig};
 use std::fmt::{self, Debug, Formatter};
 use zeroize::Zeroizing;
 
-/// Rounds of bcrypt that slow down guessing the passphrase: as many as newer releases of OpenSSH take.
+/// Number of bcrypt rounds, which slow down guessing of the passphrase; newer releases of OpenSSH use as many.
 const BCRYPT_ROUNDS: u32 = 24;
-/// More rounds than that are taken for a damaged file: opening it would take hours.
+/// Number of bcrypt rounds above which the file is reported as damaged, because opening it would take hours.
 const MOST_BCRYPT_ROUNDS: u32 = 10_000;
-/// The longest private key file that is read, in bytes: far more than the largest RSA key takes.
+/// Longest private key file that is read, in bytes: far more than the largest RSA key needs.
 const LONGEST_FILE: usize = 1 << 16;
 const FIRST_LINE: &str = "-----BEGIN OPENSSH PRIVATE KEY-----";
 const LAST_LINE: &str = "-----END OPENSSH PRIVATE KEY-----";
 
-/// An Ed25519 key that signs. Its secret is erased from memory when it is dropped, and never printed.
+/// Ed25519 signing key. The secret is erased from memory when the key is dropped, and is never printed.
 pub struct SigningKey {
     key: ed25519_dalek::SigningKey,
 }
@@ -34,23 +34,23 @@ impl Debug for SigningKey {
 }
 
 impl SigningKey {
-    /// Makes a new key from the operating system's random bytes.
+    /// Creates a new key from the operating system's random bytes.
     ///
     /// # Errors
-    /// [`KeyError::NoRandomness`] when the operating system gives none.
+    /// Returns [`KeyError::NoRandomness`] if the operating system provides none.
     pub fn generate() -> Result<Self, KeyError> {
         let mut secret = Zeroizing::new([0; 32]);
         random(&mut *secret)?;
         Ok(Self { key: ed25519_dalek::SigningKey::from_bytes(&secret) })
     }
 
-    /// Reads a private key file of OpenSSH. A passphrase for a file that is not encrypted is ignored.
+    /// Reads an OpenSSH private key file. A passphrase for a file that is not encrypted is ignored.
     ///
     /// # Errors
-    /// Tells apart: not a private key file, or of another format ([`KeyError::NotAPrivateKey`]); of another type
-    /// ([`KeyError::OtherKeyType`], [`KeyError::SecurityKey`]); encrypted and no passphrase given
-    /// ([`KeyError::Encrypted`]); a wrong one ([`KeyError::WrongPassphrase`]); an encryption that is not read here
-    /// ([`KeyError::Encryption`]); damaged ([`KeyError::DamagedPrivateKey`]).
+    /// Returns [`KeyError::NotAPrivateKey`] for other files and formats, [`KeyError::OtherKeyType`] or
+    /// [`KeyError::SecurityKey`] for other key types, [`KeyError::Encrypted`] for an encrypted file without a
+    /// passphrase, [`KeyError::WrongPassphrase`] for a wrong passphrase, [`KeyError::Encryption`] for an unsupported
+    /// encryption, and [`KeyError::DamagedPrivateKey`] for a damaged file.
     pub fn from_openssh(pem: &str, passphrase: Option<&str>) -> Result<Self, KeyError> {
         let pem = pem.trim_start_matches('\u{feff}').trim();
         check_kind(pem)?;
@@ -67,11 +67,12 @@ impl SigningKey {
         }
     }
 
-    /// The key as OpenSSH writes it; with a passphrase encrypted with aes256-ctr under bcrypt, as `ssh-keygen` does.
+    /// Writes the key in OpenSSH's format; with a passphrase, it is encrypted with aes256-ctr and bcrypt, as by
+    /// `ssh-keygen`.
     ///
     /// # Errors
-    /// [`KeyError::EmptyPassphrase`], [`KeyError::Comment`] for a comment of more than one line,
-    /// [`KeyError::NoRandomness`].
+    /// Returns [`KeyError::EmptyPassphrase`] for an empty passphrase, [`KeyError::Comment`] for a comment with a
+    /// control character, and [`KeyError::NoRandomness`] if the operating system provides no random bytes.
     pub fn to_openssh(&self, comment: &str, passphrase: Option<&str>) -> Result<Zeroizing<String>, KeyError> {
         if comment.chars().any(char::is_control) {
             return Err(KeyError::Comment);
@@ -96,29 +97,29 @@ impl SigningKey {
         }
     }
 
-    /// The public half.
+    /// Returns the public key.
     pub fn public_key(&self) -> PublicKey {
         let key = ssh_key::public::Ed25519PublicKey(self.key.verifying_key().to_bytes());
         PublicKey::of_ed25519(key)
     }
 
-    /// The public half as a point on the curve.
+    /// Returns the curve point of the public key.
     pub(crate) fn point(&self) -> KeyPoint {
         KeyPoint::of_ed25519(self.key.verifying_key())
     }
 
-    /// Signs `message` for `namespace`: the same bytes every time, those that `ssh-keygen -Y sign` gives.
+    /// Signs `message` for `namespace`. The signature is deterministic, and equal to that of `ssh-keygen -Y sign`.
     ///
     /// # Errors
-    /// [`KeyError::Namespace`] when the namespace is empty.
+    /// Returns [`KeyError::Namespace`] if the namespace is empty.
     pub fn sign(&self, namespace: &str, message: &[u8]) -> Result<Signature, KeyError> {
         self.sign_message(&Message::new(namespace, message))
     }
 
-    /// The same for a message that is hashed already.
+    /// Signs a message that is already hashed.
     ///
     /// # Errors
-    /// [`KeyError::Namespace`] when the namespace is empty.
+    /// Returns [`KeyError::Namespace`] if the namespace is empty.
     pub(crate) fn sign_message(&self, message: &Message) -> Result<Signature, KeyError> {
         let bytes = self.key.sign(message.signed().ok_or(KeyError::Namespace)?).to_bytes();
         let key: KeyData = ssh_key::public::Ed25519PublicKey(self.key.verifying_key().to_bytes()).into();
@@ -137,7 +138,7 @@ fn damaged(error: ssh_key::Error) -> KeyError {
     KeyError::DamagedPrivateKey(error.to_string())
 }
 
-/// Opens an encrypted key. A wrong passphrase and altered bytes look alike: what comes out is noise.
+/// Decrypts a key. A wrong passphrase and altered bytes cannot be distinguished, because both produce random bytes.
 fn decrypted(file: &PrivateKey, passphrase: Option<&str>) -> Result<PrivateKey, KeyError> {
     let passphrase = passphrase.ok_or(KeyError::Encrypted)?;
     match file.kdf() {
@@ -151,7 +152,7 @@ fn decrypted(file: &PrivateKey, passphrase: Option<&str>) -> Result<PrivateKey, 
     }
 }
 
-/// Refuses what is not a private key file of OpenSSH, naming what it is.
+/// Refuses a file that is not an OpenSSH private key, and reports its actual format.
 fn check_kind(pem: &str) -> Result<(), KeyError> {
     const NEW_KEY: &str = "create a key with `keygen`";
     let (found, advice) = match pem {
@@ -185,7 +186,7 @@ fn check_kind(pem: &str) -> Result<(), KeyError> {
     Err(KeyError::NotAPrivateKey { found, advice })
 }
 
-/// Reads the unencrypted head of the file: which type of key it is and how it is encrypted.
+/// Reads the unencrypted header of the file, and checks the key type and the encryption.
 fn check_header(pem: &str) -> Result<(), KeyError> {
     let body = pem.strip_prefix(FIRST_LINE).and_then(|rest| rest.strip_suffix(LAST_LINE)).unwrap_or_default();
     let base64: Zeroizing<String> = Zeroizing::new(body.split_ascii_whitespace().collect());
@@ -209,7 +210,7 @@ fn check_header(pem: &str) -> Result<(), KeyError> {
     }
 }
 
-/// The cipher and the type of the first key (PROTOCOL.key, sections 1 and 2).
+/// Returns the cipher and the type of the first key (PROTOCOL.key, sections 1 and 2).
 fn header(bytes: &[u8]) -> Result<(String, String), Truncated> {
     let text = |bytes| String::from_utf8_lossy(bytes).into_owned();
     let mut wire = Wire::new(bytes);
@@ -285,7 +286,7 @@ mod tests {
             let mut bytes = pem.as_bytes().to_vec();
             bytes[at] ^= 1;
             let altered = String::from_utf8(bytes).unwrap();
-            // The check numbers and the comment carry no key: everything else must be noticed.
+            // The check numbers and the comment are not part of the key; a change to any other byte must be detected.
             if let Ok(read) = SigningKey::from_openssh(&altered, None) {
                 assert_eq!(read.public_key(), key.public_key(), "byte {at}");
             }

@@ -1,8 +1,8 @@
 //! Signatures in OpenSSH's format SSHSIG (OpenSSH's PROTOCOL.sshsig; for security keys PROTOCOL.u2f).
 //!
-//! What is signed is `SSHSIG`, the namespace, an empty reserved field, the name of the hash and the hash of the
-//! message. The version of the block is not among it, and base64 can be wrapped in many ways: so only version 1 and
-//! only OpenSSH's own way of writing are accepted, and every byte of the block is bound.
+//! The signed data are `SSHSIG`, the namespace, an empty reserved field, the name of the hash algorithm and the hash of
+//! the message. They do not include the version of the block, and base64 can be wrapped in many ways. Therefore only
+//! version 1 in OpenSSH's own form is accepted, so that no byte of the block can be changed.
 
 use super::error::{KeyError, SignatureError};
 use super::public_key::PublicKey;
@@ -13,45 +13,45 @@ use ssh_encoding::{Decode, Encode};
 use ssh_key::public::KeyData;
 use ssh_key::{HashAlg, SshSig};
 
-/// The longest armor that is read, in bytes: that of a security key with an unusually long application string.
+/// Longest armor that is read, in bytes: enough for a security key with an unusually long application string.
 const LONGEST_ARMOR: usize = 4096;
-/// OpenSSH's lines of base64.
+/// Line length of OpenSSH's base64.
 const LINE_LENGTH: usize = 70;
 const FIRST_LINE: &str = "-----BEGIN SSH SIGNATURE-----";
 const LAST_LINE: &str = "-----END SSH SIGNATURE-----";
 
-/// Bytes with the purpose that they are signed for, hashed once for signing and checking.
+/// Bytes with the namespace that they are signed for, hashed once for signing and verification.
 #[derive(Debug, Clone)]
 pub struct Message<'a> {
     namespace: &'a str,
     bytes: &'a [u8],
-    /// What the key signs; `None` without a namespace, for which nothing is signed.
+    /// Data that the key signs; `None` without a namespace, for which nothing is signed.
     signed: Option<Vec<u8>>,
 }
 
 impl<'a> Message<'a> {
-    /// The message `bytes` for the purpose `namespace`.
+    /// Creates the message `bytes` for the namespace `namespace`.
     pub fn new(namespace: &'a str, bytes: &'a [u8]) -> Self {
         Self { namespace, bytes, signed: SshSig::signed_data(namespace, HashAlg::Sha512, bytes).ok() }
     }
 
-    /// The purpose.
+    /// Returns the namespace.
     pub(crate) fn namespace(&self) -> &'a str {
         self.namespace
     }
 
-    /// The bytes.
+    /// Returns the bytes of the message.
     pub(crate) fn bytes(&self) -> &'a [u8] {
         self.bytes
     }
 
-    /// What the key signs; `None` without a namespace.
+    /// Returns the data that the key signs, or `None` without a namespace.
     pub(super) fn signed(&self) -> Option<&[u8]> {
         self.signed.as_deref()
     }
 }
 
-/// A signature whose form is right; whether it holds for a text is what [`Signature::verify`] says.
+/// Signature whose form is correct; [`Signature::verify`] checks it against a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Signature {
     inner: SshSig,
@@ -63,7 +63,7 @@ impl Signature {
     /// Reads a signature block, from `-----BEGIN SSH SIGNATURE-----` to the line feed after its last line.
     ///
     /// # Errors
-    /// Every variant of [`SignatureError`] but [`SignatureError::WrongNamespace`] and
+    /// Returns any variant of [`SignatureError`] except [`SignatureError::WrongNamespace`] and
     /// [`SignatureError::DoesNotHold`].
     pub fn from_armor(armor: &str) -> Result<Self, SignatureError> {
         if armor.len() > LONGEST_ARMOR {
@@ -75,14 +75,14 @@ impl Signature {
         }
     }
 
-    /// Writes a block as OpenSSH does.
+    /// Writes a signature block in the form that OpenSSH writes.
     #[cfg(feature = "factory")]
     pub(super) fn of(inner: SshSig) -> Result<Self, SignatureError> {
         let armor = inner.to_pem(ssh_key::LineEnding::LF).map_err(refusal)?;
         Self::checked(inner, armor)
     }
 
-    /// Checks the fields of a block that is written so.
+    /// Checks the fields of a block that has this armor.
     fn checked(inner: SshSig, armor: String) -> Result<Self, SignatureError> {
         if inner.version() != SshSig::VERSION {
             return Err(SignatureError::Version { found: inner.version() });
@@ -107,38 +107,38 @@ impl Signature {
         Ok(Self { inner, key, armor })
     }
 
-    /// The block as OpenSSH writes it, 70 columns wide, its last line ended by a line feed.
+    /// Returns the block as OpenSSH writes it: 70 columns wide, with a line feed after the last line.
     pub fn to_armor(&self) -> String {
         self.armor.clone()
     }
 
-    /// The purpose that the signature was made for.
+    /// Returns the namespace that the signature was made for.
     pub(crate) fn namespace(&self) -> &str {
         self.inner.namespace()
     }
 
-    /// The key in the block. Whether that key counts is what the list of allowed signers says.
+    /// Returns the key in the block; the list of allowed signers decides whether to trust it.
     pub fn public_key(&self) -> &PublicKey {
         &self.key
     }
 
-    /// Checks that the key in the block signed exactly `message` for `namespace`.
+    /// Verifies that the key in the block signed exactly `message` for `namespace`.
     ///
     /// Ed25519 is verified strictly: weak keys and second encodings of a signature are refused. A signature of a
-    /// security key counts whatever its flags say, as with `ssh-keygen -Y verify`: whether the token asked for a touch
-    /// is a property of the key that its owner chose.
+    /// security key is accepted whatever its flags, as with `ssh-keygen -Y verify`, because the owner of the key chose
+    /// whether the token requires a touch.
     ///
     /// # Errors
-    /// [`SignatureError::WrongNamespace`] when the signature was made for another purpose,
-    /// [`SignatureError::DoesNotHold`] when text or signature were altered.
+    /// Returns [`SignatureError::WrongNamespace`] if the signature was made for another namespace, and
+    /// [`SignatureError::DoesNotHold`] if the text or the signature was altered.
     pub fn verify(&self, namespace: &str, message: &[u8]) -> Result<(), SignatureError> {
         self.verify_message(&Message::new(namespace, message), None)
     }
 
-    /// The same for a message that is hashed already, and with the key's point when that is known already.
+    /// Verifies a message that is already hashed, with the key's curve point if that is already known.
     ///
     /// # Errors
-    /// As [`Signature::verify`].
+    /// Returns the errors of [`Signature::verify`].
     pub(crate) fn verify_message(&self, message: &Message, point: Option<&KeyPoint>) -> Result<(), SignatureError> {
         if self.namespace() != message.namespace {
             let found = self.namespace().to_owned();
@@ -165,7 +165,7 @@ impl Signature {
     }
 }
 
-/// What a block says that is written as OpenSSH writes it, to the last byte; `None` for any other.
+/// Parses a block that is byte for byte as OpenSSH writes it; returns `None` for any other.
 fn as_openssh_writes_it(armor: &str) -> Option<SshSig> {
     let body = armor.strip_prefix(FIRST_LINE)?.strip_prefix('\n')?;
     let body = body.strip_suffix('\n')?.strip_suffix(LAST_LINE)?.strip_suffix('\n')?;
@@ -179,7 +179,7 @@ fn as_openssh_writes_it(armor: &str) -> Option<SshSig> {
         }
         base64.push_str(line);
     }
-    // Bits that mean nothing are refused where they are not 0: no two texts stand for the same bytes.
+    // Unused bits must be 0, so that no two texts encode the same bytes.
     let bytes = Base64::decode_vec(&base64).ok()?;
     let block = SshSig::decode(&mut bytes.as_slice()).ok()?;
     let mut written = Vec::with_capacity(bytes.len());
@@ -187,7 +187,7 @@ fn as_openssh_writes_it(armor: &str) -> Option<SshSig> {
     (written == bytes).then_some(block)
 }
 
-/// Why a block is refused that is not written as OpenSSH writes it.
+/// Returns the reason why a block that is not as OpenSSH writes it is refused.
 fn why_refused(armor: &str) -> SignatureError {
     match SshSig::from_pem(armor) {
         Ok(_) => SignatureError::NotCanonical,
@@ -196,7 +196,7 @@ fn why_refused(armor: &str) -> SignatureError {
     }
 }
 
-/// The same block as OpenSSH would wrap it: tells a block that was wrapped anew from a damaged one.
+/// Returns the block as OpenSSH would wrap it, which distinguishes a rewrapped block from a damaged one.
 fn rewrapped(armor: &str) -> String {
     let base64: Vec<u8> = armor
         .trim()
@@ -209,17 +209,17 @@ fn rewrapped(armor: &str) -> String {
     format!("{FIRST_LINE}\n{}\n{LAST_LINE}\n", lines.join("\n"))
 }
 
-/// What a security key signs in place of a message (PROTOCOL.u2f, SSH U2F Signatures).
+/// Returns the data that a security key signs instead of the message (PROTOCOL.u2f, SSH U2F Signatures).
 fn signed_by_token(application: &str, flags_and_counter: &[u8], message: &[u8]) -> Vec<u8> {
     [&Sha256::digest(application)[..], flags_and_counter, &Sha256::digest(message)].concat()
 }
 
-/// The point on the curve that a public key is, found once for many signatures.
+/// Curve point of a public key, decoded once for many signatures.
 #[derive(Debug, Clone)]
 pub struct KeyPoint(VerifyingKey);
 
 impl KeyPoint {
-    /// `None` when the key's bytes are no point.
+    /// Decodes the curve point of a key; returns `None` if its bytes are not a point.
     pub(super) fn of(key: &PublicKey) -> Option<Self> {
         VerifyingKey::from_bytes(point_bytes(key)?).ok().map(Self)
     }
@@ -339,7 +339,8 @@ mod tests {
             altered[9] = version;
             assert_eq!(refused(&altered, 70), SignatureError::Version { found: u32::from(version) });
         }
-        // Preamble, version, key, namespace: then the reserved field and the hash's name.
+        // The reserved field and the name of the hash algorithm follow the preamble, the version, the key and the
+        // namespace.
         let reserved = 6 + 4 + (4 + 51) + (4 + NAMESPACE.len());
         assert_eq!(&good[reserved..reserved + 14], b"\0\0\0\0\0\0\0\x06sha512");
         let with_reserved = [&good[..reserved], b"\0\0\0\x02xy", &good[reserved + 4..]].concat();

@@ -5,13 +5,13 @@ use jiff::Timestamp;
 use jiff::civil::DateTime;
 use jiff::tz::TimeZone;
 
-/// What is wrong with a date: what was expected, and what to do.
+/// Expected form of a date, and advice.
 pub(super) type Refusal = (&'static str, &'static str);
 
 /// Reads a date.
 ///
-/// OpenSSH takes a date without `Z` in the local time of whoever verifies, so that the verdict would depend on the
-/// place: refused. It takes 30 February for 2 March: refused.
+/// A date without `Z` is refused, because OpenSSH takes it in the verifier's local time, so that the result would
+/// depend on the place. 30 February is refused too, because OpenSSH takes it for 2 March.
 pub(super) fn instant(text: &str) -> Result<Timestamp, Refusal> {
     const EXPECTED: &str = "a date in UTC as YYYYMMDDZ, YYYYMMDDHHMMZ or YYYYMMDDHHMMSSZ";
     let digits = text.strip_suffix(['Z', 'z']).unwrap_or(text);

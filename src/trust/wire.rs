@@ -1,11 +1,11 @@
-//! SSH's binary encoding (RFC 4251, section 5), read with every length checked against what is left.
+//! SSH's binary encoding (RFC 4251, section 5), with every length checked against the remaining bytes.
 
 use std::fmt::{self, Display, Formatter};
 
-/// A length that points past the end of what holds it.
+/// A length that extends past the end of its container.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Truncated {
-    /// Where the item that does not fit begins, in bytes from the start of the file.
+    /// Offset of the item that does not fit, in bytes from the start of the file.
     pub(super) offset: usize,
     needed: usize,
     left: usize,
@@ -17,7 +17,7 @@ impl Display for Truncated {
     }
 }
 
-/// A place in a binary text; it knows how far from the start of the whole it is.
+/// Reader of binary data that knows its offset from the start of the file.
 #[derive(Debug, Clone)]
 pub(super) struct Wire<'a> {
     rest: &'a [u8],
@@ -25,27 +25,27 @@ pub(super) struct Wire<'a> {
 }
 
 impl<'a> Wire<'a> {
-    /// The beginning of `bytes`.
+    /// Creates a reader at the beginning of `bytes`.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         Self { rest: bytes, offset: 0 }
     }
 
-    /// Bytes from the start of the whole.
+    /// Returns the offset from the start of the file, in bytes.
     pub(super) fn offset(&self) -> usize {
         self.offset
     }
 
-    /// What is left.
+    /// Returns the remaining bytes.
     pub(super) fn rest(&self) -> &'a [u8] {
         self.rest
     }
 
-    /// Whether nothing is left.
+    /// Returns `true` if no bytes remain.
     pub(super) fn is_empty(&self) -> bool {
         self.rest.is_empty()
     }
 
-    /// The next `length` bytes.
+    /// Reads the next `length` bytes.
     pub(super) fn take(&mut self, length: usize) -> Result<&'a [u8], Truncated> {
         let truncated = Truncated { offset: self.offset, needed: length, left: self.rest.len() };
         let (taken, rest) = self.rest.split_at_checked(length).ok_or(truncated)?;
@@ -60,27 +60,27 @@ impl<'a> Wire<'a> {
         Ok(array)
     }
 
-    /// One byte.
+    /// Reads one byte.
     pub(super) fn byte(&mut self) -> Result<u8, Truncated> {
         self.array::<1>().map(|[byte]| byte)
     }
 
-    /// Four bytes, the most significant first.
+    /// Reads four bytes, the most significant first.
     pub(super) fn u32(&mut self) -> Result<u32, Truncated> {
         self.array().map(u32::from_be_bytes)
     }
 
-    /// Eight bytes, the most significant first.
+    /// Reads eight bytes, the most significant first.
     pub(super) fn u64(&mut self) -> Result<u64, Truncated> {
         self.array().map(u64::from_be_bytes)
     }
 
-    /// A string: its length in four bytes, then its bytes.
+    /// Reads a string: its length in four bytes, then its bytes.
     pub(super) fn string(&mut self) -> Result<&'a [u8], Truncated> {
         self.nested().map(|nested| nested.rest)
     }
 
-    /// A string that is itself encoded, to be read with offsets of the whole.
+    /// Reads a string that is itself encoded; offsets in it count from the start of the file.
     pub(super) fn nested(&mut self) -> Result<Wire<'a>, Truncated> {
         let length = self.u32()? as usize;
         let offset = self.offset;
