@@ -1,7 +1,7 @@
-//! A signed document: text, then OpenSSH's signature over it. Steps 1 to 5 of verification, and signing.
+//! Signed documents: text followed by its OpenSSH signature. Steps 1 to 5 of verification, and signing.
 //!
-//! The file is `payload` + `signature: |` + the armor indented by two spaces, and nothing more. The signed message is
-//! every byte before `signature: |`.
+//! The file consists of `payload`, `signature: |` and the armor indented by two spaces, and nothing else. The signed
+//! message is every byte before `signature: |`.
 
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::canonical::{self, NotCanonical};
@@ -12,40 +12,41 @@ use crate::trust::{AllowedSigners, KeyPoint, Message, PublicKey, Signature, Sign
 #[cfg(feature = "factory")]
 use crate::trust::{KeyError, SigningKey};
 
-/// The line that ends the payload.
+/// Line that ends the payload.
 const SIGNATURE_LINE: &str = "signature: |\n";
 
-/// How far the armor is indented.
+/// Indentation of the armor.
 const INDENT: &str = "  ";
 
-/// Something that signs: a key in memory, or a program that has one.
+/// Signer of documents: a key in memory, or a program that has access to one.
 pub trait Signer {
     /// Signs `message` for `namespace`.
     ///
     /// # Errors
-    /// Why there is no signature, in words.
+    /// Returns [`SigningFailed`] with the reason if there is no signature.
     fn sign(&self, namespace: &str, message: &[u8]) -> Result<Signature, SigningFailed>;
 
-    /// The same for a message that is hashed already, for those who sign the hash.
+    /// Signs a message that is already hashed; by default, signs its bytes with [`Signer::sign`].
     ///
     /// # Errors
-    /// As [`Signer::sign`].
+    /// Returns [`SigningFailed`] with the reason if there is no signature.
     fn sign_message(&self, message: &Message) -> Result<Signature, SigningFailed> {
         self.sign(message.namespace(), message.bytes())
     }
 
-    /// Returns the key that verifies what it signs, or `None` if that is not known before it has signed.
+    /// Returns the key that verifies the signatures, or `None` if it is not known before signing.
     fn public_key(&self) -> Option<PublicKey> {
         None
     }
 
-    /// The point of the key that signs, where it is at hand: what was signed is checked sooner with it.
+    /// Returns the curve point of the signing key, which speeds up the check of a new signature, or `None` if it is not
+    /// known.
     fn point(&self) -> Option<KeyPoint> {
         None
     }
 }
 
-/// There is no signature.
+/// Reason why there is no signature.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{}", Printable(.0))]
 pub struct SigningFailed(pub String);
@@ -76,34 +77,34 @@ impl Signer for SigningKey {
     }
 }
 
-/// A document whose form is good (verification steps 1 to 3). Nothing of it has been parsed.
+/// Document whose form is correct (verification steps 1 to 3). None of its content has been parsed.
 #[derive(Debug, Clone)]
 pub(crate) struct SignedText<'a> {
     payload: &'a str,
     signature: Signature,
 }
 
-/// A document's form is not good: what is wrong, and whether it is that it was signed for something else.
+/// Fault in the form of a document, or a signature for another namespace.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Malformed {
-    /// What is wrong and where.
+    /// Description and location of the fault.
     pub fault: Unreadable,
-    /// The namespace it was signed for, when that is what is wrong.
+    /// Namespace of the signature if that is the fault, otherwise `None`.
     pub other_namespace: Option<String>,
 }
 
 impl<'a> SignedText<'a> {
-    /// Checks the text rule, splits the file and checks the signature's form, in this order.
+    /// Checks the text rule, splits the file and checks the form of the signature, in this order.
     ///
     /// # Errors
-    /// [`Malformed`] with the line and the column of the first fault.
+    /// Returns [`Malformed`] with the line and the column of the first fault.
     pub(crate) fn split(name: &str, bytes: &'a [u8], namespace: &str) -> Result<Self, Malformed> {
         let malformed = |fault| Malformed { fault, other_namespace: None };
         if bytes.len() > LARGEST_DOCUMENT_BYTES {
             rule::check(name, bytes).map_err(malformed)?;
         }
-        // The payload obeys the rule; the armor is compared with the one form it can have. So text of any other kind
-        // has no place to stand in.
+        // The payload must obey the text rule, and the armor has only one valid form, so the file cannot contain any
+        // other text.
         let payload_end = signature_line(bytes);
         let payload_bytes = &bytes[..payload_end.unwrap_or(bytes.len())];
         let payload = rule::check(name, payload_bytes).map_err(malformed)?;
@@ -137,29 +138,31 @@ impl<'a> SignedText<'a> {
         Ok(Self { payload, signature })
     }
 
-    /// The text, whoever wrote it.
+    /// Returns the text before its signature is verified: anyone may have written it.
     pub(crate) fn unverified_payload(&self) -> &'a str {
         self.payload
     }
 
-    /// The key that the signature names.
+    /// Returns the key stated in the signature.
     pub(crate) fn key(&self) -> &PublicKey {
         self.signature.public_key()
     }
 
-    /// Checks the signature against the key that it names (step 4); gives the signed text, which may now be parsed.
+    /// Verifies the signature with the key that it states (step 4) and returns the signed text, which may now be
+    /// parsed.
     ///
     /// # Errors
-    /// The signature does not hold: the text is not the one that was signed.
+    /// Returns [`SignatureError`] if the text is not the one that was signed.
     pub(crate) fn signed_payload(&self) -> Result<&'a str, SignatureError> {
         self.signature.verify(self.signature.namespace(), self.payload.as_bytes())?;
         Ok(self.payload)
     }
 
-    /// The same, quicker when the key is one of `signers`; whether it is makes no difference to the answer.
+    /// Verifies the signature as [`SignedText::signed_payload`] does, but faster if the key is one of `signers`. The
+    /// result does not depend on `signers`.
     ///
     /// # Errors
-    /// As [`SignedText::signed_payload`].
+    /// Returns the errors of [`SignedText::signed_payload`].
     pub(crate) fn payload_signed_by_any(&self, signers: &AllowedSigners) -> Result<&'a str, SignatureError> {
         let message = Message::new(self.signature.namespace(), self.payload.as_bytes());
         self.signature.verify_message(&message, signers.point(self.key()))?;
@@ -167,12 +170,12 @@ impl<'a> SignedText<'a> {
     }
 }
 
-/// Parses a payload in its one form (step 5). `check` knows the rules of the content.
+/// Parses a payload in canonical form (step 5); `check` applies the rules of the content.
 ///
-/// Call it only on text whose signature holds.
+/// Call it only with text whose signature was verified.
 ///
 /// # Errors
-/// The first line that is not in canonical form, or every rule that the content breaks.
+/// Returns the first line that is not in canonical form, or every rule that the content breaks.
 pub(crate) fn parse<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut Problems)) -> Result<T, Unreadable> {
     let content: T = canonical::read(payload).map_err(|NotCanonical { location, found, expected }| {
         let advice = "this is not the canonical form; get the file from the issuer again";
@@ -183,18 +186,18 @@ pub(crate) fn parse<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut
     if problems.is_empty() { Ok(content) } else { Err(problems.refuse_by_field(name)) }
 }
 
-/// Where the payload ends: at the first line `signature: |`.
+/// Returns the end of the payload, which is the first line `signature: |`, or `None` without such a line.
 fn signature_line(bytes: &[u8]) -> Option<usize> {
     let begins_a_line = |at: &usize| *at > 0 && bytes[at - 1] == b'\n';
     memchr::memmem::find_iter(bytes, SIGNATURE_LINE).find(begins_a_line)
 }
 
-/// The armor without its indent, when every line has it.
+/// Returns the armor without its indentation, or `None` if a line is not indented.
 fn unindented(text: &str) -> Option<String> {
     text.split_inclusive('\n').map(|line| line.strip_prefix(INDENT)).collect()
 }
 
-/// Puts payload and signature together, as [`SignedText::split`] takes them apart.
+/// Joins payload and signature into the file that [`SignedText::split`] separates.
 pub(crate) fn join(payload: &str, signature: &Signature) -> String {
     let armor: String = signature.to_armor().lines().map(|line| format!("{INDENT}{line}\n")).collect();
     format!("{payload}{SIGNATURE_LINE}{armor}")
@@ -264,7 +267,7 @@ mod tests {
         other_form("stand:\n", "stand:\n  colour: \"red\"\n", "found `  colour: \"red\"`, expected the next key");
         other_form("  model: ", "  modell: ", "modell: ");
         other_form("  revision: 1\n", "", "expected the next key of this format");
-        // What breaks a rule of the content is named by its field.
+        // An error in the content is reported with its field.
         let (words, _) = refusal("latitude_deg: 55.7658", "latitude_deg: 95.7658");
         assert!(words.contains("latitude_deg: found 95.7658"), "{words}");
     }

@@ -1,4 +1,4 @@
-//! What in a folder of passports needs a person to look at it.
+//! Alarms of a register: findings that require attention.
 
 use super::successors::Successor;
 use super::{Examined, Line, series_of};
@@ -8,61 +8,61 @@ use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Display};
 
-/// What needs a person to look at it.
+/// Finding in a folder of passports that requires attention.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Alarm {
-    /// Which kind: its key.
+    /// Kind of the alarm.
     pub kind: AlarmKind,
-    /// In words.
+    /// Explanation in words.
     pub words: String,
-    /// The files.
+    /// Affected files.
     pub files: Vec<String>,
-    /// The passports that may be superseded or withdrawn by what cannot be read; `None` if everything can be read.
+    /// Passports that an unreadable or missing file may supersede or withdraw; `None` if nothing is in doubt.
     #[serde(skip)]
     pub concern: Option<Concern>,
 }
 
-/// The passports whose state is not known.
+/// Passports whose state is unknown.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Concern {
-    /// All.
+    /// All passports.
     Everything,
-    /// Those of one stand, `<model>/<serial>`.
+    /// Passports of one stand, `<model>/<serial>`.
     Stand(String),
 }
 
-/// Kinds of alarm.
+/// Kind of an [`Alarm`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum AlarmKind {
-    /// Two successors of one passport.
+    /// Two or more successors of one passport.
     Forked,
-    /// Two files with one id.
+    /// Two or more files with one id.
     DuplicateId,
-    /// A passport is missing that another one was made from, or a revision between two others.
+    /// Missing predecessor of a passport, or missing revision between two others.
     Missing,
-    /// A stand is in force under two certificates, or under one that was replaced.
+    /// Stand in force under two certificates, or under one that was replaced.
     Certificates,
-    /// A file of a passport or of a list that is altered, cut, empty or in another encoding.
+    /// File of a passport or of a list that is altered, truncated, empty or in another encoding.
     Damaged,
-    /// A file is not where its content belongs.
+    /// File in another place than its content requires.
     Misplaced,
-    /// A link, which may lead out of the folder.
+    /// Link, which may lead out of the folder.
     Link,
-    /// A pipe, a device or a socket.
+    /// Pipe, device or socket.
     Special,
-    /// A file larger than any document.
+    /// File larger than any document.
     TooLarge,
-    /// A file or a folder that cannot be read.
+    /// File or folder that cannot be read.
     Unreadable,
-    /// Lists of withdrawn passports.
+    /// Refused or irregular lists of withdrawn passports.
     Revocation,
 }
 
 impl AlarmKind {
-    /// Its name for programs.
+    /// Returns the name of the kind, for programs.
     pub fn key(self) -> &'static str {
         match self {
             Self::Forked => "forked",
@@ -81,7 +81,7 @@ impl AlarmKind {
 }
 
 impl Alarm {
-    /// A link, which may lead out of the folder.
+    /// Creates the alarm of a link, which may lead out of the folder.
     pub(crate) fn link(file: &str) -> Self {
         Self::of_file(
             AlarmKind::Link,
@@ -90,56 +90,57 @@ impl Alarm {
         )
     }
 
-    /// A file that only looks like one.
+    /// Creates the alarm of a pipe, a device or a socket.
     pub(crate) fn special(file: &str) -> Self {
         Self::of_file(AlarmKind::Special, "not read: it is a pipe, a device or a socket", file)
     }
 
-    /// A file larger than any passport.
+    /// Creates the alarm of a file larger than any passport.
     pub(crate) fn too_large(file: &str) -> Self {
         let words = format!("not read: it has more than {LARGEST_DOCUMENT_BYTES} bytes, the limit for a passport");
         Self::of_file(AlarmKind::TooLarge, &words, file)
     }
 
-    /// A file or a folder that the system refuses to read, and why.
+    /// Creates the alarm of a file or folder that the system refuses to read; `why` is the reason.
     pub(crate) fn unreadable(why: &str, file: &str, concern: Concern) -> Self {
         Self::of_file(AlarmKind::Unreadable, why, file).concerning(concern)
     }
 
-    /// A file that has something of a passport or of a list and cannot be read as one.
+    /// Creates the alarm of a file that resembles a passport or a list but cannot be read as one.
     pub(crate) fn damaged(why: &str, file: &str, concern: Concern) -> Self {
         Self::of_file(AlarmKind::Damaged, why, file).concerning(concern)
     }
 
-    /// A list of withdrawn passports that does not count. One that cannot be read might withdraw any passport.
+    /// Creates the alarm of a list that is not accepted. A damaged list might withdraw any passport.
     pub(crate) fn refused_list(error: &ListRefused, file: &str) -> Self {
         let alarm = Self::of_file(AlarmKind::Revocation, &error.to_string(), file);
         if error.is_damage() { alarm.concerning(Concern::Everything) } else { alarm }
     }
 
-    /// A good list of withdrawn passports in a file of another name than its own.
+    /// Creates the alarm of an accepted list in a file with the wrong name.
     pub(crate) fn misnamed_list(list: &RevocationList, file: &str) -> Self {
         let words = format!("list {} must be named {}", list.sequence, list.file_name());
         Self::of_file(AlarmKind::Misplaced, &words, file)
     }
 
-    /// Something about several lists. One that is missing might withdraw any passport.
+    /// Creates the alarm of an irregular series of lists. A missing list might withdraw any passport.
     pub(crate) fn series(alarm: SeriesAlarm) -> Self {
         let raised = Self::of_files(AlarmKind::Revocation, alarm.to_string(), Vec::new());
         if alarm.is_unknown() { raised.concerning(Concern::Everything) } else { raised }
     }
 
-    /// Returns `true` if what cannot be read may supersede or withdraw passports of a stand, `<model>/<serial>`.
+    /// Returns `true` if the missing or unreadable file may supersede or withdraw passports of a stand,
+    /// `<model>/<serial>`.
     pub(crate) fn concerns(&self, stand: &str) -> bool {
         match &self.concern {
             None => false,
             Some(Concern::Everything) => true,
-            // Some file systems do not keep the case of names.
+            // Compare without case, because some file systems do not preserve the case of names.
             Some(Concern::Stand(concerned)) => concerned.eq_ignore_ascii_case(stand),
         }
     }
 
-    /// Returns the words behind the names of the files.
+    /// Returns the explanation, with the names of the files before it unless it begins with the first one.
     pub(crate) fn reason(&self) -> String {
         match self.files.first() {
             Some(first) if !self.words.starts_with(first.as_str()) => {
@@ -169,7 +170,7 @@ impl Display for Alarm {
     }
 }
 
-/// Several successors of the passport `id`.
+/// Creates the alarm of several successors of the passport `id`.
 pub(super) fn forked(id: &str, by: &[Successor]) -> Alarm {
     let ids: Vec<&str> = by.iter().map(|successor| successor.id.as_str()).collect();
     let words = format!("{id} has {} successors, each of which supersedes it: {}", by.len(), ids.join(", "));
@@ -177,8 +178,8 @@ pub(super) fn forked(id: &str, by: &[Successor]) -> Alarm {
     Alarm::of_files(AlarmKind::Forked, words, files)
 }
 
-/// Passports that others were made from, and of which no file is there: what else they supersede, or who else supersedes
-/// them, is not known.
+/// Returns an alarm for each passport whose predecessor has no file. Other passports that the predecessor supersedes,
+/// and other passports that supersede it, are unknown.
 pub(super) fn absent_predecessors(files: &[Examined]) -> Vec<Alarm> {
     let made_from = |file: &&Examined| file.counts && file.predecessor.is_some();
     if !files.iter().any(|file| made_from(&file)) {
@@ -195,8 +196,8 @@ pub(super) fn absent_predecessors(files: &[Examined]) -> Vec<Alarm> {
     absent.collect()
 }
 
-/// Revisions between two that are there: somebody took them away, or did not pass them on. Those that the later one was
-/// made from are among the `absent` already.
+/// Returns an alarm for each gap between two revisions, which may have been removed or not passed on. Gaps before a
+/// passport whose predecessor is `absent` are omitted, because they are already reported.
 pub(super) fn gaps(files: &[Examined], absent: &[Alarm]) -> Vec<Alarm> {
     let named: BTreeSet<&str> = absent.iter().flat_map(|alarm| &alarm.files).map(String::as_str).collect();
     let mut of_series: BTreeMap<&str, BTreeMap<u32, &str>> = BTreeMap::new();
@@ -218,7 +219,8 @@ pub(super) fn gaps(files: &[Examined], absent: &[Alarm]) -> Vec<Alarm> {
     alarms
 }
 
-/// Files with one id, of files sorted by id: copies, or different files until all but one have been withdrawn.
+/// Returns an alarm for each id with several copies of a file, or several files not withdrawn; `files` are sorted by
+/// id.
 pub(super) fn duplicate_ids(files: &[Examined]) -> Vec<Alarm> {
     let files: Vec<&Examined> = files.iter().filter(|file| file.counts).collect();
     let several = files.chunk_by(|a, b| a.line.id == b.line.id).filter(|files| files.len() > 1);
@@ -240,7 +242,7 @@ pub(super) fn duplicate_ids(files: &[Examined]) -> Vec<Alarm> {
         .collect()
 }
 
-/// A passport whose file is not where its id says.
+/// Returns an alarm if the file of a passport is not where its id requires, otherwise `None`.
 pub(super) fn misplaced(line: &Line) -> Option<Alarm> {
     let id = line.id.as_deref()?;
     let (folder, revision) = series_of(id);

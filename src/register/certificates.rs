@@ -1,23 +1,24 @@
-//! Under which certificates the passports of a stand were issued. A certificate is superseded when a passport made from it
-//! was issued again under another one; a stand in force under two has two sets of deviations.
+//! Certificates under which the passports of a stand were issued. A certificate is superseded if a passport based on it
+//! was re-issued under another one. A stand in force under two certificates has two sets of deviations.
 
 use super::{Alarm, AlarmKind, Examined, State};
 use std::collections::{BTreeMap, HashMap};
 
-/// What is known of the certificates of each stand, `<model>/<serial>`, for which there is more than one.
+/// Certificates of each stand, `<model>/<serial>`, that has more than one.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Certificates(BTreeMap<String, OfStand>);
 
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 struct OfStand {
-    /// The passports in force under each number: ids and files.
+    /// Ids and files of the passports in force, by certificate number.
     in_force: BTreeMap<String, Vec<(String, String)>>,
-    /// The number that took the place of each, and the passport that shows it.
+    /// Number of the replacing certificate and the id of the passport that shows this, by the number of the replaced
+    /// one.
     replaced: BTreeMap<String, (String, String)>,
 }
 
 impl Certificates {
-    /// Of files sorted by id whose states are settled.
+    /// Collects the certificates from files that are sorted by id and whose states are final.
     pub(super) fn of(files: &[Examined]) -> Self {
         let counted: Vec<&Examined> = files.iter().filter(|file| file.counts && file.issued).collect();
         let of_stand = counted.chunk_by(|a, b| a.line.stand == b.line.stand);
@@ -31,7 +32,7 @@ impl Certificates {
         self.0.iter().filter_map(|(stand, known)| known.alarm(stand)).collect()
     }
 
-    /// What speaks against one more passport of a stand under the certificate `number`.
+    /// Returns the objections to a new passport of a stand under the certificate `number`.
     pub(super) fn against(&self, stand: &str, number: &str) -> Vec<String> {
         let Some(known) = self.0.get(stand) else { return Vec::new() };
         let replaced = known.replaced.get(number).map(|by| replaced(number, by));
@@ -49,7 +50,8 @@ impl OfStand {
         let mut known = Self::default();
         let by_sha256: HashMap<&str, &str> =
             files.iter().map(|file| (file.line.sha256.as_str(), file.certificate())).collect();
-        // In the order of issue: a certificate that came back is replaced no more.
+        // Go through the files in the order of issue, so that a certificate that is used again no longer counts as
+        // replaced.
         let mut in_order = files.to_vec();
         in_order.sort_by_key(|file| file.issued_at);
         for file in in_order {

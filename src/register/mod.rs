@@ -1,6 +1,6 @@
-//! What is in force in a folder of passports: every one verified, the chains followed.
+//! Register of a folder of passports: the state of each, verified and compared with the others.
 //!
-//! It is a function of verified passports, trust and a time; [`crate::folder`] finds the files.
+//! The register is a function of verified passports, trust and a time; [`crate::folder`] finds the files.
 
 mod alarm;
 mod certificates;
@@ -21,43 +21,43 @@ use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 use successors::Successors;
 
-/// What is to be said of a passport.
+/// State of a passport in a register.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum State {
-    /// It may be used.
+    /// Issued and not expired.
     InForce,
-    /// It may be used, and ends within the days asked about.
+    /// In force, but expires within the given number of days.
     Expiring,
-    /// Its successor at the same site counts.
+    /// Superseded by its successor at the same site.
     Superseded,
-    /// The stand has gone to another site.
+    /// Superseded, because the stand has moved to another site.
     Moved,
-    /// Past its last day.
+    /// Past its expiry date.
     Expired,
-    /// Issued later than the time asked about.
+    /// Issued later than the time of verification.
     NotYetValid,
-    /// It was withdrawn, or its key was revoked.
+    /// Withdrawn, or signed with a revoked key.
     Revoked,
-    /// It would be in force, but something in the register that may supersede or withdraw it cannot be read.
+    /// In force unless an unreadable or missing file in the register supersedes or withdraws the passport.
     Unknown,
-    /// It does not verify.
+    /// Failed verification.
     Broken,
 }
 
-/// One file of a register.
+/// Register entry of one file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Line {
-    /// The file.
+    /// File name.
     pub file: String,
-    /// Its state.
+    /// State of the passport.
     pub state: State,
-    /// The passport's id; null until its signature holds and its content is good.
+    /// Identifier of the passport; null unless its signature and its content are correct.
     pub id: Option<String>,
     /// SHA-256 of the file.
     pub sha256: String,
-    /// Model and serial number.
+    /// Model and serial number of the stand.
     pub stand: Option<String>,
     /// Site.
     pub site: Option<String>,
@@ -65,14 +65,14 @@ pub struct Line {
     pub issuer: Option<String>,
     /// Number of the certificate of the stand.
     pub certificate: Option<String>,
-    /// Last day of validity.
+    /// Expiry date (inclusive).
     pub valid_until: Option<Date>,
-    /// Why it is in this state: the successor, the failed check, the reason of withdrawal.
+    /// Reason for the state: the successor, the failed check, or the reason for the withdrawal.
     pub why: String,
 }
 
 impl State {
-    /// Its name for programs.
+    /// Returns the name of the state, for programs.
     pub fn key(self) -> &'static str {
         match self {
             Self::InForce => "in_force",
@@ -88,17 +88,17 @@ impl State {
     }
 }
 
-/// The register of a folder.
+/// Register of a folder.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Register {
-    /// The files that were asked about, sorted by id, then by name.
+    /// Entries that match the question, sorted by id, then by file name.
     pub passports: Vec<Line>,
-    /// What needs a person, whatever was asked about.
+    /// Findings that require attention, for all passports.
     pub alarms: Vec<Alarm>,
-    /// Number of passports, asked about or not.
+    /// Number of passports, whether they match the question or not.
     #[serde(skip)]
     files: usize,
-    /// The alarms that leave the state of passports unknown.
+    /// Alarms that make the state of passports unknown.
     #[serde(skip)]
     doubts: Vec<Alarm>,
     #[serde(skip)]
@@ -109,26 +109,26 @@ pub struct Register {
     certificates: Certificates,
 }
 
-/// What a register keeps of one file: a few hundred bytes, whatever the passport's size.
+/// Summary of one examined file: a few hundred bytes, whatever the passport's size.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Examined {
     line: Line,
-    /// Model, serial number and site: what revisions are counted for.
+    /// Model, serial number and site, within which revisions are counted.
     series: String,
     revision: u32,
     predecessor: Option<Predecessor>,
-    /// Whether its word counts: text, signature, numbers and signer hold, and its key is not revoked.
+    /// Whether the passport is authentic: text, signature, numbers and signer are correct, and its key is not revoked.
     counts: bool,
     issued_at: Option<Timestamp>,
-    /// Whether it was issued by the time asked about.
+    /// Whether the passport was issued by the time of verification.
     issued: bool,
-    /// Whether its issuer, stand and place are those asked about.
+    /// Whether issuer, stand and place match the question.
     asked: bool,
-    /// The first check that failed.
+    /// First check that failed, or `None` if every check passed.
     failed: Option<CheckName>,
 }
 
-/// The passport that one was made from.
+/// Predecessor of a passport.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Predecessor {
     id: String,
@@ -136,26 +136,26 @@ struct Predecessor {
     superseded: bool,
 }
 
-/// Files that count as the passport of an id, each by its SHA-256 and name. Several have no precedence.
+/// SHA-256 and file name of each file that may be the passport with an id. None of several takes precedence.
 type Originals = HashMap<String, Vec<(String, String)>>;
 
-/// What is asked of a register.
+/// Question that a register answers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Asked {
-    /// The time; issuer, stand and place choose the passports that are listed.
+    /// Time of verification, and the issuer, stand and place of the passports to list.
     pub question: Question,
-    /// Number of days before its end from which a passport counts as expiring; `None` for no such state.
+    /// Number of days before the expiry date from which a passport is reported as expiring; never if `None`.
     pub within_days: Option<u32>,
 }
 
 impl Asked {
-    /// Every passport at `time`.
+    /// Creates a question about every passport at `time`.
     pub fn at(time: Timestamp) -> Self {
         Self { question: Question::at(time), within_days: None }
     }
 }
 
-/// Verifies one file.
+/// Verifies one file and summarises the result.
 pub fn examine(file: &str, bytes: &[u8], trust: &Trust, asked: &Asked) -> Examined {
     let time = asked.question.time;
     let verification = verify(file, bytes, trust, &Question::at(time));
@@ -198,7 +198,7 @@ pub fn examine(file: &str, bytes: &[u8], trust: &Trust, asked: &Asked) -> Examin
     }
 }
 
-/// What an id counts revisions for, and the revision.
+/// Splits an id into the series within which revisions are counted, and the revision.
 fn series_of(id: &str) -> (&str, u32) {
     let (series, revision) = id.rsplit_once('/').unwrap_or((id, ""));
     (series, revision.parse().unwrap_or(0))
@@ -219,25 +219,25 @@ fn in_force(content: Option<&Content>, time: Timestamp, within_days: Option<u32>
 }
 
 impl Line {
-    /// Returns `true` if nothing but other files can keep the passport from being used.
+    /// Returns `true` if only other files can prevent the use of the passport.
     fn is_usable(&self) -> bool {
         matches!(self.state, State::InForce | State::Expiring)
     }
 
-    /// Returns where the file belongs by the passport's id, or `None` if it is there.
+    /// Returns an explanation if the file is not where the passport's id requires, otherwise `None`.
     pub(crate) fn misplaced(&self) -> Option<String> {
         misplaced(self).map(|alarm| alarm.words)
     }
 }
 
 impl Examined {
-    /// Returns `true` if the file can be read as a passport: form, signature and content are good, whoever signed it.
+    /// Returns `true` if form, signature and content of the passport are correct, whoever signed it.
     pub(crate) fn is_readable(&self) -> bool {
         self.failed.is_none_or(|failed| failed > CheckName::Schema)
     }
 
-    /// Returns the SHA-256 of the file that it supersedes, or `None` if it supersedes none or its word does not count. It
-    /// supersedes also when it has been withdrawn or has expired since.
+    /// Returns the SHA-256 of the file that this passport supersedes, or `None` if it supersedes none or is not
+    /// authentic. A passport that was later withdrawn or has expired still supersedes its predecessor.
     pub(crate) fn supersedes(&self) -> Option<&str> {
         self.superseding().map(|predecessor| predecessor.sha256.as_str())
     }
@@ -246,17 +246,17 @@ impl Examined {
         self.predecessor.as_ref().filter(|predecessor| self.counts && predecessor.superseded)
     }
 
-    /// Returns `true` if it was withdrawn, or its key was revoked.
+    /// Returns `true` if the passport was withdrawn or its key was revoked.
     pub(crate) fn is_withdrawn(&self) -> bool {
         self.line.state == State::Revoked
     }
 
-    /// Returns `true` if it is one of those that may be the passport of its id.
+    /// Returns `true` if the file may be the passport with its id.
     fn is_original(&self) -> bool {
         self.counts && self.issued && !self.is_withdrawn()
     }
 
-    /// Heeds lists that were not known when the file was verified.
+    /// Applies lists that were not known when the file was verified.
     fn heed(&mut self, withdrawn: &Series) {
         let is_reached = self.failed.is_none_or(|failed| failed > CheckName::Revocation);
         if let Some(entry) = withdrawn.entry(&self.line.sha256).filter(|_| is_reached) {
@@ -267,14 +267,15 @@ impl Examined {
 }
 
 impl Register {
-    /// Follows the chains of all files examined.
+    /// Creates the register of all examined files.
     ///
-    /// A passport is superseded by one that was issued by the time asked about, counts, says so, and names its file's
-    /// SHA-256, its id, or a later revision; also by one that has itself been withdrawn or has expired since: the older
-    /// numbers do not come back. Of several files with one id none is in force until all but one are withdrawn. Where
-    /// something cannot be read, nothing that it concerns is in force.
+    /// A passport is superseded by an authentic one that was issued by the time of verification, states that it
+    /// supersedes, and references the passport's SHA-256, its id, or a later revision. This also applies if the
+    /// successor was later withdrawn or has expired, so that older numbers do not come back into force. If several
+    /// files have one id, none is in force until all but one are withdrawn. If a file cannot be read, no passport that
+    /// it may affect is in force.
     ///
-    /// `withdrawn` is heeded for every file; `alarms` are those that were raised while the files were found.
+    /// `withdrawn` applies to every file; `alarms` are those raised while searching for the files.
     pub fn of(mut files: Vec<Examined>, withdrawn: &Series, mut alarms: Vec<Alarm>) -> Self {
         files.iter_mut().for_each(|file| file.heed(withdrawn));
         files.sort_by(|a, b| (&a.line.id, a.revision, &a.line.file).cmp(&(&b.line.id, b.revision, &b.line.file)));
@@ -301,7 +302,7 @@ impl Register {
         register
     }
 
-    /// The state of a file by what else is there.
+    /// Sets the final state of a file from the other files.
     fn settle(&self, file: &mut Examined) {
         let line = &mut file.line;
         if !line.is_usable() && line.state != State::Expired {
@@ -321,20 +322,20 @@ impl Register {
         }
     }
 
-    /// Another file with this id, which contends with the one of this SHA-256.
+    /// Returns another file with this id but a different SHA-256, or `None` if there is none.
     fn other_original(&self, id: &str, sha256: &str) -> Option<&str> {
         let others = self.originals.get(id)?;
         others.iter().find(|(other, _)| other != sha256).map(|(_, file)| file.as_str())
     }
 
-    /// Returns the alarm that leaves it unknown whether passports of a stand, `<model>/<serial>`, are superseded or
-    /// withdrawn; `None` if all that concerns them can be read.
+    /// Returns the alarm that makes it unknown whether passports of a stand, `<model>/<serial>`, are superseded or
+    /// withdrawn; `None` if there is no such alarm.
     pub(crate) fn doubt(&self, stand: &str) -> Option<&Alarm> {
         self.doubts.iter().find(|alarm| alarm.concerns(stand))
     }
 
-    /// Adds to the answer about a passport whether it counts beside all that is there; `bytes` is its whole file, which
-    /// need not be one of the register's.
+    /// Adds the check [`CheckName::Register`] to the verification of a passport; `bytes` is its whole file, which need
+    /// not be in the register.
     pub(crate) fn asked(&self, verification: Verification, bytes: &[u8]) -> Verification {
         let not_run = || (Code::NotRun, "not run: an earlier check failed".to_owned());
         let (code, detail) = verification.content_from_anyone().map_or_else(not_run, |content| {
@@ -355,40 +356,40 @@ impl Register {
         verification.with(Check::new(CheckName::Register, code, detail))
     }
 
-    /// Returns `true` if the file of this line is one of several with its id, of which none is in force.
+    /// Returns `true` if the file of this entry is one of several with the same id, none of which is in force.
     pub(crate) fn has_several(&self, line: &Line) -> bool {
         let superseded = self.successors.has(&line.sha256);
         !superseded && line.id.as_deref().is_some_and(|id| self.other_original(id, &line.sha256).is_some())
     }
 
-    /// Returns `true` if the passport of this SHA-256 comes from one that several supersede.
+    /// Returns `true` if an ancestor of the passport with this SHA-256 has several successors.
     pub(crate) fn is_of_a_fork(&self, sha256: &str) -> bool {
         self.successors.is_of_a_fork(sha256)
     }
 
-    /// Returns the alarm that makes it uncertain which passports were withdrawn, or `None` if that is certain.
+    /// Returns the alarm that makes it uncertain which passports were withdrawn, or `None` if there is none.
     pub(crate) fn uncertain(&self) -> Option<&Alarm> {
         let uncertain = |alarm: &&Alarm| alarm.kind == AlarmKind::Revocation || alarm.concerns("");
         self.alarms.iter().find(uncertain)
     }
 
-    /// Returns in words what speaks against issuing from the certificate `number` of a stand: that it was replaced, or that
-    /// the stand is in force under another one.
+    /// Returns the objections to issuing from the certificate `number` of a stand: that it was replaced, or that the
+    /// stand is in force under another one.
     pub(crate) fn against_certificate(&self, stand: &str, number: &str) -> Vec<String> {
         self.certificates.against(stand, number)
     }
 
-    /// Returns `true` if a person must look at it: an alarm, or a passport that does not verify.
+    /// Returns `true` if the register needs attention: it has an alarm, or a passport that failed verification.
     pub fn needs_attention(&self) -> bool {
         !self.alarms.is_empty() || self.passports.iter().any(|line| line.state == State::Broken)
     }
 
-    /// Returns `true` if the system refused to read something: then more may be wrong than the register says.
+    /// Returns `true` if the system refused to read a file or folder; the register may then be incomplete.
     pub(crate) fn is_incomplete(&self) -> bool {
         self.alarms.iter().any(|alarm| alarm.kind == AlarmKind::Unreadable)
     }
 
-    /// Returns how many are in each state.
+    /// Returns the number of listed passports in each state.
     pub fn counts(&self) -> BTreeMap<State, usize> {
         let mut counts = BTreeMap::new();
         for line in &self.passports {
@@ -398,7 +399,7 @@ impl Register {
     }
 }
 
-/// Of copies of one file the first.
+/// Collects the files that may be the passport with each id; of copies of one file, only the first.
 fn originals(files: &[Examined]) -> Originals {
     let mut originals = Originals::with_capacity(files.len());
     for file in files.iter().filter(|file| file.is_original()) {

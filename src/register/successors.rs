@@ -1,10 +1,10 @@
-//! Which passport supersedes which.
+//! Relations between passports and their successors.
 
 use super::alarm::forked;
 use super::{Alarm, Examined, Line, State, series_of};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// A passport that supersedes others.
+/// Passport that supersedes others.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Successor {
     pub(super) id: String,
@@ -12,23 +12,24 @@ pub(super) struct Successor {
     sha256: String,
     pub(super) series: String,
     withdrawn: bool,
-    /// Whether it was issued by the time asked about: nothing supersedes before that.
+    /// Whether the passport was issued by the time of verification; before that, it supersedes nothing.
     issued: bool,
 }
 
-/// What is superseded, and by what.
+/// Superseded passports and their successors.
 ///
-/// A successor names one passport by the SHA-256 of its file. By its id it names it too, and with it every other file of
-/// that id and every earlier revision for that site: they do not come back when a file between them is taken away.
+/// A successor references its predecessor by the SHA-256 of its file and by its id. By the id it also supersedes every
+/// other file with that id and every earlier revision for that site. These do not come back into force if a file in
+/// between is removed.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Successors {
     of_file: BTreeMap<String, Superseded>,
     of_series: HashMap<String, (u32, Successor)>,
-    /// The SHA-256 that each successor supersedes, by its own.
+    /// SHA-256 of the superseded passport, by the SHA-256 of each successor.
     predecessors: HashMap<String, String>,
 }
 
-/// A passport that others supersede; it need not be there.
+/// Passport that others supersede; its own file may be missing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Superseded {
     id: String,
@@ -57,7 +58,7 @@ impl Successors {
             }
             let new = || Superseded { id: from.id.clone(), by: Vec::new() };
             let known = &mut successors.of_file.entry(from.sha256.clone()).or_insert_with(new).by;
-            // A copy of the same file is one successor, not two.
+            // A copy of the same file is not a second successor.
             if known.iter().all(|other| other.sha256 != successor.sha256) {
                 known.push(successor);
             }
@@ -65,8 +66,8 @@ impl Successors {
         successors
     }
 
-    /// An alarm for each passport with several successors, until all but one have been withdrawn. The passport itself need
-    /// not be there.
+    /// Returns an alarm for each passport with several successors that are not withdrawn. The file of the passport
+    /// itself may be missing.
     pub(super) fn forks(&self) -> Vec<Alarm> {
         let forks = self.of_file.values().filter(|superseded| superseded.is_forked());
         let mut alarms: Vec<Alarm> = forks.map(|superseded| forked(&superseded.id, &superseded.by)).collect();
@@ -74,7 +75,7 @@ impl Successors {
         alarms
     }
 
-    /// Whether several supersede an ancestor of the passport of this SHA-256.
+    /// Returns `true` if an ancestor of the passport with this SHA-256 has several successors.
     pub(super) fn is_of_a_fork(&self, sha256: &str) -> bool {
         let mut seen = BTreeSet::new();
         let mut ancestor = self.predecessors.get(sha256);
@@ -87,15 +88,15 @@ impl Successors {
         false
     }
 
-    /// Whether a file, known by its SHA-256, is superseded.
+    /// Returns `true` if the file with this SHA-256 is superseded.
     pub(super) fn has(&self, sha256: &str) -> bool {
         self.of_file.get(sha256).is_some_and(|superseded| superseded.by.iter().any(|successor| successor.issued))
     }
 
-    /// What supersedes a file, known by its SHA-256, or a revision of a series.
+    /// Returns the successor of a file, found by its SHA-256 or by its revision in a series; `None` if it has none.
     pub(super) fn by(&self, sha256: &str, series: &str, revision: u32) -> Option<&Successor> {
         let of_file = self.of_file.get(sha256).into_iter().flat_map(|superseded| &superseded.by);
-        // Of a fork the branch that was not withdrawn.
+        // Of several successors, prefer one that is not withdrawn.
         let of_file = of_file.filter(|successor| successor.issued).min_by_key(|successor| successor.withdrawn);
         let of_series = || {
             let (last, successor) = self.of_series.get(series)?;

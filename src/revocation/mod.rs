@@ -1,10 +1,10 @@
-//! The list of withdrawn passports (`dtg-revocation/1`): signed like a passport, in a namespace of its own.
+//! Lists of withdrawn passports (`dtg-revocation/1`), signed like passports but in a separate namespace.
 //!
-//! A revoked key and a revoked passport are different things: the first no longer speaks for anybody, the second was a
-//! mistake of an issuer whose key is still good.
+//! A revoked key and a withdrawn passport are different. A revoked key is no longer trusted for any document. A
+//! withdrawn passport was issued in error, and the issuer's key is still trusted.
 //!
-//! Each list repeats the entries of the one before it, until it would be larger than a document may be: the next one then
-//! begins with new entries alone and names the list that it continues. The entries of the whole chain count.
+//! Each list repeats the entries of its predecessor. If it would become larger than a document may be, the next list
+//! begins with new entries only and references the list that it continues. The entries of the whole chain apply.
 //!
 //! * `series`: all lists together.
 
@@ -19,16 +19,16 @@ use crate::text::{Path, Printable, Problems, canonical, record};
 use crate::trust::{AllowedSigners, BadIdentity, Message, NotAuthorised, RevokedKeys, SignatureError};
 use jiff::Timestamp;
 
-/// The format of a list.
+/// Format name of a list.
 pub(crate) const REVOCATION_FORMAT: &str = "dtg-revocation/1";
 
-/// Whether a file says that it is such a list.
+/// Returns `true` if the file states the format of such a list.
 pub(crate) fn claims_to_be_a_list(bytes: &[u8]) -> bool {
     let claim = b"format: \"dtg-revocation/";
     bytes.windows(claim.len()).any(|window| window == claim)
 }
 
-/// The namespace that lists are signed for.
+/// Namespace of the signatures of lists.
 pub(crate) const REVOCATION_NAMESPACE: &str = "dtg-revocation";
 
 record! {
@@ -75,110 +75,109 @@ record! {
     }
 }
 
-/// A list that was verified, with the SHA-256 of its file.
+/// Verified list of withdrawn passports, with the SHA-256 of its file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VerifiedList {
-    /// What it says.
+    /// Content of the list.
     pub list: RevocationList,
-    /// SHA-256 of its file, lower-case hexadecimal: by this another list names it.
+    /// SHA-256 of the file, in lower-case hexadecimal, by which another list references this one.
     pub sha256: String,
 }
 
-/// Room for the signature of a list, in bytes: those of tokens, which are the longest, need 500.
+/// Space reserved for the signature of a list, in bytes; signatures of tokens, which are the longest, need 500.
 const SIGNATURE_BYTES: usize = 1024;
 
-/// Why a list does not count.
+/// Reason why a list is not accepted.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ListRefused {
-    /// Its form is not good.
+    /// The form of the file is not correct.
     #[error("{}", .0.fault)]
     Malformed(Malformed),
     /// The text is not the one that was signed.
     #[error("{}: {error}", Printable(name))]
     Altered {
-        /// The file.
+        /// File name.
         name: String,
-        /// What is wrong.
+        /// Failure of the signature.
         error: SignatureError,
     },
-    /// Its content breaks a rule.
+    /// The content breaks a rule.
     #[error(transparent)]
     Content(#[from] Unreadable),
-    /// Its key does not count for its issuer.
+    /// The key is not trusted for the issuer of the list.
     #[error("{}: {miss}", Printable(name))]
     NotAuthorised {
-        /// The file.
+        /// File name.
         name: String,
-        /// Why.
+        /// Reason why the key is not trusted.
         miss: NotAuthorised,
     },
-    /// Its key was revoked.
+    /// The signing key was revoked.
     #[error("{}: its signing key was revoked: {}", Printable(name), Printable(why))]
     KeyRevoked {
-        /// The file.
+        /// File name.
         name: String,
-        /// Why.
+        /// Reason for the revocation.
         why: String,
     },
-    /// It was issued later than now.
+    /// The list was issued later than the time of verification.
     #[error("{}: issued at {issued_at}, which is later than {now}; check the clock", Printable(name))]
     FromTheFuture {
-        /// The file.
+        /// File name.
         name: String,
-        /// When it says it was issued.
+        /// Time of issue that the list states.
         issued_at: Timestamp,
-        /// The time asked about.
+        /// Time of verification.
         now: Timestamp,
     },
 }
 
-/// Why no new list was made.
+/// Reason why no new list was created.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoNewList {
-    /// The passport is on the list already.
+    /// The passport is already withdrawn.
     #[error("{id}: already withdrawn at {revoked_at}: {}", Printable(reason))]
     AlreadyRevoked {
-        /// The passport.
+        /// Identifier of the passport.
         id: String,
-        /// When.
+        /// Time of withdrawal.
         revoked_at: Timestamp,
-        /// Why.
+        /// Reason for the withdrawal.
         reason: String,
     },
-    /// The new list would be older than the last.
+    /// The new list would be dated before the last one.
     #[error("the new list would be issued at {now}, earlier than the last one at {last}; check the clock")]
     BeforeLast {
-        /// When it would be issued.
+        /// Time of issue of the new list.
         now: Timestamp,
-        /// When the last one was.
+        /// Time of issue of the last list.
         last: Timestamp,
     },
-    /// So many passports at once that a list of them alone is too large.
+    /// The new entries alone would make a list too large.
     #[error("{0} passports are too many for one list; withdraw them in several steps")]
     TooMany(usize),
-    /// A text that cannot be signed.
+    /// A text is empty or contains a character that cannot be signed.
     #[error("{0:?} is empty or contains a character that is not allowed in signed files")]
     BadText(String),
-    /// The issuer's name is none that allowed signers could give a key to.
+    /// The issuer's name cannot be a principal of allowed_signers.
     #[error(transparent)]
     Identity(#[from] BadIdentity),
-    /// The new list does not verify.
+    /// The new list failed verification.
     #[error("the new list failed verification ({0}); nothing was written")]
     Refused(#[from] ListRefused),
-    /// The signer gave no signature.
+    /// The signer produced no signature.
     #[error(transparent)]
     Signing(#[from] SigningFailed),
-    /// The signer gave a signature that does not hold.
+    /// The signer produced a wrong signature.
     #[error("verification of the new signature failed: {0}")]
     BadSignature(#[from] SignatureError),
 }
 
 impl ListRefused {
-    /// Returns `true` if the file is no whole list (steps 1 to 5), so that nobody can tell what it withdraws; `false`
-    /// if it
-    /// is one that does not count.
+    /// Returns `true` if the file is not a complete list (steps 1 to 5), so that its withdrawals are unknown; `false`
+    /// if it is a list that is not accepted.
     pub(crate) fn is_damage(&self) -> bool {
         matches!(self, Self::Malformed(_) | Self::Altered { .. } | Self::Content(_))
     }
@@ -191,10 +190,10 @@ impl std::fmt::Display for Entry {
 }
 
 impl RevocationList {
-    /// Verifies the bytes of a list as those of a passport are verified, and reads it.
+    /// Verifies the bytes of a list in the same way as those of a passport, and parses it.
     ///
     /// # Errors
-    /// See [`ListRefused`].
+    /// Returns [`ListRefused`] if the list is damaged, or its key is not trusted, or it is dated after `now`.
     pub fn verify(
         name: &str,
         bytes: &[u8],
@@ -248,12 +247,12 @@ impl RevocationList {
         }
     }
 
-    /// The name of its file. Of a list under another name somebody may want to be believed that it is newer.
+    /// Returns the file name of the list. Another name may be an attempt to make an old list look newer.
     pub(crate) fn file_name(&self) -> String {
         format!("revocation-{}.yaml", self.sequence)
     }
 
-    /// What is to be signed.
+    /// Returns the text to be signed.
     fn payload(&self) -> String {
         let comments = |path: &str| match path {
             "format" => vec![
@@ -266,15 +265,15 @@ impl RevocationList {
         canonical::write(self, &comments)
     }
 
-    /// Whether the signed file can be read again.
+    /// Returns `true` if the signed file is small enough to be read again.
     fn fits(&self) -> bool {
         self.payload().len() + SIGNATURE_BYTES <= LARGEST_DOCUMENT_BYTES
     }
 
-    /// The signed file.
+    /// Signs the list, verifies the new signature, and returns the whole file.
     ///
     /// # Errors
-    /// [`NoNewList::Signing`], [`NoNewList::BadSignature`].
+    /// Returns [`NoNewList::Signing`] if the signer fails, and [`NoNewList::BadSignature`] if its signature is wrong.
     pub fn sign(&self, signer: &dyn Signer) -> Result<String, NoNewList> {
         let payload = self.payload();
         let message = Message::new(REVOCATION_NAMESPACE, payload.as_bytes());
@@ -283,11 +282,11 @@ impl RevocationList {
         Ok(document::join(&payload, &signature))
     }
 
-    /// Returns the signed file, verified as those will verify it who have the lists of `signers` and `revoked_keys`: a
-    /// list that nobody can verify would withdraw nothing.
+    /// Signs the list and verifies it with `signers` and `revoked_keys`, because a list that its recipients cannot verify
+    /// would withdraw nothing. Returns the whole file.
     ///
     /// # Errors
-    /// Those of [`RevocationList::sign`], and [`NoNewList::Refused`].
+    /// Returns the errors of [`RevocationList::sign`], and [`NoNewList::Refused`] if the list fails verification.
     pub(crate) fn sign_for(
         &self,
         name: &str,

@@ -1,4 +1,4 @@
-//! All lists of withdrawn passports together: what they withdraw, what is wrong with them, and which comes next.
+//! Series of all lists of withdrawn passports: withdrawals, contradictions, and the next list.
 
 use super::{Continued, Entry, NoNewList, REVOCATION_FORMAT, RevocationList, VerifiedList};
 use crate::text::rule;
@@ -6,76 +6,77 @@ use crate::trust::check_identity;
 use jiff::Timestamp;
 use std::collections::{BTreeSet, HashMap};
 
-/// Verified lists in the order of their sequence numbers, and what is wrong with the series.
+/// Verified lists in the order of their sequence numbers, and the alarms of the series.
 ///
-/// A gap, two lists of one number, an entry that was lost again, or a time that steps back means that somebody shows old
-/// lists for new ones: an alarm. What any of the lists withdraws is withdrawn: nobody can tell which of contradicting lists
-/// is right, and what was withdrawn once must not come back in silence.
+/// A gap, two lists with one number, a lost entry or a step back in time raises an alarm, because old lists may be
+/// presented as new ones. Every withdrawal in any list applies. The program cannot tell which of two contradicting
+/// lists is right, and a withdrawn passport must not become valid again unnoticed.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Series {
     lists: Vec<VerifiedList>,
-    /// By SHA-256, the place of the list, and of the entry in it.
+    /// Index of the list and of the entry in it, by the SHA-256 of the passport.
     withdrawn: HashMap<String, (usize, usize)>,
     alarms: Vec<SeriesAlarm>,
 }
 
-/// What is wrong with a series of lists.
+/// Irregularity in a series of lists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SeriesAlarm {
-    /// Its beginning is not there.
+    /// The first lists are missing.
     #[error("gap: the series of revocation lists begins with {first}, not with 1")]
     Beginning {
-        /// The first list that is there.
+        /// Number of the first list that is present.
         first: u32,
     },
-    /// Lists in between are not there.
+    /// Lists in the middle are missing.
     #[error("gap: revocation list {from} is followed by {to}")]
     Gap {
-        /// The last list before it.
+        /// Number of the last list before the gap.
         from: u32,
-        /// The first list after it.
+        /// Number of the first list after the gap.
         to: u32,
     },
-    /// A list that another one continues is not there: what it withdraws is unknown.
+    /// A list that another one continues is missing, so its withdrawals are unknown.
     #[error(
         "revocation list {list} continues list {missing}, which is missing; the withdrawals of list {missing} are \
          unknown"
     )]
     Missing {
-        /// The list that continues it.
+        /// Number of the list that continues the missing one.
         list: u32,
-        /// The list that is continued.
+        /// Number of the missing list.
         missing: u32,
     },
-    /// Two lists have one number.
+    /// Two different lists have the same number.
     #[error("fork: two different revocation lists have the number {0}")]
     Fork(u32),
-    /// A later list was issued earlier.
+    /// A later list has an earlier time of issue.
     #[error("step back in time: revocation list {to} was issued earlier than list {from}")]
     StepBack {
-        /// The earlier list.
+        /// Number of the earlier list.
         from: u32,
-        /// The later list.
+        /// Number of the later list.
         to: u32,
     },
-    /// A later list has lost an entry.
+    /// A later list lacks an entry of an earlier one.
     #[error("revocation list {to} lacks an entry of list {from}")]
     LostEntry {
-        /// The earlier list.
+        /// Number of the earlier list.
         from: u32,
-        /// The later list.
+        /// Number of the later list.
         to: u32,
     },
 }
 
 impl SeriesAlarm {
-    /// Returns `true` if the lists contradict each other; otherwise some are only missing, as when single lists are shown.
+    /// Returns `true` if the lists contradict each other. Otherwise some are only missing, as when single lists are
+    /// given.
     pub(crate) fn is_contradiction(self) -> bool {
         !matches!(self, Self::Beginning { .. } | Self::Gap { .. } | Self::Missing { .. })
     }
 
-    /// Returns `true` if entries are missing that no list at hand repeats: then nobody can say that a passport is not
+    /// Returns `true` if entries are missing that no given list repeats. No passport can then be shown not to be
     /// withdrawn.
     pub(crate) fn is_unknown(self) -> bool {
         matches!(self, Self::Missing { .. })
@@ -83,7 +84,7 @@ impl SeriesAlarm {
 }
 
 impl Series {
-    /// Puts lists in order.
+    /// Creates the series of these lists, in any order.
     pub fn of(mut lists: Vec<VerifiedList>) -> Self {
         lists.sort_by(|a, b| {
             let key = |at: &VerifiedList| (at.list.sequence, at.list.issued_at);
@@ -94,19 +95,19 @@ impl Series {
         let mut withdrawn = HashMap::new();
         for (place, verified) in lists.iter().enumerate() {
             for (index, entry) in verified.list.entries.iter().enumerate() {
-                // The last word on a passport is that of the newest list.
+                // The entry of the newest list replaces earlier ones for the same passport.
                 withdrawn.insert(entry.sha256.clone(), (place, index));
             }
         }
         Self { lists, withdrawn, alarms }
     }
 
-    /// Returns the lists, so that others can be put in order with them.
+    /// Returns the lists, so that they can be put in order with others.
     pub(crate) fn into_lists(self) -> Vec<VerifiedList> {
         self.lists
     }
 
-    /// What is wrong.
+    /// Returns the alarms of the series.
     pub(crate) fn alarms(&self) -> &[SeriesAlarm] {
         &self.alarms
     }
@@ -116,23 +117,23 @@ impl Series {
         self.lists.last().map(|verified| &verified.list)
     }
 
-    /// How many passports are withdrawn.
+    /// Returns the number of withdrawn passports.
     pub(crate) fn count(&self) -> usize {
         self.withdrawn.len()
     }
 
-    /// Returns the entry of a passport by the SHA-256 of its file, or `None` if it is not withdrawn. Another file of the
-    /// same id is another passport: of two, one can be withdrawn and the other one stay.
+    /// Returns the entry of a passport by the SHA-256 of its file, or `None` if it is not withdrawn. Another file with
+    /// the same id is another passport, which need not be withdrawn.
     pub(crate) fn entry(&self, sha256: &str) -> Option<&Entry> {
         let &(place, index) = self.withdrawn.get(sha256)?;
         self.lists.get(place)?.list.entries.get(index)
     }
 
-    /// Returns the list that follows: the entries of the newest one, and these. Where that would be too large to be read
-    /// again it has these alone, and continues the newest one. Without any list it is the first.
+    /// Creates the next list: the entries of the newest list, followed by `new`. If that would be too large to be read
+    /// again, the next list has only `new`, and continues the newest list. Without any list, it is the first.
     ///
     /// # Errors
-    /// See [`NoNewList`].
+    /// Returns [`NoNewList`] if an entry cannot be added or the list would be too large.
     pub fn following(&self, issuer: &str, now: Timestamp, new: Vec<Entry>) -> Result<RevocationList, NoNewList> {
         check_identity(issuer)?;
         let texts = new.iter().flat_map(|entry| [&entry.id, &entry.reason]);
@@ -173,7 +174,7 @@ impl Series {
     }
 }
 
-/// What is wrong with lists in the order of their numbers.
+/// Returns the alarms of lists that are in the order of their numbers.
 fn alarms(lists: &[VerifiedList]) -> Vec<SeriesAlarm> {
     let first = lists.first().map(|first| first.list.sequence).filter(|first| *first != 1);
     let mut alarms: Vec<SeriesAlarm> = first.map(|first| SeriesAlarm::Beginning { first }).into_iter().collect();
@@ -204,16 +205,16 @@ fn alarms(lists: &[VerifiedList]) -> Vec<SeriesAlarm> {
     alarms
 }
 
-/// The list that another one continues, if it is there.
+/// Returns the list that `list` continues, or `None` if it is not present.
 fn continued_by<'l>(lists: &'l [VerifiedList], list: &RevocationList) -> Option<&'l RevocationList> {
     let Continued { sequence, sha256 } = list.continues.as_ref()?;
     let there = lists.iter().find(|other| other.list.sequence == *sequence && other.sha256 == *sha256)?;
     Some(&there.list)
 }
 
-/// Whether an entry of an earlier list is nowhere in the chain of a later one. Of a chain that is not whole nobody knows.
+/// Returns `true` if the chain of the later list is complete and lacks an entry of the earlier one.
 fn has_lost(lists: &[VerifiedList], earlier: &RevocationList, later: &RevocationList) -> bool {
-    // The numbers of a chain only fall, so that it has an end.
+    // The numbers in a chain decrease, so the chain ends.
     let chain = std::iter::successors(Some(later), |list| continued_by(lists, list));
     let (mut entries, mut whole) = (BTreeSet::new(), true);
     for list in chain {
@@ -242,7 +243,7 @@ mod tests {
         VerifiedList { list, sha256: format!("{sequence:0>32}{second:0>32}") }
     }
 
-    /// The same, with the entries of an earlier list.
+    /// Returns `list` as the continuation of an earlier list.
     fn continuing(mut list: VerifiedList, earlier: &VerifiedList) -> VerifiedList {
         let (sequence, sha256) = (earlier.list.sequence, earlier.sha256.clone());
         list.list.continues = Some(Continued { sequence, sha256 });
@@ -307,7 +308,7 @@ mod tests {
         assert_eq!(series.alarms(), []);
         assert_eq!(series.count(), 4);
         assert!(["a", "b", "c", "d"].iter().all(|id| series.entry(&entry(id).sha256).is_some()));
-        // A list of a chain that nothing continues is missed as little as one of a series is.
+        // As in a series, a missing list that no other list continues is not a contradiction.
         let single = Series::of(vec![fourth.clone(), first.clone(), third.clone()]);
         assert!(!single.alarms().iter().any(|alarm| alarm.is_contradiction() || alarm.is_unknown()));
     }
@@ -317,7 +318,7 @@ mod tests {
         let first = list(1, 100, &["a"]);
         let second = continuing(list(2, 200, &["b"]), &first);
         let third = continuing(list(3, 300, &["c"]), &second);
-        // A list of the same number is not the one that is named.
+        // A list with the same number but another SHA-256 is not the referenced one.
         let other = VerifiedList { sha256: "f".repeat(64), ..first.clone() };
         for lists in [
             vec![second.clone()],
@@ -349,7 +350,7 @@ mod tests {
             assert!(text.len() <= LARGEST_DOCUMENT_BYTES, "{} bytes", text.len());
             RevocationList::verify("list", text.as_bytes(), &signers, &[], now).unwrap()
         };
-        // An entry has some 150 bytes, with this reason 1.1 kB: fewer than 950 fit into 1 MiB.
+        // An entry has about 150 bytes, or 1.1 kB with this reason, so fewer than 950 fit into 1 MiB.
         let batch = |names: std::ops::Range<usize>| -> Vec<Entry> {
             names.map(|name| Entry { reason: "why ".repeat(240), ..entry(&format!("{name}")) }).collect()
         };
