@@ -1,19 +1,21 @@
-//! The line of a file that a mistake stands in, as a terminal shows it.
+//! Line of a file with an error, as a terminal shows it.
 
 use super::Printable;
 use super::problem::Location;
 use std::fmt::{self, Display, Formatter};
 
-/// Characters shown, and how many of them before the place: with number and indentation they fit 100 columns.
+/// Number of characters shown, and how many of them precede the error; with line number and indentation, they fit in
+/// 100 columns.
 const MOST: usize = 76;
 const BEFORE: usize = 46;
 
-/// What stands where a line is cut.
+/// Mark at the end of a shortened line.
 const CUT: &str = "…";
 
-/// A line around the place of a mistake, cut where it is long, without any character that a terminal would obey.
+/// Line around the place of an error, shortened if necessary, without any character that a terminal would interpret.
 ///
-/// Displayed as two lines without a line feed at the end: the source with its line number, and a mark under the place.
+/// It is displayed as two lines without a line feed at the end: the source with its line number, and a mark below the
+/// place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Excerpt {
     line: usize,
@@ -50,7 +52,7 @@ impl Display for Excerpt {
     }
 }
 
-/// Returns `true` if a terminal draws `c` over two columns, among the characters that [`Printable`] shows as they are.
+/// Returns `true` if `c` is two columns wide in a terminal, for the characters that [`Printable`] shows unescaped.
 fn is_wide(c: char) -> bool {
     matches!(c, '\u{3001}'..='\u{30FF}' | '\u{4E00}'..='\u{9FFF}' | '\u{AC00}'..='\u{D7A3}' | '\u{FF01}'..='\u{FF5E}')
 }
@@ -74,7 +76,7 @@ mod tests {
         assert_eq!(Excerpt::new(b"a\n", Location { line: 0, column: 0 }), None);
     }
 
-    /// Two columns each, by Unicode's UAX #11 (wide and fullwidth); Cyrillic letters have one.
+    /// Each has two columns, by Unicode's UAX #11 (wide and fullwidth); Cyrillic letters have one.
     #[test]
     fn wide_characters_do_not_shift_the_mark() {
         assert_eq!(shown("名: \"東京\" x", 1, 9), format!("1 | 名: \"東京\" x\n  | {:11}^", ""));

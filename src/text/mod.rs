@@ -1,16 +1,16 @@
-//! The text of every document: strict YAML in, one canonical form out, errors that point into the file.
+//! Text of documents: strict YAML input, canonical output, and errors with their location in the file.
 //!
-//! * `rule`: what a signed text may contain, and how a string is written: writer and reader of the rule side by side.
-//! * `number`: how a number is written.
-//! * `canonical`: the one form that content is written in, and its reader.
-//! * `sink`: what a document is written into.
-//! * `node`: a document as a tree.
-//! * `record`: from that tree to a Rust struct and back, every mistake reported, not only the first.
+//! * `rule`: allowed content of signed texts, form of strings, and the check of both.
+//! * `number`: form of numbers.
+//! * `canonical`: canonical form of content, and its reader.
+//! * `sink`: destinations of a document.
+//! * `node`: documents as trees.
+//! * `record`: conversion of trees to Rust structs and back; every error is reported, not only the first.
 //! * `scalar`: identifiers, dates and times.
 //! * `table`: tables of numbers (CSV).
-//! * `yaml`: hand-written YAML to a tree, with the place of every value found again when an error needs it.
-//! * `printable`: text of others among the program's own words.
-//! * `problem`: what is wrong, where, what was expected, what to do; `excerpt`: the line in which.
+//! * `yaml`: conversion of hand-written YAML to a tree; the location of a value is found again if an error needs it.
+//! * `printable`: safe display of text from other sources.
+//! * `problem`: location, found content, expected content and advice of an error; `excerpt`: its line.
 
 pub(crate) mod canonical;
 pub(crate) mod excerpt;
@@ -33,7 +33,7 @@ pub(crate) use problem::{Path, Problems};
 pub(crate) use record::{Field, record};
 pub use scalar::Identifier;
 
-/// The largest document that is read at all, in bytes.
+/// Size of the largest document that is read, in bytes.
 ///
-/// A stand with a thousand positions takes a fifth of it; what is larger is not a document of this project.
+/// A stand with a thousand positions needs a fifth of it; a larger file is not a document of this project.
 pub const LARGEST_DOCUMENT_BYTES: usize = 1 << 20;

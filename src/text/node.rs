@@ -1,31 +1,31 @@
-//! A document as a tree: every key kept in order (duplicates too), JSON out.
+//! Documents as trees: every key is kept in order, including duplicates. Trees are serialised as JSON.
 
 use super::problem::{Location, Problems, Unreadable};
 use super::sink::Sink;
 use super::{Field, LARGEST_DOCUMENT_BYTES, Path};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// A value of a document.
+/// Value in a document.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Node {
-    /// Nothing after the colon.
+    /// Empty value after a colon.
     Null,
-    /// `true` or `false`.
+    /// Boolean, `true` or `false`.
     Bool(bool),
-    /// A whole number without point or exponent.
+    /// Whole number without point or exponent.
     Integer(i64),
-    /// A number with a point or an exponent.
+    /// Number with a point or an exponent.
     Number(f64),
-    /// A string.
+    /// String.
     Text(String),
-    /// A list.
+    /// List.
     List(Vec<Node>),
-    /// A mapping in the order of the text; a key that stands twice is kept twice.
+    /// Mapping in the order of the text; a duplicate key is kept twice.
     Map(Vec<(String, Node)>),
 }
 
 impl Node {
-    /// What it is, in the words of a message: its value when that is short, else its kind.
+    /// Describes the value for a message: the value itself if it is short, otherwise its kind.
     pub(crate) fn describe(&self) -> String {
         match self {
             Node::Null => "nothing".to_owned(),
@@ -39,7 +39,7 @@ impl Node {
         }
     }
 
-    /// The value under `key` of a mapping.
+    /// Returns the value under `key` of a mapping, or `None` if there is none.
     pub(crate) fn get(&self, key: &str) -> Option<&Node> {
         match self {
             Node::Map(entries) => entries.iter().find(|(name, _)| name == key).map(|(_, value)| value),
@@ -48,7 +48,7 @@ impl Node {
     }
 }
 
-/// The bytes as text, when they are UTF-8 without a byte order mark and with LF alone.
+/// Returns the bytes as text if they are UTF-8 without a byte order mark and have LF line endings only.
 pub(crate) fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
     let refuse = |location, found: &str, expected: &str, advice: &str| {
         Err(Unreadable::whole(name, location, found, expected, advice))
@@ -88,13 +88,13 @@ pub(crate) fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unr
     Ok(text)
 }
 
-/// Whether the bytes are UTF-16, with a byte order mark or without one: no text begins with a NUL or has one behind its
-/// first character.
+/// Returns `true` if the bytes are UTF-16, with or without a byte order mark: other text does not have NUL as exactly
+/// one of its first two bytes.
 pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
     matches!(bytes, [0xFE, 0xFF, ..] | [0xFF, 0xFE, ..] | [0, 1..=255, ..] | [1..=255, 0, ..])
 }
 
-/// The place just after `before`, which must be valid UTF-8.
+/// Returns the location just after `before`, which must be valid UTF-8.
 pub(crate) fn location_of(before: &[u8]) -> Location {
     let line_start = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |at| at + 1);
     Location {
@@ -103,7 +103,7 @@ pub(crate) fn location_of(before: &[u8]) -> Location {
     }
 }
 
-/// Any value is a field: a document whose keys are not known.
+/// Any value is a field, so that a document with unknown keys can be read.
 impl Field for Node {
     fn read(node: &Node, _: &Path, _: &mut Problems) -> Option<Self> {
         Some(node.clone())
@@ -152,5 +152,5 @@ impl Serialize for Node {
     }
 }
 
-/// The most opening brackets, those in strings too: a passport of the largest size has some 18,000.
+/// Maximum number of opening brackets, including those in strings; a passport of the largest size has about 18,000.
 pub(super) const MOST_BRACKETS: usize = 25_000;

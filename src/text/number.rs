@@ -1,19 +1,20 @@
-//! The one way in which a number is written.
+//! Canonical form of numbers.
 
-/// A binary64 value as every YAML reader reads it back, bit for bit.
+/// Writes a binary64 value so that every YAML reader reads it back bit for bit.
 ///
-/// The shortest decimal that gives the value back, always with a point; with an exponent of a sign and at least two
-/// digits below 1e-4 and from 1e16 on (`1.0e-06`: PyYAML and Psych read `1e-6` as a string).
+/// The text is the shortest decimal that gives the value back, always with a decimal point. Below 1e-4 and from 1e16 it
+/// has an exponent with a sign and at least two digits (`1.0e-06`, because PyYAML and Psych read `1e-6` as a string).
 ///
 /// # Panics
-/// Never for a finite value; a value that is not finite is not a number of any document, and refused before.
+/// Only in debug builds, if the value is not finite. Documents cannot contain such a value, because it is refused
+/// earlier.
 pub(crate) fn decimal(value: f64) -> String {
     let mut text = String::new();
     write(value, |part| text.push_str(part));
     text
 }
 
-/// The same in parts.
+/// Writes a value as [`decimal`] does, in parts.
 pub(super) fn write(value: f64, mut push: impl FnMut(&str)) {
     debug_assert!(value.is_finite(), "only finite numbers are written");
     let magnitude = value.abs();
@@ -28,7 +29,7 @@ pub(super) fn write(value: f64, mut push: impl FnMut(&str)) {
         return push_parts(&digits, push);
     }
     match shortest.strip_prefix('-').unwrap_or(shortest).strip_prefix("0.0000") {
-        // From 1e-5 to 1e-4.
+        // Magnitude below 1e-4 and not below 1e-5.
         Some(digits) if !plain => {
             let (first, others) = digits.split_at(1);
             push(if value < 0.0 { "-" } else { "" });
@@ -42,7 +43,7 @@ pub(super) fn write(value: f64, mut push: impl FnMut(&str)) {
     }
 }
 
-/// A number in digits of the rule, from the digits of any other form.
+/// Writes a number in canonical form from the digits of another form.
 fn push_parts(digits: &str, mut push: impl FnMut(&str)) {
     let (mantissa, exponent) = digits.split_once('e').map_or((digits, None), |(m, e)| (m, Some(e)));
     push(mantissa);
@@ -55,11 +56,11 @@ fn push_parts(digits: &str, mut push: impl FnMut(&str)) {
     }
 }
 
-/// Whether a value may lie exactly between two decimals of so many places: then zmij takes the even one and the standard
-/// library the larger, which is what has always been written.
+/// Returns `true` if a value may lie exactly between two decimals with as many places. zmij then takes the even one and
+/// the standard library the larger one, which this program has always written.
 ///
-/// odd/2^f = (2k + 1)/(2·10^d) needs f = d + 1; and shortest decimals of d places are no coarser than the value's own
-/// steps of 2^-52 of it, which ends at f = 25.
+/// An odd/2^f = (2k + 1)/(2·10^d) needs f = d + 1. Shortest decimals with d places are no coarser than the value's own
+/// steps, 2^-52 of it, so f is at most 25.
 fn may_be_midway(value: f64, shortest: &str) -> bool {
     const MOST_BINARY_PLACES: i64 = 25;
     let bits = value.to_bits();
@@ -123,7 +124,7 @@ mod tests {
                 assert_eq!(decimal(value), due(value), "{:x}", value.to_bits());
             }
         }
-        // Midway between two decimals of sixteen digits.
+        // These values lie midway between two decimals of sixteen digits.
         for value in [-8_895_655_562_136_013.0 / 4.0, 1_073_741_825.0 / 2048.0, 1_125_899_906_842_624.125] {
             assert_eq!(decimal(value), due(value));
         }

@@ -1,29 +1,29 @@
-//! Text of others among the program's own words: names, labels, paths and reasons are shown, and do nothing.
+//! Safe display of text from other sources: names, labels, paths and reasons.
 //!
-//! A file's name, or a label in a signature that nobody has verified, could hold a line that looks like a verdict, a
-//! terminal's commands, or characters that turn or hide what stands beside them. So whatever is not the program's own
-//! passes through [`Printable`] into a message, and every message and result through [`outgoing`] or [`json`] on its way
-//! out, where only line feeds and emphasis are left of what a terminal obeys.
+//! A file name, or a label in an unverified signature, could contain a line that looks like a result, terminal
+//! commands, or characters that reverse or hide the text next to them. Therefore [`Printable`] escapes all foreign text
+//! in a message. In addition, every message and result is written through [`outgoing`] or [`json`], which keep only
+//! line feeds and emphasis of all that a terminal interprets.
 
 use super::rule;
 use serde::Serialize;
 use std::fmt::{self, Display, Formatter, Write};
 use std::path::{self, Path};
 
-/// What the program draws or writes beyond the characters of a signed text: superscripts, subscripts, bars, and what
-/// stands for bytes that are no text.
+/// Returns `true` for the characters that the program writes beyond those of signed texts: superscripts, subscripts,
+/// bars, and the replacement character for invalid bytes.
 fn drawn(c: char) -> bool {
     matches!(c, '\u{2070}'..='\u{209C}' | '\u{2500}'..='\u{259F}' | '\u{FFFD}')
 }
 
-/// Whether a character is shown as it is: it can be seen, stands alone, and turns nothing round.
+/// Returns `true` if a character is shown unescaped: it is visible, stands alone, and reverses no text.
 fn visible(c: char) -> bool {
     rule::allowed_in_string(c) || drawn(c)
 }
 
-/// Displays a value on one line, every character that cannot be seen as Rust would write it (`\n`, `\u{202e}`).
+/// Wrapper that displays a value on one line and escapes every invisible character as Rust does (`\n`, `\u{202e}`).
 ///
-/// What is printable already stays as it is: to escape it twice does no harm.
+/// Escaping an escaped text again does not change it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Printable<T>(pub T);
 
@@ -33,22 +33,22 @@ impl<T: Display> Display for Printable<T> {
     }
 }
 
-/// The text as [`Printable`] displays it.
+/// Returns the text as [`Printable`] displays it.
 pub(crate) fn printable(text: impl Display) -> String {
     Printable(text).to_string()
 }
 
-/// A path for a message.
+/// Returns a path for a message.
 pub(crate) fn shown(path: &Path) -> Printable<path::Display<'_>> {
     Printable(path.display())
 }
 
-/// A path as the name of a document: a value, which is escaped where it goes out.
+/// Returns a path as the name of a document. The name is not escaped; messages escape it.
 pub(crate) fn name_of(path: &Path) -> String {
     path.display().to_string()
 }
 
-/// Writes on, what is not `kept` escaped.
+/// Writer that escapes every character that the function rejects.
 struct Escaping<'a, W>(&'a mut W, fn(char) -> bool);
 
 impl<W: Write> Write for Escaping<'_, W> {
@@ -63,15 +63,15 @@ impl<W: Write> Write for Escaping<'_, W> {
     }
 }
 
-/// A page, in which besides line feeds the blanks of typesetting are kept: U+00A0, U+2002, U+202F.
+/// Escapes a page. Besides line feeds, it keeps the typographic spaces U+00A0, U+2002 and U+202F.
 pub(crate) fn page(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
-    // A string takes all that is written.
+    // Writing into a string cannot fail.
     let _ = Escaping(&mut shown, |c| visible(c) || "\n\u{A0}\u{2002}\u{202F}".contains(c)).write_str(text);
     shown
 }
 
-/// A result or a message on its way out, of which line feeds are kept, and `codes`, the emphasis of a terminal.
+/// Escapes a result or a message before output, except line feeds and `codes`, the emphasis of a terminal.
 pub(crate) fn outgoing(text: &str, codes: &[&str]) -> String {
     let mut shown = String::with_capacity(text.len());
     let mut rest = text;
@@ -85,12 +85,12 @@ pub(crate) fn outgoing(text: &str, codes: &[&str]) -> String {
     shown
 }
 
-/// A value as JSON, its strings to the character, those that cannot be seen as `\uXXXX`.
+/// Returns a value as JSON, with its strings unchanged and invisible characters as `\uXXXX`.
 ///
 /// # Errors
-/// When the value cannot be written as JSON.
+/// Returns an error if the value cannot be written as JSON.
 pub(crate) fn json(value: &impl Serialize) -> Result<String, serde_json::Error> {
-    // Outside of strings JSON is ASCII.
+    // Outside strings, JSON is ASCII.
     let text = serde_json::to_string_pretty(value)?;
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

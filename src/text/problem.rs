@@ -1,23 +1,23 @@
-//! What is wrong in a document, where, what was expected there, and what to do.
+//! Errors in documents: location, found content, expected content and advice.
 
 use super::Printable;
 use super::excerpt::Excerpt;
 use std::fmt::{self, Display, Formatter};
 
-/// The way from the top of a document to one of its values, such as `positions[3].alpha_arcsec`.
+/// Path from the top of a document to one of its values, such as `positions[3].alpha_arcsec`.
 ///
-/// It borrows its parent, so that walking a good document allocates nothing. Items of a list count from 0.
+/// A path borrows its parent, so that reading a correct document allocates no memory. Items of a list count from 0.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Path<'a> {
-    /// The document itself.
+    /// Top of the document.
     Root,
-    /// A key of a mapping.
+    /// Key of a mapping.
     Key(&'a Path<'a>, &'a str),
-    /// An item of a list, counted from 0.
+    /// Item of a list, counted from 0.
     Item(&'a Path<'a>, usize),
 }
 
-/// One step of a [`Path`], owned.
+/// Step of a [`Path`], owned.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Step {
     Key(String),
@@ -25,17 +25,17 @@ pub(crate) enum Step {
 }
 
 impl<'a> Path<'a> {
-    /// The value under `key`.
+    /// Returns the path of the value under `key`.
     pub(crate) fn key(&'a self, key: &'a str) -> Path<'a> {
         Path::Key(self, key)
     }
 
-    /// The item `index` of a list, counted from 0.
+    /// Returns the path of the item `index` of a list, counted from 0.
     pub(crate) fn item(&'a self, index: usize) -> Path<'a> {
         Path::Item(self, index)
     }
 
-    /// The last key on the way, which carries the unit of a number.
+    /// Returns the last key on the path, which carries the unit of a number.
     pub(crate) fn last_key(&self) -> &str {
         match self {
             Path::Root => "",
@@ -70,7 +70,7 @@ impl Display for Path<'_> {
     }
 }
 
-/// Where in the tree a mistake is: at a value, or at the n-th key of a mapping (a key may stand there twice).
+/// Place of an error in the tree: a value, or the n-th key of a mapping (a key may be there twice).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Target {
     pub(crate) steps: Vec<Step>,
@@ -86,18 +86,18 @@ pub struct Location {
     pub column: usize,
 }
 
-/// One mistake in a document.
+/// Error in a document.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
-    /// Where it stands, when it stands anywhere (a missing key is placed at the mapping that lacks it).
+    /// Location in the text, or `None` if unknown; a missing key is located at the mapping that lacks it.
     pub location: Option<Location>,
-    /// The field, as `positions[3].alpha_arcsec`; empty when the mistake is not in a field.
+    /// Field, such as `positions[3].alpha_arcsec`; empty if the error is not in a field.
     pub field: String,
-    /// What was found.
+    /// Found content.
     pub found: String,
-    /// What was expected.
+    /// Expected content.
     pub expected: String,
-    /// What to do about it; empty when that says itself.
+    /// Advice; empty if the remedy is obvious.
     pub advice: String,
 }
 
@@ -110,25 +110,25 @@ impl Display for Problem {
     }
 }
 
-/// The most mistakes of a document that are reported, each with its place.
+/// Maximum number of errors reported for a document, each with its location.
 pub(crate) const MOST_PROBLEMS: usize = 50;
 
-/// How much is read again to find those places, once the text for each: of a text so large that it comes to more, fewer
-/// mistakes are reported. A hostile text of a hundred thousand mistakes must not keep its reader busy for hours.
+/// Maximum number of bytes read again to locate errors. Each location needs the text once more, so fewer errors are
+/// reported for large texts. A hostile text with a hundred thousand errors must not occupy the program for hours.
 #[cfg(feature = "factory")]
 const READ_AGAIN_BYTES: usize = 1 << 22;
 
-/// The most mistakes of a document that are displayed.
+/// Maximum number of errors displayed for a document.
 const SHOWN: usize = 20;
 
-/// What is found where a key is missing.
+/// Found content of a missing key.
 const MISSING: &str = "missing";
 
-/// What stands for the mistakes that are not reported one by one.
+/// Found content that represents all errors that are not reported separately.
 const FURTHER: &str = "further errors";
 const CORRECT_FIRST: &str = "correct the errors above first";
 
-/// Mistakes collected while a document is read; [`Problems::refuse`] finds their lines and columns.
+/// Errors collected while a document is read; [`Problems::refuse`] finds their lines and columns.
 #[derive(Debug, Default)]
 pub(crate) struct Problems {
     found: Vec<(Option<Target>, Problem)>,
@@ -136,22 +136,22 @@ pub(crate) struct Problems {
 }
 
 impl Problems {
-    /// Nothing is wrong so far.
+    /// Creates an empty collection of errors.
     pub(crate) fn new() -> Self {
         Self::default()
     }
 
-    /// Whether nothing is wrong so far.
+    /// Returns `true` if there is no error so far.
     pub(crate) fn is_empty(&self) -> bool {
         self.found.is_empty()
     }
 
-    /// Whether no further mistake will be reported: [`MOST_PROBLEMS`] are noted, and that there are more.
+    /// Returns `true` if more than [`MOST_PROBLEMS`] errors were found; further ones are not recorded.
     pub(crate) fn is_full(&self) -> bool {
         self.more
     }
 
-    /// Notes that the value at `at` is `found` where `expected` was due.
+    /// Records that the value at `at` is `found` instead of `expected`.
     pub(crate) fn at(
         &mut self,
         at: &Path,
@@ -162,7 +162,7 @@ impl Problems {
         self.push(at, None, found.into(), expected.into(), advice.into());
     }
 
-    /// Notes a mistake in the n-th key (from 0) of the mapping at `at`.
+    /// Records an error in the n-th key (from 0) of the mapping at `at`.
     pub(crate) fn at_entry(
         &mut self,
         at: &Path,
@@ -174,13 +174,13 @@ impl Problems {
         self.push(at, Some(entry), found.into(), expected.into(), advice.into());
     }
 
-    /// Notes that the mapping at `at` lacks `key`; its place is the mapping's.
+    /// Records that the mapping at `at` lacks `key`; the location is that of the mapping.
     pub(crate) fn missing(&mut self, at: &Path, key: &str, expected: impl Into<String>, advice: impl Into<String>) {
         let target = Target { steps: at.steps(), entry: None };
         self.note(target, at.key(key).to_string(), MISSING.to_owned(), expected.into(), advice.into());
     }
 
-    /// Says of the key `field`, where it was found missing, what belongs there and what to do.
+    /// Replaces expected content and advice of the key `field` if it was recorded as missing.
     #[cfg(feature = "factory")]
     pub(crate) fn expect_missing(&mut self, field: &str, expected: &str, advice: &str) {
         let missing = self.found.iter_mut().find(|(_, problem)| problem.field == field && problem.found == MISSING);
@@ -190,7 +190,7 @@ impl Problems {
         }
     }
 
-    /// Notes a number that is there and not within `low..=high`.
+    /// Records an error if the number is present and not within `low..=high`.
     pub(crate) fn within(&mut self, at: &Path, value: Option<f64>, low: f64, high: f64) {
         let Some(value) = value else { return };
         if !(low..=high).contains(&value) {
@@ -203,7 +203,7 @@ impl Problems {
     }
 
     fn push(&mut self, at: &Path, entry: Option<usize>, found: String, expected: String, advice: String) {
-        // Walking on in a document that is wrong throughout is to cost no more than a comparison.
+        // Further errors in a document with many errors must cost no more than a comparison.
         if self.found.len() == MOST_PROBLEMS {
             self.more = true;
             return;
@@ -219,15 +219,15 @@ impl Problems {
         self.found.push((Some(target), Problem { location: None, field, found, expected, advice }));
     }
 
-    /// Returns the refusal of the hand-written document `name` whose text is `text`: the first mistakes with their lines
-    /// and columns, in the order of the text, and that there are more when there are.
+    /// Returns the refusal of the hand-written document `name` with the given `text`: the first errors with their lines
+    /// and columns, in the order of the text, and a note if there are more.
     #[cfg(feature = "factory")]
     pub(crate) fn refuse(self, name: &str, text: &str) -> Unreadable {
         let affordable = (READ_AGAIN_BYTES / text.len().max(1)).max(1);
         self.refused(name, affordable, |target| super::yaml::locate(text, target))
     }
 
-    /// Returns the refusal of the signed document `name`: its mistakes by their fields.
+    /// Returns the refusal of the signed document `name`, with its errors by field.
     pub(crate) fn refuse_by_field(self, name: &str) -> Unreadable {
         self.refused(name, MOST_PROBLEMS, |_| None)
     }
@@ -249,20 +249,21 @@ impl Problems {
     }
 }
 
-/// A document that cannot be read as what it should be: its name and every mistake found.
+/// Refused document: its name and the errors found.
 ///
-/// Displayed as one line a mistake, text of others escaped, `name:line:column: field: found …, expected …; what to do`. Of very many mistakes the
-/// first ones are shown, and that there are more: then it is mostly another file.
+/// It is displayed with one line per error, in the form `name:line:column: field: found …, expected …; advice`; foreign
+/// text in it is escaped. If there are very many errors, which mostly means that it is another file, only the first
+/// ones are displayed, with a note that there are more.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unreadable {
     name: String,
     problems: Vec<Problem>,
-    /// The lines of the first problems, as far as the text is known: see [`Unreadable::in_text`].
+    /// Lines of the first errors, if the text is known: see [`Unreadable::in_text`].
     excerpts: Vec<Option<Excerpt>>,
 }
 
 impl Unreadable {
-    /// A document refused as a whole, or at one place.
+    /// Creates the refusal of a whole document, or of one place in it.
     pub(crate) fn whole(
         name: &str,
         location: Option<Location>,
@@ -280,16 +281,16 @@ impl Unreadable {
         Self::of(name, vec![problem])
     }
 
-    /// Several mistakes, their places already known.
+    /// Creates a refusal with several errors whose locations are already known.
     pub(crate) fn of(name: &str, problems: Vec<Problem>) -> Self {
         Self { name: name.to_owned(), problems, excerpts: Vec::new() }
     }
 
-    /// Returns the same refusal with the lines of `bytes`, the document, for [`Unreadable::with_lines`].
+    /// Returns the refusal with the lines of `bytes`, the document, for [`Unreadable::with_lines`].
     ///
-    /// The lines of a private key stay out: messages end in logs.
+    /// Lines of a private key are left out, because messages end up in logs.
     pub(crate) fn in_text(mut self, bytes: &[u8]) -> Self {
-        // A byte order mark is no part of the first line.
+        // A byte order mark is not part of the first line.
         let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         if memchr::memmem::find(text, b"PRIVATE KEY").is_none() {
             let excerpt = |problem: &Problem| problem.location.and_then(|at| Excerpt::new(text, at));
@@ -298,7 +299,7 @@ impl Unreadable {
         self
     }
 
-    /// Returns the messages as they are displayed, `remark` at their end, each with the line of the file beneath it.
+    /// Returns the messages as displayed, followed by `remark`, each with the line of the file below it.
     pub(crate) fn with_lines(&self, remark: &str) -> String {
         let messages = format!("{self}{remark}");
         let mut excerpts = self.excerpts.iter().map(Option::as_ref).peekable();
@@ -306,19 +307,19 @@ impl Unreadable {
         for message in messages.split('\n') {
             text += if text.is_empty() { "" } else { "\n" };
             text += message;
-            // Several mistakes at one place have one line.
+            // Errors at the same place share one line.
             let excerpt = excerpts.next().flatten().filter(|own| excerpts.peek() != Some(&Some(*own)));
             text += &excerpt.map_or_else(String::new, |excerpt| format!("\n{excerpt}"));
         }
         text
     }
 
-    /// The document's name.
+    /// Returns the name of the document.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Every mistake, in the order of the text as far as their places are known.
+    /// Returns the errors, in the order of the text as far as their locations are known.
     pub fn problems(&self) -> &[Problem] {
         &self.problems
     }

@@ -1,44 +1,44 @@
-//! From a [`Node`] to a Rust struct and back, from one declaration: what `record!` declares is the format.
+//! Conversion of a [`Node`] to a Rust struct and back; the declaration in `record!` defines the format.
 
 use super::canonical::Scanner;
 use super::sink::{Sink, Tree};
 use super::{Node, Path, Problems};
 use std::collections::HashSet;
 
-/// A type that a field of a document can have.
+/// Type of a field of a document.
 pub(crate) trait Field: Sized + Clone + Send + Sync + 'static {
-    /// Reads it; `None` when something is wrong, which is then in `problems`.
+    /// Reads a value; returns `None` after an error, which is then in `problems`.
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self>;
 
-    /// Its value when the key is absent; `None` when the key is required.
+    /// Returns the value of an absent key, or `None` if the key is required.
     fn absent() -> Option<Self> {
         None
     }
 
-    /// What is expected under `key`, in the words of a message.
+    /// Describes the expected value of `key`, for a message.
     fn expected(_key: &str) -> String {
         "a mapping".to_owned()
     }
 
-    /// Whether its key is left out.
+    /// Returns `true` if the key is omitted.
     fn is_absent(&self) -> bool {
         false
     }
 
-    /// Whether it is written as a mapping.
+    /// Returns `true` if the value is written as a mapping.
     fn is_mapping(&self) -> bool {
         false
     }
 
-    /// Writes it; nothing when its key is left out.
+    /// Writes the value; writes nothing if its key is omitted.
     fn emit<S: Sink>(&self, sink: &mut S);
 
-    /// It as a tree; `None` when the key is left out.
+    /// Converts the value to a tree, or returns `None` if the key is omitted.
     fn write(&self) -> Option<Node> {
         Tree::of(self)
     }
 
-    /// Reads it from a text in canonical form; `None` when something is wrong, or is not canonical.
+    /// Reads a value from a text in canonical form; returns `None` after an error, or if the text is not canonical.
     fn scan(scanner: &mut Scanner) -> Option<Self> {
         Self::read(&scanner.scalar()?, &Path::Root, &mut Problems::new())
     }
@@ -46,7 +46,7 @@ pub(crate) trait Field: Sized + Clone + Send + Sync + 'static {
 
 /// Declares a struct whose fields are the keys of a mapping, in the order in which they are written.
 ///
-/// A field of type `Option` may be absent, every other is required; unknown and double keys are refused.
+/// A field of type `Option` may be absent; every other field is required. Unknown and duplicate keys are refused.
 macro_rules! record {
     ($(#[$about:meta])* pub struct $name:ident { $($(#[$doc:meta])* pub $field:ident : $type:ty,)* }) => {
         $(#[$about])*
@@ -79,7 +79,7 @@ macro_rules! record {
             }
         }
 
-        /// With the keys of the file.
+        /// Serialises the record with the keys of the file.
         impl serde::Serialize for $name {
             fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 serde::Serialize::serialize(&$crate::text::Field::write(self), serializer)
@@ -87,7 +87,7 @@ macro_rules! record {
         }
 
         impl $name {
-            /// Writes its keys into a mapping that may also have others.
+            /// Writes the keys of the record into a mapping that may also have others.
             pub(crate) fn emit_entries<S: $crate::text::sink::Sink>(&self, sink: &mut S) {
                 $(if !$crate::text::Field::is_absent(&self.$field)
                     && sink.key(const { $crate::text::record::key(stringify!($field)) })
@@ -96,7 +96,7 @@ macro_rules! record {
                 })*
             }
 
-            /// Reads it from a mapping that also has the keys `beside`, which somebody else reads.
+            /// Reads the record from a mapping that also has the keys `beside`, which the caller reads.
             pub(crate) fn read_beside(
                 node: &$crate::text::Node,
                 beside: &[&str],
@@ -114,7 +114,7 @@ macro_rules! record {
 }
 pub(crate) use record;
 
-/// The key that a field's name stands for: `type` is a word of Rust, so its field is `r#type`.
+/// Returns the key of a field. `type` is a reserved word of Rust, so its field is `r#type`.
 pub(crate) const fn key(field: &str) -> &str {
     match field.as_bytes() {
         [b'r', b'#', ..] => field.split_at(2).1,
@@ -122,7 +122,7 @@ pub(crate) const fn key(field: &str) -> &str {
     }
 }
 
-/// The entries of a mapping, once unknown and double keys have been reported.
+/// Returns the entries of a mapping after reporting unknown and duplicate keys.
 pub(crate) fn entries<'n>(
     node: &'n Node,
     at: &Path,
@@ -170,10 +170,10 @@ fn unknown_key_advice(entries: &[(String, Node)], index: usize, key: &str, value
     }
 }
 
-/// From this Jaro-Winkler similarity on, an unknown key is taken for a slip of a known one.
+/// Jaro-Winkler similarity from which an unknown key is taken for a misspelt known one.
 const ALIKE: f64 = 0.85;
 
-/// Reads the field `key`, or its value when absent.
+/// Reads the field `key`, or returns its default if it may be absent.
 pub(crate) fn read_field<T: Field>(
     entries: &[(String, Node)],
     key: &str,
@@ -189,7 +189,7 @@ pub(crate) fn read_field<T: Field>(
     }
 }
 
-/// What a number under `key` means: the unit is in the key.
+/// Describes the expected number under `key`, whose suffix is the unit.
 fn expected_number(key: &str) -> String {
     const UNITS: [(&str, &str); 12] = [
         ("_deg_per_h_per_g2", "in degrees per hour per g squared"),
@@ -214,7 +214,7 @@ fn expected_number(key: &str) -> String {
 impl Field for f64 {
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
         match node {
-            // Adding zero turns -0.0 into 0.0, the only zero that a document knows.
+            // Adding zero turns -0.0 into 0.0, the only zero that a document can contain.
             Node::Number(value) if value.is_finite() => Some(*value + 0.0),
             Node::Integer(value) => Some(*value as f64),
             other => {
@@ -233,7 +233,7 @@ impl Field for f64 {
     }
 
     fn scan(scanner: &mut Scanner) -> Option<Self> {
-        // Adding zero as above.
+        // Adding zero turns -0.0 into 0.0.
         scanner.number().filter(|value| value.is_finite()).map(|value| value + 0.0)
     }
 }
@@ -326,7 +326,7 @@ impl Field for String {
     }
 }
 
-/// The first character that no string of a signed document may hold.
+/// Returns the first character that no string of a signed document may contain, or `None` if there is none.
 fn refused_in_string(text: &str) -> Option<char> {
     let plain = super::rule::is_printable_ascii(text.as_bytes());
     text.chars().find(|&c| !plain && !super::rule::allowed_in_string(c))

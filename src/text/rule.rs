@@ -1,14 +1,14 @@
-//! The text rule of signed documents: what they may contain, and the one way in which content is written.
+//! Text rule of signed documents: their allowed content and its canonical form.
 //!
-//! Every YAML 1.1 and 1.2 reader finds the same content in such a text, to the last bit of every number. The
-//! writer ([`quoted`], [`number`](super::number)) and the reader of the rule ([`check`], [`differs`]) stand side by side.
+//! Every YAML 1.1 and 1.2 reader finds the same content in such a text, to the last bit of every number. This module
+//! contains both the writer ([`quoted`], [`number`](super::number)) and the check of the rule ([`check`], [`differs`]).
 
 use super::node::{location_of, plain_text};
 use super::problem::Unreadable;
 use std::ops::RangeInclusive;
 
-/// Characters beyond ASCII that a quoted string may hold: letters, punctuation and symbols that are drawn alone,
-/// from left to right, and that no YAML reader takes for a line end.
+/// Characters beyond ASCII that a quoted string may contain: letters, punctuation and symbols that are drawn alone and
+/// from left to right, and that no YAML reader takes for a line ending.
 const BEYOND_ASCII: [RangeInclusive<char>; 22] = [
     '\u{00A1}'..='\u{00AC}',
     '\u{00AE}'..='\u{02AF}',
@@ -34,12 +34,12 @@ const BEYOND_ASCII: [RangeInclusive<char>; 22] = [
     '\u{FF01}'..='\u{FF5E}',
 ];
 
-/// Whether a string of a signed document may hold `c`.
+/// Returns `true` if a string of a signed document may contain `c`.
 pub(crate) fn allowed_in_string(c: char) -> bool {
     (' '..='~').contains(&c) || BEYOND_ASCII.iter().any(|range| range.contains(&c))
 }
 
-/// Whether `c` may stand outside strings and comments: keys, numbers, `true`, `false` and the brackets need no more.
+/// Returns `true` if `c` is allowed outside strings and comments: in keys, numbers, `true`, `false` and brackets.
 fn allowed_outside(c: char) -> bool {
     c.is_ascii_lowercase() || c.is_ascii_digit() || " _:,{}[]+-.".contains(c)
 }
@@ -58,7 +58,7 @@ pub(super) fn write_quoted(text: &str, mut push: impl FnMut(&str)) {
     push("\"");
 }
 
-/// Checks the bytes against the rule, before anything is parsed; gives the text.
+/// Checks the bytes against the rule before anything is parsed, and returns the text.
 pub(crate) fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
     let text = plain_text(name, bytes)?;
     if !text.ends_with('\n') {
@@ -87,14 +87,14 @@ pub(crate) fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadab
     Ok(text)
 }
 
-/// Whether all bytes are printable ASCII.
+/// Returns `true` if all bytes are printable ASCII.
 pub(super) fn is_printable_ascii(bytes: &[u8]) -> bool {
-    // To the end in any case: so the compiler looks at many at once.
+    // Do not stop at the first other byte, so that the compiler can test many bytes at once.
     bytes.iter().fold(true, |good, byte| good & (b' '..=b'~').contains(byte))
 }
 
-/// Whether a text obeys the rule as far as can be told from many bytes at once: of one with an escape in a string it
-/// cannot, nor of one with a line that might be a document marker.
+/// Returns `true` if a fast check of many bytes at once shows that a text obeys the rule. It returns `false` for other
+/// texts, and also for those with an escape in a string or a line that might be a document marker.
 fn obeys_at_first_sight(text: &str) -> bool {
     let mut rest = text;
     let mut at_line_start = true;
@@ -126,8 +126,8 @@ fn obeys_at_first_sight(text: &str) -> bool {
     may_stand_outside(rest.as_bytes(), at_line_start)
 }
 
-/// Whether lines, or the rest of one, hold only characters that [`allowed_outside`] lets through, and none begins as a
-/// document marker does.
+/// Returns `true` if lines, or the rest of a line, contain only characters that [`allowed_outside`] accepts, and none
+/// begins like a document marker.
 fn may_stand_outside(bytes: &[u8], at_line_start: bool) -> bool {
     const fn may(byte: u8) -> bool {
         matches!(byte, b'a'..=b'{' | b'0'..=b':' | b'+'..=b'.' | b' ' | b'[' | b']' | b'_' | b'}' | b'\n')
@@ -146,7 +146,7 @@ fn may_stand_outside(bytes: &[u8], at_line_start: bool) -> bool {
     if at_line_start && bytes.first().is_some_and(|byte| marks(*byte)) {
         return false;
     }
-    // Whole blocks to their end: so the compiler looks at all bytes of one at once.
+    // Do not stop within a block, so that the compiler can test all of its bytes at once.
     let (blocks, others) = bytes.as_chunks::<32>();
     let all_may = |block: &[u8; 32]| block.iter().fold(true, |all, byte| all & may(*byte));
     let (next_blocks, _) = bytes.get(1..).unwrap_or_default().as_chunks::<32>();
@@ -159,9 +159,11 @@ fn may_stand_outside(bytes: &[u8], at_line_start: bool) -> bool {
         && !bytes[32 * next_blocks.len()..].windows(2).any(|pair| begins(pair[0], pair[1]))
 }
 
-/// The byte offset of the first character of a line that breaks the rule, what it is, and what was expected.
+/// Returns the first character of a line that breaks the rule: byte offset, description and expected content. Returns
+/// `None` if the line obeys the rule.
 fn first_fault(line: &str) -> Option<(usize, String, &'static str)> {
-    // Of allowed characters alone, but with what follows another document: readers differ in which one they give.
+    // A document marker has only allowed characters, but starts another document, and readers differ in which one they
+    // return.
     if let Some(marker) = ["---", "..."].into_iter().find(|marker| line.starts_with(marker)) {
         return Some((0, format!("document marker `{marker}`"), "a document without markers"));
     }
@@ -195,7 +197,8 @@ fn named(c: char) -> String {
     }
 }
 
-/// Where `text`, its comments and blank lines aside, differs from `canonical`: line number, found, expected.
+/// Returns the first difference of `text`, without comments and empty lines, from `canonical`: line number, found
+/// content and expected content. Returns `None` if they are equal.
 pub(crate) fn differs(text: &str, canonical: &str) -> Option<(usize, String, String)> {
     let mut expected = canonical.lines();
     let content = text
@@ -214,7 +217,7 @@ pub(crate) fn differs(text: &str, canonical: &str) -> Option<(usize, String, Str
     expected.next().map(|missing| (text.lines().count() + 1, "the end of the file".to_owned(), shortened(missing)))
 }
 
-/// A line as a message shows it.
+/// Returns a line as messages show it.
 pub(super) fn shortened(line: &str) -> String {
     const LONGEST: usize = 100;
     if line.chars().count() <= LONGEST {
@@ -264,8 +267,8 @@ mod tests {
         }
     }
 
-    /// Every character of a few blocks between neighbours, outside of strings, inside and in comments, on the first line,
-    /// between two and on the last: first sight agrees with the closer look.
+    /// Tests every character of a few blocks between neighbours: outside strings, inside them and in comments, on the
+    /// first, a middle and the last line. The fast check must agree with the full check.
     #[test]
     fn first_sight_sees_what_a_closer_look_sees() {
         let around =
@@ -277,11 +280,11 @@ mod tests {
                 for text in [format!("{line}\n"), format!("b: \"c\"\n{line}\n# d\n"), format!("b: 1\n{line}\n{line}\n")]
                 {
                     let obeys = text.lines().all(|line| first_fault(line).is_none());
-                    // What `lines` does not show is an end of line with a carriage return.
+                    // `lines` hides a line ending with a carriage return.
                     let obeys = obeys && !text.contains('\r');
                     let first_sight = obeys_at_first_sight(&text);
                     assert!(!first_sight || obeys, "{text:?}");
-                    // Escapes, and lines that begin with a mark but are no markers, need the closer look.
+                    // Escapes, and lines that begin like a document marker, need the full check.
                     let simple = !text.contains('\\') && !text.lines().any(|line| line.starts_with(['-', '.']));
                     assert!(!simple || first_sight == obeys, "{text:?}");
                     seen += usize::from(first_sight);
@@ -289,7 +292,7 @@ mod tests {
             }
         }
         assert!(seen > 1000, "{seen}");
-        // Wherever in a block.
+        // Test every position in a block.
         for length in 0..100 {
             let line = "a".repeat(length);
             assert!(obeys_at_first_sight(&format!("{line}\n  - b\n")));

@@ -1,4 +1,4 @@
-//! Texts with a form of their own: identifiers, dates, times, digests.
+//! Texts with a prescribed form: identifiers, dates, times and digests.
 
 use super::sink::Sink;
 use super::{Field, Node, Path, Problems};
@@ -8,13 +8,13 @@ use jiff::tz::TimeZone;
 use sha2::{Digest, Sha256};
 use std::fmt;
 
-/// A name that becomes a folder or file name on every system: `[A-Za-z0-9][A-Za-z0-9._-]{0,63}` without `..`, without a dot
-/// at the end, and not one that Windows reserves.
+/// Name that can be a folder or file name on every system: `[A-Za-z0-9][A-Za-z0-9._-]{0,63}` without `..`, without a
+/// dot at the end, and not reserved by Windows.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(transparent))]
 pub struct Identifier(#[cfg_attr(feature = "cli", schemars(regex(pattern = PATTERN)))] String);
 
-/// The same as a regular expression.
+/// Regular expression of an [`Identifier`].
 #[cfg(feature = "cli")]
 const PATTERN: &str = concat!(
     r"^(?!.*\.\.)(?!.*\.$)",
@@ -22,12 +22,12 @@ const PATTERN: &str = concat!(
     r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}$"
 );
 
-/// Names of devices that Windows finds in every folder, whatever follows them after a dot ("Naming Files, Paths, and
-/// Namespaces", learn.microsoft.com); those of ports end with a digit more.
+/// Device names that Windows reserves in every folder, with or without an extension ("Naming Files, Paths, and
+/// Namespaces", learn.microsoft.com); names of ports have one more digit.
 const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
 const PORTS: [&str; 2] = ["com", "lpt"];
 
-/// Whether Windows takes a name for a device.
+/// Returns `true` if Windows takes a name for a device.
 fn is_device(text: &str) -> bool {
     let name = text.split('.').next().unwrap_or_default().to_ascii_lowercase();
     let is_port = |port: &&str| name.strip_prefix(*port).is_some_and(|rest| matches!(rest.as_bytes(), [b'0'..=b'9']));
@@ -35,10 +35,10 @@ fn is_device(text: &str) -> bool {
 }
 
 impl Identifier {
-    /// The identifier `text`, or in words what is wrong with it.
+    /// Creates the identifier `text`.
     ///
     /// # Errors
-    /// What was found, for a message that goes on "expected …".
+    /// Returns a description of the fault, which completes a message "found …, expected …".
     pub fn new(text: &str) -> Result<Self, String> {
         let odd = text.chars().find(|&c| !c.is_ascii_alphanumeric() && !"._-".contains(c));
         if let Some(odd) = odd {
@@ -55,7 +55,7 @@ impl Identifier {
         }
     }
 
-    /// The identifier as text.
+    /// Returns the identifier as text.
     pub fn as_str(&self) -> &str {
         &self.0
     }
@@ -149,10 +149,10 @@ impl Field for Timestamp {
     }
 }
 
-/// The first and the last second of a UTC day, both included.
+/// Returns the first and the last second of a UTC day, both included.
 ///
-/// The calendar is a little longer than the instants that can be told apart: "9999-12-31", a last day for what never
-/// ends, is their end.
+/// The calendar of dates is slightly longer than the range of timestamps. "9999-12-31", an expiry date for unlimited
+/// validity, ends with the last timestamp.
 pub(crate) fn day(date: Date) -> (Timestamp, Timestamp) {
     let beyond = if date.year() > 0 { Timestamp::MAX } else { Timestamp::MIN };
     let start = TimeZone::UTC.to_timestamp(date.at(0, 0, 0, 0)).unwrap_or(beyond);
@@ -160,14 +160,14 @@ pub(crate) fn day(date: Date) -> (Timestamp, Timestamp) {
     (start, Timestamp::from_second(end).unwrap_or(Timestamp::MAX))
 }
 
-/// SHA-256 of a file, lower-case hexadecimal.
+/// Computes the SHA-256 of a file, in lower-case hexadecimal.
 pub(crate) fn sha256_hex(bytes: &[u8]) -> String {
     const DIGITS: [char; 16] = ['0', '1', '2', '3', '4', '5', '6', '7', '8', '9', 'a', 'b', 'c', 'd', 'e', 'f'];
     let halves = |byte: u8| [byte >> 4, byte & 0xF].map(|half| DIGITS[usize::from(half)]);
     Sha256::digest(bytes).into_iter().flat_map(halves).collect()
 }
 
-/// Whether a text has the form that [`sha256_hex`] gives.
+/// Returns `true` if a text has the form that [`sha256_hex`] returns.
 pub(crate) fn is_sha256_hex(text: &str) -> bool {
     text.len() == 64 && text.bytes().all(|byte| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte))
 }

@@ -1,30 +1,30 @@
-//! What a document is written into, value by value: a text in canonical form, or a tree.
+//! Destination of a document, written value by value: a text in canonical form, or a tree.
 
 use super::{Field, Node};
 
-/// Takes the values of a document in their order.
+/// Destination of the values of a document, in their order.
 ///
-/// One walk over the fields of a record ([`Field::emit`]) serves every form that a document is written in.
+/// One pass over the fields of a record ([`Field::emit`]) serves every form in which a document is written.
 pub(crate) trait Sink: Sized {
-    /// Nothing.
+    /// Writes an empty value.
     fn null(&mut self);
-    /// `true` or `false`.
+    /// Writes `true` or `false`.
     fn boolean(&mut self, value: bool);
-    /// A whole number.
+    /// Writes a whole number.
     fn integer(&mut self, value: i64);
-    /// A binary64 number, finite.
+    /// Writes a finite binary64 number.
     fn number(&mut self, value: f64);
-    /// A string.
+    /// Writes a string.
     fn text(&mut self, value: &str);
-    /// A list.
+    /// Writes a list.
     fn list<T: Field>(&mut self, items: &[T]);
-    /// A mapping; `entries` gives its keys, each followed by its value, and none when it is `empty`.
+    /// Writes a mapping. `entries` writes each key and its value; if `empty` is `true`, it writes none.
     fn mapping(&mut self, empty: bool, entries: impl FnOnce(&mut Self));
-    /// The key of the value that follows; `false` when both are to be left out.
+    /// Writes the key of the next value; returns `false` if both are to be omitted.
     fn key(&mut self, key: &str) -> bool;
 }
 
-/// Builds a [`Node`].
+/// Builder of a [`Node`].
 #[derive(Default)]
 pub(super) struct Tree {
     keys: Vec<String>,

@@ -1,15 +1,15 @@
-//! Tables of numbers (CSV): a header of column names in any order, `#` comments, every mistake with its place.
+//! Tables of numbers (CSV): a header of column names in any order, `#` comments, and every error with its location.
 //!
-//! A table comes from a meter's software or a spreadsheet and is signed by nobody: CR LF and a byte order mark, which
-//! those write, are taken as they are. A column that nobody asked for is left out of account and named, unless its name
-//! looks like a slip. Semicolons and decimal commas are refused and named, for what they mean depends on the reader's
-//! country.
+//! Tables come from a meter's software or a spreadsheet and are not signed. CR LF and a byte order mark, which such
+//! programs write, are therefore accepted. An unknown column is ignored and reported, unless its name looks like a
+//! misspelt one. Semicolons and decimal commas are refused with an explanation, because their meaning depends on the
+//! country of the reader.
 
 use super::node::plain_text;
 use super::problem::{Location, MOST_PROBLEMS, Problem, Unreadable};
 use std::collections::BTreeMap;
 
-/// A table: its rows of cells, in the order of the columns asked for.
+/// Table: rows of cells, in the order of the requested columns.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Table<'a> {
     name: &'a str,
@@ -20,27 +20,27 @@ pub(crate) struct Table<'a> {
     left_out: Vec<String>,
 }
 
-/// A row of a table.
+/// Row of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Row {
-    /// One cell for each column asked for that is there.
+    /// Cells, one for each requested column that is present.
     pub cells: Vec<Cell>,
 }
 
-/// A cell: its text, blanks around it removed, and its place.
+/// Cell: its text without surrounding spaces, and its location.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Cell {
-    /// What stands there, without the quotes of a quoted cell.
+    /// Text, without the quotes of a quoted cell.
     pub text: String,
-    /// Where.
+    /// Location of the cell.
     pub location: Location,
 }
 
 impl<'a> Table<'a> {
-    /// Reads the table `name` that must have the `required` columns and may have the `optional` ones, in any order.
+    /// Reads the table `name`, which must have the `required` columns and may have the `optional` ones, in any order.
     ///
     /// # Errors
-    /// [`Unreadable`] with every mistake in form; what the cells mean is the caller's.
+    /// Returns [`Unreadable`] with every error in the form. The caller checks the content of the cells.
     pub(crate) fn read(
         name: &'a str,
         bytes: &'a [u8],
@@ -83,7 +83,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Names the columns that are left out of account, in words; `None` when there are none.
+    /// Returns a remark that lists the ignored columns, or `None` if there are none.
     pub(crate) fn remark(&self) -> Option<String> {
         let names: Vec<String> = self.left_out.iter().map(|name| format!("{name:?}")).collect();
         let (words, are) = if names.len() == 1 { ("column", "is") } else { ("columns", "are") };
@@ -91,12 +91,12 @@ impl<'a> Table<'a> {
         (!names.is_empty()).then(|| format!("{name}: the {words} {} {are} ignored", names.join(", ")))
     }
 
-    /// The place of a column among the cells of a row; `None` for an optional one that is not there.
+    /// Returns the index of a column in the cells of a row, or `None` for an optional column that is absent.
     pub(crate) fn place(&self, column: &str) -> Option<usize> {
         self.columns.iter().position(|name| *name == column)
     }
 
-    /// A finite number in a cell; a mistake is added to `problems`.
+    /// Returns the finite number in a cell, or adds an error to `problems` and returns `None`.
     pub(crate) fn number(&self, row: &Row, column: usize, problems: &mut Vec<Problem>) -> Option<f64> {
         let cell = &row.cells[column];
         match cell.text.parse::<f64>() {
@@ -114,7 +114,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// A whole number from 1 in a cell; a mistake is added to `problems`.
+    /// Returns the whole number, 1 or larger, in a cell, or adds an error to `problems` and returns `None`.
     pub(crate) fn index(&self, row: &Row, column: usize, problems: &mut Vec<Problem>) -> Option<u32> {
         let cell = &row.cells[column];
         let index = cell.text.parse::<u32>().ok().filter(|&index| index > 0);
@@ -124,7 +124,7 @@ impl<'a> Table<'a> {
         index
     }
 
-    /// A mistake at a cell.
+    /// Creates the report of an error in a cell.
     pub(crate) fn problem(&self, cell: &Cell, column: usize, found: String, expected: &str, advice: &str) -> Problem {
         Problem {
             location: Some(cell.location),
@@ -135,17 +135,18 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// The refusal of this table. Of many cells that want the same advice the first is shown, the others are counted.
+    /// Returns the refusal of this table. If many cells need the same advice, only the first is shown, with the number
+    /// of others.
     pub(crate) fn refuse(&self, problems: Vec<Problem>) -> Unreadable {
         Unreadable::of(self.name, counted(problems)).in_text(self.bytes)
     }
 }
 
-/// From so many cells that want the same advice on, the first stands for all.
+/// Number of cells with the same advice from which only the first is shown.
 const ALIKE: usize = 4;
 
 fn counted(problems: Vec<Problem>) -> Vec<Problem> {
-    // Of every advice: the place of its first cell, how many cells there are, the line of the last one.
+    // For each advice: the index of its first cell, the number of cells, and the line of the last one.
     let mut alike: BTreeMap<String, (usize, usize, usize)> = BTreeMap::new();
     let cell = |problem: &Problem| problem.location.filter(|_| !problem.field.is_empty() && !problem.advice.is_empty());
     for (place, problem) in problems.iter().enumerate() {
@@ -169,7 +170,7 @@ fn counted(problems: Vec<Problem>) -> Vec<Problem> {
     shown.collect()
 }
 
-/// The bytes as text, byte order mark and CR LF taken away.
+/// Returns the bytes as text, without byte order mark and with LF line endings.
 fn decoded(name: &str, bytes: &[u8]) -> Result<String, Unreadable> {
     let bytes = bytes.strip_prefix(&[0xEF, 0xBB, 0xBF]).unwrap_or(bytes);
     let mut plain = Vec::with_capacity(bytes.len());
@@ -181,7 +182,7 @@ fn decoded(name: &str, bytes: &[u8]) -> Result<String, Unreadable> {
     plain_text(name, &plain).map(str::to_owned)
 }
 
-/// The cells of a line; one that begins with a quote ends with one and may hold commas, and quotes doubled (RFC 4180).
+/// Returns the cells of a line. A quoted cell may contain commas, and quotes written twice (RFC 4180).
 fn cells(line: usize, text: &str) -> Result<Vec<Cell>, Problem> {
     let mut cells = Vec::new();
     let mut rest = Some(text);
@@ -202,8 +203,8 @@ fn cells(line: usize, text: &str) -> Result<Vec<Cell>, Problem> {
     Ok(cells)
 }
 
-/// The text of a quoted cell, behind its first quote, and what follows the cell: nothing, or a comma and more. `None`
-/// when it has no last quote, or something else follows that.
+/// Returns the text of a quoted cell, given from after its first quote, and the rest of the line: nothing, or a comma
+/// and more. Returns `None` if the last quote is missing or something else follows it.
 fn unquoted(quoted: &str) -> Option<(String, &str)> {
     let (mut text, mut rest) = (String::new(), quoted);
     loop {
@@ -230,14 +231,14 @@ fn bad_quotes(location: Location) -> Problem {
     }
 }
 
-/// The header of a table.
+/// Header of a table.
 struct Header<'a> {
-    /// The columns asked for that are there.
+    /// Requested columns that are present.
     columns: Vec<&'a str>,
-    /// Where each of them stands in a line.
+    /// Index of each of these columns in a line.
     order: Vec<usize>,
     left_out: Vec<String>,
-    /// Cells of a line.
+    /// Number of cells in a line.
     width: usize,
 }
 
@@ -303,13 +304,13 @@ impl<'a> Header<'a> {
     }
 }
 
-/// Units that a column's name may end with.
+/// Units that the name of a column may end with.
 const UNITS: [&str; 22] = [
     "s", "ms", "us", "ns", "min", "h", "a", "ma", "ua", "na", "v", "mv", "uv", "deg", "rad", "mrad", "urad", "arcsec",
     "arcmin", "gon", "ppm", "percent",
 ];
 
-/// The known column that `found` is a slip of: two letters off at most, or with another unit or none.
+/// Returns the known column that `found` misspells: at most two letters differ, or the unit is different or missing.
 fn meant<'a>(known: &[&'a str], found: &str) -> Option<&'a str> {
     let found = found.to_lowercase();
     let distance = |column: &str| strsim::damerau_levenshtein(column, &found);

@@ -1,4 +1,4 @@
-//! Hand-written YAML to a tree through `serde_yaml`, with the line and column of every mistake.
+//! Conversion of hand-written YAML to a tree with `serde_yaml`, with the line and column of every error.
 
 use super::node::{MOST_BRACKETS, location_of, plain_text};
 use super::problem::{Location, Problems, Step, Target, Unreadable};
@@ -9,8 +9,8 @@ use std::fmt;
 
 /// Reads one YAML document.
 ///
-/// `name` is the file's name, for messages. Refused are: more than [`super::LARGEST_DOCUMENT_BYTES`], bytes that are
-/// no UTF-8, a byte order mark, CR, and whatever `serde_yaml` cannot read (with line and column).
+/// `name` is the file name used in messages. Refused are documents larger than [`super::LARGEST_DOCUMENT_BYTES`], bytes
+/// that are not UTF-8, a byte order mark, CR, and anything that `serde_yaml` cannot read (with line and column).
 pub(crate) fn tree(name: &str, bytes: &[u8]) -> Result<(Node, String), Unreadable> {
     let text = plain_text(name, bytes)?;
     if text.lines().all(|line| line.trim_start().is_empty() || line.trim_start().starts_with('#')) {
@@ -25,8 +25,8 @@ pub(crate) fn tree(name: &str, bytes: &[u8]) -> Result<(Node, String), Unreadabl
     }
 }
 
-/// The YAML reader refuses control characters too, but gives a position that no editor shows. Separators end a line, and
-/// so a comment, for YAML 1.1 and not for YAML 1.2.
+/// Refuses control characters. The YAML reader refuses them too, but reports a position that no editor shows. Unicode
+/// separators are refused because they end a line, and so a comment, in YAML 1.1 but not in YAML 1.2.
 fn refuse_control_characters(name: &str, text: &str) -> Result<(), Unreadable> {
     const SEPARATORS: [char; 2] = ['\u{2028}', '\u{2029}'];
     let refused = |c: char| (c.is_control() && !"\n\t".contains(c)) || SEPARATORS.contains(&c);
@@ -44,7 +44,7 @@ fn unreadable_yaml(name: &str, error: &serde_yaml::Error) -> Unreadable {
     if let Some(at) = words.find(" at line ") {
         words.truncate(at);
     }
-    // What the reader could read but does not, in words that name what is in the file.
+    // The parser could read these constructs, but they are refused; the message describes what is in the file.
     let (found, advice) = match words.as_str() {
         deep if deep.ends_with("recursion limit exceeded") => {
             ("values nested too deeply", "check that this is the right file")
@@ -62,30 +62,30 @@ fn unreadable_yaml(name: &str, error: &serde_yaml::Error) -> Unreadable {
     Unreadable::whole(name, location, found, "a plain YAML mapping", advice)
 }
 
-/// Finds the line and column of a mistake by reading the text again up to it.
+/// Finds the line and column of an error by reading the text again up to it.
 ///
-/// `serde_yaml` tells the place of an error and of nothing else; so this reader makes an error at the target.
+/// `serde_yaml` reports only the location of errors, so this function raises an error at the target.
 pub(crate) fn locate(text: &str, target: &Target) -> Option<Location> {
     let probe = Probe { steps: &target.steps, entry: target.entry };
     let error = probe.deserialize(serde_yaml::Deserializer::from_str(text)).err()?;
     error.location().map(|at| Location { line: at.line(), column: at.column() })
 }
 
-/// The most brackets in each other that any document may have; a position's matrix in a list needs four.
+/// Maximum nesting of brackets in a document; a position's matrix in a list needs four.
 const DEEPEST: usize = 64;
 
-/// The most values: so many in any text, and one more for every so many bytes. A stand of 4,000 positions has a sixth of
-/// its bytes; what has more is no document.
+/// Maximum number of values: a base number, and one more for each given number of bytes. A stand of 4,000 positions has
+/// one value for every six bytes; a file with more values than the limit is not a document of this project.
 const MOST_VALUES: (usize, usize) = (25_000, 5);
 
-/// Refuses brackets in more than [`DEEPEST`] others, strings and comments aside, more than [`MOST_BRACKETS`] in all, and
-/// more than [`MOST_VALUES`].
+/// Refuses brackets nested deeper than [`DEEPEST`] outside strings and comments, more than [`MOST_BRACKETS`] brackets
+/// in total, and more than [`MOST_VALUES`] values.
 ///
-/// The parser looks at every open bracket at every token: a million of them would keep it busy for minutes. For every
-/// value it keeps some hundred bytes, twice that while it makes room: a text of nothing but commas would take two hundred
-/// times its size. A string is taken to end with its line, as every string of a signed text does, and any quote to begin
-/// one. A quote inside a plain word begins none and so hides the brackets behind it: so the numbers in all count what is
-/// in strings too.
+/// The parser examines every open bracket at every token, so a million of them would occupy it for minutes. It keeps a
+/// few hundred bytes for each value, and twice that while it grows, so a text of commas alone would need two hundred
+/// times its size. This check assumes that a string ends with its line, as in signed texts, and that any quote begins a
+/// string. A quote inside a plain word does not begin one, and so hides the brackets after it. The total numbers
+/// therefore include the content of strings.
 fn refuse_deep(name: &str, text: &str) -> Result<(), Unreadable> {
     let refuse = |line: usize, column: usize, found: String| {
         let at = Some(Location { line: line + 1, column: column + 1 });
@@ -95,7 +95,7 @@ fn refuse_deep(name: &str, text: &str) -> Result<(), Unreadable> {
     let (mut depth, mut opened, mut values) = (0_usize, 0_usize, 0_usize);
     for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with('#')) {
         let (mut in_string, mut escaped) = (false, false);
-        // A comma without a colon since the last one can end two values: in braces a key that has none.
+        // A comma with no colon since the last comma can end two values, because a key in braces may have no value.
         let mut paired = false;
         values += 1;
         for (column, c) in line.chars().enumerate() {
@@ -129,15 +129,15 @@ fn refuse_deep(name: &str, text: &str) -> Result<(), Unreadable> {
     Ok(())
 }
 
-/// What is said when that is too much.
+/// Error message for a document that exceeds its [`Budget`].
 const REPEATED: &str = "aliases that repeat too much";
 
-/// What may still be built: aliases make much out of little.
+/// Amount that may still be built, which limits aliases, because they can make a small text very large.
 struct Budget(Cell<usize>);
 
 impl Budget {
-    /// Every value and every byte of a string takes room in the text, unless an alias repeats it: without aliases no
-    /// document needs as much.
+    /// Creates the budget of a text. Every value and every byte of a string takes space in the text unless an alias
+    /// repeats it, so no document without aliases needs this much.
     fn of(text: &str) -> Self {
         Self(Cell::new(4 * text.len() + 64))
     }
@@ -153,7 +153,7 @@ impl Budget {
     }
 }
 
-/// Builds the tree.
+/// Deserialiser of the whole tree.
 #[derive(Clone, Copy)]
 struct Whole<'a>(&'a Budget);
 
@@ -202,7 +202,8 @@ impl<'de> Visitor<'de> for Whole<'_> {
         while let Some(key) = map.next_key_seed(self)? {
             let key = match key {
                 Node::Text(key) => key,
-                // `alpha_arcsec: 12,4` inside braces is a key 4 without a value: kept, and refused by name.
+                // In braces, `alpha_arcsec: 12,4` contains a key 4 without a value. It is kept, so that it is refused
+                // by name.
                 Node::Integer(key) => key.to_string(),
                 other => return Err(de::Error::custom(format!("{} as a key", other.describe()))),
             };
@@ -212,7 +213,7 @@ impl<'de> Visitor<'de> for Whole<'_> {
     }
 }
 
-/// Reads to the target and fails there, so that `serde_yaml` says where that is.
+/// Deserialiser that fails at the target, so that `serde_yaml` reports its location.
 #[derive(Clone, Copy)]
 struct Probe<'a> {
     steps: &'a [Step],
@@ -291,8 +292,8 @@ impl<'de> Visitor<'de> for Probe<'_> {
     }
 }
 
-/// Reads a document of the record type `T`: the tree, its `format`, then the fields, then the rules of its content
-/// (`check`). Every mistake of the stage that fails is reported.
+/// Reads a document of the record type `T`: first the tree, then its `format`, then the fields, and finally the rules
+/// of its content (`check`). Every error of the stage that fails is reported.
 pub(crate) fn read_document<T: Field>(
     name: &str,
     bytes: &[u8],

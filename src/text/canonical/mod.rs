@@ -1,7 +1,7 @@
-//! The one form in which a signed text is written, and the reader of that form.
+//! Canonical form of signed texts, and its reader.
 //!
-//! Writer and scanner are each other's inverse. What the scanner makes of a text counts only when the writer makes the same
-//! text of it again; [`read()`] sees to that.
+//! Writer and scanner are inverse. The result of the scanner is accepted only if the writer produces the same text from
+//! it; [`read()`] ensures this.
 
 mod scanner;
 mod writer;
@@ -14,23 +14,23 @@ pub(crate) use writer::{write, write_some};
 use super::problem::Location;
 use super::{Field, rule};
 
-/// The first place at which a text is not in canonical form.
+/// First place at which a text is not in canonical form.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct NotCanonical {
-    /// The place.
+    /// Location of that place.
     pub location: Location,
-    /// The text found there, to the end of its line, in the words of a message.
+    /// Description of the text found there, up to the end of its line.
     pub found: String,
-    /// The text expected there, in the words of a message.
+    /// Description of the text expected there.
     pub expected: String,
 }
 
-/// Reads a text in canonical form, comments and blank lines aside.
+/// Reads a text in canonical form, ignoring comments and empty lines.
 ///
-/// It never looks back and has no depth but that of the type.
+/// It never goes back in the text, and its depth of recursion is that of the type.
 ///
 /// # Errors
-/// The first place that is not in canonical form.
+/// Returns the first place that is not in canonical form.
 pub(crate) fn read<T: Field>(text: &str) -> Result<T, NotCanonical> {
     let document = scanner::scan::<T>(text)?;
     if writer::is_written(&document, text) {
@@ -40,13 +40,14 @@ pub(crate) fn read<T: Field>(text: &str) -> Result<T, NotCanonical> {
     Err(NotCanonical { location: Location { line, column: 1 }, found, expected })
 }
 
-/// What follows the lines that are blank or a comment.
+/// Returns the text after any empty lines and comments.
 fn after_comments(mut text: &[u8]) -> &[u8] {
     while let Some(start) = text.iter().position(|byte| *byte != b' ') {
         let end = match text[start] {
             b'\n' => start,
             b'#' => match memchr::memchr(b'\n', text) {
-                // Whatever else stands in a comment, no other reader need take for one.
+                // Comments with other characters are not skipped, because another reader may not take them for
+                // comments.
                 Some(end) if rule::is_printable_ascii(&text[..end]) => end,
                 _ => return text,
             },

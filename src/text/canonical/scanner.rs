@@ -1,15 +1,15 @@
-//! The reader of the canonical form, which knows no other.
+//! Scanner of the canonical form, which accepts no other form.
 
 use super::{NotCanonical, after_comments};
 use crate::text::node::{MOST_BRACKETS, Node, location_of};
 use crate::text::{Field, LARGEST_DOCUMENT_BYTES, rule};
 
-/// Reads a text; a number written in another way may be taken, so ask [`super::is_written()`].
+/// Reads a text. It may accept a number in another form, so check the result with [`super::is_written()`].
 ///
 /// # Errors
-/// The place at which the reader stopped.
+/// Returns the place at which the scanner stopped.
 pub(super) fn scan<T: Field>(text: &str) -> Result<T, NotCanonical> {
-    // So many brackets need as many bytes.
+    // Count the brackets only if the text is long enough to contain too many.
     let brackets = |text: &str| text.bytes().filter(|byte| b"[{".contains(byte)).count();
     let too_large =
         text.len() > LARGEST_DOCUMENT_BYTES || (text.len() > MOST_BRACKETS && brackets(text) > MOST_BRACKETS);
@@ -23,13 +23,13 @@ pub(super) fn scan<T: Field>(text: &str) -> Result<T, NotCanonical> {
     })
 }
 
-/// A place in a text in canonical form.
+/// Scanner of a text in canonical form.
 #[derive(Debug)]
 pub(crate) struct Scanner<'t> {
     rest: &'t str,
-    /// Blocks around the current key.
+    /// Number of blocks around the current key.
     depth: usize,
-    /// Whether brackets are open, or a line is being read to its end.
+    /// Whether the scanner is inside brackets or in the rest of a line.
     inline: bool,
     /// Whether no key has been read yet in the current brackets.
     first: bool,
@@ -42,11 +42,11 @@ impl<'t> Scanner<'t> {
     }
 
     fn after_comments(&self) -> &'t str {
-        // They are ASCII.
+        // Slicing is safe, because skipped comments are ASCII.
         &self.rest[self.rest.len() - after_comments(self.rest.as_bytes()).len()..]
     }
 
-    /// The keys of a mapping, which [`Scanner::entry`] reads one after the other.
+    /// Reads a mapping; `entries` reads its keys one after the other with [`Scanner::entry`].
     pub(crate) fn mapping<T>(&mut self, entries: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
         if self.inline || (self.depth > 0 && self.rest.starts_with(" {")) {
             return self.on_the_line(|scanner| {
@@ -67,7 +67,7 @@ impl<'t> Scanner<'t> {
         Some(mapping)
     }
 
-    /// The value of `key` when that is the next key, otherwise its value when absent.
+    /// Reads the value of `key` if that is the next key; otherwise returns the value of an absent key.
     pub(crate) fn entry<T: Field>(&mut self, key: &'static str) -> Option<T> {
         if self.at_key(key).is_none() {
             return T::absent();
@@ -75,7 +75,7 @@ impl<'t> Scanner<'t> {
         T::scan(self)
     }
 
-    /// Passes over `key` when that is the next one.
+    /// Skips `key` if that is the next key, otherwise returns `None`.
     fn at_key(&mut self, key: &str) -> Option<()> {
         let rest = if self.inline {
             let rest = if self.first { self.rest } else { self.rest.strip_prefix(", ")? };
@@ -89,14 +89,14 @@ impl<'t> Scanner<'t> {
         Some(())
     }
 
-    /// The text without the indent of the current block and `more` blanks.
+    /// Returns the text without the indentation of the current block and `more` spaces; `None` if it is indented less.
     fn indented(&self, text: &'t str, more: usize) -> Option<&'t str> {
         let indent = 2 * (self.depth - 1) + more;
         let (blanks, rest) = text.split_at_checked(indent)?;
         blanks.bytes().all(|byte| byte == b' ').then_some(rest)
     }
 
-    /// A value on the line of its key, with the line's end.
+    /// Reads a value on the line of its key, and the end of that line.
     fn on_the_line<T>(&mut self, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
         if self.inline {
             return read(self);
@@ -114,13 +114,13 @@ impl<'t> Scanner<'t> {
         Some(value)
     }
 
-    /// The items of a list.
+    /// Reads the items of a list.
     pub(crate) fn list<T: Field>(&mut self) -> Option<Vec<T>> {
         let mut items = Vec::new();
         if !self.inline && self.rest.starts_with('\n') {
             self.take("\n")?;
             loop {
-                // What stands above the next key is no part of the list.
+                // Comments above the next key are not part of the list.
                 let line = self.indented(self.after_comments(), 2);
                 let Some(item) = line.and_then(|line| line.strip_prefix("- ")) else { return Some(items) };
                 self.rest = item;
@@ -143,7 +143,7 @@ impl<'t> Scanner<'t> {
         })
     }
 
-    /// The items of a list of so many, which are no mappings.
+    /// Reads a list of exactly `N` items, none of them a mapping, on one line.
     pub(crate) fn array<T: Field, const N: usize>(&mut self) -> Option<[T; N]> {
         self.on_the_line(|scanner| {
             scanner.take("[")?;
@@ -163,7 +163,7 @@ impl<'t> Scanner<'t> {
         })
     }
 
-    /// A value that is neither list nor mapping.
+    /// Reads a value that is neither list nor mapping.
     pub(crate) fn scalar(&mut self) -> Option<Node> {
         self.on_the_line(|scanner| match scanner.rest.strip_prefix('"') {
             Some(text) => scanner.quoted(text).map(Node::Text),
@@ -175,12 +175,12 @@ impl<'t> Scanner<'t> {
         })
     }
 
-    /// A string.
+    /// Reads a string.
     pub(crate) fn string(&mut self) -> Option<String> {
         self.on_the_line(|scanner| scanner.quoted(scanner.rest.strip_prefix('"')?))
     }
 
-    /// A number with a point.
+    /// Reads a number with a point.
     pub(crate) fn number(&mut self) -> Option<f64> {
         self.on_the_line(|scanner| scanner.word()?.parse().ok())
     }
@@ -192,7 +192,7 @@ impl<'t> Scanner<'t> {
         Some(word)
     }
 
-    /// The string that begins `text`, its opening quote aside.
+    /// Reads the string that begins at `text`, just after its opening quote.
     fn quoted(&mut self, text: &'t str) -> Option<String> {
         let mut string = String::new();
         let mut rest = text;

@@ -1,10 +1,10 @@
-//! The writer, whose parts make a text or are compared with one.
+//! Writer of the canonical form, whose output is either a text or compared with one.
 
 use super::after_comments;
 use crate::text::sink::Sink;
 use crate::text::{Field, number, rule};
 
-/// The comment lines above a key, given as a path like `earth.gravity_m_per_s2`; without the `# `.
+/// Source of the comment lines above a key, given as a path such as `earth.gravity_m_per_s2`; without the `# `.
 pub(super) type Comments<'a> = &'a dyn Fn(&str) -> Vec<String>;
 
 /// Writes a mapping: nested mappings as blocks, each item of a list of mappings on its own line, a matrix on one line.
@@ -14,34 +14,34 @@ pub(crate) fn write(document: &impl Field, comments: Comments) -> String {
     text
 }
 
-/// The same without comments: the form that texts are compared in.
+/// Writes a mapping without comments, the form in which texts are compared.
 pub(crate) fn write_bare(document: &impl Field) -> String {
     Writer::new(String::with_capacity(USUAL_BYTES)).written(document)
 }
 
-/// Writes those keys of a mapping that are `wanted` to the end of a text, nested ones aside, which go with theirs.
+/// Appends the `wanted` top-level keys of a mapping, with all keys nested in them, to a text.
 pub(crate) fn write_some(text: &mut String, document: &impl Field, comments: Comments, wanted: &dyn Fn(&str) -> bool) {
     let writer = Writer { wanted, comments: Some(comments), ..Writer::new(std::mem::take(text)) };
     *text = writer.written(document);
 }
 
-/// Whether `text`, its comments and blank lines aside, is what [`write()`] makes of the document.
+/// Returns `true` if `text`, without its comments and empty lines, is what [`write()`] makes of the document.
 pub(super) fn is_written(document: &impl Field, text: &str) -> bool {
     let compared = Writer::new(Compared(Some(text.as_bytes()))).written(document);
     compared.0.is_some_and(|rest| after_comments(rest).is_empty())
 }
 
-/// A passport has some 9,000 bytes.
+/// Initial capacity of a text, in bytes; a passport has about 9,000.
 const USUAL_BYTES: usize = 12_000;
 
-/// Where the parts of a text go, one after the other.
+/// Destination of the parts of a text, one after the other.
 trait Output {
     fn push(&mut self, part: &str);
 
-    /// The next part begins a line.
+    /// Announces that the next part begins a line.
     fn begin_line(&mut self) {}
 
-    /// In place of a number there is none that a text may hold.
+    /// Replaces a number that is not finite, which no text may contain.
     fn push_not_finite(&mut self);
 }
 
@@ -56,7 +56,7 @@ impl Output for String {
     }
 }
 
-/// A text that the parts are compared with; `None` from the first on that differs.
+/// Remaining text to compare the parts with; `None` after the first difference.
 struct Compared<'t>(Option<&'t [u8]>);
 
 impl Output for Compared<'_> {
@@ -76,19 +76,19 @@ impl Output for Compared<'_> {
 
 struct Writer<'a, O> {
     text: O,
-    /// The keys from the top to the current one, joined by points.
+    /// Keys from the top to the current one, joined by points.
     path: String,
-    /// How much of the path leads to the current mapping.
+    /// Length of the part of `path` that leads to the current mapping, bytes.
     outer: usize,
-    /// Blocks around the current key.
+    /// Number of blocks around the current key.
     depth: usize,
-    /// Brackets around the current value; 0: it stands behind its key, which began a line.
+    /// Number of brackets around the current value; 0 if it follows its key, which began a line.
     inline: usize,
     /// Whether no key has been written yet in the current brackets.
     first: bool,
-    /// None: then nobody asks for the path.
+    /// Source of the comments; if `None`, the path is not needed.
     comments: Option<Comments<'a>>,
-    /// Which keys are written, those at the top.
+    /// Filter of the top-level keys to write.
     wanted: &'a dyn Fn(&str) -> bool,
 }
 
@@ -109,7 +109,7 @@ impl<'a, O: Output> Writer<'a, O> {
         (1..self.depth).for_each(|_| self.text.push("  "));
     }
 
-    /// A value on the line of its key.
+    /// Writes a value on the line of its key.
     fn on_the_line(&mut self, write: impl FnOnce(&mut Self)) {
         if self.inline > 0 {
             return write(self);
@@ -137,7 +137,7 @@ impl<O: Output> Sink for Writer<'_, O> {
 
     fn integer(&mut self, value: i64) {
         const DIGITS: [&str; 10] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
-        // Indices of positions mostly.
+        // Most integers are indices of positions, which have one digit.
         let digit = usize::try_from(value).ok().and_then(|value| DIGITS.get(value));
         self.on_the_line(|writer| match digit {
             Some(digit) => writer.text.push(digit),
