@@ -1,8 +1,8 @@
 //! Expected calibration uncertainty of a stated gyro type on a stand at a site with a stated meter.
 //!
 //! Computed by first-order propagation ([JCGM 100](crate::bibliography::Bibliography::Gum), 5.1.2 and 5.2.2) for
-//! weighted least squares with one reading in each position. `calibrate` will state this uncertainty for such a gyro;
-//! here it is known before delivery.
+//! weighted least squares with one reading in each position. `calibrate` will state the same uncertainty for such
+//! a gyro; a passport states it before delivery.
 
 use crate::calibration::least_squares::NoLeastSquares;
 use crate::calibration::parameter::Parameter;

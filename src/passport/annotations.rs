@@ -54,7 +54,7 @@ pub(crate) enum Absence {
     EightPositions,
     /// Deflection of the vertical.
     Deflection {
-        /// Largest change of the Earth-rate components for a deflection of `UNKNOWN_DEFLECTION_U_ARCSEC`.
+        /// Largest change of the Earth-rate components for a deflection of `UNKNOWN_DEFLECTION_U_ARCSEC`, deg/h.
         cost_deg_per_h: f64,
     },
     /// Longitude.

@@ -19,7 +19,7 @@ pub enum CheckName {
     Revocation,
     /// Recomputation of every number from the signed inputs.
     Recomputed,
-    /// Time of verification: not before the time of issue, not after the expiry date.
+    /// Time of verification, compared with the time of issue and the expiry date.
     InForce,
     /// Issuer, compared with the required one.
     Issuer,

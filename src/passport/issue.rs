@@ -23,8 +23,8 @@ use crate::trust::{Message, check_identity};
 use jiff::Timestamp;
 use jiff::civil::Date;
 
-/// Upper limit for the size of an armored signature, bytes. Usual signatures take a quarter of it; that of a token,
-/// which includes its application string, takes less than all of it.
+/// Upper limit for the size of an armored signature, bytes. Usual signatures need a quarter of it; those of tokens,
+/// which include an application string, need more, but less than the limit.
 const LONGEST_SIGNATURE: usize = 2000;
 
 /// Noise growth relative to the ideal stand from which the factory is warned.
@@ -244,7 +244,7 @@ impl Draft {
         &self.payload
     }
 
-    /// Signs the text and returns the whole file. The new signature is verified first.
+    /// Signs the text, verifies the new signature, and returns the whole file.
     ///
     /// # Errors
     /// Returns [`IssueRefused::Signing`] if the signer fails, and [`IssueRefused::BadSignature`] if its signature is

@@ -14,8 +14,8 @@ const CUT: &str = "…";
 
 /// Line around the place of an error, shortened if necessary, without any character that a terminal would interpret.
 ///
-/// It is displayed as two lines without a line feed at the end: the source with its line number, and a mark below the
-/// place.
+/// The excerpt is displayed as two lines without a line feed at the end: the source with its line number, and a mark
+/// below the place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Excerpt {
     line: usize,

@@ -4,7 +4,7 @@ use super::{Field, Node};
 
 /// Destination of the values of a document, in their order.
 ///
-/// One pass over the fields of a record ([`Field::emit`]) serves every form in which a document is written.
+/// A single pass over the fields of a record ([`Field::emit`]) serves every form in which a document is written.
 pub(crate) trait Sink: Sized {
     /// Writes an empty value.
     fn null(&mut self);

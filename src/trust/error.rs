@@ -68,7 +68,7 @@ pub enum KeyError {
     /// The comment does not fit on the line of the public key.
     #[error("the comment of the key contains a control character; use one line of plain text")]
     Comment,
-    /// The namespace is one that OpenSSH does not sign for.
+    /// The namespace is empty, and OpenSSH does not sign without one.
     #[error("the namespace of a signature is empty")]
     Namespace,
     /// The operating system provides no random bytes.

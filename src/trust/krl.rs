@@ -159,7 +159,7 @@ fn bad_serials(at: usize) -> Refusal {
     refusal(format!("invalid serial numbers at byte {at}"), "numbers from 1 to 2^64 - 1, in order")
 }
 
-/// Checks a bitmap of serial numbers: an mpint (RFC 4251, section 5) in which bit N stands for the first number plus N.
+/// Checks a bitmap of serial numbers: an mpint (RFC 4251, section 5) in which bit N means the first number plus N.
 fn bitmap(part: &mut Wire, at: usize) -> Result<(), Refusal> {
     let (first, bits) = (part.u64()?, part.string()?);
     let negative = bits.first().is_some_and(|byte| byte & 0x80 != 0);

@@ -27,7 +27,7 @@ pub(crate) struct NotCanonical {
 
 /// Reads a text in canonical form, ignoring comments and empty lines.
 ///
-/// It never goes back in the text, and its depth of recursion is that of the type.
+/// The reader never goes back in the text, and its recursion is only as deep as the type.
 ///
 /// # Errors
 /// Returns the first place that is not in canonical form.
