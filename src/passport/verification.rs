@@ -179,9 +179,9 @@ impl Verification {
 
 /// Verifies the bytes of a passport; `name` is the file name used in messages.
 ///
-/// Steps 1 to 3 are the check `grammar`, step 4 is `signature`, step 5 is `schema`, and step 6 is `signer`, `revocation`
-/// and `in_force`. Every number is then recomputed, and the requirements of the question are compared. If the signer is
-/// not trusted or the key is revoked, `recomputed`, `in_force` and these requirements are not checked.
+/// Steps 1 to 3 are the check `grammar`, step 4 is `signature`, step 5 is `schema`, and step 6 is `signer`,
+/// `revocation` and `in_force`. Every number is then recomputed, and the requirements of the question are compared. If
+/// the signer is not trusted or the key is revoked, `recomputed`, `in_force` and these requirements are not checked.
 pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> Verification {
     let mut run = Run { checks: Vec::new() };
     let mut verification = Verification { checks: Vec::new(), key: None, content: None };

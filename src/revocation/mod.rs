@@ -282,8 +282,8 @@ impl RevocationList {
         Ok(document::join(&payload, &signature))
     }
 
-    /// Signs the list and verifies it with `signers` and `revoked_keys`, because a list that its recipients cannot verify
-    /// would withdraw nothing. Returns the whole file.
+    /// Signs the list and verifies it with `signers` and `revoked_keys`, because a list that its recipients cannot
+    /// verify would withdraw nothing. Returns the whole file.
     ///
     /// # Errors
     /// Returns the errors of [`RevocationList::sign`], and [`NoNewList::Refused`] if the list fails verification.

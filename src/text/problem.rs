@@ -252,8 +252,9 @@ impl Problems {
 /// Refused document: its name and the errors found.
 ///
 /// The refusal is displayed with one line per error, in the form
-/// `name:line:column: field: found …, expected …; advice`. Foreign text in it is escaped. If there are very many errors,
-/// which mostly means that it is another file, only the first ones are displayed, with a note that there are more.
+/// `name:line:column: field: found …, expected …; advice`. Foreign text in it is escaped. If there are very many
+/// errors, which mostly means that it is another file, only the first ones are displayed, with a note that there are
+/// more.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unreadable {
     name: String,

@@ -1,7 +1,7 @@
 //! Text rule of signed documents: their allowed content and its canonical form.
 //!
-//! Every YAML 1.1 and 1.2 reader finds the same content in such a text, to the last bit of every number. This module
-//! contains both the writer ([`quoted`], [`number`](super::number)) and the check of the rule ([`check`], [`differs`]).
+//! Every YAML 1.1 and 1.2 reader finds the same content in such a text, to the last bit of every number. The
+//! writer ([`write_quoted`], [`number`](super::number)) corresponds to the check of the rule ([`check`], [`differs`]).
 
 use super::node::{location_of, plain_text};
 use super::problem::Unreadable;

@@ -82,7 +82,7 @@ const MOST_VALUES: (usize, usize) = (25_000, 5);
 /// in total, and more than [`MOST_VALUES`] values.
 ///
 /// The parser examines every open bracket at every token, so a million of them would occupy it for minutes. It keeps
-/// about a hundred bytes for each value, and twice that while it grows, so a text of commas alone would need two hundred
+/// about a hundred bytes for each value, and twice that while it grows, so a text of commas would need two hundred
 /// times its size. This check assumes that a string ends with its line, as in signed texts, and that any quote begins a
 /// string. A quote inside a plain word does not begin one, and so hides the brackets after it. The total numbers
 /// therefore include the content of strings.
