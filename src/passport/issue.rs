@@ -124,8 +124,7 @@ impl PreparedStand {
     /// Computes all numbers of the passport at `site`, writes the text, and reads it back as a check.
     ///
     /// # Errors
-    /// Returns [`IssueRefused`] if an input breaks a rule, the self-check fails, or the text does not read back bit for
-    /// bit.
+    /// Returns [`IssueRefused`] if an input breaks a rule, the self-check fails, or the text read back differs.
     pub fn draft(&self, site: &Site, issue: &Issue) -> Result<Draft, IssueRefused> {
         check_identity(&issue.issuer)?;
         check_site(site)?;
@@ -295,8 +294,7 @@ mod tests {
         include_str!("../../sites/singapore-nus.yaml"),
     ];
 
-    /// The shipped stands, and reduced copies of each: without datum, with seven positions, without any optional
-    /// statement.
+    /// The shipped stands, and reduced copies of each: no datum, seven positions, no optional statement.
     fn stands() -> Vec<Stand> {
         let whole = STANDS.iter().map(|text| Stand::from_yaml("stand", text.as_bytes()).unwrap());
         whole
