@@ -1,61 +1,62 @@
-//! What a calibration takes for known: coefficients, and how uncertain everything that stands behind them is.
+//! Inputs of a calibration: the coefficients, and the standard uncertainties of everything behind them.
 
 use crate::attitude::{self, Deviation};
 use crate::coefficients::{Coefficients, EarthRate, Position, SingularPositions, StandGeometry};
 use crate::laboratory::Meter;
 use nalgebra::{Matrix3, Vector3};
 
-/// Standard uncertainties of everything that enters a calibration. Zero is "exact".
+/// Standard uncertainties of all inputs of a calibration. Zero means exact.
 ///
-/// Parts that are shared by several readings are kept apart from those of each reading, so nothing counts twice.
+/// Parts common to several readings are kept separate from those of each reading, so that nothing counts twice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InputUncertainty {
-    /// Of the certified α, β, γ of every position, its own part; in the order of the coefficients. Positions beyond
-    /// its end are exact.
+    /// Standard uncertainties of the certified α, β, γ of each position, rad: own parts only, in the order of the
+    /// coefficients. Positions beyond the end of the list are exact.
     pub angles_rad: Vec<[f64; 3]>,
-    /// Degrees of freedom of the three uncertainties of every position; positions beyond its end have infinitely many.
+    /// Degrees of freedom of the three angle uncertainties of each position; infinite for positions beyond the end.
     pub angles_degrees_of_freedom: Vec<f64>,
-    /// Of one return to a position, per axis of the platform; every visit returns once.
+    /// Repeatability of positioning: standard deviation of one visit, rad, per axis of the platform.
     pub repeatability_rad: f64,
-    /// Degrees of freedom of that one estimate.
+    /// Degrees of freedom of the repeatability.
     pub repeatability_degrees_of_freedom: f64,
-    /// Shared by all positions, per axis of the platform (turns E·A from the left).
+    /// Standard uncertainty common to all positions, rad, per axis of the platform (rotation applied to E·A from the
+    /// left).
     pub common_platform_rad: f64,
-    /// Degrees of freedom of that one estimate.
+    /// Degrees of freedom of the common part of the platform.
     pub common_platform_degrees_of_freedom: f64,
-    /// Shared by all positions, per axis of the base (turns it from the right).
+    /// Standard uncertainty common to all positions, rad, per axis of the base (rotation applied from the right).
     pub common_base_rad: f64,
-    /// Degrees of freedom of that one estimate.
+    /// Degrees of freedom of the common part of the base.
     pub common_base_degrees_of_freedom: f64,
-    /// Of the latitude as stated.
+    /// Standard uncertainty of the latitude as stated, rad.
     pub latitude_rad: f64,
-    /// Of ξ, through which a geodetic latitude becomes the astronomic one.
+    /// Standard uncertainty of ξ, which converts a geodetic latitude to the astronomic one, rad.
     pub deflection_rad: f64,
-    /// Of the base's azimuth: from the mark, or whatever gives north, to the base.
+    /// Standard uncertainty of the azimuth of the base relative to the mark or other north reference, rad.
     pub azimuth_rad: f64,
-    /// Of the azimuth from the pillar to the mark.
+    /// Standard uncertainty of the azimuth from the pillar to the mark, rad.
     pub mark_rad: f64,
-    /// Of the base's level, about east and about north.
+    /// Standard uncertainty of the level of the base, rad, per axis (about east and about north).
     pub level_rad: f64,
-    /// Of the gyro's seat, about x, y and z of the case.
+    /// Standard uncertainties of the gyro seat, rad: rotations about x, y and z of the case.
     pub seating_rad: [f64; 3],
-    /// Of the currents.
+    /// Standard uncertainties of the currents.
     pub meter: MeterUncertainty,
 }
 
-/// Standard uncertainties of the currents.
+/// Standard uncertainties of the current meter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeterUncertainty {
-    /// The meter's specification, own of each position and channel, as a share of the reading. Reading again does not
-    /// make it smaller.
+    /// Specification as a fraction of the reading; independent for each position and channel, and not reduced by
+    /// repeated readings.
     pub reading: f64,
-    /// The part of the specification that does not depend on the size of the reading, mA; positive.
+    /// Floor: part of the specification that does not depend on the reading, mA; positive.
     pub floor_ma: f64,
-    /// Noise of every single reading, mA; 0 where it is not stated.
+    /// Noise of a single reading, mA; 0 if it is not stated.
     pub noise_ma: f64,
-    /// Of the gain that all readings share.
+    /// Relative standard uncertainty of the gain, common to all readings.
     pub gain: f64,
-    /// Of the offset that all readings share.
+    /// Standard uncertainty of the offset, common to all readings, mA.
     pub offset_ma: f64,
 }
 
@@ -72,7 +73,7 @@ impl From<&Meter> for MeterUncertainty {
 }
 
 impl MeterUncertainty {
-    /// Returns the variance that the specification gives the current `current_ma` of one position and channel, mA².
+    /// Returns the variance of a current by the specification, mA²; independent for each position and channel.
     pub(crate) fn own_variance_ma2(&self, current_ma: f64) -> f64 {
         let share = self.reading * current_ma;
         share * share + self.floor_ma * self.floor_ma
@@ -80,7 +81,7 @@ impl MeterUncertainty {
 }
 
 impl InputUncertainty {
-    /// A meter on an exact stand at an exact place.
+    /// Creates the uncertainties of a calibration with this meter, on an exact stand at an exact site.
     pub fn of_meter(meter: MeterUncertainty) -> Self {
         Self {
             angles_rad: Vec::new(),
@@ -102,7 +103,7 @@ impl InputUncertainty {
     }
 }
 
-/// The stand at its site as a calibration takes it.
+/// A stand at its site with all uncertainties: the input of a calibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setup {
     coefficients: Coefficients,
@@ -111,36 +112,36 @@ pub struct Setup {
     uncertainty: InputUncertainty,
 }
 
-/// How one position turns when its angles change.
+/// Orientation of one position, and the axes about which its angles rotate it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Turn {
-    /// Ã, 3×3, base to case.
+    /// Ã: rotation matrix, base to case axes, 3×3.
     pub(crate) attitude: Matrix3<f64>,
-    /// A, 3×3.
+    /// A: nominal rotation matrix, base to platform axes, 3×3.
     pub(crate) nominal: Matrix3<f64>,
-    /// Certified α, β, γ.
+    /// Certified deviation α, β, γ.
     pub(crate) certified: Deviation,
-    /// The axes, in case coordinates, that α, β and γ turn about: E = Rz(γ)·Ry(β)·Rx(α).
+    /// Axes of the rotations α, β and γ, in case coordinates; E = Rz(γ)·Ry(β)·Rx(α).
     pub(crate) axes: [Vector3<f64>; 3],
 }
 
-/// Why there is no setup.
+/// Reason why a [`Setup`] cannot be created.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoSetup {
-    /// n_2 has no inverse.
+    /// The matrix n_2 has no inverse.
     #[error(transparent)]
     Singular(#[from] SingularPositions),
-    /// A standard uncertainty that is none.
+    /// A standard uncertainty that is negative or not finite, with its name.
     #[error("the standard uncertainty of {0} is {1}, but must be finite and ≥ 0")]
     Uncertainty(&'static str, f64),
-    /// Degrees of freedom that are none.
+    /// Degrees of freedom that are not positive, with the name of their quantity.
     #[error("the degrees of freedom of {0} are {1}, but must be positive")]
     DegreesOfFreedom(&'static str, f64),
 }
 
 impl InputUncertainty {
-    /// Whether every number is one that an uncertainty can be.
+    /// Checks that every uncertainty is finite and not negative, and all degrees of freedom are positive.
     fn check(&self) -> Result<(), NoSetup> {
         let angles = self.angles_rad.iter().flatten().map(|u| ("a certified angle", *u));
         let seat = self.seating_rad.map(|u| ("the gyro seat", u));
@@ -177,27 +178,28 @@ impl InputUncertainty {
 }
 
 impl Setup {
-    /// `positions` of a stand at a place with the Earth rate `earth`.
+    /// Creates the setup of a stand with `positions` at a site with the Earth rate `earth`.
     ///
     /// # Errors
-    /// See [`NoSetup`].
+    /// Returns [`NoSetup`] if n_2 of the eight positions has no inverse, or an uncertainty or its degrees of freedom
+    /// are invalid.
     pub fn new(positions: &[Position], earth: EarthRate, uncertainty: InputUncertainty) -> Result<Self, NoSetup> {
         uncertainty.check()?;
         let coefficients = StandGeometry::new(positions)?.at(earth);
         Ok(Self { coefficients, turns: positions.iter().map(Turn::of).collect(), earth, uncertainty })
     }
 
-    /// What the mathematics takes.
+    /// Returns the coefficients of the calibration equations.
     pub fn coefficients(&self) -> &Coefficients {
         &self.coefficients
     }
 
-    /// How uncertain everything is.
+    /// Returns the standard uncertainties of all inputs.
     pub fn uncertainty(&self) -> &InputUncertainty {
         &self.uncertainty
     }
 
-    /// The same without one position; the paper's matrices are gone with it.
+    /// Returns a copy without position `place` and without Δ, B, C.
     pub(crate) fn without(&self, place: usize) -> Self {
         let mut rest = self.clone();
         rest.coefficients.positions.remove(place);
@@ -216,7 +218,7 @@ impl Setup {
         &self.turns
     }
 
-    /// The Earth rate in base axes: east, north, up.
+    /// Returns the Earth rate in base axes (east, north, up), °/h.
     pub(crate) fn earth_rate_in_base(&self) -> Vector3<f64> {
         Vector3::new(0.0, self.earth.horizontal_deg_per_h, self.earth.vertical_deg_per_h)
     }
@@ -231,7 +233,7 @@ impl Turn {
             attitude: deviation * nominal,
             nominal,
             certified: position.deviation,
-            // α turns before β and γ: its axis is E's first column. β's is turned by γ alone, γ's stays.
+            // α is applied before β and γ, so its axis is the first column of E. Only γ rotates the axis of β.
             axes: [deviation.column(0).into_owned(), Vector3::new(sin_gamma, cos_gamma, 0.0), Vector3::z()],
         }
     }

@@ -1,105 +1,105 @@
-//! Successive approximation ([the paper](crate::bibliography::Bibliography::Tang17), eq. (17)-(19)).
+//! Iterative method ([the paper](crate::bibliography::Bibliography::Tang17), eq. (17)-(19)).
 //!
-//! A step is K_λ = B J_1⁻¹ + K_{λ−1} T with T = J_2 Δ J_1⁻¹. So it converges exactly when the spectral radius
-//! ρ(T) < 1, its fixed point is the closed solution (13), and after any step exactly (K_λ − K_{λ−1}) T (1 − T)⁻¹ is
-//! still missing. The step itself bounds nothing: T is not normal.
+//! A step is K_λ = B J_1⁻¹ + K_{λ−1} T with T = J_2 Δ J_1⁻¹. The iteration therefore converges if and only if the
+//! spectral radius ρ(T) < 1, and its fixed point is the analytic solution (13). After any step the remainder is exactly
+//! (K_λ − K_{λ−1}) T (1 − T)⁻¹. The size of a step is no bound of the remainder, because T is not normal.
 
 use super::analytic::{current_differences, mean_misclosure};
 use crate::coefficients::{Coefficients, Matrices};
 use crate::gyro::GyroParameters;
 use nalgebra::{Matrix2, Vector2};
 
-/// More steps than this are no convergence.
+/// Maximum number of steps; a longer iteration counts as not converged.
 pub(crate) const LARGEST_NUMBER_OF_STEPS: u32 = 200;
 
-/// When to stop: the paper's Δ₁ and Δ₂.
+/// Stop rule of the iteration: the paper's Δ₁ and Δ₂.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StopRule {
-    /// Δ₁: K_x and K_y moved by no more, percent.
+    /// Δ₁: largest change of K_x and K_y in the last step, percent.
     pub delta1_percent: f64,
-    /// Δ₂: ω_g and ω_k moved by no more, °/h/g (the paper says °/h).
+    /// Δ₂: largest change of ω_g and ω_k in the last step, °/(h·g) (the paper says °/h).
     pub delta2_deg_per_h: f64,
 }
 
 impl Default for StopRule {
-    /// The paper's: 0.1 % and 0.001 °/h.
+    /// Returns the paper's values: 0.1 % and 0.001 °/h.
     fn default() -> Self {
         Self { delta1_percent: 0.1, delta2_deg_per_h: 0.001 }
     }
 }
 
-/// Why successive approximation gives nothing.
+/// Reason why the iterative method gives no result.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoIterativeSolution {
-    /// The method is for the paper's eight positions.
+    /// Some of the paper's eight positions are missing, and the method requires all of them.
     #[error(
         "the stand lacks some of the eight positions that the iterative method requires; use least squares, which \
              takes any positions"
     )]
     EightPositionsMissing,
-    /// The number of current pairs is not that of the positions.
+    /// A number of current pairs that differs from the number of positions.
     #[error("found {found} pairs of currents, expected {expected}, one for each position")]
     WrongNumberOfCurrents {
-        /// Pairs of currents given.
+        /// Number of pairs of currents given.
         found: usize,
-        /// Positions of the stand.
+        /// Number of positions of the stand.
         expected: usize,
     },
-    /// J_1 has no inverse, so there is no first approximation.
+    /// The matrix J_1 has no inverse, so there is no first approximation.
     #[error("there is no first approximation, because J_1 has no inverse; use the analytic method or least squares")]
     SingularCurrents,
-    /// ρ(T) ≥ 1.
+    /// Divergence: ρ(T) ≥ 1.
     #[error(
         "the iterative method diverges: the spectral radius is {spectral_radius:.4}, but must be below 1; use the \
          analytic method or least squares"
     )]
     Diverges {
-        /// ρ(T).
+        /// Spectral radius ρ(T).
         spectral_radius: f64,
     },
-    /// Not there after 200 steps.
+    /// No convergence after 200 steps.
     #[error(
         "the iterative method did not converge in {LARGEST_NUMBER_OF_STEPS} steps (spectral radius \
          {spectral_radius:.4}); use the analytic method or least squares"
     )]
     TooManySteps {
-        /// ρ(T).
+        /// Spectral radius ρ(T).
         spectral_radius: f64,
     },
 }
 
-/// By how much one step moved what the stop rule looks at.
+/// Change in one step of the parameters that the stop rule compares.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepChange {
-    /// K_x or K_y, whichever moved more, percent of its value.
+    /// Larger change of K_x and K_y, percent of the value.
     pub main_scale_factors_percent: f64,
-    /// ω_g or ω_k, whichever moved more, °/h/g.
+    /// Larger change of ω_g and ω_k, °/(h·g).
     pub g_drifts_deg_per_h_per_g: f64,
 }
 
-/// What successive approximation gives.
+/// Solution by the iterative method.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IterativeSolution {
-    /// K, ω_0, ω_g and ω_k at the last step.
+    /// Parameters K, ω_0, ω_g and ω_k at the last step.
     pub parameters: GyroParameters,
-    /// ω_n, 2×2, four free numbers, at the last step.
+    /// ω_n at the last step, °/(h·g), 2×2, four independent numbers.
     pub omega_n_deg_per_h_per_g: Matrix2<f64>,
-    /// Steps taken; the first approximation counts as 1.
+    /// Number of steps; the first approximation counts as 1.
     pub steps: u32,
-    /// What each step after the first approximation moved.
+    /// Changes of the parameters in each step after the first approximation.
     pub changes: Vec<StepChange>,
-    /// ρ(T).
+    /// Spectral radius ρ(T).
     pub spectral_radius: f64,
-    /// K_λ − K_{λ−1}, the last step of K, °/h/mA.
+    /// Last change of K, K_λ − K_{λ−1}, °/(h·mA), 2×2.
     pub last_change_k_deg_per_h_per_ma: Matrix2<f64>,
-    /// What K still lacks: (K_λ − K_{λ−1}) T (1 − T)⁻¹, exactly, °/h/mA.
+    /// Exact remainder of K, (K_λ − K_{λ−1}) T (1 − T)⁻¹, °/(h·mA), 2×2.
     pub remainder_k_deg_per_h_per_ma: Matrix2<f64>,
-    /// What ω_n still lacks, °/h/g.
+    /// Exact remainder of ω_n, °/(h·g), 2×2.
     pub remainder_omega_n_deg_per_h_per_g: Matrix2<f64>,
 }
 
-/// Everything that is known before the first step.
+/// Quantities of the iteration that are known before the first step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Plan {
     /// K_(1) = ω_31 J_1⁻¹ (paper, eq. (17)).
@@ -113,10 +113,10 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// From the currents (J_x, J_y) of `coefficients.positions`, in the same order.
+    /// Creates the plan from the currents (J_x, J_y) of `coefficients.positions`, mA, in the same order.
     ///
     /// # Errors
-    /// The first three of [`NoIterativeSolution`].
+    /// Returns one of the first three variants of [`NoIterativeSolution`].
     pub(crate) fn new(coefficients: &Coefficients, currents_ma: &[Vector2<f64>]) -> Result<Self, NoIterativeSolution> {
         let (found, expected) = (currents_ma.len(), coefficients.positions.len());
         if found != expected {
@@ -137,11 +137,12 @@ impl Plan {
         if finite { Ok(plan) } else { Err(NoIterativeSolution::SingularCurrents) }
     }
 
-    /// ρ(T): below 1 the method converges, and each step leaves about this share of the error.
+    /// Returns ρ(T). The method converges if it is below 1; each step then leaves about this fraction of the error.
     pub(crate) fn spectral_radius(&self) -> f64 {
         let half_trace = 0.5 * (self.t.m11 + self.t.m22);
         let half_difference = 0.5 * (self.t.m11 - self.t.m22);
-        // Eigenvalues are half_trace ± √discriminant; complex ones have the determinant as squared modulus.
+        // The eigenvalues are half_trace ± √discriminant. If they are complex, the determinant is their squared
+        // modulus.
         let discriminant = half_difference * half_difference + self.t.m12 * self.t.m21;
         if discriminant < 0.0 {
             return (half_trace * half_trace - discriminant).sqrt();
@@ -149,9 +150,9 @@ impl Plan {
         half_trace.abs() + discriminant.sqrt()
     }
 
-    /// How many steps it will take, from ρ(T) and the first approximation alone; `None` when ρ(T) ≥ 1.
+    /// Returns the expected number of steps, from ρ(T) and the first approximation alone, or `None` if ρ(T) ≥ 1.
     ///
-    /// The first change is of the size of (B J_1⁻¹ − K_(1)) + K_(1) T, and each one after it ρ(T) times the last.
+    /// The first change is about (B J_1⁻¹ − K_(1)) + K_(1) T; each further change is ρ(T) times the previous one.
     pub(crate) fn predicted_steps(&self, rule: &StopRule) -> Option<u32> {
         let rho = self.spectral_radius();
         if rho >= 1.0 {
@@ -165,21 +166,21 @@ impl Plan {
             return Some(2);
         }
         let more = libm::ceil(libm::log(excess) / -libm::log(rho));
-        // 2 steps make the first change; saturating, for a radius just below 1.
+        // The first change takes 2 steps. The sum saturates for a spectral radius just below 1.
         Some(if more < f64::from(u32::MAX - 2) { 2 + more as u32 } else { u32::MAX })
     }
 
-    /// ω_n for a K (paper, eq. (18)).
+    /// Returns ω_n for a given K (paper, eq. (18)).
     fn omega_n(&self, k: &Matrix2<f64>) -> Matrix2<f64> {
         self.matrices.c_deg_per_h_per_g - k * self.j2_per_n2
     }
 
-    /// The next K for the last ω_n (paper, eq. (19)).
+    /// Returns the next K for the last ω_n (paper, eq. (19)).
     fn next_k(&self, omega_n: &Matrix2<f64>) -> Matrix2<f64> {
         self.first_k - omega_n * self.matrices.n1 * self.j1_inverse
     }
 
-    /// Steps until the rule is met; `None` when 200 are not enough.
+    /// Iterates until the rule is met, and returns the last step, or `None` if 200 steps are not enough.
     fn run(&self, rule: &StopRule, mut watch: impl FnMut(StepChange)) -> Option<LastStep> {
         let (mut k, mut omega_n) = (self.first_k, self.omega_n(&self.first_k));
         for step in 2..=LARGEST_NUMBER_OF_STEPS {
@@ -196,13 +197,13 @@ impl Plan {
         None
     }
 
-    /// How many steps the rule asks for; `None` when 200 are not enough.
+    /// Returns the number of steps until the rule is met, or `None` if 200 are not enough.
     pub(crate) fn steps(&self, rule: &StopRule) -> Option<u32> {
         self.run(rule, |_| ()).map(|last| last.steps)
     }
 }
 
-/// Where successive approximation stopped.
+/// State of the iteration at its last step.
 struct LastStep {
     k: Matrix2<f64>,
     omega_n: Matrix2<f64>,
@@ -214,7 +215,7 @@ struct LastStep {
 impl StepChange {
     fn new(k: &Matrix2<f64>, change: &Matrix2<f64>, change_omega_n: &Matrix2<f64>) -> Self {
         let [omega_g, omega_k] = g_drifts(change_omega_n);
-        // A value that passes through 0 moved by more than any percentage; documents hold finite numbers alone.
+        // A value that passes through 0 changes by more than any percentage, but JSON needs finite numbers.
         let percent = |change: f64, value: f64| match change {
             0.0 => 0.0,
             change => (100.0 * (change / value).abs()).min(f64::MAX),
@@ -226,12 +227,13 @@ impl StepChange {
     }
 }
 
-/// ω_g and ω_k of an ω_n (paper, eq. (16)).
+/// Returns ω_g and ω_k of a given ω_n (paper, eq. (16)).
 fn g_drifts(omega_n: &Matrix2<f64>) -> [f64; 2] {
     [(omega_n.m11 + omega_n.m22) / 2.0, (omega_n.m21 - omega_n.m12) / 2.0]
 }
 
-/// The paper's stop rule (under eq. (19)): K_x, K_y by at most Δ₁ %, ω_g, ω_k by at most Δ₂.
+/// Returns `true` if the paper's stop rule (under eq. (19)) is met: K_x, K_y changed by at most Δ₁ %, ω_g, ω_k by at
+/// most Δ₂.
 fn meets(rule: &StopRule, k: &Matrix2<f64>, change: &Matrix2<f64>, change_omega_n: &Matrix2<f64>) -> bool {
     let share = rule.delta1_percent / 100.0;
     let [omega_g, omega_k] = g_drifts(change_omega_n);
@@ -241,12 +243,13 @@ fn meets(rule: &StopRule, k: &Matrix2<f64>, change: &Matrix2<f64>, change_omega_
         && omega_k.abs() <= rule.delta2_deg_per_h
 }
 
-/// Solves for the gyro by successive approximation, ω_0 by (8).
+/// Solves for the gyro parameters by the iterative method, with ω_0 from (8).
 ///
-/// `currents_ma` are (J_x, J_y) of `coefficients.positions`, in the same order.
+/// `currents_ma` contains (J_x, J_y) of `coefficients.positions`, in the same order.
 ///
 /// # Errors
-/// See [`NoIterativeSolution`].
+/// Returns [`NoIterativeSolution`] if the eight positions are incomplete, the number of currents is wrong, J_1 is
+/// singular, or the iteration does not converge.
 pub fn solve(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],

@@ -1,21 +1,23 @@
-//! From sixteen currents to the parameters of a gyro. It takes coefficients, never a passport.
+//! Calibration of a gyro: from the sixteen currents of the eight positions to its parameters.
+//!
+//! The input is the coefficients of a stand at a site, never a passport.
 //!
 //! * `readings`: the currents, from CSV.
-//! * `analytic`: the paper's closed solution, eq. (13)-(16) and (8).
-//! * [`iterative`]: the paper's successive approximation, eq. (17)-(19).
-//! * `least_squares`: all readings of any positions, weighted.
-//! * `procedure`: all of them side by side; `result`: with uncertainties, residuals and chi-square.
-//! * `scatter`: whether rows of a visit and visits of a position agree.
-//! * `diagnosis`: what may be wrong where readings do not fit.
-//! * `verdict`: against a type's specification and against an earlier calibration.
-//! * `mistake`: mistakes that leave readings fitting, recognised by what the gyro should be.
-//! * `document`: a result for machines.
-//! * `prediction`: what a calibration on this stand will be worth, before there is a reading.
-//! * `estimates`: which uncertainties rest on the same estimate.
-//! * `causes`: everything that is uncertain, by name; what budgets are made of.
-//! * `inputs`: what is known of stand, site, seat and meter, and how well; `stated`: as the files state it.
+//! * `analytic`: the paper's analytic method, eq. (13)-(16) and (8).
+//! * [`iterative`]: the paper's iterative method, eq. (17)-(19).
+//! * `least_squares`: weighted least squares on all readings of any positions.
+//! * `procedure`: all methods side by side; `result`: their results with uncertainties, residuals and chi-square.
+//! * `scatter`: agreement of the rows of a visit and of the visits of a position.
+//! * `diagnosis`: possible causes if the readings do not fit.
+//! * `verdict`: comparison with a type's specification and with an earlier calibration.
+//! * `mistake`: errors that do not show in the fit, recognised by comparison with the gyro type.
+//! * `document`: the result as JSON.
+//! * `prediction`: the expected uncertainty of a calibration on a stand, before any reading.
+//! * `estimates`: the standard uncertainties that rest on a common estimate.
+//! * `causes`: the uncertain inputs by name, from which budgets are made.
+//! * `inputs`: stand, site, seat and meter with their uncertainties; `stated`: these as stated in the files.
 //!
-//! The laboratory's call, once the setup is known:
+//! Example of a calibration with a known setup:
 //!
 //! ```
 //! use dtg_passport::calibration::{InputUncertainty, Options, Readings, Setup, calibrate};

@@ -1,4 +1,4 @@
-//! One calibration: every method asked for, its uncertainty, its fit.
+//! The whole calibration: every requested method with its uncertainty and its fit.
 
 use super::analytic::{self, AnalyticMap, NoAnalyticSolution};
 use super::diagnosis;
@@ -15,14 +15,14 @@ use super::unknowns::Unknowns;
 use crate::gyro::GyroParameters;
 use nalgebra::{DMatrix, Matrix2, Vector2};
 
-/// What is asked of a calibration.
+/// Options of a calibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// Which methods.
+    /// Requested methods, in the order of the results.
     pub methods: Vec<Method>,
-    /// When successive approximation stops.
+    /// Stop rule of the iterative method.
     pub stop_rule: StopRule,
-    /// Whether least squares also fits the anisoelastic coefficient of (2).
+    /// `true` if least squares also fits the anisoelastic coefficient of eq. (2).
     pub anisoelasticity: bool,
 }
 
@@ -32,11 +32,11 @@ impl Default for Options {
     }
 }
 
-/// Calibrates: currents `readings` at `setup`, with the methods of `options`.
+/// Calibrates the gyro whose currents are `readings` with the requested methods.
 ///
 /// # Errors
-/// [`NoLeastSquares`] when the readings do not determine a gyro: then no method's result would mean anything.
-/// What a single method cannot do is in [`Calibration::refused`].
+/// Returns [`NoLeastSquares`] if the readings are for other positions or do not determine a gyro; the results of other methods would then be
+/// meaningless. A refusal of a single method is in [`Calibration::refused`].
 pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Result<Calibration, NoLeastSquares> {
     let indices = readings.positions().iter().map(|position| position.index);
     if !indices.eq(setup.coefficients().positions.iter().map(|at| at.index)) {
@@ -68,20 +68,21 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
     Ok(calibration)
 }
 
-/// A calibration's answer to small changes of everything that enters it.
+/// First-order response of a calibration to small changes of all its inputs.
 #[derive(Debug, Clone)]
 pub(crate) struct Linearised {
-    /// The best fit, which is where derivatives are taken.
+    /// Weighted fit at which the derivatives are taken.
     pub(crate) fit: Fit,
-    /// The method's own result: the fit's, or the closed solution of the readings, to which iteration leads too.
+    /// Result of the method: that of the fit, or the analytic solution, to which the iterative method converges.
     pub(crate) found: Unknowns,
-    /// How often every position was read.
+    /// Numbers of visits and readings of each position.
     pub(crate) repeats: Repeats,
-    /// L: parameters × misclosures (two a position). L F is the spread of the parameters.
+    /// L: response of the parameters to the misclosures (parameters × misclosures, two per position). L F is the spread
+    /// of the parameters.
     pub(crate) response: DMatrix<f64>,
 }
 
-/// What budgets and Monte Carlo start from: the fit of [`calibrate`], and the response of `method` there.
+/// Returns the fit of [`calibrate`] and the response of `method` there, from which budgets and Monte Carlo start.
 pub(crate) fn linearise(
     setup: &Setup,
     readings: &Readings,
@@ -112,12 +113,12 @@ pub(crate) fn linearise(
     Ok(Linearised { found, repeats: data.repeats, response, fit })
 }
 
-/// Mean currents as a fit takes them.
+/// Mean currents of all positions, the input of a fit.
 #[derive(Debug, Clone)]
 pub(crate) struct Data {
-    /// Means (J_x, J_y), in the order of the coefficients.
+    /// Mean currents (J_x, J_y), mA, in the order of the coefficients.
     pub(crate) currents_ma: Vec<Vector2<f64>>,
-    /// How many visits and readings each is the mean of, and how much these scatter.
+    /// Numbers of visits and readings behind each mean, and their scatter.
     pub(crate) repeats: Repeats,
 }
 
@@ -126,7 +127,7 @@ impl Data {
         Self { currents_ma: readings.means_ma(), repeats: Repeats::stated(setup, readings) }
     }
 
-    /// Takes in what repeated readings say of themselves, and fits again where that is not what was stated.
+    /// Updates the errors of visits and readings from their scatter, and fits again if they differ from those stated.
     fn observe(&mut self, setup: &Setup, readings: &Readings, fit: &mut Fit) -> Result<Observed, NoLeastSquares> {
         let stated = self.repeats.clone();
         let observed = self.repeats.observe(setup, readings, fit);
@@ -136,7 +137,7 @@ impl Data {
         Ok(observed)
     }
 
-    /// Without one position.
+    /// Returns a copy without position `place`.
     pub(crate) fn without(&self, place: usize) -> Self {
         let mut rest = self.clone();
         rest.currents_ma.remove(place);
@@ -144,7 +145,7 @@ impl Data {
         rest
     }
 
-    /// Two positions exchanged.
+    /// Returns a copy with the readings of two positions exchanged.
     pub(crate) fn exchanged(&self, one: usize, other: usize) -> Self {
         let mut exchanged = self.clone();
         exchanged.currents_ma.swap(one, other);
@@ -152,7 +153,7 @@ impl Data {
         exchanged
     }
 
-    /// The weighted fit at `setup`.
+    /// Returns the weighted fit at `setup`.
     pub(crate) fn fit(&self, setup: &Setup, anisoelasticity: bool) -> Result<Fit, NoLeastSquares> {
         Fit::new(setup.coefficients(), &self.currents_ma, anisoelasticity, |place, unknowns, current| {
             Sensitivity::new(setup, unknowns).own_covariance(place, current, &self.repeats)
@@ -160,12 +161,12 @@ impl Data {
     }
 }
 
-/// A value in units of its standard uncertainty; 0 where rounding is all that it can be.
+/// Returns a value in units of its standard uncertainty, or 0 if it can only be rounding.
 fn in_units(value: f64, u: f64) -> f64 {
     if u > 1e-12 { value / u } else { 0.0 }
 }
 
-/// All that methods share.
+/// Quantities common to all methods.
 struct Evaluation<'a> {
     setup: &'a Setup,
     currents_ma: &'a [Vector2<f64>],
@@ -225,8 +226,9 @@ impl<'a> Evaluation<'a> {
         result.ok_or(NoIterativeSolution::SingularCurrents.into())
     }
 
-    /// A result of one of the paper's methods. Both have the closed solution's uncertainty: it is the fixed point of
-    /// the other, whose remainder is stated apart.
+    /// Returns the result of one of the paper's methods, or `None` if there is no analytic solution. Both methods have
+    /// the uncertainty of the analytic solution, because it is the fixed point of the iteration. The remainder of the
+    /// iteration is stated separately.
     fn of_the_paper(
         &self,
         method: Method,
@@ -252,7 +254,7 @@ impl<'a> Evaluation<'a> {
         })
     }
 
-    /// Differences to least squares over their standard uncertainty.
+    /// Returns the differences from least squares divided by their standard uncertainties.
     fn difference_to_least_squares(&self, parameters: &GyroParameters, spread: &DMatrix<f64>) -> [f64; 8] {
         let u = standard_deviations(&(spread - self.propagation.least_squares()));
         let (found, answer) = (parameters.to_vector(), self.fit.unknowns.parameters.to_vector());

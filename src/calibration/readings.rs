@@ -1,7 +1,7 @@
-//! The currents read in every position: CSV `i,j,jx_ma,jy_ma`, and if present `cycle`, `visit`, `time_s`.
+//! The currents of every position, from CSV: `i,j,jx_ma,jy_ma`, and optionally `cycle`, `visit`, `time_s`.
 //!
-//! A visit is one return to a position with its rows, the readings taken there without leaving it. What errors a
-//! further visit makes smaller, a further row does not.
+//! A visit is one arrival at a position with its rows, which are the readings taken there without leaving the position.
+//! Further visits reduce errors that further rows of the same visit do not reduce.
 
 use crate::coefficients::{Coefficients, PositionIndex};
 use crate::text::Unreadable;
@@ -10,56 +10,56 @@ use crate::text::table::{Row, Table};
 use nalgebra::Vector2;
 use std::collections::BTreeMap;
 
-/// The columns that the file must have.
+/// Required columns of the file.
 pub(crate) const COLUMNS: [&str; 4] = ["i", "j", "jx_ma", "jy_ma"];
 
-/// The columns that it may have.
+/// Optional columns of the file.
 pub(crate) const OPTIONAL_COLUMNS: [&str; 3] = ["cycle", "visit", "time_s"];
 
-/// One row: the currents read once.
+/// One row of the file: one reading of the two currents.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reading {
-    /// Position.
+    /// Index (i, j) of the position.
     pub index: PositionIndex,
-    /// (J_x, J_y), mA.
+    /// Currents (J_x, J_y), mA.
     pub current_ma: Vector2<f64>,
     /// Turn-on of the gyro, from 1.
     pub cycle: u32,
-    /// Return to the position, from 1; `None` where the order of the rows tells.
+    /// Number of the visit to the position, from 1; `None` if it follows from the order of the rows.
     pub visit: Option<u32>,
 }
 
-/// One return to a position.
+/// One visit: one arrival at a position with its readings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Visit {
     /// Turn-on of the gyro, from 1.
     pub cycle: u32,
     /// Number of the visit within its cycle and position.
     pub number: u32,
-    /// Every reading (J_x, J_y), in the order of the file; at least one.
+    /// Readings (J_x, J_y) of the visit, mA, in the order of the file; at least one.
     pub each_ma: Vec<Vector2<f64>>,
-    /// Mean of the readings, mA.
+    /// Mean (J_x, J_y) of the readings, mA.
     pub mean_ma: Vector2<f64>,
 }
 
-/// Readings of one position.
+/// Readings of one position, grouped by visit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PositionReadings {
-    /// Which position.
+    /// Index (i, j) of the position.
     pub index: PositionIndex,
     /// Visits, in the order of the file; at least one.
     pub visits: Vec<Visit>,
-    /// Mean of the visits' means, mA.
+    /// Mean (J_x, J_y) of the visit means, mA.
     pub mean_ma: Vector2<f64>,
 }
 
 impl PositionReadings {
-    /// Returns the share of its variance that an error of every visit keeps in the mean.
+    /// Returns the fraction of its variance that an error of a single visit has in the mean of the position.
     pub(crate) fn visit_share(&self) -> f64 {
         1.0 / self.visits.len() as f64
     }
 
-    /// Returns the share of its variance that an error of every reading keeps in the mean.
+    /// Returns the fraction of its variance that an error of a single reading has in the mean of the position.
     pub(crate) fn reading_share(&self) -> f64 {
         let each: f64 = self.visits.iter().map(|visit| 1.0 / visit.each_ma.len() as f64).sum();
         each * self.visit_share() * self.visit_share()
@@ -73,34 +73,34 @@ pub struct Readings {
     remark: Option<String>,
 }
 
-/// Why readings do not fit the positions.
+/// Reason why readings do not match the positions of the coefficients.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoReadings {
-    /// A position that has none.
+    /// A position without a reading.
     #[error("found no reading of position {0}")]
     Missing(PositionIndex),
-    /// A position that the coefficients do not know.
+    /// A reading of a position that the coefficients do not contain.
     #[error("found a reading of position {0}, which is not in the passport")]
     Unknown(PositionIndex),
-    /// A current that is no finite number.
+    /// A current that is not a finite number.
     #[error("a current of position {0} is not finite")]
     NotFinite(PositionIndex),
 }
 
 impl Reading {
-    /// Creates a reading of the first cycle, whose visit the order of the rows tells.
+    /// Creates a reading of the first cycle; its visit follows from the order of the rows.
     pub fn new(index: PositionIndex, current_ma: Vector2<f64>) -> Self {
         Self { index, current_ma, cycle: 1, visit: None }
     }
 }
 
 impl Readings {
-    /// Creates readings from currents of the positions in any order; those of one position that follow each other are one
-    /// visit.
+    /// Creates readings from currents (J_x, J_y), mA, with their positions, in any order. Consecutive readings of one
+    /// position form one visit.
     ///
     /// # Errors
-    /// See [`NoReadings`].
+    /// Returns [`NoReadings`] if a position is missing or unknown, or a current is not finite.
     pub fn new(coefficients: &Coefficients, readings: &[(PositionIndex, Vector2<f64>)]) -> Result<Self, NoReadings> {
         let rows: Vec<_> = readings.iter().map(|(index, current)| Reading::new(*index, *current)).collect();
         Self::of_rows(coefficients, &rows)
@@ -109,7 +109,7 @@ impl Readings {
     /// Creates readings from rows in any order.
     ///
     /// # Errors
-    /// See [`NoReadings`].
+    /// Returns [`NoReadings`] if a position is missing or unknown, or a current is not finite.
     pub(crate) fn of_rows(coefficients: &Coefficients, rows: &[Reading]) -> Result<Self, NoReadings> {
         let known = |index: PositionIndex| coefficients.positions.iter().any(|at| at.index == index);
         if let Some(row) = rows.iter().find(|row| !known(row.index)) {
@@ -127,11 +127,11 @@ impl Readings {
         Ok(Self { positions: positions.collect::<Result<_, _>>()?, remark: None })
     }
 
-    /// Reads the CSV file `name` for the positions of `coefficients`; `range_ma` is the meter's range.
+    /// Reads the CSV file `name` for the positions of `coefficients`; `range_ma` is the range of the meter, mA.
     ///
     /// # Errors
-    /// [`Unreadable`] with every mistake at its line and column: form, numbers, positions missing or unknown,
-    /// currents beyond the range, an axis without current.
+    /// Returns [`Unreadable`] with the line and column of every error: invalid form or number, missing or unknown
+    /// position, current beyond the range, axis without current.
     pub fn from_csv(name: &str, bytes: &[u8], coefficients: &Coefficients, range_ma: f64) -> Result<Self, Unreadable> {
         let table = Table::read(name, bytes, &COLUMNS, &OPTIONAL_COLUMNS)?;
         let [cycle, visit, time] = OPTIONAL_COLUMNS.map(|column| table.place(column));
@@ -146,7 +146,7 @@ impl Readings {
             let y = current(&table, row, 3, range_ma, &mut problems);
             let mut whole = |column: Option<usize>| column.and_then(|column| table.index(row, column, &mut problems));
             let (cycle, visit) = (whole(cycle).unwrap_or(1), whole(visit));
-            // The time says nothing here yet, but a cell that is none is a mistake.
+            // The time is not used yet, but an invalid cell is reported.
             let _ = time.map(|column| table.number(row, column, &mut problems));
             if let (Some(index), Some(x), Some(y)) = (index, x, y) {
                 readings.push(Reading { index, current_ma: Vector2::new(x, y), cycle, visit });
@@ -171,12 +171,12 @@ impl Readings {
         &self.positions
     }
 
-    /// Returns the mean currents (J_x, J_y) in mA, in the order of the coefficients.
+    /// Returns the mean currents (J_x, J_y), mA, in the order of the coefficients.
     pub fn means_ma(&self) -> Vec<Vector2<f64>> {
         self.positions.iter().map(|position| position.mean_ma).collect()
     }
 
-    /// Returns what is to be said of the file: which of its columns were left out of account.
+    /// Returns a remark that lists the columns which were not used, or `None` if there is nothing to report.
     pub(crate) fn remark(&self) -> Option<&str> {
         self.remark.as_deref()
     }
@@ -187,17 +187,17 @@ fn mean<'a>(each: impl ExactSizeIterator<Item = &'a Vector2<f64>>) -> Vector2<f6
     each.sum::<Vector2<f64>>() / count
 }
 
-/// The visits of each position, in the order of their first rows.
+/// Returns the visits of each position, in the order of their first rows.
 fn visits(rows: &[Reading]) -> BTreeMap<PositionIndex, Vec<Visit>> {
     let mut visits: BTreeMap<PositionIndex, Vec<Visit>> = BTreeMap::new();
-    // Where a visit stands among those of its position; the last number given by the order of the rows.
+    // `places`: index of a visit among those of its position. `counted`: last visit number given by the row order.
     let mut places: BTreeMap<(PositionIndex, u32, u32), usize> = BTreeMap::new();
     let mut counted: BTreeMap<(PositionIndex, u32), u32> = BTreeMap::new();
     let mut before = None;
     for row in rows {
         let (index, cycle, stretch) = (row.index, row.cycle, Some((row.index, row.cycle)));
         let last = counted.entry((index, cycle)).or_default();
-        // Without a number of its own a row goes on with the visit of the row before it, or begins a new one.
+        // A row without a visit number continues the visit of the previous row, or begins a new one.
         *last += u32::from(before != stretch);
         before = stretch;
         let number = row.visit.unwrap_or(*last);
@@ -247,7 +247,7 @@ fn current(table: &Table, row: &Row, column: usize, range_ma: f64, problems: &mu
     None
 }
 
-/// Positions without a reading.
+/// Returns a problem for each position without a reading.
 fn incomplete(coefficients: &Coefficients, readings: &[Reading]) -> Vec<Problem> {
     let count = |wanted: PositionIndex| readings.iter().filter(|row| row.index == wanted).count();
     let most = coefficients.positions.iter().max_by_key(|at| count(at.index));
@@ -269,7 +269,7 @@ fn incomplete(coefficients: &Coefficients, readings: &[Reading]) -> Vec<Problem>
         .collect()
 }
 
-/// Axes whose currents are all zero.
+/// Returns a problem if the currents of an axis are all zero.
 fn without_current(readings: &[Reading]) -> Vec<Problem> {
     let zero = |axis: usize| readings.iter().all(|row| row.current_ma[axis] == 0.0);
     let (found, advice) = match (zero(0), zero(1)) {

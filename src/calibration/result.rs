@@ -1,4 +1,4 @@
-//! What a calibration gives.
+//! Results of a calibration.
 
 use super::analytic::NoAnalyticSolution;
 use super::diagnosis::Hint;
@@ -11,23 +11,23 @@ use crate::coefficients::PositionIndex;
 use crate::gyro::GyroParameters;
 use nalgebra::{DMatrix, Matrix2, Vector2};
 
-/// A method of calibration.
+/// Method of calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Method {
-    /// The paper's closed solution.
+    /// The paper's analytic method.
     Analytic,
-    /// The paper's successive approximation.
+    /// The paper's iterative method.
     Iterative,
     /// Weighted least squares on all readings.
     LeastSquares,
 }
 
 impl Method {
-    /// All of them, in the order of results: the last one is the answer.
+    /// All methods, in the order of results; the last one gives the adopted result.
     pub const ALL: [Self; 3] = [Self::Analytic, Self::Iterative, Self::LeastSquares];
 
-    /// Its name in options and results.
+    /// Returns the name of the method in options and results.
     pub fn key(self) -> &'static str {
         match self {
             Self::Analytic => "analytic",
@@ -40,27 +40,29 @@ impl Method {
 /// The result of a calibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Calibration {
-    /// Results in the order of the methods asked for; refused methods are missing.
+    /// Results in the order of the requested methods; refused methods are missing.
     pub results: Vec<MethodResult>,
-    /// Methods that gave nothing, and why.
+    /// Methods without a result, each with the reason.
     pub refused: Vec<(Method, MethodRefusal)>,
-    /// Whether the visits of a position agree; absent where every position was visited once.
+    /// Agreement of the visits of each position; `None` if every position was visited once.
     pub scatter: Option<Scatter>,
-    /// How the rows of a visit scatter; absent where every visit has one.
+    /// Scatter of the rows of each visit; `None` if every visit has one row.
     pub row_scatter: Option<RowScatter>,
-    /// Whether the fit settled. If not, the readings are far from any gyro's on this stand.
+    /// `true` if the fit converged. Otherwise the readings are far from those of any gyro on this stand.
     pub settled: bool,
-    /// What may be wrong, when the readings do not fit.
+    /// Possible causes if the readings do not fit; otherwise `None`.
     pub hint: Option<Hint>,
 }
 
 impl Calibration {
-    /// The answer: least squares where asked for, else the last method; `None` when no method gave anything.
+    /// Returns the adopted result: least squares if requested, otherwise the last method; `None` if no method gave a
+    /// result.
     pub fn answer(&self) -> Option<&MethodResult> {
         self.results.iter().find(|result| result.method == Method::LeastSquares).or(self.results.last())
     }
 
-    /// Why no parameters are to be given, in words: the fit did not settle, so they would mean nothing.
+    /// Returns the reason why no parameters are given, or `None` if the fit converged. Without convergence the
+    /// parameters have no meaning.
     pub(crate) fn meaningless(&self) -> Option<String> {
         let why = "no parameters are given, because the readings differ too much from those of any gyro on this stand";
         let hint = self.hint.as_ref().map_or_else(String::new, |hint| format!("; {hint}"));
@@ -68,54 +70,55 @@ impl Calibration {
     }
 }
 
-/// Why one method gave nothing.
+/// Reason why a method gave no result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MethodRefusal {
-    /// The closed solution.
+    /// Refusal of the analytic method.
     #[error(transparent)]
     Analytic(#[from] NoAnalyticSolution),
-    /// Successive approximation.
+    /// Refusal of the iterative method.
     #[error(transparent)]
     Iterative(#[from] NoIterativeSolution),
-    /// Least squares.
+    /// Refusal of weighted least squares.
     #[error(transparent)]
     LeastSquares(#[from] NoLeastSquares),
 }
 
-/// What one method gives.
+/// Result of one method.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MethodResult {
-    /// Which method.
+    /// Method that gave this result.
     pub method: Method,
-    /// K, ω_0, ω_g, ω_k.
+    /// Parameters K, ω_0, ω_g, ω_k.
     pub parameters: GyroParameters,
-    /// ω_n, 2×2: four free numbers of the paper's methods, [[ω_g, −ω_k], [ω_k, ω_g]] of least squares.
+    /// ω_n, °/(h·g), 2×2: four independent numbers for the paper's methods, [[ω_g, −ω_k], [ω_k, ω_g]] for least
+    /// squares.
     pub omega_n_deg_per_h_per_g: Matrix2<f64>,
-    /// The anisoelastic coefficient, when fitted.
+    /// Anisoelastic coefficient, °/(h·g²); `None` if it was not fitted.
     pub anisoelasticity_deg_per_h_per_g2: Option<f64>,
-    /// How successive approximation went.
+    /// Course of the iteration; `None` for other methods.
     pub iteration: Option<Iteration>,
-    /// Covariance of the parameters in the order of `Parameter::NINE`, 8×8 or 9×9, from all inputs.
+    /// Covariance of the parameters from all inputs, 8×8 or 9×9, in the order of `Parameter::NINE`.
     pub covariance: DMatrix<f64>,
-    /// Standard uncertainties of the elements of ω_n, 2×2.
+    /// Standard uncertainties of the elements of ω_n, °/(h·g), 2×2.
     pub omega_n_uncertainty_deg_per_h_per_g: Matrix2<f64>,
-    /// How far each parameter is from that of least squares, in the order of [`Parameter::EIGHT`] and in units of the
-    /// difference's own standard uncertainty (both methods see the same errors); absent for least squares itself.
+    /// Difference of each parameter from least squares, in units of its own standard uncertainty (both methods are
+    /// subject to the same errors), in the order of [`Parameter::EIGHT`]; `None` for least squares itself.
     pub from_least_squares: Option<[f64; 8]>,
-    /// Whether the readings fit.
+    /// Chi-square test of the fit.
     pub chi_square: ChiSquare,
-    /// What is left of each equation, in the order of the coefficients.
+    /// Residuals of each position, in the order of the coefficients.
     pub residuals: Vec<Residual>,
 }
 
 impl MethodResult {
-    /// Standard uncertainty of a parameter; `None` when it was not fitted.
+    /// Returns the standard uncertainty of a parameter in its unit, or `None` if it was not fitted.
     pub fn standard_uncertainty(&self, parameter: Parameter) -> Option<f64> {
         self.covariance.get((parameter.place(), parameter.place())).map(|variance| variance.sqrt())
     }
 
-    /// Value of a parameter; `None` when it was not fitted.
+    /// Returns the value of a parameter in its unit, or `None` if it was not fitted.
     pub fn value(&self, parameter: Parameter) -> Option<f64> {
         match parameter {
             Parameter::Anisoelasticity => self.anisoelasticity_deg_per_h_per_g2,
@@ -124,37 +127,37 @@ impl MethodResult {
     }
 }
 
-/// How successive approximation went.
+/// Course of the iterative method.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Iteration {
-    /// When it was to stop.
+    /// Stop rule of the iteration.
     pub stop_rule: StopRule,
-    /// Steps taken, the first approximation counted as 1.
+    /// Number of steps; the first approximation counts as 1.
     pub steps: u32,
-    /// What each step after the first approximation moved.
+    /// Changes of the parameters in each step after the first approximation.
     pub changes: Vec<StepChange>,
-    /// Steps predicted before the first one.
+    /// Number of steps predicted before the first one; `None` if there is no prediction.
     pub predicted_steps: Option<u32>,
-    /// ρ(T), known before the first step.
+    /// Spectral radius ρ(T), known before the first step.
     pub spectral_radius: f64,
-    /// What K still lacks, exactly.
+    /// Exact difference of the analytic solution from K at the last step, °/(h·mA), 2×2.
     pub remainder_k_deg_per_h_per_ma: Matrix2<f64>,
-    /// What ω_n still lacks, exactly.
+    /// Exact difference of the analytic solution from ω_n at the last step, °/(h·g), 2×2.
     pub remainder_omega_n_deg_per_h_per_g: Matrix2<f64>,
 }
 
-/// Chi-square of a fit.
+/// Chi-square test of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChiSquare {
-    /// Chi-square; 0 where there are no degrees of freedom.
+    /// Value of chi-square; 0 without degrees of freedom.
     pub value: f64,
-    /// Number of readings less number of parameters; with 0 a fit cannot be judged.
+    /// Number of readings minus number of parameters; if it is 0, a fit cannot be judged.
     pub degrees_of_freedom: usize,
-    /// Probability of a larger value when nothing is wrong.
+    /// Probability of a larger value if the readings agree with all stated uncertainties.
     ///
-    /// Where uncertainties rest on estimates with few degrees of freedom, this is that of a scaled F.
+    /// It is computed from a scaled F distribution if uncertainties rest on estimates with few degrees of freedom.
     pub probability: f64,
-    /// Degrees of freedom of the denominator of that F; infinite where every uncertainty is known.
+    /// Denominator degrees of freedom of that F distribution; infinite if every uncertainty is known.
     pub of_uncertainties: f64,
 }
 
@@ -165,21 +168,21 @@ impl ChiSquare {
         Self { value, degrees_of_freedom, probability, of_uncertainties: distribution.denominator }
     }
 
-    /// Returns `false` if there are as many unknowns as readings, which any readings fit.
+    /// Returns `false` if there are as many unknowns as readings; then any readings fit.
     pub(crate) fn judges(&self) -> bool {
         self.degrees_of_freedom > 0
     }
 }
 
-/// What is left of the two equations of a position: ω_3 − K J − ω_0 − ω_n n.
+/// Residuals of the two equations of a position: ω_3 − K J − ω_0 − ω_n n.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Residual {
-    /// Which position.
+    /// Index (i, j) of the position.
     pub index: PositionIndex,
-    /// Along x and y.
+    /// Residuals along x and y, °/h.
     pub residual_deg_per_h: Vector2<f64>,
-    /// Its standard uncertainty: what is left when nothing is wrong.
+    /// Standard uncertainties of the residuals, °/h, if only the stated uncertainties act.
     pub standard_uncertainty_deg_per_h: Vector2<f64>,
-    /// In units of its standard uncertainty; 0 where it cannot differ from 0.
+    /// Residuals divided by their standard uncertainties; 0 if a residual cannot differ from 0.
     pub normalised: Vector2<f64>,
 }
