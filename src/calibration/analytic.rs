@@ -1,44 +1,46 @@
-//! The paper's closed solution ([the paper](crate::bibliography::Bibliography::Tang17), eq. (8), (13)-(16)).
+//! Analytic method ([the paper](crate::bibliography::Bibliography::Tang17), eq. (8), (13)-(16)).
 
 use crate::coefficients::{Coefficients, EIGHT_POSITIONS, Matrices, pair_differences};
 use crate::gyro::GyroParameters;
 use nalgebra::{Matrix2, Vector2};
 
-/// What the closed solution gives: ω_n as the four numbers of (15), and the parameters of (2) in it.
+/// Solution by the analytic method: ω_n as the four numbers of (15), and the parameters of (2) computed from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct AnalyticSolution {
-    /// K, ω_0, ω_g and ω_k (paper, eq. (8), (13), (14), (16)).
+    /// Parameters K, ω_0, ω_g and ω_k (paper, eq. (8), (13), (14), (16)).
     pub parameters: GyroParameters,
-    /// ω_n, 2×2, four free numbers (paper, eq. (15)).
+    /// ω_n, °/(h·g), 2×2, four independent numbers (paper, eq. (15)).
     pub omega_n_deg_per_h_per_g: Matrix2<f64>,
 }
 
-/// Why there is no closed solution.
+/// Reason why the analytic method gives no result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoAnalyticSolution {
-    /// The method is for the paper's eight positions.
+    /// Some of the paper's eight positions are missing, and the method requires all of them.
     #[error("the stand lacks some of the eight positions that the analytic method requires")]
     EightPositionsMissing,
-    /// The number of current pairs is not that of the positions.
+    /// A number of current pairs that differs from the number of positions.
     #[error("found {found} pairs of currents, expected {expected}, one for each position")]
     WrongNumberOfCurrents {
-        /// Pairs of currents given.
+        /// Number of pairs of currents given.
         found: usize,
-        /// Positions of the stand.
+        /// Number of positions of the stand.
         expected: usize,
     },
-    /// J_1 − J_2 Δ has no inverse.
+    /// The matrix J_1 − J_2 Δ has no inverse.
     #[error("the currents do not determine K: J_1 - J_2 Delta has no inverse")]
     SingularCurrents,
 }
 
-/// Solves for the gyro: K by (13), ω_n by (15), ω_g and ω_k by (16), ω_0 by (8) as the mean over all positions.
+/// Solves for the gyro parameters: K by (13), ω_n by (15), ω_g and ω_k by (16), ω_0 by (8) as the mean over all
+/// positions.
 ///
-/// `currents_ma` are (J_x, J_y) of `coefficients.positions`, in the same order.
+/// `currents_ma` contains (J_x, J_y) of `coefficients.positions`, in the same order.
 ///
 /// # Errors
-/// See [`NoAnalyticSolution`].
+/// Returns [`NoAnalyticSolution`] if the eight positions are incomplete, the number of currents is wrong, or J_1 − J_2
+/// Δ is singular.
 pub(crate) fn solve(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],
@@ -58,9 +60,10 @@ pub(crate) fn solve(
     Ok(AnalyticSolution::new(k, omega_n, omega0))
 }
 
-/// How the closed solution answers to misclosures of the equations, to first order.
+/// First-order response of the analytic solution to misclosures of the equations.
 ///
-/// When position p is out by e_p, (9)-(11) become δK J_1 + δω_n n_1 = e_1 and δK J_2 + δω_n n_2 = e_2.
+/// If the equations of position p have the misclosure e_p, (9)-(11) become δK J_1 + δω_n n_1 = e_1 and δK J_2 + δω_n
+/// n_2 = e_2.
 #[derive(Debug, Clone)]
 pub(crate) struct AnalyticMap<'a> {
     coefficients: &'a Coefficients,
@@ -69,12 +72,12 @@ pub(crate) struct AnalyticMap<'a> {
     inverse: Matrix2<f64>,
     j2: Matrix2<f64>,
     matrices: &'a Matrices,
-    /// Where the eight positions stand among all.
+    /// Indices of the eight positions among all positions.
     eight: [usize; 8],
 }
 
 impl<'a> AnalyticMap<'a> {
-    /// `None` where the closed solution does not exist.
+    /// Creates the map, or returns `None` if there is no analytic solution.
     pub(crate) fn new(coefficients: &'a Coefficients, currents_ma: &'a [Vector2<f64>]) -> Option<Self> {
         let matrices = coefficients.matrices.as_ref()?;
         let (j1, j2) = current_differences(coefficients, currents_ma)?;
@@ -82,7 +85,7 @@ impl<'a> AnalyticMap<'a> {
         Some(Self { coefficients, currents_ma, inverse, j2, matrices, eight: places_of_the_eight(coefficients)? })
     }
 
-    /// The change of the solution for misclosures (°/h) of all positions.
+    /// Returns the change of the solution for the misclosures of all positions, °/h.
     pub(crate) fn apply(&self, misclosures: &[Vector2<f64>]) -> AnalyticSolution {
         let (e1, e2) = pair_differences(|position| misclosures[self.eight[position]]);
         let k = (e1 - e2 * self.matrices.delta) * self.inverse;
@@ -95,7 +98,7 @@ impl<'a> AnalyticMap<'a> {
 }
 
 impl AnalyticSolution {
-    /// With ω_g and ω_k taken from ω_n by (16).
+    /// Creates a solution with ω_g and ω_k computed from ω_n by (16).
     fn new(k: Matrix2<f64>, omega_n: Matrix2<f64>, omega0: Vector2<f64>) -> Self {
         let parameters = GyroParameters {
             k_deg_per_h_per_ma: k,
@@ -107,7 +110,7 @@ impl AnalyticSolution {
     }
 }
 
-/// ω_0: the mean of ω_3 − K J − ω_n n over all positions (paper, eq. (8)), °/h.
+/// Returns ω_0, °/h: the mean of ω_3 − K J − ω_n n over all positions (paper, eq. (8)).
 pub(crate) fn mean_misclosure(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],
@@ -121,7 +124,8 @@ pub(crate) fn mean_misclosure(
     sum / positions.len() as f64
 }
 
-/// J_1 and J_2, the differences of the currents of the paper's eight positions (eq. (11)).
+/// Returns J_1 and J_2, mA, 2×2: the differences of the currents of the eight positions (paper, eq. (11)), or `None` if
+/// a position is missing or the number of currents is wrong.
 pub(crate) fn current_differences(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],
@@ -131,7 +135,7 @@ pub(crate) fn current_differences(
         .then(|| pair_differences(|position| currents_ma[eight[position]]))
 }
 
-/// Where the paper's eight positions stand among all, when all are there.
+/// Returns the indices of the paper's eight positions among all positions, or `None` if one is missing.
 pub(crate) fn places_of_the_eight(coefficients: &Coefficients) -> Option<[usize; 8]> {
     let mut places = [0; 8];
     for (place, (index, _, _)) in places.iter_mut().zip(EIGHT_POSITIONS) {

@@ -1,4 +1,4 @@
-//! What may be wrong where the readings do not fit, as far as residuals can tell.
+//! Possible causes if the readings do not fit, as far as the residuals show them.
 
 use super::inputs::Setup;
 use super::least_squares::Fit;
@@ -11,24 +11,24 @@ use crate::units::arcseconds_from_radians;
 use nalgebra::{Matrix2, Matrix2x3, Vector2, Vector3};
 use std::fmt;
 
-/// A fit whose chi-square is less probable than this is looked into. So of good calibrations this share gets a false
-/// alarm when errors are normal, and less when they are uniform.
+/// Probability of chi-square below which a fit is examined. A correct calibration is therefore examined with this
+/// probability if errors are normal, and with a smaller one if they are uniform.
 pub(crate) const ALARM: f64 = 0.005;
 
-/// An explanation is taken for possible when what it leaves is more probable than this.
+/// Probability of the remaining chi-square above which an explanation is possible.
 const POSSIBLE: f64 = 0.001;
 
-/// Of two possible explanations the one worse by more than this, in chi-square, is dropped: e^(10/2) = 150 times less
-/// likely.
+/// Difference of chi-square above which the worse of two possible explanations is dropped: it is e^(10/2) = 150 times
+/// less likely.
 const WORSE: f64 = 10.0;
 
 /// Chi-square that an explanation with two free numbers must gain over one without, to be preferred.
 const PRICE_OF_TWO_NUMBERS: f64 = 4.0;
 
-/// Positions looked into, one by one and two by two; a stand may have a thousand.
+/// Maximum number of positions that are examined one by one and in pairs; a stand may have many more.
 const MOST_SUSPECTS: usize = 24;
 
-/// What residuals can never tell, and what can.
+/// Errors that small residuals do not exclude, and those that they show.
 pub(crate) const CANNOT_TELL: &str = "Small residuals do not exclude all errors. The following leave no residuals but change \
                                the result: the passport of another site (latitude), a base tilted about east, a gyro \
                                rotated in its seat about the spin axis, the gain and offset of the meter, x and y \
@@ -36,28 +36,29 @@ pub(crate) const CANNOT_TELL: &str = "Small residuals do not exclude all errors.
                                detect these errors, check the serial number of the stand, the site of the passport, \
                                the specification of the gyro and its previous calibration.";
 
-/// What may be wrong.
+/// Possible causes of readings that do not fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hint {
-    /// Possible explanations, the best first. Empty: none of those looked for, so several positions at once.
+    /// Possible explanations, the best first. If empty, none of the known errors explains the readings; several
+    /// positions differ at once.
     pub explanations: Vec<Explanation>,
-    /// How far every position would have to be out for such a fit, in arcseconds: a rough size.
+    /// Rough size of the angular errors of all positions that would explain the fit, arcsec.
     pub size_arcsec: f64,
 }
 
-/// One explanation.
+/// Possible explanation of readings that do not fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Explanation {
-    /// The readings of two positions are exchanged.
+    /// Exchanged readings of two positions.
     Exchanged(PositionIndex, PositionIndex),
-    /// One position did not repeat, or its reading is wrong.
+    /// A position that did not repeat, or whose reading is wrong.
     DidNotRepeat {
-        /// Which.
+        /// Index (i, j) of the position.
         index: PositionIndex,
-        /// The smallest turn of the case that explains it.
+        /// Smallest rotation of the case that explains the readings, arcsec.
         angle_arcsec: f64,
-        /// Errors of J_x and J_y that explain it, microamperes.
+        /// Errors of J_x and J_y that explain the readings, µA.
         current_ua: Vector2<f64>,
     },
 }
@@ -98,9 +99,9 @@ impl fmt::Display for Hint {
     }
 }
 
-/// A hint when chi-square is improbable.
+/// Returns a hint if chi-square is improbable, otherwise `None`.
 pub(crate) fn hint(setup: &Setup, data: &Data, chi_square: &ChiSquare) -> Option<Hint> {
-    // A chi-square that is not a number is no good fit either.
+    // A chi-square that is NaN is not a good fit either.
     if chi_square.degrees_of_freedom == 0 || chi_square.probability >= ALARM {
         return None;
     }
@@ -115,7 +116,8 @@ pub(crate) fn hint(setup: &Setup, data: &Data, chi_square: &ChiSquare) -> Option
     Some(Hint { explanations, size_arcsec: size_arcsec(setup, &fit, chi_square) })
 }
 
-/// The positions to look into, in their order: of many, those with the largest misclosures.
+/// Returns the indices of the positions to examine, in ascending order: at most `MOST_SUSPECTS`, with the largest
+/// misclosures.
 fn suspects(setup: &Setup, data: &Data, fit: &Fit) -> Vec<usize> {
     let positions = &setup.coefficients().positions;
     let misclosure = |place: usize| {
@@ -128,7 +130,7 @@ fn suspects(setup: &Setup, data: &Data, fit: &Fit) -> Vec<usize> {
     places
 }
 
-/// Every exchange of two positions that makes the readings fit, with its score.
+/// Returns every exchange of two positions that makes the readings fit, with its score.
 fn exchanges(setup: &Setup, data: &Data, suspects: &[usize]) -> Vec<(f64, Explanation)> {
     let positions = &setup.coefficients().positions;
     let mut possible = Vec::new();
@@ -144,7 +146,7 @@ fn exchanges(setup: &Setup, data: &Data, suspects: &[usize]) -> Vec<(f64, Explan
     possible
 }
 
-/// Every position without which the others fit, with its score.
+/// Returns every position without which the other positions fit, with its score.
 fn single_positions(setup: &Setup, data: &Data, suspects: &[usize]) -> Vec<(f64, Explanation)> {
     let possible = suspects.iter().filter_map(|&place| {
         let (rest, others) = (setup.without(place), data.without(place));
@@ -156,7 +158,7 @@ fn single_positions(setup: &Setup, data: &Data, suspects: &[usize]) -> Vec<(f64,
         let at = &setup.coefficients().positions[place];
         let misclosure = fit.unknowns.misclosure(at, &data.currents_ma[place]);
         let turns = turns(&Sensitivity::new(setup, &fit.unknowns), place);
-        // The smallest turn δ with S δ = misclosure: S' (S S')⁻¹ misclosure.
+        // Smallest rotation δ with S δ = misclosure: S' (S S')⁻¹ misclosure.
         let angle = (turns * turns.transpose())
             .try_inverse()
             .map_or(f64::NAN, |inverse: Matrix2<f64>| (turns.transpose() * inverse * misclosure).norm());
@@ -171,7 +173,7 @@ fn single_positions(setup: &Setup, data: &Data, suspects: &[usize]) -> Vec<(f64,
     possible.collect()
 }
 
-/// Sensitivity of a position's misclosure to turns of the case about x, y, z.
+/// Returns the sensitivity of the misclosure of a position to rotations of the case about x, y, z, °/h per radian.
 fn turns(sensitivity: &Sensitivity, place: usize) -> Matrix2x3<f64> {
     let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
     Matrix2x3::from_columns(&axes.map(|axis| sensitivity.to_case_turn(place, &axis)))
@@ -183,7 +185,7 @@ fn chi_square(setup: &Setup, data: &Data) -> Option<ChiSquare> {
     found.value.is_finite().then_some(found)
 }
 
-/// The uncertainty that every angle of every position would need for chi-square to be as expected, roughly.
+/// Returns the approximate uncertainty, arcsec, that every angle would need for chi-square to have its expected value.
 fn size_arcsec(setup: &Setup, fit: &Fit, chi_square: &ChiSquare) -> f64 {
     let sensitivity = Sensitivity::new(setup, &fit.unknowns);
     let per_radian: f64 = fit

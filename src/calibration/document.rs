@@ -1,4 +1,4 @@
-//! A result for machines: the JSON of `calibrate`, which is also what a later calibration compares itself with.
+//! The JSON result of `calibrate`, which a later calibration can read for comparison.
 
 use super::iterative::{LARGEST_NUMBER_OF_STEPS, StepChange};
 use super::mistake::Mistake;
@@ -14,192 +14,194 @@ use nalgebra::{Matrix2, Vector2};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// The result of a calibration, in the order in which it is written.
+/// JSON result of a calibration, with the keys in the order of writing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CalibrationDocument {
-    /// The passport used.
+    /// Identifier of the passport used.
     pub(crate) passport_id: String,
-    /// Whether it was verified.
+    /// `true` if the passport was verified.
     pub(crate) passport_verified: bool,
-    /// The g that drifts are stated for.
+    /// Value of g to which g-sensitive drifts refer, m/s².
     pub(crate) gravity_m_per_s2: f64,
-    /// Its standard uncertainty; absent where it is not stated.
+    /// Standard uncertainty of g, m/s²; absent if it is not stated.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) gravity_u_m_per_s2: Option<f64>,
-    /// One for each method.
+    /// Results, one for each method.
     pub(crate) results: Vec<ResultDocument>,
-    /// What certificate, site and laboratory do not state: the uncertainties are without it.
+    /// Inputs whose uncertainty certificate, site and laboratory do not state; the result does not include it.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub(crate) not_stated: Vec<String>,
-    /// Whether the visits of a position agree, when there are several.
+    /// Agreement of the visits of a position; present if there are several visits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) scatter: Option<ScatterDocument>,
-    /// How the rows of a visit scatter, when there are several.
+    /// Scatter of the rows of a visit; present if there are several rows.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) row_scatter: Option<RowScatterDocument>,
-    /// What may be wrong, in words.
+    /// Possible causes if the readings do not fit, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) hint: Option<String>,
-    /// The mistake that explains the result, when readings fit and the parameters are not the gyro's.
+    /// Error that explains the result if the readings fit but the parameters are not those of the gyro.
     #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
     pub(crate) mistake: Option<Mistake>,
-    /// Against the gyro's type.
+    /// Comparison with the gyro type.
     #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
     pub(crate) verdict: Option<Verdict>,
-    /// Against an earlier result.
+    /// Comparison with an earlier result.
     #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
     pub(crate) change: Option<Verdict>,
-    /// Keys of a result that come from elsewhere: read, and left aside.
+    /// Keys that other commands add to a result; they are accepted and ignored.
     #[serde(skip_serializing, default, deserialize_with = "left_aside_whole")]
     budget: (),
     #[serde(skip_serializing, default, deserialize_with = "left_aside_whole")]
     monte_carlo: (),
 }
 
-/// What one method gives.
+/// JSON result of one method.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ResultDocument {
-    /// Which method.
+    /// Name of the method.
     pub(crate) method: String,
-    /// K: [[K_x, K_xy], [K_yx, K_y]].
+    /// K, °/(h·mA): [[K_x, K_xy], [K_yx, K_y]].
     pub(crate) k_deg_per_h_per_ma: [[f64; 2]; 2],
-    /// ω_0: [x, y].
+    /// ω_0, °/h: [x, y].
     pub(crate) omega0_deg_per_h: [f64; 2],
-    /// ω_n: four free numbers of the paper's methods.
+    /// ω_n, °/(h·g), 2×2: four independent numbers for the paper's methods.
     pub(crate) omega_n_deg_per_h_per_g: [[f64; 2]; 2],
-    /// ω_g, per local g.
+    /// ω_g, °/h per local g.
     pub(crate) omega_g_deg_per_h_per_g: f64,
-    /// ω_k, per local g.
+    /// ω_k, °/h per local g.
     pub(crate) omega_k_deg_per_h_per_g: f64,
-    /// When fitted.
+    /// Anisoelastic coefficient, °/(h·g²); absent if it was not fitted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) anisoelasticity_deg_per_h_per_g2: Option<f64>,
-    /// Of successive approximation: steps taken.
+    /// Number of steps of the iterative method.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) iterations: Option<u32>,
-    /// Steps predicted before the first one; absent when that is more than are allowed.
+    /// Number of steps predicted before the first one; absent if it exceeds the maximum number of steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) iterations_predicted: Option<u32>,
-    /// Δ₁ and Δ₂, at which it was to stop.
+    /// Stop rule of the iteration, Δ₁ and Δ₂.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) stop_rule: Option<StopRuleDocument>,
-    /// What each step after the first approximation moved.
+    /// Changes of the parameters in each step after the first approximation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) changes: Option<Vec<ChangeDocument>>,
-    /// ρ(T).
+    /// Spectral radius ρ(T).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) spectral_radius: Option<f64>,
-    /// What K still lacks, exactly.
+    /// Exact remainder of K, °/(h·mA), 2×2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) remainder_k_deg_per_h_per_ma: Option<[[f64; 2]; 2]>,
-    /// What ω_n still lacks, exactly.
+    /// Exact remainder of ω_n, °/(h·g), 2×2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) remainder_omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]>,
-    /// Standard uncertainties, with the keys of the values.
+    /// Standard uncertainties, under the keys of the values.
     pub(crate) standard_uncertainty: UncertaintyDocument,
-    /// Differences to least squares in units of their standard uncertainty: K_x, K_xy, K_yx, K_y, ω_0x, ω_0y, ω_g, ω_k.
+    /// Differences from least squares in units of their standard uncertainties: K_x, K_xy, K_yx, K_y, ω_0x, ω_0y, ω_g,
+    /// ω_k.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) from_least_squares: Option<[f64; 8]>,
-    /// Whether the readings fit.
+    /// Chi-square test of the fit.
     pub(crate) chi_square: ChiSquareDocument,
-    /// What is left of each equation; absent where nothing can be left.
+    /// Residuals of each position, °/h; absent without degrees of freedom.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub(crate) residuals_deg_per_h: Vec<ResidualDocument>,
 }
 
-/// The paper's Δ₁ and Δ₂.
+/// Stop rule of the iteration: the paper's Δ₁ and Δ₂.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StopRuleDocument {
-    /// Δ₁.
+    /// Δ₁, percent.
     pub(crate) delta1_percent: f64,
-    /// Δ₂.
+    /// Δ₂, °/(h·g).
     pub(crate) delta2_deg_per_h: f64,
 }
 
-/// What one step of successive approximation moved.
+/// Changes of the parameters in one step of the iterative method.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ChangeDocument {
-    /// Which step; the first approximation is step 1.
+    /// Number of the step; the first approximation is step 1.
     pub(crate) step: u32,
-    /// K_x or K_y, whichever moved more.
+    /// Larger change of K_x and K_y, percent.
     pub(crate) main_scale_factors_percent: f64,
-    /// ω_g or ω_k, whichever moved more.
+    /// Larger change of ω_g and ω_k, °/(h·g).
     pub(crate) g_drifts_deg_per_h_per_g: f64,
 }
 
-/// Standard uncertainties of one method's values.
+/// Standard uncertainties of the values of one method.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct UncertaintyDocument {
-    /// Of K's elements.
+    /// Standard uncertainties of the elements of K, °/(h·mA).
     pub(crate) k_deg_per_h_per_ma: [[f64; 2]; 2],
-    /// Of ω_0: [x, y].
+    /// Standard uncertainties of ω_0, °/h: [x, y].
     pub(crate) omega0_deg_per_h: [f64; 2],
-    /// Of ω_n's elements.
+    /// Standard uncertainties of the elements of ω_n, °/(h·g).
     pub(crate) omega_n_deg_per_h_per_g: [[f64; 2]; 2],
-    /// Of ω_g.
+    /// Standard uncertainty of ω_g, °/(h·g).
     pub(crate) omega_g_deg_per_h_per_g: f64,
-    /// Of ω_k.
+    /// Standard uncertainty of ω_k, °/(h·g).
     pub(crate) omega_k_deg_per_h_per_g: f64,
-    /// Of the anisoelastic coefficient, when fitted.
+    /// Standard uncertainty of the anisoelastic coefficient, °/(h·g²); absent if it was not fitted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) anisoelasticity_deg_per_h_per_g2: Option<f64>,
 }
 
-/// Chi-square.
+/// Chi-square test of a fit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ChiSquareDocument {
-    /// Its value.
+    /// Value of chi-square.
     pub(crate) value: f64,
-    /// Readings less parameters.
+    /// Number of readings minus number of parameters.
     pub(crate) degrees_of_freedom: usize,
-    /// Probability of a larger value when nothing is wrong; absent without degrees of freedom.
+    /// Probability of a larger value if the readings agree with all stated uncertainties; absent without degrees of
+    /// freedom.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) probability: Option<f64>,
-    /// Degrees of freedom of the uncertainties that it is made with; absent when infinite.
+    /// Degrees of freedom of the uncertainties from which chi-square is computed; absent if infinite.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) uncertainty_degrees_of_freedom: Option<f64>,
 }
 
-/// Scatter of the visits of a position.
+/// Scatter of the visits of each position, compared with the stated one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ScatterDocument {
     /// Sum of squares in units of the stated variance.
     pub(crate) chi_square: f64,
-    /// Two for each visit beyond a position's first.
+    /// Degrees of freedom: two for each visit after a position's first.
     pub(crate) degrees_of_freedom: usize,
-    /// Probability of more when what is stated holds; close to 1 when there is less than stated.
+    /// Probability of more scatter if the stated variance is correct; close to 1 if there is less than stated.
     pub(crate) probability: f64,
-    /// By how much the variance of a visit was enlarged.
+    /// Factor by which the variance of a visit was enlarged.
     pub(crate) variance_factor: f64,
 }
 
-/// Scatter of the rows of a visit.
+/// Scatter of the rows of each visit, compared with the stated noise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RowScatterDocument {
-    /// Standard deviation of one reading.
+    /// Standard deviation of one reading, mA.
     pub(crate) standard_deviation_ma: f64,
-    /// Two for each row beyond a visit's first.
+    /// Degrees of freedom: two for each row after a visit's first.
     pub(crate) degrees_of_freedom: usize,
-    /// Sum of squares in units of the stated variance; absent where no noise is stated.
+    /// Sum of squares in units of the stated variance; absent if no noise is stated.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) chi_square: Option<f64>,
-    /// Probability of more when what is stated holds; close to 1 when there is less than stated.
+    /// Probability of more scatter if the stated noise is correct; close to 1 if there is less than stated.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) probability: Option<f64>,
-    /// By how much the variance of a reading was enlarged.
+    /// Factor by which the variance of a reading was enlarged.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) variance_factor: Option<f64>,
 }
 
-/// The residuals of one position.
+/// Residuals of one position.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ResidualDocument {
@@ -207,19 +209,19 @@ pub(crate) struct ResidualDocument {
     pub(crate) i: u32,
     /// Platform index.
     pub(crate) j: u32,
-    /// Along x.
+    /// Residual along x, °/h.
     pub(crate) x: f64,
-    /// Along y.
+    /// Residual along y, °/h.
     pub(crate) y: f64,
-    /// Standard uncertainty of x; results of earlier versions have none.
+    /// Standard uncertainty of the residual along x, °/h; absent in results of earlier versions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) u_x: Option<f64>,
-    /// Of y.
+    /// Standard uncertainty of the residual along y, °/h.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) u_y: Option<f64>,
 }
 
-/// The judgement of an earlier result is not read again: it is judged anew.
+/// Skips the decisions in an earlier result, because they are made again.
 fn left_aside<'de, T, D: Deserializer<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
     IgnoredAny::deserialize(deserializer).map(|_| None)
 }
@@ -229,8 +231,8 @@ fn left_aside_whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D:
 }
 
 impl CalibrationDocument {
-    /// Of a calibration with the passport `passport_id` under a local g with its uncertainty; `not_stated` is what
-    /// [`Setup::stated`] did not find.
+    /// Creates the JSON result of a calibration. The pair contains the local g and its standard uncertainty, m/s²;
+    /// `not_stated` is the list that [`Setup::stated`] returns.
     ///
     /// [`Setup::stated`]: super::inputs::Setup::stated
     pub fn new(
@@ -263,10 +265,10 @@ impl CalibrationDocument {
         }
     }
 
-    /// Reads an earlier result, file `name`.
+    /// Reads an earlier JSON result; `name` is the file name in messages.
     ///
     /// # Errors
-    /// [`Unreadable`], with line and column.
+    /// Returns [`Unreadable`] with line and column if `bytes` is not such a result.
     pub fn from_json(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         serde_json::from_slice(bytes).map_err(|error| {
             let location = (error.line() > 0).then(|| Location { line: error.line(), column: error.column().max(1) });
@@ -280,7 +282,7 @@ impl CalibrationDocument {
         })
     }
 
-    /// The answer of this result: least squares where it is there, else the last method.
+    /// Returns the adopted result: least squares if present, otherwise the last method; `None` if there is no result.
     pub fn answer(&self) -> Option<Found> {
         let best = self.results.iter().find(|result| result.method == "least-squares").or(self.results.last())?;
         Some(best.found(self.gravity_m_per_s2, self.gravity_u_m_per_s2))
@@ -400,7 +402,7 @@ impl UncertaintyDocument {
 }
 
 impl MethodResult {
-    /// Values and uncertainties for a verdict, under a local g and its standard uncertainty.
+    /// Returns values and standard uncertainties for a comparison, with the local g and its standard uncertainty, m/s².
     pub fn found(&self, gravity_m_per_s2: f64, gravity_u_m_per_s2: f64) -> Found {
         let standard_uncertainty = Parameter::EIGHT.map(|p| self.standard_uncertainty(p).unwrap_or(0.0));
         Found { parameters: self.parameters, standard_uncertainty, gravity_m_per_s2, gravity_u_m_per_s2 }

@@ -1,38 +1,38 @@
-//! Which standard uncertainties rest on the same estimate of a variance, and with how many degrees of freedom.
+//! The estimates of variances on which standard uncertainties rest, with their degrees of freedom.
 //!
-//! `certify` finds the scatter of returns from the readings of all positions together, one variance for each axis. So the
-//! certified angles of all positions, and the repeatability that is the mean of the three, are three estimates and not
-//! one for each number. They are recognised by what the certificate states: the same degrees of freedom and the
-//! same size for every position.
+//! `certify` estimates the repeatability from the readings of all positions together, as one variance per axis. The
+//! certified angles of all positions, and the repeatability, which is the mean of the three variances, therefore rest
+//! on three estimates and not on one per number. They are recognised by the certificate: the same degrees of freedom
+//! and the same size for every position.
 
 use super::inputs::{InputUncertainty, Setup};
 use super::scatter::Repeats;
 
-/// Positions whose angles rest on one estimate have the same Σ u², but for the axes of α and γ, which are not quite at right
-/// angles.
+/// Largest relative difference of Σ u² between positions whose angles rest on a common estimate. It is not 0 because
+/// the axes of α and γ are not quite at right angles.
 const SAME_SIZE: f64 = 0.1;
 
-/// What degrees of freedom may differ by: a certificate states them to a tenth.
+/// Largest difference between equal degrees of freedom; a certificate states them to a tenth.
 const ROUNDING: f64 = 0.5;
 
-/// What a standard uncertainty rests on.
+/// Estimates on which a standard uncertainty rests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Basis {
-    /// It is taken as known.
+    /// No estimate: the uncertainty is taken as known.
     Known,
-    /// The estimate of that number.
+    /// Estimate with this index.
     Estimate(usize),
-    /// The mean of the variances of the first three estimates, those of the axes.
+    /// Mean variance of the first three estimates, those of the axes.
     Axes,
 }
 
-/// Every estimate with few degrees of freedom, and what rests on it.
+/// Estimates with few degrees of freedom, and the basis of each uncertainty.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Estimates {
-    /// Of each estimate.
+    /// Degrees of freedom of each estimate.
     pub(crate) degrees_of_freedom: Vec<f64>,
-    /// Of α, β, γ of each position.
+    /// Basis of the uncertainties of α, β, γ of each position.
     pub(crate) angles: Vec<[Basis; 3]>,
     pub(crate) returns: Basis,
     pub(crate) noise: Basis,
@@ -41,7 +41,7 @@ pub(crate) struct Estimates {
 }
 
 impl Estimates {
-    /// Estimates behind stand and site.
+    /// Returns the estimates behind stand and site.
     pub(crate) fn of_stand(setup: &Setup) -> Self {
         let u = setup.uncertainty();
         let mut all = Self {
@@ -52,7 +52,7 @@ impl Estimates {
             platform: Basis::Known,
             base: Basis::Known,
         };
-        // First position, Σ u² and estimates of those that share.
+        // First position, Σ u² and estimates of each group of positions that share them.
         let mut pools: Vec<(usize, f64, [Basis; 3])> = Vec::new();
         for place in 0..setup.coefficients().positions.len() {
             let known = degrees_of_freedom_of(u, place);
@@ -81,12 +81,12 @@ impl Estimates {
         all
     }
 
-    /// Those, and what a calibration's readings say of themselves.
+    /// Returns the estimates behind stand and site and those from the scatter of a calibration's readings.
     pub(crate) fn new(setup: &Setup, repeats: &Repeats) -> Self {
         let mut all = Self::of_stand(setup);
         all.noise = all.add(repeats.noise_degrees_of_freedom);
         if repeats.visit_degrees_of_freedom.is_finite() {
-            // An enlarged variance of a visit is what its scatter says, whatever was stated of its parts.
+            // An enlarged variance of a visit is estimated from the scatter alone, whatever was stated of its parts.
             all.returns = all.add(repeats.visit_degrees_of_freedom);
             all.noise = all.returns;
         }
@@ -101,7 +101,7 @@ impl Estimates {
         Basis::Estimate(self.degrees_of_freedom.len() - 1)
     }
 
-    /// The degrees of freedom of a basis: of the mean of three variances, those of all three.
+    /// Returns the degrees of freedom of a basis; for the mean of three variances, those of all three together.
     pub(crate) fn degrees_of_freedom(&self, basis: Basis) -> f64 {
         match basis {
             Basis::Known => f64::INFINITY,
@@ -112,7 +112,7 @@ impl Estimates {
 }
 
 impl Basis {
-    /// The estimates that a variance on this basis is made of, and their shares.
+    /// Returns the indices of the estimates on which a variance rests, with their shares.
     pub(crate) fn shares(self) -> impl Iterator<Item = (usize, f64)> {
         let (range, share) = match self {
             Self::Known => (0..0, 0.0),

@@ -1,42 +1,42 @@
-//! The unknowns of eq. (2), one by one.
+//! The unknowns of the drift model, eq. (2).
 
 use crate::gyro::GyroParameters;
 use nalgebra::{Matrix2, Vector2};
 
-/// One unknown of the drift model (paper, eq. (2)).
+/// Unknown of the drift model (paper, eq. (2)).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Parameter {
-    /// K_x, °/h/mA.
+    /// Main scale factor K_x, °/(h·mA).
     Kx,
-    /// K_xy, °/h/mA.
+    /// Cross-axis scale factor K_xy, °/(h·mA).
     Kxy,
-    /// K_yx, °/h/mA.
+    /// Cross-axis scale factor K_yx, °/(h·mA).
     Kyx,
-    /// K_y, °/h/mA.
+    /// Main scale factor K_y, °/(h·mA).
     Ky,
-    /// ω_0x, °/h.
+    /// Constant drift ω_0x, °/h.
     Omega0x,
-    /// ω_0y, °/h.
+    /// Constant drift ω_0y, °/h.
     Omega0y,
-    /// ω_g, °/h/g.
+    /// g-sensitive drift ω_g, °/(h·g).
     OmegaG,
-    /// ω_k, °/h/g.
+    /// g-sensitive drift ω_k, °/(h·g).
     OmegaK,
-    /// The anisoelastic coefficient, which eq. (2) calls ω_n, °/h/g².
+    /// Anisoelastic coefficient, called ω_n in eq. (2), °/(h·g²).
     Anisoelasticity,
 }
 
 impl Parameter {
-    /// The eight of every calibration, in the order of vectors and covariances.
+    /// The eight parameters of every calibration, in the order of vectors and covariances.
     pub const EIGHT: [Self; 8] =
         [Self::Kx, Self::Kxy, Self::Kyx, Self::Ky, Self::Omega0x, Self::Omega0y, Self::OmegaG, Self::OmegaK];
 
-    /// The eight as the paper's table has them, for people.
+    /// The eight parameters in the order of the paper's table, for pages and terminal output.
     pub(crate) const AS_IN_THE_PAPER: [Self; 8] =
         [Self::Kx, Self::Ky, Self::Kxy, Self::Kyx, Self::Omega0x, Self::Omega0y, Self::OmegaG, Self::OmegaK];
 
-    /// The eight, and the anisoelastic coefficient last.
+    /// The eight parameters, then the anisoelastic coefficient.
     pub(crate) const NINE: [Self; 9] = [
         Self::Kx,
         Self::Kxy,
@@ -49,7 +49,7 @@ impl Parameter {
         Self::Anisoelasticity,
     ];
 
-    /// Its name in results for machines.
+    /// Returns the key of the parameter in JSON results.
     pub fn key(self) -> &'static str {
         match self {
             Self::Kx => "k_x",
@@ -64,7 +64,7 @@ impl Parameter {
         }
     }
 
-    /// Its letter in the paper.
+    /// Returns the symbol of the parameter in the paper.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Kx => "K_x",
@@ -79,7 +79,7 @@ impl Parameter {
         }
     }
 
-    /// Its unit.
+    /// Returns the unit of the parameter as in JSON results.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Kx | Self::Kxy | Self::Kyx | Self::Ky => "deg/h/mA",
@@ -89,14 +89,14 @@ impl Parameter {
         }
     }
 
-    /// Its place in vectors of parameters.
+    /// Returns the index of the parameter in vectors of parameters.
     pub(crate) fn place(self) -> usize {
         self as usize
     }
 }
 
 impl GyroParameters {
-    /// The eight numbers in the order of [`Parameter::EIGHT`].
+    /// Returns the eight parameters in the order of [`Parameter::EIGHT`].
     pub fn to_vector(&self) -> [f64; 8] {
         let k = &self.k_deg_per_h_per_ma;
         let omega0 = &self.omega0_deg_per_h;
@@ -104,7 +104,7 @@ impl GyroParameters {
         [k.m11, k.m12, k.m21, k.m22, omega0.x, omega0.y, w_g, w_k]
     }
 
-    /// From the eight numbers in the order of [`Parameter::EIGHT`].
+    /// Creates the parameters from eight numbers in the order of [`Parameter::EIGHT`].
     pub fn from_vector(values: &[f64; 8]) -> Self {
         let [kx, kxy, kyx, ky, omega0x, omega0y, omega_g, omega_k] = *values;
         Self {

@@ -1,5 +1,5 @@
-//! What a calibration on a stand will be worth, before there is a reading: the uncertainties for exact currents of a
-//! nominal gyro.
+//! Expected uncertainty of a calibration on a stand, before any reading: computed for the exact currents of a nominal
+//! gyro.
 
 use super::inputs::{MeterUncertainty, Setup};
 use super::least_squares;
@@ -10,9 +10,9 @@ use crate::attitude::Deviation;
 use crate::coefficients::{EarthRate, Position, StandGeometry};
 use crate::gyro::GyroParameters;
 
-/// The result of a method on exact currents of `gyro`: its covariance is what a laboratory will find, to first order.
+/// Returns the result of `method` for the exact currents of `gyro`, or `None` if the method gives no result.
 ///
-/// `None` where the method gives nothing there.
+/// Its covariance is the one that a laboratory can expect, to first order.
 pub fn predicted(setup: &Setup, gyro: &GyroParameters, method: Method) -> Option<MethodResult> {
     let positions = &setup.coefficients().positions;
     let each: Option<Vec<_>> = positions.iter().map(|at| Some((at.index, gyro.currents_ma(at)?))).collect();
@@ -21,30 +21,30 @@ pub fn predicted(setup: &Setup, gyro: &GyroParameters, method: Method) -> Option
     calibrate(setup, &readings, &options).ok()?.results.pop()
 }
 
-/// Ratios of standard uncertainties, this stand's to a perfect one's with the same positions at the same site.
+/// Ratios of standard uncertainties on a stand to those on the ideal stand with the same positions at the same site.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct NoiseGrowth {
-    /// The worst of K_x, K_xy, K_yx, K_y.
+    /// Largest ratio of K_x, K_xy, K_yx, K_y.
     pub k: f64,
-    /// The worse of ω_0x, ω_0y.
+    /// Larger ratio of ω_0x, ω_0y.
     pub omega0: f64,
-    /// ω_g.
+    /// Ratio of ω_g.
     pub omega_g: f64,
-    /// ω_k.
+    /// Ratio of ω_k.
     pub omega_k: f64,
 }
 
 impl NoiseGrowth {
-    /// The worst of all.
+    /// Returns the largest of all ratios.
     pub(crate) fn worst(&self) -> f64 {
         self.k.max(self.omega0).max(self.omega_g).max(self.omega_k)
     }
 }
 
-/// How much noisier a calibration by least squares is on a stand than on the same stand without deviations, for the own
-/// errors of a meter's readings alone.
+/// Returns the growth of the standard uncertainties of least squares on a stand relative to the same stand without
+/// deviations, if only the own errors of the readings act.
 ///
-/// `None` where least squares gives nothing on one of the two.
+/// Returns `None` if least squares gives no result on either stand.
 pub(crate) fn noise_growth(
     positions: &[Position],
     earth: EarthRate,

@@ -35,8 +35,8 @@ impl Default for Options {
 /// Calibrates the gyro whose currents are `readings` with the requested methods.
 ///
 /// # Errors
-/// Returns [`NoLeastSquares`] if the readings are for other positions or do not determine a gyro; the results of other methods would then be
-/// meaningless. A refusal of a single method is in [`Calibration::refused`].
+/// Returns [`NoLeastSquares`] if the readings are for other positions or do not determine a gyro; the results of other
+/// methods would then be meaningless. A refusal of a single method is in [`Calibration::refused`].
 pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Result<Calibration, NoLeastSquares> {
     let indices = readings.positions().iter().map(|position| position.index);
     if !indices.eq(setup.coefficients().positions.iter().map(|at| at.index)) {

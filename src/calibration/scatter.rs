@@ -1,7 +1,7 @@
-//! Whether rows of one visit, and visits of one position, agree as well as meter and stand promise.
+//! Agreement of the rows of a visit, and of the visits of a position, with the stated uncertainties.
 //!
-//! Rows of a visit differ by the noise of a reading alone. Visits differ by the return to the position too. The meter's
-//! specification is the same error every time, so it makes no scatter.
+//! Rows of a visit differ only by the noise of a reading. Visits differ also by the repeatability of positioning. The
+//! specification of the meter contributes no scatter, because its error is the same every time.
 
 use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
@@ -12,43 +12,43 @@ use crate::statistics::distributions::chi_square_larger;
 use crate::statistics::scaled_f::{Part, ScaledF};
 use nalgebra::{Matrix2, Vector2};
 
-/// Scatter with a smaller probability than this, of more or of less, is not what was stated.
+/// Probability below which a scatter, larger or smaller, does not agree with what was stated.
 pub(crate) const IMPROBABLE: f64 = 0.001;
 
-/// A scatter against what was stated of it.
+/// Scatter compared with what was stated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scatter {
     /// Sum of squares in units of the stated variance.
     pub chi_square: f64,
-    /// Two for each visit of a position, or each row of a visit, beyond its first.
+    /// Degrees of freedom: two for each visit of a position, or row of a visit, after its first.
     pub degrees_of_freedom: usize,
-    /// Probability of more when the statement holds.
+    /// Probability of more scatter if the stated variance is correct.
     pub probability: f64,
-    /// By how much the stated variance was enlarged for this calibration: 1 when it was not.
+    /// Factor by which the stated variance was enlarged for this calibration; 1 if it was not.
     pub variance_factor: f64,
 }
 
-/// How a scatter compares with what was stated.
+/// Result of the comparison of a scatter with what was stated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Agreement {
-    /// More: the variance was enlarged.
+    /// More scatter than stated; the variance was enlarged.
     More,
-    /// As stated.
+    /// Scatter as stated.
     AsStated,
-    /// Less: perhaps the readings are not what they are taken for.
+    /// Less scatter than stated; the rows may not be independent readings.
     Less,
 }
 
-/// The noise of a reading as repeated rows show it.
+/// Noise of a reading, from repeated rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RowScatter {
     /// Standard deviation of one reading, mA.
     pub standard_deviation_ma: f64,
-    /// Degrees of freedom of that.
+    /// Degrees of freedom of the standard deviation.
     pub degrees_of_freedom: usize,
-    /// Against the noise that the laboratory states; `None` where it states none, and the standard deviation is
-    /// used in its place.
+    /// Comparison with the noise that the laboratory states. If it states none, this is `None` and the standard
+    /// deviation is used as the noise.
     pub against_stated: Option<Scatter>,
 }
 
@@ -59,7 +59,7 @@ impl Scatter {
         Self { chi_square, degrees_of_freedom, probability, variance_factor }
     }
 
-    /// Returns whether there is more or less of it than was stated.
+    /// Returns whether the scatter is larger than, as, or smaller than stated.
     pub(crate) fn agreement(&self) -> Agreement {
         match self.probability {
             more if more < IMPROBABLE => Agreement::More,
@@ -69,21 +69,23 @@ impl Scatter {
     }
 }
 
-/// How often every position was read, and what is taken for the errors of a visit and of a reading.
+/// Numbers of visits and readings of each position, and the errors assumed for a visit and a reading.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Repeats {
-    /// Of each position: the share of its variance that an error of every visit, and of every reading, keeps in the mean.
+    /// For each position: fractions of its variance that an error of a single visit, and of a single reading, has in
+    /// the mean.
     pub(crate) shares: Vec<[f64; 2]>,
-    /// Standard deviation of a reading in place, mA, and its degrees of freedom where repeated rows showed it.
+    /// Standard deviation of a single reading, mA, and its degrees of freedom if estimated from repeated rows.
     pub(crate) noise_ma: f64,
     pub(crate) noise_degrees_of_freedom: f64,
-    /// By how much the variance of a visit, return and noise together, is enlarged, and the degrees of freedom of that.
+    /// Factor by which the variance of a visit (repeatability and noise together) is enlarged, and its degrees of
+    /// freedom.
     pub(crate) visit_factor: f64,
     pub(crate) visit_degrees_of_freedom: f64,
 }
 
 impl Repeats {
-    /// As the laboratory states it.
+    /// Creates the errors as the laboratory and the certificate state them.
     pub(crate) fn stated(setup: &Setup, readings: &Readings) -> Self {
         let shares = |at: &PositionReadings| [at.visit_share(), at.reading_share()];
         Self {
@@ -95,18 +97,18 @@ impl Repeats {
         }
     }
 
-    /// Share of the variance of one return that the mean of a position keeps.
+    /// Returns the fraction of the variance of one visit that the mean of a position has.
     pub(crate) fn return_share(&self, place: usize) -> f64 {
         self.visit_factor * self.shares[place][0]
     }
 
-    /// Variance of the mean of a position by the noise of its readings, mA².
+    /// Returns the variance of the mean of a position from the noise of its readings, mA².
     pub(crate) fn noise_variance_ma2(&self, place: usize) -> f64 {
         self.visit_factor * self.shares[place][1] * self.noise_ma * self.noise_ma
     }
 
-    /// Takes in what rows and visits say of themselves at a fit; it changes where they say more than was stated, or where
-    /// nothing was stated.
+    /// Compares the scatter of rows and visits at a fit with what was stated. Replaces the errors if the scatter is
+    /// larger than stated, or if nothing was stated.
     pub(crate) fn observe(&mut self, setup: &Setup, readings: &Readings, fit: &Fit) -> Observed {
         let mut of_rows = Squares::default();
         for visit in readings.positions().iter().flat_map(|at| &at.visits) {
@@ -114,7 +116,7 @@ impl Repeats {
         }
         let nothing_stated = self.noise_ma == 0.0 && setup.uncertainty().repeatability_rad == 0.0;
         if nothing_stated && of_rows.sum == 0.0 {
-            // Then visits are readings like any others.
+            // In this case visits are treated as single readings.
             let mut of_visits = Squares::default();
             for at in readings.positions() {
                 let means: Vec<_> = at.visits.iter().map(|visit| visit.mean_ma).collect();
@@ -183,14 +185,14 @@ impl Repeats {
     }
 }
 
-/// What repeated readings say.
+/// Scatter of rows and visits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Observed {
     pub(crate) rows: Option<RowScatter>,
     pub(crate) visits: Option<Scatter>,
 }
 
-/// Squares of both currents about means.
+/// Sum of squared differences of both currents from means, mA².
 #[derive(Default)]
 struct Squares {
     sum: f64,
@@ -204,7 +206,7 @@ impl Squares {
     }
 }
 
-/// Shares of the scatter of visits that rest on estimates.
+/// Parts of the covariance of the visits that rest on estimates.
 struct Parts {
     parts: Vec<Part>,
 }

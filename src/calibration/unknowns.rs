@@ -6,16 +6,16 @@ use crate::coefficients::PositionCoefficients;
 use crate::gyro::GyroParameters;
 use nalgebra::{DMatrix, DVector, Vector2};
 
-/// Values of the unknowns.
+/// Values of the unknowns of the drift model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Unknowns {
     pub(crate) parameters: GyroParameters,
-    /// 0 where it is not fitted.
+    /// Anisoelastic coefficient, °/(h·g²); 0 if it is not fitted.
     pub(crate) anisoelasticity_deg_per_h_per_g2: f64,
 }
 
 impl Unknowns {
-    /// From a vector of 8 or 9 elements in the order of [`Parameter::NINE`].
+    /// Creates the unknowns from a vector of 8 or 9 elements in the order of [`Parameter::NINE`].
     pub(crate) fn from_vector(vector: &DVector<f64>) -> Self {
         let value = |parameter: Parameter| vector.get(parameter.place()).copied().unwrap_or(0.0);
         Self {
@@ -37,7 +37,7 @@ impl Unknowns {
         }
     }
 
-    /// What the torquers must balance in a position: ω_3 − ω_0 − ω_n n − anisoelasticity · n n_z, °/h.
+    /// Returns the rate that the torquers must balance in a position: ω_3 − ω_0 − ω_n n − anisoelasticity · n n_z, °/h.
     fn torqued(&self, at: &PositionCoefficients) -> Vector2<f64> {
         let parameters = &self.parameters;
         let anisoelastic = at.specific_force_g * at.specific_force_z_g * self.anisoelasticity_deg_per_h_per_g2;
@@ -47,12 +47,13 @@ impl Unknowns {
             - anisoelastic
     }
 
-    /// The misclosure e = ω_3 − K J − ω_0 − ω_n n of a position, °/h.
+    /// Returns the misclosure of a position, °/h: e = ω_3 − K J − ω_0 − ω_n n − anisoelasticity · n n_z.
     pub(crate) fn misclosure(&self, at: &PositionCoefficients, current_ma: &Vector2<f64>) -> Vector2<f64> {
         self.torqued(at) - self.parameters.k_deg_per_h_per_ma * current_ma
     }
 
-    /// The currents that these unknowns make, mA; `None` when K has no inverse or they are not finite.
+    /// Returns the currents (J_x, J_y) that follow from these unknowns, mA, or `None` if K has no inverse or a current
+    /// is not finite.
     pub(crate) fn currents_ma<'a>(
         &self,
         positions: impl IntoIterator<Item = &'a PositionCoefficients>,
@@ -63,14 +64,15 @@ impl Unknowns {
     }
 }
 
-/// The two equations of a position: columns in the order of [`Parameter::NINE`], rows x and y.
+/// Returns the coefficients of the two equations of a position (rows x and y, columns in the order of
+/// [`Parameter::NINE`]).
 pub(crate) fn equations(at: &PositionCoefficients, current_ma: &Vector2<f64>) -> [[f64; 9]; 2] {
     let (jx, jy) = (current_ma.x, current_ma.y);
     let (nx, ny, nz) = (at.specific_force_g.x, at.specific_force_g.y, at.specific_force_z_g);
     [[jx, jy, 0.0, 0.0, 1.0, 0.0, nx, -ny, nx * nz], [0.0, 0.0, jx, jy, 0.0, 1.0, ny, nx, ny * nz]]
 }
 
-/// The equations of all positions, two rows each, and `columns` (8 or 9) unknowns.
+/// Returns the design matrix of all positions: two rows per position, and `columns` (8 or 9) unknowns.
 pub(crate) fn design(positions: &[PositionCoefficients], currents_ma: &[Vector2<f64>], columns: usize) -> DMatrix<f64> {
     let mut matrix = DMatrix::zeros(2 * positions.len(), columns);
     for (place, (at, current)) in positions.iter().zip(currents_ma).enumerate() {
