@@ -1,8 +1,8 @@
-//! Everything that makes a calibration uncertain, one by one and by name: what budgets are made of.
+//! Uncertain inputs of a calibration, one by one and by name, from which budgets are made.
 //!
-//! The covariance of the misclosures is F F' with one column of F for each independent cause of one standard
-//! uncertainty. A fit needs them only summed (each position's own part as one 2×2 block); here no two causes share
-//! a column.
+//! The covariance of the misclosures is F F', with one column of F for each independent cause of one standard
+//! uncertainty. A fit needs only sums of them (the own part of each position as one 2×2 block). Here each cause has a
+//! column of its own.
 
 use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
@@ -12,39 +12,39 @@ use super::unknowns::Unknowns;
 use crate::coefficients::PositionIndex;
 use nalgebra::{DMatrix, Vector2, Vector3};
 
-/// An input quantity that is uncertain. Axes count from 0.
+/// Uncertain input quantity. Axes are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Cause {
-    /// A certified angle of a position: 0, 1, 2 are α, β, γ.
+    /// Certified angle of a position: 0, 1, 2 for α, β, γ.
     Angle(PositionIndex, usize),
-    /// The return to a position, about axis x, y or z of the case.
+    /// Repeatability of a position, about axis x, y or z of the case.
     Return(PositionIndex, usize),
-    /// The meter's specification in a position, as a share of the reading of J_x or J_y.
+    /// Specification of the meter in a position, as a fraction of the reading of J_x or J_y.
     Reading(PositionIndex, usize),
-    /// The part of the specification that does not depend on the size of J_x or J_y.
+    /// Floor of the meter in a position: part of the specification that does not depend on the reading of J_x or J_y.
     Floor(PositionIndex, usize),
-    /// The noise of the readings of J_x or J_y in a position, in their mean.
+    /// Noise of the mean reading of J_x or J_y in a position.
     Noise(PositionIndex, usize),
-    /// The platform, about its axis x, y or z.
+    /// Common part of the platform, about its axis x, y or z.
     Platform(usize),
-    /// The gyro's seat, about axis x, y or z of the case.
+    /// Gyro seat, about axis x, y or z of the case.
     Seat(usize),
-    /// The stand's base, about east, north or up.
+    /// Common part of the base of the stand, about east, north or up.
     Base(usize),
-    /// The level of the base at the laboratory, about east or north.
+    /// Level of the base in the laboratory, about east or north.
     Level(usize),
-    /// The azimuth of the base at the laboratory.
+    /// Azimuth of the base in the laboratory.
     Azimuth,
-    /// The azimuth from the pillar to the mark.
+    /// Azimuth from the pillar to the mark.
     Mark,
-    /// The latitude as stated.
+    /// Latitude as stated.
     Latitude,
-    /// The deflection of the vertical, ξ.
+    /// Deflection of the vertical, component ξ.
     Deflection,
-    /// The meter's gain, shared by all readings.
+    /// Gain of the meter, common to all readings.
     Gain,
-    /// The meter's offset, shared by all readings.
+    /// Offset of the meter, common to all readings.
     Offset,
 }
 
@@ -52,7 +52,7 @@ const XYZ: [&str; 3] = ["x", "y", "z"];
 const EAST_NORTH_UP: [&str; 3] = ["east", "north", "up"];
 
 impl Cause {
-    /// Its name, of its position too.
+    /// Returns the name of the cause, including its position.
     pub fn name(self) -> String {
         match self {
             Self::Angle(index, angle) => format!("certified {} of {index}", ["alpha", "beta", "gamma"][angle]),
@@ -64,7 +64,7 @@ impl Cause {
         }
     }
 
-    /// What it has in common with others of its kind: the name of a line of a budget.
+    /// Returns the name of the kind of cause, which is the name of its line in a budget.
     pub(crate) fn kind(self) -> String {
         match self {
             Self::Angle(..) => "certified angles".to_owned(),
@@ -85,7 +85,7 @@ impl Cause {
         }
     }
 
-    /// Whether both are of the same [kind](Self::kind).
+    /// Returns `true` if both causes are of the same [kind](Self::kind).
     pub(crate) fn is_alike(self, other: Self) -> bool {
         match (self, other) {
             (Self::Angle(..), Self::Angle(..))
@@ -97,7 +97,7 @@ impl Cause {
         }
     }
 
-    /// The position that it changes; `None` where it changes all of them.
+    /// Returns the position on which the cause acts, or `None` if it acts on all positions.
     pub(crate) fn position(self) -> Option<PositionIndex> {
         match self {
             Self::Angle(index, _)
@@ -109,7 +109,7 @@ impl Cause {
         }
     }
 
-    /// Who states it, and under which key.
+    /// Returns the file that states the uncertainty, and the key.
     pub(crate) fn source(self) -> &'static str {
         match self {
             Self::Angle(..) => "certificate: u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec",
@@ -130,7 +130,7 @@ impl Cause {
         }
     }
 
-    /// The unit in which its uncertainty is shown: arcsec, %, or mA.
+    /// Returns the unit in which the uncertainty is shown: arcsec, %, or mA.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Reading(..) | Self::Gain => "%",
@@ -139,7 +139,7 @@ impl Cause {
         }
     }
 
-    /// An uncertainty as it is kept (rad, a share, mA), in [`Self::unit`].
+    /// Converts an uncertainty from its internal unit (rad, fraction of the reading, mA) to [`Self::unit`].
     pub(crate) fn shown(self, uncertainty: f64) -> f64 {
         match self.unit() {
             "%" => 100.0 * uncertainty,
@@ -149,21 +149,21 @@ impl Cause {
     }
 }
 
-/// A cause, how uncertain it is, and how well that is known.
+/// Uncertain input: a cause with its standard uncertainty and degrees of freedom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Input {
     /// Cause of the uncertainty.
     pub cause: Cause,
-    /// Standard uncertainty of the mean of all readings: rad, a share of the reading, or mA.
+    /// Standard uncertainty of the mean of all readings: rad, fraction of the reading, or mA.
     pub standard_uncertainty: f64,
-    /// Degrees of freedom of that uncertainty; infinite where it is taken as known.
+    /// Degrees of freedom of the standard uncertainty; infinite if it is taken as known.
     pub degrees_of_freedom: f64,
-    /// Estimates of variances that it rests on: inputs may share them.
+    /// Estimates of variances on which the uncertainty rests; inputs may share them.
     pub basis: Basis,
 }
 
-/// All inputs with a positive uncertainty, and F: a column for each (two rows a position, °/h), being the change of
-/// the misclosures that one standard uncertainty makes.
+/// Returns all inputs with a positive uncertainty, and F: the change of the misclosures, °/h, for one standard
+/// uncertainty of each input (two rows per position × inputs).
 pub(crate) fn inputs(
     setup: &Setup,
     unknowns: &Unknowns,
@@ -185,7 +185,8 @@ pub(crate) fn inputs(
     (inputs, columns)
 }
 
-/// Inputs with a positive uncertainty that stand and site bring, and with them the numbers of a passport.
+/// Returns the inputs with a positive uncertainty from stand and site; they also determine the uncertainty of a
+/// passport's numbers.
 #[cfg(feature = "monte-carlo")]
 pub(crate) fn of_stand_and_site(setup: &Setup) -> Vec<Input> {
     stand_and_site(setup, &Estimates::of_stand(setup))
@@ -214,7 +215,7 @@ fn stand_and_site(setup: &Setup, estimates: &Estimates) -> Vec<Input> {
     inputs
 }
 
-/// Inputs with a positive uncertainty that a calibration adds: returns, seat, currents.
+/// Returns the inputs with a positive uncertainty that a calibration adds: repeatability, gyro seat, currents.
 fn of_gyro_and_meter(setup: &Setup, repeats: &Repeats, estimates: &Estimates) -> Vec<Input> {
     let u = setup.uncertainty();
     let input = |cause, u, basis| Input::new(cause, u, basis, estimates.degrees_of_freedom(basis));
@@ -237,19 +238,19 @@ fn of_gyro_and_meter(setup: &Setup, repeats: &Repeats, estimates: &Estimates) ->
 }
 
 impl Input {
-    /// `None` where nothing is uncertain.
+    /// Creates an input, or returns `None` if its uncertainty is 0.
     fn new(cause: Cause, standard_uncertainty: f64, basis: Basis, degrees_of_freedom: f64) -> Option<Self> {
         let input = Self { cause, standard_uncertainty, degrees_of_freedom, basis };
         (standard_uncertainty > 0.0).then_some(input)
     }
 }
 
-/// The unit vector of an axis.
+/// Returns the unit vector of an axis.
 pub(crate) fn unit_vector(axis: usize) -> Vector3<f64> {
     Vector3::from_fn(|row, _| if row == axis { 1.0 } else { 0.0 })
 }
 
-/// The change of the misclosure of a position per unit of a cause.
+/// Returns the change of the misclosure of a position per unit of a cause, °/h.
 fn effect(
     sensitivity: &Sensitivity,
     setup: &Setup,

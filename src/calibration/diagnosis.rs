@@ -28,7 +28,7 @@ const PRICE_OF_TWO_NUMBERS: f64 = 4.0;
 /// Maximum number of positions that are examined one by one and in pairs; a stand may have many more.
 const MOST_SUSPECTS: usize = 24;
 
-/// Errors that small residuals do not exclude, and those that they show.
+/// Errors that the residuals do not show, and how to detect them.
 pub(crate) const CANNOT_TELL: &str = "Small residuals do not exclude all errors. The following leave no residuals but change \
                                the result: the passport of another site (latitude), a base tilted about east, a gyro \
                                rotated in its seat about the spin axis, the gain and offset of the meter, x and y \

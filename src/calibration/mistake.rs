@@ -1,8 +1,9 @@
-//! Mistakes that leave a fit as good as it was and change the result, recognised by what the gyro should be.
+//! Errors that do not show in the fit but change the result, recognised by comparison with the gyro type.
 //!
-//! With K, ω_0, ω_n as they are and K′, ω_0′, ω_n′ as they were found: currents J′ = 10^p P J in place of J, with a signed
-//! permutation P of x and y, give K′ = K P⁻¹ 10^−p and touch no drift; the passport of another place, with ω_Γ′ and ω_B′
-//! where ω_Γ and ω_B act, gives K′ = sK, ω_0′ = sω_0, ω_n′ = sω_n + (ω_B′ − sω_B)·1 with s = ω_Γ′/ω_Γ. Each can be undone.
+//! Let K, ω_0, ω_n be the actual values and K′, ω_0′, ω_n′ those found. Currents J′ = 10^p P J instead of J, where P is
+//! a signed permutation of x and y, give K′ = K P⁻¹ 10^−p and leave the drifts unchanged. A passport of another place,
+//! with ω_Γ′ and ω_B′ instead of the acting ω_Γ and ω_B, gives K′ = sK, ω_0′ = sω_0, ω_n′ = sω_n + (ω_B′ − sω_B)·1 with
+//! s = ω_Γ′/ω_Γ. Each of these errors can be undone.
 
 use super::result::Calibration;
 use super::verdict::{Found, Verdict, against_type};
@@ -12,52 +13,53 @@ use crate::gyro::{GyroParameters, GyroType};
 use nalgebra::Matrix2;
 use serde::Serialize;
 
-/// A mistake explains a result clearly when the result as it was read, and with any other mistake undone, is this many
-/// times farther from what the gyro should be.
+/// Ratio of distances above which an error clearly explains a result: the result as read, or with any other error
+/// undone, is this many times farther from the gyro type.
 const CLEARLY: f64 = 3.0;
 
-/// The same of another place: among all latitudes there is always one that comes near, so more is asked of it. A place less than
-/// some 30 km farther north or south is not recognised.
+/// Ratio of distances for a passport of another place. It is larger because some latitude always comes near. A place
+/// less than about 30 km farther north or south is not recognised.
 const CLEARLY_ELSEWHERE: f64 = 10.0;
 
-/// Without a type, scale factors that are so many powers of ten too small or too large are no gyro's.
+/// Power of ten in the scale factors from which they are implausible for any gyro, if no type is given.
 const IMPLAUSIBLE_POWER: i32 = 3;
 
-/// No passport is looked for nearer to a pole, where K cannot be found.
+/// Largest latitude at which a place is searched; nearer to a pole K cannot be determined.
 const MOST_DEG: f64 = 89.9;
 
-/// A mistake that explains why a result is not that of the gyro.
+/// Error that explains why a result is not that of the gyro.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Mistake {
-    /// The columns of the currents are not what they are taken for.
+    /// Columns of currents that are exchanged, reversed or in another unit.
     Currents(CurrentsMistaken),
-    /// The passport is of another place.
+    /// A passport of another place.
     OtherPlace {
-        /// Astronomic latitude of the place that would explain the result; the longitude is not seen.
+        /// Astronomic latitude of the place that would explain the result, degrees; the longitude has no effect.
         latitude_deg: f64,
     },
 }
 
-/// How the columns of the currents differ from J_x and J_y in mA: exchanged first, then reversed.
+/// Difference of the columns of currents from J_x and J_y in mA: first exchanged, then reversed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct CurrentsMistaken {
-    /// Whether the column of x holds J_y, and that of y J_x.
+    /// `true` if the column of x contains J_y, and that of y contains J_x.
     pub exchanged: bool,
-    /// Whether the column of x has the wrong sign.
+    /// `true` if the column of x has the wrong sign.
     pub x_reversed: bool,
-    /// Whether the column of y has the wrong sign.
+    /// `true` if the column of y has the wrong sign.
     pub y_reversed: bool,
-    /// The currents are 10 to this power times what they are in mA: 3 for microamperes.
+    /// Power of ten by which the currents are too large compared with mA; 3 for microamperes.
     pub power_of_ten: i32,
 }
 
 impl Mistake {
-    /// The one mistake that explains clearly what the readings, taken as they are, do not: by the gyro's type, or without
-    /// one by the size that is `usual`. `used` is the Earth rate of the passport.
+    /// Returns the only error that clearly explains the result, judged by the gyro type or, without one, by the size of
+    /// the `usual` parameters. `used` is the Earth rate of the passport.
     ///
-    /// `None` where the readings do not fit: then no parameters can be compared, and [`Calibration::hint`] says more.
+    /// Returns `None` if the readings do not fit, because the parameters are then not comparable; [`Calibration::hint`]
+    /// contains possible causes.
     pub(crate) fn explaining(
         calibration: &Calibration,
         found: &Found,
@@ -77,19 +79,19 @@ impl Mistake {
     }
 }
 
-/// By scale factors that are thousands of times too small or too large.
+/// Returns an error of the unit if the scale factors are a thousand times or more too small or too large.
 fn by_size(found: &Found, usual: &GyroParameters) -> Option<Mistake> {
     let power_of_ten = power_of_ten(found, usual);
     (power_of_ten.abs() >= IMPLAUSIBLE_POWER)
         .then(|| Mistake::Currents(CurrentsMistaken { power_of_ten, ..CurrentsMistaken::default() }))
 }
 
-/// By the verdict against a type on the result with each mistake undone.
+/// Returns the error whose removal brings the result clearly nearest to the gyro type.
 fn by_type(found: &Found, used: &EarthRate, gyro_type: &GyroType) -> Option<Mistake> {
     let nominal = gyro_type.nominal.to_model();
     let distance = |found: &Found| distance(&against_type(found, gyro_type));
     let as_read = distance(found);
-    // Where the result is close enough as it is, there is nothing to explain.
+    // A result that is near enough to the type needs no explanation.
     if as_read < CLEARLY {
         return None;
     }
@@ -103,21 +105,21 @@ fn by_type(found: &Found, used: &EarthRate, gyro_type: &GyroType) -> Option<Mist
     (second >= CLEARLY * best.max(1.0)).then_some(mistake)
 }
 
-/// How far a result is from its type, in units of what tolerance and expanded uncertainty allow: the farthest parameter
-/// counts.
+/// Returns the distance of a result from its type: the largest deviation of a parameter, in units of its tolerance plus
+/// its expanded uncertainty.
 fn distance(verdict: &Verdict) -> f64 {
     let rows = verdict.parameters.iter();
     rows.map(|row| row.deviation.abs() / (row.tolerance + row.expanded_uncertainty)).fold(0.0, f64::max)
 }
 
-/// The power of ten by which currents are too large, when it is that which makes K too small.
+/// Returns the power of ten by which the currents would be too large if this alone made K too small.
 fn power_of_ten(found: &Found, expected: &GyroParameters) -> i32 {
     let ratio = expected.k_deg_per_h_per_ma.norm() / found.parameters.k_deg_per_h_per_ma.norm();
     if ratio.is_normal() { libm::round(libm::log10(ratio)) as i32 } else { 0 }
 }
 
 impl CurrentsMistaken {
-    /// Every signed permutation with the power of ten 0 or `power`, but for the one that changes nothing.
+    /// Returns every signed permutation with the power of ten 0 or `power`, except the identity.
     fn all(power: i32) -> impl Iterator<Item = Self> {
         let powers = if power == 0 { vec![0] } else { vec![0, power] };
         let each = powers.into_iter().flat_map(|power_of_ten| {
@@ -131,7 +133,7 @@ impl CurrentsMistaken {
         each.filter(|mistaken| *mistaken != Self::default())
     }
 
-    /// K = 10^p K′ P, its uncertainties likewise.
+    /// Returns the result with this error undone: K = 10^p K′ P, and its uncertainties likewise.
     fn undone(&self, found: &Found) -> Found {
         let sign = |reversed: bool| if reversed { -1.0 } else { 1.0 };
         let (x, y) = (sign(self.x_reversed), sign(self.y_reversed));
@@ -146,8 +148,9 @@ impl CurrentsMistaken {
     }
 }
 
-/// The latitude whose passport would have led nearest to what is expected, with its distance; `None` where the result as it
-/// is, or with other scale factors alone, is not much farther, so that the drifts do not confirm the latitude.
+/// Returns the latitude whose passport would give the result nearest to the expected one, with its distance. Returns
+/// `None` if the result as read, or with other scale factors alone, is not much farther, because the drifts then do not
+/// confirm the latitude.
 fn other_place(
     found: &Found,
     used: &EarthRate,
@@ -155,7 +158,7 @@ fn other_place(
     distance: impl Fn(&Found) -> f64,
 ) -> Option<(f64, Mistake)> {
     let at = |latitude_deg: f64| distance(&at_latitude(found, used, latitude_deg));
-    // A hemisphere has one minimum, but for places near the equator, where both may lead to the same one.
+    // A hemisphere has one minimum, except near the equator, where both hemispheres may lead to the same minimum.
     let coarse = (-89..=89).map(f64::from).min_by(|one, other| at(*one).total_cmp(&at(*other)))?;
     let latitude_deg = minimum((coarse - 1.0).max(-MOST_DEG), (coarse + 1.0).min(MOST_DEG), at);
     let best = at(latitude_deg);
@@ -167,7 +170,8 @@ fn other_place(
     (otherwise >= CLEARLY_ELSEWHERE * best.max(1.0)).then_some((best, Mistake::OtherPlace { latitude_deg }))
 }
 
-/// The result as the passport of a place at this astronomic latitude would have led to it; gravity is normal gravity at 0 m.
+/// Returns the result as it would be with the passport of a place at this astronomic latitude, with normal gravity at 0
+/// m.
 fn at_latitude(found: &Found, used: &EarthRate, latitude_deg: f64) -> Found {
     let there = EarthRate::at_astronomic_latitude(latitude_deg);
     let s = used.horizontal_deg_per_h / there.horizontal_deg_per_h;
@@ -186,7 +190,8 @@ fn at_latitude(found: &Found, used: &EarthRate, latitude_deg: f64) -> Found {
     }
 }
 
-/// The minimum of a function that has one between `low` and `high`, by ternary search to 1e-6 of their distance.
+/// Returns the minimum point of a function with one minimum between `low` and `high`, by ternary search to 1e-6 of
+/// their distance.
 fn minimum(mut low: f64, mut high: f64, of: impl Fn(f64) -> f64) -> f64 {
     const STEPS: usize = 34;
     for _ in 0..STEPS {

@@ -1,9 +1,10 @@
-//! First order: from the uncertainty of all inputs to the covariance of misclosures, parameters and residuals.
+//! First-order propagation: from the uncertainties of all inputs to the covariance of misclosures, parameters and
+//! residuals.
 //!
-//! The covariance of the misclosures is F F', where F holds, one column each, the errors that independent causes of
-//! one standard uncertainty make: what is each position's own (two columns a position), then what all share. A
-//! method is a linear map L from misclosures to parameters; the parameters' covariance is (L F)(L F)', and the
-//! residuals' (F − X L F)(F − X L F)'.
+//! The covariance of the misclosures is F F'. Each column of F contains the errors that one independent cause makes
+//! with one standard uncertainty: first the own part of each position (two columns per position), then the common part.
+//! A method is a linear map L from misclosures to parameters. The covariance of the parameters is (L F)(L F)', and that
+//! of the residuals is (F − X L F)(F − X L F)'.
 
 use super::analytic::AnalyticMap;
 use super::causes::{self, Input};
@@ -18,15 +19,15 @@ use crate::statistics::scaled_f::{Part, ScaledF};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use std::collections::BTreeMap;
 
-/// The causes of error at a fit, and what the fit makes of them.
+/// Causes of error at a fit, and their propagation by the fit.
 #[derive(Debug, Clone)]
 pub(crate) struct Propagation<'a> {
     fit: &'a Fit,
-    /// X, unwhitened: rows (two a position) × parameters.
+    /// X: unwhitened design matrix (rows, two per position × parameters).
     design: DMatrix<f64>,
-    /// F: rows × causes.
+    /// F: errors of the misclosures (rows × causes), °/h.
     causes: DMatrix<f64>,
-    /// Q'W F: rows × causes. Its upper part belongs to the parameters, the lower to what they cannot explain.
+    /// Q'W F (rows × causes): the upper rows belong to the parameters, the lower rows to the residuals.
     rotated: DMatrix<f64>,
 }
 
@@ -37,7 +38,7 @@ impl<'a> Propagation<'a> {
         let mut shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma);
         let mut causes = DMatrix::zeros(rows, rows + shared.ncols());
         causes.columns_mut(rows, shared.ncols()).copy_from(&shared);
-        // W C W' = 1: the own part of F is W⁻¹, and becomes the identity when whitened.
+        // W C W' = 1, so the own part of F is W⁻¹, and becomes the identity when whitened.
         let mut rotated = DMatrix::identity(rows, rows + shared.ncols());
         for (place, whiten) in fit.whitening.iter().enumerate() {
             let own = Matrix2::new(1.0 / whiten.m11, 0.0, -whiten.m21 / (whiten.m11 * whiten.m22), 1.0 / whiten.m22);
@@ -49,7 +50,8 @@ impl<'a> Propagation<'a> {
         Self { fit, design: design(positions, &fit.currents_ma, fit.model.columns()), causes, rotated }
     }
 
-    /// L F of least squares: parameters × causes.
+    /// Returns L F of least squares: the change of each parameter for one standard uncertainty of each cause
+    /// (parameters × causes).
     pub(crate) fn least_squares(&self) -> DMatrix<f64> {
         let columns = self.fit.model.columns();
         let r_inverse = self.fit.model.r_inverse();
@@ -62,7 +64,8 @@ impl<'a> Propagation<'a> {
         spread
     }
 
-    /// L F of the closed solution, and of its ω_n's four elements by rows.
+    /// Returns L F of the analytic method: the changes of the eight parameters (8 × causes), and of the four elements
+    /// of ω_n by rows (4 × causes).
     pub(crate) fn analytic(&self, map: &AnalyticMap) -> (DMatrix<f64>, DMatrix<f64>) {
         let causes = self.causes.ncols();
         let (mut spread, mut omega_n) = (DMatrix::zeros(8, causes), DMatrix::zeros(4, causes));
@@ -79,7 +82,7 @@ impl<'a> Propagation<'a> {
         (spread, omega_n)
     }
 
-    /// L of least squares: parameters × misclosures.
+    /// Returns L of least squares: the change of each parameter per misclosure (parameters × misclosures).
     pub(crate) fn response_of_least_squares(&self) -> DMatrix<f64> {
         let (rows, columns) = (self.fit.model.rows(), self.fit.model.columns());
         let mut rotated = DMatrix::identity(rows, rows);
@@ -97,7 +100,7 @@ impl<'a> Propagation<'a> {
         response
     }
 
-    /// L of the closed solution: its eight parameters × misclosures.
+    /// Returns L of the analytic method: the change of each of its eight parameters per misclosure (8 × misclosures).
     pub(crate) fn response_of_analytic(&self, map: &AnalyticMap) -> DMatrix<f64> {
         let rows = self.causes.nrows();
         let mut response = DMatrix::zeros(8, rows);
@@ -110,7 +113,7 @@ impl<'a> Propagation<'a> {
         response
     }
 
-    /// Standard deviations of the residuals of a method with the given L F, in the order of the rows.
+    /// Returns the standard deviations of the residuals, °/h, of a method with the given L F, in the order of the rows.
     pub(crate) fn of_residuals(&self, spread: &DMatrix<f64>) -> Vec<f64> {
         let mut residual = self.causes.clone();
         for (cause, mut column) in residual.column_iter_mut().enumerate() {
@@ -122,7 +125,7 @@ impl<'a> Propagation<'a> {
     }
 }
 
-/// A chi-square, its degrees of freedom, and its distribution when nothing is wrong.
+/// Value of chi-square, its degrees of freedom, and its distribution if the readings agree with all uncertainties.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Misfit {
     pub(crate) value: f64,
@@ -130,15 +133,16 @@ pub(crate) struct Misfit {
     pub(crate) distribution: ScaledF,
 }
 
-/// Chi-square of readings at a fit.
+/// Returns chi-square of readings at a fit.
 ///
-/// It is r' C⁻ r with the residuals r of a method, their covariance C from all inputs, and any generalised inverse.
-/// What parameters take up drops out of it, so it is the same for every method that fits exact readings exactly; it is
-/// computed from z = Q₂'W e, whose covariance 1 + B B' has full rank (B = Q₂'W times what all positions share).
+/// It is r' C⁻ r, where r are the residuals of a method, C is their covariance from all inputs, and C⁻ is any
+/// generalised inverse. The part that the parameters absorb cancels. Chi-square is therefore the same for every method
+/// that fits exact readings exactly. It is computed from z = Q₂'W e, whose covariance 1 + B B' has full rank (B is Q₂'W
+/// times the common part of all positions).
 pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> Misfit {
     let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma);
     let count = shared.ncols();
-    // The misclosures stand behind what is shared, so that one rotation does for both.
+    // The misclosures follow the common part as one more column, so that a single rotation transforms both.
     let mut rotated = shared.resize_horizontally(count + 1, 0.0);
     let positions = &setup.coefficients().positions;
     for (place, ((at, current), whiten)) in positions.iter().zip(&data.currents_ma).zip(&fit.whitening).enumerate() {
@@ -151,7 +155,7 @@ pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> Misfit {
     fit.model.rotate(&mut rotated);
     let degrees_of_freedom = fit.model.rows() - fit.model.columns();
     if degrees_of_freedom == 0 {
-        // As many readings as unknowns: what is left is rounding.
+        // With as many readings as unknowns, the residuals are only rounding.
         return Misfit { value: 0.0, degrees_of_freedom, distribution: ScaledF::new(0, &[]) };
     }
     let rest = rotated.rows(fit.model.columns(), degrees_of_freedom);
@@ -168,12 +172,12 @@ pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> Misfit {
     Misfit { value: z.norm_squared() - taken, degrees_of_freedom, distribution }
 }
 
-/// The parts of the covariance of the residuals that rest on estimates with few degrees of freedom. `shared` is what all
-/// positions share, whitened, and `lower` is L with L L' = 1 + B'B.
+/// Returns the parts of the covariance of the residuals that rest on estimates with few degrees of freedom. `shared` is
+/// the whitened common part of all positions, and `lower` is L with L L' = 1 + B'B.
 ///
-/// χ² is y' M y of the whitened misclosures y with M = 1 − V V', V being Q₁ and Q₂ B L'⁻¹ side by side: Q₁ = W X R⁻¹ is
-/// what parameters take up. A part D of y's covariance enters by tr M D and tr M D M D; columns of D at different
-/// positions have nothing in common, so the cost grows with the number of positions alone.
+/// χ² is y' M y of the whitened misclosures y, with M = 1 − V V'. V consists of Q₁ and Q₂ B L'⁻¹ side by side; Q₁ = W X
+/// R⁻¹ is the part that the parameters absorb. A part D of the covariance of y enters through tr M D and tr M D M D.
+/// Columns of D at different positions are orthogonal, so the cost grows only linearly with the number of positions.
 fn parts(setup: &Setup, fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Option<DMatrix<f64>>) -> Vec<Part> {
     let estimates = Estimates::new(setup, &data.repeats);
     if estimates.degrees_of_freedom.is_empty() {
@@ -192,7 +196,7 @@ fn parts(setup: &Setup, fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Op
     }
     let seen = [taken, inner].map(|v| v.transpose() * &columns);
     let rows = seen[0].nrows() + seen[1].nrows();
-    // V' of a column.
+    // V' times a column.
     let seen = |column: usize| {
         DVector::from_iterator(
             rows,
@@ -225,11 +229,11 @@ fn parts(setup: &Setup, fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Op
     estimates.degrees_of_freedom.iter().enumerate().map(part).collect()
 }
 
-/// Covariance S S' of a spread S (parameters × causes).
+/// Returns the covariance S S' of a spread S (parameters × causes).
 pub(crate) fn covariance(spread: &DMatrix<f64>) -> DMatrix<f64> {
     let size = spread.nrows();
     let mut covariance = DMatrix::zeros(size, size);
-    // Sums in a fixed order, so that results do not depend on the processor.
+    // The order of summation is fixed, so that results do not depend on the CPU.
     for cause in spread.column_iter() {
         for column in 0..size {
             covariance.column_mut(column).axpy(cause[column], &cause, 1.0);
@@ -238,7 +242,7 @@ pub(crate) fn covariance(spread: &DMatrix<f64>) -> DMatrix<f64> {
     covariance
 }
 
-/// Square roots of the diagonal of S S'.
+/// Returns the square roots of the diagonal of S S', where S is `spread`.
 pub(crate) fn standard_deviations(spread: &DMatrix<f64>) -> Vec<f64> {
     let mut squares = vec![0.0; spread.nrows()];
     for cause in spread.column_iter() {
@@ -260,7 +264,7 @@ mod tests {
     use crate::gyro::GyroType;
     use crate::statistics::random::Stream;
 
-    /// The claim of [`chi_square`]: r' C⁻ r by the pseudo-inverse of the residuals' covariance, for two methods.
+    /// Checks [`chi_square`] against r' C⁻ r by the pseudo-inverse of the residuals' covariance, for two methods.
     #[test]
     fn chi_square_is_that_of_the_residuals_of_any_method() {
         let mut stream = Stream::new(1);

@@ -1,6 +1,6 @@
-//! A result against the specification of the gyro's type, and against an earlier result.
+//! Comparison of a result with the specification of the gyro type, and with an earlier result.
 //!
-//! Decisions by simple acceptance and by guarded acceptance with a guard band of one expanded uncertainty
+//! Decisions are made by simple acceptance, and by guarded acceptance with a guard band of one expanded uncertainty
 //! ([JCGM 106](crate::bibliography::Bibliography::Jcgm106), 8.2 and 8.3; ILAC-G8), with the specific risk (7.3).
 
 use super::parameter::Parameter;
@@ -8,64 +8,66 @@ use crate::gyro::{GyroParameters, GyroType};
 use crate::statistics::distributions::normal_below;
 use serde::Serialize;
 
-/// Expanded uncertainty is this many standard uncertainties.
+/// Coverage factor of expanded uncertainties.
 pub(crate) const COVERAGE_FACTOR: f64 = 2.0;
 
-/// The parameters that are drifts per g.
+/// Parameters that are drifts per g.
 const PER_G: [Parameter; 2] = [Parameter::OmegaG, Parameter::OmegaK];
 
-/// A decision.
+/// Decision on conformity with a tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Decision {
-    /// Within tolerance.
+    /// Conformity: within tolerance.
     Pass,
-    /// Not within tolerance.
+    /// Nonconformity: not within tolerance.
     Fail,
-    /// Cannot be decided with this uncertainty.
+    /// No decision is possible with this uncertainty.
     Undecided,
 }
 
-/// A result against a specification.
+/// Comparison of a result with a specification or an earlier result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
-    /// Fail when a parameter fails by guarded acceptance, pass when all pass so, else undecided.
+    /// Overall decision: fail if a parameter fails by guarded acceptance, pass if all pass, otherwise undecided.
     pub overall: Decision,
-    /// The type's g, at which drifts are compared, m/s².
+    /// Value of g to which the drifts of the type refer and at which drifts are compared, m/s².
     pub gravity_m_per_s2: f64,
-    /// Parameter by parameter.
+    /// Decisions, one for each parameter.
     pub parameters: Vec<ParameterVerdict>,
 }
 
-/// One parameter against its tolerance.
+/// Comparison of one parameter with its tolerance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ParameterVerdict {
-    /// Which one.
+    /// Key of the parameter.
     pub parameter: &'static str,
-    /// Value found, in the parameter's own unit, drifts at the type's g.
+    /// Value found, in the unit of the parameter; drifts at the type's g.
     pub value: f64,
-    /// Nominal or earlier value, likewise.
+    /// Nominal or earlier value, in the unit of the parameter; drifts at the type's g.
     pub reference_value: f64,
-    /// Standard uncertainty of their difference, likewise.
+    /// Standard uncertainty of the difference of the two values, in the unit of the parameter.
     pub standard_uncertainty: f64,
-    /// Unit of the four numbers that follow: percent of the nominal value for scale factors.
+    /// Unit of the deviation, the tolerance and the expanded uncertainties; percent of the nominal value for scale
+    /// factors.
     pub unit: &'static str,
-    /// Found less nominal, or found less earlier.
+    /// Deviation: value found minus nominal or earlier value.
     pub deviation: f64,
-    /// Largest deviation allowed, either way.
+    /// Tolerance: largest permitted deviation, in either direction.
     pub tolerance: f64,
-    /// Two standard uncertainties of the deviation.
+    /// Expanded uncertainty of the deviation (k = 2).
     pub expanded_uncertainty: f64,
-    /// Part of the expanded uncertainty that comes from the local g, by which drifts were brought to the type's g;
-    /// absent where none does.
+    /// Part of the expanded uncertainty from the local g, with which drifts were converted to the type's g; absent if
+    /// there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expanded_uncertainty_from_gravity: Option<f64>,
-    /// By simple acceptance: whether the deviation is within the tolerance.
+    /// Decision by simple acceptance: whether the deviation is within the tolerance.
     pub simple: Decision,
-    /// By guarded acceptance: whether it is within, or outside, by more than the expanded uncertainty.
+    /// Decision by guarded acceptance: whether the deviation is inside or outside by more than the expanded
+    /// uncertainty.
     pub guarded: Decision,
-    /// Probability that the simple decision is wrong.
+    /// Specific risk: probability that the decision by simple acceptance is wrong.
     pub specific_risk: f64,
 }
 
@@ -77,22 +79,22 @@ impl ParameterVerdict {
     }
 }
 
-/// Values and standard uncertainties of the eight parameters at one place.
+/// Values and standard uncertainties of the eight parameters at one local g.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Found {
-    /// The parameters, drifts per local g.
+    /// Parameters, drifts per local g.
     pub parameters: GyroParameters,
-    /// Standard uncertainties in the order of [`Parameter::EIGHT`].
+    /// Standard uncertainties, in the order of [`Parameter::EIGHT`].
     pub standard_uncertainty: [f64; 8],
-    /// The local g.
+    /// Local g, m/s².
     pub gravity_m_per_s2: f64,
-    /// Its standard uncertainty.
+    /// Standard uncertainty of the local g, m/s².
     pub gravity_u_m_per_s2: f64,
 }
 
 impl Found {
-    /// With g-sensitive drifts per `gravity_m_per_s2` exactly, instead of the local g: the drift per m/s² is the gyro's
-    /// own, and how well the local g is known enters here.
+    /// Returns the result with g-sensitive drifts per exactly `gravity_m_per_s2` instead of the local g. The drift per
+    /// m/s² belongs to the gyro, so the uncertainty of the local g enters here.
     #[must_use]
     pub(crate) fn at_gravity(&self, gravity_m_per_s2: f64) -> Self {
         let ratio = gravity_m_per_s2 / self.gravity_m_per_s2;
@@ -108,20 +110,22 @@ impl Found {
         Self { parameters, standard_uncertainty, gravity_m_per_s2, gravity_u_m_per_s2: 0.0 }
     }
 
-    /// The standard uncertainty that the local g adds to a parameter which is brought to another g; 0 where it has no part.
+    /// Returns the standard uncertainty that the local g adds to a parameter on conversion to another g; 0 if it has no
+    /// effect.
     fn u_from_gravity(&self, parameter: Parameter) -> f64 {
         let value = if PER_G.contains(&parameter) { self.parameters.to_vector()[parameter.place()] } else { 0.0 };
         value.abs() * self.gravity_u_m_per_s2 / self.gravity_m_per_s2
     }
 
-    /// The same with the local g taken as exact: a change between two results under the same g does not depend on it.
+    /// Returns the result with an exact local g if `other` has the same local g, because the change then does not
+    /// depend on it.
     fn under_the_same_gravity(&self, other: &Self) -> Self {
         let same = self.gravity_m_per_s2 == other.gravity_m_per_s2;
         Self { gravity_u_m_per_s2: if same { 0.0 } else { self.gravity_u_m_per_s2 }, ..*self }
     }
 }
 
-/// A result against the specification of a type.
+/// Compares a result with the specification of a gyro type.
 pub fn against_type(found: &Found, gyro_type: &GyroType) -> Verdict {
     let nominal = Found {
         parameters: gyro_type.nominal.to_model(),
@@ -132,15 +136,15 @@ pub fn against_type(found: &Found, gyro_type: &GyroType) -> Verdict {
     compare(found, &nominal, gyro_type)
 }
 
-/// The change since an earlier result, against the tolerance of the type: the paper's tolerance is an instability.
+/// Compares the change since an earlier result with the tolerance of the type; the paper's tolerance is an instability.
 ///
-/// The two results count as independent. Where they share a stand, its part in both uncertainties is the same and does
-/// not change: what is said here is then on the cautious side.
+/// The two results are treated as independent. If they were found on one stand, its contribution to both errors is the
+/// same and cancels in the change. The stated uncertainty is then too large.
 pub fn against_earlier(found: &Found, earlier: &Found, gyro_type: &GyroType) -> Verdict {
     compare(&found.under_the_same_gravity(earlier), &earlier.under_the_same_gravity(found), gyro_type)
 }
 
-/// Compares two results, brought to the type's g, in the order of the paper's table.
+/// Compares two results at the type's g, in the order of the paper's table.
 fn compare(found: &Found, reference: &Found, gyro_type: &GyroType) -> Verdict {
     let gravity_m_per_s2 = gyro_type.gravity();
     let sides = [found, reference];
@@ -155,8 +159,8 @@ fn compare(found: &Found, reference: &Found, gyro_type: &GyroType) -> Verdict {
     Verdict::of(gravity_m_per_s2, parameters.into())
 }
 
-/// The change of each parameter since an earlier result, in units of the change's standard uncertainty, in the order of
-/// [`Parameter::EIGHT`]; drifts brought to the same g.
+/// Returns the change of each parameter since an earlier result, in units of the standard uncertainty of the change, in
+/// the order of [`Parameter::EIGHT`]; drifts are converted to the same g.
 pub(crate) fn change_in_uncertainties(found: &Found, earlier: &Found) -> [f64; 8] {
     let gravity = found.gravity_m_per_s2;
     let brought = |one: &Found, other: &Found| one.under_the_same_gravity(other).at_gravity(gravity);
@@ -182,8 +186,8 @@ impl Verdict {
     }
 }
 
-/// Judges a value against a reference value; of their difference, the standard uncertainty `u` and what the local g has in
-/// it; all in the parameter's own unit.
+/// Compares a value with a reference value. `u` is the standard uncertainty of their difference, of which a part comes
+/// from the local g. All arguments are in the unit of the parameter.
 fn judge(
     parameter: Parameter,
     [value, reference_value]: [f64; 2],
@@ -200,7 +204,7 @@ fn judge(
     };
     let nominal = gyro_type.nominal.to_model().to_vector().get(parameter.place()).copied().unwrap_or(0.0);
     let is_scale_factor = parameter.place() < 4;
-    // A percentage of a nominal value of 0 is 0.
+    // With a nominal value of 0, a tolerance in percent permits no deviation.
     let (unit, limit, scale) = match (is_scale_factor, nominal == 0.0) {
         (true, false) => ("%", limit, 100.0 / nominal.abs()),
         (true, true) => (parameter.unit(), 0.0, 1.0),
@@ -224,7 +228,7 @@ fn judge(
     }
 }
 
-/// Decides by simple and by guarded acceptance, with the probability that the simple decision is wrong.
+/// Decides by simple and by guarded acceptance; also returns the probability that the simple decision is wrong.
 fn decide(deviation: f64, u: f64, limit: f64) -> (Decision, Decision, f64) {
     let expanded_uncertainty = COVERAGE_FACTOR * u;
     let within = deviation.abs() <= limit;
@@ -235,7 +239,7 @@ fn decide(deviation: f64, u: f64, limit: f64) -> (Decision, Decision, f64) {
     } else {
         Decision::Undecided
     };
-    // Each tail by itself, so that a small risk keeps its digits.
+    // The two tails are computed separately, so that a small risk keeps its significant digits.
     let outside = normal_below((-limit - deviation) / u) + normal_below((deviation - limit) / u);
     let inside = if deviation > 0.0 {
         normal_below((limit - deviation) / u) - normal_below((-limit - deviation) / u)
