@@ -1,27 +1,28 @@
-//! The orientation of the gyro's case on the stand: nominal (A), deviation (E), real (Ã).
+//! Orientation of the gyro's case on the stand: nominal (A), deviation (E), actual (Ã).
 //!
-//! Frames: base ξηζ with ξ east, η north, ζ up; case xyz with z along the spin axis. Every matrix turns coordinates
-//! (it is passive): the case's coordinates of a vector are Ã times its base coordinates.
-//! Source: [the paper](crate::bibliography::Bibliography::Tang17), eq. (3) and (4).
+//! The base axes ξηζ are east, north and up; the case axes are xyz with z along the spin axis. All rotation matrices
+//! are passive: the case coordinates of a vector are Ã times its base coordinates. Source: [the
+//! paper](crate::bibliography::Bibliography::Tang17), eq. (3) and (4).
 
 use crate::units::sin_cos_of_degrees;
 use nalgebra::Matrix3;
 
-/// The deviation of one position from its nominal orientation: turns about the platform's own axes, in the order
-/// α about x, β about y, γ about z.
+/// Deviation of one position from its nominal orientation: rotations about the platform's own axes, in the order α
+/// about x, β about y, γ about z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
-    /// α, about the platform's x axis.
+    /// Deviation α about the platform's x axis, rad.
     pub alpha_rad: f64,
-    /// β, about the platform's y axis.
+    /// Deviation β about the platform's y axis, rad.
     pub beta_rad: f64,
-    /// γ, about the platform's z axis, which is the gyro's spin axis.
+    /// Deviation γ about the platform's z axis, which is the gyro's spin axis, rad.
     pub gamma_rad: f64,
 }
 
-/// A = Rz(φ)·Rx(θ): base to platform as designed, for frame angle θ and platform angle φ (paper, eq. (3)).
+/// Returns the nominal rotation matrix A = Rz(φ)·Rx(θ), base to platform axes (3×3), for the frame angle θ and the
+/// platform angle φ (paper, eq. (3)).
 ///
-/// Elements are exactly 0 and ±1 at whole quadrants.
+/// At whole quadrants its elements are exactly 0 and ±1.
 pub fn nominal(theta_deg: f64, phi_deg: f64) -> Matrix3<f64> {
     let (s_theta, c_theta) = sin_cos_of_degrees(theta_deg);
     let (s_phi, c_phi) = sin_cos_of_degrees(phi_deg);
@@ -34,7 +35,8 @@ pub fn nominal(theta_deg: f64, phi_deg: f64) -> Matrix3<f64> {
     matrix
 }
 
-/// E = Rz(γ)·Ry(β)·Rx(α): platform as designed to platform as it is (paper, the matrix above eq. (4)).
+/// Returns the rotation matrix of the deviation, E = Rz(γ)·Ry(β)·Rx(α), nominal to actual platform axes (3×3) (paper,
+/// the matrix above eq. (4)).
 pub fn deviation(angles: &Deviation) -> Matrix3<f64> {
     let (sa, ca) = libm::sincos(angles.alpha_rad);
     let (sb, cb) = libm::sincos(angles.beta_rad);
@@ -48,10 +50,11 @@ pub fn deviation(angles: &Deviation) -> Matrix3<f64> {
     matrix
 }
 
-/// Ã = E·A: base to case as it is (paper, eq. (4)).
+/// Returns the actual rotation matrix Ã = E·A, base to case axes (3×3) (paper, eq. (4)).
 ///
-/// With Ã's elements a = Ã₁₂, b = Ã₂₂ (Earth's horizontal rate along x and y) and c = Ã₁₃, d = Ã₂₃ (the vertical
-/// along x and y). The paper's printed matrix has b and c exchanged: see docs/model.md, erratum 1.
+/// The elements a = Ã₁₂, b = Ã₂₂ multiply the horizontal component of the Earth rate along x and y; c = Ã₁₃, d = Ã₂₃
+/// multiply the vertical component along x and y. In the paper's printed matrix b and c are exchanged: see
+/// docs/model.md, erratum 1.
 pub fn actual(theta_deg: f64, phi_deg: f64, angles: &Deviation) -> Matrix3<f64> {
     deviation(angles) * nominal(theta_deg, phi_deg)
 }

@@ -1,19 +1,19 @@
-//! What a calibration needs to know about a stand at a site: specific force and Earth rate in the case axes of every
-//! position, and the paper's Δ, B, C with their parts.
+//! Coefficients of the calibration equations of a stand at a site: specific force and Earth rate in the case axes of
+//! every position, and the paper's Δ, B, C with their parts.
 //!
-//! [`StandGeometry`] holds all that is free of the site; [`StandGeometry::at`] adds the two numbers that a site is,
-//! ω_Γ and ω_B. So one stand serves many sites.
-//! Source: [the paper](crate::bibliography::Bibliography::Tang17), eq. (5) and (9)-(15).
+//! [`StandGeometry`] contains all that does not depend on the site; [`StandGeometry::at`] adds the two numbers of a
+//! site, ω_Γ and ω_B. One stand can therefore be used at many sites. Source: [the
+//! paper](crate::bibliography::Bibliography::Tang17), eq. (5) and (9)-(15).
 
 use crate::attitude::{self, Deviation};
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
-/// Frame index i and platform index j of a position, both counted from 1.
+/// Index (i, j) of a position: frame index i and platform index j, both counted from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PositionIndex {
-    /// Frame index.
+    /// Frame index, from 1.
     pub i: u32,
-    /// Platform index.
+    /// Platform index, from 1.
     pub j: u32,
 }
 
@@ -35,29 +35,29 @@ pub const EIGHT_POSITIONS: [(PositionIndex, f64, f64); 8] = [
     (PositionIndex { i: 2, j: 4 }, 90.0, 270.0),
 ];
 
-/// One position of a stand: where it should be, and how far it is from there.
+/// Position of a stand: nominal angles and deviation from them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Position {
-    /// Which one.
+    /// Index (i, j) of the position.
     pub index: PositionIndex,
-    /// Frame angle θ about ξ.
+    /// Frame angle θ about ξ, degrees.
     pub theta_deg: f64,
-    /// Platform angle φ about the spin axis.
+    /// Platform angle φ about the spin axis, degrees.
     pub phi_deg: f64,
-    /// Certified deviation.
+    /// Certified deviation from the nominal orientation.
     pub deviation: Deviation,
 }
 
-/// The Earth's rotation at a site, in its base frame.
+/// Earth rate at a site, in base axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EarthRate {
-    /// ω_Γ, northward.
+    /// Horizontal component ω_Γ, positive to the north, °/h.
     pub horizontal_deg_per_h: f64,
-    /// ω_B, upward.
+    /// Vertical component ω_B, positive upwards, °/h.
     pub vertical_deg_per_h: f64,
 }
 
-/// The eight positions leave n_2 without an inverse: no passport matrices exist for this stand.
+/// Error: n_2 of the eight positions has no inverse, so the matrices Δ, B, C do not exist for this stand.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
     "the g-sensitive drift cannot be determined, because the differences of specific force n_2 have no inverse \
@@ -68,14 +68,14 @@ pub struct SingularPositions {
     pub condition: f64,
 }
 
-/// The orientation of every position: all of a stand that is free of the site.
+/// Orientations of all positions of a stand, which do not depend on the site.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StandGeometry {
     positions: Vec<(PositionIndex, Matrix3<f64>)>,
     eight: Option<EightGeometry>,
 }
 
-/// A_1, A_2, n_1, n_2 and what follows from them (differences of the paper's eight positions).
+/// Differences A_1, A_2, n_1, n_2 of the paper's eight positions, and the matrices computed from them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct EightGeometry {
     a1: Matrix2<f64>,
@@ -87,10 +87,10 @@ struct EightGeometry {
 }
 
 impl StandGeometry {
-    /// The geometry of `positions`, in their order. The paper's eight may be among them or not.
+    /// Creates the geometry of `positions`, in their order. The paper's eight positions may be among them or not.
     ///
     /// # Errors
-    /// [`SingularPositions`] when the eight are there and n_2 cannot be inverted.
+    /// Returns [`SingularPositions`] if the eight positions are present and n_2 cannot be inverted.
     pub fn new(positions: &[Position]) -> Result<Self, SingularPositions> {
         let positions: Vec<_> = positions
             .iter()
@@ -102,15 +102,15 @@ impl StandGeometry {
         Ok(Self { positions, eight })
     }
 
-    /// Whether the paper's eight are among the positions: then there are matrices at every site.
+    /// Returns `true` if the paper's eight positions are present; Δ, B, C then exist at every site.
     pub(crate) fn has_eight(&self) -> bool {
         self.eight.is_some()
     }
 
-    /// The coefficients at a site with the Earth rate `earth` (paper, eq. (5), (12), (13), (15)).
+    /// Returns the coefficients at a site with the Earth rate `earth` (paper, eq. (5), (12), (13), (15)).
     ///
-    /// B = ω_Γ (A_1 − A_2 Δ) and C = ω_B·1 + ω_Γ A_2 n_2⁻¹, which are the paper's B and C with the part that is free
-    /// of the site taken out.
+    /// B = ω_Γ (A_1 − A_2 Δ) and C = ω_B·1 + ω_Γ A_2 n_2⁻¹ are the paper's B and C, with the part that does not depend
+    /// on the site separated.
     pub fn at(&self, earth: EarthRate) -> Coefficients {
         let EarthRate { horizontal_deg_per_h: w_h, vertical_deg_per_h: w_v } = earth;
         let positions = self.positions.iter().map(|(index, attitude)| {
@@ -137,7 +137,7 @@ impl StandGeometry {
     }
 }
 
-/// Ã of the eight in the paper's order, when all are there.
+/// Returns Ã of the eight positions in the paper's order, or `None` if one is missing.
 fn eight_attitudes(positions: &[(PositionIndex, Matrix3<f64>)]) -> Option<[Matrix3<f64>; 8]> {
     let mut eight = [Matrix3::zeros(); 8];
     for (slot, (index, _, _)) in eight.iter_mut().zip(EIGHT_POSITIONS) {
@@ -160,53 +160,53 @@ impl EightGeometry {
     }
 }
 
-/// X_1 and X_2 of the vectors x of the eight positions in their order: differences of opposite positions as columns
-/// (paper, eq. (9)-(11)).
+/// Returns X_1 and X_2 (2×2) of the vectors x of the eight positions in their order: differences of opposite positions
+/// as columns (paper, eq. (9)-(11)).
 pub(crate) fn pair_differences(x: impl Fn(usize) -> Vector2<f64>) -> (Matrix2<f64>, Matrix2<f64>) {
     let first = Matrix2::from_columns(&[x(0) - x(2), x(1) - x(3)]);
     let second = Matrix2::from_columns(&[x(4) - x(6), x(5) - x(7)]);
     (first, second)
 }
 
-/// What a calibration needs, at one site.
+/// Coefficients of the calibration equations of one stand at one site.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coefficients {
-    /// Specific force and Earth rate of every position, in the stand's order.
+    /// Specific force and Earth rate of every position, in the order of the stand's positions.
     pub positions: Vec<PositionCoefficients>,
-    /// The paper's matrices, when all of its eight positions are there.
+    /// The paper's matrices; `None` if one of its eight positions is missing.
     pub matrices: Option<Matrices>,
 }
 
 /// Specific force and Earth rate in the case axes of one position (paper, eq. (5)).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PositionCoefficients {
-    /// Which position.
+    /// Index (i, j) of the position.
     pub index: PositionIndex,
-    /// n = (c, d), along x and y.
+    /// Specific force n = (c, d) along x and y, g.
     pub specific_force_g: Vector2<f64>,
-    /// Ã₃₃, along the spin axis.
+    /// Specific force Ã₃₃ along the spin axis, g.
     pub specific_force_z_g: f64,
-    /// ω_3 = (a ω_Γ + c ω_B, b ω_Γ + d ω_B), along x and y.
+    /// Earth rate ω_3 = (a ω_Γ + c ω_B, b ω_Γ + d ω_B) along x and y, °/h.
     pub earth_rate_deg_per_h: Vector2<f64>,
 }
 
 /// The paper's matrices, each 2×2 (eq. (12), (13), (15)).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Matrices {
-    /// Δ = n_2⁻¹ n_1.
+    /// Δ = n_2⁻¹ n_1, dimensionless.
     pub delta: Matrix2<f64>,
-    /// B = ω_31 − ω_32 n_2⁻¹ n_1.
+    /// B = ω_31 − ω_32 n_2⁻¹ n_1, °/h.
     pub b_deg_per_h: Matrix2<f64>,
-    /// C = ω_32 n_2⁻¹.
+    /// C = ω_32 n_2⁻¹, °/(h·g).
     pub c_deg_per_h_per_g: Matrix2<f64>,
-    /// n_1, differences of specific force in the positions with θ = 0°.
+    /// Differences n_1 of specific force in the positions with θ = 0°, g.
     pub n1: Matrix2<f64>,
-    /// n_2, differences of specific force in the positions with θ = 90°.
+    /// Differences n_2 of specific force in the positions with θ = 90°, g.
     pub n2: Matrix2<f64>,
-    /// n_2⁻¹.
+    /// Inverse n_2⁻¹, 1/g.
     pub n2_inverse: Matrix2<f64>,
-    /// ω_31, differences of Earth rate in the positions with θ = 0°.
+    /// Differences ω_31 of Earth rate in the positions with θ = 0°, °/h.
     pub omega1_deg_per_h: Matrix2<f64>,
-    /// ω_32, differences of Earth rate in the positions with θ = 90°.
+    /// Differences ω_32 of Earth rate in the positions with θ = 90°, °/h.
     pub omega2_deg_per_h: Matrix2<f64>,
 }

@@ -1,9 +1,10 @@
-//! Least squares on all readings of any positions, weighted by what is each position's own.
+//! Weighted least squares on all readings of any positions, with weights from the own part of each position.
 //!
-//! The currents are measured and stand in the regressors; Earth rate and specific force are known far better. So what
-//! is minimised is Σ e' (K D K')⁻¹ e with the misclosures e and the currents' covariance D: the sum of squared errors
-//! *of the currents* in units of their uncertainty, which is unbiased. Each step takes its regressors and its weights
-//! from the currents that the last solution makes (effective variance, iterated), never from the noisy readings.
+//! The currents are measured and are part of the regressors; Earth rate and specific force are known far better.
+//! Therefore Σ e' (K D K')⁻¹ e is minimised, where e are the misclosures and D is the covariance of the currents. This
+//! is the sum of squared errors *of the currents* in units of their uncertainty, and the result is unbiased. Each step
+//! computes its regressors and its weights from the currents that the last solution gives (effective variance,
+//! iterated), never from the noisy readings.
 
 use super::inputs::MeterUncertainty;
 use super::parameter::Parameter;
@@ -13,54 +14,54 @@ use crate::gyro::GyroParameters;
 use crate::statistics::least_squares::{Factorised, condition};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
-/// Beyond this condition number positions do not determine all parameters: noise would grow that many times.
+/// Condition number above which positions do not determine all parameters; noise would grow by this factor.
 ///
-/// Columns are compared in units of the largest current, 1 °/h and 1 g. On the paper's eight positions and with its
-/// gyro the condition is 12 without deviations. The largest of 40,000 stands drawn within ±15° is 16.5; within ±45° it is 71, where the
-/// tail is heavy: 99.99 % are below 47, and the largest of two other draws were 55 and 89. The condition grows towards the poles, to 74
-/// at a latitude of 85°. With the anisoelastic coefficient it is infinite without deviations, above 500 at ±10′
-/// and below 100 from about ±15° on.
+/// Columns are compared in units of the largest current, 1 °/h and 1 g. For the paper's eight positions and its gyro,
+/// the condition number is 12 without deviations. The largest of 40,000 stands drawn within ±15° is 16.5. Within ±45°
+/// it is 71, and the tail is heavy: 99.99 % are below 47, and the largest of two other draws were 55 and 89. The
+/// condition number grows towards the poles, to 74 at a latitude of 85°. With the anisoelastic coefficient it is
+/// infinite without deviations, above 500 at ±10′ and below 100 from about ±15° on.
 pub(crate) const LARGEST_CONDITION: f64 = 300.0;
 
-/// Steps until a solution must have settled; it takes three or four.
+/// Maximum number of steps of the fit; usually it needs three or four.
 const LARGEST_NUMBER_OF_STEPS: usize = 30;
 
-/// A step below this share of the solution's own uncertainty is the last one.
+/// Length of the last step, as a fraction of the solution's own uncertainty, below which the fit is settled.
 const SETTLED: f64 = 1e-6;
 
-/// The parameters that fit all readings best.
+/// Parameters by weighted least squares.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct LeastSquaresSolution {
-    /// K, ω_0, ω_g, ω_k.
+    /// Parameters K, ω_0, ω_g, ω_k.
     pub parameters: GyroParameters,
-    /// The anisoelastic coefficient, when asked for.
+    /// Anisoelastic coefficient, °/(h·g²); `None` if it was not requested.
     pub anisoelasticity_deg_per_h_per_g2: Option<f64>,
 }
 
-/// Why there is no least-squares solution.
+/// Reason why least squares gives no result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoLeastSquares {
-    /// The number of current pairs is not that of the positions.
+    /// A number of current pairs that differs from the number of positions.
     #[error("found {found} pairs of currents, expected {expected}, one for each position")]
     WrongNumberOfCurrents {
-        /// Pairs of currents given.
+        /// Number of pairs of currents given.
         found: usize,
-        /// Positions of the stand.
+        /// Number of positions of the stand.
         expected: usize,
     },
-    /// Readings that were made for other positions, or in another order.
+    /// Readings of other positions than those of the coefficients, or in another order.
     #[error("the readings and the coefficients are for different positions")]
     OtherPositions,
-    /// The equations do not determine all parameters.
+    /// Equations that do not determine all parameters.
     #[error("{}", inseparable(.groups, *.condition))]
     Inseparable {
-        /// Groups of parameters that are mixed with each other; one alone is not determined at all.
+        /// Groups of parameters that cannot be separated; a group of one parameter is not determined at all.
         groups: Vec<Vec<Parameter>>,
-        /// The condition number.
+        /// Condition number of the equations.
         condition: f64,
     },
-    /// Currents or uncertainties that are not finite, or a meter without any uncertainty.
+    /// A current or an uncertainty that is not finite, or a meter without any uncertainty.
     #[error("every current must be finite and every uncertainty positive")]
     NotUsable,
 }
@@ -78,11 +79,12 @@ fn inseparable(groups: &[Vec<Parameter>], condition: f64) -> String {
     format!("these positions cannot {} (condition number {condition:.0e})", words.join(", nor "))
 }
 
-/// Solves for the gyro from the mean currents (J_x, J_y) of `coefficients.positions`, in the same order, one reading
-/// each.
+/// Solves for the gyro parameters from one reading (J_x, J_y) of each of `coefficients.positions`, mA, in the same
+/// order.
 ///
 /// # Errors
-/// See [`NoLeastSquares`].
+/// Returns [`NoLeastSquares`] if the number of currents is wrong, a value is not usable, or the positions do not
+/// determine all parameters.
 pub(crate) fn solve(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],
@@ -92,10 +94,10 @@ pub(crate) fn solve(
     Ok(Fit::new(coefficients, currents_ma, anisoelasticity, own_covariance_of(meter))?.solution())
 }
 
-/// Standard uncertainties of [`Parameter::EIGHT`], to first order, where one reading each of the exact currents of
-/// `gyro` has the own errors of `meter`, and nothing else is uncertain.
+/// Returns the standard uncertainties of [`Parameter::EIGHT`], to first order, for one reading of the exact currents of
+/// `gyro` in each position, if only the own errors of `meter` act.
 ///
-/// `None` where the positions do not determine all eight.
+/// Returns `None` if the positions do not determine all eight parameters.
 pub(crate) fn expected_uncertainties(
     coefficients: &Coefficients,
     gyro: &GyroParameters,
@@ -107,12 +109,12 @@ pub(crate) fn expected_uncertainties(
     let problem = Problem { coefficients, currents_ma: &currents_ma, anisoelasticity: false, own_covariance };
     problem.conditioned(largest_current(&currents_ma)).ok()?;
     let (_, fit) = problem.step(&unknowns, currents_ma.clone())?;
-    // The parameters' covariance is R⁻¹ R⁻¹'.
+    // The covariance of the parameters is R⁻¹ R⁻¹'.
     let r_inverse = fit.model.r_inverse();
     Some(std::array::from_fn(|place| r_inverse.row(place).norm()))
 }
 
-/// The covariance, 2×2, of a position's misclosure for the own errors of a meter.
+/// Returns a function for the covariance of a position's misclosure from the own errors of a meter, (°/h)², 2×2.
 fn own_covariance_of(meter: &MeterUncertainty) -> impl Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64> {
     |_, unknowns, current| {
         let k = unknowns.parameters.k_deg_per_h_per_ma;
@@ -122,29 +124,31 @@ fn own_covariance_of(meter: &MeterUncertainty) -> impl Fn(usize, &Unknowns, &Vec
     }
 }
 
-/// The unit of the columns of K: the largest current, or 1 mA where all are 0.
+/// Returns the unit of the columns of K, mA: the largest current, or 1 if all are 0.
 fn largest_current(currents_ma: &[Vector2<f64>]) -> f64 {
     let largest = currents_ma.iter().fold(0.0, |a: f64, current| a.max(current.amax()));
     if largest == 0.0 { 1.0 } else { largest }
 }
 
-/// A solution with what its covariance needs.
+/// Fitted unknowns, with the quantities from which their covariance is computed.
 #[derive(Debug, Clone)]
 pub(crate) struct Fit {
     pub(crate) unknowns: Unknowns,
-    /// Currents that the unknowns make, mA.
+    /// Currents (J_x, J_y) that follow from the unknowns, mA.
     pub(crate) currents_ma: Vec<Vector2<f64>>,
-    /// For every position W with W C W' = 1, C being the covariance of what is its own.
+    /// W for every position, with W C W' = 1, where C is the covariance of its own part.
     pub(crate) whitening: Vec<Matrix2<f64>>,
-    /// The whitened equations.
+    /// Whitened equations, factorised.
     pub(crate) model: Factorised,
-    /// Whether the steps settled; if not, the readings are far from any gyro's, and measured currents stood in.
+    /// `true` if the steps converged. Otherwise the readings are far from any gyro's, and the regressors are measured
+    /// currents.
     pub(crate) settled: bool,
     anisoelasticity: bool,
 }
 
 impl Fit {
-    /// Fits; `own_covariance` gives the covariance, 2×2, of what is a position's own for unknowns and a current.
+    /// Fits the parameters; `own_covariance` returns the covariance, 2×2, of the own part of a position for given
+    /// unknowns and current.
     pub(crate) fn new(
         coefficients: &Coefficients,
         currents_ma: &[Vector2<f64>],
@@ -156,7 +160,7 @@ impl Fit {
         if let Some(fit) = problem.settle(start) {
             return Ok(fit);
         }
-        // Readings that no gyro makes: one step with the measured currents as regressors says all that can be said.
+        // No gyro gives such readings. One step with the measured currents as regressors is the best available fit.
         let (step, mut fit) = problem.step(&start, currents_ma.to_vec()).ok_or(NoLeastSquares::NotUsable)?;
         fit.unknowns = start.plus(&step.0);
         fit.settled = false;
@@ -172,7 +176,7 @@ impl Fit {
     }
 }
 
-/// The whole task, so that its steps need no long lists of arguments.
+/// Input of a fit, kept together to shorten the argument lists of its steps.
 struct Problem<'a, F> {
     coefficients: &'a Coefficients,
     currents_ma: &'a [Vector2<f64>],
@@ -185,7 +189,8 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         if self.anisoelasticity { Parameter::NINE.len() } else { Parameter::EIGHT.len() }
     }
 
-    /// The unweighted equations with measured currents in the unit `unit_ma`, once rank and condition have been checked.
+    /// Returns the unweighted equations with measured currents in the unit `unit_ma`, after a check of rank and
+    /// condition.
     fn conditioned(&self, unit_ma: f64) -> Result<Factorised, NoLeastSquares> {
         let positions = &self.coefficients.positions;
         if self.currents_ma.len() != positions.len() {
@@ -201,7 +206,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         }
     }
 
-    /// The unweighted solution with measured currents.
+    /// Returns the unweighted solution with measured currents.
     fn first(&self) -> Result<Unknowns, NoLeastSquares> {
         let positions = &self.coefficients.positions;
         let unit_ma = largest_current(self.currents_ma);
@@ -217,7 +222,8 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         Ok(Unknowns::from_vector(&solution))
     }
 
-    /// The model when its condition allows it: the bound said that it may not.
+    /// Returns the model if its exact condition number is small enough; called if the bound of the condition number is
+    /// not.
     fn checked(&self, design: DMatrix<f64>) -> Result<Factorised, NoLeastSquares> {
         let found = condition(&design, LARGEST_CONDITION).ok_or(NoLeastSquares::NotUsable)?;
         if found.number <= LARGEST_CONDITION {
@@ -226,7 +232,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         Err(NoLeastSquares::Inseparable { groups: mixed(&found.undetermined), condition: found.number })
     }
 
-    /// Steps from `start` until they no longer matter; `None` when they do not settle.
+    /// Iterates from `start` until a step is negligible, or returns `None` if the steps do not converge.
     fn settle(&self, start: Unknowns) -> Option<Fit> {
         let mut unknowns = start;
         for _ in 0..LARGEST_NUMBER_OF_STEPS {
@@ -241,8 +247,8 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         None
     }
 
-    /// One step from `unknowns` with regressors and weights from the currents `regressors_ma`, and its length in units
-    /// of the solution's own uncertainty.
+    /// Returns one step from `unknowns` and its length in units of the solution's own uncertainty, with regressors and
+    /// weights from the currents `regressors_ma`; `None` if the equations cannot be factorised.
     fn step(&self, unknowns: &Unknowns, regressors_ma: Vec<Vector2<f64>>) -> Option<((DVector<f64>, f64), Fit)> {
         let positions = &self.coefficients.positions;
         let mut design = design(positions, &regressors_ma, self.columns());
@@ -265,7 +271,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
     }
 }
 
-/// L⁻¹ for C = L L'; `None` when C is not positive definite.
+/// Returns L⁻¹ for C = L L', or `None` if C is not positive definite.
 pub(crate) fn whitening_of(covariance: &Matrix2<f64>) -> Option<Matrix2<f64>> {
     let lower = covariance.cholesky()?.unpack();
     let (a, b, c) = (lower.m11, lower.m21, lower.m22);
@@ -273,7 +279,7 @@ pub(crate) fn whitening_of(covariance: &Matrix2<f64>) -> Option<Matrix2<f64>> {
     inverse.iter().all(|x| x.is_finite()).then_some(inverse)
 }
 
-/// W M for the two rows of a position, in place.
+/// Multiplies the two rows of a position by W, in place.
 pub(crate) fn whiten_rows(matrix: &mut DMatrix<f64>, place: usize, whiten: &Matrix2<f64>) {
     for column in 0..matrix.ncols() {
         let (x, y) = (matrix[(2 * place, column)], matrix[(2 * place + 1, column)]);
@@ -282,10 +288,10 @@ pub(crate) fn whiten_rows(matrix: &mut DMatrix<f64>, place: usize, whiten: &Matr
     }
 }
 
-/// Which parameters undetermined directions mix.
+/// Returns the groups of parameters that the undetermined directions mix.
 ///
-/// Elimination with the largest element as pivot leaves each direction with as few parameters as can be, so that two
-/// parameters that are undetermined by themselves do not seem mixed with each other.
+/// Elimination with the largest element as pivot leaves each direction with as few parameters as possible. Two
+/// parameters that are undetermined independently then do not seem to be mixed with each other.
 fn mixed(directions: &[DVector<f64>]) -> Vec<Vec<Parameter>> {
     let mut rows: Vec<DVector<f64>> = directions.to_vec();
     for pivot_row in 0..rows.len() {

@@ -1,18 +1,17 @@
-//! How far the equations are out when an input is: first-order sensitivities of the misclosures
-//! e = ω_3 − K J − ω_0 − ω_n n of all positions (two each) to every input.
+//! First-order sensitivities of the misclosures e = ω_3 − K J − ω_0 − ω_n n of all positions (two each) to every input.
 //!
-//! Coordinates turn passively: when the case turns by the small vector δ, coordinates v of a fixed vector change by
-//! v × δ; when the base turns by δ, Ã w changes by Ã (w × δ).
+//! Rotations are passive. If the case rotates by the small vector δ, the coordinates v of a fixed vector change by v ×
+//! δ. If the base rotates by δ, Ã w changes by Ã (w × δ).
 
 use super::inputs::Setup;
 use super::scatter::Repeats;
 use super::unknowns::Unknowns;
 use nalgebra::{DMatrix, Matrix2, Vector2, Vector3};
 
-/// A change of the misclosure of one position per unit change of an input.
+/// Change of the misclosure of one position, °/h, per unit change of an input.
 type Change = Vector2<f64>;
 
-/// A change of the vectors of one position, in case coordinates, per radian.
+/// Change of the vectors of one position, in case coordinates, per radian.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct VectorChange {
     pub(crate) earth_rate_deg_per_h: Vector3<f64>,
@@ -20,7 +19,8 @@ pub(crate) struct VectorChange {
 }
 
 impl Setup {
-    /// Of position `place`, to a turn of the case by the unit vector `axis` (case coordinates).
+    /// Returns the change of the vectors of position `place` per radian of a rotation of the case about the unit vector
+    /// `axis` (case coordinates).
     pub(crate) fn case_turned(&self, place: usize, axis: &Vector3<f64>) -> VectorChange {
         let attitude = &self.turns()[place].attitude;
         VectorChange {
@@ -29,7 +29,8 @@ impl Setup {
         }
     }
 
-    /// Of position `place`, to a turn of the base by the unit vector `axis` (base coordinates).
+    /// Returns the change of the vectors of position `place` per radian of a rotation of the base about the unit vector
+    /// `axis` (base coordinates).
     pub(crate) fn base_turned(&self, place: usize, axis: &Vector3<f64>) -> VectorChange {
         let attitude = &self.turns()[place].attitude;
         VectorChange {
@@ -38,7 +39,8 @@ impl Setup {
         }
     }
 
-    /// Of position `place`, to the latitude: ω_Γ falls by ω_B, ω_B rises by ω_Γ.
+    /// Returns the change of the vectors of position `place` per radian of latitude: ω_Γ falls by ω_B, ω_B rises by
+    /// ω_Γ.
     pub(crate) fn latitude_changed(&self, place: usize) -> VectorChange {
         let earth = self.earth_rate_in_base();
         let change = self.turns()[place].attitude * Vector3::new(0.0, -earth.z, earth.y);
@@ -46,7 +48,7 @@ impl Setup {
     }
 }
 
-/// The misclosures' sensitivities at one solution.
+/// Sensitivities of the misclosures at one solution.
 pub(crate) struct Sensitivity<'a> {
     setup: &'a Setup,
     unknowns: &'a Unknowns,
@@ -57,12 +59,12 @@ impl<'a> Sensitivity<'a> {
         Self { setup, unknowns }
     }
 
-    /// K of the solution, 2×2.
+    /// Returns K of the solution, °/(h·mA), 2×2.
     pub(crate) fn k_deg_per_h_per_ma(&self) -> &Matrix2<f64> {
         &self.unknowns.parameters.k_deg_per_h_per_ma
     }
 
-    /// Of position `place`, to a change of its vectors.
+    /// Returns the change of the misclosure of position `place` for a change of its vectors.
     fn of_vectors(&self, place: usize, change: &VectorChange) -> Change {
         let VectorChange { earth_rate_deg_per_h, vertical } = change;
         let at = &self.setup.coefficients().positions[place];
@@ -73,13 +75,14 @@ impl<'a> Sensitivity<'a> {
         earth_rate_deg_per_h.xy() - drift - anisoelastic * unknowns.anisoelasticity_deg_per_h_per_g2
     }
 
-    /// Of position `place`, to a turn of the case by the unit vector `axis` (case coordinates), °/h per radian.
+    /// Returns the change of the misclosure of position `place`, °/h per radian, for a rotation of the case about the
+    /// unit vector `axis` (case coordinates).
     pub(crate) fn to_case_turn(&self, place: usize, axis: &Vector3<f64>) -> Change {
         self.of_vectors(place, &self.setup.case_turned(place, axis))
     }
 
-    /// Covariance, 2×2, of what is each position's own: the meter's specification, its returns and the noise of its
-    /// readings as `repeats` says, its certified angles.
+    /// Returns the covariance of the own part of a position, (°/h)², 2×2. It includes the specification of the meter,
+    /// the repeatability and the noise of the readings according to `repeats`, and the certified angles.
     pub(crate) fn own_covariance(&self, place: usize, current_ma: &Vector2<f64>, repeats: &Repeats) -> Matrix2<f64> {
         let meter = self.setup.uncertainty().meter;
         let noise = repeats.noise_variance_ma2(place);
@@ -89,12 +92,12 @@ impl<'a> Sensitivity<'a> {
         self.with_return(meter, place, repeats.return_share(place)) + self.of_certified_angles(place)
     }
 
-    /// Covariance, 2×2, of one return.
+    /// Returns the covariance of one visit from the repeatability, (°/h)², 2×2.
     pub(crate) fn of_return(&self, place: usize) -> Matrix2<f64> {
         self.with_return(Matrix2::zeros(), place, 1.0)
     }
 
-    /// `covariance` and that of a return, of whose variance `share` is kept.
+    /// Returns `covariance` plus that of the repeatability, multiplied by `share`.
     fn with_return(&self, covariance: Matrix2<f64>, place: usize, share: f64) -> Matrix2<f64> {
         let u = self.setup.uncertainty().repeatability_rad * share.sqrt();
         let axes = if u > 0.0 { vec![Vector3::x(), Vector3::y(), Vector3::z()] } else { Vec::new() };
@@ -113,8 +116,9 @@ impl<'a> Sensitivity<'a> {
         })
     }
 
-    /// What all positions share, each column (two rows a position) scaled by its standard uncertainty: platform and
-    /// seat, base with level and azimuth, latitude, meter gain and offset. Inputs that are exact have no column.
+    /// Returns the errors of the misclosures for one standard uncertainty of each common input, °/h (two rows per
+    /// position × inputs): platform and seat, base with level and azimuth, latitude, meter gain and offset. Exact
+    /// inputs have no column.
     pub(crate) fn shared(&self, currents_ma: &[Vector2<f64>]) -> DMatrix<f64> {
         let u = self.setup.uncertainty();
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
@@ -142,7 +146,7 @@ impl<'a> Sensitivity<'a> {
         matrix
     }
 
-    /// Of position `place`, to an input that all share, per unit of it.
+    /// Returns the change of the misclosure of position `place` per unit of a common input, °/h.
     pub(crate) fn to_shared(&self, place: usize, current_ma: &Vector2<f64>, input: &Shared) -> Change {
         let k = &self.unknowns.parameters.k_deg_per_h_per_ma;
         match input {
@@ -155,11 +159,11 @@ impl<'a> Sensitivity<'a> {
     }
 }
 
-/// An input that all positions share.
+/// Input common to all positions.
 pub(crate) enum Shared {
-    /// The case turned about an axis of the case.
+    /// Rotation of the case about an axis of the case.
     Case(Vector3<f64>),
-    /// The base turned about an axis of the base.
+    /// Rotation of the base about an axis of the base.
     Base(Vector3<f64>),
     Latitude,
     Gain,

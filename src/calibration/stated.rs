@@ -1,4 +1,4 @@
-//! The uncertainty of the inputs, as certificate, site and laboratory state it.
+//! Standard uncertainties of the inputs, as stated by certificate, site and laboratory.
 
 use super::inputs::{InputUncertainty, MeterUncertainty, NoSetup, Setup};
 use crate::laboratory::{Base, Laboratory};
@@ -7,36 +7,36 @@ use crate::stand::{ActsOn, Certificate, CertifiedPosition};
 use crate::statistics::propagation::effective_degrees_of_freedom;
 use crate::units::radians_from_arcseconds;
 
-/// What nobody states: the uncertainty of a result is without it.
+/// Input whose uncertainty no file states; the result does not include it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NotStated {
-    /// The certified angles' own part.
+    /// Certified angles, own part.
     Angles,
-    /// The return to a position.
+    /// Repeatability of positioning.
     Return,
-    /// What all positions share on the platform.
+    /// Common part of the platform.
     Platform,
-    /// What all positions share on the stand's base.
+    /// Common part of the base of the stand.
     Base,
-    /// The latitude.
+    /// Latitude as stated.
     Latitude,
-    /// The deflection of the vertical, through which it becomes the astronomic one.
+    /// Deflection of the vertical, which converts a geodetic latitude to the astronomic one.
     Deflection,
-    /// The azimuth of the base.
+    /// Azimuth of the base.
     Azimuth,
-    /// The azimuth of the mark.
+    /// Azimuth of the mark.
     Mark,
-    /// The level of the base.
+    /// Level of the base.
     Level,
-    /// The gyro's seat.
+    /// Gyro seat.
     Seat,
-    /// Gravity, which a verdict against a type needs.
+    /// Gravity, required for a comparison with a gyro type.
     Gravity,
 }
 
 impl NotStated {
-    /// In words, with the key of the file that would state it.
+    /// Returns the name of the input, with the key under which a file would state its uncertainty.
     pub fn words(self) -> &'static str {
         match self {
             Self::Angles => "certified angles (u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec)",
@@ -54,17 +54,17 @@ impl NotStated {
     }
 }
 
-/// What the files state, and what they do not.
+/// Stated uncertainties, and the inputs without one.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Stated {
-    /// Standard uncertainties; what is not stated is taken as exact.
+    /// Standard uncertainties; inputs without a stated uncertainty are treated as exact.
     pub uncertainty: InputUncertainty,
-    /// What is not stated.
+    /// Inputs without a stated uncertainty.
     pub missing: Vec<NotStated>,
 }
 
 impl Stated {
-    /// From the certificate and its positions, the site, and the laboratory.
+    /// Collects the uncertainties from the certificate and its positions, the site and the laboratory.
     pub(crate) fn new(
         certificate: &Certificate,
         positions: &[CertifiedPosition],
@@ -115,10 +115,12 @@ impl Stated {
 }
 
 impl Setup {
-    /// The stand of a certificate at a site, with what certificate, site and laboratory state; and what they do not.
+    /// Creates the setup of a certified stand at a site, with the uncertainties stated by certificate, site and
+    /// laboratory; also returns the inputs without a stated uncertainty.
     ///
     /// # Errors
-    /// See [`NoSetup`].
+    /// Returns [`NoSetup`] if n_2 of the eight positions has no inverse, or an uncertainty or its degrees of freedom
+    /// are invalid.
     pub fn stated(
         certificate: &Certificate,
         positions: &[CertifiedPosition],
@@ -131,7 +133,8 @@ impl Setup {
     }
 }
 
-/// The degrees of freedom of what all positions share: of what R runs showed, 3 (R − 1); of a line of type B its own.
+/// Returns the effective degrees of freedom of a common part: 3 (R − 1) for the part from R runs, and those stated for
+/// each contribution of type B.
 fn of_common(certificate: &Certificate, on: ActsOn, common_arcsec: Option<f64>) -> f64 {
     let Some((evidence, common_arcsec)) = certificate.evidence.as_ref().zip(common_arcsec) else {
         return f64::INFINITY;
@@ -143,7 +146,8 @@ fn of_common(certificate: &Certificate, on: ActsOn, common_arcsec: Option<f64>) 
     effective_degrees_of_freedom(&parts)
 }
 
-/// Words, when the laboratory's temperature is outside the range for which the deviations are certified.
+/// Returns a remark if the temperature in the laboratory is outside the range for which the deviations are certified;
+/// otherwise `None`.
 pub(crate) fn temperature_remark(certificate: &Certificate, laboratory: &Laboratory) -> Option<String> {
     let here = laboratory.temperature_c?;
     let [low, high] = certificate.temperature_range_c?;
@@ -155,7 +159,7 @@ pub(crate) fn temperature_remark(certificate: &Certificate, laboratory: &Laborat
     })
 }
 
-/// The base at its place. Parts that are independent are kept apart; what does not enter is known exactly.
+/// Uncertainties of the base at the site, with independent parts kept separate; parts that have no effect are exact.
 struct Known {
     latitude_arcsec: Option<f64>,
     deflection_arcsec: Option<f64>,
@@ -170,7 +174,7 @@ impl Known {
         let of_site = site.uncertainty.as_ref().unwrap_or(&none);
         let none = Base { azimuth_arcsec: None, level_arcsec: None };
         let measured = laboratory.base.as_ref().unwrap_or(&none);
-        // A geodetic latitude becomes the astronomic one through ξ.
+        // ξ converts a geodetic latitude to the astronomic one.
         let deflection = match (site.latitude_deg, &site.deflection_arcsec) {
             (Some(_), Some(deflection)) => deflection.u,
             (Some(_), None) => Some(UNKNOWN_DEFLECTION_U_ARCSEC),
@@ -179,7 +183,8 @@ impl Known {
         Self {
             latitude_arcsec: of_site.latitude_arcsec,
             deflection_arcsec: deflection,
-            // From the mark to the base as stated or measured; from the pillar to the mark as computed.
+            // `azimuth_arcsec`: from the mark to the base, stated or measured. `mark_arcsec`: from the pillar to the
+            // mark, computed.
             azimuth_arcsec: measured.azimuth_arcsec.or(of_site.azimuth_arcsec),
             mark_arcsec: if site.azimuth_mark.is_some() { site.earth().azimuth_u_arcsec } else { Some(0.0) },
             level_arcsec: measured.level_arcsec.or(of_site.level_arcsec),
