@@ -1,6 +1,6 @@
-//! The papers and standards that the formulas come from. A citation in the code is a link to a variant here.
+//! Papers and standards from which the formulas come. A citation in the code is a link to a variant of `Bibliography`.
 
-/// A source of formulas, constants or rules.
+/// Source of formulas, constants or rules.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Bibliography {
@@ -54,8 +54,8 @@ pub enum Bibliography {
     /// B. Rosner, "Percentage points for a generalized ESD many-outlier procedure", Technometrics 25, 1983, 165-172,
     /// <https://doi.org/10.1080/00401706.1983.10487848>.
     Rosner83,
-    /// ISO 5725-2:1994, Accuracy (trueness and precision) of measurement methods and results, part 2, 7.3: what is out at
-    /// 1 % is an outlier, what is out at 5 % alone a straggler.
+    /// ISO 5725-2:1994, Accuracy (trueness and precision) of measurement methods and results, part 2, 7.3: a value that
+    /// fails the test at 1 % is an outlier; one that fails only at 5 % is a straggler.
     Iso5725,
     /// S. R. Searle, G. Casella and C. E. McCulloch, Variance Components, Wiley, 1992: estimation by equating sums of
     /// squares to their expectations (chapter 5).
@@ -71,8 +71,8 @@ pub enum Bibliography {
     /// G. Marsaglia and W. W. Tsang, "A simple method for generating gamma variables", ACM Transactions on Mathematical
     /// Software 26, 2000, 363-372, <https://doi.org/10.1145/358407.358414>.
     MarsagliaTsang00,
-    /// ISO/IEC 17025:2017, General requirements for the competence of testing and calibration laboratories: 7.8.2 and 7.8.4,
-    /// what a calibration certificate states.
+    /// ISO/IEC 17025:2017, General requirements for the competence of testing and calibration laboratories: 7.8.2 and
+    /// 7.8.4, contents of a calibration certificate.
     Iso17025,
     /// GOST R 2.610-2019, Unified system of design documentation, Rules for the execution of operating documents
     /// (ГОСТ Р 2.610-2019, ЕСКД. Правила выполнения эксплуатационных документов): the parts of a product's passport.
@@ -87,6 +87,6 @@ pub enum Bibliography {
     AllowedSigners,
     /// OpenSSH, PROTOCOL.u2f: signatures made by FIDO tokens.
     SshU2f,
-    /// YAML Ain't Markup Language, versions 1.1 (2005) and 1.2.2 (2021): what a scalar means to a reader of either.
+    /// YAML Ain't Markup Language, versions 1.1 (2005) and 1.2.2 (2021): interpretation of scalars by readers of either version.
     Yaml,
 }

@@ -1,7 +1,8 @@
-//! The Earth at a site: rate, gravity, deflection of the vertical, geodesics, each constant with its source.
+//! Earth parameters at a site: Earth rate, gravity, deflection of the vertical and geodesics, with the source of each
+//! constant.
 //!
-//! Latitude is the astronomic one where a levelled stand is meant (it hangs on the plumb line) and the geodetic one
-//! where a place on the ellipsoid is meant; every name here says which.
+//! The latitude of a levelled stand is astronomic, because the stand follows the plumb line; the latitude of a place on
+//! the ellipsoid is geodetic. Every name here says which one is meant.
 
 use crate::coefficients::EarthRate;
 use crate::units::{
@@ -12,17 +13,17 @@ use crate::units::{
 use geographiclib_rs::DirectGeodesic;
 use geographiclib_rs::{Geodesic, InverseGeodesic};
 
-/// Ω, the Earth's rotation: 7.292115e-5 rad/s ([IERS](crate::bibliography::Bibliography::Iers10),
-/// [WGS 84](crate::bibliography::Bibliography::Wgs84)).
+/// Earth rate Ω, rad/s: 7.292115e-5 ([IERS](crate::bibliography::Bibliography::Iers10), [WGS
+/// 84](crate::bibliography::Bibliography::Wgs84)).
 pub const ROTATION_RAD_PER_S: f64 = 7.292115e-5;
 
-/// Ω in degrees per hour.
+/// Returns the Earth rate Ω, °/h.
 pub fn rotation_deg_per_h() -> f64 {
     degrees_per_hour_from_radians_per_second(ROTATION_RAD_PER_S)
 }
 
 impl EarthRate {
-    /// ω_Γ = Ω cos Φ and ω_B = Ω sin Φ at the astronomic latitude Φ (paper, eq. (5)).
+    /// Creates the Earth rate at the astronomic latitude Φ, degrees: ω_Γ = Ω cos Φ and ω_B = Ω sin Φ (paper, eq. (5)).
     pub fn at_astronomic_latitude(latitude_deg: f64) -> Self {
         let (sin, cos) = sin_cos_of_degrees(latitude_deg);
         let rotation = rotation_deg_per_h();
@@ -30,71 +31,73 @@ impl EarthRate {
     }
 }
 
-/// The astronomic latitude Φ = φ + ξ, with ξ positive when the plumb line's zenith lies north of the ellipsoid's
-/// ([Heiskanen and Moritz](crate::bibliography::Bibliography::HeiskanenMoritz67), section 2-20).
+/// Returns the astronomic latitude Φ = φ + ξ, degrees, where ξ is positive if the astronomic zenith is north of the
+/// geodetic zenith ([Heiskanen and Moritz](crate::bibliography::Bibliography::HeiskanenMoritz67), section 2-20).
 pub(crate) fn astronomic_latitude_deg(geodetic_latitude_deg: f64, xi_arcsec: f64) -> f64 {
     geodetic_latitude_deg + xi_arcsec / ARCSECONDS_PER_DEGREE
 }
 
-/// A point on the WGS 84 ellipsoid.
+/// Point on the WGS 84 ellipsoid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
-    /// Geodetic latitude.
+    /// Geodetic latitude, degrees.
     pub latitude_deg: f64,
-    /// Longitude, east positive.
+    /// Longitude, degrees, positive to the east.
     pub longitude_deg: f64,
 }
 
-/// geographiclib-rs uses the platform's trigonometry; its lengths are rounded to this before they are signed.
+/// Rounding unit of lengths before signing, m; geographiclib-rs uses the platform's trigonometry.
 pub(crate) const LENGTH_QUANTUM_M: f64 = 1e-6;
 
-/// And its azimuths to this.
+/// Rounding unit of azimuths before signing, degrees.
 pub(crate) const AZIMUTH_QUANTUM_DEG: f64 = 1e-10;
 
-/// Rounded to whole quanta, of which `per_unit` make one: 1e6 for micrometres of a metre.
+/// Rounds to a multiple of 1/`per_unit`, for example to micrometres for metres and 1e6.
 fn rounded(value: f64, per_unit: f64) -> f64 {
     (value * per_unit).round() / per_unit
 }
 
-/// The geodesic distance between two places, to 1 µm ([Karney](crate::bibliography::Bibliography::Karney13)).
+/// Returns the geodesic distance between two places, m, rounded to 1 µm
+/// ([Karney](crate::bibliography::Bibliography::Karney13)).
 pub fn distance_m(from: Place, to: Place) -> f64 {
     let metres: f64 =
         Geodesic::wgs84().inverse(from.latitude_deg, from.longitude_deg, to.latitude_deg, to.longitude_deg);
     rounded(metres, 1e6)
 }
 
-/// An azimuth with its standard uncertainty.
+/// Azimuth with its standard uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Azimuth {
-    /// Clockwise from north, 0 ≤ azimuth < 360.
+    /// Azimuth, degrees, clockwise from north, 0 ≤ azimuth < 360.
     pub azimuth_deg: f64,
-    /// Standard uncertainty, when the uncertainty of the coordinates is known.
+    /// Standard uncertainty, arcsec; `None` if that of the coordinates or of η is not stated.
     pub u_arcsec: Option<f64>,
 }
 
-/// What turns a geodetic azimuth into an astronomic one.
+/// Quantities that convert a geodetic azimuth to an astronomic one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct LaplaceCorrection {
-    /// η, the deflection's eastward component, positive when the plumb line's zenith lies east.
+    /// Component η of the deflection of the vertical, arcsec, positive if the astronomic zenith is east of the geodetic
+    /// zenith.
     pub eta_arcsec: f64,
-    /// Its standard uncertainty.
+    /// Standard uncertainty of η, arcsec; `None` if it is not stated.
     pub eta_u_arcsec: Option<f64>,
-    /// Astronomic latitude of the pillar.
+    /// Astronomic latitude of the pillar, degrees.
     pub latitude_deg: f64,
 }
 
-/// The astronomic azimuth from `pillar` to `mark`: geodetic azimuth + η tan Φ, rounded to 1e-10°
-/// ([Heiskanen and Moritz](crate::bibliography::Bibliography::HeiskanenMoritz67), section 5-4).
+/// Returns the astronomic azimuth from `pillar` to `mark`, geodetic azimuth + η tan Φ, rounded to 1e-10° ([Heiskanen
+/// and Moritz](crate::bibliography::Bibliography::HeiskanenMoritz67), section 5-4).
 ///
-/// `position_u_m` is the standard uncertainty of each coordinate of both points; across the line of sight both
-/// count. Without it, or without η's uncertainty, the azimuth's is not stated.
+/// `position_u_m` is the standard uncertainty of each coordinate of both points, m; both points contribute across the
+/// line of sight. Without it, or without the uncertainty of η, the azimuth has no stated uncertainty.
 pub(crate) fn astronomic_azimuth(
     pillar: Place,
     mark: Place,
     laplace: LaplaceCorrection,
     position_u_m: Option<f64>,
 ) -> Azimuth {
-    // The number of values asked for decides which they are: distance, azimuth at 1, azimuth at 2, arc length.
+    // The type of the tuple selects the values: distance, azimuth at 1, azimuth at 2, arc length.
     let (metres, geodetic_deg, _, _): (f64, f64, f64, f64) =
         Geodesic::wgs84().inverse(pillar.latitude_deg, pillar.longitude_deg, mark.latitude_deg, mark.longitude_deg);
     let (sin, cos) = sin_cos_of_degrees(laplace.latitude_deg);
@@ -108,16 +111,18 @@ pub(crate) fn astronomic_azimuth(
     Azimuth { azimuth_deg, u_arcsec: u_arcsec.map(|u| rounded(u, 1e6)) }
 }
 
-/// How far along the meridian, at most and in either direction, until ω_Γ or ω_B has changed by `within_deg_per_h`.
+/// Returns the validity radius, m, rounded to 1 µm: the shorter distance along the meridian, north or south, at which
+/// ω_Γ or ω_B has changed by `within_deg_per_h`.
 ///
-/// `latitude_deg` is where the passport's rates hold (astronomic), `from` the place on the ellipsoid; to 1 µm.
+/// `latitude_deg` is the astronomic latitude of the passport's Earth rate, and `from` is the place on the ellipsoid.
 /// `within_deg_per_h` must be positive and at most 1.
 pub(crate) fn validity_radius_m(latitude_deg: f64, from: Place, within_deg_per_h: f64) -> f64 {
     let share = within_deg_per_h / rotation_deg_per_h();
     let towards = |north: f64| {
         let change_deg = north * latitude_change_deg(latitude_deg, north, share);
         let latitude_deg = from.latitude_deg + change_deg;
-        // Up to the pole and beyond it the rates change by less than the limit: the other direction decides.
+        // If the pole is nearer, the change up to it is less than the limit, so the other direction determines the
+        // radius.
         if latitude_deg.abs() > 90.0 {
             return f64::INFINITY;
         }
@@ -128,12 +133,12 @@ pub(crate) fn validity_radius_m(latitude_deg: f64, from: Place, within_deg_per_h
     rounded(towards(1.0).min(towards(-1.0)), 1e6)
 }
 
-/// The smallest change of latitude, northwards (`north` = 1) or southwards (−1), that changes its cosine or its sine
-/// by `share`; positive.
+/// Returns the smallest change of latitude, degrees, positive, that changes its cosine or its sine by `share`,
+/// northwards (`north` = 1) or southwards (`north` = −1).
 ///
 /// The larger of |cos(Φ + δ) − cos Φ| and |sin(Φ + δ) − sin Φ| is 2 sin(δ/2) times the larger of |sin(Φ + δ/2)| and
-/// |cos(Φ + δ/2)|, which is never below 1/√2. So δ = 2 asin(share / (2 larger)) is its own next approximation; each step
-/// gains a factor of about 1/`share`.
+/// |cos(Φ + δ/2)|, which is never below 1/√2. The equation δ = 2 asin(share / (2 larger)) can therefore be iterated;
+/// each step gains a factor of about 1/`share`.
 fn latitude_change_deg(latitude_deg: f64, north: f64, share: f64) -> f64 {
     const STEPS: usize = 60;
     let latitude = radians_from_degrees(latitude_deg);
@@ -162,24 +167,25 @@ const K: f64 = 0.001_931_852_652_41;
 /// WGS 84: m = ω² a² b / GM.
 const M: f64 = 0.003_449_786_506_84;
 
-/// Standard uncertainty of normal gravity at a known height as an estimate of gravity, m/s²: 50 mGal, the size of gravity anomalies
-/// outside high mountains ([Heiskanen and Moritz](crate::bibliography::Bibliography::HeiskanenMoritz67), chapter 7).
+/// Standard uncertainty of normal gravity at a known height as an estimate of gravity, m/s²: 50 mGal, the size of
+/// gravity anomalies outside high mountains ([Heiskanen and
+/// Moritz](crate::bibliography::Bibliography::HeiskanenMoritz67), chapter 7).
 pub(crate) const NORMAL_GRAVITY_U_M_PER_S2: f64 = 5e-4;
 
-/// Standard uncertainty of normal gravity at 0 m as an estimate of gravity where the height is unknown, m/s².
+/// Standard uncertainty of normal gravity at 0 m as an estimate of gravity at an unknown height, m/s².
 ///
-/// Gravity is 3.086e-6 m/s² smaller for each metre of height: 1.23e-2 at 4,000 m. Where every height from 0 m to there is
-/// equally probable, the root mean square of what the value at 0 m is out by is 1.23e-2/√3.
+/// Gravity decreases by 3.086e-6 m/s² per metre of height, which is 1.23e-2 at 4,000 m. If all heights from 0 m to
+/// 4,000 m are equally probable, the root mean square error of the value at 0 m is 1.23e-2/√3.
 pub(crate) const NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2: f64 = 7.1e-3;
 
-/// Standard gravity, m/s², the g of a gyro type that names none.
+/// Standard gravity, m/s²: the g of a gyro type that states none.
 pub const STANDARD_GRAVITY_M_PER_S2: f64 = 9.80665;
 
-/// Mean radius of the Earth, (2a + b)/3, for allowances that need no more digits.
+/// Mean radius of the Earth, m, (2a + b)/3, for limits that need few digits.
 pub(crate) const MEAN_RADIUS_M: f64 = 6_371_008.8;
 
-/// Normal gravity at a geodetic latitude and a height above the ellipsoid
-/// ([WGS 84](crate::bibliography::Bibliography::Wgs84), eq. 4-1 and 4-3).
+/// Returns normal gravity, m/s², at a geodetic latitude, degrees, and a height above the ellipsoid, m ([WGS
+/// 84](crate::bibliography::Bibliography::Wgs84), eq. 4-1 and 4-3).
 pub fn normal_gravity_m_per_s2(geodetic_latitude_deg: f64, height_m: f64) -> f64 {
     let (sin, _) = sin_cos_of_degrees(geodetic_latitude_deg);
     let sin2 = sin * sin;
@@ -188,7 +194,7 @@ pub fn normal_gravity_m_per_s2(geodetic_latitude_deg: f64, height_m: f64) -> f64
     on_ellipsoid * (1.0 - 2.0 * (1.0 + F + M - 2.0 * F * sin2) * h + 3.0 * h * h)
 }
 
-/// The place `metres` away from `from` in the direction of `azimuth_deg`, for tests.
+/// Returns the place at the distance `metres` from `from` in the direction `azimuth_deg`, for tests.
 #[cfg(test)]
 pub(crate) fn place_at(from: Place, azimuth_deg: f64, metres: f64) -> Place {
     let (latitude_deg, longitude_deg): (f64, f64) =
@@ -226,7 +232,7 @@ mod tests {
         let equator = Place { latitude_deg: 0.0, longitude_deg: 9.0 };
         let expected = 0.001 / 15.041_066_876_065_45 * 6_335_439.327;
         assert!((validity_radius_m(0.0, equator, 0.001) - expected).abs() < 1e-3);
-        // At the pole the horizontal rate alone changes, over a/sqrt(1−e²) = 6,399,593.6 m.
+        // At the pole only the horizontal rate changes, over a/sqrt(1−e²) = 6,399,593.6 m.
         let near_pole = Place { latitude_deg: 89.0, longitude_deg: 0.0 };
         let expected = 0.001 / (15.041_066_876_065_45 * 0.999_847_695) * 6_399_593.6;
         assert!((validity_radius_m(89.0, near_pole, 0.001) - expected).abs() < 0.1);
@@ -248,7 +254,7 @@ mod tests {
                     })
                 };
                 let reached = change(radius).into_iter().fold(0.0, f64::max);
-                // Half a quantum of the rounded radius, and the digits that a difference of latitudes loses.
+                // Half a rounding unit of the radius, and the digits that a difference of latitudes loses.
                 let tolerance = 0.5 * LENGTH_QUANTUM_M / radius + 1e-8;
                 assert!((reached / within - 1.0).abs() < tolerance, "{latitude} {within}: {reached}");
                 assert!(change(radius * 0.999).into_iter().all(|change| change < within));

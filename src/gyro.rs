@@ -1,4 +1,4 @@
-//! The gyro: its parameters, the currents that they make, and the files that state a type.
+//! The gyro: its parameters, the currents that follow from them, and type files (`dtg-gyro/1`).
 //!
 //! Source: [the paper](crate::bibliography::Bibliography::Tang17), eq. (2), (5) and its table.
 
@@ -7,29 +7,30 @@ use crate::earth::STANDARD_GRAVITY_M_PER_S2;
 use crate::text::{Path, Problems, record};
 use nalgebra::{Matrix2, Vector2};
 
-/// The parameters of a dynamically tuned gyro in rate mode.
+/// Parameters of a dynamically tuned gyro in rate mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GyroParameters {
-    /// K, 2×2: K_x, K_xy; K_yx, K_y.
+    /// Scale factors K, °/(h·mA), 2×2: [[K_x, K_xy], [K_yx, K_y]].
     pub k_deg_per_h_per_ma: Matrix2<f64>,
-    /// ω_0, the drift that does not depend on g.
+    /// Constant drift ω_0 about x and y, °/h, which does not depend on g.
     pub omega0_deg_per_h: Vector2<f64>,
-    /// ω_g, from the rotor's centre of mass along the spin axis.
+    /// g-sensitive drift ω_g, °/(h·g), caused by the position of the rotor's centre of mass along the spin axis.
     pub omega_g_deg_per_h_per_g: f64,
-    /// ω_k, from quadrature torques.
+    /// g-sensitive drift ω_k, °/(h·g), caused by quadrature torques.
     pub omega_k_deg_per_h_per_g: f64,
 }
 
 impl GyroParameters {
-    /// ω_n = [[ω_g, −ω_k], [ω_k, ω_g]], 2×2 (paper, eq. (5)).
+    /// Returns ω_n = [[ω_g, −ω_k], [ω_k, ω_g]], °/(h·g), 2×2 (paper, eq. (5)).
     pub(crate) fn omega_n_deg_per_h_per_g(&self) -> Matrix2<f64> {
         let (w_g, w_k) = (self.omega_g_deg_per_h_per_g, self.omega_k_deg_per_h_per_g);
         Matrix2::new(w_g, -w_k, w_k, w_g)
     }
 
-    /// The torquer currents (J_x, J_y) in mA in one position: K J + ω_0 + ω_n n = ω_3 solved for J (paper, eq. (5)).
+    /// Returns the torquer currents (J_x, J_y) in one position, mA, by solving K J + ω_0 + ω_n n = ω_3 for J (paper,
+    /// eq. (5)).
     ///
-    /// `None` when K has no inverse.
+    /// Returns `None` if K has no inverse.
     pub fn currents_ma(&self, position: &PositionCoefficients) -> Option<Vector2<f64>> {
         let torqued = position.earth_rate_deg_per_h
             - self.omega0_deg_per_h
@@ -53,7 +54,7 @@ record! {
 }
 
 impl Parameters {
-    /// As the model takes them.
+    /// Converts the parameters to vectors and matrices.
     pub fn to_model(&self) -> GyroParameters {
         let [[kx, kxy], [kyx, ky]] = self.k_deg_per_h_per_ma;
         GyroParameters {
@@ -97,14 +98,14 @@ record! {
     }
 }
 
-/// The format of a gyro type file.
+/// Value of `format` in a gyro type file.
 pub(crate) const GYRO_FORMAT: &str = "dtg-gyro/1";
 
 impl GyroType {
-    /// Reads a `dtg-gyro/1` file; `name` is its name in messages.
+    /// Reads a `dtg-gyro/1` file; `name` is the file name in messages.
     ///
     /// # Errors
-    /// Every mistake with its line, column and field: see [`crate::text::Unreadable`].
+    /// Returns [`crate::text::Unreadable`] with the line, column and field of every error.
     #[cfg(feature = "factory")]
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
         crate::text::yaml::read_document(name, bytes, GYRO_FORMAT, |gyro: &Self, problems| {
@@ -112,7 +113,7 @@ impl GyroType {
         })
     }
 
-    /// The rules of a type's content.
+    /// Checks the content of a gyro type.
     pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
         if self.nominal.to_model().k_deg_per_h_per_ma.try_inverse().is_none() {
             let nominal = at.key("nominal");
@@ -132,12 +133,12 @@ impl GyroType {
         problems.within(&at.key("gravity_m_per_s2"), self.gravity_m_per_s2, 9.7, 9.9);
     }
 
-    /// The g that its drifts are stated for.
+    /// Returns the value of g to which the drifts of the type refer, m/s².
     pub fn gravity(&self) -> f64 {
         self.gravity_m_per_s2.unwrap_or(STANDARD_GRAVITY_M_PER_S2)
     }
 
-    /// The paper's gyro, GVK-6, with its nominal values and tolerances (paper, table).
+    /// Creates the type of the paper's gyro, GVK-6, with its nominal values and tolerances (paper, table).
     pub fn gvk_6() -> Self {
         Self {
             format: GYRO_FORMAT.to_owned(),

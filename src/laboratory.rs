@@ -1,8 +1,8 @@
-//! The laboratory: its meter, how the gyro sits, how the base stands: the file `dtg-laboratory/1`.
+//! The laboratory file (`dtg-laboratory/1`): current meter, gyro seat and base.
 
 use crate::text::{Path, Problems, record};
 
-/// The format of a laboratory file.
+/// Value of `format` in a laboratory file.
 pub(crate) const LABORATORY_FORMAT: &str = "dtg-laboratory/1";
 
 record! {
@@ -66,10 +66,10 @@ record! {
 }
 
 impl Laboratory {
-    /// Reads a `dtg-laboratory/1` file; `name` is its name in messages.
+    /// Reads a `dtg-laboratory/1` file; `name` is the file name in messages.
     ///
     /// # Errors
-    /// Every mistake with its line, column and field: see [`crate::text::Unreadable`].
+    /// Returns [`crate::text::Unreadable`] with the line, column and field of every error.
     #[cfg(feature = "factory")]
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
         crate::text::yaml::read_document(name, bytes, LABORATORY_FORMAT, |laboratory: &Self, problems| {
@@ -77,7 +77,7 @@ impl Laboratory {
         })
     }
 
-    /// The rules of a laboratory's content.
+    /// Checks the content of a laboratory file.
     pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
         self.meter.check(&at.key("meter"), problems);
         if let Some(Seating { about_x, about_y, about_z }) = self.seating_arcsec {
@@ -94,9 +94,10 @@ impl Laboratory {
         problems.within(&at.key("temperature_c"), self.temperature_c, -90.0, 100.0);
     }
 
-    /// A meter of the paper's accuracy and nothing else stated: ±0.015 % of the reading (paper, before the table).
+    /// Creates a laboratory with a meter of the paper's accuracy, ±0.015 % of the reading (paper, before the table),
+    /// and no other statements.
     ///
-    /// Limits are read as those of a uniform distribution (GUM, 4.3.7): 0.015 %/√3 = 0.0087 %.
+    /// The limits are taken as those of a uniform distribution (GUM, 4.3.7): 0.015 %/√3 = 0.0087 %.
     pub fn paper() -> Self {
         Self {
             format: LABORATORY_FORMAT.to_owned(),

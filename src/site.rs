@@ -1,4 +1,4 @@
-//! A place of delivery: the file `sites/<id>.yaml` (`dtg-site/1`), and what the Earth does there.
+//! Sites: the file `sites/<id>.yaml` (`dtg-site/1`), and the Earth parameters at a site.
 
 #[cfg(feature = "factory")]
 mod consistency;
@@ -10,23 +10,23 @@ use crate::text::sink::Sink;
 use crate::text::{Field, Node, Path, Problems, record};
 use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};
 
-/// The format of a site file.
+/// Value of `format` in a site file.
 pub const SITE_FORMAT: &str = "dtg-site/1";
 
-/// Standard uncertainty of a deflection component taken as 0 because it is unknown.
+/// Standard uncertainty of a deflection component that is unknown and taken as 0, arcsec.
 pub(crate) const UNKNOWN_DEFLECTION_U_ARCSEC: f64 = 10.0;
 
-/// The change of ω_Γ or ω_B that sets the radius of validity, where a site names none.
+/// Change of ω_Γ or ω_B that determines the validity radius if a site states none, °/h.
 pub(crate) const DEFAULT_VALID_WITHIN_DEG_PER_H: f64 = 0.001;
 
-/// The largest uncertainty of a deflection: a degree, with which nothing is known. Larger ones could make the azimuth's
-/// infinite, which is no number of any document.
+/// Largest uncertainty of a deflection component, arcsec: one degree, at which the deflection is unknown. A larger
+/// value could make the uncertainty of the azimuth infinite, which no file can contain.
 const LARGEST_DEFLECTION_U_ARCSEC: f64 = 3600.0;
 
-/// And of a coordinate of pillar or mark: a thousand kilometres.
+/// Largest uncertainty of a coordinate of pillar or mark, m: a thousand kilometres.
 const LARGEST_POSITION_U_M: f64 = 1e6;
 
-/// How far a geodetic latitude may be from the astronomic one where no deflection is known.
+/// Largest assumed difference between geodetic and astronomic latitude if the deflection is unknown, arcsec.
 pub(crate) const LATITUDE_MARGIN_ARCSEC: f64 = 30.0;
 
 record! {
@@ -164,17 +164,17 @@ record! {
 }
 
 impl Earth {
-    /// ω_Γ and ω_B.
+    /// Returns the Earth rate at the site, ω_Γ and ω_B.
     pub fn rate(&self) -> EarthRate {
         EarthRate { horizontal_deg_per_h: self.horizontal_deg_per_h, vertical_deg_per_h: self.vertical_deg_per_h }
     }
 }
 
 impl Site {
-    /// Reads a `dtg-site/1` file; `name` is its name in messages.
+    /// Reads a `dtg-site/1` file; `name` is the file name in messages.
     ///
     /// # Errors
-    /// Every mistake with its line, column and field: see [`crate::text::Unreadable`].
+    /// Returns [`crate::text::Unreadable`] with the line, column and field of every error.
     #[cfg(feature = "factory")]
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
         let check = |file: &SiteFile, problems: &mut Problems| {
@@ -184,8 +184,8 @@ impl Site {
         Ok(crate::text::yaml::read_document(name, bytes, SITE_FORMAT, check)?.site)
     }
 
-    /// The rules of a site's content. Passports were signed of sites that break those of [`Site::check_consistency`],
-    /// and stay valid: they are rules of site files and of new passports.
+    /// Checks the content of a site. The rules of [`Site::check_consistency`] are separate because they apply only to
+    /// site files and new passports: earlier passports of sites that break them stay valid.
     pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
         self.check_latitude(at, problems);
         problems.within(&at.key("longitude_deg"), self.longitude_deg, -180.0, 180.0);
@@ -234,9 +234,9 @@ impl Site {
                 let key = if self.latitude_deg.is_some() { "latitude_deg" } else { "astronomic_latitude_deg" };
                 let geodetic = self.geodetic_deg();
                 let given = self.latitude_deg.or(self.astronomic_latitude_deg);
-                // What is no latitude at all has been refused above.
+                // A value that is not a latitude has been refused above.
                 let is_latitude = given.is_some_and(|given| given.abs() <= 90.0);
-                // Beyond the pole there is no place, no distance to it and no radius about it.
+                // Beyond the pole there is no place, and therefore no distance and no radius.
                 if is_latitude && geodetic.abs() > 90.0 {
                     let found = format!("the geodetic latitude {geodetic}, computed with the deflection");
                     let advice = "check the sign of deflection_arcsec.xi";
@@ -252,7 +252,7 @@ impl Site {
         }
     }
 
-    /// Φ: the astronomic latitude, measured, or the geodetic one with ξ (0 when unknown).
+    /// Returns the astronomic latitude Φ, degrees: as measured, or the geodetic one plus ξ (0 if unknown).
     fn astronomic_deg(&self) -> f64 {
         let xi = self.deflection_arcsec.as_ref().map_or(0.0, |deflection| deflection.xi);
         match (self.astronomic_latitude_deg, self.latitude_deg) {
@@ -261,7 +261,7 @@ impl Site {
         }
     }
 
-    /// φ: the geodetic latitude, given, or the astronomic one without ξ (0 when unknown).
+    /// Returns the geodetic latitude φ, degrees: as stated, or the astronomic one minus ξ (0 if unknown).
     pub fn geodetic_deg(&self) -> f64 {
         let xi = self.deflection_arcsec.as_ref().map_or(0.0, |deflection| deflection.xi);
         match (self.latitude_deg, self.astronomic_latitude_deg) {
@@ -270,12 +270,12 @@ impl Site {
         }
     }
 
-    /// Whether the geodetic latitude is known only through an astronomic one without deflection.
+    /// Returns `true` if the geodetic latitude is computed from an astronomic one without a known deflection.
     pub(crate) fn geodetic_is_uncertain(&self) -> bool {
         self.latitude_deg.is_none() && self.deflection_arcsec.is_none()
     }
 
-    /// What the Earth does here.
+    /// Returns the Earth parameters at the site.
     pub fn earth(&self) -> Earth {
         let latitude_deg = self.astronomic_deg();
         let rate = EarthRate::at_astronomic_latitude(latitude_deg);
@@ -308,8 +308,9 @@ impl Site {
         Some(earth::astronomic_azimuth(mark.pillar(), mark.mark(), laplace, mark.position_u_m))
     }
 
-    /// Standard uncertainty of the gravity of [`Site::earth`]: as measured, or that of normal gravity, which is larger
-    /// where the height is unknown; `None` where gravity was measured and its uncertainty is not stated.
+    /// Returns the standard uncertainty of the gravity in [`Site::earth`], m/s²: that of the measured value, or that of
+    /// normal gravity, which is larger if the height is unknown. Returns `None` if gravity was measured and its
+    /// uncertainty is not stated.
     pub(crate) fn gravity_u_m_per_s2(&self) -> Option<f64> {
         match (self.gravity_m_per_s2, self.height_m) {
             (Some(_), _) => self.gravity_u_m_per_s2,
@@ -318,7 +319,7 @@ impl Site {
         }
     }
 
-    /// 1/cos Φ: how many times K's uncertainty is what it would be at the equator.
+    /// Returns 1/cos Φ, the ratio of the uncertainty of K to its value at the equator.
     pub(crate) fn uncertainty_growth(&self) -> f64 {
         1.0 / sin_cos_of_degrees(self.astronomic_deg()).1
     }
@@ -351,7 +352,7 @@ impl AzimuthMark {
     }
 }
 
-/// Notes a latitude beyond ±90°, and whether it may be a longitude.
+/// Reports a latitude beyond ±90°, and advises if it may be a longitude.
 fn check_latitude_range(at: &Path, latitude_deg: Option<f64>, longitude_deg: Option<f64>, problems: &mut Problems) {
     let Some(latitude) = latitude_deg.filter(|latitude| !(-90.0..=90.0).contains(latitude)) else { return };
     let exchanged = latitude.abs() <= 180.0 && longitude_deg.is_some_and(|longitude| longitude.abs() <= 90.0);

@@ -1,4 +1,4 @@
-//! A test stand and what its factory certified of it: the file `stand.yaml` (`dtg-stand/1`).
+//! Test stands and their calibration certificates: the file `stand.yaml` (`dtg-stand/1`).
 
 pub(crate) mod remarks;
 pub(crate) mod type_b;
@@ -13,14 +13,14 @@ use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
 use jiff::civil::Date;
 use std::collections::BTreeSet;
 
-/// The format of a stand file.
+/// Value of `format` in a stand file.
 pub const STAND_FORMAT: &str = "dtg-stand/1";
 
-/// The largest deviation that can be certified, either way.
+/// Largest deviation that can be certified, in either direction, degrees.
 pub(crate) const LARGEST_DEVIATION_DEG: f64 = 45.0;
 
-/// The most positions that a stand may have: the uncertainties of all of them are computed together, in memory that grows
-/// with the square of their number.
+/// Maximum number of positions of a stand. The uncertainties of all positions are computed together, in memory that
+/// grows with the square of their number.
 pub(crate) const MOST_POSITIONS: usize = 256;
 
 record! {
@@ -42,7 +42,7 @@ record! {
 }
 
 impl Identity {
-    /// Model and serial number as in a passport's id: `<model>/<serial>`.
+    /// Returns the model and serial number as in the identifier of a passport: `<model>/<serial>`.
     pub fn id(&self) -> String {
         format!("{}/{}", self.model, self.serial)
     }
@@ -135,12 +135,12 @@ record! {
 }
 
 impl CertifiedPosition {
-    /// Which position it is.
+    /// Returns the index (i, j) of the position.
     pub fn index(&self) -> PositionIndex {
         PositionIndex { i: self.i, j: self.j }
     }
 
-    /// As the model takes it, angles in radians.
+    /// Converts the position to its model, with the deviation in radians.
     pub fn to_model(&self) -> Position {
         Position {
             index: self.index(),
@@ -173,10 +173,10 @@ record! {
 }
 
 impl Stand {
-    /// Reads a `dtg-stand/1` file; `name` is its name in messages.
+    /// Reads a `dtg-stand/1` file; `name` is the file name in messages.
     ///
     /// # Errors
-    /// Every mistake with its line, column and field: see [`crate::text::Unreadable`].
+    /// Returns [`crate::text::Unreadable`] with the line, column and field of every error.
     #[cfg(feature = "factory")]
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
         let mut stand = crate::text::yaml::read_document(name, bytes, STAND_FORMAT, |stand: &Self, problems| {
@@ -186,25 +186,25 @@ impl Stand {
         Ok(stand)
     }
 
-    /// Its geometry, free of any site.
+    /// Returns the geometry of the stand, which does not depend on the site.
     ///
     /// # Errors
-    /// [`SingularPositions`] when the paper's eight are there and n_2 has no inverse.
+    /// Returns [`SingularPositions`] if the paper's eight positions are present and n_2 has no inverse.
     pub(crate) fn geometry(&self) -> Result<StandGeometry, SingularPositions> {
         geometry(&self.positions)
     }
 }
 
-/// The geometry of certified positions.
+/// Returns the geometry of certified positions.
 ///
 /// # Errors
-/// [`SingularPositions`] when the paper's eight are there and n_2 has no inverse.
+/// Returns [`SingularPositions`] if the paper's eight positions are present and n_2 has no inverse.
 pub(crate) fn geometry(positions: &[CertifiedPosition]) -> Result<StandGeometry, SingularPositions> {
     let positions: Vec<Position> = positions.iter().map(CertifiedPosition::to_model).collect();
     StandGeometry::new(&positions)
 }
 
-/// The rules of a certificate and its positions, at the top of a stand file or of a passport alike.
+/// Checks a certificate and its positions, which are at the top level of both stand files and passports.
 pub(crate) fn check(certificate: &Certificate, positions: &[CertifiedPosition], problems: &mut Problems) {
     check_certificate(certificate, problems);
     type_b::check(certificate, positions, problems);
@@ -212,7 +212,7 @@ pub(crate) fn check(certificate: &Certificate, positions: &[CertifiedPosition], 
     if positions.is_empty() {
         problems.at(&at, "an empty list", "at least one position", "");
     }
-    // Of a list that is too long no item is worth a word.
+    // The items of a list that is too long are not checked one by one.
     if !check_length(positions, &at, problems) {
         return;
     }

@@ -1,43 +1,43 @@
-//! Angles and rates: the one place that converts. Inside the crate angles are radians and rates degrees per hour.
+//! Conversion of angles and rates, in one module. Internal units are radians for angles and degrees per hour for rates.
 
 use std::f64::consts::PI;
 
-/// Seconds in an hour.
+/// Number of seconds in an hour.
 const SECONDS_PER_HOUR: f64 = 3600.0;
 
-/// Arcseconds in a degree.
+/// Number of arcseconds in a degree.
 pub(crate) const ARCSECONDS_PER_DEGREE: f64 = 3600.0;
 
-/// Radians from arcseconds.
+/// Converts arcseconds to radians.
 pub fn radians_from_arcseconds(arcseconds: f64) -> f64 {
     arcseconds * (PI / 648_000.0)
 }
 
-/// Arcseconds from radians.
+/// Converts radians to arcseconds.
 pub fn arcseconds_from_radians(radians: f64) -> f64 {
     radians * (648_000.0 / PI)
 }
 
-/// Radians from degrees.
+/// Converts degrees to radians.
 pub fn radians_from_degrees(degrees: f64) -> f64 {
     degrees * (PI / 180.0)
 }
 
-/// Degrees from radians.
+/// Converts radians to degrees.
 pub fn degrees_from_radians(radians: f64) -> f64 {
     radians * (180.0 / PI)
 }
 
-/// Degrees per hour from radians per second.
+/// Converts radians per second to degrees per hour.
 pub(crate) fn degrees_per_hour_from_radians_per_second(rate: f64) -> f64 {
-    // One factor, so that the rate is rounded once.
+    // The product of the constants is one factor, so the rate is rounded once.
     rate * (SECONDS_PER_HOUR * 180.0 / PI)
 }
 
-/// Sine and cosine of an angle in degrees, exact (0, ±1) at whole quadrants.
+/// Returns the sine and cosine of an angle in degrees; at whole quadrants they are exactly 0 and ±1.
 ///
-/// The angle is reduced by whole quadrants before it becomes radians, which loses nothing; so `cos 90° = 0`, where
-/// the cosine of the nearest binary64 to π/2 would be 6e-17.
+/// The angle is reduced by whole quadrants, without rounding, before conversion to radians. Therefore `cos 90° = 0`,
+/// whereas the cosine of the nearest binary64 to π/2 is 6e-17.
 pub(crate) fn sin_cos_of_degrees(degrees: f64) -> (f64, f64) {
     let (rest, quadrant) = libm::remquo(degrees, 90.0);
     let (sin, cos) = libm::sincos(radians_from_degrees(rest));
@@ -47,12 +47,12 @@ pub(crate) fn sin_cos_of_degrees(degrees: f64) -> (f64, f64) {
         2 => (-sin, -cos),
         _ => (-cos, sin),
     };
-    // Adding zero turns -0.0 into 0.0.
+    // Adding zero converts -0.0 to 0.0.
     (sin + 0.0, cos + 0.0)
 }
 
-/// Returns a unit as it is printed: one solidus, with brackets around a compound denominator (SI Brochure, 5.1). Keys of
-/// files and JSON keep `unit` as it is.
+/// Returns a unit in its printed form: one solidus, with brackets around a compound denominator (SI Brochure, 5.1).
+/// Keys of files and `unit` values in JSON do not change.
 pub(crate) fn printed(unit: &str) -> String {
     match unit.split_once('/') {
         Some((above, below)) if below.contains('/') => format!("{above}/({})", below.replace('/', "·")),

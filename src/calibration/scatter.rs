@@ -36,7 +36,7 @@ pub enum Agreement {
     More,
     /// Scatter as stated.
     AsStated,
-    /// Less scatter than stated; the rows may not be independent readings.
+    /// Less scatter than stated; for visits, perhaps because the position was not left between them.
     Less,
 }
 

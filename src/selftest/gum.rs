@@ -1,7 +1,7 @@
-//! JCGM 100:2008 (GUM), annex H: H.1, H.2, H.3.
+//! Examples of JCGM 100:2008 (GUM), annex H: H.1, H.2, H.3.
 //!
-//! Inputs and results compared with the guide as MSL's GTC 1.5.1 quotes it in its examples and tests; what the guide gives
-//! with fewer digits, or rounded on the way, GTC computes without rounding.
+//! Inputs and results were compared with the guide as quoted in the examples and tests of MSL's GTC 1.5.1. GTC computes
+//! without rounding the results that the guide states with fewer digits or rounds on the way.
 
 use super::Case;
 use crate::statistics::least_squares::Factorised;
@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 
 const BY_GTC: &str = "GTC 1.5.1 (Measurement Standards Laboratory of New Zealand) with the same inputs";
 
-/// The three examples.
+/// Returns the cases of the three examples.
 pub(crate) fn cases() -> Vec<Case> {
     let mut cases = end_gauge();
     cases.extend(impedance());
@@ -18,7 +18,7 @@ pub(crate) fn cases() -> Vec<Case> {
     cases
 }
 
-/// A number printed with `decimals` decimals: half a unit of the last may be rounding.
+/// Creates a case for a number printed with `decimals` decimals; the tolerance is half a unit of the last one.
 fn printed(
     example: &'static str,
     source: &'static str,
@@ -31,22 +31,23 @@ fn printed(
     Case { example, quantity: quantity.to_owned(), source, expected, tolerance, found, digits: None }
 }
 
-/// An example that gives no numbers at all.
+/// Returns the failed case of an example that cannot be computed.
 fn fails(example: &'static str) -> Vec<Case> {
     vec![printed(example, "JCGM 100:2008", "cannot be computed", 0.0, 0, f64::NAN)]
 }
 
-/// H.1: the length of an end gauge at 20 °C, l = l_S + d − l_S (δα θ + α_S δθ), in nanometres.
+/// Returns the cases of H.1, nm: the length of an end gauge at 20 °C, l = l_S + d − l_S (δα θ + α_S δθ).
 fn end_gauge() -> Vec<Case> {
     const EXAMPLE: &str = "GUM H.1 end gauge";
-    /// l_S, d in nm; α_S, δα in 1/°C; θ, δθ in °C: JCGM 100:2008, H.1.3.
+    /// Estimates: l_S, d in nm; α_S, δα in 1/°C; θ, δθ in °C (JCGM 100:2008, H.1.3).
     const ESTIMATES: [f64; 6] = [50_000_623.0, 215.0, 11.5e-6, 0.0, -0.1, 0.0];
-    // d: the mean of five readings, 13 nm/sqrt 5 from 25 comparisons; random and systematic effects of the comparator.
+    // u and ν of d: the mean of five readings, 13 nm/sqrt 5 from 25 comparisons; random and systematic effects of the
+    // comparator.
     let of_difference: [(f64, f64); 3] = [(5.8, 24.0), (3.9, 5.0), (6.7, 8.0)];
     let u_d = of_difference.iter().map(|(u, _)| u * u).sum::<f64>().sqrt();
     let nu_d = effective_degrees_of_freedom(&of_difference);
     let root_of_three = 3_f64.sqrt();
-    // θ varies as an arc sine about its mean; α_S and δα are rectangular.
+    // θ has an arc sine distribution about its mean; those of α_S and δα are rectangular.
     let inputs: [(f64, f64); 6] = [
         (25.0, 18.0),
         (u_d, nu_d),
@@ -71,7 +72,7 @@ fn end_gauge() -> Vec<Case> {
     let contributions: Vec<(f64, f64)> = inputs.iter().zip(gradient.iter()).map(|((u, nu), c)| (u * c, *nu)).collect();
     let case =
         |source, quantity, expected, decimals, found| printed(EXAMPLE, source, quantity, expected, decimals, found);
-    // H.1.6 enters contributions and ν(d) with the digits that it prints, u(l) itself with all.
+    // H.1.6 uses the contributions and ν(d) with the digits printed there, but u(l) itself with all digits.
     const PRINTED: [(f64, f64); 4] = [(25.0, 18.0), (9.7, 25.6), (2.9, 50.0), (16.6, 2.0)];
     let u = found.standard_uncertainty(0);
     let as_printed = u * u * u * u / PRINTED.iter().map(|(u, nu)| u * u * u * u / nu).sum::<f64>();
@@ -85,12 +86,13 @@ fn end_gauge() -> Vec<Case> {
     ]
 }
 
-/// H.2: resistance, reactance and impedance from five simultaneous readings of voltage, current and phase.
+/// Returns the cases of H.2: resistance, reactance and impedance from five simultaneous readings of voltage, current
+/// and phase.
 fn impedance() -> Vec<Case> {
     const EXAMPLE: &str = "GUM H.2 impedance";
     const RESULTS: &str = "JCGM 100:2008, table H.3";
     const MEANS: &str = "JCGM 100:2008, table H.2";
-    /// V in volts, I in amperes, φ in radians: table H.2.
+    /// Readings: V in volts, I in amperes, φ in radians (table H.2).
     #[rustfmt::skip]
     const READINGS: [f64; 15] = [
         5.007, 19.663e-3, 1.0456,
@@ -130,7 +132,7 @@ fn impedance() -> Vec<Case> {
         case(RESULTS, "X, ohm", 219.847, 3, found.values[1]),
         case(RESULTS, "Z, ohm", 254.260, 3, found.values[2]),
         case(RESULTS, "u(R), ohm", 0.071, 3, u(0)),
-        // Printed as 0.295: the guide rounds on the way. From the readings of table H.2 it is 0.2956, and GTC's too.
+        // The guide prints 0.295, because it rounds on the way. The readings of table H.2 give 0.2956, as GTC does.
         Case { tolerance: 0.001, ..case(RESULTS, "u(X), ohm", 0.295, 3, u(1)) },
         case(RESULTS, "u(Z), ohm", 0.236, 3, u(2)),
         case(RESULTS, "r(R, X)", -0.588, 3, r(0, 1)),
@@ -139,12 +141,13 @@ fn impedance() -> Vec<Case> {
     ]
 }
 
-/// H.3: a thermometer's correction as a straight line b = y₁ + y₂ (t − 20 °C), by least squares.
+/// Returns the cases of H.3: the correction of a thermometer as a straight line b = y₁ + y₂ (t − 20 °C), by least
+/// squares.
 fn thermometer() -> Vec<Case> {
     const EXAMPLE: &str = "GUM H.3 thermometer";
     const LINE: &str = "JCGM 100:2008, H.3.3";
     const AT_30: &str = "JCGM 100:2008, H.3.4";
-    /// Reading and correction, °C: table H.6.
+    /// Reading and correction, °C (table H.6).
     const READINGS: [(f64, f64); 11] = [
         (21.521, -0.171),
         (22.012, -0.169),

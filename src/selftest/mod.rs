@@ -1,42 +1,42 @@
-//! The reference cases of the mathematics, on the user's own machine: what documents print against what is found here.
+//! Self-test of the mathematics on the user's own computer: published numbers compared with those computed here.
 //!
-//! * `gum`: the examples H.1, H.2, H.3 of the GUM, by the law of propagation and by least squares.
-//! * `monte_carlo`: the examples 9.2 and 9.3 of its Supplement 1, by drawing.
-//! * `regression`: NIST's Norris and Longley, by the project's least squares.
-//! * `model`: the paper's model and its analytic method against 60-digit arithmetic.
+//! * `gum`: examples H.1, H.2, H.3 of the GUM, by the law of propagation and by least squares.
+//! * `monte_carlo`: examples 9.2 and 9.3 of Supplement 1 to the GUM, by Monte Carlo.
+//! * `regression`: Norris and Longley data sets of NIST, by the project's least squares.
+//! * `model`: the paper's model and its analytic method, compared with 60-digit arithmetic.
 
 pub(crate) mod gum;
 pub(crate) mod model;
 pub(crate) mod monte_carlo;
 pub(crate) mod regression;
 
-/// One number that a document prints, and what is found.
+/// Published number and the one computed here.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Case {
-    /// Which example.
+    /// Name of the example.
     pub example: &'static str,
-    /// Which quantity, with its unit.
+    /// Name of the quantity, with its unit.
     pub quantity: String,
-    /// Document, clause, table or equation.
+    /// Source of the number: document, clause, table or equation.
     pub source: &'static str,
-    /// What is printed there.
+    /// Published value.
     pub expected: f64,
-    /// How far off it may be, in the quantity's unit.
+    /// Largest permitted difference, in the unit of the quantity.
     pub tolerance: f64,
-    /// What is found.
+    /// Value computed here.
     pub found: f64,
-    /// Right digits, −log₁₀ of the relative error, for certified values.
+    /// Number of correct digits, −log₁₀ of the relative error; only for certified values.
     pub digits: Option<f64>,
 }
 
 impl Case {
-    /// Whether it is within its tolerance.
+    /// Returns `true` if the computed value is within the tolerance.
     pub fn passed(&self) -> bool {
         (self.found - self.expected).abs() <= self.tolerance
     }
 }
 
-/// All cases.
+/// Runs the self-test and returns all its cases.
 pub fn run() -> Vec<Case> {
     let mut cases = gum::cases();
     cases.extend(monte_carlo::cases());

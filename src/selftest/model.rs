@@ -1,4 +1,5 @@
-//! The paper's model and its analytic method against reference values of 60-digit arithmetic (tests/vectors/model.json).
+//! The paper's model and its analytic method, compared with reference values of 60-digit arithmetic
+//! (tests/vectors/model.json).
 
 use super::Case;
 use crate::attitude::Deviation;
@@ -10,20 +11,21 @@ use serde_json::Value;
 
 const REFERENCE: &str = include_str!("../../tests/vectors/model.json");
 
-/// Largest error of a coefficient, of the largest of its matrix or set: what a passport is verified to.
+/// Largest error of a coefficient relative to the largest of its matrix or set; the limit with which passports are
+/// verified.
 const COEFFICIENT_LIMIT: f64 = 1e-12;
 
-/// Largest relative error of a parameter of the gyro.
+/// Largest relative error of a gyro parameter.
 const PARAMETER_LIMIT: f64 = 1e-9;
 
-/// The worst of all stands of the reference, for coefficients and for parameters.
+/// Returns the largest errors over all stands of the reference: of a coefficient, and of a parameter.
 pub(crate) fn cases() -> [Case; 2] {
     let reference: Value = serde_json::from_str(REFERENCE).unwrap_or(Value::Null);
     let stands = reference["cases"].as_array().map_or(&[][..], Vec::as_slice);
     let errors: Vec<[f64; 2]> = stands.iter().map(errors).collect();
     let worst = |which: usize| match errors.as_slice() {
         [] => f64::NAN,
-        // NaN, which is no error at all, is the worst.
+        // NaN means that there is no result, so it counts as the largest error.
         some => some.iter().map(|pair| pair[which]).fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a }),
     };
     let of = format!("worst of {} stands", errors.len());
@@ -45,7 +47,7 @@ fn case(quantity: String, tolerance: f64, found: f64) -> Case {
     }
 }
 
-/// Of the coefficients and of the parameters of a stand; NaN where there is nothing to compare.
+/// Returns the errors of the coefficients and of the parameters of a stand; NaN if there is nothing to compare.
 fn errors(reference: &Value) -> [f64; 2] {
     let found = coefficients(reference);
     let coefficient = found.as_ref().and_then(|found| coefficient_error(found, reference));
@@ -53,7 +55,7 @@ fn errors(reference: &Value) -> [f64; 2] {
     [coefficient, parameter].map(|error| error.unwrap_or(f64::NAN))
 }
 
-/// Every number in `value`, in order. What 60 digits leave of a zero is a zero.
+/// Returns all numbers in `value`, in order. A remainder of 60-digit arithmetic counts as zero.
 fn numbers(value: &Value) -> Vec<f64> {
     const ZERO: f64 = 1e-30;
     match value {
@@ -80,7 +82,7 @@ fn rows(matrix: &Matrix2<f64>) -> Vec<f64> {
     matrix.transpose().iter().copied().collect()
 }
 
-/// The largest error, of the largest element of its matrix or set.
+/// Returns the largest error of a coefficient, relative to the largest element of its matrix or set.
 fn coefficient_error(found: &Coefficients, reference: &Value) -> Option<f64> {
     let matrices = found.matrices.as_ref()?;
     let vectors = |of: fn(&crate::coefficients::PositionCoefficients) -> Vector2<f64>| -> Vec<f64> {
@@ -110,7 +112,8 @@ fn coefficient_error(found: &Coefficients, reference: &Value) -> Option<f64> {
     Some(errors.fold(0.0, f64::max))
 }
 
-/// The largest relative error of the gyro's parameters found from the reference's currents by eq. (13)-(16), (8).
+/// Returns the largest relative error of the gyro parameters computed from the reference currents by eq. (13)-(16),
+/// (8).
 fn parameter_error(found: &Coefficients, reference: &Value) -> Option<f64> {
     let gyro = &reference["gyro"];
     let currents = numbers(&gyro["currents_ma"]);

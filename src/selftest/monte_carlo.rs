@@ -1,45 +1,46 @@
-//! JCGM 101:2008 (Supplement 1 to the GUM), 9.2 and 9.3: distributions propagated by drawing, with the random numbers and
-//! the bins of the program's own Monte Carlo.
+//! Examples 9.2 and 9.3 of JCGM 101:2008 (Supplement 1 to the GUM): distributions propagated by Monte Carlo, with the
+//! program's own random numbers and bins.
 //!
-//! The limits follow from how the numbers came about, not from how well they fit: half a unit of the last digit printed
-//! and four standard errors of a million trials.
+//! The limits follow from the origin of the numbers, not from the agreement found: half a unit of the last digit
+//! printed plus four standard errors of a million trials.
 //!
-//! 9.3 is itself one run of the guide's adaptive procedure, with fewer trials. Where the shortest interval lies is a flat
-//! minimum: both ends move up and down together, and their scatter falls with the third root of the trials, not with the
-//! square root. In repeated runs of 720,000 trials the ends have a standard deviation of 0.0009 mg, the width has 0.00036 mg;
-//! 20 million trials give u = 0.07547 mg and [1.0846, 1.3836] mg. So the guide's [1.0834, 1.3825] mg has the right width,
-//! 0.2991 mg, and lies 0.0011 mg low by chance; its ends are held to 0.004 mg, its width to 0.0016 mg. The inputs (table 5)
-//! are also those of the R package `propagate`, which has the same example.
+//! Example 9.3 is itself one run of the guide's adaptive procedure, with fewer trials. The location of the shortest
+//! interval is a flat minimum: both ends move up and down together, and their scatter decreases with the cube root of
+//! the number of trials, not with the square root. In repeated runs of 720,000 trials the standard deviation of the
+//! ends is 0.0009 mg, and that of the width is 0.00036 mg; 20 million trials give u = 0.07547 mg and [1.0846, 1.3836]
+//! mg. The guide's interval [1.0834, 1.3825] mg therefore has the right width, 0.2991 mg, and is 0.0011 mg low by
+//! chance. The tolerance is 0.004 mg for its ends and 0.0016 mg for its width. The inputs (table 5) are also those of
+//! the R package `propagate`, which contains this example.
 
 use super::Case;
 use crate::statistics::bins::{BINS, Bins, bin};
 use crate::statistics::summary::Summary;
 use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
 
-/// Trials of each example, as the guide has: whole columns.
+/// Number of columns of trials of each example; the guide's number of trials, in whole columns.
 const COLUMNS: usize = 1_000_000 / WIDTH;
 
-/// The seed; any other gives the same within the limits.
+/// Seed of the random numbers; any other seed gives results within the limits.
 const SEED: u64 = 101;
 
-/// The probability of the intervals.
+/// Coverage probability of the intervals.
 const COVERAGE: f64 = 0.95;
 
-/// What one example prints, each number with its limit.
+/// Numbers printed for one example, each with its limit.
 struct Printed {
     example: &'static str,
     source: &'static str,
     standard_uncertainty: (f64, f64),
     interval: [f64; 2],
-    /// Of the interval's ends.
+    /// Tolerance of the interval's ends.
     limit: f64,
-    /// The shortest interval, with the limit of its width; otherwise the one with equal tails.
+    /// Tolerance of the width of the shortest interval; `None` if the interval has equal tails.
     shortest: Option<f64>,
-    /// About the mean and the standard deviation: where bins are.
+    /// Approximate mean and standard deviation, which place the bins.
     scale: (f64, f64),
 }
 
-/// The four examples.
+/// Returns the cases of the four examples.
 pub(crate) fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     let normals = Printed {
@@ -90,7 +91,7 @@ fn normal_columns(lanes: &mut WideRandom) -> [Column; 4] {
     columns
 }
 
-/// Rectangular, mean 0 and standard deviation `u`.
+/// Returns random numbers of a rectangular distribution with mean 0 and standard deviation `u`.
 fn rectangle(lanes: &mut WideRandom, u: f64) -> Column {
     let mut column = [0.0; WIDTH];
     lanes.uniform(&mut column);
@@ -101,8 +102,8 @@ fn sum(columns: &[Column; 4]) -> Column {
     std::array::from_fn(|trial| columns.iter().map(|column| column[trial]).sum())
 }
 
-/// δm = (m_R,c + δm_R,c) (1 + (ρ_a − 1.2 kg/m³)(1/ρ_W − 1/ρ_R)) − 100 g, in mg (9.3.1.3, eq. (24), with the inputs of
-/// table 5).
+/// Returns δm = (m_R,c + δm_R,c) (1 + (ρ_a − 1.2 kg/m³)(1/ρ_W − 1/ρ_R)) − 100 g, mg (9.3.1.3, eq. (24), with the inputs
+/// of table 5).
 fn mass_difference_mg(lanes: &mut WideRandom) -> Column {
     const NOMINAL_MG: f64 = 100_000.0;
     let (mut reference, mut difference) = ([0.0; WIDTH], [0.0; WIDTH]);
@@ -154,7 +155,7 @@ fn compared(printed: &Printed, draw: impl Fn(&mut WideRandom) -> Column) -> Vec<
     ];
     if let Some(limit) = printed.shortest {
         let [due_low, due_high] = printed.interval;
-        // Without the binary digits beyond those printed.
+        // Rounded to the printed digits, because a difference of binary numbers has more.
         let due = ((due_high - due_low) * 1e4).round() / 1e4;
         cases.push(case(format!("{kind} 95 % interval, width"), due, limit, high - low));
     }

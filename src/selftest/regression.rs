@@ -1,11 +1,12 @@
-//! [NIST StRD](crate::bibliography::Bibliography::NistStrd), linear regression: Norris (lower difficulty) and Longley
-//! (higher), by the project's least squares. Data and certified values are those of NIST's files, digit by digit.
+//! Linear regression of [NIST StRD](crate::bibliography::Bibliography::NistStrd), by the project's least squares: data
+//! sets Norris (lower difficulty) and Longley (higher). Data and certified values are those of NIST's files, digit by
+//! digit.
 
 use super::Case;
 use crate::statistics::least_squares::Factorised;
 use nalgebra::DMatrix;
 
-/// (y, x).
+/// Norris data: (y, x).
 #[rustfmt::skip]
 const NORRIS: [(f64, f64); 36] = [
     (0.1, 0.2), (338.8, 337.4), (118.1, 118.2), (888.0, 884.6), (9.2, 10.1), (228.1, 226.5), (668.5, 666.3),
@@ -16,7 +17,7 @@ const NORRIS: [(f64, f64); 36] = [
     (0.2, 0.5),
 ];
 
-/// y, x₁ to x₆.
+/// Longley data: y, x₁ to x₆.
 #[rustfmt::skip]
 const LONGLEY: [[f64; 7]; 16] = [
     [60323.0, 83.0, 234289.0, 2356.0, 1590.0, 107608.0, 1947.0], [61122.0, 88.5, 259426.0, 2325.0, 1456.0, 108632.0, 1948.0],
@@ -29,11 +30,11 @@ const LONGLEY: [[f64; 7]; 16] = [
     [69331.0, 115.7, 518173.0, 4806.0, 2572.0, 127852.0, 1961.0], [70551.0, 116.9, 554894.0, 4007.0, 2827.0, 130081.0, 1962.0],
 ];
 
-/// Certified estimates with their standard deviations.
+/// Certified estimates of Norris, with their standard deviations.
 const NORRIS_CERTIFIED: [(f64, f64); 2] =
     [(-0.262323073774029, 0.232818234301152), (1.00211681802045, 0.429796848199937E-03)];
 
-/// Certified estimates with their standard deviations.
+/// Certified estimates of Longley, with their standard deviations.
 const LONGLEY_CERTIFIED: [(f64, f64); 7] = [
     (-3482258.63459582, 890420.383607373),
     (15.0618722713733, 84.9149257747669),
@@ -44,11 +45,11 @@ const LONGLEY_CERTIFIED: [(f64, f64); 7] = [
     (1829.15146461355, 455.478499142212),
 ];
 
-/// Digits that must be right. Longley's condition number is 4.9e9, so 16 digits less 10 are what a stable method
-/// warrants; it usually has more.
+/// Required number of correct digits. The condition number of Longley is 4.9e9, so a stable method gives 16 − 10
+/// digits; it usually gives more.
 const DIGITS_DUE: [f64; 2] = [11.0, 7.0];
 
-/// Both data sets.
+/// Returns the cases of both data sets.
 pub(crate) fn cases() -> Vec<Case> {
     let norris_design = DMatrix::from_fn(36, 2, |row, column| if column == 0 { 1.0 } else { NORRIS[row].1 });
     let longley_design = DMatrix::from_fn(16, 7, |row, column| if column == 0 { 1.0 } else { LONGLEY[row][column] });
@@ -97,7 +98,7 @@ impl Set {
     }
 
     fn case(&self, quantity: String, expected: f64, found: f64) -> Case {
-        // Certified values have 15 digits; more cannot be seen.
+        // Certified values have 15 digits, so no more can be compared.
         let digits = -libm::log10(((found - expected) / expected).abs());
         Case {
             example: self.example,

@@ -1,7 +1,7 @@
-//! Whether the statements of a site agree with each other: the pillar with the site, the mark with the pillar, gravity
-//! with latitude and height.
+//! Consistency of the data of a site: pillar with site, mark with pillar, gravity with latitude and height.
 //!
-//! Each of them is a second statement of the place. So they show coordinates that were exchanged, or have a wrong sign.
+//! Each of these states the place a second time, so a contradiction shows coordinates that are exchanged or have a
+//! wrong sign.
 
 use super::Site;
 use crate::earth::{self, Place};
@@ -16,10 +16,10 @@ const FARTHEST_MARK_M: f64 = 50_000.0;
 /// Largest difference between measured and normal gravity, m/s².
 const LARGEST_ANOMALY_M_PER_S2: f64 = 5e-3;
 
-/// Largest deficit of measured gravity against normal gravity at 0 m where the height is not stated, m/s².
+/// Largest deficit of measured gravity relative to normal gravity at 0 m if the height is not stated, m/s².
 const LARGEST_DEFICIT_WITHOUT_HEIGHT_M_PER_S2: f64 = 1.8e-2;
 
-/// The usual errors in a pair of coordinates, each with what makes (latitude, longitude) of it.
+/// Usual errors in a pair of coordinates, each with the function that undoes it.
 type Undo = fn(f64, f64) -> (f64, f64);
 const USUAL_ERRORS: [(&str, Undo); 7] = [
     ("latitude and longitude exchanged", |latitude, longitude| (longitude, latitude)),
@@ -35,7 +35,7 @@ const USUAL_ERRORS: [(&str, Undo); 7] = [
     }),
 ];
 
-/// Returns the usual error that explains `given`: the one without which `fits`, or `None` if there is none.
+/// Returns the usual error that explains `given`, that is, whose correction `fits`, or `None` if there is none.
 fn usual_error(given: Place, fits: impl Fn(Place) -> bool) -> Option<&'static str> {
     let undone = |undo: &Undo| {
         let (latitude_deg, longitude_deg) = undo(given.latitude_deg, given.longitude_deg);
@@ -49,7 +49,7 @@ fn usual_error(given: Place, fits: impl Fn(Place) -> bool) -> Option<&'static st
 }
 
 impl Site {
-    /// Notes every statement of the place that contradicts another one. Coordinates that are none are passed over.
+    /// Reports all data of the place that contradict other data; skips coordinates out of range.
     pub(crate) fn check_consistency(&self, at: &Path, problems: &mut Problems) {
         let latitude = self.latitude_deg.or(self.astronomic_latitude_deg).map(|_| self.geodetic_deg());
         let Some(latitude_deg) = latitude.filter(|latitude| latitude.abs() <= 90.0) else { return };
@@ -107,14 +107,14 @@ impl Site {
     }
 }
 
-/// Returns the distance in metres, or `None` where it is within the limit or one of the two is no place.
+/// Returns the distance in metres, or `None` if it is within the limit or a place has coordinates out of range.
 fn farther_than(limit_m: f64, from: Place, to: Place) -> Option<f64> {
     let is_place = |place: Place| place.latitude_deg.abs() <= 90.0 && place.longitude_deg.abs() <= 180.0;
     let known = is_place(from) && is_place(to);
     known.then(|| earth::distance_m(from, to)).filter(|metres| *metres > limit_m)
 }
 
-/// Returns what to do about two places that are too far from each other.
+/// Returns the advice for two places that are too far from each other.
 fn advice(both: &str, given: Place, fits: impl Fn(Place) -> bool) -> String {
     match usual_error(given, fits) {
         Some(error) => format!("check {both}: they agree with {error} in one of them"),

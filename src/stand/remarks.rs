@@ -1,20 +1,20 @@
-//! What is odd in a certificate: possible, and so not refused, but usually a mistake.
+//! Remarks on unusual values in a certificate, which are possible and therefore not refused, but usually errors.
 
 use super::{Certificate, CertifiedPosition};
 
-/// Temperatures of a room in which stands are measured and used, °C.
+/// Usual temperatures of a room in which stands are measured and used, °C.
 const ROOM_C: std::ops::RangeInclusive<f64> = 0.0..=45.0;
 
-/// 0 °C in kelvin.
+/// Temperature of 0 °C in kelvin.
 const ZERO_CELSIUS_K: f64 = 273.15;
 
-/// An angle is odd when it is so many times as large as the larger ones of the other positions.
+/// Ratio to the larger angles of the other positions above which an angle is unusual.
 const FAR_OUT: f64 = 20.0;
 
-/// Below this an angle is never odd, arcsec.
+/// Size below which an angle is never unusual, arcsec.
 const SMALL_ARCSEC: f64 = 60.0;
 
-/// Returns a sentence for everything that is odd in a certificate and its positions.
+/// Returns a sentence for each unusual value in a certificate and its positions.
 pub(crate) fn of(certificate: &Certificate, positions: &[CertifiedPosition]) -> Vec<String> {
     let mut said = temperatures(certificate);
     type Angle = fn(&CertifiedPosition) -> f64;
@@ -26,7 +26,7 @@ pub(crate) fn of(certificate: &Certificate, positions: &[CertifiedPosition]) -> 
     for (key, angle) in angles {
         let mut sizes: Vec<f64> = positions.iter().map(|at| angle(at).abs()).collect();
         sizes.sort_by(f64::total_cmp);
-        // Where more than a quarter of the positions have large angles, the stand may be built so.
+        // Large angles in more than a quarter of the positions may be a property of the stand.
         let Some(usual) = sizes.len().checked_sub(1 + (sizes.len() / 4).max(1)).map(|place| sizes[place]) else {
             continue;
         };
@@ -110,7 +110,7 @@ mod tests {
     fn an_angle_far_out_is_said_with_its_position() {
         let odd = said_of("alpha_arcsec: -48.9", "alpha_arcsec: 67833.0");
         assert!(odd.len() == 1 && odd[0].contains("alpha_arcsec of position (1, 2) is 67833"), "{odd:?}");
-        // Half of the positions, as a frame that is not square to its axis makes them.
+        // Half of the positions, as on a stand whose frame is not perpendicular to its axis.
         let mut stand = Stand::from_yaml("stand.yaml", STAND.as_bytes()).unwrap();
         stand.positions[4..].iter_mut().for_each(|at| at.gamma_arcsec += 5400.0);
         assert_eq!(super::of(&stand.certificate, &stand.positions), Vec::<String>::new());

@@ -1,5 +1,5 @@
-//! Uncertainty that repeated measurements cannot show ([GUM](crate::bibliography::Bibliography::Gum), 4.3), and the
-//! readings that a certificate was made from.
+//! Contributions to uncertainty that repeated measurements do not show ([GUM](crate::bibliography::Bibliography::Gum),
+//! 4.3), and the readings from which a certificate was computed.
 
 use super::{Certificate, CertifiedPosition};
 use crate::text::scalar::is_sha256_hex;
@@ -20,10 +20,10 @@ pub enum ActsOn {
 }
 
 impl ActsOn {
-    /// All of them.
+    /// All variants, in the order of declaration.
     pub const ALL: [Self; 3] = [Self::Position, Self::Platform, Self::Base];
 
-    /// The word in a file.
+    /// Returns the value of `acts_on` in a file.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Position => "position",
@@ -77,23 +77,23 @@ record! {
 }
 
 impl Certificate {
-    /// Returns the contributions of type B to the uncertainty that `on` names, in the order of the file.
+    /// Returns the contributions of type B with `acts_on` equal to `on`, in the order of the file.
     pub(crate) fn type_b_on(&self, on: ActsOn) -> impl Iterator<Item = &TypeB> {
         self.type_b.iter().flatten().filter(move |line| line.acts_on == on)
     }
 
-    /// Returns the sum of the squares of these contributions, in arcsec².
+    /// Returns the sum of squares of the contributions of type B with `acts_on` equal to `on`, arcsec².
     pub(crate) fn type_b_arcsec2(&self, on: ActsOn) -> f64 {
         // An empty sum of floats is -0.0.
         self.type_b_on(on).map(|line| line.u_arcsec * line.u_arcsec).sum::<f64>() + 0.0
     }
 }
 
-/// An uncertainty counts as smaller than its type B part when it is smaller by more than this share: certificates give four
+/// Relative difference by which an uncertainty may be smaller than its part of type B, because certificates state four
 /// digits.
 const ROUNDING: f64 = 5e-4;
 
-/// Checks the contributions themselves, and that the certified uncertainties contain them.
+/// Checks the contributions themselves, and that the certified uncertainties include them.
 pub(super) fn check(certificate: &Certificate, positions: &[CertifiedPosition], problems: &mut Problems) {
     let at = Path::Root.key("certificate");
     let of_type_b = at.key("type_b");
