@@ -87,6 +87,7 @@ pub enum Bibliography {
     AllowedSigners,
     /// OpenSSH, PROTOCOL.u2f: signatures made by FIDO tokens.
     SshU2f,
-    /// YAML Ain't Markup Language, versions 1.1 (2005) and 1.2.2 (2021): interpretation of scalars by readers of either version.
+    /// YAML Ain't Markup Language, versions 1.1 (2005) and 1.2.2 (2021): interpretation of scalars by readers of
+    /// either version.
     Yaml,
 }

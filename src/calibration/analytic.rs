@@ -39,8 +39,8 @@ pub enum NoAnalyticSolution {
 /// `currents_ma` contains (J_x, J_y) of `coefficients.positions`, in the same order.
 ///
 /// # Errors
-/// Returns [`NoAnalyticSolution`] if the eight positions are incomplete, the number of currents is wrong, or J_1 − J_2
-/// Δ is singular.
+/// Returns [`NoAnalyticSolution`] if the eight positions are incomplete, the number of currents is wrong, or
+/// J_1 − J_2 Δ is singular.
 pub(crate) fn solve(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],
@@ -62,8 +62,8 @@ pub(crate) fn solve(
 
 /// First-order response of the analytic solution to misclosures of the equations.
 ///
-/// If the equations of position p have the misclosure e_p, (9)-(11) become δK J_1 + δω_n n_1 = e_1 and δK J_2 + δω_n
-/// n_2 = e_2.
+/// If the equations of position p have the misclosure e_p, (9)-(11) become δK J_1 + δω_n n_1 = e_1 and
+/// δK J_2 + δω_n n_2 = e_2.
 #[derive(Debug, Clone)]
 pub(crate) struct AnalyticMap<'a> {
     coefficients: &'a Coefficients,

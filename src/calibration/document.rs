@@ -50,7 +50,7 @@ pub struct CalibrationDocument {
     /// Comparison with an earlier result.
     #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
     pub(crate) change: Option<Verdict>,
-    /// Keys that other commands add to a result; they are accepted and ignored.
+    /// Keys that are added to a result outside this type; they are accepted and ignored on reading.
     #[serde(skip_serializing, default, deserialize_with = "left_aside_whole")]
     budget: (),
     #[serde(skip_serializing, default, deserialize_with = "left_aside_whole")]

@@ -1,4 +1,4 @@
-//! Errors that do not show in the fit but change the result, recognised by comparison with the gyro type.
+//! Errors that do not show in the fit but change the result, recognised by comparison with the expected gyro.
 //!
 //! Let K, ω_0, ω_n be the actual values and K′, ω_0′, ω_n′ those found. Currents J′ = 10^p P J instead of J, where P is
 //! a signed permutation of x and y, give K′ = K P⁻¹ 10^−p and leave the drifts unchanged. A passport of another place,
@@ -170,8 +170,8 @@ fn other_place(
     (otherwise >= CLEARLY_ELSEWHERE * best.max(1.0)).then_some((best, Mistake::OtherPlace { latitude_deg }))
 }
 
-/// Returns the result as it would be with the passport of a place at this astronomic latitude, with normal gravity at 0
-/// m.
+/// Returns the result as it would be with the passport of a place at this astronomic latitude, with normal gravity at
+/// 0 m.
 fn at_latitude(found: &Found, used: &EarthRate, latitude_deg: f64) -> Found {
     let there = EarthRate::at_astronomic_latitude(latitude_deg);
     let s = used.horizontal_deg_per_h / there.horizontal_deg_per_h;

@@ -10,7 +10,7 @@
 //! * `scatter`: agreement of the rows of a visit and of the visits of a position.
 //! * `diagnosis`: possible causes if the readings do not fit.
 //! * `verdict`: comparison with a type's specification and with an earlier calibration.
-//! * `mistake`: errors that do not show in the fit, recognised by comparison with the gyro type.
+//! * `mistake`: errors that do not show in the fit, recognised by comparison with the expected gyro.
 //! * `document`: the result as JSON.
 //! * `prediction`: the expected uncertainty of a calibration on a stand, before any reading.
 //! * `estimates`: the standard uncertainties that rest on a common estimate.
