@@ -1,8 +1,8 @@
 //! Orientation of the gyro's case on the stand: nominal (A), deviation (E), actual (Ã).
 //!
 //! The base axes ξηζ are east, north and up; the case axes are xyz with z along the spin axis. All rotation matrices
-//! are passive: the case coordinates of a vector are Ã times its base coordinates. Source: [the
-//! paper](crate::bibliography::Bibliography::Tang17), eq. (3) and (4).
+//! are passive: the case coordinates of a vector are Ã times its base coordinates. Source:
+//! [the paper](crate::bibliography::Bibliography::Tang17), eq. (3) and (4).
 
 use crate::units::sin_cos_of_degrees;
 use nalgebra::Matrix3;

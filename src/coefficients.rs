@@ -2,8 +2,8 @@
 //! every position, and the paper's Δ, B, C with their parts.
 //!
 //! [`StandGeometry`] contains all that does not depend on the site; [`StandGeometry::at`] adds the two numbers of a
-//! site, ω_Γ and ω_B. One stand can therefore be used at many sites. Source: [the
-//! paper](crate::bibliography::Bibliography::Tang17), eq. (5) and (9)-(15).
+//! site, ω_Γ and ω_B. One stand can therefore be used at many sites. Source:
+//! [the paper](crate::bibliography::Bibliography::Tang17), eq. (5) and (9)-(15).
 
 use crate::attitude::{self, Deviation};
 use nalgebra::{Matrix2, Matrix3, Vector2};
@@ -57,7 +57,7 @@ pub struct EarthRate {
     pub vertical_deg_per_h: f64,
 }
 
-/// Error: n_2 of the eight positions has no inverse, so the matrices Δ, B, C do not exist for this stand.
+/// Refusal of a stand whose n_2 of the eight positions has no inverse, so that the matrices Δ, B, C do not exist.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
     "the g-sensitive drift cannot be determined, because the differences of specific force n_2 have no inverse \

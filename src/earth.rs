@@ -13,8 +13,8 @@ use crate::units::{
 use geographiclib_rs::DirectGeodesic;
 use geographiclib_rs::{Geodesic, InverseGeodesic};
 
-/// Earth rate Ω, rad/s: 7.292115e-5 ([IERS](crate::bibliography::Bibliography::Iers10), [WGS
-/// 84](crate::bibliography::Bibliography::Wgs84)).
+/// Earth rate Ω, rad/s: 7.292115e-5 ([IERS](crate::bibliography::Bibliography::Iers10),
+/// [WGS 84](crate::bibliography::Bibliography::Wgs84)).
 pub const ROTATION_RAD_PER_S: f64 = 7.292115e-5;
 
 /// Returns the Earth rate Ω, °/h.
@@ -52,7 +52,7 @@ pub(crate) const LENGTH_QUANTUM_M: f64 = 1e-6;
 /// Rounding unit of azimuths before signing, degrees.
 pub(crate) const AZIMUTH_QUANTUM_DEG: f64 = 1e-10;
 
-/// Rounds to a multiple of 1/`per_unit`, for example to micrometres for metres and 1e6.
+/// Rounds to a multiple of 1/`per_unit`, for example metres to micrometres with 1e6.
 fn rounded(value: f64, per_unit: f64) -> f64 {
     (value * per_unit).round() / per_unit
 }
@@ -86,8 +86,8 @@ pub(crate) struct LaplaceCorrection {
     pub latitude_deg: f64,
 }
 
-/// Returns the astronomic azimuth from `pillar` to `mark`, geodetic azimuth + η tan Φ, rounded to 1e-10° ([Heiskanen
-/// and Moritz](crate::bibliography::Bibliography::HeiskanenMoritz67), section 5-4).
+/// Returns the astronomic azimuth from `pillar` to `mark`, geodetic azimuth + η tan Φ, rounded to 1e-10°
+/// ([Heiskanen and Moritz](crate::bibliography::Bibliography::HeiskanenMoritz67), section 5-4).
 ///
 /// `position_u_m` is the standard uncertainty of each coordinate of both points, m; both points contribute across the
 /// line of sight. Without it, or without the uncertainty of η, the azimuth has no stated uncertainty.
@@ -121,8 +121,7 @@ pub(crate) fn validity_radius_m(latitude_deg: f64, from: Place, within_deg_per_h
     let towards = |north: f64| {
         let change_deg = north * latitude_change_deg(latitude_deg, north, share);
         let latitude_deg = from.latitude_deg + change_deg;
-        // If the pole is nearer, the change up to it is less than the limit, so the other direction determines the
-        // radius.
+        // Up to the pole the rates change by less than the limit, so the other direction determines the radius.
         if latitude_deg.abs() > 90.0 {
             return f64::INFINITY;
         }
@@ -168,8 +167,8 @@ const K: f64 = 0.001_931_852_652_41;
 const M: f64 = 0.003_449_786_506_84;
 
 /// Standard uncertainty of normal gravity at a known height as an estimate of gravity, m/s²: 50 mGal, the size of
-/// gravity anomalies outside high mountains ([Heiskanen and
-/// Moritz](crate::bibliography::Bibliography::HeiskanenMoritz67), chapter 7).
+/// gravity anomalies outside high mountains
+/// ([Heiskanen and Moritz](crate::bibliography::Bibliography::HeiskanenMoritz67), chapter 7).
 pub(crate) const NORMAL_GRAVITY_U_M_PER_S2: f64 = 5e-4;
 
 /// Standard uncertainty of normal gravity at 0 m as an estimate of gravity at an unknown height, m/s².
@@ -184,8 +183,8 @@ pub const STANDARD_GRAVITY_M_PER_S2: f64 = 9.80665;
 /// Mean radius of the Earth, m, (2a + b)/3, for limits that need few digits.
 pub(crate) const MEAN_RADIUS_M: f64 = 6_371_008.8;
 
-/// Returns normal gravity, m/s², at a geodetic latitude, degrees, and a height above the ellipsoid, m ([WGS
-/// 84](crate::bibliography::Bibliography::Wgs84), eq. 4-1 and 4-3).
+/// Returns normal gravity, m/s², at a geodetic latitude, degrees, and a height above the ellipsoid, m
+/// ([WGS 84](crate::bibliography::Bibliography::Wgs84), eq. 4-1 and 4-3).
 pub fn normal_gravity_m_per_s2(geodetic_latitude_deg: f64, height_m: f64) -> f64 {
     let (sin, _) = sin_cos_of_degrees(geodetic_latitude_deg);
     let sin2 = sin * sin;

@@ -45,8 +45,8 @@ const LONGLEY_CERTIFIED: [(f64, f64); 7] = [
     (1829.15146461355, 455.478499142212),
 ];
 
-/// Required number of correct digits. The condition number of Longley is 4.9e9, so a stable method gives 16 − 10
-/// digits; it usually gives more.
+/// Required number of correct digits. The condition number of Longley is 4.9e9, so a stable method gives
+/// 16 − 10 digits; it usually gives more.
 const DIGITS_DUE: [f64; 2] = [11.0, 7.0];
 
 /// Returns the cases of both data sets.
