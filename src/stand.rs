@@ -227,7 +227,7 @@ pub(crate) fn check(certificate: &Certificate, positions: &[CertifiedPosition], 
     }
 }
 
-/// Checks that a list has no more items than a stand may have positions; returns `true` if so.
+/// Returns `true` if a list has no more items than a stand may have positions; otherwise reports a problem.
 pub(crate) fn check_length<T>(list: &[T], at: &Path, problems: &mut Problems) -> bool {
     let fits = list.len() <= MOST_POSITIONS;
     if !fits {

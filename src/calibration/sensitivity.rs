@@ -1,7 +1,7 @@
 //! First-order sensitivities of the misclosures e = ω_3 − K J − ω_0 − ω_n n of all positions (two each) to every input.
 //!
-//! Rotations are passive. If the case rotates by the small vector δ, the coordinates v of a fixed vector change by v ×
-//! δ. If the base rotates by δ, Ã w changes by Ã (w × δ).
+//! Rotations are passive. If the case rotates by the small vector δ, the coordinates v of a fixed vector change by
+//! v × δ. If the base rotates by δ, Ã w changes by Ã (w × δ).
 
 use super::inputs::Setup;
 use super::scatter::Repeats;

@@ -8,9 +8,9 @@
 //! interval is a flat minimum: both ends move up and down together, and their scatter decreases with the cube root of
 //! the number of trials, not with the square root. In repeated runs of 720,000 trials the standard deviation of the
 //! ends is 0.0009 mg, and that of the width is 0.00036 mg; 20 million trials give u = 0.07547 mg and
-//! [1.0846, 1.3836] mg. The guide's interval [1.0834, 1.3825] mg therefore has the right width, 0.2991 mg, and is 0.0011 mg low by
-//! chance. The tolerance is 0.004 mg for its ends and 0.0016 mg for its width. The inputs (table 5) are also those of
-//! the R package `propagate`, which contains this example.
+//! [1.0846, 1.3836] mg. The guide's interval [1.0834, 1.3825] mg therefore has the right width, 0.2991 mg, and is
+//! 0.0011 mg low by chance. The tolerance is 0.004 mg for its ends and 0.0016 mg for its width. The inputs (table 5)
+//! are also those of the R package `propagate`, which contains this example.
 
 use super::Case;
 use crate::statistics::bins::{BINS, Bins, bin};
