@@ -1,9 +1,10 @@
-//! A later check run against the certificate: is it still the same stand?
+//! Comparison of a later check run with the certificate: has the stand changed?
 //!
-//! The paper's one condition is that positions repeat. So the differences between check and certificate are taken apart
-//! into a turn that all positions share (of the platform, of the base: a datum, a level, a seat has changed) and what is
-//! left of each position. Positions that do not repeat are found one by one, the worst first, and left out of what the
-//! others share; so one bad position does not make all look bad.
+//! The paper requires that positions repeat. The differences between check and certificate are therefore split into a
+//! rotation common to all positions (of the platform or the base, because a datum surface, a level or a seat has
+//! changed) and the remaining rotation of each position. Positions that do not repeat are found one by one, starting
+//! with the worst, and are excluded from the common rotation. One bad position therefore does not make the others look
+//! bad.
 
 use super::components::{RunModel, Variance, case_turn, turns_at};
 use super::suspects::{OUTLIER, STRAGGLER};
@@ -15,86 +16,89 @@ use crate::statistics::beta::f_larger;
 use crate::statistics::least_squares::Factorised;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-/// Why there is no comparison.
+/// Reason why readings were not compared with a certificate.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotCompared {
-    /// The certificate of another stand.
+    /// Certificate of another stand.
     #[error("the certificate is for {certificate}, but the readings are from {readings}")]
     OtherStand {
-        /// Model and serial of the certificate.
+        /// Model and serial number in the certificate.
         certificate: String,
-        /// Those of the header.
+        /// Model and serial number in the header.
         readings: String,
     },
-    /// Positions that one of the two does not have.
+    /// Positions that are missing from the certificate or from the readings.
     #[error("certificate and readings differ in their positions or nominal angles: {0}")]
     OtherPositions(PositionIndex),
-    /// No uncertainty to compare with.
+    /// Missing repeatability: the certificate states none, and a single run does not show it.
     #[error("the certificate states no repeatability, and one run does not show it; measure two runs or more")]
     NoRepeatability,
-    /// Too few positions to tell a common turn from single positions.
+    /// Too few positions to distinguish a common rotation from changes of single positions.
     #[error("too few positions to distinguish a common rotation from changes of single positions")]
     TooFewPositions,
 }
 
-/// A test value: F, or chi-square over its degrees of freedom when the uncertainties are known exactly.
+/// Result of a test with F, which is chi-square over its degrees of freedom if the uncertainties are known exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Test {
-    /// Chi-square: the sum of squares in units of their uncertainty.
+    /// Chi-square: the sum of squared differences in units of their standard uncertainties.
     pub chi_square: f64,
-    /// Its degrees of freedom.
+    /// Degrees of freedom of chi-square.
     pub degrees_of_freedom: usize,
-    /// The probability of a larger one for the same stand; by F, for the uncertainties have degrees of freedom themselves.
+    /// Probability of a larger value for an unchanged stand, by the F distribution, because the uncertainties have
+    /// finite degrees of freedom themselves.
     pub probability: f64,
 }
 
-/// One position of a comparison.
+/// Result of a comparison for one position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ComparedPosition {
-    /// Which.
+    /// Index (i, j) of the position.
     pub index: PositionIndex,
-    /// Its turn since the certificate about x, y, z of the case, less what the others share, arcsec.
+    /// Rotation since the certificate about x, y, z of the case, relative to the other positions, arcsec.
     pub turn_arcsec: [f64; 3],
-    /// Standard uncertainties of that, arcsec.
+    /// Standard uncertainties of `turn_arcsec`, arcsec.
     pub u_arcsec: [f64; 3],
-    /// All three at once, against the turn that the other positions share.
+    /// Test of all three components at once, relative to the rotation common to the other positions.
     pub test: Test,
-    /// Whether it repeats.
+    /// `true` if the position repeats.
     pub repeats: bool,
 }
 
-/// What all positions share.
+/// Rotation common to all positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CommonTurn {
-    /// Of the platform, about x, y, z of the case, arcsec.
+    /// Rotation of the platform about x, y, z of the case, arcsec.
     pub platform_arcsec: [f64; 3],
-    /// Of the base, about east, north, up, arcsec; what cannot be told from the platform is there.
+    /// Rotation of the base about east, north, up, arcsec; what cannot be distinguished from the platform is in
+    /// `platform_arcsec`.
     pub base_arcsec: [f64; 3],
-    /// Whether it is more than runs vary by, or why that is not known, in words.
+    /// Test of the common rotation against the variation between runs, or the reason why that is unknown, in words.
     pub test: Result<Test, &'static str>,
 }
 
-/// A check run against a certificate.
+/// Comparison of a check run with a certificate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
-    /// The certificate's number.
+    /// Number of the certificate.
     pub certificate: String,
-    /// Runs of the check.
+    /// Number of runs of the check.
     pub runs: usize,
-    /// Positions with one another, a common turn aside, all of them.
+    /// Test of all positions relative to each other, with the common rotation removed.
     pub all: Test,
-    /// Each position.
+    /// Results of the single positions.
     pub positions: Vec<ComparedPosition>,
-    /// The turn shared by all positions that repeat.
+    /// Rotation common to all positions that repeat.
     pub common: CommonTurn,
-    /// Whether it is still the same stand.
+    /// `true` if the stand has not changed: all positions repeat and agree, and no common rotation is significant.
     pub same_stand: bool,
-    /// The verdict and its reasons, a sentence each.
+    /// Sentences that give the reasons and the limits of the result.
     pub words: Vec<String>,
 }
 
-/// The differences, weighted: each row over its own standard uncertainty.
+/// Differences between check and certificate as rotations of the case, with their standard uncertainties and the design
+/// matrix of the common rotation.
 struct Differences {
     turns_arcsec: DVector<f64>,
     u_arcsec: DVector<f64>,
@@ -103,11 +107,12 @@ struct Differences {
     base_axes: DMatrix<f64>,
 }
 
-/// Compares `readings` of the stand of `header` with its certificate; `again` is what the readings alone would certify,
-/// when they are of two runs or more.
+/// Compares `readings` of the stand of `header` with its certificate. `again` is the certification from these readings
+/// alone, if they contain two runs or more.
 ///
 /// # Errors
-/// See [`NotCompared`].
+/// Returns [`NotCompared`] if the certificate is for another stand or other positions, if no repeatability is known, or
+/// if there are too few positions.
 pub fn compare(
     certificate: &Stand,
     header: &Header,
@@ -124,7 +129,7 @@ pub fn compare(
         .iter()
         .filter_map(|&place| {
             let of_position = differences.of_position(place, &repeating);
-            // When too few repeat to say where the others put a position, all say it.
+            // If too few positions repeat to give a reference for this one, compare it with all others.
             let (turn, u, test) = of_position.or_else(|| differences.of_position(place, &places))?;
             let repeats = repeating.contains(&place);
             let index = certificate.positions[place].index();
@@ -177,7 +182,7 @@ fn check_same(certificate: &Stand, header: &Header) -> Result<(), NotCompared> {
     }
 }
 
-/// Scatter of one return: the certificate's, else the check's own.
+/// Returns the variance of one visit, arcsec²: the certificate's, else the check's own; `None` if neither states one.
 fn repeatability(certificate: &Stand, again: Option<&Certification>) -> Option<Variance> {
     let stated = certificate.certificate.repeatability_arcsec.filter(|u| *u > 0.0);
     let degrees_of_freedom = certificate.certificate.repeatability_degrees_of_freedom.unwrap_or(f64::INFINITY);
@@ -185,7 +190,7 @@ fn repeatability(certificate: &Stand, again: Option<&Certification>) -> Option<V
     stated.or_else(|| again.map(|again| again.components.pooled_arcsec2))
 }
 
-/// The certified standard uncertainties of a position; `None` when one is not stated.
+/// Returns the certified standard uncertainties of α, β, γ of a position, or `None` if one is not stated.
 fn certified_u_arcsec(position: &CertifiedPosition) -> Option<Vector3<f64>> {
     Some(Vector3::new(position.u_alpha_arcsec?, position.u_beta_arcsec?, position.u_gamma_arcsec?))
 }
@@ -211,7 +216,7 @@ impl Differences {
             let own = own_variance(turn, &certified_u_arcsec(position).unwrap_or_default());
             let both = own.map(|variance| variance + of_check);
             u.fixed_rows_mut::<3>(3 * place).copy_from(&both.map(f64::sqrt));
-            // Welch and Satterthwaite: GUM (JCGM 100), eq. (G.2b), of the axis that has the fewest.
+            // Welch and Satterthwaite, GUM (JCGM 100), eq. (G.2b), for the axis with the fewest degrees of freedom.
             let of_certificate = position.degrees_of_freedom.unwrap_or(f64::INFINITY);
             for axis in 0..3 {
                 let parts = own[axis] * own[axis] / of_certificate + of_check * of_check / scatter.degrees_of_freedom;
@@ -227,7 +232,8 @@ impl Differences {
         })
     }
 
-    /// Weighted least squares of what the positions `places` share: its estimate and its R⁻¹.
+    /// Returns the rotation common to `places` by weighted least squares, the R⁻¹ of the fit, and the residual
+    /// chi-square; `None` if these positions do not determine it.
     fn shared(&self, places: &[usize]) -> Option<(DVector<f64>, DMatrix<f64>, f64)> {
         let rows: Vec<usize> = places.iter().flat_map(|place| (3 * place)..(3 * place + 3)).collect();
         let weighted = DMatrix::from_fn(rows.len(), self.design.ncols(), |row, column| {
@@ -245,7 +251,7 @@ impl Differences {
         Some((shared, model.r_inverse().clone(), rest))
     }
 
-    /// Chi-square of positions with one another.
+    /// Returns the chi-square test of positions relative to each other, or `None` if they leave no degrees of freedom.
     fn rest(&self, places: &[usize]) -> Option<Test> {
         let degrees_of_freedom = (3 * places.len()).checked_sub(self.design.ncols()).filter(|rest| *rest > 0)?;
         let (_, _, chi_square) = self.shared(places)?;
@@ -261,7 +267,8 @@ impl Differences {
         }
     }
 
-    /// Turn of a position against what the `others` share (itself aside), its uncertainty, and all three at once.
+    /// Returns the rotation of a position relative to that of the `others` (without itself), its standard
+    /// uncertainties, and the test of all three components at once.
     fn of_position(&self, place: usize, others: &[usize]) -> Option<([f64; 3], [f64; 3], Test)> {
         let others: Vec<usize> = others.iter().copied().filter(|other| *other != place).collect();
         let (shared, r_inverse, _) = self.shared(&others)?;
@@ -275,12 +282,12 @@ impl Differences {
         Some((turn.into(), u.into(), self.test(chi_square, 3)))
     }
 
-    /// The positions that repeat: the worst is taken out, again and again, while it does not agree with the rest.
+    /// Returns the positions that repeat: the worst is removed repeatedly while it disagrees with the others.
     fn repeating(&self, places: &[usize]) -> Vec<usize> {
         let mut left = places.to_vec();
         while let Some(worst) = self.worst(&left, places.len()) {
             left.retain(|place| *place != worst);
-            // When fewer than half agree, nobody can say which ones are right.
+            // If fewer than half agree, the readings do not show which ones are right.
             if 2 * left.len() < places.len() {
                 return Vec::new();
             }
@@ -291,11 +298,11 @@ impl Differences {
     fn worst(&self, left: &[usize], positions: usize) -> Option<usize> {
         let tests = left.iter().filter_map(|&place| Some((place, self.of_position(place, left)?.2)));
         let worst = tests.max_by(|(_, a), (_, b)| a.chi_square.total_cmp(&b.chi_square));
-        // Bonferroni: the worst of so many.
+        // Bonferroni correction: this is the largest of `positions` test values.
         worst.filter(|(_, test)| test.probability * (positions as f64) < OUTLIER).map(|(place, _)| place)
     }
 
-    /// What the `repeating` positions share (all, when none repeat), and whether that was to be expected.
+    /// Returns the rotation common to the `repeating` positions (to all if none repeat), with its test.
     fn common(
         &self,
         repeating: &[usize],
@@ -317,7 +324,8 @@ impl Differences {
         })
     }
 
-    /// Judges the turn that all share by what whole runs vary by; `None` when that is not known.
+    /// Tests the common rotation against the variation between whole runs; returns `None` if the certificate does not
+    /// state its common parts.
     fn common_test(
         &self,
         shared: &DVector<f64>,
@@ -330,7 +338,7 @@ impl Differences {
             3 => 0.0,
             _ => square(certificate.common_base_arcsec?) + between.base_arcsec2 / between.runs,
         };
-        // The positions' own scatter, certificate and check, has its part in what all seem to share.
+        // The scatter of the positions, in certificate and check, also contributes to the estimated common rotation.
         let mut covariance = r_inverse * r_inverse.transpose();
         for at in 0..shared.len() {
             covariance[(at, at)] += if at < 3 { platform } else { base };
@@ -346,20 +354,20 @@ fn square(value: f64) -> f64 {
     value * value
 }
 
-/// What runs vary by as a whole, per axis, and how many runs the check averages.
+/// Variances between whole runs, per axis, and the number of runs that the check averages.
 struct Between {
     runs: f64,
     platform_arcsec2: f64,
     base_arcsec2: f64,
-    /// Three axes in each run but one. Both sides enter the test, so those of the side that has fewer.
+    /// Degrees of freedom: three axes in each run but one, of whichever of check and certificate has fewer.
     degrees_of_freedom: f64,
 }
 
 impl Between {
-    /// Of the check itself when it has several runs, else of the readings that the certificate was made from.
+    /// Returns the variation of the check itself if it has several runs, else that of the certificate's readings.
     ///
     /// # Errors
-    /// Why neither shows it, in words.
+    /// Returns the reason, in words, if neither shows it.
     fn new(certificate: &Certificate, runs: usize, again: Option<&Certification>) -> Result<Self, &'static str> {
         let evidence = certificate.evidence.as_ref().map(|evidence| f64::from(evidence.runs));
         let degrees_of_freedom = |runs: f64| 3.0 * (runs - 1.0);
@@ -391,7 +399,7 @@ impl Between {
     }
 }
 
-/// Variances of the turn along x, y, z of the case that the uncertainties of α, β, γ make.
+/// Returns the variances of the rotation about x, y, z of the case that result from the uncertainties of α, β, γ.
 fn own_variance(turn: &Turn, u_arcsec: &Vector3<f64>) -> Vector3<f64> {
     (0..3).fold(Vector3::zeros(), |sum, angle| {
         let part = turn.axes[angle] * u_arcsec[angle];

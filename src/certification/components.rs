@@ -1,16 +1,16 @@
-//! What scatters, and what of it all positions of a run share: variance components.
+//! Variance components of the readings: the own scatter of positions, and the part common to all positions of a run.
 //!
-//! Small differences of the angles of a position are turns of the case: the reading of run r in position p differs
-//! from that position's mean by
+//! Small changes of the angles of a position are rotations of the case. The reading of run r in position p differs from
+//! the mean of that position by
 //!
 //! δ_pr = s_r + Ã_p b_r + e_pr,
 //!
-//! three elements each along x, y, z of the case: s_r is a turn of the platform that the whole run shares (it acts from
-//! the left of E·A), b_r one of the base (from the right), e_pr the return's own scatter. Each run's s and b are found
-//! by least squares over its positions; what is left is scatter, and what they vary by beyond the share that scatter has
-//! in them is common. Sums of squares are set equal to their expectations
-//! ([Searle, Casella and McCulloch](crate::bibliography::Bibliography::Searle92), chapter 5): unbiased, and the same as
-//! the analysis of variance when all axes scatter alike.
+//! with three elements each along x, y, z of the case. s_r is a rotation of the platform common to the whole run (it
+//! acts from the left of E·A), b_r one of the base (from the right), and e_pr the own scatter of the visit. Least
+//! squares over the positions of a run gives its s and b. The residuals are scatter; the variation of s and b beyond
+//! the share that scatter has in them is common. Sums of squares are set equal to their expectations ([Searle, Casella
+//! and McCulloch](crate::bibliography::Bibliography::Searle92), chapter 5). The estimates are unbiased, and equal to
+//! the analysis of variance if all axes scatter alike.
 
 use super::NotCertified;
 use crate::calibration::inputs::Turn;
@@ -20,84 +20,87 @@ use crate::statistics::least_squares::{Factorised, condition};
 use crate::units::radians_from_arcseconds;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-/// Directions of the base weaker than 1/this of the strongest cannot be told from a turn of the platform.
+/// Limit of the condition: directions of the base weaker than 1/30 of the strongest cannot be distinguished from a
+/// rotation of the platform.
 const CONDITION_LIMIT: f64 = 30.0;
 
-/// Below this variance readings do not scatter: what is left is the rounding of computations.
+/// Variance below which the residuals are only rounding errors of the computation, arcsec².
 const LEAST_SCATTER_ARCSEC2: f64 = 1e-12;
 
-/// A variance with its degrees of freedom.
+/// Variance with its degrees of freedom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Variance {
-    /// The variance, in the square of the unit of what varies.
+    /// Variance, in the squared unit of the quantity.
     pub value: f64,
-    /// Its degrees of freedom.
+    /// Degrees of freedom of the variance.
     pub degrees_of_freedom: f64,
 }
 
-/// What all positions of one run share, estimated; turns in arcseconds from the mean of all runs.
+/// Estimated rotation common to all positions of one run, relative to the mean of all runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct RunTurn {
-    /// The run's number.
+    /// Number of the run.
     pub run: u32,
-    /// Turn of the platform, about x, y, z of the case.
+    /// Rotation of the platform about x, y, z of the case, arcsec.
     pub platform_arcsec: [f64; 3],
-    /// Turn of the base, about east, north, up; what cannot be told from the platform's is in that.
+    /// Rotation of the base about east, north, up, arcsec; what cannot be distinguished from the platform is in
+    /// `platform_arcsec`.
     pub base_arcsec: [f64; 3],
 }
 
-/// The part that all positions of a run share.
+/// Variance component common to all positions of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Common {
-    /// Its variance from run to run, per axis, arcsec²; 0 when scatter alone explains what is seen.
+    /// Variance from run to run, per axis, arcsec²; 0 if scatter alone explains the readings.
     pub between_runs_arcsec2: f64,
-    /// The degrees of freedom of that (Satterthwaite); those of the runs when it is 0.
+    /// Degrees of freedom of that variance (Satterthwaite); those of the runs if it is 0.
     pub degrees_of_freedom: f64,
-    /// The largest variance that readings like these do not speak against at 95 %, arcsec².
+    /// Upper limit of the variance at 95 %, arcsec².
     pub upper_limit_arcsec2: f64,
 }
 
-/// The variance components of a series of runs.
+/// Variance components of a series of runs.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Components {
-    /// Scatter of one return, about x, y, z of the case, arcsec².
+    /// Variance of one visit about x, y, z of the case, arcsec².
     pub own_arcsec2: [Variance; 3],
-    /// The same, one for all axes: what a certificate calls repeatability.
+    /// Variance of one visit, pooled over the axes, arcsec²; its root is the repeatability in a certificate.
     pub pooled_arcsec2: Variance,
-    /// Mean squares of the residuals of each axis, arcsec²: what tests compare. They are less certain of which axis it
-    /// is than [`Components::own_arcsec2`], but scatter less themselves.
+    /// Mean squares of the residuals of each axis, arcsec², for tests. They separate the axes less well than
+    /// [`Components::own_arcsec2`], but scatter less themselves.
     pub axis_squares_arcsec2: [Variance; 3],
-    /// The same of each position, over those of the axes.
+    /// Mean squares of the residuals of each position, relative to those of the axes.
     pub position_squares: Vec<Variance>,
-    /// Turns of the platform that a run shares.
+    /// Rotation of the platform common to a run.
     pub platform: Common,
-    /// Turns of the base that a run shares; `None` when no axis of it can be told from the platform.
+    /// Rotation of the base common to a run; `None` if no axis of it can be distinguished from the platform.
     pub base: Option<Common>,
-    /// How many axes of the base can be told from the platform: 3 for the paper's eight positions.
+    /// Number of axes of the base that can be distinguished from the platform: 3 for the paper's eight positions.
     pub base_axes: usize,
-    /// Each run's own turns.
+    /// Rotations of the single runs.
     pub run_turns: Vec<RunTurn>,
-    /// What is left of every reading, `[run][3 position + axis]`, arcsec along x, y, z of the case.
+    /// Residuals of the readings, `[run][3 position + axis]`, arcsec along x, y, z of the case.
     pub(crate) residuals: Vec<DVector<f64>>,
-    /// How much of each row's scatter the residual of a row of the same run contains: rows × rows, `[3 position + axis]`.
+    /// Share of the scatter of each row in the residual of each row of one run: rows × rows, `[3 position + axis]`.
     pub(crate) keeps: DMatrix<f64>,
 }
 
-/// How platform and base of a run act on the turns of every position.
+/// Linear model of the rotations of platform and base in one run.
 pub(crate) struct RunModel {
     pub(crate) design: DMatrix<f64>,
-    /// The axes of the base that the columns from 3 on stand for: 3 × their number.
+    /// Axes of the base for the columns from 3 on: 3 × their number.
     pub(crate) base_axes: DMatrix<f64>,
-    /// Least squares: columns × rows.
+    /// Least-squares solution matrix: columns × rows.
     pub(crate) solve: DMatrix<f64>,
 }
 
 impl RunModel {
-    /// Of positions that are turned as `turns` say; `None` when the positions do not even determine a platform's turn.
+    /// Creates the model of positions rotated by `turns`, or returns `None` if they do not even determine a rotation of
+    /// the platform.
     pub(crate) fn new(turns: &[Turn]) -> Option<Self> {
         let full = design(turns, &DMatrix::identity(3, 3));
         let undetermined = condition(&full, CONDITION_LIMIT)?.undetermined;
-        // What lies in both is left to the platform: in the certified positions the two act alike.
+        // Rotations that both can make are assigned to the platform: in the certified positions both act alike.
         let mut base_axes = DMatrix::identity(3, 3);
         if !undetermined.is_empty() {
             let lost = DMatrix::from_fn(3, undetermined.len(), |row, column| undetermined[column][3 + row]);
@@ -126,12 +129,12 @@ fn design(turns: &[Turn], base_axes: &DMatrix<f64>) -> DMatrix<f64> {
     design
 }
 
-/// The turn of the case, along its axes and in the angles' unit, that small changes of (α, β, γ) make.
+/// Returns the rotation of the case, along its axes and in the unit of the angles, for small changes of (α, β, γ).
 pub(crate) fn case_turn(turn: &Turn, change: &Vector3<f64>) -> Vector3<f64> {
     turn.axes[0] * change.x + turn.axes[1] * change.y + turn.axes[2] * change.z
 }
 
-/// Means (α, β, γ in arcseconds) as the model takes them.
+/// Returns the rotation of every position at its means (α, β, γ, arcsec).
 pub(crate) fn turns_at(positions: &[Position], means_arcsec: &[Vector3<f64>]) -> Vec<Turn> {
     let each = positions.iter().zip(means_arcsec);
     each.map(|(position, mean)| {
@@ -144,7 +147,11 @@ pub(crate) fn turns_at(positions: &[Position], means_arcsec: &[Vector3<f64>]) ->
     .collect()
 }
 
-/// The components of readings `differences[run]`, each the turns of all positions from their means, arcsec.
+/// Estimates the variance components of `differences[run]`, the rotations of all positions from their means, arcsec.
+///
+/// # Errors
+/// Returns [`NotCertified::TooFewPositions`] if the positions do not separate the components, and
+/// [`NotCertified::NoScatter`] if the residuals are zero.
 pub(crate) fn estimate(turns: &[Turn], runs: &[u32], differences: &[DVector<f64>]) -> Result<Components, NotCertified> {
     let model = RunModel::new(turns).ok_or(NotCertified::TooFewPositions)?;
     let (rows, columns) = model.design.shape();
@@ -191,14 +198,14 @@ pub(crate) fn estimate(turns: &[Turn], runs: &[u32], differences: &[DVector<f64>
 }
 
 impl Components {
-    /// Returns the sum of squares of the residuals of an axis over their mean square.
+    /// Returns the degrees of freedom that the residuals of an axis keep: their sum of squares over their mean square.
     pub(crate) fn kept(&self, axis: usize) -> f64 {
         let rows = (axis..self.keeps.nrows()).step_by(3);
         rows.map(|row| self.keeps[(row, row)]).sum::<f64>() * (self.residuals.len() as f64 - 1.0)
     }
 
-    /// Returns the scatter of the returns to each position over that of all, and its degrees of freedom: of the positions
-    /// `worse` each by itself, of all others together.
+    /// Returns the variance of the visits to each position relative to that of all positions: for each of the positions
+    /// `worse` by itself, for all others pooled. `None` if the residuals do not determine it.
     pub(crate) fn scatter_of_positions(&self, worse: &[usize]) -> Option<Vec<Variance>> {
         let rows = self.keeps.nrows();
         let changes = self.residuals.len() as f64 - 1.0;
@@ -210,7 +217,7 @@ impl Components {
     }
 }
 
-/// The mean squares of the residuals of every row over the runs.
+/// Returns the mean squares of the residuals of every row over the runs.
 fn mean_squares(residuals: &[DVector<f64>]) -> DVector<f64> {
     let changes = residuals.len() as f64 - 1.0;
     let rows = residuals.first().map_or(0, DVector::len);
@@ -222,7 +229,7 @@ fn run_turn(run: u32, effect: &DVector<f64>, model: &RunModel) -> RunTurn {
     RunTurn { run, platform_arcsec: [effect[0], effect[1], effect[2]], base_arcsec: [base[0], base[1], base[2]] }
 }
 
-/// A group of rows: degrees of freedom are what one run more gives.
+/// Group of rows; its degrees of freedom are those that one more run adds.
 struct Group {
     own: Variance,
     mean_square: Variance,
@@ -237,23 +244,23 @@ impl Variance {
             value += part.value;
             squares += part.value * part.value / part.degrees_of_freedom;
         }
-        // No part that varies, or none whose variance is not known exactly.
+        // No part varies, or every varying part is known exactly.
         let degrees_of_freedom = if squares > 0.0 { value * value / squares } else { f64::INFINITY };
         Self { value, degrees_of_freedom }
     }
 
-    /// With the degrees of freedom of so many runs more than one.
+    /// Returns the variance with the degrees of freedom for `changes`, the number of runs less one.
     fn over(self, changes: f64) -> Self {
         Self { degrees_of_freedom: self.degrees_of_freedom * changes, ..self }
     }
 }
 
-/// Variances of groups of rows, as shares of `scale`.
+/// Returns the variances of groups of rows relative to `scale`, or `None` if a group has no degrees of freedom.
 ///
-/// A residual mixes the scatter of all rows, Σ M², so the groups' mean squares are a linear system in the variances.
-/// Where its solution is no variance (very few degrees of freedom), the group's own mean square stands in. The degrees of
-/// freedom of a mean square of correlated residuals are (tr M)²/tr M² (Satterthwaite); those of the solution are no fewer
-/// than tr M.
+/// A residual mixes the scatter of all rows, Σ M², so the mean squares of the groups are a linear system in the
+/// variances. Where its solution is not positive (with very few degrees of freedom), the mean square of the group is
+/// used instead. The degrees of freedom of a mean square of correlated residuals are (tr M)²/tr M² (Satterthwaite);
+/// those of the solution are no fewer than tr M.
 fn grouped(
     squares: &DVector<f64>,
     keeps: &DMatrix<f64>,
@@ -290,7 +297,8 @@ fn grouped(
     Some((0..groups).map(of_group).collect())
 }
 
-/// One variance for several, weighted by their degrees of freedom; its own by Satterthwaite's formula.
+/// Returns the mean of variances, weighted by their degrees of freedom, with degrees of freedom by Satterthwaite's
+/// formula.
 fn pooled(variances: &[Variance]) -> Variance {
     let total: f64 = variances.iter().map(|v| v.degrees_of_freedom).sum();
     let sum: f64 = variances.iter().map(|v| v.degrees_of_freedom * v.value).sum();
@@ -298,13 +306,13 @@ fn pooled(variances: &[Variance]) -> Variance {
     Variance { value: sum / total, degrees_of_freedom: sum * sum / squares }
 }
 
-/// The common part of `effects`, each (variance seen from run to run, variance that scatter alone gives it).
+/// Returns the common part of `effects`, pairs of the variance observed from run to run and the share of scatter in it.
 fn common(effects: Vec<(f64, f64)>, changes: f64, scatter: &Variance) -> Common {
     let count = effects.len() as f64;
     let seen = effects.iter().map(|effect| effect.0).sum::<f64>() / count;
     let of_scatter = effects.iter().map(|effect| effect.1).sum::<f64>() / count;
     let freedom = count * changes;
-    // Satterthwaite, of a difference of mean squares: GUM (JCGM 100), G.4, with a coefficient of −1.
+    // Satterthwaite for a difference of mean squares: GUM (JCGM 100), G.4, with a coefficient of −1.
     let rest = seen - of_scatter;
     let spread = seen * seen / freedom + of_scatter * of_scatter / scatter.degrees_of_freedom;
     let low_chi_square = chi_square_point(0.95, freedom as usize);

@@ -1,30 +1,30 @@
-//! The fit of all runs without some of the readings, found without fitting again.
+//! Fit of all runs without some of the readings, found without repeating the fit.
 //!
-//! A reading with a parameter of its own (a mean-shift outlier) no longer bears on anything else. With P the matrix that makes
-//! residuals of readings, e the residuals and D the readings taken out, their shifts are P_DD⁻¹ e_D: how far each is from what
-//! all other readings say (Cook and Weisberg, Residuals and Influence in Regression, 1982, section 2.2). Means of positions
-//! over R runs and the turns that each run shares make P = (1 − 1/R) of the same run, −1/R of another, times
-//! [`Components::keeps`].
+//! A reading with its own parameter (a mean-shift outlier) no longer affects the rest of the fit. Let P be the matrix
+//! that gives the residuals from the readings, e the residuals, and D the deleted readings. Their shifts are P_DD⁻¹
+//! e_D: the distance of each from the prediction of all other readings (Cook and Weisberg, Residuals and Influence in
+//! Regression, 1982, section 2.2). The means of positions over R runs and the rotations common to each run give P = (1
+//! − 1/R) within one run, −1/R between two runs, times [`Components::keeps`].
 
 use super::components::{Components, Variance};
 use nalgebra::{DMatrix, DVector};
 
-/// One angle that was read: its run (by place) and its row, 3 position + axis.
+/// Single angle of a reading: the place of its run and its row, 3 position + axis.
 pub(crate) type Angle = (usize, usize);
 
-/// Below this share of its own variance in its residual, a reading is determined by itself alone.
+/// Share of its own variance in its residual below which a reading is determined by itself alone.
 const LEAST_KEPT: f64 = 1e-6;
 
-/// The fit without the angles in [`Deletion::angles`].
+/// Fit without the angles in [`Deletion::angles`].
 #[derive(Debug, Clone)]
 pub(crate) struct Deletion {
-    /// What was taken out.
+    /// Deleted angles.
     pub(crate) angles: Vec<Angle>,
-    /// How far each is from what all other readings say, arcsec.
+    /// Difference of each deleted angle from the prediction of all other readings, arcsec.
     pub(crate) shifts_arcsec: DVector<f64>,
-    /// Mean squares of the residuals that are left, by axis, arcsec².
+    /// Mean squares of the remaining residuals, by axis, arcsec².
     pub(crate) squares_arcsec2: [Variance; 3],
-    /// Covariance of the shifts for readings of variance 1.
+    /// Covariance of the shifts for readings with variance 1.
     spread: DMatrix<f64>,
 }
 
@@ -58,14 +58,15 @@ impl Deletion {
             let sum =
                 all.value * kept - 2.0 * shifts_arcsec.dot(&along) + shifts_arcsec.dot(&(&shared * &shifts_arcsec));
             let left = kept - (&spread * shared).trace();
-            // Correlated residuals have fewer degrees of freedom than they keep, by the same share as before.
+            // Correlated residuals have fewer degrees of freedom than `kept`; assume the same ratio as before the
+            // deletion.
             Variance { value: sum.max(0.0) / left, degrees_of_freedom: all.degrees_of_freedom * left / kept }
         });
         Some(Self { angles, shifts_arcsec, squares_arcsec2, spread })
     }
 
-    /// Returns the fit without one more angle: the one without which the readings are most likely, each axis with a scatter of
-    /// its own.
+    /// Returns the fit without one more angle: the one whose deletion makes the remaining readings most likely, with a
+    /// separate variance for each axis. `None` if no further angle can be deleted.
     pub(crate) fn next(&self, components: &Components) -> Option<Self> {
         let rows = components.keeps.nrows();
         let others = (0..components.residuals.len()).flat_map(|run| (0..rows).map(move |row| (run, row)));
@@ -74,7 +75,7 @@ impl Deletion {
             angles.push(angle);
             Self::of(components, angles)
         });
-        // −2 ln of the likelihood, but for a constant; degrees of freedom make sums of squares of mean squares.
+        // −2 ln of the likelihood up to a constant; mean square times degrees of freedom is the sum of squares.
         let unlikelihood = |deletion: &Self| -> f64 {
             let axes = components.axis_squares_arcsec2.iter().zip(&deletion.squares_arcsec2);
             axes.map(|(all, left)| {
@@ -87,7 +88,7 @@ impl Deletion {
         scored.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, deletion)| deletion)
     }
 
-    /// Returns the shift of the n-th angle over its standard deviation, and the degrees of freedom of that (Student's t).
+    /// Returns Student's t of the n-th angle (its shift over its standard deviation), and the degrees of freedom of t.
     pub(crate) fn student(&self, n: usize) -> (f64, f64) {
         let scatter = &self.squares_arcsec2[self.angles[n].1 % 3];
         (self.shifts_arcsec[n] / (scatter.value * self.spread[(n, n)]).sqrt(), scatter.degrees_of_freedom)

@@ -1,14 +1,15 @@
-//! The certified stand file as text: canonical, with comments on how its numbers came about.
+//! Certified stand file as text: canonical, with comments on the origin of its numbers.
 
 use super::Certification;
 use crate::stand::{ActsOn, Stand};
 use crate::text::{Unreadable, canonical};
 
 impl Certification {
-    /// The stand file (`dtg-stand/1`), read back and compared before it is given.
+    /// Returns the stand file (`dtg-stand/1`), which is read back and compared first; `name` is its name in messages.
     ///
     /// # Errors
-    /// What its reader refuses: means beyond what can be certified.
+    /// Returns [`Unreadable`] if its reader refuses the file, for instance because a mean is outside the certifiable
+    /// range.
     pub fn to_yaml(&self, name: &str) -> Result<String, Unreadable> {
         let text = canonical::write(&self.stand, &|path| self.comments(path));
         let read = Stand::from_yaml(name, text.as_bytes())?;

@@ -1,4 +1,4 @@
-//! The header of a certification: a stand file whose positions have no angles yet.
+//! Header of a certification: a stand file whose positions have no angles yet.
 
 use crate::coefficients::PositionIndex;
 use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity, STAND_FORMAT, Stand};
@@ -19,12 +19,12 @@ record! {
 }
 
 impl NominalPosition {
-    /// Which position it is.
+    /// Returns the index (i, j) of the position.
     pub(crate) fn index(&self) -> PositionIndex {
         PositionIndex { i: self.i, j: self.j }
     }
 
-    /// The position with the deviations `angles_arcsec` (α, β, γ) and no uncertainty.
+    /// Returns the position with the deviations `angles_arcsec` (α, β, γ) and no uncertainty.
     pub(crate) fn with_angles(&self, angles_arcsec: [f64; 3]) -> CertifiedPosition {
         let [alpha_arcsec, beta_arcsec, gamma_arcsec] = angles_arcsec;
         CertifiedPosition {
@@ -69,7 +69,8 @@ impl Header {
     /// Reads a header; `name` is its name in messages.
     ///
     /// # Errors
-    /// Every mistake with its line, column and field: those of a stand file, and numbers that certification finds itself.
+    /// Returns [`Unreadable`] with every error at its line, column and field: those of a stand file, and numbers that
+    /// the certification computes itself.
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         let mut header = yaml::read_document(name, bytes, STAND_FORMAT, |header: &Self, problems| {
             let positions: Vec<_> = header.positions.iter().map(|at| at.with_angles([0.0; 3])).collect();
@@ -82,8 +83,9 @@ impl Header {
 }
 
 impl From<&Stand> for Header {
-    /// Returns the header that measures the positions of a certified stand again. What the earlier measurement found and when it
-    /// was made is left out; number and day of issue, which every header has, are still those of the earlier certificate.
+    /// Returns the header for a new measurement of the positions of a certified stand. It omits the results and the
+    /// dates of the earlier measurement, but keeps the number and the date of issue of the certificate, which every
+    /// header needs.
     fn from(stand: &Stand) -> Self {
         let certificate = Certificate {
             performed: None,
@@ -108,7 +110,7 @@ impl From<&Stand> for Header {
     }
 }
 
-/// What the readings will say must not stand in the header: it would be lost, or be taken for measured.
+/// Refuses results of a measurement in the header: they would be overwritten, or mistaken for measured values.
 fn check_not_measured(certificate: &Certificate, problems: &mut Problems) {
     let at = Path::Root.key("certificate");
     let measured = [

@@ -1,13 +1,13 @@
-//! From repeated readings of the angles to a certified stand, and whether it is still the same stand later.
+//! Certification of a stand from repeated readings of its angles, and the check whether it has changed since.
 //!
 //! * `header`: the stand file before the measurement.
-//! * `readings`: the angles read, every position in every run.
-//! * `components`: what scatters, and what all positions of a run share.
-//! * `suspects`: a position that is worse (Cochran), a reading that is out (Grubbs), runs that agree too well.
-//! * `comparison`: a later check run against the certificate.
-//! * `document`: the stand file as text, with how its numbers came about.
+//! * `readings`: the angles read, with every position in every run.
+//! * `components`: variance components (the positions' own scatter, and the part common to a run).
+//! * `suspects`: positions that scatter more (Cochran), outliers (Grubbs), and runs that agree too well.
+//! * `comparison`: comparison of a later check run with the certificate.
+//! * `document`: the stand file as text, with comments on the origin of its numbers.
 //!
-//! The model and what each number means: docs/certification.md.
+//! The model and the meaning of each number are described in docs/certification.md.
 
 pub(crate) mod comparison;
 pub(crate) mod components;
@@ -29,62 +29,62 @@ use crate::stand::{self, ActsOn, Certificate, CertifiedPosition, Evidence, Stand
 use components::{case_turn, turns_at};
 use nalgebra::{DVector, Matrix3, Vector3};
 
-/// From this many runs on nothing is said about their number.
+/// Number of runs from which on the program no longer warns that there are few.
 pub(crate) const ENOUGH_RUNS: usize = 4;
 
-/// Why there is no certificate.
+/// Reason why a stand was not certified.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotCertified {
-    /// One run shows no scatter.
+    /// Only one run, which does not show repeatability.
     #[error(
         "found one run, expected at least two (better five); move the platform away and back between runs, so that \
          repeatability can be estimated"
     )]
     OneRun,
-    /// Readings of other positions than the header has.
+    /// Number of positions in the readings that differs from the header's.
     #[error("found readings of {readings} positions, expected the {header} positions of the stand file")]
     OtherPositions {
-        /// Positions that were read.
+        /// Number of positions read.
         readings: usize,
-        /// Positions of the header.
+        /// Number of positions in the header.
         header: usize,
     },
-    /// What is common to a run cannot be told from a position's own scatter.
+    /// Too few positions to distinguish the common part of a run from the scatter of single positions.
     #[error(
         "too few positions to distinguish the common part of a run from the repeatability of single positions; \
          measure at least three, two of which differ in theta or phi"
     )]
     TooFewPositions,
-    /// An angle that is the same in all runs.
+    /// Angle that is the same in all runs.
     #[error(
         "{0} is the same in every run of every position; measure it in every run, record more digits than it varies \
          by, and do not copy runs"
     )]
     Constant(&'static str),
-    /// Nothing scatters once the runs' common turns are taken out.
+    /// Readings that do not scatter once the common rotation of each run is removed.
     #[error("the readings do not vary; check whether the runs are shifted copies of each other")]
     NoScatter,
 }
 
-/// A certificate's number that already stands for other angles.
+/// Certificate number that is already used for other angles.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "certificate {number} already states other angles for this stand, first for position {index}; give the new \
      certificate its own number and dates in the header (--stand)"
 )]
 pub(crate) struct NumberInUse {
-    /// The number.
+    /// Number of the certificate.
     pub number: String,
-    /// The first position with other angles.
+    /// First position with other angles.
     pub index: PositionIndex,
 }
 
 impl Certification {
-    /// Checks that the new certificate does not put other angles under the number of one that is `there`.
+    /// Checks that the new certificate does not use the number of the existing one, `there`, for other angles.
     ///
     /// # Errors
-    /// [`NumberInUse`] if it does.
+    /// Returns [`NumberInUse`] if it does.
     pub(crate) fn check_number(&self, there: &Stand) -> Result<(), NumberInUse> {
         let number = &self.stand.certificate.number;
         let digest =
@@ -105,27 +105,27 @@ impl Certification {
     }
 }
 
-/// A certified stand and where its numbers come from.
+/// Certified stand, with the evidence for its numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Certification {
-    /// What the stand file says.
+    /// Content of the stand file.
     pub stand: Stand,
-    /// The runs' numbers.
+    /// Numbers of the runs.
     pub runs: Vec<u32>,
-    /// How many rows read a return again; they were averaged.
+    /// Number of rows that repeat the reading of a visit; they were averaged.
     pub repeated_rows: usize,
-    /// The variance components.
+    /// Variance components.
     pub(crate) components: Components,
-    /// Positions that are worse, readings that are out.
+    /// Positions that scatter more than the others, outliers, and runs that agree too well.
     pub(crate) suspects: Suspects,
-    /// What who signs the certificate should know, a sentence each.
+    /// Warnings for the signatory of the certificate, a sentence each.
     pub warnings: Vec<String>,
 }
 
-/// Certifies the stand of `header` from `readings`, whose positions are in the header's order.
+/// Certifies the stand of `header` from `readings`, whose positions are in the order of the header.
 ///
 /// # Errors
-/// See [`NotCertified`].
+/// Returns [`NotCertified`] if the readings do not fit the header or do not show the scatter.
 pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certification, NotCertified> {
     let (found, due) = (readings.each_arcsec().len(), header.positions.len());
     if found != due {
@@ -178,20 +178,21 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     Ok(Certification { stand, runs, repeated_rows, components, suspects, warnings })
 }
 
-/// An angle that never changes from run to run.
+/// Returns the name of an angle that is the same in all runs of every position, or `None` if all angles vary.
 fn constant(readings: &AngleReadings) -> Option<&'static str> {
     let same =
         |axis: usize| readings.each_arcsec().iter().all(|runs| runs.iter().all(|run| run[axis] == runs[0][axis]));
     ["alpha", "beta", "gamma"].into_iter().enumerate().find(|(axis, _)| same(*axis)).map(|(_, angle)| angle)
 }
 
-/// How every position turns, at the mean of its readings.
+/// Returns the rotation of every position at the mean of its readings.
 pub(crate) fn turns_of(header: &Header, readings: &AngleReadings) -> Vec<Turn> {
     let positions: Vec<_> = header.positions.iter().map(|at| at.with_angles([0.0; 3]).to_model()).collect();
     turns_at(&positions, &readings.means_arcsec())
 }
 
-/// The turns of every position from their means, a vector a run, arcsec along the axes of the case.
+/// Returns the rotations of all positions from their means, one vector per run, `[3 position + axis]`, arcsec along the
+/// axes of the case.
 fn differences(turns: &[Turn], readings: &AngleReadings) -> Vec<DVector<f64>> {
     let means = readings.means_arcsec();
     let of_run = |run: usize| {
@@ -205,8 +206,9 @@ fn differences(turns: &[Turn], readings: &AngleReadings) -> Vec<DVector<f64>> {
     (0..readings.runs().len()).map(of_run).collect()
 }
 
-/// Returns the variance of a certified mean about one axis of the case: of one return over the `number` of runs, times the
-/// `scatter` of the position over that of all, and what `certificate` states that repeating cannot show.
+/// Returns the variance of a certified mean about one axis of the case, arcsec²: the variance `axis` of one visit,
+/// scaled by the `scatter` of the position relative to that of all and divided by the `number` of runs, plus the type B
+/// variances that `certificate` states for a position.
 fn of_mean(axis: Variance, scatter: Option<Variance>, number: f64, certificate: &Certificate) -> Variance {
     let of_position = scatter.unwrap_or(Variance { value: 1.0, ..axis });
     let repeated = Variance { value: axis.value * of_position.value / number, ..of_position };
@@ -217,9 +219,10 @@ fn of_mean(axis: Variance, scatter: Option<Variance>, number: f64, certificate: 
     Variance::sum(std::iter::once(repeated).chain(type_b))
 }
 
-/// A position with the means `mean` (α, β, γ) whose turns have the variances `own`, per axis of the case.
+/// Returns the certified position with the means `mean` (α, β, γ, arcsec) and their uncertainties, where `own` is the
+/// variance of its rotation about each axis of the case, arcsec².
 fn certified(nominal: &NominalPosition, mean: &Vector3<f64>, turn: &Turn, own: &[Variance; 3]) -> CertifiedPosition {
-    // The angles are what the axes of α, β, γ must turn by; between ±45° these are never in one plane.
+    // The angles solve axes · angles = rotation; the three axes are never coplanar while the angles are within ±45°.
     let to_angles = Matrix3::from_columns(&turn.axes).try_inverse().unwrap_or_else(Matrix3::identity);
     let u = |angle: usize| {
         let variance =
@@ -235,8 +238,9 @@ fn certified(nominal: &NominalPosition, mean: &Vector3<f64>, turn: &Turn, own: &
     position
 }
 
-/// Decimals with which an uncertainty shows four significant digits; so many are written, for what is computed from
-/// the file shall not feel its rounding (GUM, 7.2.6).
+/// Returns the number of decimals with which `u` shows four significant digits.
+///
+/// This keeps rounding negligible in later computations from the file (GUM, 7.2.6).
 fn decimals(u: f64) -> i32 {
     let exponent = if u > 0.0 { libm::floor(libm::log10(u)) as i32 } else { 0 };
     (3 - exponent).clamp(0, 9)
@@ -252,7 +256,7 @@ fn rounded(u: f64) -> f64 {
     to_digits_of(u, u)
 }
 
-/// Degrees of freedom as they are written: a tenth matters to nobody.
+/// Returns degrees of freedom rounded to a tenth, at least 0.1; finer digits have no effect on a coverage factor.
 fn freedom(value: f64) -> f64 {
     (value * 10.0).round().max(1.0) / 10.0
 }

@@ -1,4 +1,4 @@
-//! The angles read in every position and run: CSV `i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec`.
+//! Angles read in every position and run: CSV `i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec`.
 
 mod whole_runs;
 
@@ -13,10 +13,10 @@ use crate::units::ARCSECONDS_PER_DEGREE;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The columns of the file.
+/// Columns of the file.
 pub(crate) const COLUMNS: [&str; 6] = ["i", "j", "run", "alpha_arcsec", "beta_arcsec", "gamma_arcsec"];
 
-/// Farther than this from the other runs a reading is a slip, not scatter: a stand that repeats to 10′ alone is none.
+/// Largest difference from the other runs that can be scatter; a stand that repeats only to 10′ cannot be certified.
 pub(crate) const LARGEST_SCATTER_ARCSEC: f64 = 600.0;
 
 /// Readings of every position in every run.
@@ -24,29 +24,30 @@ pub(crate) const LARGEST_SCATTER_ARCSEC: f64 = 600.0;
 pub struct AngleReadings {
     runs: Vec<u32>,
     each_arcsec: Vec<Vec<Vector3<f64>>>,
-    /// `[position][run]`, of the first row of each; empty when the readings come from no file.
+    /// Line of the first row of each reading, `[position][run]`; empty if the readings do not come from a file.
     lines: Vec<Vec<usize>>,
     repeated_rows: usize,
     sha256: Option<String>,
     remark: Option<String>,
 }
 
-/// Readings that do not hold every position in every run.
+/// Error for readings that do not contain every position in every run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("every position must have a reading in every run")]
 pub struct NotBalanced;
 
-/// Where a reading stands: its position and its run.
+/// Position and run of a reading.
 type Place = (PositionIndex, u32);
 
-/// A row of the file: where it stands, and the angles in arcsec.
+/// Row of the file with its position, its run and its angles, arcsec.
 type Reading<'t> = (Place, Vector3<f64>, &'t Row);
 
 impl AngleReadings {
-    /// `each_arcsec[position][run]` holds (α, β, γ) of a position in a run; `runs` are the runs' numbers.
+    /// Creates readings from `each_arcsec[position][run]`, (α, β, γ) in arcseconds, and the numbers of the `runs`.
     ///
     /// # Errors
-    /// [`NotBalanced`] when a position has another number of readings than there are runs, or there is none.
+    /// Returns [`NotBalanced`] if there are no runs or no positions, or if a position does not have one reading per
+    /// run.
     pub fn new(runs: Vec<u32>, each_arcsec: Vec<Vec<Vector3<f64>>>) -> Result<Self, NotBalanced> {
         let balanced = !runs.is_empty() && !each_arcsec.is_empty();
         if balanced && each_arcsec.iter().all(|position| position.len() == runs.len()) {
@@ -56,12 +57,12 @@ impl AngleReadings {
         }
     }
 
-    /// Reads the CSV file `name` for `positions`; rows of the same position and run are one return read several times,
-    /// and are averaged.
+    /// Reads the CSV file `name` for `positions`. Rows with the same position and run are repeated readings of one
+    /// visit, and are averaged.
     ///
     /// # Errors
-    /// [`Unreadable`] with every mistake at its line and column: form, numbers, positions unknown or missing from a run,
-    /// angles beyond 45°, angles that are no scatter (another unit, another position).
+    /// Returns [`Unreadable`] with every error at its line and column: form, numbers, positions unknown or missing from
+    /// a run, angles beyond 45°, angles too far off to be scatter (another unit, another position).
     pub fn from_csv(name: &str, bytes: &[u8], positions: &[NominalPosition]) -> Result<Self, Unreadable> {
         let table = Table::read(name, bytes, &COLUMNS, &[])?;
         let mut problems = Vec::new();
@@ -113,45 +114,45 @@ impl AngleReadings {
         }
     }
 
-    /// Returns what is to be said of the file: which of its columns were left out of account.
+    /// Returns a remark about ignored columns of the file, or `None` if there are none.
     pub(crate) fn remark(&self) -> Option<&str> {
         self.remark.as_deref()
     }
 
-    /// The runs' numbers, ascending.
+    /// Returns the numbers of the runs, ascending.
     pub(crate) fn runs(&self) -> &[u32] {
         &self.runs
     }
 
-    /// (α, β, γ) in arcseconds: `[position][run]`, positions in the order they were asked for.
+    /// Returns (α, β, γ) in arcseconds, `[position][run]`, with the positions in the order requested.
     pub(crate) fn each_arcsec(&self) -> &[Vec<Vector3<f64>>] {
         &self.each_arcsec
     }
 
-    /// Returns the line of the file on which a position (by its place in the order asked for) is read in a run (by its place
-    /// among the runs), or `None` if the readings come from no file.
+    /// Returns the line of the file with the reading of a position (by its place in the order requested) in a run (by
+    /// its place among the runs), or `None` if the readings do not come from a file.
     pub(crate) fn line(&self, position: usize, run: usize) -> Option<usize> {
         self.lines.get(position)?.get(run).copied()
     }
 
-    /// How many rows read a return again that had been read already.
+    /// Returns the number of rows that repeat the reading of a visit.
     pub(crate) fn repeated_rows(&self) -> usize {
         self.repeated_rows
     }
 
-    /// Returns the SHA-256 of the file in lower-case hexadecimal, or `None` if the readings come from no file.
+    /// Returns the SHA-256 of the file in lower-case hexadecimal, or `None` if the readings do not come from a file.
     pub(crate) fn sha256(&self) -> Option<&str> {
         self.sha256.as_deref()
     }
 
-    /// Means over the runs, arcseconds.
+    /// Returns the means (α, β, γ) of each position over the runs, arcsec.
     pub(crate) fn means_arcsec(&self) -> Vec<Vector3<f64>> {
         let runs = self.runs.len() as f64;
         self.each_arcsec.iter().map(|position| position.iter().sum::<Vector3<f64>>() / runs).collect()
     }
 }
 
-/// The means of rows that read one return again, arcsec, and the line of the first.
+/// Returns the mean of the rows of each visit, arcsec, and the line of the first.
 fn averages(rows: &[Reading]) -> BTreeMap<Place, (Vector3<f64>, usize)> {
     let mut sums: BTreeMap<Place, (Vector3<f64>, f64, usize)> = BTreeMap::new();
     for (place, angles, row) in rows {
@@ -193,7 +194,7 @@ fn angle(table: &Table, row: &Row, column: usize, problems: &mut Vec<Problem>) -
     None
 }
 
-/// Positions without any reading, and positions missing from a run.
+/// Returns a problem for each position without any reading, and for each position missing from a run.
 fn incomplete(positions: &[NominalPosition], rows: &[Reading]) -> Vec<Problem> {
     let runs: BTreeSet<u32> = rows.iter().map(|((_, run), ..)| *run).collect();
     let there: BTreeSet<Place> = rows.iter().map(|(place, ..)| *place).collect();
@@ -221,7 +222,7 @@ fn incomplete(positions: &[NominalPosition], rows: &[Reading]) -> Vec<Problem> {
     problems
 }
 
-/// Readings that are no scatter: too far from the other runs, or of another unit.
+/// Returns a problem for each angle that cannot be scatter: too far from the other runs, or in another unit.
 fn slips(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
     let mut problems = Vec::new();
     for ((index, run), angles, row) in rows {
@@ -240,10 +241,10 @@ fn slips(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
     problems
 }
 
-/// By place and axis.
+/// Angles of the other runs, by place (position and run) and axis.
 type OtherRuns = BTreeMap<(Place, usize), Others>;
 
-/// The angle that the other runs have at a position, arcsec.
+/// Range and middle of the angles that the other runs have at a position, arcsec.
 struct Others {
     least: f64,
     middle: [f64; 2],
@@ -251,16 +252,16 @@ struct Others {
 }
 
 impl Others {
-    /// Returns what of their middle is nearest to `value`. Of two other runs that differ each may be right, so neither is held
-    /// against it.
+    /// Returns the value between the two middle angles that is nearest to `value`. Of two other runs that differ,
+    /// either may be right, so `value` may agree with either.
     fn nearest_middle(&self, value: f64) -> f64 {
         value.clamp(self.middle[0], self.middle[1])
     }
 }
 
-/// For every place and axis the angles that other runs have at its position.
+/// Returns, for every place and axis, the angles that the other runs have at that position.
 ///
-/// Sorted once for each position and axis: sorting for each row anew would take minutes for a file of 10,000 runs.
+/// They are sorted once for each position and axis: sorting for each row would take minutes for a file of 10,000 runs.
 fn other_runs(rows: &[Reading]) -> OtherRuns {
     let mut of_position: BTreeMap<(PositionIndex, usize), Vec<(f64, u32)>> = BTreeMap::new();
     for ((index, run), angles, _) in rows {
@@ -280,7 +281,7 @@ fn other_runs(rows: &[Reading]) -> OtherRuns {
             if count == 0 {
                 continue;
             }
-            // The n-th of the others: the run's own up to there are passed over.
+            // The n-th value of the other runs: skip the run's own values that come before it.
             let nth = |n: usize| values[own.iter().fold(n, |at, place| at + usize::from(*place <= at))].0;
             let middle = [nth((count - 1) / 2), nth(count / 2)];
             others.insert(((index, run), axis), Others { least: nth(0), middle, most: nth(count - 1) });
@@ -289,10 +290,11 @@ fn other_runs(rows: &[Reading]) -> OtherRuns {
     others
 }
 
-/// What is wrong with `value` where the other runs have about `usual` within `spread`, all arcseconds.
+/// Returns the advice for an erroneous `value`, where the other runs have about `usual` within `spread`, all arcsec;
+/// `None` if it can be scatter.
 fn slip(value: f64, usual: f64, spread: f64) -> Option<&'static str> {
     let factor_of_degree = |ratio: f64| (ARCSECONDS_PER_DEGREE / 2.0..=ARCSECONDS_PER_DEGREE * 2.0).contains(&ratio);
-    // A reading near zero by chance is no slip: the usual one must stand clear of zero.
+    // A reading may be near zero by chance, so the factor counts only if the usual value is clearly not zero.
     let clear = |angle: f64| angle.abs() > f64::max(1.0, 3.0 * spread);
     if clear(usual) && factor_of_degree((usual / value).abs()) {
         Some("convert it from degrees to arcseconds; it is too small by a factor of 3,600")

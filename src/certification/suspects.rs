@@ -1,4 +1,4 @@
-//! A position that scatters more than the others, a reading that is out, runs that agree too well: named, never dropped.
+//! Positions that scatter more than the others, outliers, and runs that agree too well: reported, never excluded.
 
 use super::components::{Components, Variance};
 use super::deletion::Deletion;
@@ -6,66 +6,68 @@ use super::{AngleReadings, Header};
 use crate::coefficients::PositionIndex;
 use crate::statistics::outlier::{Bartlett, bartlett, bonferroni_student, cochran_probability};
 
-/// What is less probable than this is named (a straggler, by [ISO 5725-2](crate::bibliography::Bibliography::Iso5725)).
+/// Probability below which a value is reported (a straggler in [ISO
+/// 5725-2](crate::bibliography::Bibliography::Iso5725)).
 pub(crate) const STRAGGLER: f64 = 0.05;
 
-/// What is less probable than this is called an outlier.
+/// Probability below which a value is called an outlier.
 pub(crate) const OUTLIER: f64 = 0.01;
 
-/// The names of the axes of the case, in whose turns scatter is measured.
+/// Names of the axes of the case about which scatter is computed.
 pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// The largest number of readings that are looked for; of more it cannot be said which are wrong.
+/// Largest number of outliers that are searched for; with more, the readings do not show which are wrong.
 pub(crate) const MOST_OUTLIERS: usize = 4;
 
-/// Two runs agree too well when the square of their difference is less than this share of that of pairs usually.
+/// Share of the usual squared difference of two runs below which a pair agrees too well.
 const TOO_WELL: f64 = 1e-3;
 
-/// Of more runs no pairs are compared: there are too many, and one copy among them matters little.
+/// Number of runs above which pairs are not compared: there are too many pairs, and one copy has little effect.
 const MOST_PAIRED: usize = 100;
 
-/// A position that is worse than the others.
+/// Position that scatters more than the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct WorsePosition {
     /// Index (i, j) of the position.
     pub index: PositionIndex,
-    /// Its place in the header.
+    /// Place of the position in the header.
     pub(crate) place: usize,
-    /// Its standard deviation over that of all positions.
+    /// Standard deviation of the position over that of all positions.
     pub ratio: f64,
-    /// Probability that any of so many positions scatters so much more than the others by chance.
+    /// Probability that any of the positions scatters this much more than the others by chance.
     pub probability: f64,
 }
 
-/// A reading that is out.
+/// Outlier among the readings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Outlier {
     /// Index (i, j) of the position.
     pub index: PositionIndex,
     /// Number of the run.
     pub run: u32,
-    /// Line of the file of readings, when they come from one.
+    /// Line in the file of readings; `None` if they do not come from a file.
     pub line: Option<usize>,
     /// Axis of the case: 0, 1, 2 for x, y, z (α, β, γ of a small deviation).
     pub axis: usize,
-    /// Deviation from what the other runs say, readings that are out aside, arcsec.
+    /// Difference from the other runs, other outliers excluded, arcsec.
     pub residual_arcsec: f64,
-    /// Probability that any reading of the series is so far out by chance.
+    /// Probability that any reading of the series differs this much by chance.
     pub probability: f64,
 }
 
-/// What the tests say.
+/// Results of the tests for outliers.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Suspects {
-    /// Whether all positions scatter alike; `None` when the test cannot be made, as while a reading is suspect.
+    /// Test whether all positions scatter alike; `None` if it cannot be made, for instance because a reading is
+    /// suspect.
     pub positions: Option<Bartlett>,
-    /// Whether x, y and z scatter alike; `None` likewise.
+    /// Test whether x, y and z scatter alike; `None` for the same reasons.
     pub axes: Option<Bartlett>,
     /// Positions that scatter more than the others, the worst first.
     pub worse: Vec<WorsePosition>,
-    /// Readings that are out, the least probable first.
+    /// Outliers, the least probable first.
     pub outliers: Vec<Outlier>,
-    /// Pairs of runs that agree far better than others do, by their numbers.
+    /// Numbers of the runs of each pair that agrees far better than the others.
     pub twins: Vec<(u32, u32)>,
 }
 
@@ -73,7 +75,7 @@ impl Suspects {
     pub(crate) fn of(header: &Header, readings: &AngleReadings, components: &Components) -> Self {
         let outliers = outliers(header, readings, components);
         let twins = twins(readings.runs(), components);
-        // A reading that is out makes its position, its axis and its run look worse, and through what a run shares others too.
+        // An outlier increases the scatter of its position and its axis and, through the common part, of its whole run.
         if !outliers.is_empty() {
             let worse =
                 in_several_runs(&outliers).map_or_else(Vec::new, |index| worse(header, components, Some(index)));
@@ -88,7 +90,7 @@ impl Suspects {
         }
     }
 
-    /// A sentence for everything that is suspect.
+    /// Returns a sentence for each suspect position, reading or run.
     pub(crate) fn warnings(&self, runs: &[u32]) -> Vec<String> {
         let mut said = Vec::new();
         for worse in &self.worse {
@@ -149,14 +151,14 @@ fn groups(variances: &[Variance]) -> Vec<(f64, f64)> {
     variances.iter().map(|v| (v.value, v.degrees_of_freedom)).collect()
 }
 
-/// The position whose readings are out in two runs or more: then it is the position that does not repeat.
+/// Returns the position with outliers in two runs or more, which shows that the position itself does not repeat.
 fn in_several_runs(outliers: &[Outlier]) -> Option<PositionIndex> {
     let several = |out: &&Outlier| outliers.iter().any(|other| other.index == out.index && other.run != out.run);
     outliers.iter().find(several).map(|out| out.index)
 }
 
-/// Positions whose variance is too large by Cochran's test, each against those that are left; of the position `only` alone
-/// when there is one.
+/// Returns the positions whose variance is too large by Cochran's test, each tested against the remaining ones; only
+/// the position `only` if it is given.
 fn worse(header: &Header, components: &Components, only: Option<PositionIndex>) -> Vec<WorsePosition> {
     let mut left: Vec<(usize, (f64, f64))> = groups(&components.position_squares).into_iter().enumerate().collect();
     let mut found = Vec::new();
@@ -165,7 +167,7 @@ fn worse(header: &Header, components: &Components, only: Option<PositionIndex>) 
         let probability = cochran_probability(&variances, at);
         let (place, (variance, _)) = left.remove(at);
         let index = header.positions[place].index();
-        // NaN: one position is left.
+        // NaN: only one position remains.
         if probability.is_nan() || probability >= STRAGGLER || only.is_some_and(|only| only != index) {
             break;
         }
@@ -174,13 +176,15 @@ fn worse(header: &Header, components: &Components, only: Option<PositionIndex>) 
     found
 }
 
-/// Readings that no chance explains, each axis by its own scatter.
+/// Returns the outliers among the readings, with a separate variance for each axis.
 ///
-/// The most suspect is taken out, and the next, and so on; those count that were taken out up to the last that is improbable
-/// ([Rosner](crate::bibliography::Bibliography::Rosner83)'s procedure, for two that are out hide one another).
+/// The most suspect reading is deleted, then the next, and so on. All readings deleted up to the last improbable one
+/// are outliers ([Rosner](crate::bibliography::Bibliography::Rosner83)'s procedure, because two outliers can hide each
+/// other).
 fn outliers(header: &Header, readings: &AngleReadings, components: &Components) -> Vec<Outlier> {
     let runs = readings.runs();
-    // Two runs are as far from one another as each from the other.
+    // With two runs, the difference of the first from the second is that of the second from the first, so it counts
+    // once.
     let values = components.keeps.nrows() * if runs.len() == 2 { 1 } else { runs.len() };
     let probability = |deletion: &Deletion, n: usize| {
         let (t, degrees_of_freedom) = deletion.student(n);
@@ -224,7 +228,7 @@ fn outliers(header: &Header, readings: &AngleReadings, components: &Components) 
     found
 }
 
-/// The readings among those taken out that are still improbable beside the others, taken out alone.
+/// Returns the deletion of only those readings that are still improbable once the others are back in the fit.
 fn improbable(
     components: &Components,
     suspect: Deletion,
@@ -238,8 +242,8 @@ fn improbable(
     improbable(components, Deletion::of(components, angles)?, probability)
 }
 
-/// Pairs of runs that agree far better than others do, by the median of their squared differences: a reading that is out does
-/// not touch it.
+/// Returns the pairs of runs that agree far better than the others, by the median of their squared differences, which
+/// an outlier does not affect.
 fn twins(runs: &[u32], components: &Components) -> Vec<(u32, u32)> {
     let mut pairs = Vec::new();
     if runs.len() > MOST_PAIRED {

@@ -1,21 +1,21 @@
-//! Student's t and Fisher's F, through the regularised incomplete beta function.
+//! Student's t and Fisher's F, computed through the regularised incomplete beta function.
 //!
-//! Degrees of freedom are any positive numbers, as Welch and Satterthwaite's formula gives them; infinite ones are the
+//! Degrees of freedom are any positive numbers, as Welch and Satterthwaite's formula gives them. Infinite ones give the
 //! normal and the chi-square distribution.
 
 use super::distributions::{chi_square_larger, falling_root, normal_below};
 use super::saddle_point::binomial_term;
 
-/// Returns the regularised incomplete beta function I_x(a, b) at x = 1 − y, given both so that neither loses digits;
+/// Returns the regularised incomplete beta function I_x(a, b), given both x and y = 1 − x so that neither loses digits;
 /// a and b positive, 0 ≤ x ≤ 1.
 ///
-/// By the continued fraction of [Didonato and Morris](crate::bibliography::Bibliography::DidonatoMorris92), (9), on
-/// the side of the mean where it converges fast: the other side is never a small probability.
+/// The continued fraction of [Didonato and Morris](crate::bibliography::Bibliography::DidonatoMorris92), (9), is used
+/// on the side of the mean where it converges fast. The other side is 1 minus that, and never a small probability.
 fn incomplete_beta(x: f64, y: f64, a: f64, b: f64) -> f64 {
     if (b + 1.0) * x > (a + 1.0) * y { 1.0 - lower_beta(y, x, b, a) } else { lower_beta(x, y, a, b) }
 }
 
-/// I_x(a, b) for x below (a + 1)/(a + b + 2).
+/// Returns I_x(a, b) for x below (a + 1)/(a + b + 2).
 fn lower_beta(x: f64, y: f64, a: f64, b: f64) -> f64 {
     if x <= 0.0 {
         return 0.0;
@@ -25,8 +25,10 @@ fn lower_beta(x: f64, y: f64, a: f64, b: f64) -> f64 {
     power / fraction(x, y, a, b)
 }
 
-/// β₀ + α₁/(β₁ + α₂/(β₂ + …)), by Lentz's method. It is the even part of DLMF 8.17.22: with a → ∞ its terms become those
-/// of the incomplete gamma function, so their number does not grow with a.
+/// Returns β₀ + α₁/(β₁ + α₂/(β₂ + …)) by Lentz's method.
+///
+/// This is the even part of DLMF 8.17.22. With a → ∞ its terms become those of the incomplete gamma function, so their
+/// number does not grow with a.
 fn fraction(x: f64, y: f64, a: f64, b: f64) -> f64 {
     const TINY: f64 = 1e-300;
     const MOST_TERMS: u32 = 100_000;
@@ -69,7 +71,7 @@ pub(crate) fn f_beyond(value: f64, numerator: f64, denominator: f64) -> f64 {
     if value.is_nan() || !(numerator > 0.0 && denominator > 0.0) {
         return f64::NAN;
     }
-    // x = ν/(ν + n F) and 1 − x, each without a difference.
+    // x = ν/(ν + n F) and 1 − x, each computed without a difference.
     let ratio = numerator * value / denominator;
     if ratio <= 0.0 {
         return 1.0;
@@ -78,9 +80,10 @@ pub(crate) fn f_beyond(value: f64, numerator: f64, denominator: f64) -> f64 {
     incomplete_beta(x, y, denominator / 2.0, numerator / 2.0)
 }
 
-/// The t ≥ 0 that |t| of Student's distribution exceeds with `probability`: the coverage factor for 1 − `probability`.
+/// Returns the t ≥ 0 that |t| of Student's distribution exceeds with `probability`: the coverage factor for
+/// 1 − `probability`.
 ///
-/// NaN for a probability that is not between 0 and 1 or degrees of freedom that are not positive.
+/// The result is NaN for a probability that is not between 0 and 1 or degrees of freedom that are not positive.
 pub(crate) fn student_factor(probability: f64, degrees_of_freedom: f64) -> f64 {
     if !(probability > 0.0 && probability < 1.0 && degrees_of_freedom > 0.0) {
         return f64::NAN;
@@ -100,7 +103,8 @@ pub(crate) fn f_larger(value: f64, numerator: usize, denominator: f64) -> f64 {
     f_beyond(value, n, denominator)
 }
 
-/// The value that chi-square with `degrees_of_freedom` exceeds with `probability`; NaN unless that is between 0 and 1.
+/// Returns the value that chi-square with `degrees_of_freedom` exceeds with `probability`, or NaN if `probability` is
+/// not between 0 and 1.
 pub(crate) fn chi_square_point(probability: f64, degrees_of_freedom: usize) -> f64 {
     if !(probability > 0.0 && probability < 1.0) {
         return f64::NAN;

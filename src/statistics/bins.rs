@@ -1,20 +1,21 @@
-//! A sample in bins, of a fixed size whatever the size of the sample: its quantiles and its shortest coverage interval.
+//! Histogram of a sample with a fixed number of bins: its quantiles and its shortest coverage interval.
 //!
-//! Values come in units of about a standard deviation from about their middle; [`BINS`] bins cover ±[`REACH`]. A quantile
-//! is interpolated in its bin: it is off by less than a bin, 0.0049 standard deviations, and by w² |f′|/(8 f) where the
-//! density f is smooth over a bin of width w: for a normal distribution 6e-6 standard deviations at 2.5 % and 97.5 %.
+//! Values are in units of about one standard deviation, relative to about their middle; [`BINS`] bins cover ±[`REACH`].
+//! A quantile is interpolated in its bin. Its error is less than one bin, 0.0049 standard deviations, and w² |f′|/(8 f)
+//! where the density f is smooth over a bin of width w: for a normal distribution 6e-6 standard deviations at 2.5 % and
+//! 97.5 %.
 
-/// Bins of a sample; a power of two.
+/// Number of bins; a power of two.
 pub(crate) const BINS: usize = 4096;
 
-/// How far they reach either way.
+/// Upper end of the last bin, in units of the values; the lower end of the first bin is its negative.
 pub(crate) const REACH: f64 = 10.0;
 
-/// The bin of a value; the first or the last one beyond their reach.
+/// Returns the bin of a value: the first or the last bin for values beyond ±[`REACH`].
 #[inline(always)]
 pub(crate) fn bin(value: f64) -> usize {
     const PER_UNIT: f64 = BINS as f64 / (2.0 * REACH);
-    // 2^52: the mantissa's lowest bits are then the whole number nearest to what was added.
+    // Adding 2^52 rounds a value to a whole number, which is then in the lowest bits of the mantissa.
     const WHOLE: f64 = 4_503_599_627_370_496.0;
     let place = (value + REACH) * PER_UNIT - 0.5;
     let place = if place > 0.0 { place } else { 0.0 };
@@ -22,17 +23,17 @@ pub(crate) fn bin(value: f64) -> usize {
     (place + WHOLE).to_bits() as usize & (BINS - 1)
 }
 
-/// Counts of a sample, bin by bin.
+/// Counts of a sample per bin.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bins<'a, T>(&'a [T]);
 
-/// The value at a place counted in bins from the lower end.
+/// Returns the value at a place counted in bins from the lower end.
 fn value_at(bins: f64) -> f64 {
     bins * (2.0 * REACH / BINS as f64) - REACH
 }
 
 impl<'a, T: Copy + Into<u64>> Bins<'a, T> {
-    /// Of [`BINS`] counts, the lowest bin first.
+    /// Wraps [`BINS`] counts, the lowest bin first.
     pub(crate) fn new(counts: &'a [T]) -> Self {
         Self(counts)
     }
@@ -41,7 +42,7 @@ impl<'a, T: Copy + Into<u64>> Bins<'a, T> {
         self.0.iter().map(|count| (*count).into()).sum()
     }
 
-    /// The value that `share` of the sample does not exceed, 0 of nothing.
+    /// Returns the value that `share` of the sample does not exceed, or 0 for an empty sample.
     pub(crate) fn quantile(&self, share: f64) -> f64 {
         let due = share * self.total() as f64;
         let mut below = 0.0;
@@ -55,13 +56,13 @@ impl<'a, T: Copy + Into<u64>> Bins<'a, T> {
         0.0
     }
 
-    /// The shortest interval that holds `share` of the sample ([JCGM 101](crate::bibliography::Bibliography::Jcgm101),
-    /// 5.3.4 and 7.7.3).
+    /// Returns the shortest interval that contains `share` of the sample
+    /// ([JCGM 101](crate::bibliography::Bibliography::Jcgm101), 5.3.4 and 7.7.3).
     pub(crate) fn shortest(&self, share: f64) -> [f64; 2] {
         let total = self.total() as f64;
         let (mut best, mut width) = ([self.quantile(0.0), self.quantile(1.0)], f64::INFINITY);
         let mut below = 0.0;
-        // The upper end moves up with the lower one.
+        // The upper end never moves down while the lower end moves up, so one pass is enough.
         let (mut upper, mut below_upper) = (0, 0.0);
         for (bin, count) in self.0.iter().enumerate() {
             let due = below + share * total;

@@ -3,13 +3,13 @@
 use super::saddle_point::poisson_term;
 use std::f64::consts::SQRT_2;
 
-/// The probability that chi-square with `degrees_of_freedom` is larger than `value`.
+/// Returns the probability that chi-square with `degrees_of_freedom` is larger than `value`.
 ///
-/// 1 without degrees of freedom or at a value of 0 and below, 0 at infinity, NaN where `value` is NaN.
+/// The result is 1 without degrees of freedom or for a value of 0 or less, 0 for infinity, and NaN if `value` is NaN.
 ///
 /// Above the mean, Q(k/2, x/2) for whole k is a finite sum of positive terms: Q(a + 1, t) = Q(a, t) + tᵃ e⁻ᵗ/Γ(a + 1),
-/// from Q(1, t) = e⁻ᵗ or Q(1/2, t) = erfc √t. So no digits are lost however far out in the tail. Below the mean, where
-/// the probability is never small, it is 1 less the series DLMF 8.11.4.
+/// from Q(1, t) = e⁻ᵗ or Q(1/2, t) = erfc √t. No digits are lost, however far out in the tail. Below the mean, where
+/// the probability is never small, it is 1 minus the series DLMF 8.11.4.
 pub(crate) fn chi_square_larger(value: f64, degrees_of_freedom: usize) -> f64 {
     if value.is_nan() || value == f64::INFINITY {
         return if value.is_nan() { f64::NAN } else { 0.0 };
@@ -21,7 +21,7 @@ pub(crate) fn chi_square_larger(value: f64, degrees_of_freedom: usize) -> f64 {
     if t < a { 1.0 - gamma_below(a, t) } else { gamma_above(a, t) }
 }
 
-/// P(a, t) for t < a: the terms fall.
+/// Returns P(a, t) for t < a, where the terms of the series decrease.
 fn gamma_below(a: f64, t: f64) -> f64 {
     let (mut term, mut sum, mut next) = (poisson_term(a, t), 0.0, a);
     while term > f64::EPSILON * sum {
@@ -32,7 +32,7 @@ fn gamma_below(a: f64, t: f64) -> f64 {
     sum
 }
 
-/// Q(a, t) for t ≥ a and a whole 2 a, from the largest term down.
+/// Returns Q(a, t) for t ≥ a and a whole 2 a, from the largest term down.
 fn gamma_above(a: f64, t: f64) -> f64 {
     let (mut next, mut sum) = (a - 1.0, 0.0);
     let mut term = if next >= 0.0 { poisson_term(next, t) } else { 0.0 };
@@ -47,12 +47,13 @@ fn gamma_above(a: f64, t: f64) -> f64 {
     if a.fract() == 0.0 { sum } else { sum + libm::erfc(t.sqrt()) }
 }
 
-/// The probability that a standard normal variable is below `x`.
+/// Returns the probability that a standard normal variable is below `x`.
 pub(crate) fn normal_below(x: f64) -> f64 {
     0.5 * libm::erfc(-x / SQRT_2)
 }
 
-/// The `x` below which a standard normal variable is with the given probability; infinite at 0 and 1, NaN outside.
+/// Returns the `x` below which a standard normal variable is with the given probability: infinite at 0 and 1, NaN
+/// outside.
 #[cfg(test)]
 pub(crate) fn normal_quantile(probability: f64) -> f64 {
     if probability > 0.5 {

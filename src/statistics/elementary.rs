@@ -1,16 +1,16 @@
-//! Sine, cosine and logarithm without branches, so that many trials run side by side. Only sums, products, quotients and
-//! bits: the same result on every platform. Everywhere else the crate uses `libm`.
+//! Sine, cosine and logarithm without branches, so that the compiler can vectorise many trials. They use only sums,
+//! products, quotients and bits, so the result is the same on every platform. The rest of the crate uses `libm`.
 
 use std::f64::consts::LN_2;
 
-/// Beyond this angle [`small_sin`] and [`small_cos_less_one`] are not used: about 4,100 arcseconds.
+/// Largest angle for [`small_sin`] and [`small_cos_less_one`], radians: about 4,100 arcseconds.
 pub(crate) const SMALL_RAD: f64 = 0.02;
 
-/// sin x for |x| ≤ [`SMALL_RAD`], in radians, within 0.51 units of the last place.
+/// Returns sin x for |x| ≤ [`SMALL_RAD`], in radians, within 0.51 units of the last place.
 ///
-/// The series after x⁷ leaves at most x⁹/362880, 7.1e-20 of the result. Its first term is exact; the rest is below
-/// x²/6 = 6.7e-5 of it and has a relative error below 8 · 2⁻⁵³, so it adds less than 0.001 units to the half unit of the
-/// last sum.
+/// The error of the series after x⁷ is at most x⁹/362880, 7.1e-20 of the result. Its first term is exact. The rest is
+/// below x²/6 = 6.7e-5 of it and has a relative error below 8 · 2⁻⁵³, so it adds less than 0.001 units to the half unit
+/// of the last sum.
 #[inline(always)]
 pub(crate) fn small_sin(x: f64) -> f64 {
     let square = x * x;
@@ -18,18 +18,19 @@ pub(crate) fn small_sin(x: f64) -> f64 {
     x + x * rest
 }
 
-/// cos x − 1 for |x| ≤ [`SMALL_RAD`], in radians, within 2 units of the last place: 1 plus it is cos x within 0.51.
+/// Returns cos x − 1 for |x| ≤ [`SMALL_RAD`], in radians, within 2 units of the last place; 1 plus the result is cos x
+/// within 0.51.
 ///
-/// The series after x⁸ leaves at most x¹⁰/3628800, 5.7e-21 of x²/2.
+/// The error of the series after x⁸ is at most x¹⁰/3628800, 5.7e-21 of x²/2.
 #[inline(always)]
 pub(crate) fn small_cos_less_one(x: f64) -> f64 {
     let square = x * x;
     square * (-0.5 + square * (1.0 / 24.0 + square * (-1.0 / 720.0 + square * (1.0 / 40320.0))))
 }
 
-/// (sin x, cos x) for 0 ≤ x ≤ π/4, in radians, within 2 units of the last place.
+/// Returns (sin x, cos x) for 0 ≤ x ≤ π/4, in radians, within 2 units of the last place.
 ///
-/// The series after x¹⁵ and x¹⁶ leave at most 6.5e-17 and 2.9e-18 of the result.
+/// The errors of the series after x¹⁵ and x¹⁶ are at most 6.5e-17 and 2.9e-18 of the result.
 #[inline(always)]
 pub(crate) fn octant_sin_cos(x: f64) -> (f64, f64) {
     let s = x * x;
@@ -48,16 +49,16 @@ pub(crate) fn octant_sin_cos(x: f64) -> (f64, f64) {
     (x + x * (s * sin), 1.0 + s * cos)
 }
 
-/// ln x for normal, positive, finite x, within 4 units of the last place or 3e-16, whichever is larger.
+/// Returns ln x for normal, positive, finite x, within 4 units of the last place or 3e-16, whichever is larger.
 ///
-/// x = 2ᵏ z with √½ ≤ z < √2, and ln z = 2 artanh((z − 1)/(z + 1)), whose argument is below 0.1716: the series after the
-/// 19th power leaves at most 2.3e-17 of the result.
+/// x = 2ᵏ z with √½ ≤ z < √2, and ln z = 2 artanh((z − 1)/(z + 1)), whose argument is below 0.1716. The error of the
+/// series after the 19th power is at most 2.3e-17 of the result.
 #[inline(always)]
 pub(crate) fn ln(x: f64) -> f64 {
     const ROOT_HALF: u64 = 0x3fe6_a09e_0000_0000;
     const TO_ONE: u64 = 0x3ff0_0000_0000_0000 - ROOT_HALF;
     const MANTISSA: u64 = 0x000f_ffff_ffff_ffff;
-    // 2^52 as bits: a small whole number in its mantissa is that number above 2^52.
+    // The bits of 2^52: with a small whole number k in the mantissa they are 2^52 + k.
     const WHOLE: u64 = 0x4330_0000_0000_0000;
     const WHOLE_AND_BIAS: f64 = 4_503_599_627_370_496.0 + 1023.0;
     let shifted = x.to_bits().wrapping_add(TO_ONE);
@@ -73,7 +74,7 @@ pub(crate) fn ln(x: f64) -> f64 {
     k * LN_2 + 2.0 * (q + q * (s * series))
 }
 
-/// (sin, cos) of π/4 · `share`, `share` in [0, 1), in the octant whose number is the lowest three bits of `octant`.
+/// Returns (sin, cos) of π/4 · `share`, `share` in [0, 1), in the octant given by the lowest three bits of `octant`.
 #[inline(always)]
 #[cfg(feature = "monte-carlo")]
 pub(crate) fn on_circle(share: f64, octant: u64) -> (f64, f64) {

@@ -1,11 +1,11 @@
-//! A linear model y = X p + e whose errors e have unit covariance (whitened), through X = Q R.
+//! Linear model y = X p + e whose errors e have unit covariance (whitened), solved through X = Q R.
 //!
-//! The normal equations, which square the condition, are never formed. Q'y holds all: its first rows determine p,
-//! the others are what no p can explain. Rank and condition come from the singular values of X.
+//! The normal equations, which square the condition, are never formed. The first rows of Q'y determine p; the others
+//! are the part of y that no p can explain. Rank and condition come from the singular values of X.
 
 use nalgebra::{DMatrix, DVector, Dyn, QR, SVD};
 
-/// X = Q R, factorised.
+/// Factorisation X = Q R.
 #[derive(Debug, Clone)]
 pub(crate) struct Factorised {
     qr: QR<f64, Dyn, Dyn>,
@@ -14,7 +14,7 @@ pub(crate) struct Factorised {
     columns: usize,
 }
 
-/// X has fewer independent columns than columns, or fewer rows.
+/// Error for an X with dependent columns, or with fewer rows than columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the model is singular: it does not determine all of its parameters")]
 pub(crate) struct Singular;
@@ -23,7 +23,7 @@ impl Factorised {
     /// Factorises X, rows × columns, with at least as many rows as columns.
     ///
     /// # Errors
-    /// [`Singular`] when R has no inverse in binary64. Nearly singular is another question: see [`condition`].
+    /// Returns [`Singular`] if R has no inverse in binary64. Near-singularity is a separate test: see [`condition`].
     pub(crate) fn new(design: DMatrix<f64>) -> Result<Self, Singular> {
         let (rows, columns) = design.shape();
         if rows < columns || columns == 0 || design.iter().any(|x| !x.is_finite()) {
@@ -38,23 +38,23 @@ impl Factorised {
         Ok(Self { qr, r_inverse, rows, columns })
     }
 
-    /// Rows of X.
+    /// Returns the number of rows of X.
     pub(crate) fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Columns of X.
+    /// Returns the number of columns of X.
     pub(crate) fn columns(&self) -> usize {
         self.columns
     }
 
-    /// Q'M in place of M (rows × any): the first `columns()` rows determine parameters, the others are residual.
+    /// Replaces M (rows × any) by Q'M: its first `columns()` rows determine the parameters, the others are residuals.
     pub(crate) fn rotate(&self, matrix: &mut DMatrix<f64>) {
         self.qr.q_tr_mul(matrix);
     }
 
-    /// The parameters for a right side already rotated, and the length of Q₁'y: how far the parameters are from
-    /// zero in units of their own covariance.
+    /// Returns the parameters for a right-hand side that is already rotated, and the length of Q₁'y: the distance of
+    /// the parameters from zero in units of their own covariance.
     pub(crate) fn solve_rotated(&self, rotated: &DMatrix<f64>) -> (DVector<f64>, f64) {
         let mut solution = DVector::zeros(self.columns);
         let mut squared = 0.0;
@@ -65,35 +65,35 @@ impl Factorised {
         (solution, squared.sqrt())
     }
 
-    /// An upper bound of the condition number of X, from the Frobenius norms of R and R⁻¹.
+    /// Returns an upper bound of the condition number of X, from the Frobenius norms of R and R⁻¹.
     pub(crate) fn condition_bound(&self) -> f64 {
         self.qr.r().norm() * self.r_inverse.norm()
     }
 
-    /// R⁻¹, columns × columns: R⁻¹ times the first rows of a rotated right side are its parameters.
+    /// Returns R⁻¹, columns × columns: R⁻¹ times the first rows of a rotated right-hand side gives its parameters.
     pub(crate) fn r_inverse(&self) -> &DMatrix<f64> {
         &self.r_inverse
     }
 }
 
-/// The condition of a model and, where it is bad, which parameters it mixes.
+/// Condition of a model, with the parameters that it mixes if it is bad.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Condition {
-    /// Largest over smallest singular value; infinite at rank deficiency.
+    /// Largest over smallest singular value; infinite if X is rank-deficient.
     pub number: f64,
-    /// Singular vectors (each of as many elements as X has columns) whose singular value is below the largest by
-    /// more than the limit: directions that the model does not determine.
+    /// Singular vectors (each with as many elements as X has columns) whose singular value is below the largest by more
+    /// than the limit: directions that the model does not determine.
     pub undetermined: Vec<DVector<f64>>,
 }
 
-/// The condition of X, rows × columns; directions weaker than 1/`limit` of the strongest are undetermined.
+/// Returns the condition of X, rows × columns; directions weaker than 1/`limit` of the strongest are undetermined.
 ///
-/// `None` when the singular values cannot be found (values that are not finite).
+/// The result is `None` if the singular values cannot be computed (values that are not finite).
 pub(crate) fn condition(design: &DMatrix<f64>, limit: f64) -> Option<Condition> {
     if design.iter().any(|x| !x.is_finite()) {
         return None;
     }
-    // Rows of zeros do not change singular values, and make every direction of the parameters appear.
+    // Rows of zeros do not change the singular values, but make the SVD return every direction of the parameters.
     let (rows, columns) = design.shape();
     let square =
         if rows < columns { design.clone().resize_vertically(columns, 0.0) } else { QR::new(design.clone()).r() };

@@ -1,15 +1,15 @@
-//! Least squares, distributions, random streams: statistics without a gyro in it.
+//! General statistics, independent of gyros: least squares, distributions, random streams.
 //!
-//! * [`least_squares`]: a weighted linear model through QR, its rank and condition through the SVD.
-//! * [`distributions`]: chi-square and normal probabilities; [`beta`]: Student's t and Fisher's F; `saddle_point`: what
-//!   both need of large parameters.
-//! * `scaled_f`: of a chi-square whose covariance was partly estimated.
-//! * [`outlier`]: Bartlett's test for a group that scatters more, Grubbs' for a value that is out.
+//! * [`least_squares`]: weighted linear models through QR, with rank and condition through the SVD.
+//! * [`distributions`]: chi-square and normal probabilities; [`beta`]: Student's t and Fisher's F; `saddle_point`: terms
+//!   that both need for large parameters.
+//! * `scaled_f`: the distribution of a chi-square whose covariance was partly estimated.
+//! * [`outlier`]: Bartlett's test for unequal variances, Cochran's for the largest variance, Grubbs' for an outlier.
 //! * [`propagation`]: the law of propagation of uncertainty for any model with its gradient.
 //! * [`random`]: streams of random numbers that do not depend on the number of threads or on the platform.
-//! * [`wide_random`]: random numbers many at a time; [`elementary`]: what they need of sine, cosine and logarithm.
+//! * [`wide_random`]: many random numbers at a time; [`elementary`]: the sine, cosine and logarithm for them.
 //! * [`bins`]: quantiles and coverage intervals of a sample of any size.
-//! * [`summary`]: largest, mean, deviation, percentile, and what a share of a sample is worth.
+//! * [`summary`]: largest value, mean, standard deviation, percentiles, and the standard error of a share.
 
 pub(crate) mod beta;
 #[cfg(feature = "monte-carlo")]

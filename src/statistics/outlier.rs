@@ -1,27 +1,27 @@
-//! Tests for a group that scatters more (Bartlett) and for a value that is out (Grubbs).
+//! Tests for unequal variances (Bartlett), a largest variance (Cochran) and an outlier (Grubbs).
 
 use super::beta::{f_beyond, student_beyond};
 use super::distributions::chi_square_larger;
 use super::saddle_point::deviance;
 
-/// The result of Bartlett's test that several variances are equal.
+/// Result of Bartlett's test that several variances are equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bartlett {
-    /// The statistic, which has the chi-square distribution approximately.
+    /// Test statistic, which has approximately the chi-square distribution.
     pub statistic: f64,
-    /// Groups less one.
+    /// Degrees of freedom: the number of groups less one.
     pub degrees_of_freedom: usize,
-    /// The probability of a larger one when all variances are equal.
+    /// Probability of a larger statistic if all variances are equal.
     pub probability: f64,
 }
 
-/// Bartlett's test that the variances of several groups, given with their degrees of freedom, are equal.
+/// Tests by Bartlett's method that the variances of several groups, given with their degrees of freedom, are equal.
 ///
 /// Source: [Bartlett](crate::bibliography::Bibliography::Bartlett37); in the form of
 /// [the handbook](crate::bibliography::Bibliography::NistHandbook), section 1.3.5.7.
 ///
-/// `None` with fewer than two groups, or when a variance or its degrees of freedom is not a positive number: a group
-/// that does not scatter at all is no sample of a normal distribution.
+/// The result is `None` with fewer than two groups, or if a variance or its degrees of freedom is not a positive
+/// number: a group that does not scatter at all is not a sample of a normal distribution.
 pub(crate) fn bartlett(groups: &[(f64, f64)]) -> Option<Bartlett> {
     let positive = |value: f64| value > 0.0 && value.is_finite();
     if groups.len() < 2 || !groups.iter().all(|&(variance, nu)| positive(variance) && positive(nu)) {
@@ -38,11 +38,12 @@ pub(crate) fn bartlett(groups: &[(f64, f64)]) -> Option<Bartlett> {
     Some(Bartlett { statistic, degrees_of_freedom, probability: chi_square_larger(statistic, degrees_of_freedom) })
 }
 
-/// Returns the probability, by Bonferroni's bound, that the variance of any group exceeds the others' as much as that of the
-/// group `at` does: Cochran's test of the largest variance, for groups given as variance and degrees of freedom.
+/// Returns the probability, by Bonferroni's bound, that the variance of any group exceeds the others' as much as that
+/// of the group `at` does. This is Cochran's test of the largest variance, for groups given as variance and degrees of
+/// freedom.
 ///
-/// Source: [ISO 5725-2](crate::bibliography::Bibliography::Iso5725), 7.3.3, whose critical values are those of this bound. NaN
-/// for fewer than two groups or when the others do not vary.
+/// Source: [ISO 5725-2](crate::bibliography::Bibliography::Iso5725), 7.3.3, whose critical values are those of this
+/// bound. The result is NaN for fewer than two groups or if the others do not vary.
 pub(crate) fn cochran_probability(groups: &[(f64, f64)], at: usize) -> f64 {
     let Some(&(variance, own)) = groups.get(at) else { return f64::NAN };
     let others = groups.iter().enumerate().filter(|(place, _)| *place != at).map(|(_, group)| group);
@@ -51,15 +52,18 @@ pub(crate) fn cochran_probability(groups: &[(f64, f64)], at: usize) -> f64 {
     (groups.len() as f64 * beyond).clamp(0.0, 1.0)
 }
 
-/// Returns the probability, by Bonferroni's bound, that any of `values` residuals of a linear model is as far out as `t`: the
-/// deviation from what all other values say, over its standard deviation from their residuals alone, which have so many
-/// degrees of freedom.
+/// Returns the probability, by Bonferroni's bound, that any of `values` residuals of a linear model is as far out as
+/// `t`.
+///
+/// `t` is the deviation from the prediction of all other values, over its standard deviation from their residuals
+/// alone, which has `degrees_of_freedom`.
 ///
 /// For a single sample of n values and n − 2 degrees of freedom this is
-/// [Grubbs'](crate::bibliography::Bibliography::Grubbs69) two-sided test with G = (n − 1) t / √(n (n − 2 + t²)); for residuals of
-/// several means it is Stefansky's ([maximum normed residual](crate::bibliography::Bibliography::Stefansky72)). The bound is
-/// the exact probability where no two residuals can be so far out together, as at the usual critical values, and never too
-/// small elsewhere. NaN without degrees of freedom.
+/// [Grubbs'](crate::bibliography::Bibliography::Grubbs69) two-sided test with G = (n − 1) t / √(n (n − 2 + t²)). For
+/// residuals of several means it is Stefansky's ([maximum normed
+/// residual](crate::bibliography::Bibliography::Stefansky72)). The bound is the exact probability where no two
+/// residuals can be this far out together, as at the usual critical values, and never too small elsewhere. The result
+/// is NaN without degrees of freedom.
 pub(crate) fn bonferroni_student(t: f64, values: usize, degrees_of_freedom: f64) -> f64 {
     (values as f64 * student_beyond(t, degrees_of_freedom)).clamp(0.0, 1.0)
 }

@@ -1,13 +1,13 @@
-//! The law of propagation of uncertainty, first order, for any model that gives its gradient.
+//! First-order propagation of uncertainty for any model that gives its gradient.
 //!
 //! Source: [GUM](crate::bibliography::Bibliography::Gum), eq. (13) with several results (H.9), (17), (G.2b).
 
 use nalgebra::{DMatrix, DVector};
 
-/// A model at one point: its results and how they change with its inputs.
+/// Linearisation of a model at one point: its results and their derivatives by the inputs.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Linearised {
-    /// Results.
+    /// Results of the model.
     pub values: DVector<f64>,
     /// Derivatives, results × inputs.
     pub gradient: DMatrix<f64>,
@@ -16,61 +16,62 @@ pub(crate) struct Linearised {
 /// Results with their covariance.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Propagated {
-    /// Results.
+    /// Results of the model.
     pub values: DVector<f64>,
-    /// Their covariance.
+    /// Covariance of the results, results × results.
     pub covariance: DMatrix<f64>,
 }
 
 impl Propagated {
-    /// Standard uncertainty of a result.
+    /// Returns the standard uncertainty of a result.
     pub(crate) fn standard_uncertainty(&self, result: usize) -> f64 {
         let variance = self.covariance[(result, result)];
-        // Rounding may leave less than nothing of a variance of zero; NaN stays NaN.
+        // Rounding may make a variance of zero slightly negative; NaN stays NaN.
         if variance < 0.0 { 0.0 } else { variance.sqrt() }
     }
 
-    /// Correlation coefficient of two results; NaN when one of them is exact.
+    /// Returns the correlation coefficient of two results, or NaN if one of them is exact.
     pub(crate) fn correlation(&self, one: usize, other: usize) -> f64 {
         self.covariance[(one, other)] / (self.standard_uncertainty(one) * self.standard_uncertainty(other))
     }
 }
 
-/// A matrix that is the covariance of nothing. Quantities count from 0.
+/// Reason why a matrix cannot be a covariance. Quantities count from 0.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub(crate) enum NotACovariance {
-    /// Another number of rows or columns than there are quantities.
+    /// Number of rows or columns that differs from the number of quantities.
     #[error("{rows} rows and {columns} columns for {quantities} quantities")]
     Shape {
-        /// Rows of the matrix.
+        /// Number of rows of the matrix.
         rows: usize,
-        /// Its columns.
+        /// Number of columns of the matrix.
         columns: usize,
-        /// What it should have of both.
+        /// Number of quantities, which both should equal.
         quantities: usize,
     },
-    /// A variance that is negative or no number.
+    /// Variance that is negative or not finite.
     #[error("the variance of quantity {0} is {1}")]
     Variance(usize, f64),
-    /// Two elements that should be one.
+    /// Pair of mirrored elements that differ.
     #[error("the covariance of quantities {0} and {1} is not that of {1} and {0}")]
     NotSymmetric(usize, usize),
-    /// A correlation coefficient beyond ±1.
+    /// Correlation coefficient beyond ±1.
     #[error("the correlation of quantities {0} and {1} is {2}, beyond 1")]
     Correlation(usize, usize, f64),
-    /// Each pair may be correlated so, all together cannot.
+    /// Correlations that are possible for each pair, but not for all together.
     #[error(
         "such correlations cannot be: some sum of the quantities would have a negative variance (eigenvalue {0:.2e})"
     )]
     NotPositive(f64),
 }
 
-/// Whether a matrix can be the covariance of so many quantities: symmetric and positive semidefinite, within rounding.
+/// Checks that a matrix can be the covariance of `quantities` quantities: symmetric and positive semidefinite, within
+/// rounding.
 ///
 /// # Errors
-/// See [`NotACovariance`].
+/// Returns [`NotACovariance`] with the first violation.
 pub(crate) fn check_covariance(covariance: &DMatrix<f64>, quantities: usize) -> Result<(), NotACovariance> {
-    /// Of a correlation coefficient: what rounding may leave.
+    /// Rounding error that is allowed in a correlation coefficient.
     const ROUNDING: f64 = 1e-12;
     let (rows, columns) = covariance.shape();
     if (rows, columns) != (quantities, quantities) {
@@ -101,10 +102,11 @@ pub(crate) fn check_covariance(covariance: &DMatrix<f64>, quantities: usize) -> 
     if smallest < -ROUNDING * rows as f64 { Err(NotACovariance::NotPositive(smallest)) } else { Ok(()) }
 }
 
-/// Results of `model` at `estimates`, whose covariance is `covariance`: C_y = G C_x G'.
+/// Returns the results of `model` at `estimates`, with their covariance C_y = G C_x G' from the `covariance` C_x of the
+/// estimates.
 ///
 /// # Errors
-/// [`NotACovariance`] when nothing can have that covariance.
+/// Returns [`NotACovariance`] if `covariance` cannot be a covariance of the estimates.
 pub(crate) fn propagate(
     model: impl Fn(&DVector<f64>) -> Linearised,
     estimates: &DVector<f64>,
@@ -116,9 +118,9 @@ pub(crate) fn propagate(
     Ok(Propagated { values, covariance })
 }
 
-/// Means of simultaneous readings (rows: readings, columns: quantities) and the covariance of the means.
+/// Returns the means of simultaneous readings (rows: readings, columns: quantities) and the covariance of the means.
 ///
-/// Without at least two readings nothing is known of the covariance: its elements are NaN.
+/// With fewer than two readings the covariance is unknown and its elements are NaN.
 pub(crate) fn of_means(readings: &DMatrix<f64>) -> Propagated {
     let number = readings.nrows() as f64;
     let values = readings.row_sum().transpose() / number;
@@ -129,8 +131,8 @@ pub(crate) fn of_means(readings: &DMatrix<f64>) -> Propagated {
     Propagated { values, covariance }
 }
 
-/// Effective degrees of freedom of a sum of independent contributions, each (standard uncertainty, degrees of freedom),
-/// by Welch and Satterthwaite's formula; infinite when all of them are known exactly.
+/// Returns the effective degrees of freedom of a sum of independent contributions, each (standard uncertainty, degrees
+/// of freedom), by Welch and Satterthwaite's formula; infinite if all of them are known exactly.
 pub(crate) fn effective_degrees_of_freedom(contributions: &[(f64, f64)]) -> f64 {
     let variance: f64 = contributions.iter().map(|(u, _)| u * u).sum();
     let doubt: f64 = contributions.iter().map(|(u, nu)| u * u * u * u / nu).sum();

@@ -1,7 +1,7 @@
-//! Streams of random numbers: the same seed gives the same numbers on any number of threads and on any platform.
+//! Streams of random numbers: a seed gives the same numbers on any number of threads and on any platform.
 //!
-//! Work is cut into blocks of a fixed size. Block n has the generator (xoshiro256++, period 2^256) that n jumps of
-//! 2^128 numbers lead to from the seed, so streams never overlap, whoever works on them and in whatever order.
+//! Work is divided into blocks of a fixed size. The generator of block n (xoshiro256++, period 2^256) is n jumps of
+//! 2^128 numbers from the seed. Streams therefore never overlap, whichever thread computes them in whatever order.
 
 use crate::parallel;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -9,33 +9,33 @@ use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Random numbers of one block.
+/// Stream of random numbers for one block.
 #[derive(Debug, Clone)]
 pub struct Stream(Xoshiro256PlusPlus);
 
 impl Stream {
-    /// The first stream of a seed.
+    /// Returns the first stream of a seed.
     pub fn new(seed: u64) -> Self {
         Self(Xoshiro256PlusPlus::seed_from_u64(seed))
     }
 
-    /// Uniform in [0, 1): the upper 53 bits of the next number.
+    /// Returns a uniform number in [0, 1): the upper 53 bits of the next number.
     pub(crate) fn unit(&mut self) -> f64 {
         const PER_UNIT: f64 = (1_u64 << 53) as f64;
         (self.0.next_u64() >> 11) as f64 / PER_UNIT
     }
 
-    /// Uniform in [-limit, limit).
+    /// Returns a uniform number in [-limit, limit).
     pub fn within(&mut self, limit: f64) -> f64 {
         limit * (2.0 * self.unit() - 1.0)
     }
 
-    /// -1 or 1.
+    /// Returns -1 or 1 with equal probability.
     pub(crate) fn sign(&mut self) -> f64 {
         if self.unit() < 0.5 { -1.0 } else { 1.0 }
     }
 
-    /// A whole number below `end`; 0 when `end` is 0.
+    /// Returns a uniform whole number below `end`, or 0 if `end` is 0.
     #[cfg(any(test, fuzzing))]
     pub(crate) fn below(&mut self, end: usize) -> usize {
         ((self.unit() * end as f64) as usize).min(end.saturating_sub(1))

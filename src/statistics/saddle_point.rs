@@ -1,8 +1,8 @@
 //! Terms of the binomial and the Poisson distribution for parameters of any size.
 //!
-//! Source: [Loader](crate::bibliography::Bibliography::Loader00). Differences of logarithms of the gamma function lose all
-//! digits where the parameters are large; here only the small remainder of Stirling's formula and the deviance are
-//! taken.
+//! Source: [Loader](crate::bibliography::Bibliography::Loader00). Differences of logarithms of the gamma function lose
+//! all digits if the parameters are large. These functions use only the small remainder of Stirling's formula and the
+//! deviance.
 
 use std::f64::consts::PI;
 
@@ -27,13 +27,13 @@ pub(crate) fn poisson_term(a: f64, t: f64) -> f64 {
     libm::exp(-stirling_error(a) - deviance(a, t, a - t)) / (2.0 * PI * a).sqrt()
 }
 
-/// Returns x ln(x/m) + m − x, given `difference` = x − m as exactly as it is known.
+/// Returns x ln(x/m) + m − x, given `difference` = x − m as exactly as possible.
 pub(crate) fn deviance(x: f64, m: f64, difference: f64) -> f64 {
     let v = difference / (x + m);
     if v.abs() >= 0.1 {
         return x * libm::log(x / m) - difference;
     }
-    // ln(x/m) = 2 artanh v, whose first term leaves difference · v.
+    // ln(x/m) = 2 artanh v; after its first term, difference · v remains.
     let (mut sum, mut power) = (difference * v, 2.0 * x * v);
     for j in 1..100 {
         power *= v * v;
@@ -51,7 +51,7 @@ fn stirling_error(n: f64) -> f64 {
     if n < 16.0 {
         return libm::lgamma(n + 1.0) - (n + 0.5) * libm::log(n) + n - 0.5 * libm::log(2.0 * PI);
     }
-    // DLMF 5.11.1; what follows is below 2e-17.
+    // DLMF 5.11.1; the omitted terms are below 2e-17.
     let r = 1.0 / (n * n);
     let series = 1.0 / 12.0
         - r * (1.0 / 360.0 - r * (1.0 / 1260.0 - r * (1.0 / 1680.0 - r * (1.0 / 1188.0 - r * (691.0 / 360_360.0)))));

@@ -1,12 +1,12 @@
-//! The distribution of z′ Ĉ⁻¹ z where parts of the covariance Ĉ are themselves estimates.
+//! Distribution of z′ Ĉ⁻¹ z where parts of the covariance Ĉ are themselves estimates.
 //!
-//! Source: [Kenward and Roger](crate::bibliography::Bibliography::KenwardRoger97), section 4: the first two moments, to first
-//! order in the variances of the estimates, are those of a scaled F. With one estimate of all of Ĉ it is F itself; with
-//! none it is chi-square.
+//! Source: [Kenward and Roger](crate::bibliography::Bibliography::KenwardRoger97), section 4. The first two moments, to
+//! first order in the variances of the estimates, are those of a scaled F. With one estimate of all of Ĉ the
+//! distribution is F itself; without estimates it is chi-square.
 
 use super::beta::f_larger;
 
-/// A part of the covariance that one estimate with few degrees of freedom scales.
+/// Part of the covariance that is scaled by one estimate with few degrees of freedom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Part {
     /// Degrees of freedom of the estimate.
@@ -17,12 +17,12 @@ pub(crate) struct Part {
     pub(crate) square: f64,
 }
 
-/// `scale` · z′ Ĉ⁻¹ z / `numerator` has the F distribution with `numerator` and `denominator` degrees of freedom.
+/// Scaled F distribution: `scale` · z′ Ĉ⁻¹ z / `numerator` has F with `numerator` and `denominator` degrees of freedom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ScaledF {
     numerator: usize,
     scale: f64,
-    /// Degrees of freedom of the denominator; infinite where nothing was estimated.
+    /// Degrees of freedom of the denominator; infinite if nothing was estimated.
     pub(crate) denominator: f64,
 }
 
@@ -40,7 +40,7 @@ impl ScaledF {
         let b = (a1 + 6.0 * a2) / (2.0 * p);
         let g = ((p + 1.0) * a1 - (p + 4.0) * a2) / ((p + 2.0) * a2);
         let [c1, c2, c3] = [g, p - g, p - g + 2.0].map(|c| c / (3.0 * p + 2.0 * (1.0 - g)));
-        // 1/E, and ρ = V/(2 E²) as a fraction; both vanish where the estimate has 2 degrees of freedom.
+        // 1/E, and ρ = V/(2 E²) as a fraction; both vanish if the estimate has 2 degrees of freedom.
         let apart = |value: f64| if value.abs() < 1e-6 { 1e-6 } else { value };
         let inverse_mean = apart(1.0 - a2 / p);
         let below = apart(1.0 - c2 * b) * apart(1.0 - c2 * b) * (1.0 - c3 * b);
@@ -51,12 +51,12 @@ impl ScaledF {
         if scale > 0.0 && scale.is_finite() && denominator >= fewest {
             Self { numerator, scale, denominator }
         } else {
-            // Moments that no scaled F has: the estimates are too poor for more than the poorest of them says.
+            // No scaled F has these moments: use the degrees of freedom of the poorest estimate.
             Self { denominator: fewest, ..known }
         }
     }
 
-    /// Returns the probability of a quadratic form larger than `value`.
+    /// Returns the probability that the quadratic form is larger than `value`.
     pub(crate) fn larger(&self, value: f64) -> f64 {
         f_larger(self.scale * value / self.numerator as f64, self.numerator, self.denominator)
     }

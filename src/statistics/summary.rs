@@ -1,6 +1,6 @@
-//! What a sample says: largest, mean, deviation, percentile, share.
+//! Summaries of a sample: largest value, mean, standard deviation, percentiles, standard error of a share.
 
-/// Largest magnitude, mean and standard deviation of a sample, added up value by value.
+/// Largest magnitude, mean and standard deviation of a sample, accumulated value by value.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Summary {
     count: u64,
@@ -10,7 +10,7 @@ pub(crate) struct Summary {
 }
 
 impl Summary {
-    /// One value more.
+    /// Adds a value to the sample.
     pub(crate) fn add(&mut self, value: f64) {
         self.count += 1;
         self.sum += value;
@@ -18,7 +18,7 @@ impl Summary {
         self.worst = self.worst.max(value.abs());
     }
 
-    /// This sample with another one.
+    /// Returns the summary of this sample together with another one.
     #[must_use]
     pub(crate) fn with(self, other: &Self) -> Self {
         Self {
@@ -29,24 +29,24 @@ impl Summary {
         }
     }
 
-    /// How many values.
+    /// Returns the number of values.
     pub(crate) fn count(&self) -> u64 {
         self.count
     }
 
-    /// The largest magnitude; 0 of an empty sample.
+    /// Returns the largest magnitude, or 0 for an empty sample.
     pub(crate) fn worst(&self) -> f64 {
         self.worst
     }
 
-    /// The mean; 0 of an empty sample.
+    /// Returns the mean, or 0 for an empty sample.
     pub(crate) fn mean(&self) -> f64 {
         self.sum / self.count.max(1) as f64
     }
 
-    /// The standard deviation about the mean; 0 of fewer than two values.
+    /// Returns the standard deviation about the mean, or 0 for fewer than two values.
     ///
-    /// The values are errors about zero, far from any offset: the difference of sums loses nothing that matters.
+    /// The values are errors about zero without a large offset, so the difference of sums loses no significant digits.
     pub(crate) fn standard_deviation(&self) -> f64 {
         if self.count < 2 {
             return 0.0;
@@ -56,12 +56,12 @@ impl Summary {
     }
 }
 
-/// How often every whole number below a limit occurred.
+/// Counts of the whole numbers up to a limit.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Histogram(Vec<u64>);
 
 impl Histogram {
-    /// Nothing counted, numbers up to `largest`.
+    /// Creates an empty histogram for numbers up to `largest`.
     pub(crate) fn up_to(largest: usize) -> Self {
         Self(vec![0; largest + 1])
     }
@@ -74,25 +74,26 @@ impl Histogram {
         }
     }
 
-    /// Adds what another one of the same limit counted.
+    /// Adds the counts of another histogram with the same limit.
     pub(crate) fn merge(&mut self, other: &Self) {
         for (count, more) in self.0.iter_mut().zip(&other.0) {
             *count += more;
         }
     }
 
-    /// How many were counted.
+    /// Returns the number of values counted.
     pub(crate) fn count(&self) -> u64 {
         self.0.iter().sum()
     }
 
-    /// Their mean; `None` when nothing was counted.
+    /// Returns the mean of the values, or `None` if there are none.
     pub(crate) fn mean(&self) -> Option<f64> {
         let sum: u64 = self.0.iter().enumerate().map(|(value, count)| value as u64 * count).sum();
         (self.count() > 0).then(|| sum as f64 / self.count() as f64)
     }
 
-    /// The smallest number that at least `share` of the sample does not exceed; `None` when nothing was counted.
+    /// Returns the smallest number that at least `share` of the sample does not exceed, or `None` if the sample is
+    /// empty.
     pub(crate) fn percentile(&self, share: f64) -> Option<usize> {
         let due = (share * self.count() as f64).ceil() as u64;
         let mut below = 0;
@@ -102,13 +103,13 @@ impl Histogram {
         })
     }
 
-    /// The largest number counted.
+    /// Returns the largest number counted, or `None` if the sample is empty.
     pub(crate) fn most(&self) -> Option<usize> {
         self.0.iter().rposition(|count| *count > 0)
     }
 }
 
-/// The standard error of a share `part` / `whole` of independent trials (binomial); 0 of an empty sample.
+/// Returns the standard error of a share `part` / `whole` of independent trials (binomial), or 0 for an empty sample.
 pub(crate) fn binomial_standard_error(part: u64, whole: u64) -> f64 {
     if whole == 0 {
         return 0.0;

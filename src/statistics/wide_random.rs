@@ -1,21 +1,21 @@
-//! Random numbers many at a time: interleaved streams that the compiler turns into wide instructions.
+//! Many random numbers at a time, from interleaved streams that the compiler can vectorise.
 //!
-//! Eight generators xoshiro256++ run side by side. Generator k of block n is k long jumps (2^192 numbers each) and n
-//! jumps (2^128 each) from the seed, so no two ever overlap and block n has the same numbers whoever works on it. Nothing
-//! but whole numbers, sums, products, quotients and square roots is used: the same bytes on every platform.
+//! Eight xoshiro256++ generators run side by side. Generator k of block n is k long jumps (2^192 numbers each) and n
+//! jumps (2^128 each) from the seed. No two ever overlap, and block n has the same numbers whichever thread computes
+//! it. Only whole numbers, sums, products, quotients and square roots are used, so every platform gives the same bytes.
 //!
 //! Source: [Blackman and Vigna](crate::bibliography::Bibliography::Xoshiro), their generator, jump polynomials and
 //! SplitMix64 seeding; [Box and Muller](crate::bibliography::Bibliography::BoxMuller58).
 
 use super::elementary::{ln, on_circle};
 
-/// Generators side by side.
+/// Number of generators that run side by side.
 const GENERATORS: usize = 8;
 
-/// Trials side by side.
+/// Number of trials that run side by side.
 pub(crate) const WIDTH: usize = 32;
 
-/// A number of every one of the trials that run side by side.
+/// One number for each of the trials that run side by side.
 pub(crate) type Column = [f64; WIDTH];
 
 /// Random numbers of one block of trials.
@@ -24,11 +24,11 @@ pub(crate) struct WideRandom {
     state: [[u64; GENERATORS]; 4],
 }
 
-/// 1.0 as bits: 52 random bits in its mantissa are uniform in [1, 2).
+/// Bits of 1.0; with 52 random bits in the mantissa the number is uniform in [1, 2).
 const ONE: u64 = 0x3ff0_0000_0000_0000;
 
 impl WideRandom {
-    /// Block 0 of a seed.
+    /// Creates block 0 of a seed.
     pub(crate) fn new(seed: u64) -> Self {
         let mut counter = seed;
         let mut split_mix = || {
@@ -48,12 +48,12 @@ impl WideRandom {
         Self { state }
     }
 
-    /// The next block.
+    /// Advances to the next block.
     pub(crate) fn jump(&mut self) {
         self.ahead(&JUMP);
     }
 
-    /// All generators ahead by the jump whose polynomial is given.
+    /// Advances all generators by the jump with the given polynomial.
     fn ahead(&mut self, polynomial: &[u64; 4]) {
         let mut sum = [[0; GENERATORS]; 4];
         for word in polynomial {
@@ -69,7 +69,7 @@ impl WideRandom {
         self.state = sum;
     }
 
-    /// The next number of every generator.
+    /// Returns the next number of every generator.
     #[inline(always)]
     fn next(&mut self) -> [u64; GENERATORS] {
         let [s0, s1, s2, s3] = &mut self.state;
@@ -96,7 +96,7 @@ impl WideRandom {
         bits
     }
 
-    /// Uniform in [-1, 1), 52 bits each.
+    /// Fills `column` with uniform numbers in [-1, 1), 52 bits each.
     #[inline(always)]
     pub(crate) fn uniform(&mut self, column: &mut Column) {
         let bits = self.bits();
@@ -105,16 +105,16 @@ impl WideRandom {
         }
     }
 
-    /// Standard normal, two columns at a time; none beyond 8.5.
+    /// Fills two columns with standard normal numbers; none is beyond ±8.5.
     #[inline(always)]
     pub(crate) fn normals(&mut self, one: &mut Column, other: &mut Column) {
         let (of_radius, of_angle) = (self.bits(), self.bits());
         let (mut first, mut second) = ([0.0; WIDTH], [0.0; WIDTH]);
         for trial in 0..WIDTH {
-            // In (0, 1], so that its logarithm is finite.
+            // In (0, 1], so that the logarithm is finite.
             let share = 2.0 - f64::from_bits((of_radius[trial] >> 12) | ONE);
             let radius = (-2.0 * ln(share)).sqrt();
-            // The upper 52 bits are a place in an octant, the lowest 3 say in which.
+            // The upper 52 bits give the place in an octant, the lowest 3 bits the octant.
             let angle = f64::from_bits((of_angle[trial] >> 12) | ONE) - 1.0;
             let (sin, cos) = on_circle(angle, of_angle[trial]);
             first[trial] = radius * cos;

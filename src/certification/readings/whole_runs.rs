@@ -1,33 +1,33 @@
-//! Mistakes of a whole run: a copy of another run, another unit, the other sign.
+//! Errors of a whole run: a copy of another run, another unit, the opposite sign.
 
 use super::{OtherRuns, Reading, averages};
 use crate::text::problem::Problem;
 use crate::text::table::Table;
 use std::collections::BTreeMap;
 
-/// Factors by which the angles of a run in another unit are too small, and the unit's name.
+/// Factors by which the angles of a run in another unit are too small, with the name of the unit.
 const UNITS: [(f64, &str); 3] =
     [(60.0, "arcminutes"), (crate::units::ARCSECONDS_PER_DEGREE, "degrees"), (206.264_806, "milliradians")];
 
-/// How far a ratio may be from such a factor, as a factor itself.
+/// Tolerance of such a factor, as a factor itself.
 const FACTOR_MARGIN: f64 = 1.5;
 
-/// From this correlation on, a run has the angles of the others but for a factor.
+/// Correlation from which on a run has the angles of the others up to a factor.
 const SAME_ANGLES: f64 = 0.9;
 
-/// Returns a problem for every run that cannot be what it claims, at the line on which it begins.
+/// Returns a problem for every run that is a copy or has another scale, at the line on which it begins.
 pub(super) fn problems(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
     let copies = copies(table, rows);
     if copies.is_empty() { other_scales(table, rows, others) } else { copies }
 }
 
-/// A problem with the `run`, at its first row.
+/// Returns a problem with the `run`, at its first row.
 fn at_run(table: &Table, rows: &[Reading], run: u32, found: String, expected: &str, advice: &str) -> Option<Problem> {
     let (.., row) = rows.iter().find(|((_, of), ..)| *of == run)?;
     Some(table.problem(&row.cells[2], 2, found, expected, advice))
 }
 
-/// Runs whose angles are those of an earlier one, to the last digit.
+/// Returns a problem for each run whose angles are exactly those of an earlier run.
 fn copies(table: &Table, rows: &[Reading]) -> Vec<Problem> {
     let mut of_run: BTreeMap<u32, Vec<u64>> = BTreeMap::new();
     for ((_, run), (angles, _)) in averages(rows) {
@@ -45,9 +45,9 @@ fn copies(table: &Table, rows: &[Reading]) -> Vec<Problem> {
     problems
 }
 
-/// Runs whose angles are those of the others times a factor.
+/// Returns a problem for each run whose angles are those of the others times a factor.
 fn other_scales(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
-    // Of each run the sums of squares of its angles, of the others', and of the products.
+    // For each run: the sums of squares of its angles, of the others' angles, and of the products.
     let mut sums: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
     for ((index, run), angles, _) in rows {
         for axis in 0..3 {
@@ -95,6 +95,6 @@ fn other_scales(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Prob
             small.extend(problem("those of the other runs with the opposite sign".to_owned(), "correct the sign"));
         }
     }
-    // Beside a run that is too small all others look too large.
+    // If one run is too small, all others look too large compared with it.
     if small.is_empty() { large } else { small }
 }
