@@ -1,5 +1,5 @@
-//! The whole story on a built-in example: a key, a stand, two sites, passports, verification, a wrong place, a re-issue,
-//! a calibration, an altered byte. Nothing but this program is needed.
+//! Demonstration on a built-in example: a key, a stand, two sites, passports, verification, a wrong place, a re-issue,
+//! a calibration, an altered byte. It needs nothing but this program.
 
 use crate::calibration::least_squares::NoLeastSquares;
 use crate::calibration::parameter::Parameter;
@@ -31,67 +31,68 @@ const MOSCOW: &str = include_str!("../sites/moscow-bmstu.yaml");
 const BEIJING: &str = include_str!("../sites/beijing-nim.yaml");
 const IDENTITY: &str = "factory@example.org";
 
-/// What stopped the demonstration.
+/// Reason why the demonstration stopped.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub(crate) enum Stopped {
-    /// The folder has files in it.
+    /// Folder that contains files.
     #[error("{}: already exists and is not an empty folder; specify another one with --out", shown(.0))]
     NotEmpty(PathBuf),
-    /// A file could not be read or written.
+    /// File that could not be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A passport could not be issued.
+    /// Passport that could not be issued.
     #[error(transparent)]
     Folder(#[from] FolderRefused),
-    /// Or not issued anew.
+    /// Passport that could not be re-issued.
     #[error(transparent)]
     Reissue(#[from] ReissueRefused),
-    /// A built-in file could not be read.
+    /// Built-in file that could not be read.
     #[error(transparent)]
     Unreadable(#[from] Unreadable),
-    /// There is no key.
+    /// Key that could not be created or encoded.
     #[error(transparent)]
     Key(#[from] KeyError),
-    /// The identity is a pattern.
+    /// Identity that is a pattern.
     #[error(transparent)]
     Identity(#[from] BadIdentity),
-    /// A passport that was just issued is not accepted.
+    /// Passport that was just issued but not accepted.
     #[error("a newly issued passport was rejected")]
     Refused,
-    /// The stand's positions determine no gyro.
+    /// Stand whose positions do not determine a gyro.
     #[error(transparent)]
     Setup(#[from] NoSetup),
-    /// Nor do its currents.
+    /// Currents that do not determine a gyro.
     #[error(transparent)]
     Calibration(#[from] NoLeastSquares),
-    /// Nobody reads.
+    /// Reader that closed the output.
     #[error("standard output cannot be written")]
     Closed,
 }
 
-/// `dtg-passport-demo` in the current folder, numbered when that is there already.
+/// Returns `dtg-passport-demo` in the current folder, with a number if that already exists.
 pub(crate) fn free_folder() -> PathBuf {
     let first = PathBuf::from("dtg-passport-demo");
     let numbered = (2..).map(|number: u32| PathBuf::from(format!("dtg-passport-demo-{number}")));
     std::iter::once(first).chain(numbered).find(|folder| !folder.exists()).unwrap_or_default()
 }
 
-/// Plays it in `folder` at the time `now`, telling it to `tell` line by line (which says whether anybody still
-/// listens); `true` when every verdict was the expected one.
+/// Runs the demonstration in `folder` at the time `now`; returns `true` if every answer was the expected one.
+///
+/// It passes each line of its output to `tell`, which returns `false` if the reader has closed the output.
 ///
 /// # Errors
-/// See [`Stopped`].
+/// Returns [`Stopped`] at the first step that fails, or if the output was closed.
 pub(crate) fn run(folder: &Path, now: Timestamp, tell: &mut dyn FnMut(&str) -> bool) -> Result<bool, Stopped> {
     let stand = Stand::from_yaml("stand.yaml", STAND.as_bytes())?;
-    // The example must also play on a machine whose clock is behind its certificate.
+    // If the clock of the machine is behind the certificate, use the day of the certificate.
     let now = now.max(day(stand.certificate.issued).0);
     let mut stage = Stage { folder, now, tell, as_expected: true };
     stage.play(&stand)?;
     Ok(stage.as_expected)
 }
 
-/// A CSV file of the currents of the paper's gyro, each reading off by the paper's meter; always the same.
+/// Returns a CSV file of the currents of the paper's gyro, with the errors of the paper's meter; always the same.
 fn simulated_currents(setup: &Setup) -> String {
     const SEED: u64 = 1;
     let gyro = GyroType::gvk_6().nominal.to_model();
@@ -232,7 +233,7 @@ impl Stage<'_> {
         Ok(issued)
     }
 
-    /// Currents of a gyro of the paper's type with errors of the paper's meter, as a CSV file, and the gyro found.
+    /// Writes the simulated currents of a gyro of the paper's type as a CSV file, and calibrates that gyro.
     fn calibrated(&mut self, there: &Issued, trust: &Trust) -> Result<(), Stopped> {
         self.line("")?;
         self.line("A GYRO")?;
@@ -279,7 +280,7 @@ impl Stage<'_> {
         self.answer(&answer, Some(CheckName::Signature))
     }
 
-    /// Tells the answer: yes, or the first check that failed; and remembers whether it was the expected one.
+    /// Writes the answer: yes, or the first check that failed; and records whether it was the expected one.
     fn answer(&mut self, answer: &Verification, expected: Option<CheckName>) -> Result<(), Stopped> {
         let failed = answer.checks().iter().find(|check| check.passed() == Some(false));
         self.as_expected &= failed.map(|check| check.name) == expected;

@@ -1,21 +1,21 @@
-//! The same work on many things at once.
+//! Parallel processing of a list of items.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// The processors that this process may use.
+/// Returns the number of CPUs that this process may use, or 1 if that is unknown.
 pub(crate) fn processors() -> usize {
     thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Does `work` on every item with up to `threads` threads; the results come in the order of the items.
+/// Applies `work` to every item on up to `threads` threads, and returns the results in the order of the items.
 ///
-/// Where the system gives no more threads, fewer do the same.
+/// If the system cannot start all threads, fewer do the work.
 pub(crate) fn map<T: Sync, R: Send>(items: &[T], threads: usize, work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     map_with(items, threads, || (), |(), item| work(item))
 }
 
-/// The same with something that every thread makes for itself and works with.
+/// Applies `work` to every item as [`map`] does; each thread first creates its own value with `make` and passes it on.
 pub(crate) fn map_with<T: Sync, R: Send, S>(
     items: &[T],
     threads: usize,

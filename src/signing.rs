@@ -1,4 +1,4 @@
-//! How a factory signs: a key file, plain or encrypted, or `ssh-keygen` with an agent or a FIDO token.
+//! Signing: with a key file, plain or encrypted, or with `ssh-keygen` and an agent or a FIDO token.
 
 pub use crate::document::{Signer, SigningFailed};
 use crate::files::{self, FileError};
@@ -13,45 +13,44 @@ use std::process::{Command, Stdio};
 use std::sync::{Mutex, PoisonError};
 use zeroize::Zeroizing;
 
-/// The variable from which the program takes a passphrase where no terminal asks for it. No program that is started here
-/// inherits it.
+/// Environment variable with the passphrase, for use without a terminal. Programs started here do not inherit it.
 pub(crate) const PASSPHRASE_VARIABLE: &str = "DTG_PASSPORT_PASSPHRASE";
 
-/// The largest key file that is read, in bytes.
+/// Largest size of a key file that is read, in bytes.
 const LARGEST_KEY_FILE_BYTES: usize = 1 << 16;
 
-/// Why a key cannot be used.
+/// Reason why a key cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum KeyFileError {
-    /// The file cannot be read.
+    /// File that cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// It holds no key that signs.
+    /// File without a key that can sign.
     #[error("{}: {error}", shown(path))]
     Key {
-        /// Which file.
+        /// Path of the key file.
         path: PathBuf,
-        /// What is wrong.
+        /// Reason why the key cannot be used.
         error: KeyError,
     },
-    /// Others can read the private key.
+    /// Private key that others can read.
     #[error("{}: mode {mode:04o} allows others to read the private key; restrict it with chmod 600", shown(path))]
     Exposed {
-        /// Which file.
+        /// Path of the key file.
         path: PathBuf,
-        /// Its permissions.
+        /// Permissions of the file.
         mode: u32,
     },
-    /// There is no passphrase.
+    /// Encrypted key without a passphrase.
     #[error("{}: the key is encrypted: {}", shown(path), Printable(reason))]
     Passphrase {
-        /// Which file.
+        /// Path of the key file.
         path: PathBuf,
-        /// Why there is none.
+        /// Reason why there is no passphrase.
         reason: String,
     },
-    /// The private half of a public key is nowhere.
+    /// Public key whose private half was not found.
     #[error(
         "{}: found only the public half, expected the private half in ssh-agent or in {}; check that OpenSSH is \
          installed and that ssh-agent has this key (ssh-add -L)",
@@ -59,39 +58,39 @@ pub enum KeyFileError {
         shown(private)
     )]
     NoPrivateHalf {
-        /// The public key.
+        /// Path of the public key.
         path: PathBuf,
-        /// Where its private half would be.
+        /// Path where the private half was expected.
         private: PathBuf,
     },
-    /// The private key beside a public key is another one.
+    /// Private key next to a public key that does not belong to it.
     #[error("{}: is not the private half of {}; use the matching key file", shown(private), shown(path))]
     OtherPrivateHalf {
-        /// The public key.
+        /// Path of the public key.
         path: PathBuf,
-        /// The private key.
+        /// Path of the private key.
         private: PathBuf,
     },
-    /// The file is not text.
+    /// File that is not text.
     #[error("{}: found binary data, expected a private key in OpenSSH format or a .pub file", shown(path))]
     NotText {
-        /// Which file.
+        /// Path of the key file.
         path: PathBuf,
     },
 }
 
-/// Asks for the passphrase of a key; called only for an encrypted one.
+/// Function that asks for the passphrase of a key file; it is called only for an encrypted key.
 pub type AskPassphrase<'a> = &'a dyn Fn(&Path) -> Result<Zeroizing<String>, String>;
 
-/// From here on this process leaves no core dump, which would hold the key and its passphrase; nor can another process
-/// of the same user look into its memory. What the system does not know of stays as it is.
+/// Prevents core dumps of this process, which would contain the key and its passphrase, and keeps other processes of
+/// the same user from reading its memory. On systems without these settings it has no effect.
 pub(crate) fn forbid_core_dumps() {
     #[cfg(unix)]
     {
         use rustix::process::{Resource, Rlimit, setrlimit};
         let _ = setrlimit(Resource::Core, Rlimit { current: Some(0), maximum: Some(0) });
     }
-    // A program that collects core dumps does not ask for the limit.
+    // A program that collects core dumps ignores the limit.
     #[cfg(target_os = "linux")]
     {
         use rustix::process::{DumpableBehavior, set_dumpable_behavior};
@@ -99,13 +98,14 @@ pub(crate) fn forbid_core_dumps() {
     }
 }
 
-/// The signer for a key file: the key itself, or `ssh-keygen` for a `.pub` whose private half is in the agent or a token.
+/// Returns the signer for a key file: the key itself, or `ssh-keygen` for a `.pub` whose private half is in the agent
+/// or on a token.
 ///
-/// Where the private half is, and that it can be used, is found out here, once: `ssh-keygen` would ask for a passphrase
-/// at every signature.
+/// This function finds the private half and decrypts it once. Otherwise `ssh-keygen` would ask for the passphrase at
+/// every signature.
 ///
 /// # Errors
-/// See [`KeyFileError`]. A private key that others can read is refused, as OpenSSH does.
+/// Returns [`KeyFileError`] if the key cannot be read or used, or if others can read the private key (as in OpenSSH).
 pub fn signer(path: &Path, ask: AskPassphrase) -> Result<Box<dyn Signer + Sync>, KeyFileError> {
     let ssh_keygen = |public_key, in_agent| -> Box<dyn Signer + Sync> {
         Box::new(SshKeygen { key: path.to_owned(), public_key, in_agent, turn: Mutex::new(()) })
@@ -131,7 +131,7 @@ pub fn signer(path: &Path, ask: AskPassphrase) -> Result<Box<dyn Signer + Sync>,
     }
 }
 
-/// The key of a private key file; `None` when the file is only the handle of a key in a token.
+/// Returns the key in a private key file, or `None` if the file is only the handle of a key on a token.
 fn private_key(path: &Path, ask: AskPassphrase) -> Result<Option<SigningKey>, KeyFileError> {
     let text = text(path)?;
     refuse_exposed(path)?;
@@ -156,14 +156,14 @@ fn text(path: &Path) -> Result<Zeroizing<String>, KeyFileError> {
     Ok(Zeroizing::new(text.to_owned()))
 }
 
-/// Whether ssh-agent has the private half of a key. Without an agent, or without OpenSSH, it has none.
+/// Returns `true` if ssh-agent has the private half of a key; `false` also without an agent or without OpenSSH.
 fn is_in_agent(public: &PublicKey) -> bool {
     let listed = openssh("ssh-add").arg("-L").stdin(Stdio::null()).output();
     let lines = listed.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default();
     lines.lines().any(|line| PublicKey::from_openssh(line).is_ok_and(|key| key == *public))
 }
 
-/// A program of OpenSSH, which is not told the passphrase.
+/// Returns the command for a program of OpenSSH, without the passphrase in its environment.
 fn openssh(program: &str) -> Command {
     let mut command = Command::new(program);
     command.env_remove(PASSPHRASE_VARIABLE);
@@ -186,10 +186,10 @@ fn refuse_exposed(_: &Path) -> Result<(), KeyFileError> {
     Ok(())
 }
 
-/// The line of allowed_signers that trusts `key` as `identity` for passports and their revocation lists.
+/// Returns the line of allowed_signers that trusts `key` as `identity` for passports and their revocation lists.
 ///
 /// # Errors
-/// [`BadIdentity`] when the identity would be read as a pattern of several.
+/// Returns [`BadIdentity`] if the identity could be read as a pattern of several identities.
 pub fn allowed_signers_line(identity: &str, key: &PublicKey) -> Result<String, BadIdentity> {
     check_identity(identity)?;
     Ok(format!("{identity} namespaces=\"{NAMESPACE},dtg-revocation\" {}", key.to_openssh()))
@@ -201,23 +201,23 @@ pub(crate) fn own_trust(identity: &str, signer: &dyn Signer) -> Option<Trust> {
     AllowedSigners::parse("own key", line.as_bytes()).ok().map(Trust::of)
 }
 
-/// Why allowed signers get no further line.
+/// Reason why no line was appended to the allowed signers.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub(crate) enum NotAppended {
-    /// The file cannot be read or written.
+    /// File that cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// With the line it would not be a list of allowed signers.
+    /// File that would not be a list of allowed signers with the new line.
     #[error("{0}\nnothing was appended")]
     Unreadable(#[from] Unreadable),
 }
 
-/// Returns the allowed signers of a file with one line more, after a line feed where the last line has none; a file that
-/// does not exist yet is empty.
+/// Returns the allowed signers of a file with one more line; a missing final line feed is added first. A file that does
+/// not exist counts as empty.
 ///
 /// # Errors
-/// See [`NotAppended`].
+/// Returns [`NotAppended`] if the file cannot be read, or if the result is not a list of allowed signers.
 pub(crate) fn with_signer(path: &Path, line: &str) -> Result<Vec<u8>, NotAppended> {
     let mut text = match files::read(path, LARGEST_TRUST_FILE_BYTES) {
         Err(FileError::Read { error, .. }) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
@@ -232,22 +232,22 @@ pub(crate) fn with_signer(path: &Path, line: &str) -> Result<Vec<u8>, NotAppende
     Ok(text)
 }
 
-/// Appends a line to the allowed signers of a file, whole or not at all; one that does not exist yet is made.
+/// Appends a line to the allowed signers of a file, completely or not at all; a missing file is created.
 ///
 /// # Errors
-/// See [`NotAppended`]; the file then is as it was.
+/// Returns [`NotAppended`] as [`with_signer`] does, or if the file cannot be written; the file is then unchanged.
 pub(crate) fn append_signer(path: &Path, line: &str) -> Result<(), NotAppended> {
     let _turn = files::wait_for_turn(files::folder_of(path));
     Ok(files::rewrite(path, &with_signer(path, line)?)?)
 }
 
-/// Signs through `ssh-keygen -Y sign`, which speaks to ssh-agent and to FIDO tokens.
+/// Signer that runs `ssh-keygen -Y sign`, which uses ssh-agent and FIDO tokens.
 #[derive(Debug)]
 pub struct SshKeygen {
     key: PathBuf,
     public_key: Option<PublicKey>,
     in_agent: bool,
-    /// A token makes one signature at a time.
+    /// Lock, because a token makes one signature at a time.
     turn: Mutex<()>,
 }
 
@@ -263,7 +263,8 @@ impl Signer for SshKeygen {
         let mut child = openssh("ssh-keygen")
             .args(["-Y", "sign", "-q", "-n", namespace, "-f"])
             .arg(&self.key)
-            // The agent or nothing: a key that it loses is not looked for in files, whose passphrase would be asked for.
+            // Use only the agent. If it loses the key, ssh-keygen must not look for key files and ask for their
+            // passphrases.
             .args(self.in_agent.then_some("-U"))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -271,7 +272,7 @@ impl Signer for SshKeygen {
             .spawn()
             .map_err(|error| failed(format!("{error}; check that OpenSSH is installed")))?;
         if let Some(mut stdin) = child.stdin.take() {
-            // A child that has already given up closes its end; its own words say why.
+            // A child that has failed closes its end; the error is in its own output.
             let _ = stdin.write_all(message);
         }
         let output = child.wait_with_output().map_err(|error| failed(error.to_string()))?;

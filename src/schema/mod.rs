@@ -1,4 +1,4 @@
-//! JSON Schemas of the formats, made from the records that read and write them, and the tables of keys made from those.
+//! JSON Schemas of the file formats, generated from the records that read and write them, and the tables of their keys.
 
 mod reference;
 
@@ -14,27 +14,28 @@ use crate::stand::{STAND_FORMAT, Stand};
 use schemars::{JsonSchema, Schema, schema_for};
 use serde_json::{Value, json};
 
-/// Of a stand file.
+/// Returns the JSON Schema of a stand file.
 pub(crate) fn stand() -> Schema {
     with_format(schema_for!(Stand), STAND_FORMAT)
 }
 
-/// Of a site file.
+/// Returns the JSON Schema of a site file.
 pub(crate) fn site() -> Schema {
     with_format(schema_for!(SiteFile), SITE_FORMAT)
 }
 
-/// Of a gyro type.
+/// Returns the JSON Schema of a gyro type.
 pub(crate) fn gyro() -> Schema {
     with_format(schema_for!(GyroType), GYRO_FORMAT)
 }
 
-/// Of a laboratory.
+/// Returns the JSON Schema of a laboratory.
 pub(crate) fn laboratory() -> Schema {
     with_format(schema_for!(Laboratory), LABORATORY_FORMAT)
 }
 
-/// Of a passport, its signature included. A text that fits the schema need not be a passport: see `verify`.
+/// Returns the JSON Schema of a passport with its signature. Text that fits the schema need not be a valid passport:
+/// see `verify`.
 pub(crate) fn passport() -> Schema {
     #[derive(JsonSchema)]
     #[allow(dead_code)]
@@ -48,7 +49,7 @@ pub(crate) fn passport() -> Schema {
     with_format(schema_for!(Signed), PASSPORT_FORMAT)
 }
 
-/// Of a list of withdrawn passports, its signature included.
+/// Returns the JSON Schema of a list of withdrawn passports with its signature.
 pub(crate) fn revocation() -> Schema {
     #[derive(JsonSchema)]
     #[allow(dead_code)]
@@ -62,7 +63,7 @@ pub(crate) fn revocation() -> Schema {
     with_format(schema_for!(Signed), REVOCATION_FORMAT)
 }
 
-/// The value that `format` must have; and a key that is absent is left out, never null.
+/// Fixes the value of `format`, and removes null from the schema, because an absent key is omitted and never null.
 fn with_format(mut schema: Schema, format: &str) -> Schema {
     if let Some(Value::Object(property)) = schema.pointer_mut("/properties/format") {
         property.insert("const".to_owned(), json!(format));

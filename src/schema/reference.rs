@@ -1,24 +1,24 @@
-//! Tables of keys for people, made from the schemas: they cannot say anything else than what is read.
+//! Tables of keys in Markdown, generated from the schemas, so that they always agree with what the program reads.
 
 use schemars::Schema;
 use serde_json::{Map, Value};
 use std::collections::HashMap;
 use std::fmt::Write;
 
-/// The keys of every format as Markdown, a section for each; parts that formats share stand in the first.
+/// Returns the keys of every format as Markdown, with a section for each; shared parts are described in the first.
 pub(crate) fn tables(schemas: &[Schema]) -> String {
     let mut seen = HashMap::new();
     schemas.iter().map(|schema| Section { schema, seen: &mut seen }.write()).collect::<Vec<_>>().join("\n")
 }
 
-/// One format's section.
+/// Section of one format.
 struct Section<'a> {
     schema: &'a Schema,
-    /// Where a shared part was described: its name, and that section's title.
+    /// Names of shared parts, each with the title of the section that describes it.
     seen: &'a mut HashMap<String, String>,
 }
 
-/// A line of the table: the whole key, what its value is, whether it is required, what it means.
+/// Line of a table: the whole key, the kind of its value, whether it is required, and its meaning.
 struct Row {
     key: String,
     value: String,
@@ -42,7 +42,7 @@ impl Section<'_> {
         out
     }
 
-    /// The keys of a mapping, those of the mappings in it after their own line.
+    /// Adds the keys of a mapping; the keys of a nested mapping follow its own line.
     fn rows(&mut self, mapping: &Map<String, Value>, prefix: &str, format: &str, rows: &mut Vec<Row>) {
         let required: Vec<&str> =
             mapping.get("required").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str).collect();
@@ -74,7 +74,7 @@ impl Section<'_> {
         self.schema.pointer(&format!("/$defs/{name}"))?.as_object().cloned()
     }
 
-    /// What a value is, in words.
+    /// Returns the kind of a value, in words.
     fn value(&self, property: &Map<String, Value>) -> String {
         if let Some(choices) = property.get("oneOf").and_then(Value::as_array) {
             return choices
@@ -122,7 +122,7 @@ fn items(property: &Map<String, Value>) -> Option<&Map<String, Value>> {
     property.get("items")?.as_object()
 }
 
-/// The name of the definition that a property refers to.
+/// Returns the name of the definition that a property refers to, or `None` if it refers to none.
 fn reference(property: &Map<String, Value>) -> Option<&str> {
     property.get("$ref")?.as_str()?.strip_prefix("#/$defs/")
 }

@@ -1,9 +1,9 @@
-//! The paper's table: how far found parameters are from the nominal ones
+//! The paper's table: errors of computed parameters relative to the nominal ones
 //! ([the paper](crate::bibliography::Bibliography::Tang17), "Results of modelling the analytic method").
 //!
-//! Two readings of it are worth having (docs/reproduction.md, "The table"): the gyro drawn within its
-//! tolerance and one gain error common to all currents, which gives the paper's figures at any deviations; and a
-//! nominal gyro with an error of its own in every current, which is what a laboratory meets.
+//! Two interpretations of the table are useful (docs/reproduction.md, "The table"). With a gyro drawn within its
+//! tolerance and one gain error common to all currents, the simulation gives the paper's figures at any deviations. A
+//! nominal gyro with an independent error in every current is the usual case in a laboratory.
 
 use super::draw::{self, CurrentError, Deviations};
 use crate::calibration::iterative::{self, StopRule};
@@ -17,43 +17,44 @@ use crate::statistics::summary::Summary;
 use nalgebra::Vector2;
 use serde::Serialize;
 
-/// The latitude of the paper's laboratory.
+/// Latitude of the paper's laboratory, degrees.
 pub const PAPER_LATITUDE_DEG: f64 = 55.7658;
 
-/// Whose stands.
+/// Stands of a simulation.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Stands {
-    /// Drawn for every trial, every angle uniform within ±`limit_deg`.
+    /// Stands drawn for every trial, with every angle uniform within ±`limit_deg`.
     Drawn {
-        /// The limit.
+        /// Limit of the deviations, degrees.
         limit_deg: f64,
     },
-    /// Always this one.
+    /// Positions of one stand for all trials.
     Given(Vec<Position>),
 }
 
-/// What is simulated.
+/// Options of the accuracy simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AccuracyOptions {
-    /// Whose stands.
+    /// Stands of the simulation.
     pub stands: Stands,
     /// Earth rate at the site.
     pub earth: EarthRate,
-    /// Nominal parameters and tolerance.
+    /// Nominal parameters and tolerance of the gyro.
     pub gyro: GyroType,
-    /// Whether every trial's gyro is drawn within the tolerance; found parameters are compared with nominal ones.
+    /// `true` to draw the gyro of every trial within the tolerance; computed parameters are compared with nominal ones.
     pub within_tolerance: bool,
     /// Limit of the relative error of the currents, percent.
     pub current_percent: f64,
-    /// Which readings share one.
+    /// Correlation of the errors of the readings.
     pub current_error: CurrentError,
-    /// Which methods.
+    /// Methods to compare.
     pub methods: Vec<Method>,
 }
 
 impl Default for AccuracyOptions {
-    /// The paper's gyro, nominal, in its laboratory; stands within ±15°; independent errors of ±0.015 %.
+    /// Returns the options for the paper's nominal gyro in its laboratory: stands within ±15°, independent errors of
+    /// ±0.015 %.
     fn default() -> Self {
         Self {
             stands: Stands::Drawn { limit_deg: 15.0 },
@@ -67,43 +68,43 @@ impl Default for AccuracyOptions {
     }
 }
 
-/// The table.
+/// Result of the accuracy simulation: the paper's table.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Accuracy {
-    /// Trials made: fewer than asked for when cancelled.
+    /// Number of trials made; fewer than requested if cancelled.
     pub trials: u64,
-    /// Which random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// Limit of the deviations, when stands were drawn.
+    /// Limit of the deviations, degrees, if stands were drawn.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit_deg: Option<f64>,
-    /// A row for each method and parameter.
+    /// Rows of the table, one for each method and parameter.
     pub rows: Vec<AccuracyRow>,
 }
 
-/// Errors of one parameter found by one method.
+/// Errors of one parameter computed by one method.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AccuracyRow {
-    /// Which method.
+    /// Key of the method.
     pub method: &'static str,
-    /// Which parameter.
+    /// Key of the parameter.
     pub parameter: &'static str,
     /// Unit of the errors: percent of the nominal value for K.
     pub unit: &'static str,
-    /// The largest error, either way.
+    /// Largest magnitude of the error.
     pub worst: f64,
     /// Standard deviation of the error about its mean.
     pub standard_deviation: f64,
     /// Mean error.
     pub mean: f64,
-    /// Trials in which the method gave nothing.
+    /// Number of trials without a solution.
     pub not_solved: u64,
-    /// What the paper's table gives for its gyro.
+    /// Error bound in the paper's table, for the paper's gyro only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub paper_bound: Option<f64>,
 }
 
-/// Rows of the table in the paper's order.
+/// Parameters in the order of the paper's table, with their bounds.
 const ROWS: [(Parameter, f64); 8] = [
     (Parameter::Kx, 0.0645),
     (Parameter::Ky, 0.0645),
@@ -115,7 +116,7 @@ const ROWS: [(Parameter, f64); 8] = [
     (Parameter::OmegaK, 0.01),
 ];
 
-/// Simulates.
+/// Simulates the errors of the computed parameters over stands, gyros and currents drawn at random.
 pub fn accuracy(options: &AccuracyOptions, run: &Run) -> Accuracy {
     let simulation = Simulation::new(options);
     let blocks = run.blocks(|stream, trials| simulation.block(stream, trials));
@@ -135,7 +136,7 @@ pub fn accuracy(options: &AccuracyOptions, run: &Run) -> Accuracy {
     Accuracy { trials, seed: run.seed, limit_deg, rows }
 }
 
-/// Errors of one block of trials: for each method, for each parameter.
+/// Errors of one block of trials, by method and parameter.
 struct Block {
     trials: u64,
     errors: Vec<[Summary; 8]>,
@@ -144,7 +145,7 @@ struct Block {
 struct Simulation<'a> {
     options: &'a AccuracyOptions,
     nominal: GyroParameters,
-    /// What one of an error's own unit is in units of the parameter: 1 % of K, 1 °/h, 1 °/h/g.
+    /// Value of one unit of each error in the unit of the parameter: 1 % of K, 1 °/h, 1 °/(h·g).
     units: [f64; 8],
     given: Option<Coefficients>,
     meter: MeterUncertainty,
@@ -162,7 +163,7 @@ impl<'a> Simulation<'a> {
             Stands::Drawn { .. } => None,
         };
         let mut meter = MeterUncertainty::from(&Laboratory::paper().meter);
-        // The standard deviation of a uniform distribution.
+        // The standard deviation of a uniform distribution is its limit over √3.
         meter.reading = options.current_percent / 100.0 / 3.0_f64.sqrt();
         Self { options, nominal, units, given, meter }
     }
@@ -183,7 +184,7 @@ impl<'a> Simulation<'a> {
         Block { trials, errors }
     }
 
-    /// A stand and a gyro's currents on it; `None` where the stand is singular or the gyro makes no currents.
+    /// Draws a stand and a gyro's currents on it; returns `None` if the stand is singular or the gyro has no currents.
     fn draw(&self, stream: &mut Stream) -> Option<(Coefficients, Vec<Vector2<f64>>)> {
         let options = self.options;
         let coefficients = match (&options.stands, &self.given) {

@@ -1,4 +1,4 @@
-//! The paper's Fig. 4: how many steps successive approximation takes, against the limit of the deviations.
+//! The paper's Fig. 4: the number of steps of the iterative method, depending on the limit of the deviations.
 
 use super::accuracy::PAPER_LATITUDE_DEG;
 use super::draw::{self, Deviations};
@@ -9,23 +9,23 @@ use crate::statistics::random::{Run, Stream};
 use crate::statistics::summary::{Histogram, binomial_standard_error};
 use serde::Serialize;
 
-/// What is simulated.
+/// Options of the convergence simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConvergenceOptions {
-    /// Limits of the deviations, degrees; every one with the same random numbers.
+    /// Limits of the deviations, degrees; all limits use the same random numbers.
     pub limits_deg: Vec<f64>,
-    /// How angles are drawn: one series of rows each.
+    /// Distributions of the angles, with a series of rows for each.
     pub deviations: Vec<Deviations>,
-    /// When to stop.
+    /// Stop rule of the iteration.
     pub stop_rule: StopRule,
     /// Earth rate at the site.
     pub earth: EarthRate,
-    /// The gyro.
+    /// Parameters of the gyro.
     pub gyro: GyroParameters,
 }
 
 impl Default for ConvergenceOptions {
-    /// The paper's gyro, place and stop rule, up to ±30°, uniform and at the corners.
+    /// Returns the options for the paper's gyro, place and stop rule, up to ±30°, uniform and at the corners.
     fn default() -> Self {
         Self {
             limits_deg: vec![0.1, 1.0, 3.0, 5.0, 7.5, 10.0, 12.5, 15.0, 17.5, 20.0, 25.0, 30.0],
@@ -37,40 +37,40 @@ impl Default for ConvergenceOptions {
     }
 }
 
-/// Fig. 4 as numbers.
+/// Result of the convergence simulation: the paper's Fig. 4 as numbers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Convergence {
-    /// Stands drawn for each row, at most: the last row has fewer when cancelled.
+    /// Largest number of stands drawn for a row; the last row has fewer if cancelled.
     pub trials: u64,
-    /// Which random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// A row for each kind of draw and each limit.
+    /// Rows, one for each distribution and each limit.
     pub rows: Vec<ConvergenceRow>,
 }
 
-/// Steps taken at one limit.
+/// Number of steps at one limit of the deviations.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ConvergenceRow {
-    /// Limit of the deviations.
+    /// Limit of the deviations, degrees.
     pub limit_deg: f64,
-    /// How angles were drawn: "uniform" within ± the limit, or "corners", every angle at + or − the limit.
+    /// Distribution of the angles: "uniform" within ± the limit, or "corners", with every angle at + or − the limit.
     pub deviations: &'static str,
-    /// Mean of those that converged; absent where none did.
+    /// Mean number of steps of the stands that converged; absent if none did.
     pub mean: Option<f64>,
-    /// 95th percentile of those that converged.
+    /// 95th percentile of the number of steps of the stands that converged.
     pub percentile_95: Option<usize>,
-    /// Most steps of those that converged.
+    /// Largest number of steps of the stands that converged.
     pub most: Option<usize>,
-    /// Share that had not converged after 200 steps.
+    /// Share of stands that had not converged after 200 steps, percent.
     pub not_converged_percent: f64,
-    /// Its standard error (binomial).
+    /// Standard error of that share (binomial), percent.
     pub not_converged_u_percent: f64,
-    /// Stands drawn.
+    /// Number of stands drawn.
     pub stands: u64,
 }
 
 impl Deviations {
-    /// Its name in results.
+    /// Returns the name of the distribution in results.
     pub fn key(self) -> &'static str {
         match self {
             Self::Uniform => "uniform",
@@ -79,7 +79,9 @@ impl Deviations {
     }
 }
 
-/// Simulates. `run.progress` is told of all rows together: the trials of a run times the number of rows.
+/// Simulates the number of steps over stands drawn at random.
+///
+/// `run.progress` counts all rows together: up to the trials of the run times the number of rows.
 pub fn convergence(options: &ConvergenceOptions, run: &Run) -> Convergence {
     let mut rows = Vec::new();
     let mut before = 0;
@@ -101,7 +103,7 @@ pub fn convergence(options: &ConvergenceOptions, run: &Run) -> Convergence {
     Convergence { trials: run.trials, seed: run.seed, rows }
 }
 
-/// Steps of one block of stands; what did not converge is counted as one more than allowed.
+/// Returns the histogram of the steps of the stands that converged in one block, and the number of stands drawn.
 fn steps(
     options: &ConvergenceOptions,
     deviations: Deviations,
@@ -124,7 +126,7 @@ fn steps(
     (converged, trials)
 }
 
-/// `None` when cancelled before the first block.
+/// Returns the row of one limit, or `None` if the run was cancelled before the first block.
 fn row(deviations: Deviations, limit_deg: f64, blocks: &[(Histogram, u64)]) -> Option<ConvergenceRow> {
     let mut converged = Histogram::up_to(LARGEST_NUMBER_OF_STEPS as usize);
     blocks.iter().for_each(|(block, _)| converged.merge(block));

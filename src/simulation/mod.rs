@@ -1,8 +1,8 @@
-//! The paper's table and its Fig. 4, computed again.
+//! Reproduction of the paper's table and its Fig. 4.
 //!
-//! * [`accuracy`]: how far found parameters are from nominal ones, over stands and currents drawn at random.
-//! * [`convergence`]: how many steps successive approximation takes.
-//! * [`draw`]: stands and currents at random.
+//! * [`accuracy`]: errors of computed parameters, over stands and currents drawn at random.
+//! * [`convergence`]: the number of steps of the iterative method.
+//! * [`draw`]: stands, gyros and current errors drawn at random.
 
 pub(crate) mod accuracy;
 pub(crate) mod convergence;

@@ -68,10 +68,12 @@ pub(crate) fn normal_quantile(probability: f64) -> f64 {
     -falling_root(|x| normal_below(-x), probability)
 }
 
-/// The x ≥ 0 where `falling`, which never increases, has fallen to `level`: secants between the ends of an interval that
-/// is also halved, so that it never takes more than twice the steps of bisection, and usually a dozen.
+/// Returns the x ≥ 0 where `falling`, which never increases, has fallen to `level`.
+///
+/// It takes secants between the ends of an interval that is also halved. The number of steps is therefore at most twice
+/// that of bisection, and usually a dozen.
 pub(crate) fn falling_root(falling: impl Fn(f64) -> f64, level: f64) -> f64 {
-    /// Of the level: what rounding leaves of a probability.
+    /// Rounding error of a probability, relative to the level.
     const ROUNDING: f64 = 4.0 * f64::EPSILON;
     let above = |x: f64| falling(x) - level;
     let (mut low, mut at_low) = (0.0, above(0.0));

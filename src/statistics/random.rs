@@ -41,7 +41,7 @@ impl Stream {
         ((self.unit() * end as f64) as usize).min(end.saturating_sub(1))
     }
 
-    /// Standard normal, by the polar form of Box and Muller (only one of the pair is used).
+    /// Returns a standard normal number, by the polar form of Box and Muller (only one of the pair is used).
     #[cfg(test)]
     pub(crate) fn normal(&mut self) -> f64 {
         // 1 - u is in (0, 1], so its logarithm is finite.
@@ -50,21 +50,21 @@ impl Stream {
     }
 }
 
-/// Trials of one block.
+/// Number of trials in a block.
 pub(crate) const BLOCK: u64 = 500;
 
-/// How a series of trials is run.
+/// Settings of a series of trials.
 #[derive(Clone, Copy)]
 pub struct Run<'a> {
-    /// Trials in all.
+    /// Total number of trials.
     pub trials: u64,
-    /// Which random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// Threads to work on them; 0 and 1 are the same.
+    /// Number of threads; 0 and 1 have the same effect.
     pub threads: usize,
-    /// Once true, blocks that have not begun are left out.
+    /// Flag that cancels the run: once it is `true`, no further block is started.
     pub cancel: Option<&'a AtomicBool>,
-    /// Told after every block how many trials are done.
+    /// Function called after every block with the number of trials done.
     pub progress: Option<&'a (dyn Fn(u64) + Sync)>,
 }
 
@@ -76,15 +76,15 @@ impl std::fmt::Debug for Run<'_> {
 }
 
 impl Run<'_> {
-    /// `trials` trials with the random numbers of `seed`, on all the machine's processors.
+    /// Creates a run of `trials` trials with the random numbers of `seed`, on all CPUs that the process may use.
     pub fn new(trials: u64, seed: u64) -> Self {
         Self { trials, seed, threads: parallel::processors(), cancel: None, progress: None }
     }
 
-    /// What `work` makes of every block of trials, in the order of the blocks.
+    /// Returns the results of `work` for every block of trials, in the order of the blocks.
     ///
-    /// `work` gets the block's stream and the number of its trials. When cancelled, the blocks done come back: an
-    /// unbroken series from the first.
+    /// `work` is called with the stream of the block and the number of its trials. If the run is cancelled, the results
+    /// of the finished blocks are returned: an unbroken series from the first.
     pub fn blocks<T: Send>(&self, work: impl Fn(&mut Stream, u64) -> T + Sync) -> Vec<T> {
         let queue = Mutex::new(Queue { next: 0, stream: Stream::new(self.seed) });
         let done = Mutex::new((0_u64, Vec::new()));
@@ -115,7 +115,7 @@ impl Run<'_> {
         results.into_iter().map(|(_, result)| result).collect()
     }
 
-    /// The next block and its stream; `None` when there is none left or the run is cancelled.
+    /// Returns the next block and its stream, or `None` if there is none left or the run is cancelled.
     fn take(&self, queue: &Mutex<Queue>) -> Option<(u64, Stream)> {
         let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
         let cancelled = self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed));

@@ -15,7 +15,7 @@ const GENERATORS: usize = 8;
 /// Number of trials that run side by side.
 pub(crate) const WIDTH: usize = 32;
 
-/// One number for each of the trials that run side by side.
+/// Column of numbers, one for each of the trials that run side by side.
 pub(crate) type Column = [f64; WIDTH];
 
 /// Random numbers of one block of trials.

@@ -1,7 +1,8 @@
-//! What millions of trials leave behind: sums, products and histograms of a fixed size, whatever the number of trials.
+//! Accumulated results of Monte Carlo trials: sums, products and histograms, whose size does not depend on the number
+//! of trials.
 //!
 //! Values are counted in [bins](crate::statistics::bins) in units of the standard deviations of a pilot run. Means,
-//! variances and covariances do not come from bins.
+//! variances and covariances are computed from the values themselves, not from the bins.
 
 #![allow(clippy::needless_range_loop, reason = "a loop over trials that indexes several columns is what becomes wide")]
 
@@ -9,24 +10,24 @@ use super::engine::Solutions;
 use crate::statistics::bins::{BINS, Bins, bin};
 use crate::statistics::wide_random::{Column, WIDTH};
 
-/// Parameters counted.
+/// Number of parameters.
 const PARAMETERS: usize = 8;
 
-/// Pairs of parameters, each with itself too.
+/// Number of pairs of parameters, including each with itself.
 const PAIRS: usize = PARAMETERS * (PARAMETERS + 1) / 2;
 
-/// The scale of every parameter.
+/// Centre and unit of the histogram of every parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Scale {
-    /// Middle of the histogram.
+    /// Value at the middle of the histogram.
     pub centre: [f64; PARAMETERS],
-    /// One standard deviation.
+    /// Standard deviation in the pilot sample.
     pub unit: [f64; PARAMETERS],
 }
 
 impl Scale {
-    /// From a pilot sample of every parameter: median, and a quarter of the width of the middle 95 % (3.92 standard
-    /// deviations of a normal distribution).
+    /// Computes the scale from a pilot sample of every parameter: the median, and the width of the middle 95 % divided
+    /// by 3.92 (its width in standard deviations of a normal distribution).
     pub(crate) fn of_pilot(mut samples: [Vec<f64>; PARAMETERS]) -> Self {
         let (mut centre, mut unit) = ([0.0; PARAMETERS], [1.0; PARAMETERS]);
         for (place, sample) in samples.iter_mut().enumerate() {
@@ -41,22 +42,22 @@ impl Scale {
     }
 }
 
-/// Means, standard deviations and quantiles of one block, in units of the scale.
+/// Sums, products and quantiles of one block, in units of the scale.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BlockSummary {
-    /// Good trials.
+    /// Number of trials with finite parameters.
     pub count: u64,
-    /// Trials that gave no finite parameters.
+    /// Number of trials without finite parameters.
     pub failed: u64,
     /// Sums of the values.
     pub sums: [f64; PARAMETERS],
-    /// Sums of products, by rows of the lower triangle.
+    /// Sums of products, row by row of the lower triangle.
     pub products: [f64; PAIRS],
     /// Quantiles at 2.5 % and 97.5 %.
     pub quantiles: [[f64; 2]; PARAMETERS],
 }
 
-/// Counts of every parameter's bins.
+/// Histograms of all parameters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Histograms {
     counts: Vec<u64>,
@@ -69,24 +70,24 @@ impl Default for Histograms {
 }
 
 impl Histograms {
-    /// Adds what another one counted. The order does not matter.
+    /// Adds the counts of another one; the order does not affect the result.
     pub(crate) fn merge(&mut self, other: &Self) {
         for (count, more) in self.counts.iter_mut().zip(&other.counts) {
             *count += more;
         }
     }
 
-    /// The bins of a parameter.
+    /// Returns the bins of a parameter.
     pub(crate) fn of(&self, place: usize) -> Bins<'_, u64> {
         Bins::new(&self.counts[place * BINS..(place + 1) * BINS])
     }
 }
 
-/// Counts the trials of one thread.
+/// Accumulator for the trials of one thread.
 #[derive(Debug, Clone)]
 pub(crate) struct Accumulator {
     scale: Scale,
-    /// Bins of the block, then of all blocks.
+    /// Counts of the current block; `all` has those of all finished blocks.
     block: Vec<u32>,
     all: Histograms,
     sums: [Column; PARAMETERS],
@@ -96,7 +97,7 @@ pub(crate) struct Accumulator {
 }
 
 impl Accumulator {
-    /// Nothing counted yet.
+    /// Creates an empty accumulator.
     pub(crate) fn new(scale: Scale) -> Self {
         Self {
             scale,
@@ -109,7 +110,7 @@ impl Accumulator {
         }
     }
 
-    /// A chunk of trials.
+    /// Adds a chunk of trials.
     #[inline(always)]
     pub(crate) fn add(&mut self, solutions: &Solutions) {
         let mut scaled = [[0.0; WIDTH]; PARAMETERS];
@@ -145,7 +146,7 @@ impl Accumulator {
         }
     }
 
-    /// Takes back what was counted of trials without finite parameters, and tells how many they are.
+    /// Removes the trials without finite parameters from the counts, and adds them to the failed ones.
     #[cold]
     #[inline(never)]
     fn uncount_failures(&mut self, together: &Column) {
@@ -171,7 +172,7 @@ impl Accumulator {
         }
     }
 
-    /// What the block says, and on to the next.
+    /// Returns the summary of the block and starts the next one.
     pub(crate) fn end_of_block(&mut self) -> BlockSummary {
         let mut quantiles = [[0.0; 2]; PARAMETERS];
         for (place, quantiles) in quantiles.iter_mut().enumerate() {
@@ -190,13 +191,13 @@ impl Accumulator {
         summary
     }
 
-    /// The histograms of all blocks.
+    /// Returns the histograms of all finished blocks.
     pub(crate) fn histograms(&self) -> &Histograms {
         &self.all
     }
 }
 
-/// Zeros, which add nothing to sums, in place of trials without finite parameters.
+/// Replaces trials without finite parameters by zeros, which add nothing to sums.
 #[cold]
 #[inline(never)]
 fn leave_out_failures(scaled: &mut Solutions, together: &Column) {

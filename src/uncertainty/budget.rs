@@ -1,4 +1,4 @@
-//! The uncertainty budget: what every named input contributes to every parameter, to first order.
+//! Uncertainty budget: the first-order contribution of every input to every parameter.
 //!
 //! Sources: [JCGM 100](crate::bibliography::Bibliography::Gum), 5.1.2 (u² = Σ (c_i u_i)²), G.4.1 (Welch-Satterthwaite)
 //! and G.3.3 (coverage factor); [JCGM 102](crate::bibliography::Bibliography::Jcgm102), 6.2.1 (covariance of several
@@ -14,70 +14,72 @@ use crate::statistics::beta::student_factor;
 use crate::statistics::propagation;
 use nalgebra::DMatrix;
 
-/// The coverage probability of expanded uncertainties.
+/// Coverage probability of expanded uncertainties.
 pub(crate) const COVERAGE: f64 = 0.95;
 
-/// The uncertainty of one method's parameters and where it comes from.
+/// Uncertainty budget of one method.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Budget {
-    /// Which method.
+    /// Method of the calibration.
     pub method: Method,
-    /// The inputs that are uncertain.
+    /// Uncertain inputs.
     pub inputs: Vec<Input>,
-    /// Change of each parameter (rows, in the order of `Parameter::NINE`) that one standard uncertainty of each input
-    /// (columns) makes.
+    /// Change of each parameter (rows, in the order of `Parameter::NINE`) for one standard uncertainty of each input
+    /// (columns), in the unit of the parameter.
     pub spread: DMatrix<f64>,
-    /// For every parameter, in the order of the rows.
+    /// Budgets of the parameters, in the order of the rows.
     pub parameters: Vec<ParameterBudget>,
 }
 
-/// One parameter's uncertainty.
+/// Uncertainty budget of one parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParameterBudget {
-    /// Which parameter.
+    /// Parameter of the budget.
     pub parameter: Parameter,
-    /// Its value by the method; by iteration carried on without end.
+    /// Value of the parameter by this method; for the iterative method, the limit of the iteration.
     pub value: f64,
-    /// Its standard uncertainty.
+    /// Standard uncertainty of the parameter (k = 1), in its unit.
     pub standard_uncertainty: f64,
-    /// By Welch and Satterthwaite; infinite when every input's uncertainty is known.
+    /// Effective degrees of freedom by Welch and Satterthwaite; infinite if the uncertainty of every input is known
+    /// exactly.
     pub effective_degrees_of_freedom: f64,
-    /// For a coverage probability of `COVERAGE`, from Student's t with those degrees of freedom.
+    /// Coverage factor for the coverage probability `COVERAGE`, from Student's t with those degrees of freedom.
     pub coverage_factor: f64,
-    /// The lines of the budget, the largest first.
+    /// Lines of the budget, the largest first.
     pub contributions: Vec<Contribution>,
 }
 
 impl ParameterBudget {
-    /// Half the width of the interval that covers the parameter with probability `COVERAGE`.
+    /// Returns the expanded uncertainty: half the width of the interval that covers the parameter with probability
+    /// `COVERAGE`.
     pub fn expanded_uncertainty(&self) -> f64 {
         self.coverage_factor * self.standard_uncertainty
     }
 }
 
-/// A line of a budget: all inputs of one kind, which are independent of each other.
+/// Line of a budget: all inputs of one kind, which are independent of each other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contribution {
-    /// One of them; all have its kind, its source, and its unit.
+    /// First of these inputs; all have the same kind, source and unit.
     pub cause: Cause,
-    /// How many.
+    /// Number of these inputs.
     pub inputs: usize,
-    /// The smallest and the largest of their standard uncertainties: rad, a share of the reading, or mA.
+    /// Smallest and largest of their standard uncertainties: rad, a share of the reading, or mA.
     pub standard_uncertainty: [f64; 2],
-    /// What they contribute to the parameter's standard uncertainty, in its unit.
+    /// Contribution of these inputs to the standard uncertainty of the parameter, in its unit.
     pub contribution: f64,
-    /// Their share of the parameter's variance.
+    /// Share of these inputs in the variance of the parameter.
     pub share: f64,
 }
 
 impl Budget {
-    /// The budget of `method` for a calibration of `readings` at `setup`.
+    /// Computes the budget of `method` for a calibration of `readings` at `setup`.
     ///
     /// The sum of squares of the contributions is the variance that
     /// [`calibrate`](crate::calibration::calibrate) states.
     ///
     /// # Errors
-    /// The method gives nothing for these readings.
+    /// Returns [`MethodRefusal`] if the method has no solution for these readings.
     pub fn new(
         setup: &Setup,
         readings: &Readings,
@@ -96,13 +98,13 @@ impl Budget {
         Ok(Self { method, inputs, spread, parameters })
     }
 
-    /// Covariance of the parameters, in the order of `Parameter::NINE`; 8×8 or 9×9.
+    /// Returns the covariance of the parameters, in the order of `Parameter::NINE`; 8×8 or 9×9.
     pub fn covariance(&self) -> DMatrix<f64> {
         crate::calibration::propagation::covariance(&self.spread)
     }
 }
 
-/// A B, added up in a fixed order, so that results do not depend on the processor.
+/// Returns A B, with sums in a fixed order, so that the result does not depend on the CPU.
 pub(crate) fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     let mut product = DMatrix::zeros(a.nrows(), b.ncols());
     for (column, right) in b.column_iter().enumerate() {
@@ -132,7 +134,7 @@ fn of_parameter(
             Some(line) => {
                 line.inputs += 1;
                 line.standard_uncertainty = [line.standard_uncertainty[0].min(u), line.standard_uncertainty[1].max(u)];
-                // Squares until all are there.
+                // The sum of squares; its root is taken after the last input.
                 line.contribution += change * change;
             }
             None => {
@@ -158,8 +160,8 @@ fn of_parameter(
     }
 }
 
-/// By Welch and Satterthwaite (JCGM 100, G.4.1), not rounded; what rests on one estimate is one term, and a mean of
-/// estimates is divided among them.
+/// Returns the effective degrees of freedom by Welch and Satterthwaite (JCGM 100, G.4.1), not rounded. All inputs that
+/// depend on one estimate form one term; an input that is a mean of estimates is divided among them.
 fn effective_degrees_of_freedom(inputs: &[Input], changes: &[f64], estimates: &[f64]) -> f64 {
     let mut terms: Vec<(f64, f64)> = estimates.iter().map(|known| (0.0, *known)).collect();
     for (input, change) in inputs.iter().zip(changes) {

@@ -1,96 +1,96 @@
-//! Budgets and Monte Carlo for machines: the keys `budget` and `monte_carlo` of `calibrate --format json`.
+//! JSON of budgets and Monte Carlo: the keys `budget` and `monte_carlo` of `calibrate --format json`.
 
 use super::budget::{Budget, COVERAGE};
 use super::monte_carlo::MonteCarlo;
 use crate::calibration::document::CalibrationDocument;
 use serde::Serialize;
 
-/// The result of a calibration, and what was asked for besides.
+/// Calibration result with the requested budget and Monte Carlo.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct WholeDocument<'a> {
-    /// The calibration.
+    /// Result of the calibration.
     #[serde(flatten)]
     pub(crate) calibration: &'a CalibrationDocument,
-    /// Its budget.
+    /// Uncertainty budget, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) budget: Option<BudgetDocument>,
-    /// Its Monte Carlo.
+    /// Monte Carlo result, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) monte_carlo: Option<MonteCarloDocument>,
 }
 
-/// A budget.
+/// Uncertainty budget: the key `budget` of `calibrate --format json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BudgetDocument {
-    /// Of which method.
+    /// Key of the method.
     pub(crate) method: &'static str,
-    /// One computed sentence.
+    /// Sentence on the dominant contribution.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) sentence: Option<String>,
-    /// For each parameter.
+    /// Budgets of the parameters.
     pub(crate) parameters: Vec<ParameterDocument>,
     /// Covariance of the parameters, in their order.
     pub(crate) covariance: Vec<Vec<f64>>,
-    /// Every input by itself.
+    /// Single inputs.
     pub(crate) inputs: Vec<InputDocument>,
 }
 
-/// One parameter.
+/// Uncertainty budget of one parameter.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct ParameterDocument {
-    /// Its key.
+    /// Key of the parameter.
     pub(crate) parameter: &'static str,
-    /// Its unit.
+    /// Unit of the parameter.
     pub(crate) unit: &'static str,
-    /// Its value.
+    /// Value of the parameter.
     pub(crate) value: f64,
-    /// k = 1.
+    /// Standard uncertainty (k = 1).
     pub(crate) standard_uncertainty: f64,
-    /// Absent when infinite.
+    /// Effective degrees of freedom; absent if infinite.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) effective_degrees_of_freedom: Option<f64>,
-    /// Probability of the expanded uncertainty.
+    /// Coverage probability of the expanded uncertainty.
     pub(crate) coverage_probability: f64,
-    /// Expanded over standard uncertainty.
+    /// Coverage factor: expanded over standard uncertainty.
     pub(crate) coverage_factor: f64,
-    /// Half the width of the interval.
+    /// Expanded uncertainty: half the width of the coverage interval.
     pub(crate) expanded_uncertainty: f64,
-    /// The largest first.
+    /// Lines of the budget, the largest first.
     pub(crate) contributions: Vec<ContributionDocument>,
 }
 
-/// A line of a budget.
+/// Line of a budget.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct ContributionDocument {
-    /// The kind of input.
+    /// Kind of the inputs.
     pub(crate) input: String,
-    /// How many inputs of that kind.
+    /// Number of inputs of that kind.
     pub(crate) inputs: usize,
-    /// Who states it.
+    /// Source that states the uncertainty.
     pub(crate) source: &'static str,
-    /// The unit of its uncertainty.
+    /// Unit of the input uncertainty.
     pub(crate) input_unit: &'static str,
-    /// The largest standard uncertainty of the kind.
+    /// Largest standard uncertainty of the kind.
     pub(crate) input_standard_uncertainty: f64,
-    /// What it contributes, in the parameter's unit.
+    /// Contribution to the standard uncertainty of the parameter, in its unit.
     pub(crate) contribution: f64,
-    /// Of the parameter's variance.
+    /// Share in the variance of the parameter.
     pub(crate) share: f64,
 }
 
-/// One input.
+/// Single input.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct InputDocument {
-    /// Its name.
+    /// Name of the input.
     pub(crate) input: String,
-    /// Its unit.
+    /// Unit of the input.
     pub(crate) unit: &'static str,
-    /// Of the mean of all readings.
+    /// Standard uncertainty of the input, for the mean of all readings.
     pub(crate) standard_uncertainty: f64,
-    /// Absent when infinite.
+    /// Degrees of freedom of that uncertainty; absent if infinite.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) degrees_of_freedom: Option<f64>,
-    /// The change of every parameter that one standard uncertainty makes, in their order.
+    /// Change of every parameter for one standard uncertainty of the input, in the order of the parameters.
     pub(crate) changes: Vec<f64>,
 }
 
@@ -99,7 +99,7 @@ fn finite(value: f64) -> Option<f64> {
 }
 
 impl BudgetDocument {
-    /// Of a budget and the sentence on it.
+    /// Creates the document of a budget and the sentence on it.
     pub fn new(budget: &Budget, sentence: Option<String>) -> Self {
         let covariance = budget.covariance();
         let parameters = budget.parameters.iter().map(|line| ParameterDocument {
@@ -144,54 +144,54 @@ impl ContributionDocument {
     }
 }
 
-/// A Monte Carlo: the key `monte_carlo` of `calibrate --format json`.
+/// Monte Carlo result: the key `monte_carlo` of `calibrate --format json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct MonteCarloDocument {
-    /// Of which method.
+    /// Key of the method.
     pub(crate) method: &'static str,
-    /// The same seed gives the same numbers.
+    /// Seed, which determines the numbers.
     pub(crate) seed: u64,
-    /// Trials made.
+    /// Number of trials made.
     pub(crate) trials: u64,
-    /// Trials without finite parameters, left out.
+    /// Number of trials without finite parameters, which are excluded.
     pub(crate) failed: u64,
-    /// Whether every stated digit is stable.
+    /// `true` if every stated digit is stable.
     pub(crate) stable: bool,
-    /// For each parameter.
+    /// Distributions of the parameters.
     pub(crate) parameters: Vec<DistributionDocument>,
     /// Covariance of the parameters, in their order.
     pub(crate) covariance: Vec<Vec<f64>>,
 }
 
-/// The distribution of one parameter.
+/// Distribution of one parameter.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct DistributionDocument {
-    /// Its key.
+    /// Key of the parameter.
     pub(crate) parameter: &'static str,
-    /// Its unit.
+    /// Unit of the parameter.
     pub(crate) unit: &'static str,
     /// Mean of the trials.
     pub(crate) mean: f64,
-    /// Their standard deviation.
+    /// Standard deviation of the trials.
     pub(crate) standard_uncertainty: f64,
-    /// Probability of the intervals.
+    /// Coverage probability of the intervals.
     pub(crate) coverage_probability: f64,
-    /// As much below it as above.
+    /// Probabilistically symmetric coverage interval.
     pub(crate) symmetric_interval: [f64; 2],
-    /// The shortest.
+    /// Shortest coverage interval.
     pub(crate) shortest_interval: [f64; 2],
-    /// y - U and y + U by first order.
+    /// First-order interval, y - U and y + U.
     pub(crate) first_order_interval: [f64; 2],
-    /// How far the ends of the symmetric and the first-order interval are apart.
+    /// Distances between the lower and between the upper ends of the symmetric and the first-order interval.
     pub(crate) differences: [f64; 2],
-    /// What they may be apart.
+    /// Largest distance for which first order is valid.
     pub(crate) tolerance: f64,
-    /// JCGM 101, clause 8; null where there are too few trials to tell.
+    /// `true` if first order is valid by JCGM 101, clause 8; null if there are too few trials to decide.
     pub(crate) first_order_valid: Option<bool>,
 }
 
 impl MonteCarloDocument {
-    /// Of a Monte Carlo.
+    /// Creates the document of a Monte Carlo result.
     pub(crate) fn new(found: &MonteCarlo) -> Self {
         let parameters = found.parameters.iter().map(|line| DistributionDocument {
             parameter: line.parameter.key(),

@@ -1,4 +1,4 @@
-//! What matters in a budget: how well the worst parameter is known, from what, and what would halve that; in one sentence too.
+//! Dominant contribution of a budget: the worst parameter, its main source, and what would halve its uncertainty.
 
 use super::budget::{Budget, Contribution, ParameterBudget};
 use crate::calibration::causes::Cause;
@@ -6,10 +6,11 @@ use crate::calibration::parameter::Parameter;
 use crate::gyro::Tolerance;
 use crate::units::printed;
 
-/// From this share of a variance on, it comes from one kind of input "nearly all".
+/// Share of a variance from which on it comes "nearly all" from one kind of input.
 const NEARLY_ALL: f64 = 0.9;
 
-/// An uncertainty's share of what it is compared with: `tolerance` where given, otherwise the parameter's own size.
+/// Returns the uncertainty of a parameter relative to its `tolerance` if given, otherwise to the value of the
+/// parameter.
 fn weight(line: &ParameterBudget, tolerance: Option<&Tolerance>) -> f64 {
     let size = line.value.abs();
     let allowed = tolerance.map_or(size, |tolerance| match line.parameter {
@@ -23,40 +24,41 @@ fn weight(line: &ParameterBudget, tolerance: Option<&Tolerance>) -> f64 {
     if allowed > 0.0 { line.standard_uncertainty / allowed } else { 0.0 }
 }
 
-/// What a budget comes to.
+/// Dominant contribution of a budget.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Dominant<'a> {
-    /// The parameter whose uncertainty is the largest share of its tolerance; without a type's tolerance, of its own size.
+    /// Parameter with the largest uncertainty relative to its tolerance or, without a tolerance, to its own value.
     pub worst: &'a ParameterBudget,
-    /// Its largest contribution.
+    /// Largest contribution to its uncertainty.
     pub first: &'a Contribution,
-    /// What smaller inputs of that kind would do.
+    /// Effect of smaller inputs of that kind.
     pub effect: Effect,
 }
 
-/// What may be expected of the largest contribution alone.
+/// Effect of a reduction of the largest contribution alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Effect {
-    /// The parameter's uncertainty halves when that of the input is at most this, in the unit of
-    /// [`Cause::unit`](crate::calibration::causes::Cause::unit); two digits, rounded down, so that what is asked for is enough.
+    /// Standard uncertainty of the input at which that of the parameter halves, in the unit of
+    /// [`Cause::unit`](crate::calibration::causes::Cause::unit); two digits, rounded down, so that this value is
+    /// enough.
     HalvesAt(f64),
-    /// Even without the contribution this would be left, in the parameter's unit.
+    /// Standard uncertainty that remains without the contribution, in the unit of the parameter.
     Leaves(f64),
 }
 
-/// How much of a variance the largest contribution is.
+/// Share of the largest contribution in a variance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Part {
-    /// From 90 % on.
+    /// Share of 90 % or more.
     NearlyAll,
-    /// From a half on.
+    /// Share of one half or more.
     Most,
-    /// No other is larger.
+    /// Smaller share, but the largest of all.
     Largest,
 }
 
 impl<'a> Dominant<'a> {
-    /// Of a budget; `None` when nothing is uncertain.
+    /// Returns the dominant contribution of a budget, or `None` if nothing is uncertain.
     pub(crate) fn of(budget: &'a Budget, tolerance: Option<&Tolerance>) -> Option<Self> {
         let heaviest =
             |a: &&ParameterBudget, b: &&ParameterBudget| weight(a, tolerance).total_cmp(&weight(b, tolerance));
@@ -76,7 +78,7 @@ impl<'a> Dominant<'a> {
         Some(Self { worst, first, effect })
     }
 
-    /// How much of the variance its largest contribution is.
+    /// Returns the share of the largest contribution in the variance.
     pub(crate) fn part(&self) -> Part {
         match self.first.share {
             share if share >= NEARLY_ALL => Part::NearlyAll,
@@ -85,7 +87,7 @@ impl<'a> Dominant<'a> {
         }
     }
 
-    /// All of it in one sentence without a full stop.
+    /// Returns the result as one sentence without a full stop.
     pub(crate) fn sentence(&self) -> String {
         let (worst, kind, percent) = (self.worst, self.first.cause.kind(), 100.0 * self.first.share);
         let from = match self.part() {
@@ -102,13 +104,14 @@ impl<'a> Dominant<'a> {
     }
 }
 
-/// Percent that an uncertainty of a scale factor is of it; `None` for other parameters, and of a factor of 0.
+/// Returns an uncertainty of a scale factor in percent of it, or `None` for other parameters and for a factor of 0.
 pub(crate) fn percent(line: &ParameterBudget, u: f64) -> Option<f64> {
     let of_factor = matches!(line.parameter, Parameter::Kx | Parameter::Kxy | Parameter::Kyx | Parameter::Ky);
     (of_factor && line.value != 0.0).then(|| 100.0 * u / line.value.abs())
 }
 
-/// An uncertainty of a parameter: in percent of a scale factor, in its unit otherwise.
+/// Returns an uncertainty of a parameter as text: in percent for a scale factor, otherwise in the unit of the
+/// parameter.
 fn amount(line: &ParameterBudget, u: f64) -> String {
     match percent(line, u) {
         Some(percent) => format!("{} %", two_digits(percent)),
@@ -116,7 +119,7 @@ fn amount(line: &ParameterBudget, u: f64) -> String {
     }
 }
 
-/// How an input comes to be known to `limit`, in its unit.
+/// Returns the measure that reduces the uncertainty of an input to `limit`, in its unit.
 fn what_to_do(cause: Cause, limit: f64) -> String {
     let to = format!("{} {}", two_digits(limit), cause.unit());
     match cause {
@@ -144,18 +147,18 @@ fn what_to_do(cause: Cause, limit: f64) -> String {
     }
 }
 
-/// Two significant digits.
+/// Returns a number as text with two significant digits.
 fn two_digits(value: f64) -> String {
     plain(format!("{value:.1e}"))
 }
 
-/// Two significant digits, towards zero.
+/// Returns a number rounded towards zero to two significant digits.
 fn rounded_down(value: f64) -> f64 {
     let decade = libm::pow(10.0, libm::log10(value).floor() - 1.0);
     (value / decade + 1e-9).floor() * decade
 }
 
-/// 1.5e-1 as 0.15, and so on, as long as that is short.
+/// Returns 1.5e-1 as 0.15, and so on, unless the exponent is beyond ±4.
 fn plain(scientific: String) -> String {
     match (scientific.parse::<f64>(), scientific.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()))
     {

@@ -1,8 +1,8 @@
-//! Covariance of the numbers of a passport: what stand and site leave uncertain in its vectors and matrices.
+//! Covariance of the numbers of a passport: the uncertainty of stand and site in its vectors and matrices.
 //!
 //! First order ([JCGM 102](crate::bibliography::Bibliography::Jcgm102), 6.2.1), with exact derivatives of eq. (5) and
-//! (11)-(15) of [the paper](crate::bibliography::Bibliography::Tang17). The seat of the gyro, its returns and its
-//! currents are no part of a passport and leave its numbers alone.
+//! (11)-(15) of [the paper](crate::bibliography::Bibliography::Tang17). The seat of the gyro, the repeatability of
+//! positions and the currents are not part of a passport and do not affect its numbers.
 
 use crate::calibration::Setup;
 use crate::calibration::causes::{Cause, Input, of_stand_and_site, unit_vector};
@@ -10,13 +10,13 @@ use crate::calibration::sensitivity::VectorChange;
 use crate::coefficients::{EIGHT_POSITIONS, Matrices, PositionIndex, pair_differences};
 use nalgebra::{DMatrix, Matrix2, Vector3};
 
-/// A number of a passport, by its keys.
+/// Number of a passport, identified by its keys.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Entry {
-    /// An element of `vectors`: position, key, and place in the list where the key has one.
+    /// Element of `vectors`: position, key, and place in the list if the key has one.
     Vector(PositionIndex, &'static str, Option<usize>),
-    /// An element of `matrices`: key, row, column, from 0.
+    /// Element of `matrices`: key, row, column, from 0.
     Matrix(&'static str, usize, usize),
 }
 
@@ -30,19 +30,19 @@ impl std::fmt::Display for Entry {
     }
 }
 
-/// How uncertain the numbers of a passport are, together.
+/// Joint uncertainty of the numbers of a passport.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EntryUncertainty {
-    /// The numbers: those of `vectors`, five for a position; then those of `matrices`, where the stand has them.
+    /// Numbers of the passport: those of `vectors`, five per position; then those of `matrices`, if the stand has them.
     pub entries: Vec<Entry>,
-    /// What makes them uncertain.
+    /// Uncertain inputs.
     pub inputs: Vec<Input>,
-    /// Change of each entry (rows) that one standard uncertainty of each input (columns) makes, in the entry's unit.
+    /// Change of each entry (rows) for one standard uncertainty of each input (columns), in the unit of the entry.
     pub spread: DMatrix<f64>,
 }
 
 impl EntryUncertainty {
-    /// Of the stand and the site of `setup`.
+    /// Computes the uncertainty of the entries from the stand and the site of `setup`.
     pub fn new(setup: &Setup) -> Self {
         let inputs = of_stand_and_site(setup);
         let positions = &setup.coefficients().positions;
@@ -70,7 +70,7 @@ impl EntryUncertainty {
         Self { entries, inputs, spread }
     }
 
-    /// Covariance of the entries, in their order; as many rows and columns.
+    /// Returns the covariance of the entries, entries × entries, in their order.
     pub fn covariance(&self) -> DMatrix<f64> {
         crate::calibration::propagation::covariance(&self.spread)
     }
@@ -80,13 +80,13 @@ impl EntryUncertainty {
 const MATRIX_KEYS: [&str; 8] =
     ["delta", "b_deg_per_h", "c_deg_per_h_per_g", "n1", "n2", "n2_inverse", "omega1_deg_per_h", "omega2_deg_per_h"];
 
-/// In the order of the entries of a position.
+/// Returns the changes in the order of the entries of a position.
 fn entries_of(change: &VectorChange) -> [f64; 5] {
     let VectorChange { earth_rate_deg_per_h: earth, vertical } = change;
     [vertical.x, vertical.y, vertical.z, earth.x, earth.y]
 }
 
-/// What one standard uncertainty of an input does to a position.
+/// Returns the change of a position for one standard uncertainty of an input.
 fn change(setup: &Setup, place: usize, input: &Input) -> VectorChange {
     let none = VectorChange { earth_rate_deg_per_h: Vector3::zeros(), vertical: Vector3::zeros() };
     let change = match input.cause {
@@ -103,7 +103,7 @@ fn change(setup: &Setup, place: usize, input: &Input) -> VectorChange {
     VectorChange { earth_rate_deg_per_h: change.earth_rate_deg_per_h * u, vertical: change.vertical * u }
 }
 
-/// Changes of the matrices, in the order of [`MATRIX_KEYS`], by rows.
+/// Returns the changes of the matrices, in the order of [`MATRIX_KEYS`], row by row.
 fn of_matrices(setup: &Setup, m: &Matrices, changes: &[VectorChange]) -> Vec<f64> {
     let positions = &setup.coefficients().positions;
     let find = |position: usize| positions.iter().position(|at| at.index == EIGHT_POSITIONS[position].0).unwrap_or(0);

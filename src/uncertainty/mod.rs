@@ -1,11 +1,11 @@
-//! Where the uncertainty of a calibration comes from, and how large it is.
+//! Uncertainty of a calibration and its sources.
 //!
-//! * `budget`: first order: contributions of every named input, effective degrees of freedom, covariance.
-//! * `dominant`: what matters in a budget, and what would halve an uncertainty.
-//! * `document`: the same for machines.
-//! * `engine`: trials of a Monte Carlo, many side by side.
+//! * `budget`: first-order contributions of every input, effective degrees of freedom, covariance.
+//! * `dominant`: the dominant contribution of a budget, and what would halve an uncertainty.
+//! * `document`: budgets and Monte Carlo results as JSON.
+//! * `engine`: vectorised trials of a Monte Carlo.
 //! * `entries`: covariance of the numbers of a passport.
-//! * `monte_carlo`: the same without first order, and whether first order is valid; `accumulator`: what trials leave behind.
+//! * `monte_carlo`: distributions by Monte Carlo, and whether first order is valid; `accumulator`: the accumulated trials.
 
 #[cfg(feature = "monte-carlo")]
 pub(crate) mod accumulator;

@@ -1,9 +1,9 @@
 //! Monte Carlo of a calibration: trials until the stated digits are stable, coverage intervals, and whether first order
 //! is valid here.
 //!
-//! Source: [JCGM 101](crate::bibliography::Bibliography::Jcgm101), 7.9 (adaptive procedure), 7.7 (coverage intervals), 8
-//! (validation of first order). The same seed gives the same bytes on any number of threads; memory does not grow with
-//! the number of trials.
+//! Source: [JCGM 101](crate::bibliography::Bibliography::Jcgm101), 7.9 (adaptive procedure), 7.7 (coverage intervals),
+//! 8 (validation of first order). A seed gives the same bytes on any number of threads. Memory does not grow with the
+//! number of trials.
 
 use super::accumulator::{Accumulator, BlockSummary, Histograms, Scale};
 use super::budget::{Budget, COVERAGE, ParameterBudget};
@@ -16,31 +16,31 @@ use nalgebra::DMatrix;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Significant digits of a standard uncertainty that must be right (JCGM 101, 7.9.2).
+/// Number of significant digits of a standard uncertainty that must be correct (JCGM 101, 7.9.2).
 const DIGITS: i32 = 2;
 
-/// Share of that tolerance within which Monte Carlo itself must be stable, to judge first order by it (JCGM 101, 8.2).
+/// Share of that tolerance within which the Monte Carlo itself must be stable to validate first order (JCGM 101, 8.2).
 const SHARE_OF_TOLERANCE: f64 = 0.2;
 
-/// Blocks at first, and in a wave at most: after each wave the digits are looked at.
+/// Number of blocks in the first wave; the digits are tested after each wave.
 const FIRST_BLOCKS: u64 = 10;
 const MOST_BLOCKS_IN_A_WAVE: u64 = 512;
 
-/// Trials after which an adaptive run gives up.
+/// Number of trials after which an adaptive run stops.
 pub(crate) const MOST_TRIALS: u64 = 200_000_000;
 
-/// How a Monte Carlo is run.
+/// Settings of a Monte Carlo run.
 #[derive(Clone, Copy)]
 pub struct Trials<'a> {
-    /// How many, rounded up to whole blocks of `BLOCK`; `None` until the digits are stable.
+    /// Number of trials, rounded up to whole blocks of `BLOCK`; `None` runs until the digits are stable.
     pub trials: Option<u64>,
-    /// Which random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// Threads; 0 and 1 are the same.
+    /// Number of threads; 0 and 1 have the same effect.
     pub threads: usize,
-    /// Once true, the run ends after the blocks that have begun.
+    /// Flag that cancels the run: once it is `true`, no further block is started.
     pub cancel: Option<&'a AtomicBool>,
-    /// Told after every wave how many trials are done, and how many will be as far as that is known.
+    /// Function called after every wave with the number of trials done, and with the total as far as it is known.
     pub progress: Option<&'a (dyn Fn(u64, u64) + Sync)>,
 }
 
@@ -52,67 +52,68 @@ impl std::fmt::Debug for Trials<'_> {
 }
 
 impl Trials<'_> {
-    /// Until the digits are stable, on all the machine's processors.
+    /// Creates a run that lasts until the digits are stable, on all CPUs that the process may use.
     pub fn adaptive(seed: u64) -> Self {
         let threads = parallel::processors();
         Self { trials: None, seed, threads, cancel: None, progress: None }
     }
 }
 
-/// What the trials say.
+/// Result of a Monte Carlo run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MonteCarlo {
-    /// Of which method.
+    /// Method of the calibration.
     pub method: Method,
-    /// Which random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// Trials made.
+    /// Number of trials made.
     pub trials: u64,
-    /// Trials that gave no finite parameters; they are left out.
+    /// Number of trials without finite parameters, which are excluded.
     pub failed: u64,
-    /// Whether every stated digit is stable (JCGM 101, 7.9.4).
+    /// `true` if every stated digit is stable (JCGM 101, 7.9.4).
     pub stable: bool,
-    /// In the order of [`Parameter::EIGHT`].
+    /// Distributions of the parameters, in the order of [`Parameter::EIGHT`].
     pub parameters: Vec<Distribution>,
     /// Covariance of the parameters, 8×8.
     pub covariance: DMatrix<f64>,
 }
 
-/// The distribution of one parameter.
+/// Distribution of one parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Distribution {
-    /// Which parameter.
+    /// Parameter of the distribution.
     pub parameter: Parameter,
     /// Mean of the trials.
     pub mean: f64,
-    /// Their standard deviation.
+    /// Standard deviation of the trials.
     pub standard_uncertainty: f64,
-    /// The interval of probability `COVERAGE` with as much below it as above.
+    /// Probabilistically symmetric coverage interval with probability `COVERAGE`.
     pub symmetric: [f64; 2],
-    /// The shortest interval of that probability.
+    /// Shortest coverage interval with that probability.
     pub shortest: [f64; 2],
-    /// Twice the standard deviation of mean, standard uncertainty and the ends of the symmetric interval themselves.
+    /// Numerical uncertainties: twice the standard deviations of the mean, of the standard uncertainty and of the two
+    /// ends of the symmetric interval.
     pub numerical: [f64; 4],
-    /// How first order compares.
+    /// Comparison with first order.
     pub first_order: FirstOrder,
 }
 
-/// First order against Monte Carlo (JCGM 101, clause 8).
+/// Comparison of first order with Monte Carlo (JCGM 101, clause 8).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FirstOrder {
     /// Standard uncertainty by first order.
     pub standard_uncertainty: f64,
-    /// y − U and y + U.
+    /// First-order interval, y − U and y + U.
     pub interval: [f64; 2],
-    /// How far the two intervals' lower, and upper, ends are apart.
+    /// Distances between the lower and between the upper ends of the two intervals.
     pub differences: [f64; 2],
-    /// What they may be apart: half a unit of the last of two digits of the standard uncertainty.
+    /// Largest valid distance: half a unit of the second significant digit of the standard uncertainty.
     pub tolerance: f64,
-    /// Whether both are within it; `None` where there are too few trials to tell.
+    /// `true` if both distances are within the tolerance; `None` if there are too few trials to decide.
     pub valid: Option<bool>,
 }
 
-/// Runs the trials of `engine`; `budget` is the first order to be judged.
+/// Runs the trials of `engine`, and compares them with the first-order `budget`.
 pub fn monte_carlo(engine: &Engine, budget: &Budget, run: &Trials) -> MonteCarlo {
     let scale = pilot(engine, run.seed);
     let mut series = Series::new(scale, run.seed);
@@ -126,7 +127,8 @@ pub fn monte_carlo(engine: &Engine, budget: &Budget, run: &Trials) -> MonteCarlo
         let ratio = series.instability(budget);
         stable = ratio <= 1.0;
         if asked.is_none() && !stable {
-            // Twice the standard deviation falls with the root of the trials; a tenth more, and never over four times.
+            // Twice the standard deviation falls with the root of the trials; add a tenth, and at most quadruple the
+            // blocks.
             let enough = (series.blocks as f64 * ratio * ratio * 1.1).ceil();
             let next = enough.clamp(series.blocks as f64 + 2.0, 4.0 * series.blocks as f64) as u64;
             due = next.min(MOST_TRIALS / BLOCK);
@@ -138,7 +140,7 @@ pub fn monte_carlo(engine: &Engine, budget: &Budget, run: &Trials) -> MonteCarlo
     series.result(budget, run.seed, stable)
 }
 
-/// The scale of every parameter, from the first block.
+/// Computes the scale of every parameter from the first block.
 fn pilot(engine: &Engine, seed: u64) -> Scale {
     let mut samples: [Vec<f64>; 8] = Default::default();
     let mut work = engine.workspace();
@@ -150,7 +152,7 @@ fn pilot(engine: &Engine, seed: u64) -> Scale {
     Scale::of_pilot(samples)
 }
 
-/// Everything that blocks leave behind, of a fixed size.
+/// Accumulated results of all blocks, of a fixed size.
 struct Series {
     scale: Scale,
     lanes: WideRandom,
@@ -160,12 +162,12 @@ struct Series {
     sums: [f64; 8],
     products: [f64; 36],
     histograms: Histograms,
-    /// For mean, standard deviation and the two quantiles of each parameter: mean of the blocks' own values and sum of
-    /// squares about it.
+    /// Mean of the blocks' values and the sum of squares about it, for the mean, the standard deviation and the two
+    /// quantiles of each parameter.
     of_blocks: [[(f64, f64); 4]; 8],
 }
 
-/// Place of the square of a parameter among the products.
+/// Returns the place of the square of a parameter among the products.
 const fn square(place: usize) -> usize {
     place * (place + 1) / 2 + place
 }
@@ -185,7 +187,7 @@ impl Series {
         }
     }
 
-    /// Runs `blocks` blocks on the threads of `run`, and adds them up in their order.
+    /// Runs `blocks` blocks on the threads of `run`, and adds them in their order.
     fn wave(&mut self, engine: &Engine, blocks: u64, run: &Trials) {
         let queue = Mutex::new((0, self.lanes.clone()));
         let done: Mutex<(Vec<(u64, BlockSummary)>, Histograms)> = Mutex::default();
@@ -249,7 +251,7 @@ impl Series {
         }
     }
 
-    /// Twice the standard deviations of the mean over blocks of the four values of a parameter, in its unit.
+    /// Returns twice the standard deviations of the means over blocks of the four values of a parameter, in its unit.
     fn numerical(&self, place: usize) -> [f64; 4] {
         let blocks = self.blocks as f64;
         if self.blocks < 2 {
@@ -259,7 +261,7 @@ impl Series {
             .map(|(_, squares)| 2.0 * (squares / (blocks * (blocks - 1.0))).sqrt() * self.scale.unit[place])
     }
 
-    /// The worst of all those over what they may be; at most 1 when every digit is stable.
+    /// Returns the largest of these uncertainties relative to its limit; at most 1 if every digit is stable.
     fn instability(&self, budget: &Budget) -> f64 {
         let of = |(place, line): (usize, &ParameterBudget)| {
             let u = self.standard_deviation(place);
@@ -312,7 +314,8 @@ impl Series {
 }
 
 impl FirstOrder {
-    /// `numerical`: how far each end of the symmetric interval may be off for want of trials.
+    /// Compares first order with Monte Carlo; `numerical` is the numerical uncertainty of each end of the symmetric
+    /// interval.
     fn new(line: &ParameterBudget, symmetric: [f64; 2], numerical: [f64; 2]) -> Self {
         let half = line.expanded_uncertainty();
         let interval = [line.value - half, line.value + half];
@@ -323,8 +326,9 @@ impl FirstOrder {
     }
 }
 
-/// Valid when both differences are within the tolerance however far Monte Carlo may be off, not valid when one is beyond
-/// it however far; 8.2 asks for a fifth of the tolerance, which decides all but close cases.
+/// Returns `true` if both differences are within the tolerance for every Monte Carlo error within `numerical`, `false`
+/// if one exceeds it for every such error, otherwise `None`. JCGM 101, 8.2 requires a fifth of the tolerance, which
+/// decides all but close cases.
 fn valid(differences: [f64; 2], tolerance: f64, numerical: [f64; 2]) -> Option<bool> {
     let mut ends = differences.into_iter().zip(numerical);
     if ends.clone().any(|(difference, off)| difference - off > tolerance) {
@@ -333,12 +337,12 @@ fn valid(differences: [f64; 2], tolerance: f64, numerical: [f64; 2]) -> Option<b
     ends.all(|(difference, off)| difference + off <= tolerance).then_some(true)
 }
 
-/// δ = ½ · 10ˡ for u = c · 10ˡ with c of two digits (JCGM 101, 7.9.2).
+/// Returns δ = ½ · 10ˡ for u = c · 10ˡ with c of two digits (JCGM 101, 7.9.2), or infinity if u is not positive.
 pub(crate) fn tolerance(u: f64) -> f64 {
     if !(u.is_finite() && u > 0.0) {
         return f64::INFINITY;
     }
-    // The exponent of the value as printed: 0.0996 is 0.10.
+    // The exponent of the value as printed: 0.0996 becomes 0.10.
     let printed = format!("{u:.1e}");
     let exponent = printed.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()).unwrap_or(0);
     0.5 * libm::pow(10.0, f64::from(exponent - (DIGITS - 1)))

@@ -1,5 +1,5 @@
-//! The paper's coefficients and its closed solution in every trial of a chunk (paper, eq. (8)-(16)), 2×2 matrices written
-//! out.
+//! The paper's coefficients and its analytic solution in every trial of a chunk (paper, eq. (8)-(16)), with 2×2
+//! matrices written out.
 
 use super::Solutions;
 use super::kernel::At;
@@ -7,13 +7,13 @@ use crate::calibration::Setup;
 use crate::calibration::analytic::{NoAnalyticSolution, places_of_the_eight};
 use crate::statistics::wide_random::WIDTH;
 
-/// Where the eight positions are, and how many there are in all.
+/// Analytic solver, with the places of the eight positions.
 #[derive(Debug, Clone)]
 pub(crate) struct Closed {
     eight: [usize; 8],
 }
 
-/// A 2×2 matrix by rows.
+/// 2×2 matrix, row by row.
 type M2 = [f64; 4];
 
 #[inline(always)]
@@ -42,7 +42,7 @@ impl Closed {
     pub(crate) fn solve(&self, positions: &[At], solutions: &mut Solutions) {
         let e = self.eight.map(|place| &positions[place]);
         let mut found = [[0.0; WIDTH]; 8];
-        // Sums over all positions, for (8).
+        // Sums over all positions, for eq. (8).
         let mut sums = [[0.0; WIDTH]; 6];
         for at in positions {
             for trial in 0..WIDTH {
@@ -83,7 +83,7 @@ impl Closed {
     }
 }
 
-/// (p − q, r − s) as columns.
+/// Returns the 2×2 matrix with the columns p − q and r − s.
 #[inline(always)]
 fn pair<'a>(
     trial: usize,

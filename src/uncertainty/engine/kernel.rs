@@ -1,8 +1,8 @@
-//! From standard deviates to what every position sees: specific force, Earth rate, currents.
+//! Specific force, Earth rate and currents of every position, computed from standard deviates.
 //!
-//! Rotations act as rotations: Ã = T · E(α + δα, β + δβ, γ + δγ) · A · R, where R turns the base, and T the case (the sum
-//! of the small vectors of platform, seat and return). Small turns by a vector δ are exact: v + s₁ v×δ + s₂ (v×δ)×δ with
-//! s₁ = sin|δ|/|δ| and s₂ = (1 − cos|δ|)/δ².
+//! Rotations are applied exactly: Ã = T · E(α + δα, β + δβ, γ + δγ) · A · R, where R rotates the base, and T the case
+//! (by the sum of the small vectors of platform, seat and repeatability). A small rotation by a vector δ is v + s₁ v×δ
+//! + s₂ (v×δ)×δ with s₁ = sin|δ|/|δ| and s₂ = (1 − cos|δ|)/δ².
 
 use super::plan::{Drawn, Plan, Slot};
 use crate::calibration::Setup;
@@ -10,14 +10,14 @@ use crate::statistics::elementary::{SMALL_RAD, small_cos_less_one, small_sin};
 use crate::statistics::wide_random::{Column, WIDTH};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
-/// What one position sees in every trial of a chunk.
+/// Quantities of one position in every trial of a chunk.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct At {
     /// Specific force along x and y, g.
     pub n: [Column; 2],
     /// Earth rate along x and y, °/h.
     pub omega: [Column; 2],
-    /// Currents, mA.
+    /// Currents of x and y, mA.
     pub current: [Column; 2],
 }
 
@@ -27,16 +27,16 @@ impl Default for At {
     }
 }
 
-/// An input: its column, and its standard uncertainty.
+/// Column of an input's deviates, with its standard uncertainty.
 type Scaled = (Slot, f64);
 
-/// One position.
+/// Constants and inputs of one position.
 #[derive(Debug, Clone)]
 struct Place {
     /// Sine and cosine of the certified α, β, γ.
     sin_cos: [(f64, f64); 3],
     certified_rad: [f64; 3],
-    /// Vertical and Earth rate after A: E's input where the base does not turn.
+    /// Vertical and Earth rate after A, which E acts on if the base does not rotate.
     vertical: Vector3<f64>,
     earth: Vector3<f64>,
     nominal: Matrix3<f64>,
@@ -47,25 +47,25 @@ struct Place {
     noise: [Scaled; 2],
 }
 
-/// All positions.
+/// Model of all positions.
 #[derive(Debug, Clone)]
 pub(crate) struct Kernel {
     places: Vec<Place>,
-    /// Of each axis: what is known, and what an estimate with few degrees of freedom gives.
+    /// Rotations about each axis: the part that is known, and the part estimated with few degrees of freedom.
     case: [[Scaled; 2]; 3],
     base: [[Scaled; 2]; 3],
     latitude: Scaled,
     gain: Scaled,
     offset: Scaled,
     earth: Vector3<f64>,
-    /// Whether any case, any base is turned.
+    /// `true` if the case rotates in any position; `base_turns` likewise for the base.
     case_turns: bool,
     base_turns: bool,
-    /// Whether a small angle may be beyond [`SMALL_RAD`].
+    /// `true` if a small angle may be beyond [`SMALL_RAD`].
     may_be_large: bool,
 }
 
-/// No normal deviate is beyond this.
+/// Upper bound of the normal deviates.
 const LARGEST_NORMAL: f64 = 8.5;
 
 impl Kernel {
@@ -96,7 +96,7 @@ impl Kernel {
         let drawn = |inputs: &[Scaled]| inputs.iter().any(|(slot, _)| *slot > 0);
         let case_turns = drawn(case.as_flattened()) || places.iter().any(|place| drawn(&place.returns));
         let base_turns = drawn(base.as_flattened()) || drawn(&[latitude]);
-        // A turn's vector is at most the sum of its parts; each part is √3 of its largest component or less.
+        // The vector of a rotation is at most the sum of its parts, each at most √3 times its largest component.
         let largest = places
             .iter()
             .flat_map(|place| place.angles.iter().chain(&place.returns))
@@ -112,7 +112,7 @@ impl Kernel {
         self.places.len()
     }
 
-    /// Everything of a chunk.
+    /// Computes all quantities of a chunk.
     #[inline(always)]
     pub(crate) fn run(&self, deviates: &[Column], positions: &mut [At]) {
         let exact = self.may_be_large && self.has_large(deviates);
@@ -125,7 +125,7 @@ impl Kernel {
         }
     }
 
-    /// Whether an angle of the chunk is beyond what polynomials are good for.
+    /// Returns `true` if an angle of the chunk is beyond the range of the polynomials.
     #[cold]
     #[inline(never)]
     fn has_large(&self, deviates: &[Column]) -> bool {
@@ -138,7 +138,7 @@ impl Kernel {
         4.0 * largest > SMALL_RAD
     }
 
-    /// The same with libm's sine and cosine.
+    /// Computes all quantities of a chunk with the sine and cosine of libm.
     #[cold]
     #[inline(never)]
     fn run_exactly(&self, deviates: &[Column], positions: &mut [At]) {
@@ -155,7 +155,7 @@ impl Kernel {
         }
     }
 
-    /// Vertical and Earth rate in the axes of the base as it really stands.
+    /// Returns the vertical and the Earth rate in the axes of the base as actually oriented.
     #[inline(always)]
     fn base_vectors<const EXACT: bool>(&self, deviates: &[Column]) -> [[Column; 3]; 2] {
         let [x, y, z] = turn(&self.base, deviates);
@@ -166,7 +166,7 @@ impl Kernel {
             let (s1, s2) = turn_factors::<EXACT>(&turn);
             let (sin, less) = sin_cos_less_one::<EXACT>(latitude.1 * latitude.0[trial]);
             let (north, up) = (self.earth.y, self.earth.z);
-            // ω_Γ falls and ω_B rises with the latitude.
+            // ω_Γ decreases and ω_B increases with the latitude.
             let earth = [0.0, north + (north * less - up * sin), up + (up * less + north * sin)];
             let vertical = turned(&[0.0, 0.0, 1.0], &turn, s1, s2);
             let earth = turned(&earth, &turn, s1, s2);
@@ -234,7 +234,7 @@ impl Place {
         at.omega = omega;
     }
 
-    /// (sin, cos) of a certified angle changed by a small one: s + (c sin δ + s (cos δ − 1)).
+    /// Returns (sin, cos) of a certified angle changed by a small one: s + (c sin δ + s (cos δ − 1)).
     #[inline(always)]
     fn changed<const EXACT: bool>(&self, angle: usize, change_rad: f64) -> (f64, f64) {
         if EXACT {
@@ -246,7 +246,7 @@ impl Place {
     }
 }
 
-/// The turn that all positions share, about each axis, rad.
+/// Returns the rotation common to all positions, about each axis, rad.
 #[inline(always)]
 fn turn(of: &[[Scaled; 2]; 3], deviates: &[Column]) -> [Column; 3] {
     of.map(|[(one, u), (other, v)]| {
@@ -259,7 +259,7 @@ fn turn(of: &[[Scaled; 2]; 3], deviates: &[Column]) -> [Column; 3] {
     })
 }
 
-/// E v = Rz(γ) Ry(β) Rx(α) v (paper, above eq. (4)), one axis after the other.
+/// Returns E v = Rz(γ) Ry(β) Rx(α) v (paper, above eq. (4)), computed axis by axis.
 #[inline(always)]
 fn deviated(v: &[f64; 3], (sa, ca): (f64, f64), (sb, cb): (f64, f64), (sg, cg): (f64, f64)) -> [f64; 3] {
     let (y1, z1) = (ca * v[1] + sa * v[2], ca * v[2] - sa * v[1]);
@@ -281,7 +281,7 @@ fn cross(v: &[f64; 3], d: &[f64; 3]) -> [f64; 3] {
     [v[1] * d[2] - v[2] * d[1], v[2] * d[0] - v[0] * d[2], v[0] * d[1] - v[1] * d[0]]
 }
 
-/// Coordinates of v after a turn by the vector δ.
+/// Returns the coordinates of v after a rotation by the vector δ.
 #[inline(always)]
 fn turned(v: &[f64; 3], turn: &[f64; 3], s1: f64, s2: f64) -> [f64; 3] {
     let once = cross(v, turn);
@@ -293,7 +293,7 @@ fn turned(v: &[f64; 3], turn: &[f64; 3], s1: f64, s2: f64) -> [f64; 3] {
     ]
 }
 
-/// sin|δ|/|δ| and (1 − cos|δ|)/δ².
+/// Returns sin|δ|/|δ| and (1 − cos|δ|)/δ².
 #[inline(always)]
 fn turn_factors<const EXACT: bool>(turn: &[f64; 3]) -> (f64, f64) {
     let square = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2];
@@ -302,13 +302,13 @@ fn turn_factors<const EXACT: bool>(turn: &[f64; 3]) -> (f64, f64) {
         let (sin, cos) = libm::sincos(angle);
         return (sin / angle, (1.0 - cos) / square);
     }
-    // After these terms |δ| ≤ 0.02 leaves 8e-20 of s1 and 1e-17 of s2.
+    // For |δ| ≤ 0.02 the omitted terms are at most 8e-20 of s1 and 1e-17 of s2.
     let s1 = 1.0 + square * (-1.0 / 6.0 + square * (1.0 / 120.0 + square * (-1.0 / 5040.0)));
     let s2 = 0.5 + square * (-1.0 / 24.0 + square * (1.0 / 720.0));
     (s1, s2)
 }
 
-/// sin x and cos x − 1.
+/// Returns sin x and cos x − 1.
 #[inline(always)]
 fn sin_cos_less_one<const EXACT: bool>(x: f64) -> (f64, f64) {
     if EXACT && x.abs() > SMALL_RAD {

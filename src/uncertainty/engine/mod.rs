@@ -1,14 +1,14 @@
-//! The fast engine of Monte Carlo: trials side by side, lanes rather than branches.
+//! Vectorised engine of the Monte Carlo: trials side by side, without branches.
 //!
-//! A chunk is [`WIDTH`] trials. Its steps, each a loop over the chunk that the compiler turns into wide instructions:
+//! A chunk is [`WIDTH`] trials. Each of its steps is a loop over the chunk that the compiler vectorises:
 //!
 //! 1. [`plan`]: which inputs are drawn, and how; standard deviates, one column each.
 //! 2. [`kernel`]: attitudes, specific force, Earth rate and currents of every position.
-//! 3. [`closed`]: the paper's coefficients and its closed solution; or [`refit`]: weighted least squares.
+//! 3. [`closed`]: the paper's coefficients and its analytic solution; or [`refit`]: weighted least squares.
 //!
-//! The instructions are as wide as the processor allows, chosen when the program runs. The arithmetic is the same
-//! everywhere, product by product: nothing is fused or reordered, so the same seed gives the same bytes. What a passport
-//! contains never comes from here.
+//! The program chooses the width of the instructions at run time, as the CPU allows. The arithmetic is the same
+//! everywhere, product by product: nothing is fused or reordered, so a seed always gives the same bytes. No value in a
+//! passport is computed here.
 
 #![allow(clippy::needless_range_loop, reason = "a loop over trials that indexes several columns is what becomes wide")]
 
@@ -27,30 +27,30 @@ use kernel::Kernel;
 use plan::Plan;
 use refit::Refit;
 
-/// Chunks of a block: 16,384 trials. JCGM 101, 7.9.4 asks for 10,000 at least.
+/// Number of chunks in a block: 16,384 trials. JCGM 101, 7.9.4 requires at least 10,000.
 const CHUNKS_PER_BLOCK: u64 = 512;
 
-/// Trials of a block.
+/// Number of trials in a block.
 pub(crate) const BLOCK: u64 = CHUNKS_PER_BLOCK * WIDTH as u64;
 
-/// How a current's own error is distributed.
+/// Distribution of the own error of a current.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ReadingShape {
-    /// Normal with the stated standard uncertainty.
+    /// Normal distribution with the stated standard uncertainty.
     Normal,
-    /// Uniform with the stated standard uncertainty: limits √3 times as far (JCGM 101, 6.4.2).
+    /// Uniform distribution with the stated standard uncertainty u and the limits ±√3 u (JCGM 101, 6.4.2).
     Uniform,
 }
 
-/// How parameters are found in every trial.
+/// Method that computes the parameters in every trial.
 #[derive(Debug, Clone)]
 enum Solver {
     Closed(Closed),
     Refit(Box<Refit>),
 }
 
-/// A calibration, ready for millions of trials.
+/// Monte Carlo engine, prepared for one calibration.
 #[derive(Debug, Clone)]
 pub struct Engine {
     plan: Plan,
@@ -58,10 +58,10 @@ pub struct Engine {
     solver: Solver,
 }
 
-/// The eight parameters of every trial of a chunk, in the order of [`crate::calibration::parameter::Parameter::EIGHT`].
+/// Eight parameters of every trial of a chunk, in the order of [`crate::calibration::parameter::Parameter::EIGHT`].
 pub(crate) type Solutions = [Column; 8];
 
-/// The columns that a chunk works on, kept from chunk to chunk.
+/// Columns that a chunk works on, reused from chunk to chunk.
 #[derive(Debug, Clone)]
 pub(crate) struct Workspace {
     deviates: Vec<Column>,
@@ -70,10 +70,10 @@ pub(crate) struct Workspace {
 }
 
 impl Engine {
-    /// For `method` on a calibration of `readings` at `setup`.
+    /// Creates the engine for `method` and a calibration of `readings` at `setup`.
     ///
     /// # Errors
-    /// The method gives nothing for these readings.
+    /// Returns [`MethodRefusal`] if the method has no solution for these readings.
     pub fn new(setup: &Setup, readings: &Readings, method: Method, shape: ReadingShape) -> Result<Self, MethodRefusal> {
         let Linearised { fit, repeats, .. } = linearise(setup, readings, method, false)?;
         let means_ma = readings.means_ma();
@@ -86,7 +86,7 @@ impl Engine {
         Ok(Self { plan, kernel, solver })
     }
 
-    /// Columns for chunks.
+    /// Creates the columns for chunks.
     pub(crate) fn workspace(&self) -> Workspace {
         Workspace {
             deviates: vec![[0.0; WIDTH]; self.plan.columns()],
@@ -95,13 +95,13 @@ impl Engine {
         }
     }
 
-    /// A block of trials; `each` gets the parameters of every chunk.
+    /// Runs a block of trials; `each` is called with the parameters of every chunk.
     pub(crate) fn block(&self, lanes: &mut WideRandom, work: &mut Workspace, each: impl FnMut(&Solutions)) {
         pulp::Arch::new().dispatch(Block { engine: self, lanes, work, each });
     }
 
-    /// The parameters for given standard deviates, one row a trial (at most [`WIDTH`]), in the order of
-    /// [`Plan::inputs`]. For tests against the exact path.
+    /// Returns the parameters for given standard deviates, one row per trial (at most [`WIDTH`]), in the order of
+    /// [`Plan::inputs`]; for tests against the exact path.
     #[cfg(test)]
     pub(crate) fn solutions_for(&self, trials: &[Vec<f64>]) -> Vec<[f64; 8]> {
         let mut work = self.workspace();
@@ -115,7 +115,7 @@ impl Engine {
         (0..count).map(|trial| std::array::from_fn(|place| work.solutions[place][trial])).collect()
     }
 
-    /// Which inputs are drawn, and how.
+    /// Returns the plan of the inputs that are drawn.
     #[cfg(test)]
     pub(crate) fn plan(&self) -> &Plan {
         &self.plan
@@ -131,7 +131,7 @@ impl Engine {
     }
 }
 
-/// What runs with instructions as wide as the processor has them: everything that these call is inlined into them.
+/// Work that runs with the widest instructions of the CPU; every function that it calls is inlined into it.
 struct Block<'a, F> {
     engine: &'a Engine,
     lanes: &'a mut WideRandom,

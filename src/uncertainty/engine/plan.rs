@@ -1,7 +1,8 @@
-//! Which inputs are drawn in every trial, and from which distribution.
+//! Inputs that are drawn in every trial, with their distributions.
 //!
-//! Source: [JCGM 101](crate::bibliography::Bibliography::Jcgm101), 6.4: normal where a standard uncertainty is all that
-//! is known (6.4.7), uniform between limits (6.4.2), scaled t where it was estimated with few degrees of freedom (6.4.9).
+//! Source: [JCGM 101](crate::bibliography::Bibliography::Jcgm101), 6.4. The distribution is normal if only a standard
+//! uncertainty is known (6.4.7), uniform between limits (6.4.2), and scaled t if the uncertainty was estimated with few
+//! degrees of freedom (6.4.9).
 
 use super::{ReadingShape, student};
 use crate::calibration::Setup;
@@ -10,43 +11,45 @@ use crate::calibration::scatter::Repeats;
 use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
 use nalgebra::Vector2;
 
-/// A column of standard deviates by its place; place 0 is all zeros.
+/// Place of a column of standard deviates; column 0 is all zeros.
 pub(crate) type Slot = usize;
 
-/// What an input of the engine is. Normal inputs that turn the same thing about the same axis are one, their variances
-/// added up: so there are fewer than in a budget.
+/// Kind of an input of the engine.
+///
+/// Normal inputs that rotate the same part about the same axis are combined into one with the sum of their variances,
+/// so there are fewer inputs than in a budget.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Drawn {
-    /// A certified angle of the position of that place: 0, 1, 2 are α, β, γ.
+    /// Certified angle of the position at a place: 0, 1, 2 are α, β, γ.
     Angle(usize, usize),
-    /// The return to the position of that place, about axis 0, 1, 2 of the case.
+    /// Repeatability of the position at a place, about axis 0, 1, 2 of the case.
     Return(usize, usize),
-    /// The meter's specification for a current of the position of that place, 0 or 1.
+    /// Specification of the meter for a current (0 or 1) of the position at a place.
     Current(usize, usize),
-    /// The noise of the readings of that current, in their mean.
+    /// Noise of the readings of a current (0 or 1) of the position at a place, in their mean.
     Noise(usize, usize),
     /// Platform and seat, about axis 0, 1, 2 of the case.
     Case(usize),
-    /// The platform alone, where its uncertainty is an estimate with few degrees of freedom.
+    /// Platform alone, if its uncertainty is an estimate with few degrees of freedom.
     Platform(usize),
     /// Base, level, azimuth and mark, about axis 0, 1, 2 of the base.
     Base(usize),
-    /// The stand's base alone, where its uncertainty is an estimate with few degrees of freedom.
+    /// Base of the stand alone, if its uncertainty is an estimate with few degrees of freedom.
     StandBase(usize),
     /// Latitude and deflection.
     Latitude,
-    /// The meter's gain.
+    /// Gain of the meter.
     Gain,
-    /// The meter's offset.
+    /// Offset of the meter.
     Offset,
 }
 
-/// An input that is drawn.
+/// Input that is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct DrawnInput {
-    /// Which.
+    /// Kind of the input.
     pub what: Drawn,
-    /// rad, mA, or a share.
+    /// Standard uncertainty: rad, mA, or a share.
     pub standard_uncertainty: f64,
     /// Degrees of freedom of that uncertainty.
     pub degrees_of_freedom: f64,
@@ -54,11 +57,11 @@ pub(crate) struct DrawnInput {
     shape: ReadingShape,
 }
 
-/// All inputs that are drawn, in the order of their columns.
+/// Inputs that are drawn, in the order of their columns.
 #[derive(Debug, Clone)]
 pub(crate) struct Plan {
     inputs: Vec<DrawnInput>,
-    /// Degrees of freedom of the estimates that some of them rest on.
+    /// Degrees of freedom of the estimates that some inputs depend on.
     estimates: Vec<f64>,
 }
 
@@ -85,7 +88,7 @@ impl Plan {
                 add(Drawn::Return(place, axis), of_mean, estimates.returns, normal);
             }
         }
-        // A part that is known is drawn together with what acts alike.
+        // A part that is known exactly is drawn together with the inputs that act in the same way.
         let known = |u: f64, basis| if basis == Basis::Known { (u, 0.0) } else { (0.0, u) };
         let (platform, platform_alone) = known(u.common_platform_rad, estimates.platform);
         let (base, base_alone) = known(u.common_base_rad, estimates.base);
@@ -110,29 +113,29 @@ impl Plan {
         Self { inputs, estimates: estimates.degrees_of_freedom }
     }
 
-    /// The inputs, in the order of their columns.
+    /// Returns the inputs, in the order of their columns.
     #[cfg(test)]
     pub(crate) fn inputs(&self) -> &[DrawnInput] {
         &self.inputs
     }
 
-    /// Columns of standard deviates, the column of zeros among them; then one for each estimate.
+    /// Returns the number of columns of standard deviates, including the column of zeros and one for each estimate.
     pub(crate) fn columns(&self) -> usize {
         self.inputs.len() + 1 + self.estimates.len()
     }
 
-    /// Where the deviates of an input are, and its standard uncertainty; zeros for one that is not drawn.
+    /// Returns the column of an input's deviates and its standard uncertainty; zeros if it is not drawn.
     pub(crate) fn slot(&self, what: Drawn) -> (Slot, f64) {
         let found = self.inputs.iter().position(|input| input.what == what);
         found.map_or((0, 0.0), |place| (place + 1, self.inputs[place].standard_uncertainty))
     }
 
-    /// Whether an input's deviates have no bound that matters: t has long tails.
+    /// Returns `true` if some deviates have no practical bound, because t has long tails.
     pub(crate) fn has_long_tails(&self) -> bool {
         !self.estimates.is_empty()
     }
 
-    /// New standard deviates: variance 1, or of Student's t.
+    /// Draws new standard deviates: with variance 1, or by Student's t.
     #[inline(always)]
     pub(crate) fn draw(&self, lanes: &mut WideRandom, deviates: &mut [Column]) {
         const ROOT_OF_THREE: f64 = 1.732_050_807_568_877_2;
@@ -161,7 +164,7 @@ impl Plan {
         }
     }
 
-    /// Makes Student's t of what rests on estimates, one χ² a trial for all that rests on one.
+    /// Scales inputs that depend on estimates to Student's t, with one χ² per trial for all inputs of one estimate.
     #[inline(always)]
     fn scale(&self, lanes: &mut WideRandom, deviates: &mut [Column]) {
         let (drawn, factors) = deviates.split_at_mut(self.inputs.len() + 1);

@@ -1,9 +1,9 @@
 //! Weighted least squares in every trial of a chunk.
 //!
-//! The estimator is that of [`calibrate`](crate::calibration::calibrate) with the weights of its best fit: regressors
-//! are the currents that the solution makes, so it takes steps, each with the currents of the one before. It is solved
-//! for the change from the best fit, so the normal equations lose digits of a small number only; their matrix is that of
-//! the first step, whose change over a step would matter to third order.
+//! The estimator is that of [`calibrate`](crate::calibration::calibrate) with the weights of its best fit. The
+//! regressors are the currents that the solution gives, so each step uses the currents of the step before. The normal
+//! equations are solved for the change from the best fit, so they lose only digits of a small number. Their matrix is
+//! that of the first step; its change from step to step has only a third-order effect.
 
 use super::Solutions;
 use super::kernel::At;
@@ -11,22 +11,22 @@ use crate::calibration::least_squares::Fit;
 use crate::statistics::wide_random::{Column, WIDTH};
 use nalgebra::Matrix2;
 
-/// Steps from the best fit: what is left is of third order in the uncertainties.
+/// Number of steps from the best fit; the remaining error is of third order in the uncertainties.
 pub(crate) const STEPS: usize = 2;
 
-/// Elements of the lower triangle of 8×8.
+/// Number of elements of the lower triangle of 8×8.
 const TRIANGLE: usize = 36;
 
-/// The best fit and its weights.
+/// Least-squares solver, with the best fit and its weights.
 #[derive(Debug, Clone)]
 pub(crate) struct Refit {
-    /// K_x, K_xy, K_yx, K_y, ω_0x, ω_0y, ω_g, ω_k.
+    /// Parameters of the best fit: K_x, K_xy, K_yx, K_y, ω_0x, ω_0y, ω_g, ω_k.
     start: [f64; 8],
-    /// P = W'W of every position: p11, p12, p22.
+    /// Weights P = W'W of every position: p11, p12, p22.
     weights: Vec<[f64; 3]>,
 }
 
-/// Place of (row, column ≤ row) in the triangle.
+/// Returns the place of (row, column ≤ row) in the triangle.
 const fn place(row: usize, column: usize) -> usize {
     row * (row + 1) / 2 + column
 }
@@ -64,7 +64,8 @@ impl Refit {
     }
 }
 
-/// What the torquers balance in a position, ω_3 − ω_0 − ω_n n, and the currents that the parameters make there.
+/// Returns the rate that the torquers balance in a position, ω_3 − ω_0 − ω_n n, and the currents for it by the
+/// parameters.
 #[inline(always)]
 fn balance(at: &At, trial: usize, parameters: &Solutions) -> ([f64; 2], [f64; 2]) {
     let [kx, kxy, kyx, ky, o_x, o_y, w_g, w_k] = [0, 1, 2, 3, 4, 5, 6, 7].map(|p| parameters[p][trial]);
@@ -75,8 +76,8 @@ fn balance(at: &At, trial: usize, parameters: &Solutions) -> ([f64; 2], [f64; 2]
     ([x, y], [(ky * x - kxy * y) * factor, (kx * y - kyx * x) * factor])
 }
 
-/// Adds X'P X of one position, X having the rows (j_x, j_y, 0, 0, 1, 0, n_x, −n_y) and (0, 0, j_x, j_y, 0, 1, n_y, n_x)
-/// with the currents j that the parameters make.
+/// Adds X'P X of one position, where X has the rows (j_x, j_y, 0, 0, 1, 0, n_x, −n_y) and (0, 0, j_x, j_y, 0, 1, n_y,
+/// n_x) with the currents j that the parameters give.
 #[inline(always)]
 fn add_normal(at: &At, &[p11, p12, p22]: &[f64; 3], parameters: &Solutions, normal: &mut [Column; TRIANGLE]) {
     for trial in 0..WIDTH {
@@ -103,7 +104,7 @@ fn add_normal(at: &At, &[p11, p12, p22]: &[f64; 3], parameters: &Solutions, norm
     }
 }
 
-/// Adds X'P e of one position with the misclosures e.
+/// Adds X'P e of one position, where e are the misclosures.
 #[inline(always)]
 fn add_right(at: &At, &[p11, p12, p22]: &[f64; 3], parameters: &Solutions, right: &mut Solutions) {
     for trial in 0..WIDTH {
@@ -121,7 +122,7 @@ fn add_right(at: &At, &[p11, p12, p22]: &[f64; 3], parameters: &Solutions, right
     }
 }
 
-/// L of N = L L', in place, with the reciprocals of its diagonal on the diagonal.
+/// Computes L of N = L L' in place, with the reciprocals of its diagonal on the diagonal.
 #[inline(always)]
 fn factorise(normal: &mut [Column; TRIANGLE]) {
     for row in 0..8 {

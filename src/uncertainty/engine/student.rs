@@ -1,14 +1,14 @@
-//! Student's t from normal deviates: what rests on an estimate with few degrees of freedom ([JCGM 101,
+//! Student's t from normal deviates, for inputs that depend on an estimate with few degrees of freedom ([JCGM 101,
 //! 6.4.9](crate::bibliography::Bibliography::Jcgm101)).
 
 use crate::statistics::elementary::ln;
 use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
 
-/// Up to here a whole number of degrees of freedom is drawn without branches: the product of so many uniform numbers, none
-/// below 2⁻⁵², is far from the smallest number of binary64.
+/// Largest whole number of degrees of freedom that is drawn without branches. The product of that many uniform numbers,
+/// none below 2⁻⁵², is far above the smallest number of binary64.
 const MOST_WITHOUT_BRANCHES: f64 = 38.0;
 
-/// Draws ν/χ² of every trial: the variance that is behind an estimate of 1 with ν degrees of freedom.
+/// Draws ν/χ² for every trial: the variance given an estimate of 1 with ν degrees of freedom.
 #[inline(always)]
 pub(crate) fn variance(lanes: &mut WideRandom, factor: &mut Column, degrees_of_freedom: f64) {
     *factor = if degrees_of_freedom <= MOST_WITHOUT_BRANCHES && degrees_of_freedom.fract() == 0.0 {
@@ -21,7 +21,8 @@ pub(crate) fn variance(lanes: &mut WideRandom, factor: &mut Column, degrees_of_f
     }
 }
 
-/// χ² with 2 m degrees of freedom is −2 ln of the product of m uniform numbers; one more is the square of a normal one.
+/// Draws χ² with a whole number of degrees of freedom: with 2 m of them it is −2 ln of the product of m uniform
+/// numbers, and one more adds the square of a normal number.
 #[inline(always)]
 fn whole(lanes: &mut WideRandom, degrees_of_freedom: f64) -> Column {
     let pairs = (0.5 * degrees_of_freedom) as u32;
@@ -48,7 +49,7 @@ fn whole(lanes: &mut WideRandom, degrees_of_freedom: f64) -> Column {
     chi_square
 }
 
-/// χ² with any degrees of freedom, by the method of
+/// Draws χ² with any degrees of freedom, by the method of
 /// [Marsaglia and Tsang](crate::bibliography::Bibliography::MarsagliaTsang00) for the gamma distribution.
 #[cold]
 #[inline(never)]
@@ -57,12 +58,12 @@ fn any(lanes: &mut WideRandom, degrees_of_freedom: f64) -> Column {
     std::array::from_fn(|_| source.chi_square(degrees_of_freedom))
 }
 
-/// Single random numbers from columns.
+/// Source of single random numbers, taken from columns.
 struct Source<'a> {
     lanes: &'a mut WideRandom,
     normals: [Column; 2],
     uniform: Column,
-    /// Numbers left of normals and of uniforms.
+    /// Numbers of normal and of uniform deviates that remain.
     left: [usize; 2],
 }
 
@@ -77,7 +78,7 @@ impl Source<'_> {
         self.normals[self.left[0] / WIDTH][self.left[0] % WIDTH]
     }
 
-    /// In (0, 1].
+    /// Returns a uniform number in (0, 1].
     fn unit(&mut self) -> f64 {
         if self.left[1] == 0 {
             self.lanes.uniform(&mut self.uniform);
@@ -89,7 +90,7 @@ impl Source<'_> {
 
     fn chi_square(&mut self, degrees_of_freedom: f64) -> f64 {
         let shape = 0.5 * degrees_of_freedom;
-        // A shape below 1 through the next one, times a power of a uniform number.
+        // A shape below 1 is drawn as shape + 1, times a power of a uniform number.
         let small = shape < 1.0;
         let d = (if small { shape + 1.0 } else { shape }) - 1.0 / 3.0;
         let c = 1.0 / (9.0 * d).sqrt();
