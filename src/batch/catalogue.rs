@@ -1,4 +1,5 @@
-//! Stand and site files by their ids: each read and checked before anything is signed, held only while few.
+//! Stand and site files by their ids; all are read and checked before anything is signed, but only a limited number is
+//! kept in memory.
 
 use super::parallel;
 use super::{Event, Failure, Listener};
@@ -13,27 +14,27 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// So many files are kept in memory once read; of more, as many at a time.
+/// Number of files that are kept in memory once read; further files are read again when needed.
 const KEPT: usize = 1024;
 
-/// Files that are read at a time.
+/// Number of files that are read at a time.
 const READ_AT_ONCE: usize = 256;
 
-/// What a catalogue is of.
+/// Kind of document in a catalogue.
 pub(crate) trait Listed: Clone + Send + Sync {
-    /// What one is called.
+    /// Name of the kind in messages.
     const NAME: &str;
 
     /// Reads a file; `name` is its name in messages.
     ///
     /// # Errors
-    /// Every mistake with its line, column and field: see [`Unreadable`].
+    /// Returns [`Unreadable`] with every error at its line, column and field.
     fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable>;
 
-    /// Its id.
+    /// Returns the id of the document.
     fn id(&self) -> String;
 
-    /// Something to know about a file of this name.
+    /// Returns a remark on the name of the file, or `None` if it is as expected.
     fn remark(&self, _path: &Path) -> Option<String> {
         None
     }
@@ -75,7 +76,8 @@ impl Listed for Site {
     }
 }
 
-/// The files of a batch. Two with one id and other content are both left out: which of them counts, nobody said.
+/// Files of a batch by their ids. Two files with one id and different content are both skipped, because the program
+/// cannot tell which is right.
 pub(crate) struct Catalogue<T> {
     files: Vec<File<T>>,
     by_id: BTreeMap<String, usize>,
@@ -88,7 +90,7 @@ struct File<T> {
 }
 
 impl<T: Listed> Catalogue<T> {
-    /// Reads all files, and tells what is to be known of them; gives also the failures.
+    /// Reads all files, and passes remarks on them to `tell`; also returns the failures.
     pub(crate) fn read(
         paths: impl Iterator<Item = Result<PathBuf, Failure>>,
         threads: usize,
@@ -106,7 +108,7 @@ impl<T: Listed> Catalogue<T> {
                 match (path, read) {
                     (Ok(path), Ok((value, hash))) => draft.add(path, value, hash, tell),
                     (Ok(_), Err(failure)) => draft.failures.push(failure),
-                    // What a folder or a pattern hides, nobody knows.
+                    // An unreadable folder or pattern stands for an unknown number of files.
                     (Err(failure), _) => draft.failures.push(Failure { passports: Some(0), ..failure }),
                 }
             }
@@ -114,33 +116,33 @@ impl<T: Listed> Catalogue<T> {
         draft.finished()
     }
 
-    /// No files.
+    /// Creates an empty catalogue.
     pub(crate) fn empty() -> Self {
         Self { files: Vec::new(), by_id: BTreeMap::new(), last: Mutex::new(None) }
     }
 
-    /// How many ids.
+    /// Returns the number of ids.
     pub(crate) fn len(&self) -> usize {
         self.files.len()
     }
 
-    /// The files in some places of the order in which they were given, as they are now.
+    /// Loads the files at `places`, in the order in which they were given, with their present content.
     ///
     /// # Errors
-    /// A file that was changed or removed since.
+    /// Returns a [`Failure`] for a file that cannot be read any more, because it was changed or removed.
     pub(crate) fn load(&self, places: Range<usize>, threads: usize) -> Vec<Result<Arc<T>, Failure>> {
         parallel::map(&self.files[places], threads, File::load)
     }
 
-    /// Whether one with this id was given.
+    /// Returns `true` if a file with this id was given.
     pub(crate) fn has(&self, id: &str) -> bool {
         self.by_id.contains_key(id)
     }
 
-    /// The one with this id.
+    /// Returns the document with this id, or `None` if it was not given.
     ///
     /// # Errors
-    /// A file that was changed or removed since.
+    /// Returns a [`Failure`] if its file cannot be read any more, because it was changed or removed.
     pub(crate) fn get(&self, id: &str) -> Result<Option<Arc<T>>, Failure> {
         let Some(&place) = self.by_id.get(id) else { return Ok(None) };
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
@@ -164,7 +166,7 @@ impl<T: Listed> File<T> {
     }
 }
 
-/// A file and its hash.
+/// Reads a file; returns its document and its SHA-256.
 fn read<T: Listed>(path: &Path) -> Result<(T, [u8; 32]), Failure> {
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
     let value = T::parse(&name_of(path), &bytes);
@@ -172,10 +174,11 @@ fn read<T: Listed>(path: &Path) -> Result<(T, [u8; 32]), Failure> {
     Ok((value, Sha256::digest(&bytes).into()))
 }
 
-/// A catalogue in the making.
+/// Catalogue under construction.
 struct Draft<T> {
     listed: Vec<Seen<T>>,
-    /// By every name that becomes a folder or a file, in lower case: the name as it was first spelled, and by which file.
+    /// Names that become a folder or a file, in lower case, each with its first spelling and the place of its first
+    /// file.
     names: BTreeMap<String, (String, usize)>,
     failures: Vec<Failure>,
 }
@@ -213,7 +216,7 @@ impl<T: Listed> Draft<T> {
         }
     }
 
-    /// Why an id cannot stand beside another one that is equal to it but for case.
+    /// Returns the reason why an id is refused that differs from a known one only in case, or `None` if there is none.
     fn differs_in_case(&self, path: &Path, id: &str) -> Option<String> {
         let known = |name: &str| self.names.get(&name.to_ascii_lowercase()).cloned();
         let (name, (other, first)) =
@@ -245,7 +248,7 @@ impl<T: Listed> Draft<T> {
     }
 }
 
-/// The names that become folders, or a file, each with those above it: of a stand `<model>` and `<model>/<serial>`.
+/// Returns the names in an id that become folders or a file: for a stand `<model>` and `<model>/<serial>`.
 fn names(id: &str) -> impl Iterator<Item = &str> {
     id.match_indices('/').map(|(end, _)| &id[..end]).chain([id])
 }

@@ -1,4 +1,4 @@
-//! Every stand at every site: revision 1 of each.
+//! Batch that issues revision 1 of every stand at every site.
 
 use super::catalogue::{Catalogue, Listed};
 use super::paths;
@@ -15,35 +15,35 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Stands and sites that are in memory at a time, where there are more than a catalogue keeps.
+/// Numbers of stands and sites that are in memory at a time, beyond those that a catalogue keeps.
 const STANDS_AT_ONCE: usize = 64;
 const SITES_AT_ONCE: usize = 1024;
 
-/// By whose trust, and at what time, the passports that are there already are believed.
+/// Trust and time by which existing passports are verified.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Known<'a> {
-    /// The trust.
+    /// Trust in existing passports.
     pub trust: &'a Trust,
-    /// The time.
+    /// Time as of which they are verified.
     pub time: Timestamp,
 }
 
-/// What is to be issued, and where.
+/// Input and destination of a batch.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Job<'a> {
-    /// The folder of the passports.
+    /// Folder of the passports.
     pub folder: &'a Folder,
-    /// Stands: files, folders and patterns as `paths` has them.
+    /// Stands: files, folders and patterns, as in `paths`.
     pub stands: &'a [PathBuf],
-    /// Sites, in the same manner.
+    /// Sites: files, folders and patterns, as in `paths`.
     pub sites: &'a [PathBuf],
-    /// What all have in common.
+    /// Order that all passports have in common.
     pub order: &'a Issue,
-    /// By whose trust, and at what time, the passports that are there already are believed.
+    /// Trust and time by which existing passports are verified; `None` to skip that.
     pub known: Option<Known<'a>>,
 }
 
-/// One passport to be issued.
+/// Stand and site of one passport to be issued.
 struct Pair {
     stand: Arc<PreparedStand>,
     site: Arc<Site>,
@@ -52,8 +52,8 @@ struct Pair {
 impl Batch<'_> {
     /// Issues a passport of every stand for every site.
     ///
-    /// All files are read first, so that every mistake in them is told before anything is signed; one that cannot be used
-    /// costs its own passports and no more. A stand that by what is known has another certificate already is remarked upon.
+    /// All files are read first, so that every error in them is reported before anything is signed. An unusable file
+    /// costs only its own passports. A stand that already has passports from another certificate is remarked upon.
     pub(crate) fn issue(&self, job: &Job, list: &mut dyn BufRead, tell: Listener) {
         let (stands, bad_stands) = self.catalogue(job.stands, list, Purpose::Stands, tell);
         let (sites, bad_sites) = self.catalogue(job.sites, list, Purpose::Sites, tell);
@@ -78,7 +78,7 @@ impl Batch<'_> {
     }
 }
 
-/// Tells that inputs cannot be used. Each file costs so many passports.
+/// Reports inputs that cannot be used; each costs `passports` passports unless it states another number.
 fn fail(failures: Vec<Failure>, passports: u64, tell: Listener) {
     for failure in failures {
         let passports = failure.passports.or(Some(passports));
@@ -100,7 +100,7 @@ impl Run<'_> {
         }
     }
 
-    /// By stands, and of each by sites; where there are too many sites to be held, some sites of some stands first.
+    /// Issues stand by stand, and site by site for each; if there are too many sites for the memory, in groups of both.
     fn all(&mut self, stands: &Catalogue<PreparedStand>, sites: &Catalogue<Site>, tell: Listener) {
         for some_stands in ranges(stands.len(), STANDS_AT_ONCE) {
             let loaded_stands = self.load(stands, some_stands, sites.len(), tell);
@@ -124,7 +124,7 @@ impl Run<'_> {
         self.chunk(tell);
     }
 
-    /// Says under which other certificates these stands have passports.
+    /// Reports the other certificates from which these stands have passports.
     fn remark_on_certificates(&self, stands: &[Arc<PreparedStand>], tell: Listener) {
         let Some(Known { trust, time }) = self.job.known else { return };
         let remarks = parallel::map(stands, self.batch.threads, |stand| {
@@ -135,7 +135,7 @@ impl Run<'_> {
         }
     }
 
-    /// What was a good file when it was first read may be one no more.
+    /// Loads the documents at `places`, and reports files that have become unusable since they were first read.
     fn load<T: Listed>(
         &self,
         catalogue: &Catalogue<T>,
@@ -162,7 +162,7 @@ impl Run<'_> {
         self.batch.tell(done, tell);
     }
 
-    /// One passport: every one of a batch is made here.
+    /// Issues a single passport; every passport of a batch is made here.
     fn one(&self, Pair { stand, site }: &Pair) -> Outcome {
         let Job { folder, order, .. } = self.job;
         if self.batch.seal.is_some() {
@@ -176,7 +176,7 @@ impl Run<'_> {
     }
 }
 
-/// `0..length` in pieces of at most `size`.
+/// Returns `0..length` in pieces of at most `size`.
 fn ranges(length: usize, size: usize) -> impl Iterator<Item = Range<usize>> {
     (0..length).step_by(size).map(move |start| start..length.min(start + size))
 }

@@ -1,15 +1,15 @@
-//! Many passports at once: stands × sites, or a folder of passports issued anew.
+//! Many passports at once: stands × sites, or the re-issue of a folder of passports.
 //!
-//! The work is done in chunks, each by all processors and reported in order before the next one begins. So what is held
-//! does not grow with the number of passports, and what was reported is in the folder: under its name, and safe from a
-//! loss of power as far as [`Durability`] says. A failure is one event; the rest goes on. Run
-//! again, a batch leaves what is done and does what is not.
+//! The work is done in chunks. All CPUs work on a chunk, and its results are reported in order before the next one
+//! begins. Memory therefore does not grow with the number of passports. Every reported passport is in the folder under
+//! its name, and safe from a power failure as far as [`Durability`] says. A failure is one event; the rest continues.
+//! The same batch, run again, completes the job and leaves finished passports untouched.
 //!
-//! * `paths`: what a user names: files, folders, patterns, lists.
+//! * `paths`: arguments of the user: files, folders, patterns, lists.
 //! * `catalogue`: stand and site files by their ids.
 //! * `shard`: a part of a job, for one of several machines.
 //! * `issue`: every stand at every site.
-//! * `successors`: passports issued anew.
+//! * `successors`: re-issue of passports.
 
 pub(crate) mod catalogue;
 pub(crate) mod issue;
@@ -28,13 +28,13 @@ use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Orders that a thread has in a chunk.
+/// Number of orders per thread in a chunk.
 const CHUNK_PER_THREAD: usize = 128;
 
-/// Orders in a chunk at most, however many the threads: what a chunk holds is held in memory.
+/// Largest number of orders in a chunk, for any number of threads, because a chunk is kept in memory.
 const LARGEST_CHUNK: usize = 4096;
 
-/// What a folder is searched for.
+/// Kind of files that a folder is searched for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Purpose {
     /// Files `stand.yaml` or `stand.yml`, at any depth.
@@ -43,114 +43,114 @@ pub(crate) enum Purpose {
     Sites,
 }
 
-/// How a batch is done.
+/// Settings of a batch.
 #[derive(Clone, Copy)]
 pub(crate) struct Batch<'a> {
-    /// How safe from a loss of power what was told of is.
+    /// Durability of reported passports after a power failure.
     pub durability: Durability,
-    /// Who signs; `None` for a dry run, which computes and checks everything and writes nothing.
+    /// Signer; `None` for a dry run, which computes and checks everything and writes nothing.
     pub seal: Option<Seal<'a>>,
-    /// Which part of the job.
+    /// Part of the job to do.
     pub shard: Shard,
-    /// Threads; 0 and 1 are the same.
+    /// Number of threads; 0 and 1 have the same effect.
     pub threads: usize,
-    /// Once true, the batch ends after the chunk that has begun.
+    /// Flag that cancels the batch: once it is `true`, the batch ends after the current chunk.
     pub cancel: Option<&'a AtomicBool>,
 }
 
-/// What a batch tells while it goes on.
+/// Event that a batch reports while it runs.
 #[derive(Debug)]
 pub(crate) enum Event {
-    /// So many more orders are known of; roughly, when this is a part of the job.
+    /// Number of additional orders, which is approximate for a part of the job.
     Planned(u64),
-    /// An order is done with. Of the passports in a folder those of other stands are no orders, and have no outcome.
+    /// Order that is finished. Passports of other stands in a folder are not orders, and have no outcome.
     Done(Option<Outcome>),
-    /// So many orders will not come, for a reason that was told as a failure.
+    /// Number of orders that cannot be done, for a reason that was reported as a failure.
     Lost(u64),
-    /// Something to know about an input.
+    /// Remark on an input.
     Remark {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// The words, which may be the same for many.
+        /// Text of the remark, which may be the same for many files.
         words: String,
     },
 }
 
-/// What became of an order, or of an input.
+/// Outcome of an order or of an input.
 #[derive(Debug)]
 pub(crate) enum Outcome {
-    /// The passport is there, new or as before.
+    /// Passport that exists now, new or unchanged.
     There(Issued),
-    /// It would be issued, were this no dry run.
+    /// Passport that would be issued without the dry run.
     Planned(Planned),
-    /// A passport of the folder is not to be issued anew.
+    /// Passport of the folder that is not re-issued.
     Skipped {
-        /// Its id.
+        /// Id of the passport.
         id: String,
-        /// Its file.
+        /// Path of the passport.
         file: PathBuf,
-        /// Why.
+        /// Reason why it is not re-issued.
         why: String,
     },
-    /// An order, or an input with all that hangs on it, has failed.
+    /// Failure of an order, or of an input and all passports that depend on it.
     Failed(Failure),
 }
 
-/// A passport that would be issued.
+/// Passport that a dry run would issue.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Planned {
-    /// Its id.
+    /// Id of the passport.
     pub id: String,
-    /// Its file.
+    /// Path of the passport.
     pub path: PathBuf,
-    /// What the factory should know about it.
+    /// Remarks on the passport for the factory.
     pub remarks: Remarks,
 }
 
-/// Why something is not there.
+/// Failure of an order or of an input.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Failure {
-    /// The passport's id, or the file that it hangs on.
+    /// Id of the passport, or the file that it depends on.
     pub what: String,
-    /// Why, in words.
+    /// Reason, in words.
     pub why: String,
-    /// Whether this is no verdict on a document, but a file that cannot be read as what it should be, or written.
+    /// `true` if a file cannot be read or written, `false` if a readable document was refused.
     pub unusable: bool,
-    /// How many passports it costs, where that is another number than one.
+    /// Number of passports that it costs, if not one.
     pub passports: Option<u64>,
-    /// The mistakes of a file that cannot be read, with its lines.
+    /// Errors in a file that cannot be read, with their lines.
     pub unreadable: Option<Box<Unreadable>>,
 }
 
 impl Failure {
-    /// A verdict on a document.
+    /// Creates the failure for a document that was refused.
     pub(crate) fn refused(path: &Path, why: String) -> Self {
         Self { what: name_of(path), why, unusable: false, passports: None, unreadable: None }
     }
 
-    /// A file that cannot be used.
+    /// Creates the failure for a file that cannot be used.
     pub(crate) fn unusable(path: &Path, why: String) -> Self {
         Self { unusable: true, ..Self::refused(path, why) }
     }
 
-    /// A file that cannot be read as what it should be.
+    /// Creates the failure for a file with errors in its content.
     pub(crate) fn unreadable(path: &Path, error: Unreadable) -> Self {
         let why = error.to_string();
         Self { unreadable: Some(Box::new(error)), ..Self::unusable(path, why) }
     }
 
-    /// A file that cannot be read.
+    /// Creates the failure for a file that cannot be read.
     pub(crate) fn file(error: FileError) -> Self {
         Self::unusable(error.path(), error.to_string())
     }
 
-    /// An order that the folder refused.
+    /// Creates the failure for an order that the folder refused.
     pub(crate) fn of_order(what: String, refused: &FolderRefused) -> Self {
         Self { what, why: refused.to_string(), unusable: refused.is_unusable(), passports: None, unreadable: None }
     }
 }
 
-/// What listens to a batch.
+/// Function that receives the events of a batch.
 pub(crate) type Listener<'a> = &'a mut dyn FnMut(Event);
 
 impl Batch<'_> {
@@ -162,7 +162,7 @@ impl Batch<'_> {
         (CHUNK_PER_THREAD * self.threads.max(1)).min(LARGEST_CHUNK)
     }
 
-    /// Signs and writes what is next, or says that it would; `again` asks anew what is next when another run is faster.
+    /// Signs and writes the passport that `issue` makes, or in a dry run returns what `next` would write.
     fn settle(
         &self,
         id: impl Fn() -> String,
@@ -183,7 +183,7 @@ impl Batch<'_> {
         there.unwrap_or_else(|refused| Outcome::Failed(Failure::of_order(id(), &refused)))
     }
 
-    /// Makes the names of what was written safe, and only then tells of it.
+    /// Reports outcomes after the names of all written passports have been synced to disk.
     fn tell(&self, mut outcomes: Vec<Option<Outcome>>, tell: Listener) {
         let written = outcomes.iter().flatten().filter_map(|outcome| match outcome {
             Outcome::There(issued) => Some(issued.path.as_path()),
@@ -204,7 +204,7 @@ impl Batch<'_> {
     }
 }
 
-/// The folders of stands that were swept clean of what killed runs left behind, each once.
+/// Folders of stands from which the leftovers of killed runs were removed, each once.
 #[derive(Default)]
 struct Sweeper {
     swept: Visited,

@@ -1,4 +1,4 @@
-//! What a user names: files, folders, patterns, a list on standard input.
+//! Paths in the arguments of a user: files, folders, patterns, and a list on standard input.
 
 use super::{Failure, Purpose};
 use crate::files::walk::{Entry, Walk};
@@ -9,15 +9,15 @@ use std::ffi::OsStr;
 use std::io::{self, BufRead};
 use std::path::{Path, PathBuf};
 
-/// The longest path that a list may hold, in bytes; no system has a longer one.
+/// Longest path in a list, in bytes; no system allows a longer one.
 const LONGEST_PATH: usize = 1 << 16;
 
-/// Something that the user named.
+/// File or folder specified by the user.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Named {
-    /// A file, or what will turn out not to be there.
+    /// File, or a path that may not exist.
     File(PathBuf),
-    /// A folder.
+    /// Existing folder.
     Folder(PathBuf),
 }
 
@@ -27,8 +27,10 @@ impl Named {
     }
 }
 
-/// What the user named, one after the other and none held: `-` is the list, with a path on each line or a zero byte
-/// between them; a pattern that is no file stands for what it matches, in the order of names.
+/// Returns the files and folders specified by the user one by one, without keeping them in memory.
+///
+/// The argument `-` is the list, with one path per line or with NUL between paths. A pattern that is not a file name
+/// stands for its matches in the order of their names.
 pub(crate) fn named<'a>(
     arguments: &'a [PathBuf],
     list: &'a mut dyn BufRead,
@@ -47,7 +49,7 @@ pub(crate) fn named<'a>(
     })
 }
 
-/// The files that the user named; of a folder those that serve the purpose.
+/// Returns the files specified by the user, and those in specified folders that fit the purpose.
 pub(crate) fn files<'a>(
     arguments: &'a [PathBuf],
     list: &'a mut dyn BufRead,
@@ -75,7 +77,7 @@ fn in_folder(folder: PathBuf, purpose: Purpose) -> Box<dyn Iterator<Item = Resul
     Box::new(found)
 }
 
-/// A file of a walk; a link and what cannot be read are failures.
+/// Returns the path of a file found by a walk, or a failure for a link and for an entry that cannot be read.
 pub(crate) fn found(entry: Result<Entry, FileError>) -> Result<PathBuf, Failure> {
     match entry {
         Ok(Entry::File(path)) => Ok(path),
@@ -91,8 +93,8 @@ pub(crate) fn found(entry: Result<Entry, FileError>) -> Result<PathBuf, Failure>
     }
 }
 
-/// Whether a file is a stand's by its name. Other spellings than `stand.yaml` are read, and remarked upon: a file that was
-/// passed over would be missed late.
+/// Returns `true` if the file name is that of a stand. Other spellings than `stand.yaml` are also read, with a remark,
+/// because a silently skipped file would be noticed late.
 fn is_stand(name: &OsStr) -> bool {
     is_yaml(name) && Path::new(name).file_stem().is_some_and(|stem| stem.eq_ignore_ascii_case("stand"))
 }
@@ -104,13 +106,13 @@ fn is_yaml(name: &OsStr) -> bool {
     is_yaml && !name.as_encoded_bytes().starts_with(b".")
 }
 
-/// An argument that is a pattern, unless a file has just this name.
+/// Returns the argument if it is a pattern, or `None` if it is not or if a file has exactly this name.
 fn pattern(argument: &Path) -> Option<&str> {
     let text = argument.to_str().filter(|text| text.contains(['*', '?', '[']))?;
     argument.symlink_metadata().is_err().then_some(text)
 }
 
-/// As the shell would have done it: what begins with a dot must be asked for.
+/// Returns the files and folders that match, as in a shell: a leading dot must be in the pattern.
 fn matches(pattern: &str) -> Box<dyn Iterator<Item = Result<Named, Failure>>> {
     let failed = |why: String| -> Box<dyn Iterator<Item = Result<Named, Failure>>> {
         Box::new(std::iter::once(Err(Failure::unusable(Path::new(pattern), format!("{}: {why}", Printable(pattern))))))
@@ -131,14 +133,14 @@ fn matches(pattern: &str) -> Box<dyn Iterator<Item = Result<Named, Failure>>> {
     }))
 }
 
-/// Paths on standard input. Whichever of line feed and zero byte comes first separates them all.
+/// List of paths on standard input, separated by line feeds or NUL, whichever comes first.
 struct List<'a> {
     list: Option<&'a mut dyn BufRead>,
     separator: Option<u8>,
 }
 
 impl List<'_> {
-    /// The bytes before the next separator; `None` at the end.
+    /// Returns the bytes before the next separator, or `None` at the end.
     fn next_bytes(&mut self) -> io::Result<Option<Vec<u8>>> {
         let Some(list) = &mut self.list else { return Ok(None) };
         let mut bytes = Vec::new();
@@ -158,7 +160,7 @@ impl List<'_> {
             if bytes.len() > LONGEST_PATH {
                 return Err(io::Error::other("this is not a list of paths"));
             }
-            // Two separators in a row, or one at the beginning, have no path between them.
+            // There is no path before a leading separator or between two adjacent ones.
             if end.is_some() && !bytes.is_empty() {
                 return Ok(Some(bytes));
             }

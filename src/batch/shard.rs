@@ -1,32 +1,34 @@
-//! One of several equal parts of a job, for machines that share nothing but the folder.
+//! Division of a job into equal parts, for machines that share nothing but the folder.
 
 use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::str::FromStr;
 
-/// Part `number` of `parts`. Which part a passport is in follows from its stand and site alone: the parts have nothing
-/// in common, and together they are the whole, on whatever machine and in whatever order each is done.
+/// Part `number` of `parts` of a job.
+///
+/// The part of a passport depends only on its stand and site. The parts are therefore disjoint and together complete,
+/// on any machine and in any order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Shard {
     number: u32,
     parts: u32,
 }
 
-/// What is no part.
+/// Error in the specification of a part.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum NoShard {
-    /// Not two whole numbers.
+    /// Text that is not two whole numbers.
     #[error("expected K/N, the K-th of N parts, as in 2/8")]
     Form,
-    /// More parts than anybody has machines, or none.
+    /// Number of parts that is zero or too large.
     #[error("found {0} parts, expected 1 to 4294967295")]
     Parts(u64),
-    /// A part that the whole has not.
+    /// Part that does not exist.
     #[error("found part {number} of {parts}, expected 1 to {parts}")]
     Number {
-        /// The part asked for.
+        /// Requested part.
         number: u64,
-        /// How many there are.
+        /// Number of parts.
         parts: u32,
     },
 }
@@ -47,25 +49,25 @@ impl FromStr for Shard {
 }
 
 impl Shard {
-    /// The whole job.
+    /// Whole job as a single part.
     pub(crate) const WHOLE: Self = Self { number: 1, parts: 1 };
 
-    /// How many of `orders` are about to be in this part.
+    /// Returns the approximate number of `orders` in this part.
     pub(crate) fn share(self, orders: u64) -> u64 {
         orders.div_ceil(u64::from(self.parts))
     }
 
-    /// Whether the passports of a stand (`<model>/<serial>`) for a site are in this part.
+    /// Returns `true` if the passports of a stand (`<model>/<serial>`) for a site are in this part.
     pub(crate) fn has(self, stand: &str, site: &str) -> bool {
         self.parts == 1 || self.has_key(&format!("{stand}/{site}"))
     }
 
-    /// Whether a passport's file is in this part, by where it stands: `<model>/<serial>/<site>-<revision>.yaml`.
+    /// Returns `true` if a passport's file is in this part, by its path `<model>/<serial>/<site>-<revision>.yaml`.
     pub(crate) fn has_file(self, path: &Path) -> bool {
         if self.parts == 1 {
             return true;
         }
-        // Whoever runs it elsewhere may name the same file from another folder.
+        // On another machine the same file may be given relative to another folder.
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let mut names: Vec<_> = path.iter().rev().take(3).map(|name| name.to_string_lossy()).collect();
         names.reverse();
@@ -73,7 +75,7 @@ impl Shard {
         self.has_key(name.rsplit_once('-').map_or(name.as_str(), |(site, _revision)| site))
     }
 
-    /// The first eight bytes of its SHA-256, modulo the number of parts.
+    /// Returns `true` if the first eight bytes of the key's SHA-256, modulo the number of parts, give this part.
     fn has_key(self, key: &str) -> bool {
         let hash = Sha256::digest(key.as_bytes());
         let first = hash.iter().take(8).fold(0_u64, |number, &byte| number << 8 | u64::from(byte));

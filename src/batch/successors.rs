@@ -1,7 +1,7 @@
-//! Passports issued anew: those that were named, and of a folder those that the change concerns.
+//! Re-issue of passports: the given files, and those in given folders that the change concerns.
 //!
-//! Of a folder a passport is issued anew when it is in force or has expired and no other supersedes it, by the rules of
-//! the [`register`](crate::register). Those that say already what they would say are left.
+//! A passport in a folder is re-issued if it is in force or expired and not superseded, by the rules of the
+//! [`register`](crate::register). A passport whose content would not change is left as it is.
 
 use super::catalogue::Catalogue;
 use super::paths::{self, Named};
@@ -23,54 +23,54 @@ use std::sync::Arc;
 const FORKED: &str = "its predecessor has several successors; list them with `register` and withdraw the wrong ones \
                       with `revoke`";
 
-/// What is to change, and by whose trust the old passports must hold.
+/// Change to the passports, and the trust by which they are verified.
 pub(crate) struct Change<'a> {
-    /// What all have in common; the stand is that of [`Self::stands`].
+    /// Order that all passports have in common; the stand is that of [`Self::stands`].
     pub order: Order,
-    /// Files of stands: each for the passports of its stand. Of a folder no others are concerned.
+    /// Stand files, each for the passports of its stand; in a folder only these stands are concerned.
     pub stands: &'a [PathBuf],
-    /// Files of sites: each for the passports of its site, which stay at it.
+    /// Site files, each for the passports of its site, which stay at it.
     pub sites: &'a [PathBuf],
-    /// The trust in the old passports.
+    /// Trust in the predecessors.
     pub trust: Trust,
-    /// What is asked of them.
+    /// Question by which the predecessors are verified.
     pub question: Question,
-    /// Where the successors are written; `None` for each into the root that the path of its predecessor shows.
+    /// Folder of the successors; `None` for the root that the path of each predecessor shows.
     pub folder: Option<Arc<Folder>>,
 }
 
-/// A passport to be looked at.
+/// Passport to be examined.
 struct Candidate {
     path: PathBuf,
-    /// The folder in which it was found, and its line in the register; `None` when it was named itself.
+    /// Folder in which it was found, and its line in the register; `None` if the file was specified itself.
     found: Option<(Arc<Searched>, usize)>,
 }
 
-/// What is known of a folder as a whole.
+/// Trust and register of a folder.
 struct Searched {
-    /// With the revocation lists that count there.
+    /// Trust, including the revocation lists that are valid in the folder.
     trust: Trust,
     register: Register,
 }
 
-/// A candidate that was looked at.
+/// Candidate that was examined.
 enum Examined {
     Done(Option<Outcome>),
-    /// It is to be followed by this one.
+    /// Successor to be issued.
     Next(Box<Following>),
 }
 
-/// What follows a passport.
+/// Successor of a passport, to be issued.
 struct Following {
-    /// The passport's file.
+    /// Name of the predecessor's file.
     name: String,
     successor: Successor,
-    /// Where the successor is written.
+    /// Folder of the successor.
     folder: Arc<Folder>,
 }
 
 impl Batch<'_> {
-    /// Issues anew what was named: files, and of folders those that the change concerns.
+    /// Re-issues the given files, and the passports in given folders that the change concerns.
     pub(crate) fn reissue(&self, passports: &[PathBuf], list: &mut dyn BufRead, change: Change, tell: Listener) {
         let mut none = std::io::empty();
         let files = paths::files(change.stands, &mut none, Purpose::Stands);
@@ -80,7 +80,7 @@ impl Batch<'_> {
         let (sites, bad_sites) = Catalogue::read(files, self.threads, tell);
         let sites_missing = !bad_sites.is_empty();
         for failure in bad_stands.into_iter().chain(bad_sites) {
-            // Whose passports it would have been for, only the file could say.
+            // The stand or site of an unreadable file is unknown, and so is the number of its passports.
             tell(Event::Done(Some(Outcome::Failed(Failure { passports: Some(0), ..failure }))));
         }
         let sweeper = Sweeper::default();
@@ -120,7 +120,7 @@ struct Run<'a> {
     change: Change<'a>,
     stands: Catalogue<PreparedStand>,
     sites: Catalogue<Site>,
-    /// Whether a file of a site could not be read: whose it is, nobody knows.
+    /// `true` if a site file could not be read, so its site is unknown.
     sites_missing: bool,
     sweeper: Sweeper,
     superseding: Superseding,
@@ -135,7 +135,7 @@ impl Run<'_> {
         }
     }
 
-    /// The passports of a folder, in the order of their names, by its register.
+    /// Adds the passports of a folder, in the order of their names, as its register lists them.
     fn folder(&mut self, root: &Path, tell: Listener) {
         let asked = Asked::at(self.change.question.time);
         let found = search::register(root, self.change.trust.clone(), &asked, self.batch.threads);
@@ -174,7 +174,7 @@ impl Run<'_> {
             }
             Err(failure) => Examined::Done(Some(Outcome::Failed(failure.clone()))),
         });
-        // Several old passports may have successors of one stand at one site: they come one after the other.
+        // Several predecessors may have successors of one stand at one site: these are issued one after the other.
         let mut places: BTreeMap<(String, &str), Vec<usize>> = BTreeMap::new();
         for (index, examined) in examined.iter().enumerate() {
             if let Examined::Next(next) = examined {
@@ -195,7 +195,7 @@ impl Run<'_> {
         self.batch.tell(outcomes.collect(), tell);
     }
 
-    /// The successor: every one of a batch is made here.
+    /// Issues a successor; every successor of a batch is made here.
     fn follow(&self, examined: &Examined) -> Option<Outcome> {
         let Examined::Next(next) = examined else { return None };
         let Following { name, successor, folder } = &**next;
@@ -245,7 +245,7 @@ impl Run<'_> {
         Ok(Examined::Next(Box::new(Following { name, successor: next.beside(rival), folder })))
     }
 
-    /// Where the successor of the passport at `path` is written.
+    /// Returns the folder for the successor of the passport at `path`.
     fn folder_for(&self, path: &Path, next: &Successor) -> Result<Arc<Folder>, Failure> {
         if let Some(folder) = &self.change.folder {
             return Ok(Arc::clone(folder));
@@ -262,7 +262,7 @@ impl Run<'_> {
         Ok(Arc::new(Folder::new(root).with_durability(self.batch.durability)))
     }
 
-    /// Another passport that supersedes the same one, beside it or where the new one is to stand.
+    /// Returns another passport that supersedes the same one, in its folder or in that of the new one.
     fn rival(&self, old: &Path, folder: &Folder, next: &Successor, trust: &Trust) -> Option<PathBuf> {
         let new = folder.path_of(&next.stand().stand, &next.site().id, next.first_revision());
         let asked = Asked::at(self.change.question.time);
@@ -273,7 +273,7 @@ impl Run<'_> {
         rivals.next().filter(|_| next.supersedes())
     }
 
-    /// What becomes of a passport by what else its folder holds; `None` when it is to be issued anew.
+    /// Returns the outcome of a passport that follows from its folder, or `None` if it is to be re-issued.
     fn settled_by_folder(
         &self,
         path: &Path,
@@ -310,13 +310,13 @@ impl Run<'_> {
         if register.is_of_a_fork(&line.sha256) { refused(FORKED.to_owned()) } else { Ok(None) }
     }
 
-    /// The order for one passport: with the files that are for its stand and site.
+    /// Returns the order for one passport, with the files for its stand and site.
     fn order(&self, candidate: &Candidate, old: Option<&crate::passport::Content>) -> Result<Order, Failure> {
         let mut order = self.change.order.clone();
         let Some(old) = old else { return Ok(order) };
         if !self.change.stands.is_empty() {
             let stand = match self.stands.get(&old.stand.id())? {
-                // The only one given is refused as that of another stand.
+                // If only one stand file is given, use it here, so that it is refused as that of another stand.
                 None if self.stands.len() == 1 => self.stands.load(0..1, 1).remove(0).map(Some)?,
                 stand => stand,
             };
@@ -333,7 +333,7 @@ impl Run<'_> {
     }
 }
 
-/// Of what the register could not look at, a failure each; of passports that it did, their line tells.
+/// Returns the failure for a file that the register could not examine, or `None` for an alarm about examined passports.
 fn not_looked_at(alarm: &Alarm) -> Option<Failure> {
     let path = Path::new(alarm.files.first()?);
     let why = format!("{}: {}", shown(path), alarm.words);

@@ -1,28 +1,28 @@
-//! Temporary files that a killed run left behind, and how they are told from those of a run that lives.
+//! Temporary files that killed runs left behind, and how to distinguish them from those of active runs.
 //!
-//! A run locks its temporary file as long as it has that name, and the system drops the lock when the run ends, however
-//! it ends. So a temporary file that nobody has locked belongs to nobody. Where a shared folder knows no locks, or they
-//! do not reach from machine to machine, a living run may lose a temporary file to another one: it finds that out when
-//! it renames the file, and writes it again.
+//! A run locks its temporary file as long as the file has that name. The system releases the lock when the run ends, in
+//! whatever way. An unlocked temporary file therefore belongs to no active run. If a shared folder has no locks, or
+//! they do not work between machines, an active run may lose a temporary file to another run. It notices this when it
+//! renames the file, and writes it again.
 
 use std::ffi::OsStr;
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::Path;
 
-/// How the name of every temporary file begins.
+/// Prefix of the names of temporary files.
 pub(super) const PREFIX: &str = ".dtg-passport-";
 
-/// And how it ends.
+/// Suffix of the names of temporary files.
 pub(super) const SUFFIX: &str = ".tmp";
 
-/// Removes from a folder the temporary files that belong to no living run; gives how many.
+/// Removes the temporary files that belong to no active run from a folder, and returns their number.
 ///
-/// What cannot be looked at or removed stays: it is in nobody's way.
+/// Files that cannot be examined or removed stay; they cause no errors.
 pub(crate) fn remove(folder: &Path) -> usize {
     let Ok(entries) = fs::read_dir(folder) else { return 0 };
     let ours = entries.flatten().filter(|entry| {
-        // A link or a folder of that name is not ours.
+        // A link or a folder with such a name was not created by this program.
         !is_lasting(&entry.file_name()) && entry.file_type().is_ok_and(|kind| kind.is_file())
     });
     ours.filter(|entry| remove_unless_in_use(&entry.path()).is_ok()).count()
@@ -35,11 +35,11 @@ pub(crate) fn is_lasting(name: &OsStr) -> bool {
 }
 
 fn remove_unless_in_use(path: &Path) -> io::Result<()> {
-    // Over NFS only a file that is open for writing can be locked.
+    // NFS can lock only a file that is open for writing.
     let file = File::options().read(true).write(true).open(path)?;
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => Err(io::ErrorKind::ResourceBusy.into()),
-        // The lock is kept until the name is gone: whoever made the file just now sees that he has lost it.
+        // The lock is kept until the name is removed, so that the run that created the file notices the loss.
         Ok(()) | Err(TryLockError::Error(_)) => fs::remove_file(path),
     }
 }

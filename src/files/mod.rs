@@ -1,6 +1,6 @@
-//! Files: read whole and not too large, written whole or not at all.
+//! File access: files are read completely up to a limit, and written completely or not at all.
 //!
-//! * [`leftovers`]: temporary files that a killed run left behind.
+//! * [`leftovers`]: temporary files that killed runs left behind.
 //! * [`walk`]: the files under a folder.
 
 pub(crate) mod leftovers;
@@ -12,58 +12,58 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{NamedTempFile, PersistError};
 
-/// What a file operation could not do.
+/// Failure of a file operation.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileError {
-    /// It cannot be opened or read.
+    /// File that cannot be opened or read.
     #[error("{}: cannot be read: {}", shown(path), Printable(reason(error)))]
     Read {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         error: io::Error,
     },
-    /// It is a folder.
+    /// Folder in place of a file.
     #[error("{}: is a folder, expected a file", shown(path))]
     Folder {
-        /// Which.
+        /// Path of the folder.
         path: PathBuf,
     },
-    /// It is a pipe, a device or a socket: its reader might wait for ever.
+    /// Pipe, device or socket, which its reader might wait for indefinitely.
     #[error("{}: found a pipe, a device or a socket, expected a file; save its output to a file first", shown(path))]
     Special {
-        /// Which.
+        /// Path of the pipe, device or socket.
         path: PathBuf,
     },
-    /// It is larger than any such file can be.
+    /// File that exceeds the size limit.
     #[error("{}: more than {limit} bytes; check that this is the right file", shown(path))]
     TooLarge {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// The limit in bytes.
+        /// Size limit in bytes.
         limit: usize,
     },
-    /// It exists, and is not replaced.
+    /// Existing file that is not replaced.
     #[error("{}: already exists, not overwritten{}", shown(path), if *replaceable { "; to replace it, use --force" } else { "" })]
     Exists {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// Whether it may be replaced when the user says so.
+        /// `true` if the file may be replaced when the user requests it.
         replaceable: bool,
     },
-    /// It cannot be written.
+    /// File that cannot be written.
     #[error("{}: cannot be written: {}; no file was left", shown(path), Printable(reason(error)))]
     Write {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the system.
         error: io::Error,
     },
 }
 
 impl FileError {
-    /// Which file.
+    /// Returns the path of the file.
     pub(crate) fn path(&self) -> &Path {
         match self {
             Self::Read { path, .. }
@@ -76,7 +76,7 @@ impl FileError {
     }
 }
 
-/// What the system says, in words for those who do not know its error numbers.
+/// Returns the reason of a system error, in words for users who do not know its error numbers.
 pub(crate) fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "no such file or folder".to_owned(),
@@ -87,20 +87,21 @@ pub(crate) fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Reads a file of at most `limit` bytes; no more than that is ever held.
+/// Reads a file of at most `limit` bytes; memory for a larger file is never used.
 ///
 /// # Errors
-/// [`FileError::Read`], [`FileError::Folder`], [`FileError::Special`], [`FileError::TooLarge`].
+/// Returns [`FileError::Read`], [`FileError::Folder`], [`FileError::Special`], or [`FileError::TooLarge`] if the file
+/// has more than `limit` bytes.
 pub(crate) fn read(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     read_into(&mut bytes, path, limit)?;
     Ok(bytes)
 }
 
-/// The same into `bytes`, in place of what they were: the memory of one file serves the next.
+/// Reads a file as [`read`] does, but replaces the content of `bytes`, so that its memory can be reused for many files.
 ///
 /// # Errors
-/// As [`read`].
+/// Returns the errors of [`read`].
 pub(crate) fn read_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(), FileError> {
     read_first_into(bytes, path, limit + 1)?;
     if bytes.len() > limit {
@@ -109,10 +110,10 @@ pub(crate) fn read_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Resul
     Ok(())
 }
 
-/// The first `limit` bytes of a file, or all of it when it is shorter.
+/// Reads the first `limit` bytes of a file, or all of it if it is shorter.
 ///
 /// # Errors
-/// [`FileError::Read`], [`FileError::Folder`], [`FileError::Special`].
+/// Returns [`FileError::Read`], [`FileError::Folder`] or [`FileError::Special`].
 pub(crate) fn read_first(path: &Path, limit: usize) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     read_first_into(&mut bytes, path, limit)?;
@@ -129,7 +130,7 @@ fn read_first_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(),
     if !found.is_file() {
         return Err(FileError::Special { path: path.to_owned() });
     }
-    // With one byte more than there are, the end is seen without another look.
+    // With one spare byte in the buffer, the end of the file is found without growing it.
     let length = usize::try_from(found.len()).unwrap_or(limit).min(limit);
     bytes.clear();
     bytes.reserve_exact(length.saturating_add(1));
@@ -137,8 +138,8 @@ fn read_first_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(),
     Ok(())
 }
 
-/// Opens a file without waiting: a pipe that nobody writes to would keep its reader for ever. The opened file
-/// itself tells afterwards what it is, so that nothing can be exchanged in between.
+/// Opens a file without waiting, because a pipe without a writer would block its reader indefinitely. The kind of file
+/// is then read from the open file, so that it cannot be exchanged in between.
 #[cfg(unix)]
 fn open(path: &Path) -> io::Result<File> {
     use rustix::fs::OFlags;
@@ -153,54 +154,56 @@ fn open(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 
-/// Who may read a new file.
+/// Permission to read a new file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Access {
-    /// Everybody whom the user's umask lets.
+    /// Access for all users allowed by the umask.
     Shared,
-    /// The user alone (mode 0600): private keys.
+    /// Access for the user only (mode 0600), for private keys.
     Private,
 }
 
-/// What of a new file is safe from a loss of power once it has been written. To kill the program loses nothing of any.
+/// Durability of a new file after a power failure. Killing the program loses nothing in any variant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Durability {
-    /// The file, under its name.
+    /// Durable file and name.
     Named,
-    /// The file; its name once `sync_folder` has come back, which then does for many files.
+    /// Durable file; its name is durable after `sync_folder` has returned, which serves many files at once.
     NameLater,
-    /// Nothing, until the system has written it in its own time.
+    /// No durability until the system writes the file in its own time.
     None,
 }
 
-/// How often a file is written anew whose temporary name somebody took away. A second time is bad luck already.
+/// Number of attempts to write a file again after its temporary file was removed; even a second removal is unlikely.
 const ATTEMPTS: usize = 4;
 
-/// Writes a new file: to a temporary name beside it, synced, renamed without replacing, the folder synced.
+/// Writes a new file: to a temporary name in its folder, synced, renamed without replacing, and the folder synced.
 ///
-/// Missing folders are made.
+/// Missing folders are created.
 ///
 /// # Errors
-/// [`FileError::Exists`] when something of that name is there, [`FileError::Write`].
+/// Returns [`FileError::Exists`] if the name is already used, or [`FileError::Write`].
 pub(crate) fn write_new(path: &Path, bytes: &[u8], access: Access) -> Result<(), FileError> {
     write_new_as(path, bytes, access, Durability::Named)
 }
 
-/// The same, as safe from a loss of power as `durability` says.
+/// Writes a new file as [`write_new`] does, with the given `durability`.
 ///
 /// # Errors
-/// As [`write_new`].
+/// Returns the errors of [`write_new`].
 pub(crate) fn write_new_as(path: &Path, bytes: &[u8], access: Access, durability: Durability) -> Result<(), FileError> {
     let persist = |temporary: NamedTempFile| temporary.persist_noclobber(path);
     write(path, bytes, access, durability, persist, false)
 }
 
-/// The same, replacing a file that is there when `force` says so. Passports, lists of withdrawn ones and private keys stay;
-/// so does all that is no file: a new file renamed to the name of a device would take its place.
+/// Writes a file as [`write_new`] does, and replaces an existing file if `force` is set.
+///
+/// Passports, lists of withdrawn passports and private keys are never replaced. Nor is anything but a regular file,
+/// because renaming a new file to the name of a device would remove the device.
 ///
 /// # Errors
-/// As [`write_new`].
+/// Returns the errors of [`write_new`].
 pub(crate) fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
     if path.metadata().is_ok_and(|there| !there.is_file()) || (force && is_irreplaceable(path)) {
         return Err(FileError::Exists { path: path.to_owned(), replaceable: false });
@@ -212,7 +215,7 @@ pub(crate) fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Resul
     write(path, bytes, Access::Shared, Durability::Named, persist, true)
 }
 
-/// Whether a file is a passport, a list of withdrawn ones or a private key, by its content.
+/// Returns `true` if a file is a passport, a list of withdrawn passports or a private key, by its content.
 fn is_irreplaceable(path: &Path) -> bool {
     const DOCUMENTS: [&[u8]; 2] = [b"format: \"dtg-passport/", b"format: \"dtg-revocation/"];
     let bytes = read_first(path, LARGEST_DOCUMENT_BYTES).unwrap_or_default();
@@ -221,11 +224,10 @@ fn is_irreplaceable(path: &Path) -> bool {
     key || lines.any(|line| DOCUMENTS.iter().any(|format| line.starts_with(format)))
 }
 
-/// Replaces the content of a file, or makes it. Its permissions stay as they were; through a link, the file that it leads
-/// to is replaced.
+/// Replaces the content of a file, or creates it. Its permissions are kept; for a link, the target is replaced.
 ///
 /// # Errors
-/// [`FileError::Write`], also for what is no regular file; the old content is then as it was.
+/// Returns [`FileError::Write`], also if the path is not a regular file; the content is then unchanged.
 pub(crate) fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let permissions = match fs::metadata(&target) {
@@ -245,8 +247,8 @@ pub(crate) fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     write(&target, bytes, Access::Shared, Durability::Named, persist, true)
 }
 
-/// Waits until no other run has its turn in a folder; the turn ends when what is returned is dropped. `None` where the
-/// file system knows no locks of folders.
+/// Waits until no other run holds the lock of a folder, and locks it until the returned file is dropped. Returns `None`
+/// if the file system cannot lock folders.
 pub(crate) fn wait_for_turn(folder: &Path) -> Option<File> {
     File::open(folder).ok().filter(|folder| folder.lock().is_ok())
 }
@@ -268,7 +270,7 @@ fn write(
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
                 return Err(FileError::Exists { path: path.to_owned(), replaceable });
             }
-            // Of many files only the first finds its folder missing.
+            // Only the first of many files finds its folder missing.
             Err(error) if attempt == 0 && error.kind() == io::ErrorKind::NotFound => {
                 make_folder(folder, durability).map_err(failed)?;
             }
@@ -282,12 +284,12 @@ fn write(
     }
 }
 
-/// The folder that a file is in.
+/// Returns the folder that contains a file.
 pub(crate) fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Makes a folder and those above it that are missing, each safe under its name.
+/// Creates a folder and its missing parents, and syncs the name of each.
 fn make_folder(folder: &Path, durability: Durability) -> io::Result<()> {
     let made = match fs::create_dir(folder) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
@@ -305,13 +307,13 @@ fn make_folder(folder: &Path, durability: Durability) -> io::Result<()> {
     }
 }
 
-/// A file under a temporary name, complete, and synced unless that is not wanted.
+/// Creates a complete file under a temporary name, synced unless `durability` is [`Durability::None`].
 ///
-/// While it has that name it is locked: by this another run knows it from one that a killed run left behind.
+/// The file is locked while it has that name, so that other runs can distinguish it from a leftover of a killed run.
 fn temporary(folder: &Path, bytes: &[u8], access: Access, durability: Durability) -> io::Result<NamedTempFile> {
     let mut temporary = builder(access).tempfile_in(folder)?;
     match temporary.as_file().try_lock() {
-        // Another run has just taken it for a leftover.
+        // Another run has just taken this file for a leftover.
         Err(TryLockError::WouldBlock) => return Err(io::ErrorKind::NotFound.into()),
         // A file system without locks: see `leftovers`.
         Ok(()) | Err(TryLockError::Error(_)) => {}
@@ -323,20 +325,20 @@ fn temporary(folder: &Path, bytes: &[u8], access: Access, durability: Durability
     Ok(temporary)
 }
 
-/// Whether the temporary file is gone: between its making and its lock, or on a file system whose locks do not reach
-/// over machines, another run may take it for a leftover.
+/// Returns `true` if the error means that the temporary file is gone. Another run may take it for a leftover between
+/// creation and lock, or on a file system whose locks do not work between machines.
 fn taken_away(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::StaleNetworkFileHandle)
 }
 
-/// A temporary file's name says whose it is, so that a leftover can be recognised.
+/// Returns a builder of temporary files whose names identify this program, so that leftovers can be recognised.
 fn builder(access: Access) -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(leftovers::PREFIX).suffix(leftovers::SUFFIX);
     #[cfg(unix)]
     if access == Access::Shared {
         use std::os::unix::fs::PermissionsExt;
-        // The umask takes away from this; without it the file would be the user's alone.
+        // The umask restricts this mode; without it only the user could read the file.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     #[cfg(not(unix))]
@@ -344,19 +346,19 @@ fn builder(access: Access) -> tempfile::Builder<'static, 'static> {
     builder
 }
 
-/// Makes the names in a folder safe from a loss of power.
+/// Syncs the names in a folder to disk, so that a power failure does not lose them.
 ///
 /// # Errors
-/// What the system says.
+/// Returns an I/O error if the folder cannot be opened or synced.
 #[cfg(unix)]
 pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {
     File::open(folder)?.sync_all()
 }
 
-/// Elsewhere the system sees to that.
+/// Does nothing, because on this system names need no sync.
 ///
 /// # Errors
-/// None.
+/// Never returns an error.
 #[cfg(not(unix))]
 pub fn sync_folder(_: &Path) -> io::Result<()> {
     Ok(())

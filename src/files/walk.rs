@@ -1,24 +1,24 @@
-//! The files under a folder, one after the other in the order of their names. Links are not followed: they may lead out
-//! of the folder.
+//! Walk through the files under a folder, in the order of their names. Links are not followed, because they may lead
+//! out of the folder.
 
 use super::FileError;
 use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Something under a folder.
+/// Entry found under a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Entry {
-    /// A file of a wanted name.
+    /// File with a wanted name.
     File(PathBuf),
-    /// A link of a wanted name, or to a folder; it was not followed.
+    /// Link with a wanted name, or to a folder; it was not followed.
     Link(PathBuf),
-    /// A pipe, a device or a socket of a wanted name: reading it might never end.
+    /// Pipe, device or socket with a wanted name; reading it might never end.
     Special(PathBuf),
 }
 
-/// Walks through a folder. It holds the wanted names of the folders from the top to where it is, and nothing of other
-/// files however many there are.
+/// Walk through a folder. It keeps only the wanted names in the folders from the root to the current one, so its memory
+/// does not depend on the number of other files.
 pub(crate) struct Walk {
     wanted: fn(&OsStr) -> bool,
     deep: bool,
@@ -40,12 +40,12 @@ enum Kind {
 }
 
 impl Walk {
-    /// Files of wanted names under `root`, at any depth.
+    /// Creates a walk through the files with wanted names under `root`, at any depth.
     pub(crate) fn deep(root: &Path, wanted: fn(&OsStr) -> bool) -> Self {
         Self { wanted, deep: true, next: Some(root.to_owned()), levels: Vec::new() }
     }
 
-    /// Files of wanted names in `root` itself.
+    /// Creates a walk through the files with wanted names in `root` itself.
     pub(crate) fn flat(root: &Path, wanted: fn(&OsStr) -> bool) -> Self {
         Self { deep: false, ..Self::deep(root, wanted) }
     }
@@ -76,7 +76,7 @@ impl Walk {
 impl Iterator for Walk {
     type Item = Result<Entry, FileError>;
 
-    /// The next one. A folder that cannot be read is one error; the walk goes on behind it.
+    /// Returns the next entry. A folder that cannot be read gives one error, and the walk continues after it.
     fn next(&mut self) -> Option<Self::Item> {
         loop {
             if let Some(folder) = self.next.take()

@@ -1,25 +1,25 @@
-//! What a file claims to be by its content, when it cannot be read as that.
+//! Claimed kind of a file, by its content, when it cannot be read as that kind.
 
 use crate::passport::content::PASSPORT_FORMAT;
 use crate::revocation::REVOCATION_FORMAT;
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use std::path::Path;
 
-/// How the armor of every SSH signature begins.
+/// First line of the armor of every SSH signature.
 const ARMOR: &str = "-----BEGIN SSH SIGNATURE-----";
 
-/// What a file claims to be.
+/// Kind of document that a file claims to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Claim {
-    /// A list of withdrawn passports.
+    /// List of withdrawn passports.
     List,
-    /// A passport, or something signed or empty that may have been one.
+    /// Passport, or a signed or empty file that may have been one.
     Passport,
 }
 
 impl Claim {
-    /// The claim of a file, or `None` if it has nothing of a passport or a list. Of UTF-16 and UTF-32 the ASCII is seen
-    /// too, whichever byte of a character comes first.
+    /// Returns the claim of a file, or `None` if it has no mark of a passport or a list. Marks in UTF-16 and UTF-32 are
+    /// also found, in either byte order.
     pub(super) fn of(path: &Path, bytes: &[u8]) -> Option<Self> {
         let ascii: Vec<u8>;
         let text = if bytes.contains(&0) {
@@ -39,7 +39,7 @@ impl Claim {
     }
 }
 
-/// Returns `true` if a file is named as YAML.
+/// Returns `true` if a file has a YAML extension.
 pub(super) fn is_yaml(path: &Path) -> bool {
     path.extension()
         .is_some_and(|extension| extension.eq_ignore_ascii_case("yaml") || extension.eq_ignore_ascii_case("yml"))

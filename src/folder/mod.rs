@@ -1,6 +1,7 @@
-//! Passports in a folder: where each stands, what is there already, new ones written whole and never over another.
+//! Folder of passports: the place of each passport, existing passports, and new ones, which are written completely and
+//! never replace another file.
 //!
-//! * `search`: what is there.
+//! * `search`: the files in a folder, and their register.
 
 mod claim;
 mod names;
@@ -33,52 +34,52 @@ use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A folder of passports: `<model>/<serial>/<site id>-<revision>.yaml`.
+/// Folder of passports: `<model>/<serial>/<site id>-<revision>.yaml`.
 #[derive(Debug)]
 pub struct Folder {
     root: PathBuf,
     durability: Durability,
-    /// Folders below that are no links.
+    /// Subfolders that are known not to be links.
     no_links: Visited,
-    /// Names of models and serial numbers, and of sites.
+    /// Names of models and serial numbers; `sites` has the names of sites.
     folders: Names,
     sites: Names,
 }
 
-/// Who signs, and by whose trust a new passport must hold before it is written.
+/// Signer, with the trust by which a new passport must pass verification before it is written.
 #[derive(Clone, Copy)]
 pub struct Seal<'a> {
-    /// The signer.
+    /// Signer of the passport.
     pub signer: &'a (dyn Signer + Sync),
-    /// The trust of those who will verify; `None` to leave that to them.
+    /// Trust of the future verifiers; `None` to skip the verification.
     pub trust: Option<&'a Trust>,
 }
 
-/// What became of an order.
+/// Result of an order: a passport that exists now.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Issued {
-    /// The passport's id.
+    /// Id of the passport.
     pub id: String,
-    /// Its file.
+    /// Path of the passport.
     pub path: PathBuf,
     /// SHA-256 of the file.
     pub sha256: String,
-    /// Whether it is new; otherwise an equal one was there, and was left.
+    /// `true` if the passport is new; `false` if an equal one already existed and was left unchanged.
     pub new: bool,
-    /// What the factory should know about it.
+    /// Remarks on the passport for the factory.
     pub remarks: Remarks,
 }
 
-/// What an order comes to.
+/// Next step for an order.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Next {
-    /// An equal passport is there.
+    /// Equal passport that already exists.
     There(Issued),
-    /// A new one, which is yet to be signed and written.
+    /// New passport, which is yet to be signed and written.
     New(Unwritten),
 }
 
-/// A passport that was computed and checked, and is not there yet.
+/// Passport that was computed and checked, but not yet signed and written.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Unwritten {
     path: PathBuf,
@@ -86,86 +87,86 @@ pub(crate) struct Unwritten {
 }
 
 impl Unwritten {
-    /// Its id.
+    /// Returns the id of the passport.
     pub(crate) fn id(&self) -> &str {
         &self.draft.content().passport.id
     }
 
-    /// Its file.
+    /// Returns the path of the passport.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What the factory should know about it.
+    /// Returns the remarks on the passport for the factory.
     pub(crate) fn remarks(&self) -> Remarks {
         self.draft.remarks()
     }
 }
 
-/// How often an order is looked at again because another run was faster. Each time that one wrote a passport.
+/// Number of times that an order is tried; each retry means that another run has just written a passport.
 const ATTEMPTS: usize = 8;
 
-/// Why a folder got no new passport.
+/// Reason why no new passport was written to a folder.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FolderRefused {
-    /// A passport with other content has the name.
+    /// Existing passport of this name with other content.
     #[error(
         "{}: already exists with other content ({changed}); to issue the changes, use `reissue {}`",
         shown(path),
         shown(path)
     )]
     OtherContent {
-        /// The file that is there.
+        /// Path of the existing file.
         path: PathBuf,
-        /// What differs from it, in words.
+        /// Differences from the existing file, in words.
         changed: String,
     },
-    /// The old passport has another successor already.
+    /// Existing successor of the predecessor for this site, with other content.
     #[error(
         "{}: is already a successor of this passport for this site, with other content; re-issue that successor",
         shown(path)
     )]
     OtherSuccessor {
-        /// The successor that is there.
+        /// Path of the existing successor.
         path: PathBuf,
     },
-    /// The old passport is superseded already, by a passport for another site or in another folder.
+    /// Existing passport that supersedes the predecessor for another site or in another folder.
     #[error(
         "{}: already supersedes this passport; re-issue that successor, because a second one would be a fork",
         shown(path)
     )]
     Fork {
-        /// The successor that is there.
+        /// Path of the existing successor.
         path: PathBuf,
     },
-    /// The next revision is there, made from another passport.
+    /// Existing next revision that was re-issued from another passport.
     #[error(
         "{}: is already the next revision for this site, re-issued from another passport; re-issue that revision",
         shown(path)
     )]
     LaterRevision {
-        /// The revision that is there.
+        /// Path of the existing revision.
         path: PathBuf,
     },
-    /// What has the name is no passport.
+    /// Existing file of this name that is not a passport.
     #[error(
         "{}: already exists and cannot be compared as a passport ({reason}); move it to another folder",
         shown(path)
     )]
     NotComparable {
-        /// The file that is there.
+        /// Path of the existing file.
         path: PathBuf,
-        /// Why it cannot be compared.
+        /// Reason why it cannot be compared.
         reason: String,
     },
-    /// A link stands in its way.
+    /// Link in the path of the passport.
     #[error("{}: is a link; specify its target with --out, because links may lead out of the folder", shown(path))]
     Link {
-        /// The link.
+        /// Path of the link.
         path: PathBuf,
     },
-    /// A name that differs only in case is there already.
+    /// Existing name that differs only in case.
     #[error(
         "{}: found {}, which differs only in case; use the same spelling, or rename one, because Windows and macOS do \
          not distinguish them",
@@ -173,29 +174,29 @@ pub enum FolderRefused {
         shown(there)
     )]
     OtherCase {
-        /// The folder or the file that would stand beside it.
+        /// Path of the folder or file that would be created.
         path: PathBuf,
-        /// What is there.
+        /// Path of the existing folder or file.
         there: PathBuf,
     },
-    /// By the trust given, nobody could verify it.
+    /// New passport that fails verification with the given trust.
     #[error("the new passport failed verification ({check}: {detail}); nothing was written")]
     NotVerifiable {
-        /// The check that failed.
+        /// Name of the check that failed.
         check: &'static str,
-        /// In its words.
+        /// Detail of the check, in words.
         detail: String,
     },
-    /// No such passport can be issued.
+    /// Passport that cannot be issued.
     #[error(transparent)]
     Issue(#[from] IssueRefused),
-    /// The file system refused.
+    /// Failure of the file system.
     #[error(transparent)]
     File(#[from] FileError),
 }
 
 impl FolderRefused {
-    /// Whether the file system or the signer refused, which is no verdict on a document.
+    /// Returns `true` if the file system or the signer failed, `false` if a document was refused.
     pub(crate) fn is_unusable(&self) -> bool {
         match self {
             Self::File(FileError::Exists { .. }) => false,
@@ -206,23 +207,24 @@ impl FolderRefused {
 }
 
 impl Folder {
-    /// The folder `root`, which need not exist yet. What is written to it is safe from a loss of power at once.
+    /// Creates the handle of the folder `root`, which need not exist yet. Every file is synced as soon as it is
+    /// written.
     pub fn new(root: impl Into<PathBuf>) -> Self {
         let (folders, sites) = (Names::new(Of::Folders), Names::new(Of::Passports));
         Self { root: root.into(), durability: Durability::Named, no_links: Visited::default(), folders, sites }
     }
 
-    /// The same folder; what is written to it is as safe from a loss of power as `durability` says.
+    /// Returns the handle with another `durability` of the files written to the folder.
     pub fn with_durability(self, durability: Durability) -> Self {
         Self { durability, ..self }
     }
 
-    /// The folder itself.
+    /// Returns the path of the folder.
     pub fn root(&self) -> &Path {
         or_here(&self.root)
     }
 
-    /// Returns the root that the path of a passport of `stand` shows, or `None` unless the two folders above the file are
+    /// Returns the root in the path of a passport of `stand`, or `None` unless the two folders above the file are
     /// `<model>/<serial>`.
     pub(crate) fn root_of<'a>(path: &'a Path, stand: &Identity) -> Option<&'a Path> {
         let serial = path.parent()?;
@@ -231,13 +233,13 @@ impl Folder {
         model.parent().filter(|_| shows)
     }
 
-    /// Where the passport of a stand for a site stands.
+    /// Returns the path of the passport of a stand for a site.
     pub fn path_of(&self, stand: &Identity, site: &Identifier, revision: u32) -> PathBuf {
         let folder = self.root.join(stand.model.as_str()).join(stand.serial.as_str());
         folder.join(format!("{site}-{revision}.yaml"))
     }
 
-    /// Where the passport with this id stands; `None` when that is no id.
+    /// Returns the path of the passport with this id, or `None` if the text is not an id.
     pub(crate) fn path_of_id(&self, id: &str) -> Option<PathBuf> {
         let parts: Vec<&str> = id.split('/').collect();
         let [model, serial, site, revision] = parts.as_slice() else { return None };
@@ -247,8 +249,9 @@ impl Folder {
         Some(self.root.join(model.as_str()).join(serial.as_str()).join(format!("{site}-{revision}.yaml")))
     }
 
-    /// Returns in words what speaks against one more passport from the certificate of `stand`, by the passports of the stand
-    /// that are there and count by `trust`: that the certificate was replaced, or that another one is in force.
+    /// Returns the objections to a further passport from the certificate of `stand`, in words: the certificate was
+    /// replaced, or another one is in force. Only existing passports of the stand that are valid by `trust` are
+    /// considered.
     pub(crate) fn against_certificate(&self, stand: &Stand, trust: &Trust, time: Timestamp) -> Vec<String> {
         let folder = self.root.join(stand.stand.model.as_str()).join(stand.stand.serial.as_str());
         let number = &stand.certificate.number;
@@ -263,11 +266,11 @@ impl Folder {
 
     /// Issues revision 1 of a stand for a site.
     ///
-    /// An equal passport (its time, program and signature aside) is left as it is; another one of that name is never
-    /// replaced.
+    /// An equal passport (apart from its time, program and signature) is left unchanged; a different one of that name
+    /// is never replaced.
     ///
     /// # Errors
-    /// See [`FolderRefused`].
+    /// Returns [`FolderRefused`] if the passport cannot be issued or written; no file is then replaced.
     pub fn issue(
         &self,
         stand: &PreparedStand,
@@ -278,10 +281,10 @@ impl Folder {
         self.settle(|| self.next_first(stand, site, order), seal)
     }
 
-    /// What [`Self::issue`] would do; nothing is signed or written.
+    /// Returns the next step of [`Self::issue`]; nothing is signed or written.
     ///
     /// # Errors
-    /// See [`FolderRefused`].
+    /// Returns [`FolderRefused`] if the passport cannot be issued.
     pub(crate) fn next_first(&self, stand: &PreparedStand, site: &Site, order: &Issue) -> Result<Next, FolderRefused> {
         let draft = Box::new(stand.draft(site, order)?);
         let stand = stand.stand();
@@ -299,15 +302,15 @@ impl Folder {
     /// Issues the successor of a passport.
     ///
     /// # Errors
-    /// See [`FolderRefused`].
+    /// Returns [`FolderRefused`] if the successor cannot be issued or written; no file is then replaced.
     pub fn reissue(&self, successor: &Successor, seal: Seal) -> Result<Issued, FolderRefused> {
         self.settle(|| self.next_successor(successor), seal)
     }
 
-    /// What [`Self::reissue`] would do; nothing is signed or written.
+    /// Returns the next step of [`Self::reissue`]; nothing is signed or written.
     ///
     /// # Errors
-    /// See [`FolderRefused`].
+    /// Returns [`FolderRefused`] if the successor cannot be issued.
     pub(crate) fn next_successor(&self, successor: &Successor) -> Result<Next, FolderRefused> {
         let mut revision = successor.first_revision();
         loop {
@@ -326,7 +329,8 @@ impl Folder {
             if of_the_same {
                 return Err(FolderRefused::OtherSuccessor { path: there.path });
             }
-            // At the old site only one revision can be the next; at another the one after it is free.
+            // At the predecessor's site only one revision can be the next one; at another site, try the next free
+            // revision.
             if successor.same_site() {
                 return Err(FolderRefused::LaterRevision { path: there.path });
             }
@@ -334,7 +338,7 @@ impl Folder {
         }
     }
 
-    /// Signs and writes what comes next. When another run writes a file of that name first, what comes next is asked
+    /// Signs and writes the next passport. If another run writes a file of that name first, the next step is determined
     /// again.
     fn settle(&self, next: impl Fn() -> Result<Next, FolderRefused>, seal: Seal) -> Result<Issued, FolderRefused> {
         for _ in 1..ATTEMPTS {
@@ -364,7 +368,7 @@ impl Folder {
         Ok(Issued { id, path, sha256: sha256_hex(text.as_bytes()), new: true, remarks: draft.remarks() })
     }
 
-    /// Whether the way from the root to `folder` has no link, asked once for all its passports.
+    /// Checks that the path from the root to `folder` has no link, once for all its passports.
     fn check_for_links(&self, folder: &Path) -> Result<(), FolderRefused> {
         self.no_links.visit(folder, || {
             let mut way = folder.ancestors().take_while(|folder| *folder != self.root);
@@ -375,7 +379,7 @@ impl Folder {
         })
     }
 
-    /// Whether model, serial number and site have no neighbours that a system without case would take for them.
+    /// Checks that no other name in the same folder differs from model, serial number or site only in case.
     fn check_case(&self, path: &Path) -> Result<(), FolderRefused> {
         let stand = files::folder_of(path);
         for (names, path) in [(&self.folders, files::folder_of(stand)), (&self.folders, stand), (&self.sites, path)] {
@@ -386,7 +390,7 @@ impl Folder {
         Ok(())
     }
 
-    /// The passport that is there already.
+    /// Returns the existing passport at a path, or `None` if there is no file.
     fn existing(&self, path: &Path) -> Result<Option<Existing>, FolderRefused> {
         self.check_for_links(files::folder_of(path))?;
         self.check_case(path)?;
@@ -398,7 +402,7 @@ impl Folder {
         if found.is_symlink() {
             return Err(FolderRefused::Link { path: path.to_owned() });
         }
-        // A pipe of that name would keep its reader waiting for ever.
+        // Opening a pipe of that name could block indefinitely.
         if !found.is_file() && !found.is_dir() {
             let reason = "a pipe, a device or a socket".to_owned();
             return Err(FolderRefused::NotComparable { path: path.to_owned(), reason });
@@ -411,14 +415,14 @@ impl Folder {
     }
 }
 
-/// The folders from a passport to its root: `<model>/<serial>` and the root itself.
+/// Number of folders from a passport to its root: `<model>/<serial>` and the root itself.
 const FOLDERS_OF_A_PASSPORT: usize = 3;
 
-/// Makes the names of passports safe that were written with [`Durability::NameLater`]: theirs, and those of the folders
-/// from the root to them.
+/// Syncs the names of passports that were written with [`Durability::NameLater`], and those of the folders from the
+/// root to them.
 ///
 /// # Errors
-/// The first folder that cannot be made safe, with what the system says.
+/// Returns [`FileError::Write`] for the first folder that cannot be synced.
 pub(crate) fn sync_names<'a>(
     durability: Durability,
     passports: impl Iterator<Item = &'a Path>,
@@ -434,12 +438,12 @@ pub(crate) fn sync_names<'a>(
     Ok(())
 }
 
-/// The current folder for the empty path, which is its name in the parents of a relative path.
+/// Returns the current folder for an empty path, which is how the parent of a relative path may end.
 fn or_here(folder: &Path) -> &Path {
     if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
 }
 
-/// A passport that nobody could verify is worse than none.
+/// Verifies a passport before it is written, because one that fails verification is useless.
 fn check_verifiable(path: &Path, text: &str, draft: &Draft, trust: &Trust) -> Result<(), FolderRefused> {
     let question = Question::at(draft.content().passport.issued_at);
     let verification = verify(&name_of(path), text.as_bytes(), trust, &question);
@@ -451,7 +455,7 @@ fn check_verifiable(path: &Path, text: &str, draft: &Draft, trust: &Trust) -> Re
     }
 }
 
-/// A passport that is there already.
+/// Passport that already exists.
 struct Existing {
     path: PathBuf,
     sha256: String,
@@ -474,7 +478,7 @@ impl Existing {
         Issued { id, path: self.path, sha256: self.sha256, new: false, remarks: draft.remarks() }
     }
 
-    /// What differs from it, in words; its revision was issued, `new` would be too.
+    /// Returns the differences of `new` from the existing passport, in words.
     fn differences(&self, stand: &Stand, site: &Site, new: &Content) -> String {
         let there = &self.content.passport;
         let mut words = changes(&self.content, stand, site, &new.passport.issuer);
@@ -493,7 +497,7 @@ impl Existing {
     }
 }
 
-/// Whether two passports say the same, the time of issue and the program that wrote them aside.
+/// Returns `true` if two passports are equal apart from the time of issue and the program that wrote them.
 fn same(there: &Content, new: &Content) -> bool {
     let mut there = there.clone();
     there.passport.issued_at = new.passport.issued_at;

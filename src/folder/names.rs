@@ -1,4 +1,4 @@
-//! Names that a system which ignores case would take for one.
+//! Names that differ only in case, which some systems do not distinguish.
 
 use super::search::numbered;
 use crate::files::FileError;
@@ -8,24 +8,25 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// The names in folders: of stands, or of sites. Each folder is listed once.
+/// Names in folders of stands or of sites. Each folder is listed once.
 #[derive(Debug)]
 pub(super) struct Names {
-    /// By folder, the names in it by their lower case.
+    /// Names in each folder, by their lower-case form.
     known: Mutex<HashMap<PathBuf, HashMap<String, String>>>,
     of: Of,
 }
 
-/// What names are of.
+/// Kind of the names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Of {
     /// Models and serial numbers.
     Folders,
-    /// Sites: what stands before the revision in the name of a passport.
+    /// Sites: the part of a passport's file name before the revision.
     Passports,
 }
 
-/// So many folders of passports are remembered; with the next one it begins anew. Those of one stand follow each other.
+/// Number of folders of passports that are remembered before the list is cleared. Passports of one stand follow each
+/// other.
 const MOST_FOLDERS_OF_PASSPORTS: usize = 256;
 
 impl Names {
@@ -33,10 +34,10 @@ impl Names {
         Self { known: Mutex::default(), of }
     }
 
-    /// Adds a name to those of its folder; gives the one that is there already and differs in nothing but case.
+    /// Adds a name to those of its folder; returns the path of an existing one that differs only in case, or `None`.
     ///
     /// # Errors
-    /// [`FileError::Read`] when the folder is there and cannot be listed.
+    /// Returns [`FileError::Read`] if the folder exists but cannot be listed.
     pub(super) fn add(&self, path: &Path) -> Result<Option<PathBuf>, FileError> {
         let folder = crate::files::folder_of(path);
         let Some(name) = self.name(path) else { return Ok(None) };
@@ -55,7 +56,7 @@ impl Names {
     fn list(&self, folder: &Path) -> Result<HashMap<String, String>, FileError> {
         let failed = |error| FileError::Read { path: folder.to_owned(), error };
         let entries = match fs::read_dir(folder) {
-            // A file in the way is told when the passport is looked for.
+            // A file in place of the folder is reported when the passport itself is looked up.
             Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
                 return Ok(HashMap::new());
             }

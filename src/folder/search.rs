@@ -1,5 +1,5 @@
-//! What a folder holds that a register reads, and the register of it. What is a passport or a list of withdrawn ones is
-//! told by content, never by a file's name.
+//! Search of a folder for passports and lists of withdrawn passports, and its register. Files are recognised by
+//! content, never by name.
 
 use super::claim::{Claim, is_yaml};
 use crate::files::leftovers::is_lasting;
@@ -14,29 +14,29 @@ use jiff::Timestamp;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-/// Number of bytes by which a file in a folder above is known as a list.
+/// Number of first bytes by which a file in a parent folder is recognised as a list.
 const BEGINNING_BYTES: usize = 4096;
 
-/// Number of folders above a register whose lists count: it may be that of a model, or of a stand.
+/// Number of parent folders whose lists are valid in a register, because its root may be a model or a stand.
 const LEVELS_ABOVE: usize = 2;
 
-/// What a folder holds.
+/// Files found in a folder.
 #[derive(Debug, Default)]
 pub(crate) struct Found {
-    /// Files, sorted; the temporary files of runs are left out.
+    /// Files, sorted, without the temporary files of runs.
     pub files: Vec<PathBuf>,
-    /// Links to folders, or named as YAML: they may lead out of the folder, and were not followed.
+    /// Links to folders or with YAML names, which were not followed because they may lead out of the folder.
     pub links: Vec<PathBuf>,
-    /// Pipes, devices and sockets named as YAML: to open one may wait for ever.
+    /// Pipes, devices and sockets with YAML names, which were not opened because that may block.
     pub special: Vec<PathBuf>,
-    /// Folders below that cannot be read, and why.
+    /// Errors of subfolders that cannot be read.
     pub unreadable: Vec<FileError>,
 }
 
 /// Finds the files under `root`, at any depth; links are not followed.
 ///
 /// # Errors
-/// [`FileError::Read`] when `root` cannot be read; of a folder below it is told in what is found.
+/// Returns [`FileError::Read`] if `root` cannot be read; errors of its subfolders are in [`Found::unreadable`].
 pub(crate) fn find(root: &Path) -> Result<Found, FileError> {
     let mut found = Found::default();
     for entry in Walk::deep(root, is_lasting) {
@@ -52,11 +52,13 @@ pub(crate) fn find(root: &Path) -> Result<Found, FileError> {
     Ok(found)
 }
 
-/// Returns the register of a folder, and the trust that knows what the lists there withdraw, and those in the folders up
-/// to two levels above. So many threads do the work.
+/// Returns the register of a folder and the trust extended by its lists of withdrawn passports.
+///
+/// Lists in the folders up to two levels above also extend the trust. `threads` threads do the work.
 ///
 /// # Errors
-/// [`FileError::Read`] when `root` cannot be read; one file or folder below it hides none of the others.
+/// Returns [`FileError::Read`] if `root` cannot be read; an unreadable file or folder below it does not hide the
+/// others.
 pub fn register(root: &Path, trust: Trust, asked: &Asked, threads: usize) -> Result<(Register, Trust), FileError> {
     let found = find(root)?;
     let mut alarms: Vec<Alarm> = found.unreadable.iter().map(|error| unreadable(root, error)).collect();
@@ -83,10 +85,10 @@ pub fn register(root: &Path, trust: Trust, asked: &Asked, threads: usize) -> Res
     Ok((register, trust))
 }
 
-/// What claims to be a list: a file's name and bytes.
+/// Name and content of a file that claims to be a list.
 type Claimed = (PathBuf, Vec<u8>);
 
-/// What was seen in a file.
+/// Result of the examination of a file.
 enum Seen {
     Passport(Box<Examined>),
     Damaged(Box<Examined>, Alarm),
@@ -101,7 +103,7 @@ impl Seen {
         if let Err(error @ (FileError::Read { .. } | FileError::Folder { .. })) = read {
             return Self::Alarm(unreadable(root, &error));
         }
-        // Of a file that is too large the beginning was read.
+        // For a file that is too large, `bytes` has its beginning.
         let examined = Box::new(examine(bytes));
         if examined.is_readable() {
             return Self::Passport(examined);
@@ -120,7 +122,7 @@ impl Seen {
     }
 }
 
-/// The passports that a file of unknown content concerns: in `<model>/<serial>/` those of that stand.
+/// Returns the passports that a file of unknown content concerns: in `<model>/<serial>/` those of that stand, else all.
 fn concern(root: &Path, path: &Path) -> Concern {
     let folders = path.parent().and_then(|folder| folder.strip_prefix(root).ok());
     let mut folders = folders.into_iter().flat_map(Path::components);
@@ -133,8 +135,9 @@ fn concern(root: &Path, path: &Path) -> Concern {
     }
 }
 
-/// Takes lists into account: of those in the folder, those above it, and the one that is trusted already the newest
-/// counts. What stands above is not of this register: of it only what a damaged list would withdraw is missed.
+/// Extends the trust by the newest of the lists in the folder, in those above it, and already trusted.
+///
+/// Refused lists above raise no alarm unless they are damaged, because they are not part of this register.
 fn withdraw(
     lists: Vec<Claimed>,
     above: Vec<Claimed>,
@@ -169,18 +172,18 @@ fn withdraw(
             Err(_) => {}
         }
     }
-    // A list that is continued may be in a folder above.
+    // The list that another one continues may be in a folder above.
     let series = Series::of(good);
     raise(&series, true, alarms);
     trust.withdrawn = series;
     trust
 }
 
-/// The files in the folders above that say that they are lists.
+/// Returns the files in the folders above that claim to be lists.
 fn lists_above(root: &Path) -> Vec<Claimed> {
     let Ok(root) = root.canonicalize() else { return Vec::new() };
     let folders = root.ancestors().skip(1).take(LEVELS_ABOVE);
-    // What cannot be read there is not of this register.
+    // Errors there are ignored, because those folders are not part of this register.
     let entries = folders.flat_map(|folder| Walk::flat(folder, is_lasting)).flatten();
     let lists = entries.filter_map(|entry| match entry {
         Entry::File(path) => {
@@ -193,26 +196,25 @@ fn lists_above(root: &Path) -> Vec<Claimed> {
     lists.collect()
 }
 
-/// Why no list follows those in a folder.
+/// Reason why the lists in a folder cannot be continued.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub(crate) enum NoNewestList {
-    /// Something cannot be read that may be a list.
+    /// File or folder that cannot be read and may be a list.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A list does not count.
+    /// List that was refused.
     #[error(transparent)]
     Refused(#[from] ListRefused),
-    /// The lists contradict each other, or some are missing.
+    /// Lists that contradict each other or are incomplete.
     #[error("{0}")]
     Series(String),
 }
 
-/// Returns the lists of withdrawn passports under a folder, which a new one may follow.
+/// Returns the lists of withdrawn passports under a folder, which a new list may continue.
 ///
 /// # Errors
-/// See [`NoNewestList`]: nothing may be added to lists of which one is damaged, missing, contradictory, or of a signer who
-/// is not trusted.
+/// Returns [`NoNewestList`] if a list is damaged, missing, contradictory, or from a signer who is not trusted.
 pub(crate) fn lists(folder: &Path, trust: &Trust, time: Timestamp) -> Result<Series, NoNewestList> {
     if !folder.exists() {
         return Ok(Series::default());
@@ -244,12 +246,12 @@ fn unreadable(root: &Path, error: &FileError) -> Alarm {
     Alarm::unreadable(&why, &name_of(error.path()), concern(root, error.path()))
 }
 
-/// Returns `true` if a file is named as passports and lists are, `<name>-<number>.yaml`.
+/// Returns `true` if a file is named like passports and lists, `<name>-<number>.yaml`.
 pub(crate) fn is_numbered(name: &OsStr) -> bool {
     numbered(name).is_some()
 }
 
-/// Returns what stands before the number in `<name>-<number>.yaml`, or `None` if a file is not named so.
+/// Returns the part before the number in `<name>-<number>.yaml`, or `None` if the name has another form.
 pub(super) fn numbered(name: &OsStr) -> Option<&str> {
     let (name, number) = name.to_str()?.strip_suffix(".yaml")?.rsplit_once('-')?;
     (!number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())).then_some(name)

@@ -1,4 +1,4 @@
-//! Which passports of a folder supersede others, whatever a register says of them.
+//! Passports of a folder that supersede others, independent of any register.
 
 use crate::files;
 use crate::files::leftovers::is_lasting;
@@ -10,18 +10,19 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The line without which a passport supersedes none. Its one form makes it stand on a line of its own.
+/// Line that every superseding passport contains; the canonical form puts it on a separate line.
 const SUPERSEDES: &[u8] = b"\n  supersedes: true\n";
 
-/// Successors by the SHA-256 of what they supersede.
+/// Successors by the SHA-256 of the file that they supersede.
 type BySha256 = HashMap<String, Vec<PathBuf>>;
 
-/// The successors in folders of stands, each folder read once.
+/// Successors in folders of stands; each folder is read once.
 #[derive(Debug, Default)]
 pub(crate) struct Superseding(Mutex<HashMap<PathBuf, Arc<BySha256>>>);
 
 impl Superseding {
-    /// Returns a passport in `folder`, but for `own`, that supersedes the file of this SHA-256 and counts by `trust`.
+    /// Returns a passport in `folder`, other than `own`, that supersedes the file with this SHA-256 and is authentic by
+    /// `trust`, or `None` if there is none.
     pub(crate) fn of(&self, folder: &Path, sha256: &str, own: &Path, trust: &Trust, asked: &Asked) -> Option<PathBuf> {
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let read = || Arc::new(read(folder, trust, asked));
@@ -31,8 +32,9 @@ impl Superseding {
     }
 }
 
-/// Whether a file of a stand's folder supersedes another one, or is not of the certificate `number`. It is a quick look:
-/// most often all are of the one certificate.
+/// Returns `true` if a file in the folder of a stand supersedes another one, or is not from the certificate `number`.
+///
+/// This quick test avoids a full search in the usual case that all passports are from one certificate.
 pub(super) fn has_other_certificate(folder: &Path, number: &str) -> bool {
     let own = format!("\n  number: \"{number}\"\n");
     let has = |bytes: &[u8], text: &[u8]| memchr::memmem::find(bytes, text).is_some();
@@ -50,7 +52,7 @@ fn files_of(folder: &Path) -> impl Iterator<Item = PathBuf> {
     })
 }
 
-/// What cannot be read supersedes nothing that it could be asked about.
+/// Reads the successors in a folder; files that cannot be read are ignored.
 fn read(folder: &Path, trust: &Trust, asked: &Asked) -> BySha256 {
     let (mut successors, mut bytes) = (BySha256::new(), Vec::new());
     for path in files_of(folder) {

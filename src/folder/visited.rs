@@ -1,15 +1,16 @@
-//! Folders that need one look, however many of their files are worked on.
+//! Folders that are examined only once, for any number of files in them.
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// Folders that are looked at once, by whichever thread comes first.
+/// Folders that were examined, by whichever thread came first.
 #[derive(Debug, Default)]
 pub(crate) struct Visited(Mutex<HashSet<PathBuf>>);
 
 impl Visited {
-    /// Looks at a folder that was not looked at yet, while others wait; a look that comes to nothing is not the last one.
+    /// Calls `look` for a folder not yet examined, while other threads wait. If it returns `false`, the next call looks
+    /// again.
     pub(crate) fn visit<E>(&self, folder: &Path, look: impl FnOnce() -> Result<bool, E>) -> Result<(), E> {
         let mut visited = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if !visited.contains(folder) && look()? {

@@ -1,4 +1,4 @@
-//! Stands, gyros and current errors at random.
+//! Stands, gyros and current errors drawn at random.
 
 use crate::attitude::Deviation;
 use crate::coefficients::{EIGHT_POSITIONS, Position};
@@ -7,17 +7,17 @@ use crate::statistics::random::Stream;
 use crate::units::radians_from_degrees;
 use nalgebra::{Matrix2, Vector2};
 
-/// How every angle of a stand is drawn.
+/// Distribution of the angles of a stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Deviations {
-    /// Uniform within ±D.
+    /// Uniform distribution within ±D.
     Uniform,
-    /// +D or −D.
+    /// Two values, +D and −D, with equal probability.
     Corners,
 }
 
-/// The paper's eight positions, α, β and γ of each drawn with the limit D = `limit_deg`.
+/// Draws the paper's eight positions, with α, β and γ of each within the limit D = `limit_deg`, degrees.
 pub fn stand(stream: &mut Stream, deviations: Deviations, limit_deg: f64) -> Vec<Position> {
     let limit = radians_from_degrees(limit_deg);
     let mut angle = || match deviations {
@@ -32,7 +32,7 @@ pub fn stand(stream: &mut Stream, deviations: Deviations, limit_deg: f64) -> Vec
     positions.collect()
 }
 
-/// A gyro whose parameters are uniform within the tolerance of its type.
+/// Draws a gyro whose parameters are uniform within the tolerance of its type.
 pub fn gyro(stream: &mut Stream, gyro_type: &GyroType) -> GyroParameters {
     let nominal = gyro_type.nominal.to_model();
     let tolerance = &gyro_type.tolerance;
@@ -54,20 +54,20 @@ pub fn gyro(stream: &mut Stream, gyro_type: &GyroType) -> GyroParameters {
     }
 }
 
-/// Which readings share an error.
+/// Correlation of the errors of the readings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CurrentError {
-    /// One for every reading: what a laboratory meets.
+    /// Separate error for every reading: the usual case in a laboratory.
     Independent,
-    /// One for all readings of x and one for those of y.
+    /// Common error for all readings of x, and another for those of y.
     Channel,
-    /// One for all readings: what the paper's table holds for.
+    /// Common error for all readings, as in the paper's table.
     Common,
 }
 
 impl CurrentError {
-    /// Adds to the currents relative errors uniform within ±`percent`.
+    /// Applies relative errors, uniform within ±`percent`, to the currents.
     pub fn add(self, stream: &mut Stream, percent: f64, currents_ma: &mut [Vector2<f64>]) {
         let limit = percent / 100.0;
         let mut factor = || 1.0 + stream.within(limit);
