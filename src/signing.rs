@@ -101,8 +101,8 @@ pub(crate) fn forbid_core_dumps() {
 /// Returns the signer for a key file: the key itself, or `ssh-keygen` for a `.pub` whose private half is in the agent
 /// or on a token.
 ///
-/// This function finds the private half and decrypts it once. Otherwise `ssh-keygen` would ask for the passphrase at
-/// every signature.
+/// This function finds the private half and checks once that it can be used. Otherwise `ssh-keygen` would ask for the
+/// passphrase at every signature.
 ///
 /// # Errors
 /// Returns [`KeyFileError`] if the key cannot be read or used, or if others can read the private key (as in OpenSSH).

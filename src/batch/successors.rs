@@ -48,7 +48,7 @@ struct Candidate {
 
 /// Trust and register of a folder.
 struct Searched {
-    /// Trust, including the revocation lists that are valid in the folder.
+    /// Trust, including the revocation lists that apply to the folder.
     trust: Trust,
     register: Register,
 }

@@ -1,10 +1,10 @@
 //! Fit of all runs without some of the readings, found without repeating the fit.
 //!
 //! A reading with its own parameter (a mean-shift outlier) no longer affects the rest of the fit. Let P be the matrix
-//! that gives the residuals from the readings, e the residuals, and D the deleted readings. Their shifts are P_DD⁻¹
-//! e_D: the distance of each from the prediction of all other readings (Cook and Weisberg, Residuals and Influence in
-//! Regression, 1982, section 2.2). The means of positions over R runs and the rotations common to each run give P = (1
-//! − 1/R) within one run, −1/R between two runs, times [`Components::keeps`].
+//! that gives the residuals from the readings, e the residuals, and D the deleted readings. Their shifts are
+//! P_DD⁻¹ e_D: the distance of each from the prediction of all other readings (Cook and Weisberg, Residuals and
+//! Influence in Regression, 1982, section 2.2). The means of positions over R runs and the rotations common to each run
+//! give P = (1 − 1/R) within one run, −1/R between two runs, times [`Components::keeps`].
 
 use super::components::{Components, Variance};
 use nalgebra::{DMatrix, DVector};

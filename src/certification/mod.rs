@@ -256,7 +256,7 @@ fn rounded(u: f64) -> f64 {
     to_digits_of(u, u)
 }
 
-/// Returns degrees of freedom rounded to a tenth, at least 0.1; finer digits have no effect on a coverage factor.
+/// Returns degrees of freedom rounded to a tenth, at least 0.1; finer digits have no practical effect.
 fn freedom(value: f64) -> f64 {
     (value * 10.0).round().max(1.0) / 10.0
 }

@@ -6,8 +6,8 @@ use super::{AngleReadings, Header};
 use crate::coefficients::PositionIndex;
 use crate::statistics::outlier::{Bartlett, bartlett, bonferroni_student, cochran_probability};
 
-/// Probability below which a value is reported (a straggler in [ISO
-/// 5725-2](crate::bibliography::Bibliography::Iso5725)).
+/// Probability below which a value is reported: a straggler in
+/// [ISO 5725-2](crate::bibliography::Bibliography::Iso5725).
 pub(crate) const STRAGGLER: f64 = 0.05;
 
 /// Probability below which a value is called an outlier.

@@ -250,7 +250,7 @@ impl Folder {
     }
 
     /// Returns the objections to a further passport from the certificate of `stand`, in words: the certificate was
-    /// replaced, or another one is in force. Only existing passports of the stand that are valid by `trust` are
+    /// replaced, or another one is in force. Only existing passports of the stand that are authentic by `trust` are
     /// considered.
     pub(crate) fn against_certificate(&self, stand: &Stand, trust: &Trust, time: Timestamp) -> Vec<String> {
         let folder = self.root.join(stand.stand.model.as_str()).join(stand.stand.serial.as_str());

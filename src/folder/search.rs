@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 /// Number of first bytes by which a file in a parent folder is recognised as a list.
 const BEGINNING_BYTES: usize = 4096;
 
-/// Number of parent folders whose lists are valid in a register, because its root may be a model or a stand.
+/// Number of parent folders whose lists apply to a register, because its root may be a model or a stand.
 const LEVELS_ABOVE: usize = 2;
 
 /// Files found in a folder.

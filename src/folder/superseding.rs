@@ -21,8 +21,8 @@ type BySha256 = HashMap<String, Vec<PathBuf>>;
 pub(crate) struct Superseding(Mutex<HashMap<PathBuf, Arc<BySha256>>>);
 
 impl Superseding {
-    /// Returns a passport in `folder`, other than `own`, that supersedes the file with this SHA-256 and is authentic by
-    /// `trust`, or `None` if there is none.
+    /// Returns a passport in `folder`, other than `own`, that supersedes the file with this SHA-256, is authentic by
+    /// `trust` and has not been withdrawn, or `None` if there is none.
     pub(crate) fn of(&self, folder: &Path, sha256: &str, own: &Path, trust: &Trust, asked: &Asked) -> Option<PathBuf> {
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let read = || Arc::new(read(folder, trust, asked));

@@ -1,8 +1,8 @@
 //! Specific force, Earth rate and currents of every position, computed from standard deviates.
 //!
 //! Rotations are applied exactly: Ã = T · E(α + δα, β + δβ, γ + δγ) · A · R, where R rotates the base, and T the case
-//! (by the sum of the small vectors of platform, seat and repeatability). A small rotation by a vector δ is v + s₁ v×δ
-//! + s₂ (v×δ)×δ with s₁ = sin|δ|/|δ| and s₂ = (1 − cos|δ|)/δ².
+//! (by the sum of the small vectors of platform, seat and repeatability). A small rotation by a vector δ is exactly
+//! v + s₁ v×δ + s₂ (v×δ)×δ with s₁ = sin|δ|/|δ| and s₂ = (1 − cos|δ|)/δ².
 
 use super::plan::{Drawn, Plan, Slot};
 use crate::calibration::Setup;
