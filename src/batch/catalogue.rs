@@ -108,7 +108,7 @@ impl<T: Listed> Catalogue<T> {
                 match (path, read) {
                     (Ok(path), Ok((value, hash))) => draft.add(path, value, hash, tell),
                     (Ok(_), Err(failure)) => draft.failures.push(failure),
-                    // An unreadable folder or pattern stands for an unknown number of files.
+                    // An unreadable folder or pattern may contain any number of files.
                     (Err(failure), _) => draft.failures.push(Failure { passports: Some(0), ..failure }),
                 }
             }

@@ -30,7 +30,7 @@ impl Named {
 /// Returns the files and folders specified by the user one by one, without keeping them in memory.
 ///
 /// The argument `-` is the list, with one path per line or with NUL between paths. A pattern that is not a file name
-/// stands for its matches in the order of their names.
+/// is replaced by its matches in the order of their names.
 pub(crate) fn named<'a>(
     arguments: &'a [PathBuf],
     list: &'a mut dyn BufRead,

@@ -97,7 +97,7 @@ mod tests {
                 let having: Vec<usize> = (0..shards.len()).filter(|&index| shards[index].has(stand, &site)).collect();
                 assert_eq!(having.len(), 1);
                 sizes[having[0]] += 1;
-                // By its file a passport of any revision is in the same part.
+                // Files of all revisions of a passport are in the same part.
                 let file = format!("any/where/{stand}/{site}-12.yaml");
                 assert!(shards[having[0]].has_file(Path::new(&file)));
             }

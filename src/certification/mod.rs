@@ -29,7 +29,7 @@ use crate::stand::{self, ActsOn, Certificate, CertifiedPosition, Evidence, Stand
 use components::{case_turn, turns_at};
 use nalgebra::{DVector, Matrix3, Vector3};
 
-/// Number of runs from which on the program no longer warns that there are few.
+/// Smallest number of runs for which the program does not warn that there are few.
 pub(crate) const ENOUGH_RUNS: usize = 4;
 
 /// Reason why a stand was not certified.

@@ -6,7 +6,7 @@ use crate::calibration::parameter::Parameter;
 use crate::gyro::Tolerance;
 use crate::units::printed;
 
-/// Share of a variance from which on it comes "nearly all" from one kind of input.
+/// Smallest share of a variance that counts as "nearly all" of it.
 const NEARLY_ALL: f64 = 0.9;
 
 /// Returns the uncertainty of a parameter relative to its `tolerance` if given, otherwise to the value of the

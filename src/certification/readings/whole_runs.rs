@@ -12,7 +12,7 @@ const UNITS: [(f64, &str); 3] =
 /// Tolerance of such a factor, as a factor itself.
 const FACTOR_MARGIN: f64 = 1.5;
 
-/// Correlation from which on a run has the angles of the others up to a factor.
+/// Smallest correlation at which a run is taken to have the angles of the others up to a factor.
 const SAME_ANGLES: f64 = 0.9;
 
 /// Returns a problem for every run that is a copy or has another scale, at the line on which it begins.

@@ -176,7 +176,7 @@ mod tests {
     use crate::gyro::GyroType;
     use crate::laboratory::Laboratory;
 
-    /// Everything uncertain on a perfect stand; few degrees of freedom where `known` says so.
+    /// Creates an engine for an ideal stand with every input uncertain; `known` is the degrees of freedom of the angles.
     fn engine(method: Method, known: f64) -> Engine {
         let none = crate::attitude::Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 };
         let positions =
@@ -195,7 +195,7 @@ mod tests {
         Engine::new(&setup, &readings, method, ReadingShape::Normal).unwrap()
     }
 
-    /// The widest instructions of this machine and none at all give the same bits.
+    /// The widest instructions of this machine and scalar ones give the same bits.
     #[test]
     fn results_do_not_depend_on_the_width_of_instructions() {
         use pulp::WithSimd;
