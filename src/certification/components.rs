@@ -9,8 +9,8 @@
 //! acts from the left of E·A), b_r one of the base (from the right), and e_pr the own scatter of the visit. Least
 //! squares over the positions of a run gives its s and b. The residuals are scatter; the variation of s and b beyond
 //! the share that scatter has in them is common. Sums of squares are set equal to their expectations
-//! ([Searle, Casella and McCulloch](crate::bibliography::Bibliography::Searle92), chapter 5). The estimates are unbiased, and equal to
-//! the analysis of variance if all axes scatter alike.
+//! ([Searle, Casella and McCulloch](crate::bibliography::Bibliography::Searle92), chapter 5). The estimates are
+//! unbiased, and equal to the analysis of variance if all axes scatter alike.
 
 use super::NotCertified;
 use crate::calibration::inputs::Turn;

@@ -1,8 +1,8 @@
 //! General statistics, independent of gyros: least squares, distributions, random streams.
 //!
 //! * [`least_squares`]: weighted linear models through QR, with rank and condition through the SVD.
-//! * [`distributions`]: chi-square and normal probabilities; [`beta`]: Student's t and Fisher's F; `saddle_point`: terms
-//!   that both need for large parameters.
+//! * [`distributions`]: chi-square and normal probabilities; [`beta`]: Student's t and Fisher's F; `saddle_point`:
+//!   terms that both need for large parameters.
 //! * `scaled_f`: the distribution of a chi-square whose covariance was partly estimated.
 //! * [`outlier`]: Bartlett's test for unequal variances, Cochran's for the largest variance, Grubbs' for an outlier.
 //! * [`propagation`]: the law of propagation of uncertainty for any model with its gradient.

@@ -61,9 +61,9 @@ pub(crate) fn cochran_probability(groups: &[(f64, f64)], at: usize) -> f64 {
 /// For a single sample of n values and n − 2 degrees of freedom this is
 /// [Grubbs'](crate::bibliography::Bibliography::Grubbs69) two-sided test with G = (n − 1) t / √(n (n − 2 + t²)). For
 /// residuals of several means it is Stefansky's test
-/// ([maximum normed residual](crate::bibliography::Bibliography::Stefansky72)). The bound is the exact probability where no two
-/// residuals can be this far out together, as at the usual critical values, and never too small elsewhere. The result
-/// is NaN without degrees of freedom.
+/// ([maximum normed residual](crate::bibliography::Bibliography::Stefansky72)). The bound is the exact probability
+/// where no two residuals can be this far out together, as at the usual critical values, and never too small elsewhere.
+/// The result is NaN without degrees of freedom.
 pub(crate) fn bonferroni_student(t: f64, values: usize, degrees_of_freedom: f64) -> f64 {
     (values as f64 * student_beyond(t, degrees_of_freedom)).clamp(0.0, 1.0)
 }

@@ -5,7 +5,7 @@
 //! * `document`: budgets and Monte Carlo results as JSON.
 //! * `engine`: vectorised trials of a Monte Carlo.
 //! * `entries`: covariance of the numbers of a passport.
-//! * `monte_carlo`: distributions by Monte Carlo, and whether first order is valid; `accumulator`: the accumulated trials.
+//! * `monte_carlo`: distributions by Monte Carlo, and whether first order is valid; `accumulator`: sums over trials.
 
 #[cfg(feature = "monte-carlo")]
 pub(crate) mod accumulator;

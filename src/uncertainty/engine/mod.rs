@@ -176,7 +176,7 @@ mod tests {
     use crate::gyro::GyroType;
     use crate::laboratory::Laboratory;
 
-    /// Creates an engine for an ideal stand with every input uncertain; `known` is the degrees of freedom of the angles.
+    /// Creates an engine for an ideal stand with uncertain inputs; the angles have `known` degrees of freedom.
     fn engine(method: Method, known: f64) -> Engine {
         let none = crate::attitude::Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 };
         let positions =
