@@ -1,14 +1,15 @@
-//! A QR code as an inline picture.
+//! QR code as an inline SVG picture.
 
 use maud::{Markup, html};
 use qrcode::{Color, EcLevel, QrCode};
 use std::fmt::Write;
 
-/// The quiet zone around the code, in modules ([ISO/IEC 18004](crate::bibliography::Bibliography::Iso18004), 6.3.8).
+/// Width of the quiet zone around the code, in modules ([ISO/IEC 18004](crate::bibliography::Bibliography::Iso18004),
+/// 6.3.8).
 const QUIET: usize = 4;
 
-/// The code of `text`, dark on white in every mode, and what it says for those who do not see it; `None` when `text` is
-/// too long for any code.
+/// Returns the QR code of `text`, dark on white in every mode, with `label` for screen readers. Returns `None` if
+/// `text` is too long for any QR code.
 pub(crate) fn picture(text: &str, label: &str) -> Option<Markup> {
     let code = QrCode::with_error_correction_level(text, EcLevel::M).ok()?;
     let size = code.width() + 2 * QUIET;
@@ -20,7 +21,7 @@ pub(crate) fn picture(text: &str, label: &str) -> Option<Markup> {
     })
 }
 
-/// Every run of dark modules of a row as a rectangle one module high.
+/// Returns an SVG path with one rectangle, one module high, for every run of dark modules in a row.
 fn path(code: &QrCode) -> String {
     let mut path = String::new();
     let modules = code.to_colors();

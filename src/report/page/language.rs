@@ -1,8 +1,8 @@
-//! The languages of a page, and a text in each of them.
+//! Languages of a page, and texts in each of them.
 
 use maud::{Markup, html};
 
-/// A language that pages are written in.
+/// A language of the pages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Language {
@@ -13,10 +13,10 @@ pub enum Language {
 }
 
 impl Language {
-    /// Every one.
+    /// All languages.
     pub const ALL: [Self; 2] = [Self::English, Self::Russian];
 
-    /// Its tag in HTML and on the command line (BCP 47).
+    /// Returns the language tag used in HTML and on the command line (BCP 47).
     pub fn tag(self) -> &'static str {
         match self {
             Self::English => "en",
@@ -25,7 +25,7 @@ impl Language {
     }
 }
 
-/// A text in every language: another language is another field, which the compiler then asks of every text.
+/// A text in every language. A new language is a new field, so the compiler reports every text that lacks it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Text {
     /// English.
@@ -35,7 +35,7 @@ pub(crate) struct Text {
 }
 
 impl Text {
-    /// What it says in `language`.
+    /// Returns the text in `language`.
     pub(crate) fn of(&self, language: Language) -> &'static str {
         match language {
             Language::English => self.en,
@@ -43,7 +43,7 @@ impl Text {
         }
     }
 
-    /// The same with every `{name}` replaced by its value.
+    /// Returns the text in `language` with every `{name}` replaced by its value.
     pub(crate) fn filled(&self, language: Language, values: &[(&str, &str)]) -> String {
         let piece = |piece| match piece {
             Piece::Words(words) => words,
@@ -52,7 +52,7 @@ impl Text {
         pieces(self.of(language)).into_iter().map(piece).collect()
     }
 
-    /// The same with values that are elements of the page.
+    /// Returns the text in `language` with every `{name}` replaced by an element of the page.
     pub(crate) fn marked_up(&self, language: Language, values: &[(&str, Markup)]) -> Markup {
         let value = |name: &str| values.iter().find(|(key, _)| *key == name).map(|(_, value)| value);
         html! {
@@ -69,11 +69,11 @@ impl Text {
 /// A part of a text.
 enum Piece<'a> {
     Words(&'a str),
-    /// The name of a value that stands here.
+    /// The name of a value to insert.
     Name(&'a str),
 }
 
-/// The parts of a text. A value that holds braces is never read as a name: it is put in afterwards.
+/// Splits a text into words and names. Values are inserted afterwards, so braces in a value are never read as a name.
 fn pieces(mut rest: &str) -> Vec<Piece<'_>> {
     let mut pieces = Vec::new();
     while let Some((before, after)) = rest.split_once('{') {
@@ -85,7 +85,7 @@ fn pieces(mut rest: &str) -> Vec<Piece<'_>> {
     pieces
 }
 
-/// A table of texts: a constant for each, and all of them by name for whoever checks them.
+/// Defines a table of texts: a constant for each, and a list of all by name for the tests.
 macro_rules! texts {
     ($($name:ident { en: $en:literal, ru: $ru:literal })*) => {
         $(
@@ -100,7 +100,7 @@ macro_rules! texts {
 }
 pub(crate) use texts;
 
-/// The languages of one page: one, or several side by side. The first one writes numbers and dates.
+/// The languages of one page, in order. The first one sets the format of numbers and dates.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Languages {
     first: Language,
@@ -114,7 +114,7 @@ impl From<Language> for Languages {
 }
 
 impl Languages {
-    /// `first`, and the `others` beside it; a language named twice counts once.
+    /// Creates the list of `first` and `others`; a repeated language counts once.
     pub fn new(first: Language, others: impl IntoIterator<Item = Language>) -> Self {
         let mut languages = Self::from(first);
         for other in others {
@@ -125,22 +125,23 @@ impl Languages {
         languages
     }
 
-    /// The one that the page is in, and that writes its numbers.
+    /// Returns the first language: the language of the page and of its numbers.
     pub fn first(&self) -> Language {
         self.first
     }
 
-    /// All of them in their order.
+    /// Returns all languages in their order.
     pub fn iter(&self) -> impl Iterator<Item = Language> {
         std::iter::once(self.first).chain(self.others.iter().copied())
     }
 
-    /// Whether there is one alone.
+    /// Returns `true` if the page has only one language.
     pub fn single(&self) -> bool {
         self.others.is_empty()
     }
 
-    /// The different sayings, each with the first language that says so: a unit that both write alike stands once.
+    /// Returns the distinct wordings, each with the first language that uses it. So a unit that is written alike in two
+    /// languages appears once.
     fn sayings(&self, say: impl Fn(Language) -> String) -> Vec<(Language, String)> {
         let mut sayings: Vec<(Language, String)> = Vec::new();
         for language in self.iter() {
@@ -152,28 +153,28 @@ impl Languages {
         sayings
     }
 
-    /// Words that are heard and not seen: one voice, one language.
+    /// Returns words for screen readers, in the first language only.
     pub(crate) fn spoken(&self, text: Text) -> &'static str {
         text.of(self.first)
     }
 
-    /// Plain text for places that hold no markup, such as the words of a picture: `north / север`.
+    /// Returns plain text for places without markup, such as the words of a picture: `north / север`.
     pub(crate) fn plain(&self, text: Text) -> String {
         self.plain_with(|language| text.of(language).to_owned())
     }
 
-    /// The same of words that are made.
+    /// Returns plain text as [`Self::plain`] does, from words that `say` makes for each language.
     pub(crate) fn plain_with(&self, say: impl Fn(Language) -> String) -> String {
         let words: Vec<String> = self.sayings(say).into_iter().map(|(_, words)| words).collect();
         words.join(" / ")
     }
 
-    /// Within a line: one beside the other.
+    /// Writes the text within a line, one language after the other.
     pub(crate) fn inline(&self, text: Text) -> Markup {
         self.inline_with(|language| text.of(language).to_owned())
     }
 
-    /// The same of words that are made.
+    /// Writes words as [`Self::inline`] does; `say` makes them for each language.
     pub(crate) fn inline_with(&self, say: impl Fn(Language) -> String) -> Markup {
         let sayings = self.sayings(say);
         html! {
@@ -184,12 +185,12 @@ impl Languages {
         }
     }
 
-    /// A name of a row, a column or a heading: the second language smaller, beneath the first.
+    /// Writes the name of a row or column, or a heading: the second language smaller, below the first.
     pub(crate) fn label(&self, text: Text) -> Markup {
         self.label_with(|language| text.of(language).to_owned())
     }
 
-    /// The same of words that are made.
+    /// Writes a name as [`Self::label`] does; `say` makes it for each language.
     pub(crate) fn label_with(&self, say: impl Fn(Language) -> String) -> Markup {
         let sayings = self.sayings(say);
         html! {
@@ -200,12 +201,12 @@ impl Languages {
         }
     }
 
-    /// A paragraph in each language, side by side where there is room.
+    /// Writes a paragraph in each language, side by side if there is room.
     pub(crate) fn paragraph(&self, text: Text) -> Markup {
         self.paragraph_with(|language| html! { (text.of(language)) })
     }
 
-    /// The same of words that are made.
+    /// Writes a paragraph as [`Self::paragraph`] does; `say` makes it for each language.
     pub(crate) fn paragraph_with(&self, say: impl Fn(Language) -> Markup) -> Markup {
         html! {
             @if self.single() {
@@ -216,7 +217,7 @@ impl Languages {
         }
     }
 
-    /// The language to mark a part with: none where the page has but one.
+    /// Returns the language tag of a part, or `None` if the page has only one language.
     fn marked(&self, language: Language) -> Option<&'static str> {
         (!self.single()).then(|| language.tag())
     }

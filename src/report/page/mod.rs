@@ -1,13 +1,13 @@
-//! Pages for print, screen and telephone: one HTML file each, no script, nothing from outside.
+//! Pages for print, screen and phone: one HTML file each, without scripts and without external resources.
 //!
 //! * [`calibration`]: the report of a calibration.
 //! * [`language`]: the languages of a page, and a text in each of them.
 //! * [`texts`]: the table of texts.
-//! * [`number`]: numbers as people read them.
+//! * [`number`]: numbers formatted for people.
 //! * [`parts`]: tables, figures, forms.
-//! * [`code`]: codes to scan.
-//! * [`shell`]: the document around them, its style and its running heads.
-//! * [`passport`]: the printable passport.
+//! * [`code`]: QR codes.
+//! * [`shell`]: the enclosing HTML document, its style and its running heads.
+//! * [`passport`]: the printed passport.
 
 pub(crate) mod calibration;
 pub(crate) mod code;

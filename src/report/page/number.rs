@@ -1,38 +1,38 @@
-//! Numbers as people read them: rounded once from the full binary64, with the decimal mark of the language.
+//! Numbers formatted for people: rounded once from the full binary64, with the decimal mark of the language.
 //!
-//! [JCGM 100](crate::bibliography::Bibliography::Gum), 7.2.6: an uncertainty with two significant digits, its value to the
-//! same place. Groups of three digits are parted by a thin blank that does not break (SI Brochure, 5.4.4).
+//! [JCGM 100](crate::bibliography::Bibliography::Gum), 7.2.6: an uncertainty has two significant digits, and its value
+//! ends at the same decimal place. A narrow non-breaking space separates groups of three digits (SI Brochure, 5.4.4).
 
 use super::language::{Language, Languages};
 use crate::text::number;
 use maud::{Markup, html};
 
-/// A blank that does not break, half as wide: between groups of digits.
+/// Narrow non-breaking space, between groups of digits.
 pub(crate) const THIN_BLANK: char = '\u{202F}';
 
-/// A blank that does not break: between a number and its unit.
+/// Non-breaking space, between a number and its unit.
 pub(crate) const BLANK: char = '\u{00A0}';
 
-/// A number of a document and the digits of it that are printed.
+/// A number of a document, and its printed digits.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Number {
     value: f64,
-    /// With a decimal point and an ASCII minus.
+    /// Printed digits, with a decimal point and an ASCII minus.
     digits: String,
 }
 
 impl Number {
-    /// With so many decimals.
+    /// Creates a number with `decimals` decimals.
     pub(crate) fn fixed(value: f64, decimals: usize) -> Self {
         Self { value, digits: without_minus_zero(format!("{value:.decimals$}")) }
     }
 
-    /// With so many significant digits.
+    /// Creates a number with `digits` significant digits.
     pub(crate) fn significant(value: f64, digits: i32) -> Self {
         Self::to_place(value, rounded_exponent(value, digits) - digits + 1)
     }
 
-    /// With so many significant digits, and a power of ten where there would be many zeros.
+    /// Creates a number with `digits` significant digits, and a power of ten if it would otherwise have many zeros.
     pub(crate) fn scientific(value: f64, digits: i32) -> Self {
         let plain = value == 0.0 || (1e-3..1e5).contains(&value.abs());
         if plain {
@@ -42,7 +42,7 @@ impl Number {
         Self { value, digits: format!("{value:.decimals$e}") }
     }
 
-    /// The shortest decimal that gives the value back.
+    /// Creates a number with the shortest decimal that gives the value back.
     pub(crate) fn exact(value: f64) -> Self {
         let magnitude = value.abs();
         let plain = magnitude == 0.0 || (1e-6..1e16).contains(&magnitude);
@@ -50,24 +50,25 @@ impl Number {
         Self { value, digits: without_minus_zero(digits) }
     }
 
-    /// A standard uncertainty: two significant digits, or a plain 0.
+    /// Creates the number of a standard uncertainty: two significant digits, or a plain 0.
     pub(crate) fn uncertainty(u: f64) -> Self {
         Self::to_place(u, place(u))
     }
 
-    /// A value with the standard uncertainty `u`: to the place of the second digit of `u`; as it stands when `u` is 0.
+    /// Creates the number of a value with the standard uncertainty `u`. It ends at the place of the second digit of
+    /// `u`, or is exact if `u` is 0.
     pub(crate) fn measured(value: f64, u: f64) -> Self {
         if u > 0.0 { Self::to_place(value, place(u)) } else { Self::exact(value) }
     }
 
-    /// Rounded to a multiple of 10 to the power `place`.
+    /// Creates a number rounded to a multiple of 10 to the power `place`.
     fn to_place(value: f64, place: i32) -> Self {
         if place <= 0 {
             return Self::fixed(value, place.unsigned_abs() as usize);
         }
         let digits = match usize::try_from(exponent(value) - place) {
             Ok(digits) => scaled(&format!("{value:.digits$e}")),
-            // Smaller than a unit of the place: half of one and less is 0.
+            // Values smaller than one unit of the place: up to half a unit they are rounded to 0.
             Err(_) if value.abs() > 0.5 * libm::pow(10.0, f64::from(place)) => {
                 format!("{}1{:0>2$}", if value < 0.0 { "-" } else { "" }, "", place as usize)
             }
@@ -76,25 +77,26 @@ impl Number {
         Self { value, digits: without_minus_zero(digits) }
     }
 
-    /// The digits with the marks of `language`.
+    /// Returns the digits with the marks of `language`.
     pub(crate) fn text(&self, language: Language) -> String {
         localised(&self.digits, language)
     }
 
-    /// How many decimals are printed.
+    /// Returns the number of printed decimals.
     pub(crate) fn decimals(&self) -> usize {
         self.digits.split_once('.').map_or(0, |(_, decimals)| decimals.len())
     }
 
-    /// As an element that carries the value itself for programs, written as signed documents write it.
+    /// Writes the number as an element that carries the value itself for programs, in the notation of signed documents.
     pub(crate) fn markup(&self, languages: &Languages) -> Markup {
         html! { data value=(number::decimal(self.value)) { (self.text(languages.first())) } }
     }
 
-    /// The same, with room for so many decimals: the marks of a column stand one below the other.
+    /// Writes the number as [`Self::markup`] does, with room for `decimals` decimals, so that the decimal marks of a
+    /// column align.
     pub(crate) fn aligned(&self, languages: &Languages, decimals: usize) -> Markup {
         let own = self.decimals();
-        // What the column's longest number has more: decimals, blanks between their groups, the mark itself.
+        // The excess of the column's longest number: decimals, spaces between their groups, the decimal mark.
         let zeros = |decimals: usize| localised(&format!("{:.decimals$}", 0.0), languages.first());
         let missing: String = zeros(decimals.max(own)).chars().skip(zeros(own).chars().count()).collect();
         html! {
@@ -104,23 +106,23 @@ impl Number {
     }
 }
 
-/// A column of numbers, their decimal marks one below the other.
+/// Writes a column of numbers with aligned decimal marks.
 pub(crate) fn column(languages: &Languages, numbers: &[Option<Number>]) -> Vec<Option<Markup>> {
     let decimals = numbers.iter().flatten().map(Number::decimals).max().unwrap_or(0);
     numbers.iter().map(|number| number.as_ref().map(|number| number.aligned(languages, decimals))).collect()
 }
 
-/// The place (power of ten) of the second significant digit of `u`, after rounding: 0.0996 is 0.10.
+/// Returns the place (power of ten) of the second significant digit of `u`, after rounding: 0.0996 becomes 0.10.
 fn place(u: f64) -> i32 {
     if u > 0.0 && u.is_finite() { rounded_exponent(u, 2) - 1 } else { 0 }
 }
 
-/// The power of ten of the first significant digit.
+/// Returns the power of ten of the first significant digit.
 fn exponent(value: f64) -> i32 {
     exponent_of(&format!("{value:e}"))
 }
 
-/// The same, once the value is rounded to so many significant digits.
+/// Returns the power of ten of the first significant digit after rounding to `digits` significant digits.
 fn rounded_exponent(value: f64, digits: i32) -> i32 {
     let decimals = usize::try_from(digits - 1).unwrap_or(0);
     exponent_of(&format!("{value:.decimals$e}"))
@@ -130,7 +132,7 @@ fn exponent_of(scientific: &str) -> i32 {
     scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
 }
 
-/// `1.23e5` as `123000`: scientific notation with fewer decimals than its exponent.
+/// Converts scientific notation with fewer decimals than its exponent to plain digits: `1.23e5` to `123000`.
 fn scaled(scientific: &str) -> String {
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((scientific, "0"));
     let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
@@ -145,7 +147,7 @@ fn without_minus_zero(digits: String) -> String {
     }
 }
 
-/// A decimal number written with point and ASCII minus, in the manner of `language`.
+/// Converts a decimal number with point and ASCII minus to the notation of `language`.
 pub(crate) fn localised(ascii: &str, language: Language) -> String {
     let (sign, unsigned) = match ascii.strip_prefix('-') {
         Some(rest) => ("\u{2212}", rest),
@@ -169,7 +171,7 @@ pub(crate) fn localised(ascii: &str, language: Language) -> String {
     out
 }
 
-/// Groups of three after the first `head` digits; four digits alone stand together.
+/// Appends the digits in groups of three after the first `head` digits; four digits or fewer are not grouped.
 fn grouped(out: &mut String, digits: &str, head: usize) {
     for (index, digit) in digits.chars().enumerate() {
         if digits.len() > 4 && index > 0 && index % 3 == head {

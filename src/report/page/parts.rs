@@ -1,4 +1,4 @@
-//! The parts that pages are put together from: sections, fields, tables, figures, forms to fill in with a pen.
+//! Building blocks of pages: sections, fields, tables, figures, forms to fill in by hand.
 
 use super::language::{Language, Languages, Text};
 use super::number::{BLANK, Number};
@@ -8,7 +8,7 @@ use jiff::civil::Date;
 use jiff::tz::TimeZone;
 use maud::{Markup, html};
 
-/// A section with its number and heading; `id` is its anchor.
+/// Writes a section with its number and heading; `id` is its anchor.
 pub(crate) fn section(languages: &Languages, id: &str, number: &str, heading: Text, body: &Markup) -> Markup {
     let heading_id = format!("{id}-heading");
     html! {
@@ -22,22 +22,22 @@ pub(crate) fn section(languages: &Languages, id: &str, number: &str, heading: Te
     }
 }
 
-/// A heading within a section.
+/// Writes a heading within a section.
 pub(crate) fn heading(languages: &Languages, text: Text) -> Markup {
     html! { h3 { (languages.label(text)) } }
 }
 
-/// Words of the file, in whatever language they are.
+/// Writes words from the file, whose language is unknown.
 pub(crate) fn given(words: &str) -> Markup {
     html! { span.given lang="" { (words) } }
 }
 
-/// A place for a pen.
+/// Writes an empty space to fill in by hand.
 pub(crate) fn blank(languages: &Languages) -> Markup {
     html! { span.blank role="img" aria-label=(languages.spoken(words::EMPTY)) {} }
 }
 
-/// A name and what it names: a place for a pen when it is not known.
+/// Writes a name and its value, or a space to fill in by hand if the value is `None`.
 pub(crate) fn field(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
     html! {
         div {
@@ -47,7 +47,7 @@ pub(crate) fn field(languages: &Languages, name: Text, value: Option<Markup>) ->
     }
 }
 
-/// The same over the whole width: for long texts.
+/// Writes a field over the full width, for long texts.
 pub(crate) fn wide_field(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
     html! {
         div.wide {
@@ -57,28 +57,28 @@ pub(crate) fn wide_field(languages: &Languages, name: Text, value: Option<Markup
     }
 }
 
-/// Fields, in as many columns as there is room for.
+/// Writes fields in as many columns as fit.
 pub(crate) fn fields(fields: impl IntoIterator<Item = Markup>) -> Markup {
     html! { dl.fields { @for field in fields { (field) } } }
 }
 
-/// A number and its unit, which no line break parts.
+/// Writes a number and its unit without a line break between them.
 pub(crate) fn quantity(languages: &Languages, number: &Number, unit: Text) -> Markup {
     html! { span.quantity { (number.markup(languages)) (unit_after(languages, unit)) } }
 }
 
-/// A unit behind its number: marks of angles stand close to it (SI Brochure, 5.4.3).
+/// Writes a unit after its number, without a space before the marks of angles (SI Brochure, 5.4.3).
 fn unit_after(languages: &Languages, unit: Text) -> Markup {
     let close = unit == units::ARCSEC || unit == units::DEGREES;
     html! { @if !close { (BLANK) } (languages.inline(unit)) }
 }
 
-/// A day, as the page's language writes it.
+/// Writes a date in the format of the page's first language.
 pub(crate) fn date(languages: &Languages, date: Date) -> Markup {
     html! { time datetime=(date) { (date_text(languages.first(), date)) } }
 }
 
-/// A day as `language` writes it: ISO 8601, or day, month and year with points.
+/// Returns a date in the format of `language`: ISO 8601, or day, month and year with points.
 pub(crate) fn date_text(language: Language, date: Date) -> String {
     match language {
         Language::English => date.to_string(),
@@ -86,12 +86,12 @@ pub(crate) fn date_text(language: Language, date: Date) -> String {
     }
 }
 
-/// A time in UTC.
+/// Writes a time in UTC.
 pub(crate) fn time(languages: &Languages, time: Timestamp) -> Markup {
     html! { time datetime=(time) { (time_text(languages.first(), time)) } }
 }
 
-/// A time in UTC as `language` writes it.
+/// Returns a time in UTC in the format of `language`.
 pub(crate) fn time_text(language: Language, time: Timestamp) -> String {
     let at = time.to_zoned(TimeZone::UTC);
     let clock = at.time();
@@ -99,18 +99,18 @@ pub(crate) fn time_text(language: Language, time: Timestamp) -> String {
     format!("{}{BLANK}{hour:02}:{minute:02}:{second:02}{BLANK}UTC", date_text(language, at.date()))
 }
 
-/// A symbol with its subscript.
+/// Writes a symbol with its subscript.
 pub(crate) fn symbol(letter: &str, subscript: &str) -> Markup {
     html! { span.symbol { i { (letter) } @if !subscript.is_empty() { sub { (subscript) } } } }
 }
 
-/// A symbol in the head of a column, with its unit; another language's unit stands below.
+/// Writes a symbol with its unit for the head of a column; a second language's unit is below the first.
 pub(crate) fn symbol_and_unit(languages: &Languages, symbol: &Markup, unit: Text) -> Markup {
     html! { (symbol) "," (BLANK) (languages.label(unit)) }
 }
 
-/// A picture with its caption; `id` names it for the style. The picture says for itself what it shows to those who do not see
-/// it.
+/// Writes a picture with its caption; `id` is its name in the style sheet. The picture contains its own description for
+/// screen readers.
 pub(crate) fn figure(languages: &Languages, id: &str, drawing: &Markup, caption: Text) -> Markup {
     html! {
         figure id={ "figure-" (id) } {
@@ -120,25 +120,25 @@ pub(crate) fn figure(languages: &Languages, id: &str, drawing: &Markup, caption:
     }
 }
 
-/// A table: its caption, its row of headings, which every sheet repeats, and its rows.
+/// A table with its caption, its row of headings (repeated on every sheet) and its rows.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Table {
-    /// What it shows.
+    /// Caption of the table.
     pub caption: Option<Markup>,
-    /// Headings over several columns: how many, and what they say; none in most tables.
+    /// Headings over several columns: number of columns, and heading. Most tables have none.
     pub groups: Vec<(usize, Markup)>,
-    /// A heading for each column.
+    /// Heading of each column.
     pub headings: Vec<Markup>,
-    /// The cells of each row.
+    /// Cells of each row.
     pub rows: Vec<Vec<Markup>>,
-    /// How many cells at the beginning of a row name the row.
+    /// Number of cells at the beginning of a row that are row headings.
     pub row_headings: usize,
-    /// Its class: `numbers` for columns of numbers, `form` for rows to fill in with a pen.
+    /// CSS class: `numbers` for columns of numbers, `form` for rows to fill in by hand.
     pub class: &'static str,
 }
 
 impl Table {
-    /// As markup; it scrolls sideways where the screen is too narrow, and a keyboard reaches it then.
+    /// Writes the table. It scrolls sideways on a narrow screen, and the keyboard can then focus it.
     pub(crate) fn markup(&self, name: &str) -> Markup {
         html! {
             div.scroll tabindex="0" role="group" aria-label=(name) {

@@ -1,4 +1,4 @@
-//! What every page has: the document around its parts, the style, the running heads in print.
+//! Common parts of every page: the enclosing document, the style, the running heads in print.
 
 use super::language::Languages;
 use crate::report::picture;
@@ -8,20 +8,20 @@ use std::fmt::Write;
 
 const STYLE: &str = include_str!("style.css");
 
-/// Words in the margins of every printed sheet. Page numbers stand at the lower right.
+/// Words in the margins of every printed sheet. The page number is at the lower right.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Margins {
-    /// Upper left: which document.
+    /// Upper left: name of the document.
     pub top_left: String,
-    /// Upper right: what must not be overlooked on any sheet.
+    /// Upper right: a warning for every sheet.
     pub top_right: String,
     /// Lower left: the file that the sheets belong to.
     pub bottom_left: String,
 }
 
-/// A whole page: one file, no script, nothing from outside.
+/// Returns a whole page as one HTML file, without scripts and without external resources.
 pub(crate) fn document(languages: &Languages, title: &str, margins: &Margins, body: &Markup) -> String {
-    // The browser itself is told to load nothing: whatever a text should smuggle in stays without effect.
+    // This policy makes the browser load nothing, so markup injected through a text has no effect.
     let policy = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
     let page = html! {
         (DOCTYPE)
@@ -51,7 +51,8 @@ impl Margins {
     }
 }
 
-/// A string of CSS: whatever could end it, or the style element, is written as its number (CSS Syntax, 4.3.7).
+/// Returns a CSS string. Characters that could end it, or the style element, are written as escapes (CSS Syntax,
+/// 4.3.7).
 fn quoted(text: &str) -> String {
     let mut quoted = "\"".to_owned();
     for c in text.chars() {

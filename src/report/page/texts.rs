@@ -1,10 +1,10 @@
-//! The table of texts: what pages say, in every language, side by side. `{name}` stands for a value.
+//! Table of the texts on pages, in all languages side by side. `{name}` is a placeholder for a value.
 //!
-//! * [`units`], [`words`]: what every page needs.
-//! * [`checks`]: the checks of a verification and their verdicts.
-//! * [`passport`]: the printable passport: what the signed file says.
-//! * [`record`]: the same: what is filled in with a pen.
-//! * [`absences`]: what a passport does not state, and what that costs.
+//! * [`units`], [`words`]: texts for every page.
+//! * [`checks`]: the checks of a verification and their results.
+//! * [`passport`]: the printed passport: content of the signed file.
+//! * [`record`]: the printed passport: parts to fill in by hand.
+//! * [`absences`]: inputs that a passport does not state, and the effect of each.
 //! * [`calibration`]: the report of a calibration.
 //! * [`pictures`]: words in pictures, and their descriptions.
 
@@ -19,7 +19,7 @@ pub(crate) mod passport;
 pub(crate) mod pictures;
 pub(crate) mod record;
 
-/// Every table by its name.
+/// Every table with its name.
 #[cfg(test)]
 pub(crate) const TABLES: [(&str, &[(&str, Text)]); 8] = [
     ("units", units::ALL),
@@ -32,7 +32,7 @@ pub(crate) const TABLES: [(&str, &[(&str, Text)]); 8] = [
     ("pictures", pictures::ALL),
 ];
 
-/// Units. Angles are written alike in both languages.
+/// Units. Those of angles are written alike in both languages.
 pub(crate) mod units {
     use super::texts;
 
@@ -54,7 +54,7 @@ pub(crate) mod units {
     }
 }
 
-/// Words that stand on any page.
+/// Words that occur on any page.
 pub(crate) mod words {
     use super::texts;
 

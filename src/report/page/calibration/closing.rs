@@ -1,4 +1,4 @@
-//! Lines to sign, and the result for programs.
+//! Signature lines of the calibration report, and its annex: the result as JSON.
 
 use super::CalibrationPage;
 use crate::report::page::language::{Languages, Text};
@@ -34,7 +34,7 @@ fn signature(languages: &Languages, who: Text) -> Markup {
 }
 
 fn annex(page: &CalibrationPage, languages: &Languages) -> Markup {
-    // Every number of a result is finite, and its keys are strings: this JSON can always be written.
+    // Every number of a result is finite, and its keys are strings. So this JSON can always be written.
     let mut json = Vec::new();
     let mut writer = Serializer::with_formatter(&mut json, Lines { depth: 0 });
     let json = match page.result().serialize(&mut writer) {
@@ -53,14 +53,15 @@ fn annex(page: &CalibrationPage, languages: &Languages) -> Markup {
     part(languages, "annex", "", texts::ANNEX, &body)
 }
 
-/// JSON with a line for each key of the document and of each result: matrices and lists stay on one line.
+/// A JSON formatter that writes each key of the document and of each result on its own line. Matrices and lists stay on
+/// one line.
 struct Lines {
-    /// How many objects are open.
+    /// Number of open objects.
     depth: usize,
 }
 
 impl Lines {
-    /// Objects within objects within objects stay on one line.
+    /// Depth of nested objects beyond which an object stays on one line.
     const DEEPEST: usize = 2;
 
     fn new_line(&self, writer: &mut (impl Write + ?Sized)) -> io::Result<()> {

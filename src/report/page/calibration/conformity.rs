@@ -1,4 +1,4 @@
-//! The parameters against the type's tolerance, and their change since an earlier result.
+//! Comparison of the parameters with the type's tolerance, and their change since an earlier result.
 
 use super::{CalibrationPage, Section};
 use crate::calibration::parameter::Parameter;
@@ -10,7 +10,7 @@ use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::tolerances::{decision, parameter_of, printed, tolerances, unit_of};
 use maud::{Markup, html};
 
-/// Smaller risks matter to nobody.
+/// Limit below which a risk is not printed as a number.
 const LEAST_RISK: f64 = 1e-6;
 
 pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -56,7 +56,7 @@ fn table(languages: &Languages, verdict: &Verdict, caption: Text, [reference, de
     table.markup(languages.spoken(caption))
 }
 
-/// What the local g costs a drift that was brought to the type's g.
+/// Writes the expanded uncertainty that the local g adds to a drift converted to the type's g.
 fn from_gravity(page: &CalibrationPage, row: &ParameterVerdict, languages: &Languages) -> Markup {
     let part = Number::uncertainty(row.expanded_uncertainty_from_gravity.unwrap_or(0.0));
     let u = Number::uncertainty(page.result().gravity_u_m_per_s2.unwrap_or(0.0));
@@ -68,7 +68,7 @@ fn from_gravity(page: &CalibrationPage, row: &ParameterVerdict, languages: &Lang
     languages.paragraph_with(|language| texts::FROM_GRAVITY.marked_up(language, &values))
 }
 
-/// The symbol of a parameter.
+/// Returns the symbol of the parameter of `row`.
 fn parameter(row: &ParameterVerdict) -> Markup {
     let name = parameter_of(row).map_or(row.parameter, Parameter::symbol);
     let (letter, index) = name.split_once('_').unwrap_or((name, ""));
@@ -99,7 +99,7 @@ fn cells(languages: &Languages, row: &ParameterVerdict) -> Vec<Markup> {
     ]
 }
 
-/// A probability: two digits, or that it is less than any that matters.
+/// Writes a probability with two digits, or as less than [`LEAST_RISK`].
 pub(super) fn probability(languages: &Languages, p: f64) -> Markup {
     if p < LEAST_RISK {
         let limit = Number::scientific(LEAST_RISK, 1);

@@ -1,4 +1,4 @@
-//! Whether the readings fit, what may be wrong where they do not, and what no fit can see.
+//! Agreement of the readings with the fit, possible causes of disagreement, and errors that the residuals do not show.
 
 use super::conformity::probability;
 use super::{CalibrationPage, Section};
@@ -86,7 +86,7 @@ fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
     }
 }
 
-/// How something scatters in comparison with what was stated of it.
+/// Writes the comparison of an observed scatter with the stated uncertainty.
 fn agreement(found: &Scatter, what: Text, languages: &Languages) -> Markup {
     html! {
         (fields([

@@ -1,12 +1,11 @@
-//! The report of a calibration: what was calibrated on which stand with which passport, what was found, how far it can be
-//! believed, and a line to sign.
+//! Printable report of a gyro calibration: gyro, stand, passport, result, uncertainty, signature lines.
 //!
 //! Its numbers are those of [`CalibrationDocument`], which `calibrate --format json` writes; the annex is that file.
 //!
 //! * `subject`: gyro, stand, passport and its verification, currents, laboratory.
-//! * `parameters`: what every method found.
-//! * `conformity`: against the type, and against an earlier result.
-//! * `fit`: chi-square, residuals, what may be wrong, what the fit cannot see.
+//! * `parameters`: parameters by every method.
+//! * `conformity`: comparison with the gyro type, and with an earlier result.
+//! * `fit`: chi-square, residuals, possible causes of disagreement, errors that the residuals do not show.
 //! * `uncertainty`: budget and Monte Carlo.
 //! * `closing`: signatures, and the annex.
 
@@ -34,17 +33,17 @@ use crate::uncertainty::{Budget, MonteCarlo};
 use jiff::Timestamp;
 use maud::{Markup, html};
 
-/// The passport that a calibration was made with.
+/// The passport used for a calibration.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub enum UsedPassport<'a> {
-    /// It passed every check that was asked for.
+    /// A passport that passed every requested check.
     Verified(Box<PassportPage<'a>>),
-    /// Nobody checked it: the report says so large.
+    /// A passport that was not verified; the report says so in large letters.
     NotVerified {
-        /// What it says.
+        /// Content of the passport.
         content: &'a Content,
-        /// SHA-256 of its file, lower-case hexadecimal.
+        /// SHA-256 of the passport's file, lower-case hexadecimal.
         sha256: String,
     },
 }
@@ -65,7 +64,7 @@ impl UsedPassport<'_> {
     }
 }
 
-/// The numbered sections.
+/// A numbered section of the report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Section {
     Subject,
@@ -78,11 +77,11 @@ enum Section {
 }
 
 impl Section {
-    /// In the order of the page.
+    /// All sections, in the order of the page.
     const ALL: [Self; 7] =
         [Self::Subject, Self::Parameters, Self::Conformity, Self::Fit, Self::Blind, Self::Budget, Self::MonteCarlo];
 
-    /// Its anchor.
+    /// Returns the anchor of the section in the HTML document.
     fn id(self) -> &'static str {
         match self {
             Self::Subject => "subject",
@@ -96,33 +95,33 @@ impl Section {
     }
 }
 
-/// A calibration and everything that a report of it says.
+/// A calibration of a gyro with everything that its report states.
 #[derive(Debug, Clone)]
 pub struct CalibrationPage<'a> {
-    /// With which passport.
+    /// Passport used for the calibration.
     pub passport: UsedPassport<'a>,
-    /// When it counts as made: the time that the passport was verified for.
+    /// Time of the calibration: the time for which the passport was verified.
     pub time: Timestamp,
-    /// The file of the currents: its name, and its SHA-256 in lower-case hexadecimal.
+    /// Name of the currents file, and its SHA-256 in lower-case hexadecimal.
     pub currents: (&'a str, String),
-    /// The gyro's type, when one was named.
+    /// Type of the gyro, if specified.
     pub gyro: Option<&'a GyroType>,
-    /// The laboratory; without one [`Laboratory::paper`] was assumed, and the report says so.
+    /// Laboratory. If it is `None`, [`Laboratory::paper`] was used, and the report says so.
     pub laboratory: Option<&'a Laboratory>,
-    /// The calibration: what may be wrong with it, and which methods gave nothing.
+    /// Calibration, with the diagnosis of possible mistakes and the methods that gave no result.
     pub calibration: &'a Calibration,
-    /// What nobody stated.
+    /// Inputs whose uncertainty no file states.
     pub missing: &'a [NotStated],
-    /// The result as programs get it.
+    /// Result as the JSON document that programs read.
     pub document: &'a CalibrationDocument,
-    /// Where the uncertainty comes from, when asked for.
+    /// Uncertainty budget, if requested.
     pub budget: Option<&'a Budget>,
-    /// Intervals, when asked for.
+    /// Coverage intervals from a Monte Carlo run, if requested.
     pub monte_carlo: Option<&'a MonteCarlo>,
 }
 
 impl CalibrationPage<'_> {
-    /// The report, one self-contained HTML document.
+    /// Returns the report as one self-contained HTML document.
     pub fn html(&self, languages: &Languages) -> String {
         let id = &self.content().passport.id;
         let margins = Margins {
@@ -142,7 +141,7 @@ impl CalibrationPage<'_> {
         self.document
     }
 
-    /// A section with its number: those that there are, are counted.
+    /// Returns a section with its number. Only the sections that this report contains are numbered.
     fn section(&self, languages: &Languages, section: Section, heading: Text, body: &Markup) -> Markup {
         let there = Section::ALL.into_iter().filter(|one| match one {
             Section::Conformity => self.judged().is_some(),
@@ -154,7 +153,7 @@ impl CalibrationPage<'_> {
         parts::section(languages, section.id(), &number.to_string(), heading, body)
     }
 
-    /// The type and the verdict against it, when one was named.
+    /// Returns the gyro type and the verdict against it, or `None` if no type was specified.
     fn judged(&self) -> Option<(&GyroType, &Verdict)> {
         self.gyro.zip(self.result().verdict.as_ref())
     }
@@ -186,7 +185,7 @@ impl CalibrationPage<'_> {
         }
     }
 
-    /// What must not be overlooked, the worst first.
+    /// Writes the warnings at the head of the report, the most serious first.
     fn headlines(&self, languages: &Languages) -> Markup {
         html! {
             @if !self.verified() { (warning(languages, texts::NOT_VERIFIED, texts::NOT_VERIFIED_WORDS)) }
@@ -225,7 +224,7 @@ fn boxed(class: &str, headline: Markup, words: Markup) -> Markup {
     html! { div class=(class) { p.headline { (headline) } (words) } }
 }
 
-/// A method's name by its key in results.
+/// Returns the name of a method from its key in results.
 fn method(key: &str) -> Text {
     let is = |method: Method| method.key() == key;
     match () {

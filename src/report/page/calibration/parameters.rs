@@ -1,4 +1,4 @@
-//! What every method found.
+//! Table of the parameters by every method.
 
 use super::{CalibrationPage, Section, method};
 use crate::calibration::document::{ResultDocument, UncertaintyDocument};
@@ -33,7 +33,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
 
 fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     let results = &page.result().results;
-    // The answer first: it is the last of the methods.
+    // The adopted result comes first: it is the last of the methods.
     let rows = results.iter().rev().flat_map(|result| {
         let (values, u) = (values(result), uncertainties(&result.standard_uncertainty));
         let cells = |number: &dyn Fn(Parameter) -> Number| {
@@ -56,14 +56,14 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     parameters(languages, caption, rows.collect()).markup(languages.spoken(texts::PARAMETERS_CAPTION))
 }
 
-/// In the order of [`Parameter::EIGHT`].
+/// Returns the eight parameters in the order of [`Parameter::EIGHT`].
 fn values(result: &ResultDocument) -> [f64; 8] {
     let [[kx, kxy], [kyx, ky]] = result.k_deg_per_h_per_ma;
     let [w0x, w0y] = result.omega0_deg_per_h;
     [kx, kxy, kyx, ky, w0x, w0y, result.omega_g_deg_per_h_per_g, result.omega_k_deg_per_h_per_g]
 }
 
-/// The same of their standard uncertainties.
+/// Returns the standard uncertainties of the eight parameters in the order of [`Parameter::EIGHT`].
 fn uncertainties(u: &UncertaintyDocument) -> [f64; 8] {
     let [[kx, kxy], [kyx, ky]] = u.k_deg_per_h_per_ma;
     let [w0x, w0y] = u.omega0_deg_per_h;
@@ -80,7 +80,7 @@ fn anisoelasticity(result: &ResultDocument, languages: &Languages) -> Markup {
     fields([field(languages, texts::ANISOELASTICITY, Some(value))])
 }
 
-/// How successive approximation went; nothing for other methods.
+/// Writes the spectral radius and the steps of the iterative method, or nothing for the other methods.
 fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
     let Some((radius, steps)) = result.spectral_radius.zip(result.iterations) else { return html! {} };
     let largest = |rows: [[f64; 2]; 2]| rows.into_iter().flatten().fold(0.0, |most, x: f64| f64::max(most, x.abs()));

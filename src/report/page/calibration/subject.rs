@@ -1,4 +1,4 @@
-//! What was calibrated, on which stand, with which passport, from which readings.
+//! Object of the calibration: gyro, stand, passport and readings.
 
 use super::{CalibrationPage, Section, UsedPassport};
 use crate::laboratory::Laboratory;
@@ -47,7 +47,7 @@ fn passport(page: &CalibrationPage, languages: &Languages) -> Markup {
         UsedPassport::Verified(passport) => Some(passport),
         UsedPassport::NotVerified { .. } => None,
     };
-    // Of a passport that nobody verified, who signed it is not known: the fields are not even empty.
+    // The signer of an unverified passport is unknown. So these fields are left out, not printed empty.
     html! {
         (fields([
             field(languages, passport_texts::ID, Some(given(&header.id))),
@@ -87,7 +87,7 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
     }
 }
 
-/// Said where the deviations are certified for other temperatures.
+/// Writes a warning if the deviations are certified for other temperatures.
 fn temperature(page: &CalibrationPage, languages: &Languages) -> Markup {
     let range = page.content().certificate.temperature_range_c;
     let Some((here, [low, high])) = page.laboratory.and_then(|laboratory| laboratory.temperature_c).zip(range) else {

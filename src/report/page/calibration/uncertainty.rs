@@ -1,4 +1,4 @@
-//! Where the uncertainty comes from, and whether first order is valid; only when asked for.
+//! Uncertainty budget and Monte Carlo with the test of linear propagation. Both appear only on request.
 
 use super::{CalibrationPage, Section};
 use crate::calibration::causes::Cause;
@@ -15,10 +15,10 @@ use crate::uncertainty::monte_carlo::Distribution;
 use crate::uncertainty::{Budget, MonteCarlo};
 use maud::{Markup, html};
 
-/// More effective degrees of freedom than this are as good as infinitely many.
+/// Effective degrees of freedom above which ∞ is printed.
 const MANY: f64 = 1e4;
 
-/// A share of a variance that rounding alone leaves.
+/// Largest share of a variance that is attributed to rounding and not printed.
 const LEAST_SHARE: f64 = 1e-20;
 
 pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -37,7 +37,7 @@ pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup 
     }
 }
 
-/// What the budget comes to.
+/// Writes the dominant contribution to the budget and the effect of reducing it.
 fn sentences(remedy: &Dominant, worst: Text, languages: &Languages) -> Markup {
     let (line, first) = (remedy.worst, remedy.first);
     let share = match remedy.part() {
@@ -71,7 +71,7 @@ fn sentences(remedy: &Dominant, worst: Text, languages: &Languages) -> Markup {
     })
 }
 
-/// All parameters in one table: a row for each kind of input, the largest first, and what they add up to.
+/// Returns one table of all parameters: a row for each kind of input, the largest first, then the totals.
 fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
     let line = |parameter: Parameter| budget.parameters.iter().find(|line| line.parameter == parameter);
     let each = |cell: &dyn Fn(&ParameterBudget) -> Markup| {
@@ -96,7 +96,7 @@ fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
         languages.label(texts::EFFECTIVE_FREEDOM),
         each(&|line| match line.effective_degrees_of_freedom {
             known if known > MANY => html! { "∞" },
-            // Rounded to a place before the point it would no longer be the number of the result.
+            // Rounding to tens would print a number that differs from the one in the result.
             known if known >= 10.0 => Number::fixed(known, 0).markup(languages),
             known => Number::significant(known, 2).markup(languages),
         }),
@@ -109,7 +109,7 @@ fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
     parameters(languages, caption, rows).markup(languages.spoken(texts::BUDGET_CAPTION))
 }
 
-/// A line for each kind of input that any parameter feels, the largest share of any variance first.
+/// Returns one contribution for each kind of input, the largest of that kind, sorted by descending share of a variance.
 fn kinds(budget: &Budget) -> Vec<&Contribution> {
     let mut kinds: Vec<&Contribution> = Vec::new();
     for part in budget.parameters.iter().flat_map(|line| &line.contributions) {
@@ -123,7 +123,7 @@ fn kinds(budget: &Budget) -> Vec<&Contribution> {
     kinds
 }
 
-/// A kind of input and its uncertainty; of several inputs the largest.
+/// Writes a kind of input and its uncertainty: the largest if there are several inputs.
 fn input(part: &Contribution, languages: &Languages) -> Markup {
     let u = part.cause.shown(part.standard_uncertainty[1]);
     languages.label_with(|language| {
@@ -132,9 +132,9 @@ fn input(part: &Contribution, languages: &Languages) -> Markup {
     })
 }
 
-/// An uncertainty of an input with its unit.
+/// Returns the uncertainty of an input with its unit.
 fn of_input(cause: Cause, u: f64, language: Language) -> String {
-    // Marks of angles stand close to their number.
+    // No space before angle marks.
     let (unit, blank) = match cause.unit() {
         "%" => (units::PERCENT, "\u{a0}"),
         "mA" => (units::MILLIAMPERES, "\u{a0}"),
@@ -146,7 +146,7 @@ fn of_input(cause: Cause, u: f64, language: Language) -> String {
 fn cause(cause: Cause, language: Language) -> String {
     let about = |text: Text, axis: &str| text.filled(language, &[("axis", axis)]);
     let case = |axis: usize| ["x", "y", "z"].get(axis).copied().unwrap_or_default();
-    // The base's axes by the paper's letters: ξ east, η north, ζ up.
+    // The base axes have the paper's letters: ξ east, η north, ζ up.
     let base = |axis: usize| ["ξ", "η", "ζ"].get(axis).copied().unwrap_or_default();
     let plain = |text: Text| text.of(language).to_owned();
     match cause {
@@ -185,7 +185,7 @@ fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
             each(&|line| match line.first_order.valid {
                 Some(true) => languages.label(words::YES),
                 Some(false) => languages.label(words::NO),
-                // Too few trials to tell.
+                // There were too few trials to decide.
                 None => html! { "–" },
             }),
         ),

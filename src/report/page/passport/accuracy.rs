@@ -1,4 +1,4 @@
-//! What the stand is good for, and what the passport does not state.
+//! Expected calibration uncertainty, and inputs that the passport does not state.
 
 use super::PassportPage;
 use super::figures::{Slot, figure};
@@ -12,7 +12,7 @@ use crate::report::page::texts::{absences, passport as texts, units};
 use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
 use maud::{Markup, html};
 
-/// How much normal gravity falls with each metre, in m/s² (free air), as the signed comments say it.
+/// Decrease of normal gravity per metre of height, in m/s² per metre (free air), as in the signed comments.
 const GRAVITY_SLOPE_M_PER_S2_PER_M: f64 = 3.1e-6;
 
 pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
@@ -57,7 +57,7 @@ fn stated_for(accuracy: &Accuracy, languages: &Languages) -> Markup {
     ])
 }
 
-/// The meter, in a sentence.
+/// Writes one sentence about the current meter.
 pub(crate) fn meter(laboratory: &StatedLaboratory, languages: &Languages) -> Markup {
     let meter = &laboratory.meter;
     let values = [

@@ -1,4 +1,4 @@
-//! The annex: the signed file to the letter, for eyes, for a clipboard, and to save.
+//! Annex: the signed file verbatim, to read, to copy and to save.
 
 use super::PassportPage;
 use crate::report::page::language::Languages;

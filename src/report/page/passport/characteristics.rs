@@ -1,4 +1,4 @@
-//! Characteristics: the certified deviations with their uncertainties, the datum surfaces, the place of delivery.
+//! Characteristics: the certified deviations with their uncertainties, the datum surfaces, the site.
 
 use super::PassportPage;
 use super::figures::{Slot, figure};
@@ -106,7 +106,7 @@ fn common(certificate: &Certificate, languages: &Languages) -> Markup {
     fields(common.into_iter().chain(type_b).chain(evidence))
 }
 
-/// A contribution that repeated measurements cannot show.
+/// Writes an uncertainty contribution that repeated measurements cannot show (type B).
 fn type_b(line: &TypeB, languages: &Languages) -> Markup {
     let part = match line.acts_on {
         ActsOn::Position => texts::TYPE_B_POSITION,
@@ -147,7 +147,7 @@ fn place(site: &Site, languages: &Languages) -> Markup {
             (symbol("ξ", "")) " " (arcsec(deflection.xi)) ", " (symbol("η", "")) " " (arcsec(deflection.eta))
         },
     });
-    // One of the two latitudes is given, never both.
+    // A site states one of the two latitudes, never both.
     let latitude = match site.astronomic_latitude_deg {
         Some(astronomic) => field(languages, texts::ASTRONOMIC_LATITUDE, Some(degrees(astronomic))),
         None => field(languages, texts::LATITUDE, site.latitude_deg.map(degrees)),
@@ -176,7 +176,7 @@ fn gravity_measured(site: &Site, languages: &Languages) -> Option<Markup> {
     Some(gravity(value, site.gravity_u_m_per_s2, languages))
 }
 
-/// g with its uncertainty, where one is known.
+/// Writes g, with its uncertainty if that is known.
 fn gravity(value: f64, u: Option<f64>, languages: &Languages) -> Markup {
     let Some(u) = u else { return quantity(languages, &Number::exact(value), units::M_PER_S2) };
     html! {

@@ -1,5 +1,5 @@
-//! Each check of a verification in words. A page exists only when text, signature, content, signer and numbers hold, so
-//! of these only the good verdict is ever printed.
+//! Checks of a verification in words. A page is made only if text, signature, content, signer and numbers pass, so
+//! failures of these checks are never printed.
 
 use super::PassportPage;
 use crate::passport::place::Nearness;
@@ -10,7 +10,7 @@ use crate::report::page::parts::{Table, date_text, time_text};
 use crate::report::page::texts::checks as texts;
 use maud::{Markup, html};
 
-/// The verdict, large, and when it was reached.
+/// Writes the verdict in large letters, and the time of the verification.
 pub(crate) fn verdict(page: &PassportPage, languages: &Languages) -> Markup {
     let good = page.verification.valid();
     let when = if good { texts::ALL_PASSED } else { texts::GENUINE };
@@ -24,7 +24,7 @@ pub(crate) fn verdict(page: &PassportPage, languages: &Languages) -> Markup {
     }
 }
 
-/// "In force", or why the passport may not be used.
+/// Returns "In force", or the reasons why the passport may not be used.
 pub(crate) fn headline(page: &PassportPage, language: Language) -> String {
     let failed: Vec<&str> = failed(page).map(|check| reason(check.code).of(language)).collect();
     if failed.is_empty() {
@@ -49,7 +49,7 @@ fn reason(code: Code) -> Text {
     }
 }
 
-/// Every check with its verdict.
+/// Writes every check with its result.
 pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
     let caption = languages
         .label_with(|language| texts::CAPTION.filled(language, &[("time", &time_text(language, page.question.time))]));

@@ -1,4 +1,4 @@
-//! Where pictures stand on the page.
+//! Pictures of the printed passport.
 
 use crate::passport::Content;
 use crate::report::page::language::Languages;
@@ -7,22 +7,22 @@ use crate::report::page::texts::passport as texts;
 use crate::report::picture;
 use maud::{Markup, html};
 
-/// A place for a picture.
+/// A picture's place on the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Slot {
-    /// The stand in each position.
+    /// Stand in each position.
     Positions,
-    /// The certified deviations.
+    /// Certified deviations.
     Deviations,
-    /// The radius of validity about the site.
+    /// Validity radius around the site.
     Radius,
-    /// The Earth-rate vectors against the ideal ones.
+    /// Earth-rate vectors, compared with those at the nominal orientation.
     EarthRate,
-    /// What a calibration here is good for, against the tolerance.
+    /// Expected calibration uncertainty, compared with the tolerance.
     Accuracy,
 }
 
-/// The picture for a place, with its caption; nothing where the passport has not what it shows.
+/// Writes the picture for `slot` with its caption, or nothing if the passport lacks its data.
 pub(super) fn figure(slot: Slot, content: &Content, languages: &Languages) -> Markup {
     let (id, drawing, caption) = match slot {
         Slot::Positions => {

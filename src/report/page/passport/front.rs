@@ -1,4 +1,5 @@
-//! The first page: which passport, who signed it and when, what verification found, the sum to compare.
+//! First page: identification of the passport, its signer and signing time, the result of verification, and the SHA-256
+//! to compare.
 
 use super::{PassportPage, checks};
 use crate::report::page::code;
@@ -46,7 +47,7 @@ fn predecessor(page: &PassportPage, languages: &Languages) -> Markup {
     ])
 }
 
-/// The sum as text, in groups for the eye, and as a code.
+/// Writes the SHA-256 as text, in groups, and as a QR code.
 fn sum(page: &PassportPage, languages: &Languages) -> Markup {
     html! {
         div.sum {

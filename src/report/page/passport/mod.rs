@@ -1,17 +1,18 @@
-//! The printable passport.
+//! Printed passport.
 //!
-//! A page is made only of a passport that is its issuer's own word: text, signature, content, signer and numbers hold.
-//! One that is good but may not be used (expired, superseded, for another place) becomes a page that says so large.
+//! Only an authentic passport is printed: its text, signature, content, signer and numbers pass verification. An
+//! authentic passport that may not be used (expired, superseded, for another site) becomes a page that says so in large
+//! letters.
 //!
-//! * `front`: which passport, who signed it, what verification found.
+//! * `front`: identification, signer, result of verification.
 //! * `checks`: each check in words.
 //! * `general`: the stand and its certificate.
-//! * `characteristics`: the certified deviations, the place of delivery.
-//! * `numbers`: what a calibration computes with.
-//! * `accuracy`: what the stand is good for, what is not stated.
-//! * `record`: the parts to fill in with a pen.
+//! * `characteristics`: the certified deviations, the site.
+//! * `numbers`: the numbers that a calibration uses.
+//! * `accuracy`: expected calibration uncertainty, inputs that are not stated.
+//! * `record`: the parts to fill in by hand.
 //! * `annex`: the signed file.
-//! * `figures`: where pictures stand.
+//! * `figures`: the pictures.
 
 pub(super) mod accuracy;
 mod annex;
@@ -32,7 +33,7 @@ use crate::register::Register;
 use crate::trust::PublicKey;
 use maud::{Markup, html};
 
-/// A passport that was verified for a page.
+/// The printed form of a verified passport.
 #[derive(Debug, Clone)]
 pub struct PassportPage<'a> {
     text: &'a str,
@@ -45,11 +46,11 @@ pub struct PassportPage<'a> {
 }
 
 impl<'a> PassportPage<'a> {
-    /// Verifies the bytes of a passport, and against `register` whether another one supersedes it; `name` is the file's
-    /// name, for messages.
+    /// Verifies the bytes of a passport, and with `register` also whether another passport supersedes it. `name` is the
+    /// name of the file in messages.
     ///
     /// # Errors
-    /// The answer of the verification, when the passport is not its issuer's own word: nothing of it may be printed.
+    /// Returns the verification if the passport is not authentic; no part of it may then be printed.
     pub fn verified(
         name: &str,
         bytes: &'a [u8],
@@ -65,10 +66,10 @@ impl<'a> PassportPage<'a> {
         Self::of(bytes, trust, question, verification)
     }
 
-    /// Of a passport that was verified already, with the same trust and question.
+    /// Creates the page of a passport that was already verified with the same trust and question.
     ///
     /// # Errors
-    /// As [`Self::verified`].
+    /// Returns the verification if the passport is not authentic, as [`Self::verified`] does.
     pub fn of(
         bytes: &'a [u8],
         trust: &'a Trust,
@@ -85,27 +86,27 @@ impl<'a> PassportPage<'a> {
         }
     }
 
-    /// What verification found.
+    /// Returns the result of the verification.
     pub(crate) fn verification(&self) -> &Verification {
         &self.verification
     }
 
-    /// What the passport says.
+    /// Returns the content of the passport.
     pub(crate) fn content(&self) -> &Content {
         &self.content
     }
 
-    /// SHA-256 of its file, lower-case hexadecimal.
+    /// Returns the SHA-256 of the passport's file, lower-case hexadecimal.
     pub(crate) fn sha256(&self) -> &str {
         &self.sha256
     }
 
-    /// The key that signed it.
+    /// Returns the key that signed the passport.
     pub(crate) fn key(&self) -> &PublicKey {
         &self.key
     }
 
-    /// The page, one self-contained HTML document.
+    /// Returns the page as one self-contained HTML document.
     pub fn html(&self, languages: &Languages) -> String {
         let header = &self.content.passport;
         let margins = Margins {
@@ -121,7 +122,7 @@ impl<'a> PassportPage<'a> {
         document(languages, &title, &margins, &self.body(languages))
     }
 
-    /// The file's name by its id: that of a saved copy too.
+    /// Returns the name of the signed file, made from the site's id and the revision; a saved copy has it too.
     fn file_name(&self) -> String {
         format!("{}-{}.yaml", self.content.site.id, self.content.passport.revision)
     }

@@ -1,4 +1,4 @@
-//! What a calibration computes with: matrices, vectors, the self-check.
+//! Numbers that a calibration uses: matrices, vectors, the self-check.
 
 use super::PassportPage;
 use super::figures::{Slot, figure};
@@ -11,7 +11,7 @@ use crate::report::page::parts::{Table, heading, section as part, symbol, symbol
 use crate::report::page::texts::{passport as texts, units};
 use maud::{Markup, html};
 
-/// Decimals of numbers that carry no uncertainty: 1e-9 °/h and 1e-9 g are far below what any reading shows.
+/// Decimals of numbers without an uncertainty: 1e-9 °/h and 1e-9 g are far below the resolution of any reading.
 const DECIMALS: usize = 9;
 
 pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
@@ -67,7 +67,7 @@ fn matrices(m: &MatrixRows, languages: &Languages) -> Markup {
     table.markup(languages.spoken(texts::MATRICES_CAPTION))
 }
 
-/// The paper's equations, alike in every language but for one word.
+/// Writes the paper's equations, which differ between languages in one word only.
 fn formulas(languages: &Languages) -> Markup {
     let (k, b, delta) = (symbol("K", ""), symbol("B", ""), symbol("Δ", ""));
     let j = |index| symbol("J", index);
@@ -121,7 +121,7 @@ fn self_check(check: &SelfCheck, languages: &Languages) -> Markup {
     parameters(languages, None, rows).markup(languages.spoken(texts::SELF_CHECK))
 }
 
-/// A table of the eight parameters of a gyro, in the paper's groups, a row for each thing said of them. Cells stand in the
+/// Returns a table of the eight parameters of a gyro in the paper's groups, one row for each quantity. Cells have the
 /// order of [`numbers_of`].
 pub(crate) fn parameters(languages: &Languages, caption: Option<Markup>, rows: Vec<(Markup, [Markup; 8])>) -> Table {
     let groups = [texts::SCALE_FACTORS_MAIN, texts::SCALE_FACTORS_CROSS, texts::DRIFT_CONSTANT, texts::DRIFT_G];
@@ -146,7 +146,7 @@ pub(crate) fn parameters(languages: &Languages, caption: Option<Markup>, rows: V
     }
 }
 
-/// The numbers of the eight parameters: K_x, K_y, K_xy, K_yx, ω_0x, ω_0y, ω_g, ω_k.
+/// Returns the numbers of the eight parameters: K_x, K_y, K_xy, K_yx, ω_0x, ω_0y, ω_g, ω_k.
 pub(crate) fn numbers_of(parameters: &Parameters) -> [f64; 8] {
     let [[kx, kxy], [kyx, ky]] = parameters.k_deg_per_h_per_ma;
     let [w0x, w0y] = parameters.omega0_deg_per_h;

@@ -1,6 +1,6 @@
-//! The stand's record: the parts of a product's passport after
-//! [GOST R 2.610-2019](crate::bibliography::Bibliography::GostR2610) that are filled in with a pen. What the file does not
-//! know stays empty.
+//! Record of the stand: the parts of a product's passport according to [GOST R
+//! 2.610-2019](crate::bibliography::Bibliography::GostR2610) that are filled in by hand. Fields unknown to the file
+//! stay empty.
 
 use super::PassportPage;
 use crate::report::page::language::{Languages, Text};

@@ -1,4 +1,4 @@
-//! What a passport does not state, and what that costs.
+//! Texts about inputs that a passport does not state, and the effect of each.
 
 use super::texts;
 

@@ -1,4 +1,4 @@
-//! The report of a calibration.
+//! Texts of the calibration report.
 
 use super::texts;
 

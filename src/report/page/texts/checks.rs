@@ -1,4 +1,4 @@
-//! The checks of a verification, and what can be said of each on a page. What makes a page impossible is not here.
+//! Texts of the checks of a verification and of their results. Failures for which no page is made are not included.
 
 use super::texts;
 

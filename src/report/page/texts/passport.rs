@@ -1,4 +1,4 @@
-//! The printable passport: what the signed file says.
+//! Texts of the printed passport: content of the signed file.
 
 use super::texts;
 

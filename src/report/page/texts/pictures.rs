@@ -1,4 +1,4 @@
-//! The words in pictures and of their descriptions.
+//! Words in pictures, and texts of their descriptions.
 
 use super::texts;
 

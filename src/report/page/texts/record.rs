@@ -1,4 +1,4 @@
-//! The printable passport: the parts that are filled in with a pen, named after GOST R 2.610-2019.
+//! Texts of the printed passport: the parts to fill in by hand, named according to GOST R 2.610-2019.
 
 use super::texts;
 
