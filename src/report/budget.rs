@@ -1,4 +1,4 @@
-//! An uncertainty budget in a terminal of 100 columns.
+//! Uncertainty budget as text, for a terminal of 100 columns.
 
 use crate::report::columns;
 use crate::uncertainty::Budget;
@@ -6,10 +6,10 @@ use crate::uncertainty::budget::{COVERAGE, Contribution, ParameterBudget};
 use crate::units::printed;
 use std::fmt::Write;
 
-/// Contributions below this share of the variance are one line together.
+/// Share of the variance below which contributions are combined into one line.
 const SHARE_SHOWN: f64 = 1e-4;
 
-/// The budget of every parameter, the largest contribution first, after `sentence`.
+/// Returns `sentence` and the budget of every parameter, the largest contribution first.
 pub(crate) fn text(budget: &Budget, sentence: Option<&str>) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "\nUncertainty budget ({}), linear approximation", budget.method.key());
@@ -41,7 +41,7 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
         100.0 * COVERAGE,
     );
     let large = line.contributions.iter().filter(|part| part.share >= SHARE_SHOWN).count();
-    // One that is left is shown as it is.
+    // A single small contribution is printed as it is.
     let shown = if large + 1 == line.contributions.len() { large + 1 } else { large };
     let (shown, rest) = line.contributions.split_at(shown);
     let mut rows: Vec<Vec<String>> = shown.iter().map(row).collect();

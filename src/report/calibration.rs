@@ -1,4 +1,4 @@
-//! The result of a calibration in a terminal of 100 columns.
+//! Result of a calibration as text, for a terminal of 100 columns.
 
 use crate::calibration::diagnosis::CANNOT_TELL;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
@@ -13,26 +13,26 @@ use crate::report::{columns, mistake};
 use crate::units::printed;
 use std::fmt::Write;
 
-/// What is said of a calibration besides its numbers.
+/// The data printed with a calibration besides its numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Context<'a> {
-    /// The passport's id.
+    /// Id of the passport.
     pub passport_id: &'a str,
-    /// Whether it was verified.
+    /// `true` if the passport was verified.
     pub passport_verified: bool,
-    /// The g that drifts are per, and its standard uncertainty where that is stated.
+    /// Value of g that the drifts refer to, m/s², and its standard uncertainty if stated, m/s².
     pub gravity_m_per_s2: (f64, Option<f64>),
-    /// Uncertainties that nobody stated.
+    /// Inputs whose uncertainty no file states.
     pub missing: &'a [NotStated],
-    /// The mistake that explains the result.
+    /// Mistake that explains the result, if one does.
     pub mistake: Option<&'a Mistake>,
-    /// Against the gyro's type, by its name.
+    /// Name of the gyro type, and the verdict against it.
     pub verdict: Option<(&'a str, &'a Verdict)>,
-    /// An earlier result, and the change since then against the same tolerance.
+    /// An earlier result, and the verdict on the change since then against the same tolerance.
     pub change: Option<(&'a Found, Option<&'a Verdict>)>,
 }
 
-/// The whole result: parameters, fit, verdict, and what the fit cannot see.
+/// Returns the whole result: parameters, fit, verdict, and errors that the residuals do not show.
 pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
     let mut out = String::new();
     let state = if context.passport_verified { "verified" } else { "NOT VERIFIED" };
@@ -194,7 +194,8 @@ fn scatter(out: &mut String, calibration: &Calibration) {
     }
 }
 
-/// How something scatters in comparison with what was stated of it; `less` is what to think of when that is less.
+/// Returns a sentence that compares an observed scatter with the stated uncertainty; `less` is the advice if the
+/// scatter is smaller.
 fn agreement(what: &str, found: &Scatter, less: &str) -> String {
     let verdict = match found.agreement() {
         Agreement::More => {
@@ -211,7 +212,8 @@ fn agreement(what: &str, found: &Scatter, less: &str) -> String {
     )
 }
 
-/// The lines of a verdict; `reference` names what values are compared with, `deviation` what they differ by.
+/// Appends the lines of a verdict; `reference` and `deviation` are the headings of the values compared with and of the
+/// differences.
 fn verdict_table(out: &mut String, verdict: &Verdict, reference: &str, deviation: &str) {
     let decision = |decision: Decision| match decision {
         Decision::Pass => "pass",

@@ -1,4 +1,4 @@
-//! The result of a certification, and of a check run, in a terminal and as JSON.
+//! Result of a certification, and of a check run, as text and as JSON.
 
 use crate::certification::comparison::{Comparison, Test};
 use crate::certification::components::{Common, Variance};
@@ -10,7 +10,7 @@ use crate::text::{Field, Node};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Everything as JSON: `{certification, not_certified, comparison}`, what does not apply being null.
+/// Returns everything as JSON: `{certification, not_certified, comparison}`; parts that do not apply are null.
 pub(crate) fn to_json(
     certification: Option<&Certification>,
     not_certified: Option<&NotCertified>,
@@ -94,7 +94,7 @@ fn comparison_json(found: &Comparison) -> Value {
     })
 }
 
-/// A certification for people.
+/// Returns a certification as text.
 pub(crate) fn certification(found: &Certification) -> String {
     let mut out = String::new();
     let (stand, runs) = (&found.stand, found.runs.len());
@@ -188,7 +188,7 @@ fn tests(out: &mut String, found: &Certification) {
     let _ = writeln!(out, "Grubbs' test of {readings} angles: {named} outliers at 5 %");
 }
 
-/// A check run for people.
+/// Returns a check run as text.
 pub(crate) fn comparison(found: &Comparison) -> String {
     let mut out = String::new();
     let _ = writeln!(

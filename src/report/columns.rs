@@ -1,25 +1,25 @@
-//! Text in columns, 100 wide.
+//! Text in columns, at most 100 characters wide.
 
 use super::style;
 use crate::text::printable;
 use std::fmt::Write;
 
-/// The width of a terminal that nothing is wider than, but for a word or a row that cannot be broken.
+/// Width of the terminal. Only a word or a row that cannot be broken is wider.
 pub(crate) const COLUMNS: usize = 100;
 
-/// A paragraph, every line behind `indent`.
+/// Appends a paragraph with `indent` before every line.
 pub(crate) fn paragraph(out: &mut String, indent: &str, words: &str) {
     out.push_str(indent);
     wrapped(out, indent.chars().count(), words);
 }
 
-/// A name padded to `name_columns`, and its value, which goes on under its own beginning.
+/// Appends a name padded to `name_columns` and its value. Further lines of the value align with its beginning.
 pub(crate) fn named(out: &mut String, name: &str, name_columns: usize, value: &str) {
     let _ = write!(out, "  {name:<name_columns$}");
     wrapped(out, 2 + name_columns, value);
 }
 
-/// Words from column `indent` on, broken at spaces, but not between a number and its unit.
+/// Appends words from column `indent` on, broken at spaces, but not between a number and its unit.
 fn wrapped(out: &mut String, indent: usize, words: &str) {
     let mut column = indent;
     for (index, word) in unbroken(words).iter().enumerate() {
@@ -37,7 +37,7 @@ fn wrapped(out: &mut String, indent: usize, words: &str) {
     out.push('\n');
 }
 
-/// The words of a text; a unit is part of the word of its number.
+/// Splits a text into words; a unit belongs to the word of its number.
 fn unbroken(text: &str) -> Vec<String> {
     const UNITS: [&str; 9] = ["%", "arcsec", "deg", "deg/h", "mA", "uA", "m", "m/s2", "m/s²"];
     let mut words: Vec<String> = Vec::new();
@@ -51,7 +51,7 @@ fn unbroken(text: &str) -> Vec<String> {
     words
 }
 
-/// Columns as wide as their widest cell, numbers to the right.
+/// Appends a table. Columns are as wide as their widest cell, numbers are right-aligned.
 pub(crate) fn table(out: &mut String, names: &[&str], rows: &[Vec<String>]) {
     let width = |column: usize| {
         let cells = rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count());
@@ -68,11 +68,11 @@ pub(crate) fn table(out: &mut String, names: &[&str], rows: &[Vec<String>]) {
     }
 }
 
-/// A row of CSV as RFC 4180 has it, but for its line feed; every cell is a text, on one line.
+/// Returns a row of CSV according to RFC 4180, but with a line feed as its end; every cell is text on one line.
 ///
-/// Spreadsheets take a text for a formula by its first character, and whoever signs with a key of his own may choose
-/// that: an apostrophe before it makes it a text. So it does after a semicolon, at which spreadsheets of many countries
-/// begin another cell whatever the quotes say.
+/// Spreadsheets recognise a formula by its first character, and a signer may choose that character. An apostrophe
+/// before it makes the cell text. The same applies after a semicolon, because in many countries spreadsheets begin a
+/// new cell there, even within quotes.
 pub(crate) fn csv_row<'a>(cells: impl Iterator<Item = &'a str>) -> String {
     let quoted = |cell: &str| {
         let cell = neutral(&printable(cell));
@@ -81,7 +81,7 @@ pub(crate) fn csv_row<'a>(cells: impl Iterator<Item = &'a str>) -> String {
     cells.map(quoted).collect::<Vec<_>>().join(",") + "\n"
 }
 
-/// A text with an apostrophe wherever a spreadsheet would begin a formula (full-width signs begin one too).
+/// Inserts an apostrophe wherever a spreadsheet would begin a formula; full-width signs can begin one too.
 fn neutral(cell: &str) -> String {
     const FORMULA: [char; 10] = ['=', '+', '-', '@', '"', ';', '＝', '＋', '－', '＠'];
     let parts =
@@ -90,18 +90,19 @@ fn neutral(cell: &str) -> String {
     if cell.starts_with(';') { format!("'{neutral}") } else { neutral }
 }
 
-/// Decimals that show a standard uncertainty with two significant digits (GUM, 7.2.6), at most 12.
+/// Returns the number of decimals, at most 12, that show the standard uncertainty `u` with two significant digits (GUM,
+/// 7.2.6).
 pub(crate) fn decimals(u: f64) -> usize {
     if !(u.is_finite() && u > 0.0) {
         return 6;
     }
-    // The exponent of the value as printed with two digits: 0.0996 rounds to 0.10.
+    // The exponent of the value as printed with two digits, because 0.0996 rounds to 0.10.
     let printed = format!("{u:.1e}");
     let exponent = printed.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()).unwrap_or(0);
     usize::try_from(1 - exponent).unwrap_or(0).min(12)
 }
 
-/// A probability: two digits, or that it is less than any that matters.
+/// Formats a probability with two digits, or as `< 1e-6`.
 pub(crate) fn probability(p: f64) -> String {
     if p < 1e-6 {
         "< 1e-6".to_owned()

@@ -1,13 +1,13 @@
-//! The certified deviations, drawn in block characters: which position is off, which way, and by how much beside the rest.
+//! Chart of the certified deviations in block characters: sign and size of α, β, γ at each position on a common scale.
 
 use super::style;
 use crate::stand::CertifiedPosition;
 use std::fmt::Write;
 
-/// Characters of a bar at each side of the axis; each is two halves.
+/// Characters of a bar on each side of the axis; each character is two halves.
 const SIDE: usize = 14;
 
-/// A line for every position, a bar for each of α, β, γ; all to one scale.
+/// Appends a line for every position with a bar for each of α, β, γ, all to one scale.
 pub(crate) fn picture(out: &mut String, positions: &[CertifiedPosition]) {
     let angles = |at: &CertifiedPosition| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec];
     let largest = positions.iter().flat_map(angles).fold(0.0, |largest: f64, angle| largest.max(angle.abs()));
@@ -23,7 +23,7 @@ pub(crate) fn picture(out: &mut String, positions: &[CertifiedPosition]) {
     let _ = writeln!(out, "  the longest bar is {largest} arcsec; bars to the left are negative");
 }
 
-/// A bar of -1 to 1 about its axis.
+/// Returns a bar for a value from -1 to 1, around the axis in its middle.
 fn bar(part: f64) -> String {
     let halves = (part.abs() * (2 * SIDE) as f64).round() as usize;
     let whole = "█".repeat(halves / 2);

@@ -1,7 +1,7 @@
-//! What became of orders, and what the factory should know before it hands the passports over.
+//! Reports of the orders of a batch, and warnings for the factory before it delivers the passports.
 //!
-//! Reports come one after the other and are not held: of a few orders the text says everything, of many only what failed,
-//! and a summary.
+//! Reports are written one after the other, so that not all are held in memory. For a few orders the text is complete;
+//! for many it contains only the failures and a summary.
 
 use super::columns::csv_row;
 use crate::batch::{Failure, Outcome};
@@ -13,13 +13,13 @@ use crate::text::{Printable, name_of, printable};
 use serde::Serialize;
 use std::fmt::Write;
 
-/// From this growth of K's uncertainty towards the poles on, the factory is warned.
+/// Growth of K's uncertainty towards the poles above which the factory is warned.
 const POLAR_WARNING: f64 = 3.0;
 
-/// Of so many orders at most the text says everything.
+/// Largest number of orders for which the text is complete.
 const FEW: usize = 20;
 
-/// Remarks that are told apart; the others are counted.
+/// Largest number of different remarks that are printed; further ones are only counted.
 const REMARKS_TOLD: usize = 50;
 
 /// The result of an order, in one word.
@@ -51,34 +51,34 @@ impl State {
     }
 }
 
-/// What became of one order.
+/// The outcome of one order.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Report {
-    /// The passport's id; of a re-issue that was refused, the old passport's file; of an input, its file.
+    /// Id of the passport; for a refused re-issue, the predecessor's file; for an input, its file.
     pub id: String,
     /// The result.
     pub state: State,
-    /// The passport's file.
+    /// File of the passport.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// SHA-256 of the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sha256: Option<String>,
-    /// How much noisier a calibration is on this stand than on a perfect one.
+    /// Noise of a calibration on this stand relative to an ideal stand.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub noise_growth: Option<Noise>,
-    /// What is not known, and what that costs.
+    /// Inputs that the passport does not state, and the effect of each.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub absences: Vec<String>,
-    /// Why it was refused or skipped.
+    /// Reason why the order was refused or skipped.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
-    /// Of an input that cannot be used: how many passports it costs.
+    /// Number of passports that an unusable input prevents.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub passports: Option<u64>,
 }
 
-/// Ratios of standard uncertainties, this stand's to a perfect one's.
+/// Ratios of standard uncertainties on this stand to those on an ideal stand.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct Noise {
     k: f64,
@@ -99,7 +99,7 @@ impl Report {
         Self { id, state, file: None, sha256: None, noise_growth: None, absences, reason: None, passports: None }
     }
 
-    /// A passport that is there now, new or as before.
+    /// Creates the report of a passport that now exists, new or unchanged.
     pub(crate) fn of(issued: &Issued) -> Self {
         Self {
             file: Some(name_of(&issued.path)),
@@ -109,7 +109,7 @@ impl Report {
         }
     }
 
-    /// What became of an order of a batch.
+    /// Creates the report of an order of a batch.
     pub(crate) fn of_outcome(outcome: &Outcome) -> Self {
         match outcome {
             Outcome::There(issued) => Self::of(issued),
@@ -131,7 +131,8 @@ impl Report {
     }
 }
 
-/// What failed, in words: with its name, unless the reason begins with it, and with what it costs.
+/// Returns a failure in words, with its number of passports not issued. The name comes first, unless the reason begins
+/// with it.
 pub(crate) fn failure(failure: &Failure) -> String {
     let Failure { what, why, passports, unreadable, .. } = failure;
     let cost = match passports {
@@ -146,7 +147,7 @@ pub(crate) fn failure(failure: &Failure) -> String {
     }
 }
 
-/// Warnings for the factory, and what the passport cannot state.
+/// Returns warnings for the factory, and the inputs that the passport does not state.
 pub(crate) fn warnings(remarks: &Remarks) -> Vec<String> {
     let mut words = Vec::new();
     match &remarks.noise {
@@ -171,7 +172,7 @@ pub(crate) fn warnings(remarks: &Remarks) -> Vec<String> {
     words
 }
 
-/// A line for an order, with what there is to say of it under it.
+/// Returns the line of an order, and its details below.
 fn text(report: &Report) -> String {
     let mut text = line(report);
     if let Some(sha256) = &report.sha256 {
@@ -195,14 +196,14 @@ fn line(report: &Report) -> String {
     format!("{:<9}  {}  {}\n", report.state.key(), Printable(&report.id), Printable(file))
 }
 
-/// A number with commas between its thousands.
+/// Formats a number with commas between groups of three digits.
 fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let groups: Vec<&str> = digits.as_bytes().rchunks(3).rev().filter_map(|group| str::from_utf8(group).ok()).collect();
     groups.join(",")
 }
 
-/// How many orders had which end.
+/// Number of orders for each outcome.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Totals {
     issued: u64,
@@ -244,18 +245,18 @@ impl Totals {
     }
 }
 
-/// The form of the reports.
+/// The output form of the reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Form {
-    /// For people.
+    /// Text for people.
     Text,
-    /// A list.
+    /// JSON array.
     Json,
-    /// With the header `state,id,file,sha256,reason`.
+    /// CSV with the header `state,id,file,sha256,reason`.
     Csv,
 }
 
-/// Writes reports as they come.
+/// Formats the reports of a batch one after the other.
 #[derive(Debug)]
 pub(crate) struct Reports {
     form: Form,
@@ -265,16 +266,16 @@ pub(crate) struct Reports {
 }
 
 impl Reports {
-    /// None yet.
+    /// Creates an empty series of reports.
     pub(crate) fn new(form: Form) -> Self {
         Self { form, count: 0, held: Vec::new(), totals: Totals::default() }
     }
 
-    /// What is to be written now.
+    /// Adds a report and returns the text to write now.
     pub(crate) fn add(&mut self, report: Report) -> String {
         self.totals.add(&report);
         if self.form == Form::Text && report.passports.is_some() {
-            // An input is no passport, and words enough are said of it.
+            // An unusable input is not a passport, and the message of its failure is sufficient.
             return String::new();
         }
         self.count += 1;
@@ -302,14 +303,14 @@ impl Reports {
         format!("{head}{}", csv_row(cells.iter().map(String::as_str).chain([text(&report.reason).as_str()])))
     }
 
-    /// What is to be written at the end.
+    /// Returns the text to write at the end.
     pub(crate) fn end(self) -> String {
         match self.form {
             Form::Json if self.count == 0 => "[]\n".to_owned(),
             Form::Json => "\n]\n".to_owned(),
             Form::Csv if self.count == 0 => CSV_HEADER.to_owned(),
             Form::Csv => String::new(),
-            // Not even an input was bad: that there was nothing to do must be said.
+            // There were no orders and no unusable inputs, so the text says that there was nothing to do.
             Form::Text if self.totals == Totals::default() => self.totals.summary(),
             Form::Text if self.count <= FEW => self.held.iter().map(text).collect(),
             Form::Text => self.totals.summary(),
@@ -319,7 +320,7 @@ impl Reports {
 
 const CSV_HEADER: &str = "state,id,file,sha256,reason\n";
 
-/// Remarks, each said once however many passports it is about.
+/// Remarks, each printed once with the number of passports that it applies to.
 #[derive(Debug, Default)]
 pub(crate) struct Told {
     remarks: Vec<(String, String, u64)>,
@@ -327,7 +328,7 @@ pub(crate) struct Told {
 }
 
 impl Told {
-    /// Remembers a remark about a passport or a file.
+    /// Adds a remark about a passport or a file.
     pub(crate) fn add(&mut self, about: &str, words: String) {
         match self.remarks.iter().position(|(known, ..)| *known == words) {
             Some(known) => self.remarks[known].2 += 1,
@@ -336,7 +337,7 @@ impl Told {
         }
     }
 
-    /// The lines.
+    /// Returns the remarks, one line each.
     pub(crate) fn lines(&self) -> Vec<String> {
         let told = self.remarks.iter().map(|(words, first, count)| match count {
             1 => format!("{first}: {words}"),
@@ -369,7 +370,7 @@ mod tests {
             text += &reports.end();
             let list: Vec<serde_json::Value> = serde_json::from_str(&text).unwrap();
             assert_eq!(list.len(), count);
-            // As the whole list would have been written.
+            // The text equals the JSON of the whole list.
             assert_eq!(text, serde_json::to_string_pretty(&list).unwrap() + "\n");
         }
     }

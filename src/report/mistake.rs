@@ -1,14 +1,14 @@
-//! Words about a mistake that explains a result, in a terminal and on pages.
+//! Sentences about a mistake that explains a result, for the terminal and for pages.
 
 use super::page::Number;
 use super::page::language::{Language, Text};
 use super::page::texts::calibration as texts;
 use crate::calibration::mistake::{CurrentsMistaken, Mistake};
 
-/// The power of ten by which microamperes are more than milliamperes.
+/// Power of ten by which microamperes exceed milliamperes.
 const MICROAMPERES: i32 = 3;
 
-/// Returns what is found, what explains it, and what to do; whole sentences.
+/// Returns the finding, its explanation and the remedy as whole sentences.
 pub(crate) fn words(mistake: &Mistake, language: Language) -> String {
     match mistake {
         Mistake::Currents(mistaken) => {

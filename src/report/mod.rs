@@ -1,18 +1,18 @@
-//! What people read: verdicts, tables, words about a result.
+//! Output for people: verdicts, tables, sentences about a result, pages and pictures.
 //!
-//! * `budget`: where the uncertainty comes from.
+//! * `budget`: the uncertainty budget.
 //! * `verdict`: the answer of `verify`.
 //! * `calibration`: the result of a calibration.
 //! * `certification`: a certified stand, and a check run.
 //! * `columns`: text in columns.
 //! * `deviations`: the certified deviations, drawn in block characters.
-//! * `mistake`: what explains a result that is not the gyro's.
-//! * `monte_carlo`: intervals, and whether first order is valid.
-//! * `issued`: what became of an order, and what the factory should know about it.
+//! * `mistake`: the explanation of a result that is not the gyro's.
+//! * `monte_carlo`: coverage intervals, and the test of linear propagation.
+//! * `issued`: the outcome of an order, and warnings for the factory.
 //! * `page`: pages for print and screen, in several languages.
 //! * `passport_table`: a passport in a terminal.
-//! * `picture`: what a document says, drawn.
-//! * `register`: what is in force in a folder.
+//! * `picture`: the contents of a document as pictures.
+//! * `register`: the passports in a folder and their states.
 //! * `selftest`: the reference cases.
 //! * `simulation`: the tables of simulations.
 //! * `style`: emphasis in a terminal.

@@ -1,11 +1,11 @@
-//! What a Monte Carlo says, in a terminal of 100 columns.
+//! Result of a Monte Carlo run as text, for a terminal of 100 columns.
 
 use crate::report::columns;
 use crate::uncertainty::MonteCarlo;
 use crate::uncertainty::budget::COVERAGE;
 use std::fmt::Write;
 
-/// Uncertainties, intervals, and for every parameter whether first order is valid.
+/// Returns uncertainties and coverage intervals, and for every parameter whether the linear approximation is valid.
 pub(crate) fn text(found: &MonteCarlo) -> String {
     let mut out = String::new();
     let _ = writeln!(

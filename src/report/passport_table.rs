@@ -1,4 +1,4 @@
-//! A passport in a terminal: aligned tables of 100 columns at most, units in the headings.
+//! Passport in a terminal: aligned tables of at most 100 columns, units in the headings.
 
 use crate::passport::Content;
 use crate::passport::content::Rows;
@@ -7,10 +7,10 @@ use crate::stand::{Evidence, TypeB};
 use crate::text::number;
 use std::fmt::{Display, Write};
 
-/// The width of the names at the left.
+/// Width of the names on the left, in characters.
 const NAME_COLUMNS: usize = 26;
 
-/// The whole passport as tables. `verified` is said in the first line.
+/// Returns the whole passport as tables. The first line states `verified`.
 pub(crate) fn text(content: &Content, verified: bool) -> String {
     let mut out = String::new();
     let header = &content.passport;
@@ -39,7 +39,7 @@ fn heading(out: &mut String, words: &str) {
     let _ = writeln!(out, "\n{}", style::heading(words));
 }
 
-/// A name and its value; a long value goes on under its beginning.
+/// Appends a name and its value. Further lines of a long value align with its beginning.
 fn line(out: &mut String, name: &str, value: impl Display) {
     columns::named(out, name, NAME_COLUMNS, &value.to_string());
 }
@@ -123,7 +123,7 @@ fn positions(out: &mut String, content: &Content) {
     deviations::picture(out, &content.positions);
 }
 
-/// A standard uncertainty behind its value, where there is one.
+/// Returns a standard uncertainty to print after its value, or nothing if it is `None`.
 fn with_u(u: Option<f64>) -> String {
     u.map_or_else(String::new, |u| format!(", u {u}"))
 }

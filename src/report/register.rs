@@ -1,4 +1,4 @@
-//! A register in a terminal and as CSV.
+//! Register as text for a terminal and as CSV.
 
 use crate::register::{Register, State};
 use crate::report::columns;
@@ -6,7 +6,7 @@ use crate::text::{Printable, printable};
 use std::fmt::Write;
 
 impl State {
-    /// Its name in words.
+    /// Returns the name of the state in words.
     pub fn words(self) -> &'static str {
         match self {
             Self::InForce => "in force",
@@ -22,7 +22,7 @@ impl State {
     }
 }
 
-/// A line for each passport, the alarms, and how many are in each state.
+/// Returns a line for each passport, the alarms, and the number of passports in each state.
 pub(crate) fn text(register: &Register) -> String {
     let mut out = String::new();
     for line in &register.passports {
@@ -40,7 +40,7 @@ pub(crate) fn text(register: &Register) -> String {
     out
 }
 
-/// The passports as CSV with the header `state,id,stand,site,issuer,valid_until,sha256,file,why`.
+/// Returns the passports as CSV with the header `state,id,stand,site,issuer,valid_until,sha256,file,why`.
 pub(crate) fn csv(register: &Register) -> String {
     let mut out = String::from("state,id,stand,site,issuer,valid_until,sha256,file,why\n");
     for line in &register.passports {

@@ -1,11 +1,12 @@
-//! The reference cases in a terminal and as JSON.
+//! Reference cases as text for a terminal and as JSON.
 
 use crate::report::columns;
 use crate::selftest::Case;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// `{passed, failed, cases: [{example, quantity, source, expected, tolerance, found, digits, passed}]}`.
+/// Returns the cases as JSON: `{passed, failed, cases: [{example, quantity, source, expected, tolerance, found, digits,
+/// passed}]}`.
 pub(crate) fn to_json(cases: &[Case]) -> Value {
     let each = cases.iter().map(|case| {
         json!({
@@ -17,7 +18,7 @@ pub(crate) fn to_json(cases: &[Case]) -> Value {
     json!({ "passed": passed, "failed": cases.len() - passed, "cases": each.collect::<Vec<_>>() })
 }
 
-/// A table for each example.
+/// Returns a table for each example.
 pub(crate) fn text(cases: &[Case]) -> String {
     let mut out = String::new();
     for group in cases.chunk_by(|one, other| one.example == other.example) {
@@ -38,7 +39,7 @@ pub(crate) fn text(cases: &[Case]) -> String {
     out
 }
 
-/// Every source once; of several places in one document the document is named once.
+/// Returns every source once. Several places in one document follow one mention of the document.
 fn sources(group: &[Case]) -> String {
     let mut all: Vec<&str> = group.iter().map(|case| case.source).collect();
     all.dedup();
@@ -59,10 +60,10 @@ fn row(case: &Case, digits: bool) -> Vec<String> {
         if case.expected == 0.0 {
             return format!("{value:.1e}");
         }
-        // One digit beyond what the tolerance touches.
+        // One digit more than the tolerance affects.
         format!("{value:.*}", columns::decimals(case.tolerance))
     };
-    // As it is printed: its digits say how far it can be trusted.
+    // As printed in the source: its digits show its precision.
     let expected = if digits { number(case.expected) } else { format!("{}", case.expected) };
     let last = case.digits.map_or_else(|| format!("{:.1e}", case.tolerance), |digits| format!("{digits:.1}"));
     let verdict = if case.passed() { "ok" } else { "FAILED" };

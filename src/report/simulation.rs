@@ -1,11 +1,11 @@
-//! Tables of simulations, the paper's figures beside ours.
+//! Tables of simulations, with the paper's figures next to ours.
 
 use crate::simulation::accuracy::Accuracy;
 use crate::simulation::convergence::Convergence;
 use crate::units::printed;
 use std::fmt::Write;
 
-/// The paper's table: worst error and standard deviation of every parameter by every method.
+/// Returns the paper's table: worst error and standard deviation of every parameter by every method.
 pub(crate) fn accuracy(found: &Accuracy) -> String {
     let mut out = String::new();
     let stands = match found.limit_deg {
@@ -36,7 +36,7 @@ pub(crate) fn accuracy(found: &Accuracy) -> String {
     out
 }
 
-/// The paper's Fig. 4 as numbers.
+/// Returns the paper's Fig. 4 as numbers.
 pub(crate) fn convergence(found: &Convergence) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "Steps of the iterative method, {} stands at each limit, seed {}", found.trials, found.seed);

@@ -1,38 +1,37 @@
-//! Emphasis in a terminal: ANSI codes about whole words and lines, which whoever prints takes out again where nobody
-//! wants them ([`plain`]).
+//! Emphasis in a terminal: ANSI codes around whole words and lines. [`plain`] removes them for output without emphasis.
 
 use crate::text::printable;
 use anstyle::{AnsiColor, Style};
 
-/// A heading.
+/// Formats a heading.
 pub(crate) fn heading(words: &str) -> String {
     styled(Style::new().bold(), words)
 }
 
-/// What only names the columns.
+/// Formats secondary words, such as the names of columns.
 pub(crate) fn faint(words: &str) -> String {
     styled(Style::new().dimmed(), words)
 }
 
-/// What is as it should be.
+/// Formats a good result.
 pub(crate) fn good(words: &str) -> String {
     styled(AnsiColor::Green.on_default().bold(), words)
 }
 
-/// What must not be overlooked.
+/// Formats a bad result or a warning.
 pub(crate) fn bad(words: &str) -> String {
     styled(AnsiColor::Red.on_default().bold(), words)
 }
 
-/// What stands behind the escape character in every code of these; and [`outgoing`] lets no other out.
+/// ANSI codes used here, without the escape character; [`outgoing`] lets no other code pass.
 const CODES: [&str; 5] = ["[0m", "[1m", "[2m", "[31m", "[32m"];
 
-/// The text as it may go to a terminal.
+/// Returns the text as it may be written to a terminal: control characters other than emphasis and line feeds are escaped.
 pub(crate) fn outgoing(text: &str) -> String {
     printable::outgoing(text, &CODES)
 }
 
-/// The text without any emphasis.
+/// Returns the text without any emphasis.
 pub(crate) fn plain(text: &str) -> String {
     anstream::adapter::strip_str(text).to_string()
 }

@@ -1,4 +1,4 @@
-//! The answer of `verify`, as text and as the JSON that programs rely on.
+//! Answer of `verify`, as text and as the JSON that programs use.
 
 use super::style;
 use crate::passport::Verification;
@@ -9,31 +9,31 @@ use std::fmt::Write;
 /// The verdict on one file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct Verdict {
-    /// The file.
+    /// Path of the file.
     pub file: String,
-    /// Whether every check passed.
+    /// `true` if every check passed.
     pub valid: bool,
-    /// The passport's id; null until the signature holds.
+    /// Id of the passport; null until the signature passes.
     pub id: Option<String>,
-    /// Every check.
+    /// All checks.
     pub checks: Vec<CheckLine>,
 }
 
-/// One check.
+/// The result of one check.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct CheckLine {
-    /// Its name.
+    /// Name of the check.
     pub name: &'static str,
-    /// Whether it passed; null when not run.
+    /// `true` if the check passed, `false` if it failed; null if it was not run.
     pub passed: Option<bool>,
-    /// The verdict, for programs.
+    /// Result of the check as a code, for programs.
     pub code: &'static str,
-    /// The verdict, for people.
+    /// Result of the check as a sentence, for people.
     pub detail: String,
 }
 
 impl Verdict {
-    /// The verdict of `verification` on the file `file`.
+    /// Creates the verdict of `verification` on the file `file`.
     pub(crate) fn of(file: &str, verification: &Verification) -> Self {
         let checks = verification.checks().iter().map(|check| CheckLine {
             name: check.name.as_str(),
@@ -46,7 +46,7 @@ impl Verdict {
     }
 }
 
-/// A line for each check, under a line for each file.
+/// Returns a line for each file, and below it a line for each of its checks.
 pub(crate) fn text(verdicts: &[Verdict]) -> String {
     let mut text = String::new();
     for verdict in verdicts {

@@ -1,4 +1,4 @@
-//! What a stand is good for: the standard uncertainty of every parameter against the tolerance of a type of gyro.
+//! Expected calibration uncertainty: the standard uncertainty of every parameter against the tolerance of a gyro type.
 
 use super::drawing::{
     Anchor, Panel, Scale, Ticks, label, legend, line, nothing, number, panels, plain_symbol, rectangle, symbol, words,
@@ -19,18 +19,18 @@ const ROW: f64 = 17.0;
 const BAR_HALF: f64 = 5.0;
 const AXIS_HEIGHT: f64 = 36.0;
 
-/// No axis reaches farther; what is worse is at its end.
+/// Largest share of the tolerance on the axis. Larger values are drawn at its end.
 const LARGEST_SHARE: f64 = 20.0;
 
-/// One parameter: its standard uncertainty, and its share of the tolerance; none when the tolerance is 0.
+/// A parameter, its standard uncertainty, and its share of the tolerance, which is `None` if the tolerance is 0.
 struct Row {
     parameter: Parameter,
     u: f64,
     share: Option<f64>,
 }
 
-/// Draws what a passport states about its accuracy; the drifts' tolerances are compared at the type's g, so the passport's
-/// `gravity_m_per_s2` is needed.
+/// Draws the accuracy that a passport states. `gravity_m_per_s2` is the passport's, because the tolerances of the
+/// drifts are compared at the type's g.
 pub(crate) fn accuracy(languages: &Languages, accuracy: &Accuracy, gravity_m_per_s2: f64) -> Markup {
     let rows = rows(accuracy, gravity_m_per_s2);
     let largest = rows.iter().filter_map(|row| row.share).fold(0.5, f64::max);
@@ -65,8 +65,8 @@ fn key(languages: &Languages) -> Markup {
 fn rows(accuracy: &Accuracy, gravity_m_per_s2: f64) -> Vec<Row> {
     let gyro = accuracy.gyro.to_type();
     let standard_uncertainty = accuracy.standard_uncertainty.to_model().to_vector();
-    // The verdict on a gyro of just this uncertainty knows tolerance and uncertainty in one unit and at one g.
-    // What a passport states is per local g: the uncertainty of g itself is no part of it.
+    // The verdict on a gyro with exactly this uncertainty gives tolerance and uncertainty in one unit and at one g.
+    // The passport states its values per local g, so the uncertainty of g is not included.
     let parameters = gyro.nominal.to_model();
     let found = Found { parameters, standard_uncertainty, gravity_m_per_s2, gravity_u_m_per_s2: 0.0 };
     let verdict = against_type(&found, &gyro);
@@ -79,7 +79,7 @@ fn rows(accuracy: &Accuracy, gravity_m_per_s2: f64) -> Vec<Row> {
     Parameter::EIGHT.map(row).into()
 }
 
-/// The unit of a parameter on pages.
+/// Returns the unit of a parameter on pages.
 pub(crate) fn unit(parameter: Parameter) -> Text {
     match parameter {
         Parameter::Kx | Parameter::Kxy | Parameter::Kyx | Parameter::Ky => units::DEG_PER_H_PER_MA,

@@ -1,4 +1,4 @@
-//! An uncertainty budget as a file: one panel for each parameter, its largest contributions as bars.
+//! Uncertainty budget as a picture file: one panel for each parameter, its largest contributions as bars.
 
 use super::accuracy::unit;
 use super::drawing::{Anchor, Panel, Point, Scale, label, number, plain_symbol, rectangle, symbol, words};
@@ -9,11 +9,11 @@ use crate::uncertainty::Budget;
 use crate::uncertainty::budget::ParameterBudget;
 use maud::{Markup, html};
 
-/// Bars of a panel; one more for what is left.
+/// Largest number of bars of a panel; one more bar combines the rest.
 const MOST_BARS: usize = 6;
 const COLUMNS: usize = 2;
 
-/// Width of a panel; left and right end of its bars, names at their left and numbers at their right.
+/// Width of a panel; left and right end of its bars. Names are to their left, numbers to their right.
 const WIDTH: f64 = 430.0;
 const BARS: Point = [176.0, 356.0];
 const TOP: f64 = 34.0;
@@ -25,7 +25,7 @@ const WORDS_HEIGHT: f64 = 28.0;
 const WORDS: &str = "Bars: contribution of each kind of input to the standard uncertainty. The width of the frame is u, the \
                      root sum of squares of the bars.";
 
-/// Draws a budget, in black and white; `None` where nothing is uncertain.
+/// Draws a budget, in black and white. Returns `None` if no input has an uncertainty.
 pub(crate) fn budget(budget: &Budget) -> Option<String> {
     if budget.parameters.is_empty() || budget.inputs.is_empty() {
         return None;
@@ -44,7 +44,7 @@ pub(crate) fn budget(budget: &Budget) -> Option<String> {
 fn parameter(line: &ParameterBudget, [left, top]: Point) -> Markup {
     let u = line.standard_uncertainty;
     let bars = bars(line);
-    // Without any uncertainty the bars have no length on any scale.
+    // Without any uncertainty the bars have no length, so any scale will do.
     let reach = if u > 0.0 { u } else { 1.0 };
     let scale = Scale { values: [0.0, reach], places: BARS.map(|x| left + x) };
     let [start, end] = scale.places;
@@ -65,11 +65,11 @@ fn parameter(line: &ParameterBudget, [left, top]: Point) -> Markup {
     }
 }
 
-/// The kinds of input and what each contributes; the smallest are one together.
+/// Returns the kinds of input and their contributions; the smallest are combined.
 fn bars(line: &ParameterBudget) -> Vec<(String, f64)> {
     let mut bars: Vec<(String, f64)> =
         line.contributions.iter().map(|part| (part.cause.kind(), part.contribution)).collect();
-    // One that is left is shown as it is.
+    // A single remaining contribution is drawn as it is.
     if bars.len() > MOST_BARS + 1 {
         let rest = bars.split_off(MOST_BARS);
         let sum: f64 = rest.iter().map(|(_, part)| part * part).sum();

@@ -1,22 +1,22 @@
-//! A field between two axes, and lines with marks within it.
+//! Plot area between two axes, and lines with marks within it.
 
 use super::drawing::{Anchor, Point, Scale, line, list, mark, words};
 use maud::{Markup, html};
 
-/// How a series looks: the frame index whose mark it borrows, and the class of its line.
+/// The appearance of a series: the frame index whose mark it uses, and the class of its line.
 pub(crate) type Look = (u32, &'static str);
 
-/// A field: values to the right along `x`, upwards along `y`.
+/// A plot area: values increase to the right along `x`, upwards along `y`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Field {
-    /// From its left end to its right end.
+    /// Horizontal scale, from the left end to the right end.
     pub x: Scale,
-    /// From its lower end to its upper end.
+    /// Vertical scale, from the lower end to the upper end.
     pub y: Scale,
 }
 
 impl Field {
-    /// Both axes, and a faint line with its number at each of their marks.
+    /// Draws both axes, and at each axis mark a faint line with its number.
     pub(crate) fn axes(&self, x_marks: &[(f64, String)], y_marks: &[(f64, String)]) -> Markup {
         let ([left, right], [bottom, top]) = (self.x.places, self.y.places);
         html! {
@@ -35,7 +35,7 @@ impl Field {
         }
     }
 
-    /// A line through `values`, with the mark of `index` at each; what is beyond an axis is at its end.
+    /// Draws a line through `values`, with the mark of `index` at each. Values beyond an axis are drawn at its end.
     pub(crate) fn series(&self, values: &[Point], (index, class): Look) -> Markup {
         let points: Vec<Point> = values.iter().map(|[x, y]| [self.x.clamped(*x), self.y.clamped(*y)]).collect();
         html! {
@@ -45,7 +45,7 @@ impl Field {
     }
 }
 
-/// A series as a legend shows it.
+/// Draws the sample of a series for a legend.
 pub(crate) fn sample((index, class): Look) -> Markup {
     html! { (line([1.0, 7.0], [27.0, 7.0], class)) (mark([14.0, 7.0], index, "mark")) }
 }

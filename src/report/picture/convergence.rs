@@ -1,4 +1,4 @@
-//! How successive approximation went: what each step moved, against what it had to fall below.
+//! Convergence of the iterative method: the change in each step, relative to the stop limit.
 
 use super::chart::{Field, Look, sample};
 use super::drawing::{Anchor, Panel, Point, Scale, Ticks, label, legend, line, panels, power};
@@ -10,23 +10,23 @@ use maud::{Markup, html};
 
 const PANEL_PIXELS: u32 = 280;
 const SIZE: Point = [360.0, 226.0];
-/// The field: left and upper, right and lower end.
+/// Plot area: left and upper, right and lower end.
 const FIELD: [Point; 2] = [[46.0, 10.0], [350.0, 184.0]];
 
-/// Decades of the axis at most below the limit; what is smaller, or nothing, is at its end.
+/// Largest number of decades of the axis below the limit. Smaller values, and zero, are drawn at its end.
 const MOST_DECADES: i32 = 12;
 
-/// What each step moved, as a share of its limit.
+/// A function that returns the change in a step as a share of its limit.
 type Share = fn(&ChangeDocument, &StopRuleDocument) -> f64;
 
-/// How a series looks, and its numbers.
+/// The series: appearance, and values.
 const SERIES: [(Look, Share); 2] = [
     ((1, "series"), |change, rule| change.main_scale_factors_percent / rule.delta1_percent),
     ((2, "series dashed"), |change, rule| change.g_drifts_deg_per_h_per_g / rule.delta2_deg_per_h),
 ];
 
-/// Draws the steps of a result by successive approximation; `None` for other methods, and where a limit is 0, which no
-/// logarithm knows.
+/// Draws the steps of a result by the iterative method. Returns `None` for other methods, and if a limit is 0, because
+/// the axis is logarithmic.
 pub(crate) fn convergence(languages: &Languages, result: &ResultDocument) -> Option<Markup> {
     let (changes, rule) = result.changes.as_deref().zip(result.stop_rule)?;
     if changes.is_empty() || rule.delta1_percent <= 0.0 || rule.delta2_deg_per_h <= 0.0 {
@@ -59,7 +59,7 @@ fn key(languages: &Languages) -> Markup {
     legend(languages, &entries)
 }
 
-/// Steps to the right; the power of ten of a change over its limit upwards.
+/// Returns the plot area: steps to the right, the power of ten of change over limit upwards.
 fn field(changes: &[ChangeDocument], rule: &StopRuleDocument) -> Field {
     let powers = SERIES.iter().flat_map(|(_, share)| changes.iter().map(|change| power_of(share(change, rule))));
     let finite = powers.filter(|power| power.is_finite());
@@ -73,7 +73,8 @@ fn field(changes: &[ChangeDocument], rule: &StopRuleDocument) -> Field {
     }
 }
 
-/// The logarithm of 0 is at the lower end of the axis, like whatever is too small for it.
+/// Returns the decimal logarithm of a share; that of 0 is drawn at the lower end of the axis, like other values too
+/// small for it.
 fn power_of(share: f64) -> f64 {
     libm::log10(share).max(f64::NEG_INFINITY)
 }

@@ -1,4 +1,4 @@
-//! The certified deviations as bars, a panel for each of α, β, γ on one scale.
+//! Certified deviations as bars: a panel for each of α, β, γ, all to one scale.
 
 use super::drawing::{
     Anchor, Panel, Scale, Ticks, coordinate, legend, line, nothing, number, panels, rectangle, words,
@@ -12,30 +12,30 @@ use maud::{Markup, html};
 const PANEL_PIXELS: u32 = 205;
 const COLUMNS: u32 = 3;
 const WIDTH: f64 = 226.0;
-/// Where bars may be, between the indices at the left and the numbers at the right.
+/// Left and right end of the bars, between the indices on the left and the numbers on the right.
 const BARS: [f64; 2] = [40.0, 156.0];
 const TOP: f64 = 26.0;
 const ROW: f64 = 17.0;
 const BAR_HALF: f64 = 4.5;
 const AXIS_HEIGHT: f64 = 24.0;
 
-/// Whiskers are at plus and minus so many standard uncertainties.
+/// Half-length of the whiskers, in standard uncertainties.
 const COVERAGE_FACTOR: f64 = 2.0;
 
-/// No axis reaches farther: uncertainties have no limit, but half a turn says it all.
+/// Largest value on an axis, arcsec: 180°. The uncertainties themselves have no limit.
 const LARGEST_ARCSEC: f64 = 648_000.0;
 
-/// One deviation of a position and its standard uncertainty.
+/// A function that returns one deviation of a position and its standard uncertainty, arcsec.
 type OfPosition = fn(&CertifiedPosition) -> (f64, Option<f64>);
 
-/// The angle's letter, its axis, and where to find it.
+/// Letter and axis of each angle, and the function that returns it.
 const ANGLES: [(&str, &str, OfPosition); 3] = [
     ("α", "x", |at| (at.alpha_arcsec, at.u_alpha_arcsec)),
     ("β", "y", |at| (at.beta_arcsec, at.u_beta_arcsec)),
     ("γ", "z", |at| (at.gamma_arcsec, at.u_gamma_arcsec)),
 ];
 
-/// Draws the deviations of `positions`, those of a stand or of a passport, with their uncertainties where there are any.
+/// Draws the deviations of `positions`, of a stand or of a passport, with their uncertainties if stated.
 pub(crate) fn deviations(languages: &Languages, positions: &[CertifiedPosition]) -> Markup {
     let all = positions.iter().flat_map(|at| ANGLES.map(|(_, _, of)| of(at)));
     let ends = all.clone().flat_map(|(value, u)| {
@@ -86,7 +86,7 @@ fn panel(
     )
 }
 
-/// Round values as faint lines, with their numbers at the lower end.
+/// Draws round values as faint lines, with their numbers at the lower end.
 fn grid(languages: &Languages, scale: &Scale, bottom: f64) -> Markup {
     let ticks = Ticks::along(scale, languages.first());
     html! {

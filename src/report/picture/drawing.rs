@@ -1,37 +1,38 @@
-//! What all pictures share: the frame with its words for screen readers, lines, arrows, labels, hatches, scales.
+//! Common parts of all pictures: panels with words for screen readers, lines, arrows, labels, hatches, scales.
 //!
-//! A picture is one or more panels, each of about the size at which it is shown, so that letters stay readable where a
-//! narrow screen lays the panels one under the other. Nothing has a fixed colour: the classes stand in `style.css`.
+//! A picture consists of one or more panels. Each has about the size at which it is shown, so that letters stay
+//! readable if a narrow screen puts the panels below each other. Nothing has a fixed colour: the classes are defined in
+//! `style.css`.
 
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{Number, localised};
 use maud::{Markup, PreEscaped, html};
 
-/// A point of a drawing: to the right and down, in its own units.
+/// A point of a drawing: distance to the right and down, in units of the drawing.
 pub(crate) type Point = [f64; 2];
 
-/// Panels are drawn at most so many times their size.
+/// Largest magnification of a panel.
 const LARGEST: f64 = 1.15;
 
 /// One drawing with its words.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Panel<'a> {
-    /// Of a page, unique: the ids within begin with it.
+    /// Name of the panel, unique on a page; the ids within begin with it.
     pub name: &'a str,
-    /// The languages of its words.
+    /// Languages of the words.
     pub languages: &'a Languages,
-    /// Width and height; a unit is about a pixel of CSS.
+    /// Width and height; a unit is about a CSS pixel.
     pub size: Point,
 }
 
 impl Panel<'_> {
-    /// An id for `part`, unique on a page even where the page stands once for each language.
+    /// Returns an id for `part`, unique even on a page that is repeated for each language.
     pub(crate) fn id(&self, part: &str) -> String {
         let tags: Vec<&str> = self.languages.iter().map(Language::tag).collect();
         format!("{}-{part}-{}", self.name, tags.join("-"))
     }
 
-    /// The drawing as an image that says what it shows: a title, and the numbers in words.
+    /// Returns the drawing as an image with a description: a title, and the numbers in words.
     pub(crate) fn svg(
         &self,
         title: impl Fn(Language) -> String,
@@ -39,7 +40,7 @@ impl Panel<'_> {
         drawing: &[Markup],
     ) -> Markup {
         let [width, height] = self.size.map(coordinate);
-        // A language at a time: what it is called, then what it shows.
+        // All words of one language before the next: the title, then the description.
         let words: Vec<_> = self.languages.iter().flat_map(|at| [("title", at), ("desc", at)]).collect();
         let id = |part: &str, language: Language| format!("{}-{}", self.id(part), language.tag());
         let labels: Vec<String> = words.iter().map(|(part, language)| id(part, *language)).collect();
@@ -55,7 +56,7 @@ impl Panel<'_> {
         }
     }
 
-    /// A hatch under the id of `part`, for a `fill` by [`Panel::filled_with`].
+    /// Draws a hatch pattern with the id of `part`, for a `fill` by [`Panel::filled_with`].
     pub(crate) fn hatch(&self, part: &str) -> Markup {
         html! {
             pattern id=(self.id(part)) width="5" height="5" patternUnits="userSpaceOnUse" patternTransform="rotate(45)" {
@@ -64,13 +65,14 @@ impl Panel<'_> {
         }
     }
 
-    /// The `fill` of what is hatched.
+    /// Returns the `fill` of a hatched shape.
     pub(crate) fn filled_with(&self, part: &str) -> String {
         format!("url(#{})", self.id(part))
     }
 }
 
-/// The panels of a picture, up to `columns` side by side where there is room for `width` pixels of a screen each, and the legend beneath.
+/// Lays out the panels of a picture, with the legend below: up to `columns` side by side, if each has `width` pixels of
+/// screen.
 pub(crate) fn panels(columns: u32, width: u32, drawings: &[Markup], legend: &Markup) -> Markup {
     html! {
         div.panels style={ "--columns:" (columns) ";--panel:" (rem(f64::from(width))) } { @for drawing in drawings { (drawing) } }
@@ -78,7 +80,7 @@ pub(crate) fn panels(columns: u32, width: u32, drawings: &[Markup], legend: &Mar
     }
 }
 
-/// What the marks mean: a sample of each, and its words.
+/// Draws a legend: a sample of each mark, and its meaning.
 pub(crate) fn legend(languages: &Languages, entries: &[(Markup, Text)]) -> Markup {
     html! {
         ul.legend {
@@ -92,36 +94,36 @@ pub(crate) fn legend(languages: &Languages, entries: &[(Markup, Text)]) -> Marku
     }
 }
 
-/// A length on the page, for the size of letters that the page has there: print has smaller ones.
+/// Returns a length relative to the font size of the page, which is smaller in print.
 fn rem(pixels: f64) -> String {
     const PIXELS_OF_THE_SCREEN: f64 = 16.0;
     format!("{:.2}rem", pixels / PIXELS_OF_THE_SCREEN)
 }
 
-/// A coordinate to a tenth, which is finer than print.
+/// Formats a coordinate to a tenth of a unit, which is finer than print.
 pub(crate) fn coordinate(value: f64) -> String {
     let text = format!("{value:.1}");
     let text = text.strip_suffix(".0").unwrap_or(&text);
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// Points as `points` and `d` have them.
+/// Formats points for the attributes `points` and `d`.
 pub(crate) fn list(points: &[Point]) -> String {
     let each: Vec<String> = points.iter().map(|[x, y]| format!("{},{}", coordinate(*x), coordinate(*y))).collect();
     each.join(" ")
 }
 
-/// A straight line.
+/// Draws a straight line.
 pub(crate) fn line([x1, y1]: Point, [x2, y2]: Point, class: &str) -> Markup {
     html! { line class=(class) x1=(coordinate(x1)) y1=(coordinate(y1)) x2=(coordinate(x2)) y2=(coordinate(y2)) {} }
 }
 
-/// A closed shape.
+/// Draws a closed shape.
 pub(crate) fn polygon(points: &[Point], class: &str) -> Markup {
     html! { polygon class=(class) points=(list(points)) {} }
 }
 
-/// A rectangle between two corners, whichever they are.
+/// Draws a rectangle between two opposite corners, given in any order.
 pub(crate) fn rectangle([x1, y1]: Point, [x2, y2]: Point, class: &str, fill: Option<&str>) -> Markup {
     html! {
         rect class=(class) x=(coordinate(x1.min(x2))) y=(coordinate(y1.min(y2))) width=(coordinate((x2 - x1).abs()))
@@ -129,18 +131,18 @@ pub(crate) fn rectangle([x1, y1]: Point, [x2, y2]: Point, class: &str, fill: Opt
     }
 }
 
-/// Where a label stands to its point.
+/// The position of a label relative to its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Anchor {
-    /// The label begins there.
+    /// The label begins at the point.
     Start,
-    /// Its middle is there.
+    /// The middle of the label is at the point.
     Middle,
-    /// It ends there.
+    /// The label ends at the point.
     End,
 }
 
-/// Words or a symbol with its baseline at a point.
+/// Draws words or a symbol with the baseline at a point.
 pub(crate) fn label([x, y]: Point, anchor: Anchor, class: &str, words: &Markup) -> Markup {
     let anchor = match anchor {
         Anchor::Start => None,
@@ -150,17 +152,17 @@ pub(crate) fn label([x, y]: Point, anchor: Anchor, class: &str, words: &Markup) 
     html! { text class=[(!class.is_empty()).then_some(class)] x=(coordinate(x)) y=(coordinate(y)) text-anchor=[anchor] { (words) } }
 }
 
-/// The same of plain words.
+/// Draws a label of plain words.
 pub(crate) fn words(at: Point, anchor: Anchor, class: &str, words: &str) -> Markup {
     label(at, anchor, class, &html! { (words) })
 }
 
-/// The number of a document, which a program finds again by its value.
+/// Draws a number of a document; programs can find it by its value.
 pub(crate) fn number(at: Point, anchor: Anchor, value: f64, printed: &str) -> Markup {
     label(at, anchor, "", &html! { tspan data-value=(crate::text::number::decimal(value)) { (printed) } })
 }
 
-/// A symbol of the paper: what follows the underscore stands lower.
+/// Writes a symbol of the paper: the part after the underscore is a subscript.
 pub(crate) fn symbol(name: &str) -> Markup {
     let (letter, index) = name.split_once('_').unwrap_or((name, ""));
     html! {
@@ -169,12 +171,12 @@ pub(crate) fn symbol(name: &str) -> Markup {
     }
 }
 
-/// The same within plain words: `K_x` is Kx.
+/// Returns a symbol of the paper for plain text: `K_x` becomes Kx.
 pub(crate) fn plain_symbol(name: &str) -> String {
     name.replace('_', "")
 }
 
-/// A title, in lines for each language, and how much room the lines beyond the first one take.
+/// Draws a title, in lines for each language, and returns it with the height of all lines after the first.
 pub(crate) fn heading(languages: &Languages, at: Point, text: Text) -> (Markup, f64) {
     const LINE: f64 = 15.0;
     let mut said: Vec<&str> = Vec::new();
@@ -195,7 +197,7 @@ pub(crate) fn heading(languages: &Languages, at: Point, text: Text) -> (Markup, 
     (drawn, LINE * (lines.len() - 1) as f64)
 }
 
-/// A title in lines that are no wider than a panel.
+/// Splits a title into lines that are not wider than a panel.
 fn lines_of(title: &str) -> Vec<String> {
     const LONGEST: usize = 42;
     let mut lines: Vec<String> = Vec::new();
@@ -208,7 +210,8 @@ fn lines_of(title: &str) -> Vec<String> {
     lines
 }
 
-/// A line with a head at its end. One that is shorter than its head is the head alone, and a point is nothing.
+/// Draws a line with a head at its end. If the line is shorter than its head, only the head is drawn; if it has no
+/// length, nothing.
 pub(crate) fn arrow(from: Point, to: Point, class: &str) -> Markup {
     const HEAD: f64 = 8.0;
     const HALF_WIDTH: f64 = 3.2;
@@ -230,7 +233,7 @@ pub(crate) fn arrow(from: Point, to: Point, class: &str) -> Markup {
     }
 }
 
-/// A mark of a point: frame index by frame index another shape, so that no colour is needed to tell them apart.
+/// Draws the mark of a point. Each frame index has its own shape, so that the marks differ without colour.
 pub(crate) fn mark([x, y]: Point, index: u32, class: &str) -> Markup {
     const R: f64 = 3.6;
     match index % 4 {
@@ -241,23 +244,23 @@ pub(crate) fn mark([x, y]: Point, index: u32, class: &str) -> Markup {
     }
 }
 
-/// A scale: values to places along an axis.
+/// A linear scale: values to places along an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Scale {
-    /// The two values at its ends.
+    /// Values at both ends.
     pub values: [f64; 2],
-    /// Where they stand.
+    /// Places of both ends.
     pub places: [f64; 2],
 }
 
 impl Scale {
-    /// The place of a value.
+    /// Returns the place of a value.
     pub(crate) fn place(&self, value: f64) -> f64 {
         let ([from, to], [start, end]) = (self.values, self.places);
         start + (value - from) / (to - from) * (end - start)
     }
 
-    /// The same, at an end of the scale when it is beyond: for values that nobody limits.
+    /// Returns the place of a value, or an end of the scale if the value is beyond it: for values without a limit.
     pub(crate) fn clamped(&self, value: f64) -> f64 {
         let [from, to] = self.values;
         self.place(value.clamp(from.min(to), from.max(to)))
@@ -267,15 +270,15 @@ impl Scale {
 /// Round values for the marks of an axis: multiples of 1, 2 or 5 times a power of ten.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Ticks {
-    /// The distance of one from the next.
+    /// Distance between neighbouring values.
     pub step: f64,
-    /// From the lowest to the highest.
+    /// Values from the lowest to the highest.
     pub values: Vec<f64>,
     decimals: usize,
 }
 
 impl Ticks {
-    /// At most about `most` of them between `low` and `high`.
+    /// Creates about `most` values at most between `low` and `high`.
     pub(crate) fn between(low: f64, high: f64, most: usize) -> Self {
         let (step, exponent) = round_step((high - low) / most.max(1) as f64);
         let first = (low / step - 1e-9).ceil() as i64;
@@ -284,7 +287,7 @@ impl Ticks {
         Self { step, values, decimals: usize::try_from(-exponent).unwrap_or(0) }
     }
 
-    /// As many as have room for their numbers along `scale`.
+    /// Creates as many values as have room for their numbers along `scale`.
     pub(crate) fn along(scale: &Scale, language: Language) -> Self {
         const LETTER: f64 = 6.0;
         const GAP: f64 = 10.0;
@@ -299,13 +302,13 @@ impl Ticks {
         fewer.into_iter().find(fits).unwrap_or_else(|| Self::between(low, high, 1))
     }
 
-    /// A value as the axis prints it.
+    /// Formats a value for the axis.
     pub(crate) fn text(&self, value: f64, language: Language) -> String {
         Number::fixed(value, self.decimals).text(language)
     }
 }
 
-/// The next round step not below `step`, and its power of ten.
+/// Returns the smallest round step that is not below `step`, and its power of ten.
 fn round_step(step: f64) -> (f64, i32) {
     if !(step > 0.0 && step.is_finite()) {
         return (1.0, 0);
@@ -318,35 +321,35 @@ fn round_step(step: f64) -> (f64, i32) {
     }
 }
 
-/// 10 to the power `exponent`.
+/// Returns 10 to the power `exponent`.
 pub(crate) fn power_of_ten(exponent: i32) -> f64 {
     libm::pow(10.0, f64::from(exponent))
 }
 
-/// The largest value of 1, 2 or 5 times a power of ten that is not above `value`: the length of a scale bar.
+/// Returns the largest value not above `value` that is 1, 2 or 5 times a power of ten: the length of a scale bar.
 pub(crate) fn round_below(value: f64) -> f64 {
     let exponent = libm::floor(libm::log10(value)) as i32;
     let digit = [5.0, 2.0, 1.0].into_iter().find(|digit| digit * power_of_ten(exponent) <= value * (1.0 + 1e-9));
     digit.unwrap_or(1.0) * power_of_ten(exponent)
 }
 
-/// `10⁻³` as a factor of a unit.
+/// Returns a power of ten as a factor of a unit, such as `10⁻³`.
 pub(crate) fn power(exponent: i32, language: Language) -> String {
     let one = localised(&format!("1e{exponent}"), language);
     one.find("10").map_or_else(String::new, |at| one[at..].to_owned())
 }
 
-/// The power of ten of the first digit of `value`.
+/// Returns the power of ten of the first digit of `value`.
 fn exponent(value: f64) -> i32 {
     if value > 0.0 && value.is_finite() { libm::floor(libm::log10(value)) as i32 } else { 0 }
 }
 
-/// The power of ten to take out of the numbers of an axis that reaches to `reach`: 0 unless they had many zeros.
+/// Returns the power of ten to factor out of the numbers of an axis up to `reach`: 0 unless they would have many zeros.
 pub(crate) fn crowding(reach: f64) -> i32 {
     Some(exponent(reach)).filter(|exponent| !(-2..4).contains(exponent)).unwrap_or(0)
 }
 
-/// Nothing.
+/// Returns empty markup.
 pub(crate) fn nothing() -> Markup {
     PreEscaped(String::new())
 }

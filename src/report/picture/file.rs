@@ -1,13 +1,13 @@
-//! Pictures that are files: they bring along what a page gives the others.
+//! Picture files: SVG with its own style, which other pictures get from their page.
 
 use super::drawing::{Anchor, Panel, Point, coordinate, words};
 use super::label::width;
 use maud::{Markup, PreEscaped, html};
 
-/// In black and grey on a white ground; in plain rules, since not only browsers draw these files.
+/// Style in black and grey on a white ground. Its rules are plain, because not only browsers draw these files.
 const STYLE: &str = include_str!("file.css");
 
-/// The file of a picture that is `panel` alone; its first language speaks.
+/// Returns the file of a picture with the single panel `panel`, in its first language.
 pub(crate) fn file(panel: &Panel, title: &str, description: &str, drawing: &[Markup]) -> String {
     let [width, height] = panel.size.map(coordinate);
     let picture = panel.svg(|_| title.to_owned(), |_| description.to_owned(), drawing);
@@ -21,7 +21,7 @@ pub(crate) fn file(panel: &Panel, title: &str, description: &str, drawing: &[Mar
     file.into_string() + "\n"
 }
 
-/// One line above a field: what its upright axis counts, and what the marks mean.
+/// Draws one line above a plot area: the name of the vertical axis, and the legend.
 pub(crate) fn caption([x, y]: Point, axis: &str, entries: &[(Markup, &str)]) -> Markup {
     const GAP: f64 = 16.0;
     const SAMPLE: f64 = 34.0;

@@ -1,15 +1,15 @@
-//! Labels of points that lie anywhere: none covers another one or a point, as far as there is room.
+//! Placement of labels at arbitrary points. If there is room, no label covers another label or a point.
 
 use super::drawing::{Anchor, Point, line, words};
 use maud::{Markup, html};
 
-/// Widths of letters, of narrow and of wide ones, and height of a line: of the class `small`, with room to spare.
+/// Widths of letters (normal, narrow and wide) and height of a line, in class `small`, with some reserve.
 const LETTER: f64 = 6.0;
 const NARROW: f64 = 3.2;
 const WIDE: f64 = 10.8;
 const LINE: f64 = 12.4;
 
-/// How near points are one for the reader.
+/// Distance within which points appear as one.
 const SAME: f64 = 6.0;
 
 /// Distances from the point at which a label is tried.
@@ -22,7 +22,7 @@ pub(crate) struct Label {
     words: String,
 }
 
-/// A box on the drawing: its lowest and highest coordinates.
+/// A box on the drawing, given by its lowest and highest coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Area {
     /// Left and upper end.
@@ -32,7 +32,7 @@ pub(crate) struct Area {
 }
 
 impl Area {
-    /// By how much two boxes overlap, as an area.
+    /// Returns the area in which two boxes overlap.
     pub(crate) fn overlap(&self, other: &Self) -> f64 {
         let along =
             |axis: usize| (self.high[axis].min(other.high[axis]) - self.low[axis].max(other.low[axis])).max(0.0);
@@ -43,14 +43,14 @@ impl Area {
         Self { low: [x - half, y - half], high: [x + half, y + half] }
     }
 
-    /// By how much it lies outside another one.
+    /// Returns the area of this box outside `other`.
     fn outside(&self, other: &Self) -> f64 {
         let size = (self.high[0] - self.low[0]) * (self.high[1] - self.low[1]);
         size - self.overlap(other)
     }
 }
 
-/// Points that are one for the reader get one label: "1,1–1,4" or "1,1 2,3".
+/// Groups points that appear as one and gives each group one label: "1,1…1,4" or "1,1 2,3".
 pub(crate) fn together(points: &[(Point, String)]) -> Vec<Label> {
     let mut groups: Vec<(Point, Vec<&str>)> = Vec::new();
     for (at, words) in points {
@@ -70,8 +70,8 @@ pub(crate) fn together(points: &[(Point, String)]) -> Vec<Label> {
     groups.into_iter().map(label).collect()
 }
 
-/// Draws the labels within `field`, off `words` that stand there already, and clear of `obstacles` (points that lines run
-/// through) where that can be.
+/// Draws the labels within `field`. If possible, they stay clear of `words` already drawn and of `obstacles` (points on
+/// lines).
 pub(crate) fn place(labels: &[Label], words: &[Area], obstacles: &[Point], field: &Area) -> Markup {
     let marks: Vec<Area> = labels.iter().map(|label| Area::about(label.at, 5.0)).collect();
     let lines: Vec<Area> = obstacles.iter().map(|at| Area::about(*at, 1.0)).collect();
@@ -80,7 +80,7 @@ pub(crate) fn place(labels: &[Label], words: &[Area], obstacles: &[Point], field
     for label in labels {
         let cost = |area: &Area, distance: f64| {
             let over = |others: &[Area]| others.iter().map(|other| area.overlap(other)).sum::<f64>();
-            // Words over words are never read: any way round is shorter than that.
+            // Words over other words are unreadable, so any distance costs less than an overlap.
             1000.0 * (area.outside(field) + over(&taken)) + 10.0 * over(&marks) + 4.0 * over(&lines) + distance
         };
         let candidates = DISTANCES.iter().flat_map(|distance| (0..16).map(move |turn| (*distance, turn)));
@@ -99,7 +99,7 @@ pub(crate) fn place(labels: &[Label], words: &[Area], obstacles: &[Point], field
     html! { @for label in &drawn { (label) } }
 }
 
-/// How wide words of the class `small` are, at most.
+/// Returns the largest possible width of words in class `small`.
 pub(crate) fn width(words: &str) -> f64 {
     let letter = |c: char| match c {
         ',' | '.' | ' ' => NARROW,
@@ -114,7 +114,8 @@ impl Label {
         width(&self.words)
     }
 
-    /// Beside `at`: to its right where the label lies to the right of its point, and so on.
+    /// Returns the box of the label next to `at`: to the right of `at` if the label is to the right of its point, and
+    /// so on.
     fn area(&self, [x, y]: Point, cos: f64) -> Area {
         let left = x - 0.5 * self.width() * (1.0 - cos);
         Area { low: [left, y - 0.5 * LINE], high: [left + self.width(), y + 0.5 * LINE] }

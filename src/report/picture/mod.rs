@@ -1,16 +1,16 @@
-//! Pictures of what a document says, as SVG within a page or in a file.
+//! Pictures of the contents of a document, as SVG within a page or in a file.
 //!
-//! Each is a function of the content and of the languages of the page. All of them read in black and white, say what they show
-//! to screen readers, and take their colours from the page.
+//! Each picture is a function of the content and of the languages of the page. All pictures are readable in black and
+//! white, describe themselves to screen readers, and take their colours from the page.
 //!
 //! * [`positions`]: the positions of the stand, drawn.
 //! * [`deviations`]: α, β and γ of every position.
-//! * [`vectors`]: Earth rate and specific force against the ideal ones.
-//! * [`place`]: where the passport is valid.
-//! * [`accuracy`]: what the stand is good for.
-//! * [`residuals`], [`tolerances`], [`convergence`]: of a calibration.
-//! * [`budget`], [`simulation`]: files of their own, of a budget and of the paper's Fig. 4.
-//! * [`chart`], [`drawing`], [`file`], [`label`]: what they share.
+//! * [`vectors`]: Earth rate and specific force, compared with the nominal ones.
+//! * [`place`]: the area where the passport is valid.
+//! * [`accuracy`]: the expected calibration uncertainty.
+//! * [`residuals`], [`tolerances`], [`convergence`]: pictures of a calibration.
+//! * [`budget`], [`simulation`]: picture files of a budget and of the paper's Fig. 4.
+//! * [`chart`], [`drawing`], [`file`], [`label`]: common parts.
 
 pub(crate) mod accuracy;
 pub(crate) mod budget;
@@ -27,5 +27,5 @@ pub(crate) mod simulation;
 pub(crate) mod tolerances;
 pub(crate) mod vectors;
 
-/// The style of the pictures within a page; it follows the colours of the page around them.
+/// Style of the pictures within a page; it uses the colours of the page.
 pub(crate) const STYLE: &str = include_str!("style.css");

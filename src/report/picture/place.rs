@@ -1,4 +1,4 @@
-//! Where a passport is valid: a schematic map about the site, north at the top.
+//! Area where a passport is valid: a schematic map around the site, north at the top.
 
 use super::drawing::{
     Anchor, Panel, Point, arrow, coordinate, legend, line, nothing, number, panels, rectangle, round_below, words,
@@ -13,18 +13,18 @@ use maud::{Markup, html};
 const PANEL_PIXELS: u32 = 260;
 const SIZE: Point = [300.0, 340.0];
 const CENTRE: Point = [150.0, 146.0];
-/// Radius of validity, length of the compass lines, and of the line to the mark, as drawn.
+/// Drawn validity radius, length of the compass lines, and length of the line to the azimuth mark.
 const RADIUS: f64 = 92.0;
 const COMPASS: f64 = 120.0;
 const MARK: f64 = 124.0;
-/// First line beneath the map, and the distance of the next one.
+/// First line below the map, and the distance between lines.
 const BELOW: f64 = 304.0;
 const LINE: f64 = 15.0;
 
-/// Coordinates are printed to a tenth of a metre at most.
+/// Largest number of decimals of a coordinate: a tenth of a metre.
 const MOST_DECIMALS: usize = 6;
 
-/// Draws the radius of validity of a passport; a band of latitude where its site has no longitude.
+/// Draws the validity radius of a passport, or a band of latitude if its site has no longitude.
 pub(crate) fn place(languages: &Languages, content: &Content) -> Markup {
     let panel = Panel { name: "place", languages, size: SIZE };
     let band = content.site.longitude_deg.is_none();
@@ -55,7 +55,7 @@ fn key(languages: &Languages, content: &Content) -> Markup {
     legend(languages, &entries)
 }
 
-/// The site: a point within a ring.
+/// Draws the site: a point within a ring.
 fn site([x, y]: Point) -> Markup {
     let (x, y) = (coordinate(x), coordinate(y));
     html! {
@@ -97,7 +97,7 @@ fn compass(languages: &Languages) -> Markup {
     }
 }
 
-/// A point at so many units from the site, in a direction clockwise from north.
+/// Returns the point at `distance` units from the site, in a direction clockwise from north.
 fn towards(azimuth_deg: f64, distance: f64) -> Point {
     let (sin, cos) = sin_cos_of_degrees(azimuth_deg);
     [CENTRE[0] + distance * sin, CENTRE[1] - distance * cos]
@@ -117,7 +117,7 @@ fn mark(content: &Content) -> Markup {
     }
 }
 
-/// The radius with its length, on the side where no mark is.
+/// Draws the radius with its length, on the side away from the azimuth mark.
 fn radius(languages: &Languages, content: &Content) -> Markup {
     let metres = content.earth.valid_radius_m;
     let printed =
@@ -151,7 +151,7 @@ fn scale_bar(languages: &Languages, radius_m: f64) -> Markup {
     }
 }
 
-/// Beneath the map, where nothing can be in the way.
+/// Writes the coordinates below the map, where they cover nothing.
 fn coordinates(languages: &Languages, content: &Content) -> Markup {
     let earth = &content.earth;
     let latitude = latitude_deg(content);
@@ -167,13 +167,13 @@ fn coordinates(languages: &Languages, content: &Content) -> Markup {
     }
 }
 
-/// To the second digit of its uncertainty.
+/// Returns the azimuth, rounded to the second digit of its uncertainty.
 fn azimuth(content: &Content, azimuth_deg: f64) -> Number {
     let u_arcsec = content.earth.azimuth_u_arcsec.unwrap_or(0.0);
     Number::measured(azimuth_deg, u_arcsec / ARCSECONDS_PER_DEGREE)
 }
 
-/// The latitude as the site states it: geodetic, else astronomic.
+/// Returns the latitude that the site states: geodetic, otherwise astronomic.
 fn latitude_deg(content: &Content) -> f64 {
     let site = &content.site;
     site.latitude_deg.or(site.astronomic_latitude_deg).unwrap_or(content.earth.latitude_deg)

@@ -1,7 +1,8 @@
-//! The positions of the stand, drawn one by one: base, frame, platform, gyro, and the axes of its case as they are.
+//! Positions of the stand, drawn one by one: base, frame, platform, gyro, and the actual case axes.
 //!
-//! The view is parallel. Frames and turns are those of [`attitude`]: base ξ east, η north, ζ up; the rows of a
-//! matrix are the case's axes in the base. Source: [the paper](crate::bibliography::Bibliography::Tang17), fig. 2 and 3.
+//! The view is a parallel projection. Axes and rotations are those of [`attitude`]: base ξ east, η north, ζ up; the
+//! rows of a matrix are the case axes in base axes. Source: [the paper](crate::bibliography::Bibliography::Tang17),
+//! fig. 2 and 3.
 
 use super::drawing::{Anchor, Panel, Point, arrow, label, legend, line, panels, polygon, words};
 use super::label::{Area, width};
@@ -14,32 +15,32 @@ use crate::units::{degrees_from_radians, sin_cos_of_degrees};
 use maud::{Markup, html};
 use nalgebra::{Matrix3, Vector3};
 
-/// Pixels that a panel needs for its letters to be read.
+/// Pixels that a panel needs for readable letters.
 const PANEL_PIXELS: u32 = 155;
 const COLUMNS: u32 = 4;
 const SIZE: Point = [210.0, 232.0];
-/// Where the stand's centre is drawn, and how large its unit.
+/// Centre of the stand on the drawing, and length of its unit.
 const CENTRE: Point = [106.0, 108.0];
 const UNIT: f64 = 55.0;
 
-/// Where the view comes from: east of south, and above.
+/// Direction from which the stand is viewed: east of south, and above the horizon.
 const VIEW_EAST_OF_SOUTH_DEG: f64 = 34.0;
 const VIEW_ABOVE_DEG: f64 = 24.0;
 
-/// The stand in its own units: half the frame along ξ and across, half the thickness of its bars.
+/// Dimensions of the frame in units of the stand: half its length along ξ and across, half the thickness of its bars.
 const FRAME_HALF: [f64; 2] = [0.98, 0.86];
 const BAR_HALF: f64 = 0.07;
-/// Radius of the platform, of the gyro on it, and the gyro's height.
+/// Radius of the platform, radius of the gyro, height of the gyro.
 const PLATFORM: f64 = 0.66;
 const GYRO: f64 = 0.34;
 const GYRO_HEIGHT: f64 = 0.46;
-/// Where the posts stand, and how high the axis of the frame is above the base.
+/// Distance of the posts from the centre, and height of the frame's axis above the base.
 const POST: f64 = 1.16;
 const AXIS_HEIGHT: f64 = 1.32;
-/// Length of the axes.
+/// Length of the drawn axes.
 const AXIS: f64 = 1.27;
 
-/// Draws `positions`: those of a stand or of a passport, any number of them, at any angles.
+/// Draws `positions` of a stand or of a passport: any number of them, at any angles.
 pub(crate) fn positions(languages: &Languages, positions: &[CertifiedPosition]) -> Markup {
     let drawings: Vec<Markup> = positions.iter().map(|at| position(languages, at)).collect();
     panels(COLUMNS, PANEL_PIXELS, &drawings, &key(languages))
@@ -58,7 +59,7 @@ fn key(languages: &Languages) -> Markup {
     legend(languages, &entries)
 }
 
-/// The view: two directions of the paper and the one towards the reader, in base axes.
+/// The view: two directions of the drawing plane and the direction towards the viewer, in base axes.
 struct View {
     right: Vector3<f64>,
     up: Vector3<f64>,
@@ -73,12 +74,12 @@ impl View {
         Self { right: Vector3::new(ca, sa, 0.0), up: Vector3::new(-sa * se, ca * se, ce), towards }
     }
 
-    /// Where a point of the base frame is drawn.
+    /// Returns the place on the drawing of a point in base axes.
     fn point(&self, at: &Vector3<f64>) -> Point {
         [CENTRE[0] + UNIT * self.right.dot(at), CENTRE[1] - UNIT * self.up.dot(at)]
     }
 
-    /// A box with its `centre` and three half edges: the faces that can be seen.
+    /// Draws the visible faces of a box, given by its `centre` and three half edges.
     fn cuboid(&self, centre: &Vector3<f64>, half: &[Vector3<f64>; 3], class: &str) -> Markup {
         let faces = [(0, 1, 2), (1, 2, 0), (2, 0, 1)].map(|(normal, one, other)| {
             let out = half[normal] * if half[normal].dot(&self.towards) < 0.0 { -1.0 } else { 1.0 };
@@ -90,7 +91,7 @@ impl View {
         html! { @for face in faces { (face) } }
     }
 
-    /// A circle about `centre`, seen as an ellipse: as wide as it is along the direction across its normal.
+    /// Draws a circle around `centre`, seen as an ellipse; its long axis is perpendicular to the circle's normal.
     fn circle(&self, centre: &Vector3<f64>, normal: &Vector3<f64>, radius: f64, class: &str) -> Markup {
         let ([x, y], tilt) = (self.point(centre), self.tilt_deg(normal));
         let (major, minor) = (radius * UNIT, radius * UNIT * normal.dot(&self.towards).abs());
@@ -100,18 +101,18 @@ impl View {
         }
     }
 
-    /// By how much the long axis of a circle's ellipse is turned on the paper, clockwise.
+    /// Returns the clockwise rotation of the long axis of a circle's ellipse on the drawing, degrees.
     fn tilt_deg(&self, normal: &Vector3<f64>) -> f64 {
         let across = self.across(normal);
         -degrees_from_radians(libm::atan2(across.dot(&self.up), across.dot(&self.right)))
     }
 
-    /// The unit vector in the plane of a circle that is seen at its full length.
+    /// Returns the unit vector in the plane of a circle that is seen at full length.
     fn across(&self, normal: &Vector3<f64>) -> Vector3<f64> {
         normal.cross(&self.towards).try_normalize(1e-9).unwrap_or(self.right)
     }
 
-    /// A cylinder from `foot` along `along`; the end towards the reader is drawn last.
+    /// Draws a cylinder from `foot` along `along`; the end facing the viewer is drawn last.
     fn cylinder(&self, foot: &Vector3<f64>, along: &Vector3<f64>, radius: f64, class: &str) -> Markup {
         let axis = along.normalize();
         let (far, near) = if along.dot(&self.towards) > 0.0 { (*foot, foot + along) } else { (foot + along, *foot) };
@@ -127,7 +128,7 @@ impl View {
     }
 }
 
-/// How dark a face is: light comes from above.
+/// Returns the shade of a face; light comes from above.
 fn shade(normal: &Vector3<f64>) -> &'static str {
     let normal = normal.normalize();
     match normal {
@@ -168,7 +169,7 @@ fn heading(at: &CertifiedPosition, languages: &Languages) -> Markup {
     }
 }
 
-/// The base plate with north and up, and where their words stand.
+/// Draws the base plate with north and up, and returns it with the areas of their words.
 fn base(view: &View, languages: &Languages) -> (Markup, Vec<Area>) {
     let floor = -AXIS_HEIGHT;
     let plate = [Vector3::new(1.56, 0.0, 0.0), Vector3::new(0.0, 0.9, 0.0), Vector3::new(0.0, 0.0, 0.045)];
@@ -196,7 +197,7 @@ fn base(view: &View, languages: &Languages) -> (Markup, Vec<Area>) {
     (drawing, words_at)
 }
 
-/// Posts, frame, platform and gyro, in the order from the far side: planes across ξ part them.
+/// Draws posts, frame, platform and gyro from back to front; planes across ξ separate them.
 fn stand(view: &View, frame: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
     let [xi, across, out] = rows(frame);
     let [_, _, spin] = rows(real);
@@ -233,14 +234,14 @@ fn stand(view: &View, frame: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
     }
 }
 
-/// The seat's two pins, which lie along x.
+/// Draws the two pins of the gyro seat, which are along x.
 fn platform_mark(view: &View, real: &Matrix3<f64>) -> Markup {
     let [x, _, spin] = rows(real);
     html! { @for sign in [-1.0, 1.0] { (view.circle(&(x * (sign * 0.5)), &spin, 0.055, "pin")) } }
 }
 
-/// The case's axes as designed, thin, and as they are; z from the gyro's end. Their letters keep off the words at `taken`, and
-/// off each other.
+/// Draws the case axes: nominal (thin) and actual, z from the end of the gyro. Their letters avoid the words at `taken`
+/// and each other.
 fn axes(view: &View, designed: &Matrix3<f64>, real: &Matrix3<f64>, taken: Vec<Area>) -> Markup {
     let one = |direction: &Vector3<f64>, designed: &Vector3<f64>, from: f64| {
         html! {
@@ -263,13 +264,14 @@ fn axes(view: &View, designed: &Matrix3<f64>, real: &Matrix3<f64>, taken: Vec<Ar
     }
 }
 
-/// Where an axis has its letter: beyond its head, also when it points at the reader; beside it where words stand there.
+/// Returns the place of an axis letter: beyond the arrow head, even if the axis points at the viewer, or next to it if
+/// words are there.
 fn letter(view: &View, direction: &Vector3<f64>, taken: &[Area]) -> Point {
     const GAPS: [f64; 2] = [9.0, 14.0];
     const TURNS_DEG: [f64; 7] = [0.0, 45.0, -45.0, 90.0, -90.0, 135.0, -135.0];
     let ([cx, cy], [x, y]) = (CENTRE, view.point(&(direction * AXIS)));
     let length = libm::hypot(x - cx, y - cy);
-    // To the right and up, when it has no direction on the paper.
+    // Up and to the right if the axis has no direction on the drawing.
     let [dx, dy] = if length < 1.0 { [0.7, -0.7] } else { [(x - cx) / length, (y - cy) / length] };
     let at = |gap: f64, turn_deg: f64| {
         let (sin, cos) = sin_cos_of_degrees(turn_deg);
@@ -277,21 +279,21 @@ fn letter(view: &View, direction: &Vector3<f64>, taken: &[Area]) -> Point {
     };
     let places = GAPS.iter().flat_map(|gap| TURNS_DEG.map(|turn_deg| at(*gap, turn_deg)));
     let covered = |place: &Point| taken.iter().map(|other| about_letter(*place).overlap(other)).sum::<f64>();
-    // The first of those that cover least: nothing, as a rule.
+    // The first place with the smallest overlap, usually none.
     places.min_by(|one, other| covered(one).total_cmp(&covered(other))).unwrap_or([x, y])
 }
 
-/// The room that the letter of an axis takes about its place.
+/// Returns the area that the letter of an axis covers.
 fn about_letter([x, y]: Point) -> Area {
     Area { low: [x - 4.6, y - 8.0], high: [x + 4.6, y + 7.2] }
 }
 
-/// The axes of a frame, in the base.
+/// Returns the case axes in base axes: the rows of the matrix.
 fn rows(matrix: &Matrix3<f64>) -> [Vector3<f64>; 3] {
     [0, 1, 2].map(|row| matrix.row(row).transpose())
 }
 
-/// Where every axis points: the nearest of east, west, north, south, up, down, and how far it is from there.
+/// Describes the direction of every axis: the nearest of east, west, north, south, up, down, and the angle from it.
 fn in_words(language: Language, at: &CertifiedPosition, real: &Matrix3<f64>) -> String {
     let exact = |value: f64| Number::exact(value).text(language);
     let [x, y, z] = rows(real).map(|axis| {
@@ -312,7 +314,7 @@ fn in_words(language: Language, at: &CertifiedPosition, real: &Matrix3<f64>) -> 
     texts::POSITION_DESCRIPTION.filled(language, &values)
 }
 
-/// The nearest of six directions, and the angle from it in degrees.
+/// Returns the nearest of six directions, and the angle from it in degrees.
 fn nearest(axis: &Vector3<f64>) -> (Text, f64) {
     let names = [(compass::EAST, compass::WEST), (compass::NORTH, compass::SOUTH), (texts::UPWARDS, texts::DOWNWARDS)];
     let largest = axis.iamax();
@@ -320,6 +322,6 @@ fn nearest(axis: &Vector3<f64>) -> (Text, f64) {
     let name = if axis[largest] < 0.0 { negative } else { positive };
     let mut rest = *axis;
     rest[largest] = 0.0;
-    // From sine and cosine: an arc cosine would lose small angles.
+    // From sine and cosine, because an arc cosine is inaccurate for small angles.
     (name, degrees_from_radians(libm::atan2(rest.norm(), axis[largest].abs())))
 }

@@ -1,4 +1,4 @@
-//! What a fit leaves of each equation, within the limits that its uncertainty sets.
+//! Residuals of each equation after the fit, with limits from their uncertainty.
 
 use super::drawing::{
     Anchor, Panel, Scale, Ticks, crowding, legend, line, nothing, number, panels, power, power_of_ten, rectangle, words,
@@ -12,21 +12,21 @@ use maud::{Markup, html};
 const PANEL_PIXELS: u32 = 235;
 const COLUMNS: u32 = 2;
 const WIDTH: f64 = 270.0;
-/// Where bars may be, between the indices at the left and the numbers at the right.
+/// Left and right end of the bars, between the indices on the left and the numbers on the right.
 const BARS: [f64; 2] = [40.0, 196.0];
 const TOP: f64 = 26.0;
 const ROW: f64 = 17.0;
 const AXIS_HEIGHT: f64 = 24.0;
 
-/// Limits are at plus and minus so many standard uncertainties of the residual.
+/// Limits, in standard uncertainties of the residual on either side.
 pub(crate) const LIMIT: f64 = 2.0;
 
-/// A residual along one axis, and its standard uncertainty.
+/// A function that returns a residual along one axis and its standard uncertainty, deg/h.
 type Along = fn(&ResidualDocument) -> (f64, Option<f64>);
 
 const AXES: [(&str, Along); 2] = [("x", |at| (at.x, at.u_x)), ("y", |at| (at.y, at.u_y))];
 
-/// Draws the residuals of one method's result with their limits.
+/// Draws the residuals of the result of one method with their limits.
 pub(crate) fn residuals(languages: &Languages, result: &ResultDocument) -> Markup {
     let all = result.residuals_deg_per_h.iter().flat_map(|at| AXES.map(|(_, along)| along(at)));
     let reach = all.fold(0.0, |most, (value, u)| f64::max(most, value.abs().max(LIMIT * u.unwrap_or(0.0))));

@@ -1,4 +1,4 @@
-//! The paper's Fig. 4 as a file: steps of successive approximation against the limit of the deviations.
+//! The paper's Fig. 4 as a picture file: steps of the iterative method against the limit of the deviations.
 
 use super::chart::{Field, Look, sample};
 use super::drawing::{Anchor, Panel, Point, Scale, Ticks, line, nothing, words};
@@ -9,20 +9,20 @@ use crate::simulation::convergence::{Convergence, ConvergenceRow};
 use maud::{Markup, html};
 
 const SIZE: Point = [660.0, 492.0];
-/// Left and right end of both fields; lower and upper end of each.
+/// Left and right end of both plot areas; lower and upper end of each.
 const ACROSS: Point = [46.0, 640.0];
 const STEPS: Point = [290.0, 50.0];
 const SHARE: Point = [452.0, 346.0];
 
-/// The paper's limit of applicability.
+/// Limit of applicability stated in the paper.
 const PAPER_LIMIT_DEG: f64 = 15.0;
 
-/// Numbers of the axis of steps.
+/// Numbers on the axis of steps.
 const MARKED_STEPS: [u32; 8] = [1, 2, 5, 10, 20, 50, 100, 200];
 
 const LOOKS: [Look; 3] = [(1, "series"), (2, "series dashed"), (3, "series dotted")];
 
-/// A name, and one of the numbers of a row.
+/// A name, and the function that returns that number of a row.
 type Steps = (&'static str, fn(&ConvergenceRow) -> Option<f64>);
 
 const NUMBERS: [Steps; 3] = [
@@ -34,7 +34,7 @@ const NUMBERS: [Steps; 3] = [
 /// Kinds of deviations, and their names.
 const KINDS: [(&str, &str); 2] = [("uniform", "uniform within ±D"), ("corners", "every angle +D or −D")];
 
-/// Draws Fig. 4, in black and white; `None` without a row.
+/// Draws Fig. 4 in black and white. Returns `None` if there is no row.
 pub(crate) fn convergence(found: &Convergence) -> Option<String> {
     let farthest = found.rows.iter().map(|row| row.limit_deg).reduce(f64::max)?;
     let x = Scale { values: [0.0, farthest.max(1.0)], places: ACROSS };

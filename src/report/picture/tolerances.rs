@@ -1,4 +1,4 @@
-//! The parameters of a gyro against the tolerance of its type: deviation, expanded uncertainty, and both rules of decision.
+//! Parameters of a gyro against the tolerance of its type: deviation, expanded uncertainty, and both decision rules.
 
 use super::accuracy::unit;
 use super::drawing::{
@@ -19,11 +19,12 @@ const TOP: f64 = 12.0;
 const ROW: f64 = 24.0;
 const AXIS_HEIGHT: f64 = 36.0;
 
-/// The axis ends between these, in tolerances; an arrow points to what lies beyond.
+/// Smallest and largest end of the axis, in tolerances. An arrow points to values beyond.
 const REACH: [f64; 2] = [1.3, 4.0];
 const ROOM_FOR_ARROW: f64 = 22.0;
 
-/// Draws a verdict: against a type, or of a change since an earlier result. `name` tells two pictures of a page apart.
+/// Draws a verdict against a type, or on a change since an earlier result. `name` distinguishes two such pictures on a
+/// page.
 pub(crate) fn tolerances(languages: &Languages, name: &str, verdict: &Verdict) -> Markup {
     let ends = verdict.parameters.iter().filter(|row| row.tolerance > 0.0);
     let farthest = ends.map(|row| (row.deviation.abs() + row.expanded_uncertainty) / row.tolerance).fold(0.0, f64::max);
@@ -70,7 +71,7 @@ fn key(languages: &Languages) -> Markup {
     legend(languages, &entries)
 }
 
-/// A disc, a ring, or a cross.
+/// Draws the mark of a decision: a disc, a ring, or a cross.
 fn decided([x, y]: Point, decision: Decision) -> Markup {
     let (cx, cy) = (coordinate(x), coordinate(y));
     match decision {
@@ -110,7 +111,7 @@ fn parameter(languages: &Languages, row: &ParameterVerdict, scale: &Scale, y: f6
     let name = parameter_of(row).map_or(row.parameter, Parameter::symbol);
     let guarded = row.tolerance - row.expanded_uncertainty;
     let share = |value: f64| scale.clamped(value / row.tolerance);
-    // What the axis does not reach is told by an arrow, not by a mark where it is not.
+    // An arrow marks a value beyond the axis, because a mark at its end would be misplaced.
     let [low, high] = scale.values;
     let beyond = match row.deviation / row.tolerance {
         share if share < low => Some((FIELD[0], 1.0)),
@@ -136,18 +137,18 @@ fn parameter(languages: &Languages, row: &ParameterVerdict, scale: &Scale, y: f6
     }
 }
 
-/// Deviation and expanded uncertainty, to the second digit of the standard uncertainty.
+/// Returns deviation and expanded uncertainty, rounded to the second digit of the standard uncertainty.
 pub(crate) fn printed(row: &ParameterVerdict) -> (Number, Number) {
     let u = row.expanded_uncertainty / COVERAGE_FACTOR;
     (Number::measured(row.deviation, u), Number::measured(row.expanded_uncertainty, u))
 }
 
-/// Which parameter a line of a verdict is about.
+/// Returns the parameter of a line of a verdict, or `None` if its key is unknown.
 pub(crate) fn parameter_of(row: &ParameterVerdict) -> Option<Parameter> {
     Parameter::NINE.into_iter().find(|parameter| parameter.key() == row.parameter)
 }
 
-/// The unit of a line of a verdict: percent for scale factors, the parameter's own otherwise.
+/// Returns the unit of a line of a verdict: percent for scale factors, the parameter's own otherwise.
 pub(crate) fn unit_of(row: &ParameterVerdict) -> Text {
     match (row.unit, parameter_of(row)) {
         ("%", _) | (_, None) => units::PERCENT,
@@ -155,7 +156,7 @@ pub(crate) fn unit_of(row: &ParameterVerdict) -> Text {
     }
 }
 
-/// A decision on pages.
+/// Returns a decision as a text for pages.
 pub(crate) fn decision(decision: Decision) -> Text {
     match decision {
         Decision::Pass => texts::DECISION_PASS,

@@ -1,6 +1,6 @@
-//! Earth rate and specific force in the case of every position, against those of a stand without deviations: projections onto
-//! the gyro's x-y plane ([the paper](crate::bibliography::Bibliography::Tang17), eq. (5)), and what is left when the ideal one
-//! is taken away, at a scale of its own.
+//! Earth rate and specific force in the case axes at every position, compared with those of an ideal stand: projections
+//! onto the gyro's x-y plane ([the paper](crate::bibliography::Bibliography::Tang17), eq. (5)), and the differences, to
+//! a scale of their own.
 
 use super::drawing::{
     Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading, label, legend, line, mark, panels, power,
@@ -18,7 +18,7 @@ use maud::{Markup, html};
 const PANEL_PIXELS: u32 = 235;
 const COLUMNS: u32 = 2;
 const SIZE: Point = [262.0, 268.0];
-/// The field: left, right, upper and lower end.
+/// Plot area: left, right, upper and lower end.
 const FIELD: [Point; 2] = [[38.0, 22.0], [254.0, 238.0]];
 
 /// A vector of one position in the x-y plane: with and without the deviations.
@@ -35,7 +35,7 @@ impl Pair {
     }
 }
 
-/// What one picture of vectors is about.
+/// The quantity shown in a pair of pictures.
 struct Subject {
     name: &'static str,
     vectors: Text,
@@ -44,7 +44,7 @@ struct Subject {
     pairs: Vec<Pair>,
 }
 
-/// Draws ω_3 and n of every position of a passport, its own numbers, against those at the nominal angles.
+/// Draws ω_3 and n of every position, as the passport states them, against those at the nominal angles.
 pub(crate) fn vectors(languages: &Languages, content: &Content) -> Markup {
     let subjects = subjects(content);
     let drawings: Vec<Markup> = subjects
@@ -67,7 +67,7 @@ fn key(languages: &Languages) -> Markup {
 
 fn subjects(content: &Content) -> [Subject; 2] {
     let earth = content.earth.rate();
-    // The vectors stand in the order of the positions: both are sorted by (i, j).
+    // The vectors have the order of the positions: both are sorted by (i, j).
     let each = content.positions.iter().zip(&content.vectors).map(|(at, vectors)| {
         let nominal = attitude::nominal(at.theta_deg, at.phi_deg);
         let rate =
@@ -95,22 +95,22 @@ fn subjects(content: &Content) -> [Subject; 2] {
     ]
 }
 
-/// The plane with its scales, the same along x and y.
+/// A plane with equal scales along x and y.
 struct Plane {
     x: Scale,
     y: Scale,
-    /// The power of ten that its numbers are in.
+    /// Power of ten factored out of the numbers on the axes.
     exponent: i32,
 }
 
 impl Plane {
-    /// Wide enough for `points`; with room about them for labels.
+    /// Creates a plane wide enough for `points`, with room for labels around them.
     fn about(points: impl Iterator<Item = [f64; 2]>) -> Self {
         let largest = points.flatten().fold(0.0, |most, value: f64| f64::max(most, value.abs()));
         let reach = if largest > 0.0 { 1.16 * largest } else { 1.0 };
         let [[left, top], [right, bottom]] = FIELD;
         let values = [-reach, reach];
-        // Numbers with many zeros have no room: a factor of the unit takes them.
+        // There is no room for numbers with many zeros, so a factor of the unit replaces them.
         let exponent = crowding(reach);
         Self { x: Scale { values, places: [left, right] }, y: Scale { values, places: [bottom, top] }, exponent }
     }
@@ -178,7 +178,7 @@ fn differences_of(languages: &Languages, subject: &Subject) -> Markup {
     finished(languages, subject, subject.differences, "differences", drawing, (&tips, &lines), Pair::difference)
 }
 
-/// Marks and labels at the tips, the heading, and the numbers in words.
+/// Returns the finished panel: marks and labels at the tips, the heading, and the numbers in words.
 fn finished(
     languages: &Languages,
     subject: &Subject,
@@ -206,7 +206,7 @@ fn finished(
     )
 }
 
-/// Points along a line, for labels to keep away from; its ends are marks.
+/// Returns points along a line for labels to avoid. Its ends are omitted, because they have marks.
 fn along(from: Point, to: Point) -> Vec<Point> {
     let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
     let steps = (length / 4.0) as u32;
