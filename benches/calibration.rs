@@ -1,5 +1,5 @@
-//! Time of one calibration by all three methods, and of first order on top of it (budget of all parameters with covariance,
-//! degrees of freedom and coverage factors; covariance of a passport's own numbers):
+//! Time of one calibration by all three methods, and of linear propagation in addition (budget of all parameters with
+//! covariance, degrees of freedom and coverage factors; covariance of a passport's numbers):
 //! `cargo bench --bench calibration`.
 
 use dtg_passport::calibration::{InputUncertainty, Method, Options, Readings, Setup, calibrate};
@@ -55,7 +55,7 @@ fn main() {
     }
 }
 
-/// Microseconds of each of `count` runs.
+/// Returns the mean time of `count` runs, microseconds.
 fn time<T>(count: u32, work: impl Fn() -> T) -> f64 {
     let start = Instant::now();
     for _ in 0..count {

@@ -1,10 +1,11 @@
-//! A factory's fleet against its floor and against Python, all in one run: `cargo bench --bench issue`.
+//! Batch of a factory compared with its floor and with Python, all in one run: `cargo bench --bench issue`.
 //!
-//! 50 stands × 200 sites, the program `issue` from files to files. Floor: an Ed25519 signature of the same bytes, the file
-//! written and renamed; and, stricter, with the signature made as OpenSSH makes it, which reads the bytes once and not
-//! twice. Python: benches/issue_python.py, which reads back what it writes and verifies what it signs as the batch does,
-//! and once more without, from `target/test-tools` where the tests have installed it, otherwise as `python3`. One after
-//! the other in rounds, so that all share the machine's mood; nothing is synced, what syncing costs is apart.
+//! 50 stands × 200 sites, the program `issue` from files to files. Floor: an Ed25519 signature of the same bytes, and
+//! the file written and renamed. A stricter floor signs as OpenSSH does, which reads the bytes once, not twice. Python:
+//! benches/issue_python.py, which reads back what it writes and verifies what it signs, as the batch does, and once
+//! more without these checks. It runs from `target/test-tools` if the tests have installed it there, otherwise as
+//! `python3`. The works alternate in rounds, so that changes in the load of the machine affect all of them. Nothing is
+//! synced; the cost of syncing is measured separately.
 //!
 //! `-- --linear` times 1,000, 10,000 and 100,000 passports.
 
@@ -27,7 +28,7 @@ use std::process::{Command, Stdio};
 
 const STANDS: usize = 50;
 const SITES: usize = 200;
-/// Stands that Python makes the passports of, and that are synced.
+/// Number of stands for the runs of Python and for the synced runs.
 const STANDS_OF_PYTHON: usize = 5;
 const ROUNDS: usize = 5;
 
@@ -36,8 +37,8 @@ struct Job {
     stands: Vec<Stand>,
     sites: Vec<Site>,
     inputs: PathBuf,
-    /// Of which every run has a folder of its own: ext4 passes over inodes that were freed within the last minute, so
-    /// that runs would pay for the files of those before.
+    /// Folder that contains a separate folder for every run. ext4 avoids inodes that were freed within the last minute,
+    /// so runs would otherwise be slowed by the deleted files of earlier runs.
     scratch: PathBuf,
     runs: Cell<usize>,
 }
@@ -71,7 +72,7 @@ impl Job {
         Folder::new(self.scratch.join(self.runs.get().to_string()))
     }
 
-    /// Issues every passport into a new folder: its time.
+    /// Issues every passport into a new folder and returns the time.
     fn run(&self, threads: usize, synced: bool) -> Time {
         self.runs.set(self.runs.get() + 1);
         let mut program = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
@@ -91,7 +92,8 @@ impl Job {
         time
     }
 
-    /// Signs and writes again what the last run or floor has written, into a new folder: the time that this alone takes.
+    /// Signs the output of the last run or floor again, writes it into a new folder, and returns the time of this
+    /// alone.
     fn floor(&self, threads: usize, sign: impl Fn(&[u8]) -> ed25519_dalek::Signature + Sync) -> Time {
         let pairs = self.stands.iter().flat_map(|stand| self.sites.iter().map(move |site| (stand, site)));
         let paths_in = |folder: Folder| -> Vec<PathBuf> {
@@ -128,7 +130,8 @@ impl Drop for Job {
     }
 }
 
-/// Seconds of one process of Python for the passports of a job, and what it computed.
+/// Runs one Python process for the passports of a job. Returns its times in seconds and its numbers, or `None` if it
+/// failed.
 fn python(job: &Job, checked: bool) -> Option<Value> {
     let input = json!({
         "stands": job.stands,
@@ -148,7 +151,7 @@ fn python(job: &Job, checked: bool) -> Option<Value> {
     serde_json::from_slice(&child.wait_with_output().ok()?.stdout).ok()
 }
 
-/// Whether two numbers agree to 1e-12 of the largest of their matrix or set.
+/// Asserts that numbers agree to 1e-12 of the largest of their matrix or set.
 fn agree(found: &Value, due: &[f64], what: &str) {
     fn flat(value: &Value, into: &mut Vec<f64>) {
         match value {
@@ -165,7 +168,7 @@ fn agree(found: &Value, due: &[f64], what: &str) {
     }
 }
 
-/// Every passport of Python has our Δ, B, C and ω.
+/// Asserts that every passport of Python has our Δ, B, C and ω.
 fn compare(job: &Job, computed: &Value) {
     let pairs = job.stands.iter().flat_map(|stand| job.sites.iter().map(move |site| (stand, site)));
     let computed = computed.as_array().map_or(&[][..], Vec::as_slice);
@@ -187,14 +190,14 @@ fn main() {
     }
     let threads = processors();
     println!("{STANDS} stands x {SITES} sites, {threads} threads, nothing synced; medians of {ROUNDS} rounds");
-    // What one frees would disturb the next: all are dropped at the end.
+    // Freeing the files of one job would disturb the next, so all are dropped at the end.
     let _jobs = [against_the_floor(threads), against_python(), syncing(threads)];
 }
 
 fn against_the_floor(threads: usize) -> Job {
     let job = Job::new("bench-issue", STANDS, SITES);
     let key = ed25519_dalek::SigningKey::from_bytes(&fleet::SECRET);
-    // All have run once before anything counts.
+    // Each work runs once before the measured rounds.
     let round = || {
         let ours = job.run(threads, false);
         let floor = job.floor(threads, |bytes| key.sign(bytes));
@@ -234,7 +237,7 @@ fn against_python() -> Job {
     job
 }
 
-/// What a disk takes that has to be sure of every file.
+/// Measures the cost of syncing every file to disk.
 fn syncing(threads: usize) -> Job {
     let job = Job::new("bench-issue-synced", STANDS_OF_PYTHON, SITES);
     let round = || [false, true].map(|synced| job.run(threads, synced));
@@ -244,7 +247,7 @@ fn syncing(threads: usize) -> Job {
     job
 }
 
-/// Rounds of several works, each work by itself.
+/// Returns the rounds of several works as a list for each work.
 fn by_column<const N: usize>(rounds: impl Iterator<Item = [Time; N]>) -> [Vec<Time>; N] {
     let rounds: Vec<_> = rounds.collect();
     std::array::from_fn(|work| rounds.iter().map(|round| round[work]).collect())
@@ -260,7 +263,7 @@ fn say(what: &str, passports: usize, times: &[Time]) {
     );
 }
 
-/// How many times as long the slow one takes, round by round.
+/// Prints the time of `slow` relative to `fast`: the median of the ratios of the rounds.
 fn ratio(what: &str, slow: &[Time], fast: &[Time]) {
     let of = |time: fn(&Time) -> f64| {
         median(&slow.iter().zip(fast).map(|(slow, fast)| time(slow) / time(fast)).collect::<Vec<_>>())
@@ -275,7 +278,7 @@ fn linear() {
         let rounds = (100_000 / passports).min(ROUNDS);
         let times: Vec<_> = (0..rounds).map(|_| job.run(processors(), false)).collect();
         say(&format!("{STANDS} stands x {} sites", passports / STANDS), passports, &times);
-        // For the reason that runs have folders of their own.
+        // Kept until the end, because freed inodes slow down later runs.
         jobs.push(job);
     }
 }

@@ -1,12 +1,13 @@
-//! Monte Carlo against NumPy, in one run: `cargo bench --bench monte_carlo`.
+//! Monte Carlo compared with NumPy, in one run: `cargo bench --bench monte_carlo`.
 //!
-//! The paper's gyro on a stand with general angles; 24 normal angles (5″) and 16 uniform currents (±0.015 %) drawn; the
-//! passport's coefficients and a method in every trial. NumPy runs on one core, from `target/test-tools` where the tests
-//! have installed it, otherwise as `python3`.
+//! The paper's gyro on a stand with arbitrary angles; each trial draws 24 normal angles (5″) and 16 uniform currents
+//! (±0.015 %) and computes the passport's coefficients and one method. NumPy runs on one core, from `target/test-tools`
+//! if the tests have installed it there, otherwise as `python3`.
 //!
-//! Short slices of every kind of work alternate, and medians count. Two columns: wall-clock time of the slices during
-//! which the machine had next to nothing else to do; and, of all slices, the processor's time per thread, which counts
-//! where others work on the machine too (but knows nothing of threads that wait for each other). Linux only.
+//! Short slices of every kind of work alternate, and the medians are printed. There are two columns. The first is the
+//! wall-clock time of the slices during which the machine had almost no other load. The second is the CPU time per
+//! thread of all slices, which is the relevant one on a shared machine (but excludes the time that threads wait for
+//! each other). Linux only.
 
 use dtg_passport::attitude;
 use dtg_passport::calibration::{InputUncertainty, MeterUncertainty, Method, Readings, Setup};
@@ -23,11 +24,12 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-/// Rounds, each with NumPy once; slices of every kind in a round, each a quarter of a second or so.
+/// Number of rounds, each with one run of NumPy. Number of slices of every kind in a round, each about a quarter of a
+/// second.
 const ROUNDS: usize = 7;
 const SLICES: usize = 4;
 
-/// Others may have this share of the machine in a slice that counts as undisturbed.
+/// Largest share of the machine that other processes may use in an undisturbed slice.
 const OTHERS: f64 = 0.03;
 
 const U_ANGLE_ARCSEC: f64 = 5.0;
@@ -60,26 +62,26 @@ fn case() -> Option<Case> {
 #[derive(Clone, Copy)]
 struct Slice {
     wall: f64,
-    /// Of the processors, shared out among the threads.
+    /// CPU time divided by the number of threads.
     processor: f64,
     undisturbed: bool,
 }
 
-/// Seconds of processor time: of this process, and of all processes.
+/// Returns the CPU time of this process and that of all processes, in seconds.
 fn processor_seconds() -> (f64, f64) {
     const TICKS_PER_SECOND: f64 = 100.0;
     let numbers = |path: &str, skip: usize, places: &[usize]| -> f64 {
         let text = std::fs::read_to_string(path).unwrap_or_default();
-        // The program's name, in brackets, may hold blanks.
+        // The program's name, in brackets, may contain spaces.
         let text = text.lines().next().unwrap_or_default().rsplit(')').next().unwrap_or_default().to_owned();
         let fields: Vec<f64> = text.split_whitespace().skip(skip).map(|word| word.parse().unwrap_or(0.0)).collect();
         places.iter().filter_map(|&place| fields.get(place)).sum::<f64>() / TICKS_PER_SECOND
     };
-    // utime and stime; user, nice, system, irq, softirq and steal of all processors.
+    // Fields: utime and stime; user, nice, system, irq, softirq and steal of all CPUs.
     (numbers("/proc/self/stat", 0, &[11, 12]), numbers("/proc/stat", 1, &[0, 1, 2, 5, 6, 7]))
 }
 
-/// Times `work`, which makes the number of trials that it returns.
+/// Times `work`, which returns its number of trials.
 fn timed(threads: u64, work: impl FnOnce() -> u64) -> Slice {
     let processors = std::thread::available_parallelism().map_or(1, usize::from) as f64;
     let (start, (own, all)) = (Instant::now(), processor_seconds());
@@ -91,7 +93,7 @@ fn timed(threads: u64, work: impl FnOnce() -> u64) -> Slice {
     Slice { wall: wall_ns, processor: processor_ns, undisturbed: all - own <= OTHERS * wall * processors }
 }
 
-/// The whole procedure with its histograms, covariances and test of stability.
+/// Times the whole procedure with its histograms, covariances and test of stability.
 fn trials_of(engine: &Engine, budget: &Budget, threads: usize, trials: u64) -> Slice {
     let run = Trials { trials: Some(trials), threads, ..Trials::adaptive(1) };
     timed(threads as u64, || black_box(monte_carlo(engine, budget, &run)).trials)
@@ -103,13 +105,13 @@ fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     sorted.get(sorted.len() / 2).copied()
 }
 
-/// Trials per second of NumPy, and its standard deviations.
+/// Runs NumPy. Returns its times per trial and its standard deviations, or `None` if it failed.
 fn numpy(case: &Case, budget: &Budget) -> Option<Value> {
     let rate = Vector3::new(0.0, case.earth.horizontal_deg_per_h, case.earth.vertical_deg_per_h);
     let nominal: Vec<_> = case.positions.iter().map(|at| attitude::nominal(at.theta_deg, at.phi_deg)).collect();
     let rows = |vectors: Vec<Vector3<f64>>| -> Vec<[f64; 3]> { vectors.into_iter().map(Into::into).collect() };
     let currents = case.readings.means_ma();
-    // Weights of the meter alone, which is all that NumPy's fit needs to do the same work.
+    // Weights from the meter alone; NumPy's fit needs no more to do the same work.
     let k = GyroType::gvk_6().nominal.to_model().k_deg_per_h_per_ma;
     let weights = currents.iter().map(|current| {
         let variance = current.map(|j| (j * READING_LIMIT).powi(2) / 3.0 + 1e-18);
@@ -143,7 +145,7 @@ fn numpy(case: &Case, budget: &Budget) -> Option<Value> {
     Some(found)
 }
 
-/// Largest resident memory of a process of this program that makes so many trials, in MB (Linux).
+/// Returns the largest resident memory of this process so far, in MB (Linux).
 fn resident_mb() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
@@ -182,9 +184,9 @@ fn main() {
         for (all, name) in peers.iter_mut().zip(["analytic", "least_squares"]) {
             let ns = |key: &str| found[name][key].as_f64().unwrap_or(f64::NAN);
             let (wall, processor) = (ns("wall_ns"), ns("processor_ns"));
-            // On one core it is undisturbed when it had that core all the time.
+            // A slice on one core is undisturbed if it had that core all the time.
             let slice = Slice { wall, processor, undisturbed: processor > (1.0 - OTHERS) * wall };
-            // Once for every slice of its round.
+            // A copy for every slice of its round.
             all.extend([slice; SLICES]);
         }
     }

@@ -1,8 +1,9 @@
-//! `register` of a folder against its floor, all in one run: `cargo bench --bench register`.
+//! Verb `register` on a folder, compared with its floor, all in one run: `cargo bench --bench register`.
 //!
-//! 50 stands x 200 sites. Floor: every file read, SHA-512 of its text, Ed25519 verification of its signature with a key
-//! that is ready, by the same threads; where the text ends and what the signature is, it is told. The register also finds
-//! the files, checks the text rule, parses, computes every number again, takes the SHA-256 and follows the chains.
+//! 50 stands x 200 sites. Floor: every file read, SHA-512 of its text, Ed25519 verification of its signature with a
+//! prepared key, on the same number of threads; the end of the text and the signature are given. The register
+//! additionally finds the files, checks the text rule, parses, recomputes every number, computes the SHA-256 and
+//! follows the chains.
 
 mod fleet;
 
@@ -23,7 +24,7 @@ const STANDS: usize = 50;
 const SITES: usize = 200;
 const ROUNDS: usize = 7;
 
-/// A passport that the floor looks at.
+/// A passport for the floor.
 struct File {
     path: PathBuf,
     text_bytes: usize,

@@ -1,4 +1,4 @@
-//! Time and size of the printable passport, the passport verified and the page written in memory:
+//! Time and size of the printed passport, including its verification; the page is written in memory:
 //! `cargo bench --bench render`.
 
 use dtg_passport::passport::{Question, Trust};

@@ -1,7 +1,7 @@
-//! Every figure of docs/reproduction.md at full size: `cargo bench --bench reproduction`.
+//! All figures of docs/reproduction.md at full size: `cargo bench --bench reproduction`.
 //!
-//! The command line gives the tables of accuracy and Fig. 4 as well (`dtg-passport simulate accuracy`, `simulate
-//! convergence`); the rest has no command of its own.
+//! The command line also gives the tables of accuracy and Fig. 4 (`dtg-passport simulate accuracy` and
+//! `dtg-passport simulate convergence`). The other figures have no command of their own.
 
 use dtg_passport::calibration::Method;
 use dtg_passport::calibration::iterative::{self, StopRule};
@@ -56,7 +56,7 @@ fn independent_within_tolerance() {
     }
 }
 
-/// No errors in the currents: what rounding alone leaves, relative to each parameter.
+/// Prints the relative error of each parameter without errors in the currents: the effect of rounding alone.
 fn exact() {
     println!("Exact currents: largest relative error of any parameter, 100,000 stands");
     for limit_deg in [0.5, 5.0, 15.0, 30.0, 45.0] {
@@ -69,7 +69,7 @@ fn exact() {
         let found = accuracy(&options, &Run::new(100_000, 1));
         let largest = |method: Method| {
             let rows = found.rows.iter().filter(|row| row.method == method.key());
-            // Percent for scale factors; drifts are 20 deg/h and 10 deg/h/g.
+            // Percent for scale factors; the drifts are 20 deg/h and 10 deg/(h·g).
             let relative = rows.map(|row| match row.unit {
                 "%" => row.worst / 100.0,
                 "deg/h" => row.worst / 20.0,
@@ -85,7 +85,7 @@ fn exact() {
     }
 }
 
-/// How often what is missing after the last step exceeds step * rho / (1 - rho), as if T were normal.
+/// Prints how often the remaining error after the last step exceeds step * rho / (1 - rho), its bound if T were normal.
 fn step_is_no_bound() {
     println!("What is missing against step * rho/(1 - rho), 100,000 stands");
     for limit_deg in [5.0, 10.0, 15.0] {

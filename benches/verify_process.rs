@@ -1,6 +1,6 @@
-//! `dtg-passport verify` as a process against `ssh-keygen -Y verify` on the same signed text, in turn, in one run.
+//! Process `dtg-passport verify` compared with `ssh-keygen -Y verify` on the same signed text, alternating in one run.
 //!
-//! `cargo bench --bench verify_process` prints the median of each and of their ratio, pair by pair.
+//! `cargo bench --bench verify_process` prints the median time of each, and the median of their ratio in each pair.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ const PAIRS: usize = 300;
 const ISSUER: &str = "examples@dtg-passport.test";
 
 fn main() {
-    // `cargo test --benches` only asks whether it builds and runs.
+    // `cargo test --benches` only checks that it builds and runs.
     let pairs = if std::env::args().any(|argument| argument == "--bench") { PAIRS } else { 1 };
     let project = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));

@@ -23,12 +23,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("usage: issue_for_sites STAND OUT SITE...".into());
     };
 
-    // A factory reads its key: `signing::signer` asks for the passphrase, or signs through the agent.
+    // A factory reads its own key: `signing::signer` asks for the passphrase, or signs through the agent.
     let key = SigningKey::generate()?;
     let line = allowed_signers_line(ISSUER, &key.public_key())?;
     let trust = Trust::of(AllowedSigners::parse("allowed_signers", line.as_bytes())?);
 
-    // What depends on the stand alone is computed once. Every new passport is verified before it is written.
+    // The part that depends on the stand alone is computed once. Every new passport is verified before it is written.
     let stand = PreparedStand::new(Stand::from_yaml(stand, &fs::read(stand)?)?);
     let folder = Folder::new(out);
     let order = Issue::first(ISSUER, Timestamp::from_second(Timestamp::now().as_second())?);

@@ -1,4 +1,4 @@
-//! Verifies every passport in a folder and lists what is in force now:
+//! Verifies every passport in a folder and lists those that are in force now:
 //!
 //! ```sh
 //! cargo run --example verify_folder -- passports docs/allowed_signers
@@ -21,7 +21,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
 
     let trust = Trust::of(AllowedSigners::parse(signers, &fs::read(signers)?)?);
     let asked = Asked::at(Timestamp::now());
-    // The second value is the trust that also knows the withdrawals found in the folder: pass it to `verify`.
+    // The second value is the trust extended by the withdrawals found in the folder: pass it to `verify`.
     let (register, _trust) = folder::register(Path::new(root), trust, &asked, available_parallelism()?.get())?;
 
     for line in &register.passports {

@@ -1,4 +1,4 @@
-//! Without any feature: bytes, keys and a time in, an answer out.
+//! Tests of the library without any feature: from bytes, keys and a time to an answer.
 
 use dtg_passport::calibration::Parameter;
 use dtg_passport::calibration::{Options, Readings, Setup, calibrate};

@@ -1,6 +1,6 @@
-//! A fleet at random: stands with certified deviations, sites as they are delivered to, and what it takes to bench them.
+//! Random fleet for the benchmarks: stands with certified deviations, typical sites, and tools for measuring time.
 
-// Every bench is a program of its own, and none uses all of this.
+// Every benchmark is a program of its own, and none uses all of this.
 #![allow(dead_code)]
 
 use dtg_passport::coefficients::EIGHT_POSITIONS;
@@ -20,7 +20,7 @@ use std::time::Instant;
 pub const ISSUER: &str = "factory@example.org";
 pub const ISSUED_AT: &str = "2026-11-09T08:00:00Z";
 
-/// Cheap stands: deviations within 5 arc minutes, read to 0.1 arcseconds, everything certified.
+/// Creates low-cost stands: deviations within 5 arcminutes, rounded to 0.1 arcseconds, everything certified.
 pub fn stands(count: usize) -> Vec<Stand> {
     let mut stream = Stream::new(1);
     (0..count).map(|number| stand(number, &mut stream)).collect()
@@ -90,7 +90,7 @@ fn stand(number: usize, stream: &mut Stream) -> Stand {
     }
 }
 
-/// Places between 70 degrees south and north; every fourth with a measured deflection and gravity.
+/// Creates sites between 70 degrees south and north; every fourth has a measured deflection and gravity.
 pub fn sites(count: usize) -> Vec<Site> {
     let mut stream = Stream::new(2);
     (0..count)
@@ -128,29 +128,29 @@ pub fn sites(count: usize) -> Vec<Site> {
         .collect()
 }
 
-/// Revision 1 of every passport.
+/// Returns the order for revision 1 of every passport.
 pub fn order() -> Issue {
     Issue::first(ISSUER, ISSUED_AT.parse().expect("a time"))
 }
 
-/// The secret of the bench's key.
+/// Secret of the benchmark's key.
 pub const SECRET: [u8; 32] = [7; 32];
 
-/// The bench's key as OpenSSH writes it.
+/// Returns the benchmark's key in the format of OpenSSH.
 pub fn openssh_key() -> String {
     let pair = ssh_key::private::Ed25519Keypair::from_seed(&SECRET);
     let key = ssh_key::PrivateKey::from(pair);
     key.to_openssh(ssh_key::LineEnding::LF).expect("a key").to_string()
 }
 
-/// The bench's key in a file, as a factory has it.
+/// Writes the benchmark's key to a file, as a factory would store it.
 pub fn write_key(path: &Path) -> io::Result<()> {
     let mut options = File::options();
     std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
     options.write(true).create_new(true).open(path)?.write_all(openssh_key().as_bytes())
 }
 
-/// All the work, each piece once, on so many threads.
+/// Does `pieces` pieces of work, each once, on `threads` threads.
 pub fn on_threads(threads: usize, pieces: usize, work: impl Fn(usize) + Sync) {
     let next = AtomicUsize::new(0);
     let worker = || {
@@ -170,18 +170,19 @@ pub fn on_threads(threads: usize, pieces: usize, work: impl Fn(usize) + Sync) {
     });
 }
 
-/// What some work took, in seconds.
+/// Time that some work took, in seconds.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Time {
-    /// By the clock on the wall.
+    /// Wall-clock time.
     pub wall: f64,
-    /// Of all processors, for this process and those that it waited for: what a busy machine disturbs least. Counted in hundredths (Linux).
+    /// CPU time of this process and of the child processes that it waited for: least affected by other load. Resolution
+    /// 0.01 s (Linux).
     pub processor: f64,
-    /// Of these those outside the system: what the program itself does.
+    /// Part of the CPU time in user mode: the program's own work.
     pub user: f64,
 }
 
-/// Does some work and takes its time.
+/// Does some work and returns the time that it took.
 pub fn timed(work: impl FnOnce()) -> Time {
     let (start, [user, system]) = (Instant::now(), processor_seconds());
     work();
@@ -189,25 +190,25 @@ pub fn timed(work: impl FnOnce()) -> Time {
     Time { wall, processor: used[0] + used[1] - user - system, user: used[0] - user }
 }
 
-/// Seconds of processor that this process and those it waited for have used, as user and as system.
+/// Returns the CPU time of this process and of its finished children in seconds: user, system.
 fn processor_seconds() -> [f64; 2] {
     const TICKS_PER_SECOND: f64 = 100.0;
     let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    // After the program's name in brackets: state, then ten numbers, then ticks as user and as system, own and waited for.
+    // After the program's name in brackets: state, ten numbers, then ticks: user and system, own and of children.
     let numbers = stat.rsplit(')').next().unwrap_or_default().split_whitespace().skip(11);
     let ticks: Vec<f64> = numbers.take(4).map(|ticks| ticks.parse().unwrap_or(f64::NAN)).collect();
     let [user, system, user_waited_for, system_waited_for] = ticks[..] else { return [f64::NAN; 2] };
     [(user + user_waited_for) / TICKS_PER_SECOND, (system + system_waited_for) / TICKS_PER_SECOND]
 }
 
-/// A file written beside its place and renamed into it; nothing is synced.
+/// Writes a file under a temporary name next to its place and renames it; nothing is synced.
 pub fn write_and_rename(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let beside = path.with_extension("tmp");
     File::create_new(&beside)?.write_all(bytes)?;
     fs::rename(beside, path)
 }
 
-/// A folder for the files of a bench, on the disk of the project.
+/// Creates an empty folder for the files of a benchmark, on the disk of the project.
 pub fn scratch(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_dir_all(&folder);
@@ -221,12 +222,13 @@ pub fn median(values: &[f64]) -> f64 {
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-/// The number that follows an option of the command line.
+/// Returns the number that follows a command-line option, or `None` if there is none.
 pub fn option(name: &str) -> Option<usize> {
     std::env::args().skip_while(|word| word != name).nth(1)?.parse().ok()
 }
 
-/// What OpenSSH signs in place of a message (PROTOCOL.sshsig), written for the bench alone.
+/// Returns the data that OpenSSH signs instead of the message (PROTOCOL.sshsig), written independently for the
+/// benchmark.
 pub fn signed_data(sha512: &[u8]) -> Vec<u8> {
     let mut data = b"SSHSIG".to_vec();
     for field in [b"dtg-passport".as_slice(), b"", b"sha512", sha512] {

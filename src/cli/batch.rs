@@ -1,4 +1,4 @@
-//! What `issue` and `reissue` have in common: how a batch is done, and what is said of it while it goes on.
+//! Common part of `issue` and `reissue`: running a batch and reporting its progress.
 
 use super::key_options::{self, signer_of};
 use super::output::{self, TableFormat};
@@ -46,12 +46,12 @@ pub(super) struct BatchOptions {
 }
 
 impl BatchOptions {
-    /// The key, unless nothing is going to be signed.
+    /// Returns the signer, or `None` in a dry run, which signs nothing.
     pub(super) fn signer(&self) -> Result<Option<Box<dyn Signer + Sync>>, Failure> {
         self.key.as_deref().filter(|_| !self.dry_run).map(signer_of).transpose()
     }
 
-    /// The folder of passports at `root`.
+    /// Returns the folder of passports at `root`.
     pub(super) fn folder(&self, root: &Path) -> Folder {
         Folder::new(root).with_durability(self.durability())
     }
@@ -60,7 +60,7 @@ impl BatchOptions {
         if self.no_sync { Durability::None } else { Durability::NameLater }
     }
 
-    /// Does a batch; what becomes of it is reported as it goes on.
+    /// Runs a batch and reports each outcome as it occurs.
     pub(super) fn run(
         &self,
         signer: Option<&(dyn Signer + Sync)>,
@@ -83,7 +83,7 @@ impl BatchOptions {
     }
 }
 
-/// Says what is heard of a batch: reports on standard output, words and a progress bar on standard error.
+/// Reporter of a batch: reports on standard output, messages and a progress bar on standard error.
 struct Reporter {
     reports: Reports,
     told: Told,
@@ -123,7 +123,7 @@ impl Reporter {
 
     fn outcome(&mut self, outcome: &Outcome) {
         match outcome {
-            // An equal passport that is there already was remarked upon when it was issued.
+            // The remarks on an identical existing passport were printed when it was issued.
             Outcome::There(issued) if issued.new => {
                 warnings(&issued.remarks).into_iter().for_each(|words| self.told.add(&issued.id, words));
             }
@@ -140,7 +140,7 @@ impl Reporter {
         self.write(&text);
     }
 
-    /// A report that cannot be written ends the batch: whoever wanted it would not know what was issued.
+    /// Writes a report. A failure ends the batch, because the user would not know what was issued.
     fn write(&mut self, text: &str) {
         if text.is_empty() || self.unwritten.is_some() {
             return;

@@ -1,4 +1,4 @@
-//! `calibrate`: the gyro's parameters from a passport and currents.
+//! Verb `calibrate`: the gyro's parameters from a passport and currents.
 
 use super::output::Format;
 use super::render::{Written, languages};
@@ -67,7 +67,7 @@ pub(super) struct Options {
     format: Format,
 }
 
-/// What a step may move by when the iteration stops.
+/// Parses a stop limit: the largest change in the last step of the iteration.
 fn limit(text: &str) -> Result<f64, String> {
     let value = text.parse().ok().filter(|value| (0.0..f64::INFINITY).contains(value));
     value.ok_or_else(|| "a number ≥ 0, with a decimal point".to_owned())
@@ -107,7 +107,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key())).collect();
         return Err(Failure { message: words.join("\n"), code: REFUSED });
     };
-    // Without a type or an earlier result, the size of the paper's gyro tells at least a thousandfold error.
+    // Without a type or an earlier result, the nominal values of the paper's gyro still reveal an error by a factor of
+    // a thousand.
     let usual = earlier.map_or_else(|| GyroType::gvk_6().nominal.to_model(), |earlier| earlier.parameters);
     let rate = content.earth.rate();
     document.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type.as_ref(), &usual);
@@ -160,7 +161,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     Ok(if failed { REFUSED } else { 0 })
 }
 
-/// The passport as the report names it.
+/// Returns the passport in the form that the report takes.
 fn used<'a>(
     content: &'a Content,
     bytes: &'a [u8],
@@ -171,12 +172,12 @@ fn used<'a>(
     };
     match PassportPage::of(bytes, trust, question, verification.clone()) {
         Ok(page) => Ok(UsedPassport::Verified(Box::new(page))),
-        // It passed every check a moment ago.
+        // The passport has just passed every check.
         Err(_) => Err(Failure::refused("the passport cannot be used in a report")),
     }
 }
 
-/// Reads a laboratory file; the paper's meter without one.
+/// Reads a laboratory file. Without a path it returns the paper's meter.
 pub(super) fn read_laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
     let Some(path) = path else { return Ok(Laboratory::paper()) };
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;

@@ -1,4 +1,4 @@
-//! `certify`: repeated readings of the angles to a stand file, and a later check run against it.
+//! Verb `certify`: a stand file from repeated readings of the angles, or a later check run against it.
 
 use super::issue::read_stand;
 use super::output::Format;
@@ -53,14 +53,15 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let certified = certify(&header, &readings);
     let comparison = against.as_ref().map(|stand| compare(stand, &header, &readings, certified.as_ref().ok()));
     let comparison = comparison.transpose().map_err(Failure::refused)?;
-    // A check of one run needs no certificate of its own; whoever asks for a file is told why there is none.
+    // A check of one run needs no certificate of its own. If an output file was requested, the program says why there
+    // is none.
     let (certified, refused) = match certified {
         Ok(certified) => (Some(certified), None),
         Err(refused) if options.output.is_none() => (None, Some(refused)),
         Err(refused) => return Err(Failure::refused(format!("{}: {refused}", Printable(name)))),
     };
     if let (Some(path), Some(certified)) = (&options.output, &certified) {
-        // What stands at the place of the output need not be a stand file; --force replaces it then.
+        // An existing output file need not be a stand file; --force replaces it in any case.
         let there = read_stand(path).ok();
         for stand in against.iter().chain(&there) {
             certified.check_number(stand).map_err(Failure::refused)?;

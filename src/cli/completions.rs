@@ -1,4 +1,4 @@
-//! `completions`: for shells.
+//! Verb `completions`: completion scripts for shells.
 
 use super::{Cli, Code, Failure, output};
 use clap::{Args, CommandFactory};

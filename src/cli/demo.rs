@@ -1,4 +1,4 @@
-//! `demo`: the factory's and the laboratory's whole job on a built-in example.
+//! Verb `demo`: the whole work of factory and laboratory on a built-in example.
 
 use super::{Code, Failure, REFUSED, output, trust_options};
 use crate::demonstration;

@@ -1,4 +1,4 @@
-//! `issue`: one passport for every stand at every site.
+//! Verb `issue`: one passport for every stand at every site.
 
 use super::batch::BatchOptions;
 use super::calibrate::read_laboratory;
@@ -81,7 +81,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     })
 }
 
-/// For whom the passports state what the stand is good for.
+/// Reads the gyro type and the laboratory for which the passports state the expected calibration uncertainty.
 fn stated(options: &Options) -> Result<Stated, Failure> {
     let gyro = read_gyro(options.gyro.as_deref())?.unwrap_or_else(GyroType::gvk_6);
     let laboratory = read_laboratory(options.laboratory.as_deref())?;

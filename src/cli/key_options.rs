@@ -1,4 +1,5 @@
-//! KEY and WHO: who signs. The passphrase of an encrypted key comes from a terminal or from the environment.
+//! Options KEY and WHO: the signing key and the issuer. The passphrase of an encrypted key comes from a terminal or
+//! from the environment.
 
 use super::Failure;
 use crate::document::Signer;
@@ -27,23 +28,23 @@ impl KeyOptions {
     }
 }
 
-/// An identity as the options take it.
+/// Parses an identity given as an option.
 pub(super) fn identity(text: &str) -> Result<String, BadIdentity> {
     check_identity(text).map(|()| text.to_owned())
 }
 
-/// The signer for a key file.
+/// Returns the signer for a key file.
 pub(super) fn signer_of(key: &Path) -> Result<Box<dyn Signer + Sync>, Failure> {
     signing::forbid_core_dumps();
     signing::signer(key, &ask).map_err(Failure::unusable)
 }
 
-/// The passphrase of an existing key.
+/// Reads the passphrase of an existing key.
 fn ask(key: &Path) -> Result<Zeroizing<String>, String> {
     passphrase(&format!("Passphrase of {}: ", shown(key)))
 }
 
-/// A passphrase from the environment, or from the terminal.
+/// Reads a passphrase from the environment, or from the terminal.
 pub(super) fn passphrase(prompt: &str) -> Result<Zeroizing<String>, String> {
     if let Ok(passphrase) = std::env::var(PASSPHRASE_VARIABLE) {
         return Ok(Zeroizing::new(passphrase));

@@ -1,4 +1,4 @@
-//! `keygen`: a signing key.
+//! Verb `keygen`: a new signing key.
 
 use super::key_options::{self, PASSPHRASE_VARIABLE, passphrase};
 use super::{Code, Failure, output};
@@ -33,14 +33,14 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let stem = options.key.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let identity = options.identity.clone().or(stem).unwrap_or_default();
     let public_path = with_pub(&options.key);
-    // Before anybody is asked for a passphrase that would then not be needed.
+    // Check first, so that the program does not ask for a passphrase in vain.
     refuse_existing(&options.key)?;
     refuse_existing(&public_path)?;
     forbid_core_dumps();
     let key = SigningKey::generate().map_err(Failure::unusable)?;
     let line = allowed_signers_line(&identity, &key.public_key()).map_err(Failure::unusable)?;
     let signers = options.allowed_signers.as_deref();
-    // As above: a file that nothing can be appended to.
+    // For the same reason, check first that the line can be appended to the file.
     signers.map(|path| signing::with_signer(path, &line)).transpose().map_err(Failure::unusable)?;
     let passphrase = new_passphrase(options)?;
     let private = key.to_openssh(&identity, passphrase.as_ref().map(|p| p.as_str())).map_err(Failure::unusable)?;

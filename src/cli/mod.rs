@@ -1,8 +1,8 @@
-//! The command line. A file a verb: read, call the library, write. No formula and no rule lives here.
+//! Command line, with one file for each verb: read, call the library, write. It contains no formulas and no rules.
 //!
-//! Rules of the user interface: results go to standard output, words about them to standard error. Exit code 0: done,
-//! or the document is good. 1: a document or a result is refused. 2: wrong usage, or a file that cannot be read as what
-//! it should be. Of several files every one is reported, and the highest code counts.
+//! Rules of the user interface: results go to standard output, messages to standard error. Exit code 0: success, or a
+//! valid document. 1: a document or a result was refused. 2: wrong usage, or a file that cannot be read in the expected
+//! format. With several files, every one is reported and the highest code is returned.
 
 mod batch;
 mod calibrate;
@@ -58,16 +58,16 @@ enum Verb {
     Completions(completions::Options),
 }
 
-/// What a verb ends with when nothing threw it out: 0, or the highest code of what it reported.
+/// Exit code of a verb that ran to its end: 0, or the highest code that it reported.
 type Code = u8;
 
-/// A document or a result is refused.
+/// Exit code for a refused document or result.
 const REFUSED: Code = 1;
 
-/// Wrong usage, or a file that cannot be read as what it should be.
+/// Exit code for wrong usage, or for a file that cannot be read in the expected format.
 const UNUSABLE: Code = 2;
 
-/// What ends a verb at once: a message and an exit code.
+/// A failure that ends a verb at once: a message and an exit code.
 #[derive(Debug)]
 struct Failure {
     message: String,
@@ -79,7 +79,7 @@ impl Failure {
         Self { message: error.to_string(), code: REFUSED }
     }
 
-    /// What was not written: to leave what is there is a refusal, all else is not.
+    /// Converts a write error: an existing file is a refusal, any other error is not.
     fn file(error: FileError) -> Self {
         match error {
             FileError::Exists { .. } => Self::refused(error),
@@ -87,7 +87,7 @@ impl Failure {
         }
     }
 
-    /// A file with mistakes, told with the lines that they stand in.
+    /// Creates the failure for a file with mistakes; the message includes their lines.
     fn unreadable(error: Unreadable) -> Self {
         Self::unusable(error.with_lines(""))
     }
@@ -97,9 +97,10 @@ impl Failure {
     }
 }
 
-/// Reads the arguments, or tells why they cannot be read.
+/// Parses the arguments, or prints the reason why they cannot be parsed.
 ///
-/// clap repeats them to the letter; so what is told is what it says of them when they are printable.
+/// clap repeats arguments verbatim in its messages. So the message printed is clap's message about a printable copy of
+/// the arguments.
 fn parse(arguments: Vec<OsString>) -> Result<Cli, ExitCode> {
     let error = match Cli::try_parse_from(&arguments) {
         Ok(cli) => return Ok(cli),
@@ -114,7 +115,7 @@ fn parse(arguments: Vec<OsString>) -> Result<Cli, ExitCode> {
 
 /// Parses the arguments and runs the verb.
 pub fn main() -> ExitCode {
-    // What a broken invariant quotes may be anybody's words.
+    // The message of a broken invariant may quote untrusted text.
     std::panic::set_hook(Box::new(|panic| output::say(&format!("internal error: {}", printable(panic)))));
     let cli = match parse(std::env::args_os().collect()) {
         Ok(cli) => cli,

@@ -1,4 +1,4 @@
-//! Results to standard output, words to standard error; a closed pipe ends quietly.
+//! Output: results to standard output, messages to standard error. A closed pipe is not an error.
 
 use super::Failure;
 use crate::files;
@@ -28,17 +28,17 @@ pub(super) enum TableFormat {
     Csv,
 }
 
-/// Writes a result: nothing of what a terminal obeys but its line feeds and emphasis.
+/// Writes a result. Control characters are escaped, except line feeds and emphasis.
 pub(super) fn result(text: &str) -> Result<(), Failure> {
     own(&style::outgoing(text))
 }
 
-/// Writes to the byte what holds nobody's words but the program's.
+/// Writes text verbatim; it must contain only the program's own words.
 pub(super) fn own(text: &str) -> Result<(), Failure> {
-    // Emphasis goes to a terminal alone, and never where NO_COLOR is set.
+    // Emphasis goes only to a terminal, and never if NO_COLOR is set.
     let mut stdout = anstream::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
-        // Whoever reads has read enough.
+        // The reader closed the pipe; that is not an error.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         Err(error) => Err(Failure::unusable(format!("standard output: {}", files::reason(&error)))),
         Ok(()) => Ok(()),
@@ -51,12 +51,12 @@ pub(super) fn json(value: &impl serde::Serialize) -> Result<(), Failure> {
     result(&(text + "\n"))
 }
 
-/// Writes a result's file. One that exists is replaced on request alone.
+/// Writes a result to a file. An existing file is replaced only on request.
 pub(super) fn file(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
     files::write_replaceable(path, text.as_bytes(), force).map_err(Failure::file)
 }
 
-/// Writes words about a result. Nothing is to be done when even standard error is closed.
+/// Writes a message about a result. Errors are ignored, because there is nowhere left to report them.
 pub(super) fn say(words: &str) {
     let lines: Vec<String> = words.trim_end().split('\n').map(printable).collect();
     let _ = writeln!(io::stderr().lock(), "dtg-passport: {}", lines.join("\n              "));

@@ -1,4 +1,4 @@
-//! `register`: what is in force in a folder of passports.
+//! Verb `register`: the passports in a folder and their states.
 
 use super::output::{self, TableFormat};
 use super::trust_options::TrustOptions;
@@ -59,7 +59,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     })
 }
 
-/// The register that a passport is asked about in, and the trust that knows what the lists in its folder withdraw.
+/// Reads the register of `folder`, and adds the revocation lists found there to `trust`. The register is `None` without
+/// a folder.
 pub(super) fn asked(
     folder: Option<&Path>,
     trust: Trust,

@@ -1,4 +1,4 @@
-//! `reissue`: new passports from old ones.
+//! Verb `reissue`: successors of existing passports.
 
 use super::batch::BatchOptions;
 use super::issue::read_site;

@@ -1,4 +1,4 @@
-//! `render`: the printable passport, of a verified passport alone.
+//! Verb `render`: the printed form of a verified passport.
 
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, REFUSED, output, register};
@@ -48,7 +48,7 @@ impl From<Written> for Language {
     }
 }
 
-/// The languages of a page; English when none is named.
+/// Returns the languages of a page: English if none is specified.
 pub(super) fn languages(written: &[Written]) -> Languages {
     let mut languages = written.iter().copied().map(Language::from);
     let first = languages.next().unwrap_or(Language::English);

@@ -1,4 +1,4 @@
-//! `revoke`: withdraws passports.
+//! Verb `revoke`: withdrawal of passports.
 
 use super::key_options::KeyOptions;
 use super::trust_options::{TrustOptions, now};
@@ -63,7 +63,7 @@ fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)
 }
 
-/// A file as given, or the file of an id, which is missed there when neither exists.
+/// Returns the file of an id in `passports`, or `id` itself as a path if it is not an id or if only that file exists.
 fn file_of(id: &str, passports: &Path) -> PathBuf {
     match Folder::new(passports).path_of_id(id) {
         Some(path) if path.exists() || !Path::new(id).exists() => path,

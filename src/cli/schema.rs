@@ -1,4 +1,4 @@
-//! `schema`: JSON Schemas of the formats, for editors.
+//! Verb `schema`: JSON Schemas of the formats, for editors.
 
 use super::{Code, Failure, output};
 use crate::schema;

@@ -1,4 +1,4 @@
-//! `selftest`: the reference cases of the mathematics.
+//! Verb `selftest`: the reference cases of the computations.
 
 use super::output::Format;
 use super::{Code, Failure, REFUSED, output};

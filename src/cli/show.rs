@@ -1,4 +1,4 @@
-//! `show`: the passport as tables, or whole as JSON.
+//! Verb `show`: the passport as tables, or in full as JSON.
 
 use super::output::Format;
 use super::trust_options::{self, Asked};
@@ -40,16 +40,17 @@ pub(super) struct PassportOptions {
     no_verify: bool,
 }
 
-/// What was read, and how it was verified.
+/// A passport that was read, and the result of its verification.
 pub(super) struct Read {
     pub content: Content,
     pub bytes: Vec<u8>,
-    /// The answer, and by what; none when nothing was verified.
+    /// Verification with the trust and the question used; `None` if the passport was not verified.
     pub verification: Option<(Verification, Trust, Question)>,
 }
 
 impl PassportOptions {
-    /// Reads the passport; one that fails a check is refused with its verdict.
+    /// Reads the passport and verifies it, unless `--no-verify` is given. A passport that fails a check is refused with
+    /// its verdict.
     pub(super) fn read(&self) -> Result<Read, Failure> {
         let bytes = files::read(&self.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
         let name = name_of(&self.passport);

@@ -1,4 +1,4 @@
-//! `simulate`: the paper's table and its Fig. 4.
+//! Verb `simulate`: the paper's table and its Fig. 4.
 
 use super::issue::{read_site, read_stand};
 use super::output::Format;
@@ -197,14 +197,15 @@ fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
     Ok(0)
 }
 
-/// Reads a gyro type.
+/// Reads a gyro type, or returns `None` without a path.
 pub(super) fn read_gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
     let Some(path) = path else { return Ok(None) };
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
     GyroType::from_yaml(&name_of(path), &bytes).map(Some).map_err(Failure::unreadable)
 }
 
-/// Runs a simulation with a progress bar on a terminal (none in a pipe); Ctrl-C ends it with what is known.
+/// Runs a simulation with a progress bar on a terminal (none in a pipe). Ctrl-C ends it with the trials completed so
+/// far.
 fn watched<T>(
     arguments: &RunArguments,
     default_trials: u64,

@@ -1,4 +1,5 @@
-//! TRUST: whom to trust, and what is asked. The same options everywhere, by this code.
+//! Options of trust: the trusted keys, and the question to verify for. Every verb uses this code, so the options are
+//! the same everywhere.
 
 use super::{Failure, output};
 use crate::earth::Place;
@@ -65,7 +66,7 @@ impl Asked {
     }
 }
 
-/// Reads the trust files. Lists of withdrawn passports are verified at `time`; the newest of them counts.
+/// Reads the trust files. Lists of withdrawn passports are verified at `time`; the newest list applies.
 pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Result<Trust, Failure> {
     let read = |path: &Path| files::read(path, LARGEST_TRUST_FILE_BYTES).map_err(Failure::unusable);
     let name = |path: &Path| name_of(path);
@@ -93,7 +94,7 @@ pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Resu
     Ok(trust)
 }
 
-/// A time as the options take it.
+/// Parses a time given as an option.
 pub(super) fn time(text: &str) -> Result<Timestamp, String> {
     if let Ok(date) = date(text) {
         return Ok(day(date).0);
@@ -105,7 +106,7 @@ pub(super) fn time(text: &str) -> Result<Timestamp, String> {
     }
 }
 
-/// A day as the options take it. A day with a time and no zone is none: whose day would that be?
+/// Parses a date given as an option. A date with a time but no zone is rejected, because the time zone is unknown.
 pub(super) fn date(text: &str) -> Result<Date, String> {
     let date = text.parse::<Date>().ok().filter(|date| date.to_string() == text);
     date.ok_or_else(|| "a UTC date such as 2026-11-02".to_owned())
@@ -125,7 +126,7 @@ fn place(text: &str) -> Result<Place, String> {
     Ok(Place { latitude_deg, longitude_deg })
 }
 
-/// The clock, in whole seconds: what a passport states.
+/// Returns the current time in whole seconds, as passports state it.
 pub(super) fn now() -> Timestamp {
     let now = Timestamp::now();
     Timestamp::from_second(now.as_second()).unwrap_or(now)

@@ -1,4 +1,4 @@
-//! The options of `calibrate` that ask where its uncertainty comes from.
+//! Options of `calibrate` for the uncertainty budget and the Monte Carlo method.
 
 use super::{Failure, output};
 use crate::calibration::{Calibration, Method, Readings, Setup};
@@ -16,7 +16,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// From this on it is said beforehand how long the trials will take.
+/// Expected duration above which the program announces how long the trials will take.
 const LONG: Duration = Duration::from_secs(10);
 
 #[derive(Args)]
@@ -44,7 +44,7 @@ pub(super) struct UncertaintyOptions {
     threads: Option<u32>,
 }
 
-/// A number of trials, also as 1e9.
+/// Parses a number of trials, also in the form 1e9.
 fn trials(text: &str) -> Result<u64, String> {
     const MOST: f64 = 1e12;
     let whole = |value: &f64| value.fract() == 0.0 && (1.0..=MOST).contains(value);
@@ -52,31 +52,31 @@ fn trials(text: &str) -> Result<u64, String> {
     value.map(|value| value as u64).ok_or_else(|| "a whole number from 1 to 1e12".to_owned())
 }
 
-/// What was asked for.
+/// The requested budget and Monte Carlo result.
 pub(super) struct Found {
     budget: Option<(Budget, Option<String>)>,
     monte_carlo: Option<MonteCarlo>,
 }
 
 impl Found {
-    /// For people; empty when nothing was asked for.
+    /// Returns the results as text; empty if none was requested.
     pub(super) fn text(&self) -> String {
         let budget = self.budget.as_ref().map(|(budget, words)| budget_report::text(budget, words.as_deref()));
         let trials = self.monte_carlo.as_ref().map(monte_carlo_report::text);
         budget.unwrap_or_default() + &trials.unwrap_or_default()
     }
 
-    /// The budget.
+    /// Returns the budget, or `None` if it was not requested.
     pub(super) fn budget(&self) -> Option<&Budget> {
         self.budget.as_ref().map(|(budget, _)| budget)
     }
 
-    /// The Monte Carlo.
+    /// Returns the Monte Carlo result, or `None` if it was not requested.
     pub(super) fn monte_carlo(&self) -> Option<&MonteCarlo> {
         self.monte_carlo.as_ref()
     }
 
-    /// For programs.
+    /// Returns the results as JSON documents; `None` for each that was not requested.
     pub(super) fn documents(&self) -> (Option<BudgetDocument>, Option<MonteCarloDocument>) {
         let budget = self.budget.as_ref().map(|(budget, words)| BudgetDocument::new(budget, words.clone()));
         (budget, self.monte_carlo.as_ref().map(MonteCarloDocument::new))
@@ -84,7 +84,7 @@ impl Found {
 }
 
 impl UncertaintyOptions {
-    /// Whether anything is asked for.
+    /// Computes the requested budget and Monte Carlo result, and writes the picture of the budget.
     pub(super) fn find(
         &self,
         setup: &Setup,
@@ -113,7 +113,7 @@ impl UncertaintyOptions {
         Ok(Found { budget: self.budget.then_some((budget, sentence)), monte_carlo: trials })
     }
 
-    /// Runs the trials with a progress bar on a terminal; Ctrl-C ends them with what is known.
+    /// Runs the trials with a progress bar on a terminal. Ctrl-C ends them with the trials completed so far.
     fn trials(&self, setup: &Setup, readings: &Readings, budget: &Budget) -> Result<MonteCarlo, Failure> {
         let engine = Engine::new(setup, readings, budget.method, ReadingShape::Normal).map_err(Failure::refused)?;
         let cancel = Arc::new(AtomicBool::new(false));

@@ -1,4 +1,4 @@
-//! `verify`: may I use this passport, on this stand, here, now?
+//! Verb `verify`: the check that a passport is valid for this stand, place and time.
 
 use super::output::Format;
 use super::trust_options::TrustOptions;
@@ -34,7 +34,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let mut verdicts = Vec::new();
     for path in &options.passports {
         let name = name_of(path);
-        // One byte more than a passport can have is enough to see that it is none: a verdict like any other.
+        // One byte above the size limit is enough to show that the file is not a passport; the result is a normal
+        // verdict.
         match files::read_first(path, LARGEST_DOCUMENT_BYTES + 1) {
             Ok(bytes) => {
                 let verification = verify(&name, &bytes, &trust, &question);

@@ -5,8 +5,8 @@ use crate::selftest::Case;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Returns the cases as JSON: `{passed, failed, cases: [{example, quantity, source, expected, tolerance, found, digits,
-/// passed}]}`.
+/// Returns the cases as JSON:
+/// `{passed, failed, cases: [{example, quantity, source, expected, tolerance, found, digits, passed}]}`.
 pub(crate) fn to_json(cases: &[Case]) -> Value {
     let each = cases.iter().map(|case| {
         json!({

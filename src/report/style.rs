@@ -26,7 +26,7 @@ pub(crate) fn bad(words: &str) -> String {
 /// ANSI codes used here, without the escape character; [`outgoing`] lets no other code pass.
 const CODES: [&str; 5] = ["[0m", "[1m", "[2m", "[31m", "[32m"];
 
-/// Returns the text as it may be written to a terminal: control characters other than emphasis and line feeds are escaped.
+/// Returns the text as it may be written to a terminal: control characters are escaped, except line feeds and emphasis.
 pub(crate) fn outgoing(text: &str) -> String {
     printable::outgoing(text, &CODES)
 }

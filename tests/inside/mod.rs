@@ -1,8 +1,8 @@
-//! Tests that look inside: part of the library's own test build, so that they see what users do not.
+//! Tests of private items. They are part of the library's own test build, so they see items that users do not.
 //!
-//! Each names the features that it needs; `tests/features` runs what each of them alone can run.
+//! Each test states the features that it needs; `tests/features` runs the tests that each single feature enables.
 
-// What several tests need.
+// Common parts of several tests.
 #[cfg(feature = "factory")]
 #[path = "../shared/fixtures.rs"]
 mod fixtures;
@@ -18,7 +18,7 @@ mod reference;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod simulated_stands;
 
-/// Any content, written as it should be and rightly signed.
+/// Returns any content in canonical form with a correct signature.
 #[cfg(feature = "factory")]
 fn written(content: &crate::passport::Content, key: &crate::trust::SigningKey) -> String {
     fixtures::signed(&crate::passport::annotations::payload(content), key)

@@ -1,6 +1,6 @@
-//! Passports that tests make, and everything around them that an attacker would vary.
+//! Passports for tests, with the stands, sites, keys and times that an attacker would vary.
 
-// Every crate of tests uses its own part.
+// Every test crate uses its own part.
 #![allow(dead_code)]
 
 use dtg_passport::passport::issue::{Draft, Issue, draft};
@@ -13,11 +13,11 @@ use jiff::Timestamp;
 pub const ISSUER: &str = "factory@example.org";
 pub const ISSUED_AT: &str = "2026-11-09T08:00:00Z";
 
-/// Deviations of arc minutes, everything certified.
+/// Stand file with deviations of arcminutes, everything certified.
 pub const ARC_MINUTES: &str = include_str!("../../passports/SPS-2/0017/stand.yaml");
-/// Deviations of degrees.
+/// Stand file with deviations of degrees.
 pub const DEGREES: &str = include_str!("../../passports/SPS-1/0203/stand.yaml");
-/// A site that states everything that a site can state.
+/// Site file with a measured deflection, an azimuth mark and stated uncertainties.
 pub const SITE: &str = r#"format: "dtg-site/1"
 id: "bench"
 name: "A bench with a mark"
@@ -31,12 +31,12 @@ uncertainty: {latitude_arcsec: 1.5, azimuth_arcsec: 30.5, level_arcsec: 5.5}
 source: "made up for this test"
 "#;
 
-/// A time by its RFC 3339 text.
+/// Parses a time in RFC 3339.
 pub fn at(text: &str) -> Timestamp {
     text.parse().unwrap()
 }
 
-/// `ISSUED_AT` and so many seconds.
+/// Returns the time `seconds` after `ISSUED_AT`.
 pub fn issued_plus(seconds: i64) -> Timestamp {
     Timestamp::from_second(at(ISSUED_AT).as_second() + seconds).unwrap()
 }
@@ -49,7 +49,7 @@ pub fn site(text: &str) -> Site {
     Site::from_yaml("site", text.as_bytes()).unwrap()
 }
 
-/// A right passport of `stand` at `site`, not yet signed.
+/// Creates a correct passport of `stand` at `site`, not yet signed.
 pub fn drafted(stand: &Stand, site: &Site, revision: u32) -> Draft {
     let order = Issue {
         accuracy: None,
@@ -63,35 +63,35 @@ pub fn drafted(stand: &Stand, site: &Site, revision: u32) -> Draft {
     draft(stand, site, &order).unwrap()
 }
 
-/// What a right passport of `stand` at `site` says.
+/// Returns the content of a correct passport of `stand` at `site`.
 pub fn content(stand: &Stand, site: &Site) -> Content {
     drafted(stand, site, 1).content().clone()
 }
 
-/// Any payload, rightly signed; put together by hand, as docs/formats.md describes it.
+/// Returns any payload with a correct signature, assembled by hand as docs/formats.md describes.
 pub fn signed(payload: &str, key: &SigningKey) -> String {
     let armor = key.sign(NAMESPACE, payload.as_bytes()).unwrap().to_armor();
     let indented: String = armor.lines().map(|line| format!("  {line}\n")).collect();
     format!("{payload}signature: |\n{indented}")
 }
 
-/// `key` is trusted by a line of allowed signers with these principals and options.
+/// Creates a trust in `key`, from a line of allowed signers with these principals and options.
 pub fn trust_as(principals_and_options: &str, key: &SigningKey) -> Trust {
     let line = format!("{principals_and_options} {}\n", key.public_key().to_openssh());
     Trust::of(AllowedSigners::parse("allowed_signers", line.as_bytes()).unwrap())
 }
 
-/// `key` is trusted as the issuer of passports, and nothing else.
+/// Creates a trust in `key` as the issuer of passports and for nothing else.
 pub fn trust(key: &SigningKey) -> Trust {
     trust_as(&format!("{ISSUER} namespaces=\"{NAMESPACE}\""), key)
 }
 
-/// The same, but the list `revoked` is given too.
+/// Creates the trust of `trust` with the revocation list `revoked`.
 pub fn trust_without(key: &SigningKey, revoked: &[u8]) -> Trust {
     Trust { revoked: vec![RevokedKeys::parse("revoked", revoked).unwrap()], ..trust(key) }
 }
 
-/// An hour after the issue.
+/// Returns the question for one hour after the issue.
 pub fn question() -> Question {
     Question::at(issued_plus(3600))
 }

@@ -1,44 +1,45 @@
-//! The programs that the tests run, as the test command installed them. Nothing is skipped: what is missing fails.
+//! Programs that the tests run, as the test command installed them. A missing program fails the test; nothing is
+//! skipped.
 
-// Every crate of tests uses its own part.
+// Every test crate uses its own part.
 #![allow(dead_code)]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A file of the project, by its path from the top.
+/// Returns the path of a file of the project, given relative to its top folder.
 pub fn project(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
-/// Python with PyYAML (its C loader too), ruamel.yaml and NumPy.
+/// Returns Python with PyYAML (including its C loader), ruamel.yaml and NumPy.
 pub fn python() -> Command {
     let mut command = Command::new(installed("target/test-tools/venv/bin/python"));
-    // The folders of the project are read, not filled with compiled files.
+    // The folders of the project must not be filled with compiled files.
     command.env("PYTHONDONTWRITEBYTECODE", "1").env_remove("PYTHONPATH").env("PYTHONIOENCODING", "utf-8");
     command
 }
 
-/// Node.js with js-yaml and yaml; `require` finds them from any folder.
+/// Returns Node.js with js-yaml and yaml; `require` finds them from any folder.
 pub fn node() -> Command {
     let mut command = on_path("node");
     command.env("NODE_PATH", installed("target/test-tools/node/node_modules"));
     command
 }
 
-/// Node.js with playwright-core, axe-core and html-validate.
+/// Returns Node.js with playwright-core, axe-core and html-validate.
 pub fn node_for_pages() -> Command {
     let mut command = on_path("node");
     command.env("NODE_PATH", installed("target/test-tools/page/node_modules"));
     command
 }
 
-/// Ruby, which brings Psych.
+/// Returns Ruby, which includes Psych.
 pub fn ruby() -> Command {
     on_path("ruby")
 }
 
-/// A program of the system.
+/// Returns a program of the system.
 pub fn on_path(program: &str) -> Command {
     let folders = std::env::var_os("PATH").unwrap_or_default();
     match std::env::split_paths(&folders).map(|folder| folder.join(program)).find(|file| file.is_file()) {
@@ -48,14 +49,14 @@ pub fn on_path(program: &str) -> Command {
 }
 
 fn installed(path: &str) -> PathBuf {
-    // The stamp is written last: without it the installation was broken off.
+    // The stamp is written last. Without it the installation is incomplete.
     let finished = project("target/test-tools/stamp").is_file();
     let file = project(path);
     assert!(finished && file.exists(), "{path} is missing: run tests/run");
     file
 }
 
-/// What the command prints; anything but success fails the test with its words.
+/// Returns the output of the command. Any failure fails the test and prints the error output.
 pub fn output(mut command: Command) -> String {
     let name = format!("{command:?}");
     let output = command.output().unwrap_or_else(|error| panic!("{name}: {error}"));

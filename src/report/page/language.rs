@@ -163,7 +163,7 @@ impl Languages {
         self.plain_with(|language| text.of(language).to_owned())
     }
 
-    /// Returns plain text as [`Self::plain`] does, from words that `say` makes for each language.
+    /// Returns plain text as `plain` does, from words that `say` makes for each language.
     pub(crate) fn plain_with(&self, say: impl Fn(Language) -> String) -> String {
         let words: Vec<String> = self.sayings(say).into_iter().map(|(_, words)| words).collect();
         words.join(" / ")
@@ -174,7 +174,7 @@ impl Languages {
         self.inline_with(|language| text.of(language).to_owned())
     }
 
-    /// Writes words as [`Self::inline`] does; `say` makes them for each language.
+    /// Writes words as `inline` does; `say` makes them for each language.
     pub(crate) fn inline_with(&self, say: impl Fn(Language) -> String) -> Markup {
         let sayings = self.sayings(say);
         html! {
@@ -190,7 +190,7 @@ impl Languages {
         self.label_with(|language| text.of(language).to_owned())
     }
 
-    /// Writes a name as [`Self::label`] does; `say` makes it for each language.
+    /// Writes a name as `label` does; `say` makes it for each language.
     pub(crate) fn label_with(&self, say: impl Fn(Language) -> String) -> Markup {
         let sayings = self.sayings(say);
         html! {
@@ -206,7 +206,7 @@ impl Languages {
         self.paragraph_with(|language| html! { (text.of(language)) })
     }
 
-    /// Writes a paragraph as [`Self::paragraph`] does; `say` makes it for each language.
+    /// Writes a paragraph as `paragraph` does; `say` makes it for each language.
     pub(crate) fn paragraph_with(&self, say: impl Fn(Language) -> Markup) -> Markup {
         html! {
             @if self.single() {

@@ -92,7 +92,7 @@ impl Number {
         html! { data value=(number::decimal(self.value)) { (self.text(languages.first())) } }
     }
 
-    /// Writes the number as [`Self::markup`] does, with room for `decimals` decimals, so that the decimal marks of a
+    /// Writes the number as `markup` does, with room for `decimals` decimals, so that the decimal marks of a
     /// column align.
     pub(crate) fn aligned(&self, languages: &Languages, decimals: usize) -> Markup {
         let own = self.decimals();

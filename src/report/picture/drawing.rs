@@ -14,7 +14,7 @@ pub(crate) type Point = [f64; 2];
 /// Largest magnification of a panel.
 const LARGEST: f64 = 1.15;
 
-/// One drawing with its words.
+/// A drawing with its words.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Panel<'a> {
     /// Name of the panel, unique on a page; the ids within begin with it.

@@ -1,28 +1,28 @@
-//! Axes as a reader takes them: by their marks and the numbers that stand beside these.
+//! Axes of a picture, read from their marks and the numbers next to these.
 
 use super::{number, of_class};
 use roxmltree::Node;
 
-/// Marks of an axis: where they are, and what their numbers say.
+/// Marks of an axis: their places and the values of their numbers.
 #[derive(Debug)]
 pub struct Axis {
     marks: Vec<(f64, f64)>,
 }
 
 impl Axis {
-    /// Of a picture with upright lines and their numbers beneath.
+    /// Reads the axis of a picture with vertical lines and their numbers below.
     pub fn along_x(svg: Node) -> Self {
         Self::of(svg, ["x1", "x2"], said, |text, at| {
             text.attribute("text-anchor") == Some("middle") && (number(text, "x") - at).abs() < 0.2
         })
     }
 
-    /// Of a picture with level lines and their numbers to the left.
+    /// Reads the axis of a picture with horizontal lines and their numbers to the left.
     pub fn along_y(svg: Node) -> Self {
         Self::of(svg, ["y1", "y2"], said, level)
     }
 
-    /// The same of one that is numbered by powers of ten: of their exponents.
+    /// Reads an axis along y whose numbers are powers of ten; the values are the exponents.
     pub fn of_decades(svg: Node) -> Self {
         let exponent = |text: Node| match words(text).as_str() {
             "1" => Some(0.0),
@@ -31,7 +31,7 @@ impl Axis {
         Self::of(svg, ["y1", "y2"], exponent, level)
     }
 
-    /// The same of one whose marks are logarithms of their numbers.
+    /// Reads an axis along y whose marks are at the logarithms of their numbers.
     pub fn of_logarithms(svg: Node) -> Self {
         Self::of(svg, ["y1", "y2"], |text| said(text).map(libm::log10), level)
     }
@@ -56,32 +56,33 @@ impl Axis {
         axis
     }
 
-    /// What a place on the drawing means.
+    /// Returns the value at a place on the drawing.
     pub fn value(&self, at: f64) -> f64 {
         let ((from, low), (to, high)) = (self.marks[0], self.marks[self.marks.len() - 1]);
         low + (at - from) / (to - from) * (high - low)
     }
 
-    /// What two places mean that can be told apart: a tenth of a unit of the drawing, which its coordinates are written to.
+    /// Returns the smallest difference of values that places on the drawing can show. Coordinates are written to a
+    /// tenth of a unit; 0.15 units leave a margin.
     pub fn fineness(&self) -> f64 {
         (self.value(0.15) - self.value(0.0)).abs()
     }
 
-    /// The place `at` means `value`.
+    /// Asserts that the place `at` shows `value`.
     #[track_caller]
     pub fn says(&self, at: f64, value: f64) {
         let there = self.value(at);
-        // The marks that it is read from are rounded as well.
+        // The marks used for reading are rounded as well.
         assert!((there - value).abs() <= 2.0 * self.fineness(), "{value} stands at {there}");
     }
 }
 
-/// Words that end left of a level line.
+/// Returns `true` if the words end to the left of a horizontal line at `at`.
 fn level(text: Node, at: f64) -> bool {
     text.attribute("text-anchor") == Some("end") && (number(text, "y") - 4.0 - at).abs() < 0.2
 }
 
-/// What an element of words says.
+/// Returns the text of an element.
 pub fn words(text: Node) -> String {
     text.descendants().filter(Node::is_text).filter_map(|node| node.text()).collect()
 }
@@ -90,16 +91,16 @@ fn said(text: Node) -> Option<f64> {
     words(text).replace('\u{2212}', "-").replace('\u{202f}', "").replace(',', ".").parse().ok()
 }
 
-/// The power of ten that the numbers of a picture's axes are in.
+/// Returns the power of ten that is factored out of the numbers of a picture's axes.
 fn factor(svg: Node) -> f64 {
-    // Of a unit, or alone; the numbers of decades are powers of ten themselves.
+    // The factor stands before a unit or alone. The numbers of decades are powers of ten themselves.
     let units =
         svg.descendants().filter(|node| node.has_tag_name("text") && node.attribute("text-anchor") == Some("end"));
     let unit = units.map(words).find(|words| words.starts_with("x, ") || words.starts_with("× "));
     unit.and_then(|words| power(&words)).map_or(1.0, |exponent| 10_f64.powi(exponent))
 }
 
-/// The exponent of a power of ten.
+/// Returns the exponent of a power of ten.
 fn power(words: &str) -> Option<i32> {
     let digits = |c: char| "⁻⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|s| s == c).map(|at| ("-0123456789").as_bytes()[at] as char);
     let exponent: String = words[words.find("10")? + 2..].chars().map_while(digits).collect();

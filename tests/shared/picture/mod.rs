@@ -1,4 +1,4 @@
-//! Reading pictures: as a strict reader of XML finds them.
+//! Reader of pictures, based on a strict XML parser.
 
 // Each crate that reads pictures uses its own part.
 #![allow(dead_code, unused_imports)]
@@ -10,42 +10,42 @@ use dtg_passport::report::{Language, Languages};
 use maud::Markup;
 use roxmltree::{Document, Node};
 
-/// Half the last place of a coordinate, and of two.
+/// Half of the last digit of a coordinate, with a margin.
 pub const ROUNDING: f64 = 0.051;
 
-/// English alone.
+/// Returns English alone.
 pub fn english() -> Languages {
     Languages::from(Language::English)
 }
 
-/// English and Russian.
+/// Returns English and Russian.
 pub fn both() -> Languages {
     Languages::new(Language::English, [Language::Russian])
 }
 
-/// Pictures as one document.
+/// Returns pictures as one document.
 pub fn whole(pictures: &[Markup]) -> String {
     let parts: Vec<&str> = pictures.iter().map(|picture| picture.0.as_str()).collect();
     format!("<page>{}</page>", parts.join("\n"))
 }
 
-/// The panels.
+/// Returns the panels of a page.
 pub fn svgs<'a>(page: &'a Document) -> Vec<Node<'a, 'a>> {
     page.descendants().filter(|node| node.attribute("role") == Some("img")).collect()
 }
 
-/// The elements of a class.
+/// Returns the elements of a class.
 pub fn of_class<'a>(node: Node<'a, 'a>, class: &str) -> Vec<Node<'a, 'a>> {
     let has = |node: &Node| node.attribute("class").is_some_and(|all| all.split(' ').any(|one| one == class));
     node.descendants().filter(has).collect()
 }
 
-/// A number of an element.
+/// Returns a number from an attribute of an element.
 pub fn number(node: Node, attribute: &str) -> f64 {
     node.attribute(attribute).unwrap().parse().unwrap()
 }
 
-/// Where an arrow points: the first corner of its head.
+/// Returns the place where an arrow points: the first corner of its head.
 pub fn tip(arrow: Node) -> [f64; 2] {
     let head = arrow.children().find(|node| node.has_tag_name("polygon")).unwrap();
     let first = head.attribute("points").unwrap().split(' ').next().unwrap();
@@ -53,7 +53,7 @@ pub fn tip(arrow: Node) -> [f64; 2] {
     [x.parse().unwrap(), y.parse().unwrap()]
 }
 
-/// What stands in the row of a bar: its name, and the number that carries a value.
+/// Returns the row of a bar: its name, and the numbers that carry a value.
 pub fn row(svg: Node, y: f64) -> (String, Vec<f64>) {
     let of_row = |node: &Node| node.has_tag_name("text") && (number(*node, "y") - 4.0 - y).abs() < 0.2;
     let texts: Vec<Node> = svg.descendants().filter(of_row).collect();
@@ -61,17 +61,17 @@ pub fn row(svg: Node, y: f64) -> (String, Vec<f64>) {
     (words(texts[0]), values.map(|value| value.parse().unwrap()).collect())
 }
 
-/// Half as far down as its rectangle reaches.
+/// Returns the vertical centre of a rectangle.
 pub fn middle(rectangle: Node) -> f64 {
     number(rectangle, "y") + 0.5 * number(rectangle, "height")
 }
 
-/// The end of a bar that is not at zero.
+/// Returns the end of a bar that is not at zero.
 pub fn end(bar: Node, value: f64) -> f64 {
     number(bar, "x") + if value > 0.0 { number(bar, "width") } else { 0.0 }
 }
 
-/// From where to where a whisker reaches.
+/// Returns both ends of a whisker.
 pub fn reach(whisker: Node) -> [f64; 2] {
     let path = whisker.attribute("d").unwrap();
     ['M', 'H'].map(|letter| {

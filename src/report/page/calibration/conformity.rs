@@ -99,7 +99,7 @@ fn cells(languages: &Languages, row: &ParameterVerdict) -> Vec<Markup> {
     ]
 }
 
-/// Writes a probability with two digits, or as less than [`LEAST_RISK`].
+/// Writes a probability with two digits, or as less than `LEAST_RISK`.
 pub(super) fn probability(languages: &Languages, p: f64) -> Markup {
     if p < LEAST_RISK {
         let limit = Number::scientific(LEAST_RISK, 1);

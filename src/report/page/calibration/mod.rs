@@ -1,6 +1,6 @@
 //! Printable report of a gyro calibration: gyro, stand, passport, result, uncertainty, signature lines.
 //!
-//! Its numbers are those of [`CalibrationDocument`], which `calibrate --format json` writes; the annex is that file.
+//! The numbers are those of [`CalibrationDocument`], which `calibrate --format json` writes; the annex is that file.
 //!
 //! * `subject`: gyro, stand, passport and its verification, currents, laboratory.
 //! * `parameters`: parameters by every method.

@@ -63,7 +63,7 @@ fn values(result: &ResultDocument) -> [f64; 8] {
     [kx, kxy, kyx, ky, w0x, w0y, result.omega_g_deg_per_h_per_g, result.omega_k_deg_per_h_per_g]
 }
 
-/// Returns the standard uncertainties of the eight parameters in the order of [`Parameter::EIGHT`].
+/// Returns the standard uncertainties of the eight parameters in the order of `Parameter::EIGHT`.
 fn uncertainties(u: &UncertaintyDocument) -> [f64; 8] {
     let [[kx, kxy], [kyx, ky]] = u.k_deg_per_h_per_ma;
     let [w0x, w0y] = u.omega0_deg_per_h;
