@@ -278,7 +278,7 @@ pub(crate) struct Ticks {
 }
 
 impl Ticks {
-    /// Creates about `most` values at most between `low` and `high`.
+    /// Creates at most about `most` values between `low` and `high`.
     pub(crate) fn between(low: f64, high: f64, most: usize) -> Self {
         let (step, exponent) = round_step((high - low) / most.max(1) as f64);
         let first = (low / step - 1e-9).ceil() as i64;
