@@ -21,7 +21,7 @@ pub enum ActsOn {
 
 impl ActsOn {
     /// All variants, in the order of declaration.
-    pub const ALL: [Self; 3] = [Self::Position, Self::Platform, Self::Base];
+    pub(crate) const ALL: [Self; 3] = [Self::Position, Self::Platform, Self::Base];
 
     /// Returns the value of `acts_on` in a file.
     pub(crate) fn word(self) -> &'static str {
