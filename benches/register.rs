@@ -62,7 +62,7 @@ fn main() {
     say("register", &ours);
     say("floor   ", &floor);
     println!(
-        "register / floor: {:.2}; {:.2} by processor time (asked for: 0.7)",
+        "register / floor: {:.2}; {:.2} by processor time (asked for: 0.5)",
         ratio(|time| time.wall),
         ratio(|time| time.processor)
     );
