@@ -83,6 +83,16 @@ record! {
 }
 
 record! {
+    /// Noise of the gyro's own drift, each axis: standard deviations.
+    pub struct GyroNoise {
+        /// From one visit of a position to the next. If absent: estimated from repeated visits.
+        pub visit_deg_per_h: Option<f64>,
+        /// Of ω_0, from one turn-on to the next. If absent: estimated from repeated cycles.
+        pub turn_on_deg_per_h: Option<f64>,
+    }
+}
+
+record! {
     /// Gyro type: nominal parameters and their tolerances (`dtg-gyro/1`).
     pub struct GyroType {
         /// Always "dtg-gyro/1".
@@ -95,6 +105,8 @@ record! {
         pub tolerance: Tolerance,
         /// Value of g to which the drifts of the type refer; 9.80665 if absent.
         pub gravity_m_per_s2: Option<f64>,
+        /// Noise of the gyro's own drift.
+        pub noise: Option<GyroNoise>,
     }
 }
 
@@ -131,6 +143,11 @@ impl GyroType {
             problems.within(&at.key("tolerance").key(key), Some(value), 0.0, f64::MAX);
         }
         problems.within(&at.key("gravity_m_per_s2"), self.gravity_m_per_s2, 9.7, 9.9);
+        if let Some(noise) = &self.noise {
+            let at = at.key("noise");
+            problems.within(&at.key("visit_deg_per_h"), noise.visit_deg_per_h, 0.0, f64::MAX);
+            problems.within(&at.key("turn_on_deg_per_h"), noise.turn_on_deg_per_h, 0.0, f64::MAX);
+        }
     }
 
     /// Returns the value of g to which the drifts of the type refer, m/s².
@@ -157,6 +174,7 @@ impl GyroType {
                 omega_k_deg_per_h_per_g: 0.01,
             },
             gravity_m_per_s2: None,
+            noise: None,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::attitude::{self, Deviation};
 use crate::coefficients::{Coefficients, EarthRate, Position, SingularPositions, StandGeometry};
+use crate::gyro::GyroNoise;
 use crate::laboratory::Meter;
 use nalgebra::{Matrix3, Vector3};
 
@@ -42,6 +43,10 @@ pub struct InputUncertainty {
     pub seating_rad: [f64; 3],
     /// Standard uncertainties of the currents.
     pub meter: MeterUncertainty,
+    /// Noise of the gyro's drift from visit to visit, each axis, °/h; `None` if it is not stated.
+    pub visit_deg_per_h: Option<f64>,
+    /// Noise of ω_0 from one turn-on of the gyro to the next, each axis, °/h; `None` if it is not stated.
+    pub turn_on_deg_per_h: Option<f64>,
 }
 
 /// Standard uncertainties of the current meter.
@@ -99,6 +104,8 @@ impl InputUncertainty {
             level_rad: 0.0,
             seating_rad: [0.0; 3],
             meter,
+            visit_deg_per_h: None,
+            turn_on_deg_per_h: None,
         }
     }
 }
@@ -159,6 +166,8 @@ impl InputUncertainty {
             ("the noise of the meter", self.meter.noise_ma),
             ("the gain of the meter", self.meter.gain),
             ("the offset of the meter", self.meter.offset_ma),
+            ("the gyro from visit to visit", self.visit_deg_per_h.unwrap_or(0.0)),
+            ("the gyro from turn-on to turn-on", self.turn_on_deg_per_h.unwrap_or(0.0)),
         ];
         let is_none = |(_, u): &(&str, f64)| !(u.is_finite() && *u >= 0.0);
         if let Some((what, u)) = angles.chain(seat).chain(rest).find(is_none) {
@@ -187,6 +196,15 @@ impl Setup {
         uncertainty.check()?;
         let coefficients = StandGeometry::new(positions)?.at(earth);
         Ok(Self { coefficients, turns: positions.iter().map(Turn::of).collect(), earth, uncertainty })
+    }
+
+    /// Returns the setup with the noise that the type of the gyro states; without one it is left out of account, or
+    /// estimated from repeated readings.
+    #[must_use]
+    pub(crate) fn of_gyro(mut self, noise: Option<&GyroNoise>) -> Self {
+        self.uncertainty.visit_deg_per_h = noise.and_then(|noise| noise.visit_deg_per_h);
+        self.uncertainty.turn_on_deg_per_h = noise.and_then(|noise| noise.turn_on_deg_per_h);
+        self
     }
 
     /// Returns the coefficients of the calibration equations.

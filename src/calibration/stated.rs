@@ -106,6 +106,8 @@ impl Stated {
             level_rad: angle(base.level_arcsec, NotStated::Level),
             seating_rad: seat.map(|u| angle(u, NotStated::Seat)),
             meter: MeterUncertainty::from(&laboratory.meter),
+            visit_deg_per_h: None,
+            turn_on_deg_per_h: None,
         };
         if site.gravity_u_m_per_s2().is_none() {
             missing.push(NotStated::Gravity);

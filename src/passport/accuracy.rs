@@ -8,7 +8,7 @@ use crate::calibration::least_squares::NoLeastSquares;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::readings::NoReadings;
 use crate::calibration::{Method, NoSetup, Options, Readings, Setup, calibrate};
-use crate::gyro::{GYRO_FORMAT, GyroParameters, GyroType, Parameters, Tolerance};
+use crate::gyro::{GYRO_FORMAT, GyroNoise, GyroParameters, GyroType, Parameters, Tolerance};
 use crate::laboratory::{Base, LABORATORY_FORMAT, Laboratory, Meter, Seating};
 use crate::site::Site;
 use crate::stand::{Certificate, CertifiedPosition};
@@ -25,6 +25,8 @@ record! {
         pub tolerance: Tolerance,
         /// Value of g to which the drifts of the type refer; 9.80665 if absent.
         pub gravity_m_per_s2: Option<f64>,
+        /// Noise of the gyro's own drift.
+        pub noise: Option<GyroNoise>,
     }
 }
 
@@ -58,16 +60,16 @@ record! {
 
 impl From<GyroType> for StatedGyro {
     fn from(gyro: GyroType) -> Self {
-        let GyroType { r#type, nominal, tolerance, gravity_m_per_s2, .. } = gyro;
-        Self { r#type, nominal, tolerance, gravity_m_per_s2 }
+        let GyroType { r#type, nominal, tolerance, gravity_m_per_s2, noise, .. } = gyro;
+        Self { r#type, nominal, tolerance, gravity_m_per_s2, noise }
     }
 }
 
 impl StatedGyro {
     /// Returns the gyro type as its file states it.
     pub(crate) fn to_type(&self) -> GyroType {
-        let Self { r#type, nominal, tolerance, gravity_m_per_s2 } = self.clone();
-        GyroType { format: GYRO_FORMAT.to_owned(), r#type, nominal, tolerance, gravity_m_per_s2 }
+        let Self { r#type, nominal, tolerance, gravity_m_per_s2, noise } = self.clone();
+        GyroType { format: GYRO_FORMAT.to_owned(), r#type, nominal, tolerance, gravity_m_per_s2, noise }
     }
 }
 
@@ -130,6 +132,7 @@ impl Stated {
     ) -> Result<Accuracy, NoAccuracy> {
         let laboratory = self.laboratory.to_laboratory();
         let (setup, _) = Setup::stated(certificate, positions, site, &laboratory)?;
+        let setup = setup.of_gyro(self.gyro.noise.as_ref());
         let gyro = at_gravity(&self.gyro.to_type(), site.earth().gravity_m_per_s2);
         let each = setup.coefficients().positions.iter().map(|at| Some((at.index, gyro.currents_ma(at)?)));
         let currents: Vec<_> = each.collect::<Option<_>>().ok_or(NoAccuracy::SingularGyro)?;
