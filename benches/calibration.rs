@@ -45,7 +45,7 @@ fn main() {
         let one =
             time(CALIBRATIONS, || calibrate(&setup, &readings, &Options::default()).map(|found| found.results.len()));
         let of_parameters = time(CALIBRATIONS / 10, || {
-            Budget::new(&setup, &readings, Method::LeastSquares, false).map(|budget| budget.covariance())
+            Budget::new(&setup, &readings, Method::LeastSquares, &Options::default()).map(|budget| budget.covariance())
         });
         let of_entries = time(CALIBRATIONS / 10, || EntryUncertainty::new(&setup).covariance());
         println!(

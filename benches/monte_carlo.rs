@@ -10,7 +10,7 @@
 //! each other). Linux only.
 
 use dtg_passport::attitude;
-use dtg_passport::calibration::{InputUncertainty, MeterUncertainty, Method, Readings, Setup};
+use dtg_passport::calibration::{InputUncertainty, MeterUncertainty, Method, Options, Readings, Setup};
 use dtg_passport::coefficients::{EarthRate, Position};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::simulation::draw::{self, Deviations};
@@ -155,7 +155,7 @@ fn resident_mb() -> Option<f64> {
 fn main() {
     let Some(case) = case() else { return };
     let engine = |method| Engine::new(&case.setup, &case.readings, method, ReadingShape::Uniform);
-    let budget = |method| Budget::new(&case.setup, &case.readings, method, false);
+    let budget = |method| Budget::new(&case.setup, &case.readings, method, &Options::default());
     let (Ok(closed), Ok(refit)) = (engine(Method::Analytic), engine(Method::LeastSquares)) else { return };
     let (Ok(of_closed), Ok(of_refit)) = (budget(Method::Analytic), budget(Method::LeastSquares)) else { return };
     if let Some(trials) = std::env::args().skip_while(|word| word != "--memory").nth(1) {

@@ -45,6 +45,9 @@ pub enum Bibliography {
     /// M. G. Kenward and J. H. Roger, "Small sample inference for fixed effects from restricted maximum likelihood",
     /// Biometrics 53, 1997, 983-997, <https://doi.org/10.2307/2533558>: a Wald statistic as a scaled F.
     KenwardRoger97,
+    /// R. C. Paule and J. Mandel, "Consensus values and weighting factors", Journal of Research of the National Bureau of
+    /// Standards 87, 1982, 377-385, <https://doi.org/10.6028/jres.087.022>.
+    PauleMandel82,
     /// F. E. Grubbs, "Procedures for detecting outlying observations in samples", Technometrics 11, 1969, 1-21,
     /// <https://doi.org/10.1080/00401706.1969.10490657>.
     Grubbs69,

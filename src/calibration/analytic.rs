@@ -18,7 +18,7 @@ pub(crate) struct AnalyticSolution {
 #[non_exhaustive]
 pub enum NoAnalyticSolution {
     /// Some of the paper's eight positions are missing, and the method requires all of them.
-    #[error("the stand lacks some of the eight positions that the analytic method requires")]
+    #[error("some of the eight positions that the analytic method requires have no readings")]
     EightPositionsMissing,
     /// A number of current pairs that differs from the number of positions.
     #[error("found {found} pairs of currents, expected {expected}, one for each position")]

@@ -6,6 +6,7 @@
 
 use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
+use super::offsets::Offsets;
 use super::scatter::Repeats;
 use super::sensitivity::{Sensitivity, Shared};
 use super::unknowns::Unknowns;
@@ -26,6 +27,12 @@ pub enum Cause {
     Floor(PositionIndex, usize),
     /// Noise of the mean reading of J_x or J_y in a position.
     Noise(PositionIndex, usize),
+    /// Noise of the gyro's drift from visit to visit, in the mean of a position, about axis x or y.
+    Visits(PositionIndex, usize),
+    /// Differences between visits, from which turn-ons and a drift in time are found.
+    Differences(usize),
+    /// Bias of the turn-ons of the gyro, in their mean, about axis x or y.
+    TurnOn(usize),
     /// Common part of the platform, about its axis x, y or z.
     Platform(usize),
     /// Gyro seat, about axis x, y or z of the case.
@@ -60,6 +67,7 @@ impl Cause {
             Self::Reading(index, axis) => format!("reading of J_{} in {index}", XYZ[axis]),
             Self::Floor(index, axis) => format!("floor of J_{} in {index}", XYZ[axis]),
             Self::Noise(index, axis) => format!("noise of J_{} in {index}", XYZ[axis]),
+            Self::Visits(index, axis) => format!("gyro noise in {index} about {}", XYZ[axis]),
             _ => self.kind(),
         }
     }
@@ -72,6 +80,9 @@ impl Cause {
             Self::Reading(..) => "meter, specification".to_owned(),
             Self::Floor(..) => "meter, floor".to_owned(),
             Self::Noise(..) => "meter, noise".to_owned(),
+            Self::Visits(..) => "gyro, visits".to_owned(),
+            Self::Differences(_) => "differences between visits".to_owned(),
+            Self::TurnOn(axis) => format!("gyro, turn-ons about {}", XYZ[axis]),
             Self::Platform(axis) => format!("platform about {}", XYZ[axis]),
             Self::Seat(axis) => format!("gyro seat about {}", XYZ[axis]),
             Self::Base(axis) => format!("base of the stand about {}", EAST_NORTH_UP[axis]),
@@ -92,7 +103,9 @@ impl Cause {
             | (Self::Return(..), Self::Return(..))
             | (Self::Reading(..), Self::Reading(..))
             | (Self::Floor(..), Self::Floor(..))
-            | (Self::Noise(..), Self::Noise(..)) => true,
+            | (Self::Noise(..), Self::Noise(..))
+            | (Self::Visits(..), Self::Visits(..))
+            | (Self::Differences(_), Self::Differences(_)) => true,
             (one, other) => one == other,
         }
     }
@@ -104,7 +117,8 @@ impl Cause {
             | Self::Return(index, _)
             | Self::Reading(index, _)
             | Self::Floor(index, _)
-            | Self::Noise(index, _) => Some(index),
+            | Self::Noise(index, _)
+            | Self::Visits(index, _) => Some(index),
             _ => None,
         }
     }
@@ -119,6 +133,9 @@ impl Cause {
             Self::Reading(..) => "laboratory: meter.reading_percent",
             Self::Floor(..) => "laboratory: meter.floor_ma",
             Self::Noise(..) => "laboratory: meter.noise_ma, or repeated rows",
+            Self::Visits(..) => "gyro type: noise.visit_deg_per_h, or repeated visits",
+            Self::Differences(_) => "all of a visit",
+            Self::TurnOn(_) => "gyro type: noise.turn_on_deg_per_h, or repeated cycles",
             Self::Gain => "laboratory: meter.gain_percent",
             Self::Offset => "laboratory: meter.offset_ma",
             Self::Seat(_) => "laboratory: seating_arcsec",
@@ -130,11 +147,14 @@ impl Cause {
         }
     }
 
-    /// Returns the unit in which the uncertainty is shown: arcsec, %, or mA.
+    /// Returns the unit in which the uncertainty is shown: arcsec, %, mA or deg/h; 1 for differences in units of their
+    /// own uncertainty.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Reading(..) | Self::Gain => "%",
             Self::Floor(..) | Self::Noise(..) | Self::Offset => "mA",
+            Self::Visits(..) | Self::TurnOn(_) => "deg/h",
+            Self::Differences(_) => "1",
             _ => "arcsec",
         }
     }
@@ -143,7 +163,7 @@ impl Cause {
     pub(crate) fn shown(self, uncertainty: f64) -> f64 {
         match self.unit() {
             "%" => 100.0 * uncertainty,
-            "mA" => uncertainty,
+            "mA" | "deg/h" | "1" => uncertainty,
             _ => crate::units::arcseconds_from_radians(uncertainty),
         }
     }
@@ -163,19 +183,27 @@ pub struct Input {
 }
 
 /// Returns all inputs with a positive uncertainty, and F: the change of the misclosures, °/h, for one standard
-/// uncertainty of each input (two rows per position × inputs).
+/// uncertainty of each input (two rows per position, then one per row of `differences` × inputs).
 pub(crate) fn inputs(
     setup: &Setup,
     unknowns: &Unknowns,
     currents_ma: &[Vector2<f64>],
     repeats: &Repeats,
+    differences: &Offsets,
 ) -> (Vec<Input>, DMatrix<f64>) {
     let sensitivity = Sensitivity::new(setup, unknowns);
     let estimates = Estimates::new(setup, repeats);
     let mut inputs = stand_and_site(setup, &estimates);
     inputs.extend(of_gyro_and_meter(setup, repeats, &estimates));
-    let mut columns = DMatrix::zeros(2 * currents_ma.len(), inputs.len());
-    for (column, input) in inputs.iter().enumerate() {
+    let positions = inputs.len();
+    let differences = differences.rows.nrows();
+    let basis = estimates.visits;
+    let degrees_of_freedom = estimates.degrees_of_freedom(basis);
+    let of_row = |row| Input { cause: Cause::Differences(row), standard_uncertainty: 1.0, degrees_of_freedom, basis };
+    inputs.extend((0..differences).map(of_row));
+    let mut columns = DMatrix::zeros(2 * currents_ma.len() + differences, inputs.len());
+    columns.view_mut((2 * currents_ma.len(), positions), (differences, differences)).fill_with_identity();
+    for (column, input) in inputs.iter().enumerate().take(positions) {
         for (place, current_ma) in currents_ma.iter().enumerate() {
             let change = effect(&sensitivity, setup, (place, current_ma), input.cause) * input.standard_uncertainty;
             columns[(2 * place, column)] = change.x;
@@ -229,11 +257,15 @@ fn of_gyro_and_meter(setup: &Setup, repeats: &Repeats, estimates: &Estimates) ->
             inputs.extend(known(Cause::Reading(at.index, axis), u.meter.reading));
             inputs.extend(known(Cause::Floor(at.index, axis), u.meter.floor_ma));
             inputs.extend(input(Cause::Noise(at.index, axis), noise, estimates.noise));
+            let drift = repeats.drift_variance(place).sqrt();
+            inputs.extend(input(Cause::Visits(at.index, axis), drift, estimates.visits));
         }
     }
     inputs.extend((0..3).filter_map(|axis| known(Cause::Seat(axis), u.seating_rad[axis])));
     inputs.extend(known(Cause::Gain, u.meter.gain));
     inputs.extend(known(Cause::Offset, u.meter.offset_ma));
+    let turn_on = repeats.turn_on_of_mean_deg_per_h();
+    inputs.extend((0..2).filter_map(|axis| input(Cause::TurnOn(axis), turn_on, estimates.turn_ons)));
     inputs
 }
 
@@ -266,6 +298,8 @@ fn effect(
         Cause::Return(_, axis) => sensitivity.to_case_turn(place, &unit_vector(axis)),
         Cause::Reading(_, axis) => column(axis) * current_ma[axis],
         Cause::Floor(_, axis) | Cause::Noise(_, axis) => column(axis),
+        Cause::Visits(_, axis) | Cause::TurnOn(axis) => shared(Shared::TurnOn(axis)),
+        Cause::Differences(_) => Vector2::zeros(),
         Cause::Platform(axis) | Cause::Seat(axis) => shared(Shared::Case(unit_vector(axis))),
         Cause::Base(axis) | Cause::Level(axis) => shared(Shared::Base(unit_vector(axis))),
         Cause::Azimuth | Cause::Mark => shared(Shared::Base(Vector3::z())),

@@ -6,6 +6,7 @@ use super::procedure::Data;
 use super::propagation;
 use super::result::ChiSquare;
 use super::sensitivity::Sensitivity;
+use super::unknowns::Model;
 use crate::coefficients::PositionIndex;
 use crate::units::arcseconds_from_radians;
 use nalgebra::{Matrix2, Matrix2x3, Vector2, Vector3};
@@ -100,15 +101,15 @@ impl fmt::Display for Hint {
 }
 
 /// Returns a hint if chi-square is improbable, otherwise `None`.
-pub(crate) fn hint(setup: &Setup, data: &Data, chi_square: &ChiSquare) -> Option<Hint> {
+pub(crate) fn hint(setup: &Setup, data: &Data, model: Model, chi_square: &ChiSquare) -> Option<Hint> {
     // A chi-square that is NaN is not a good fit either.
     if chi_square.degrees_of_freedom == 0 || chi_square.probability >= ALARM {
         return None;
     }
-    let fit = data.fit(setup, false).ok()?;
+    let fit = data.fit(setup, model).ok()?;
     let suspects = suspects(setup, data, &fit);
-    let mut possible: Vec<(f64, Explanation)> = exchanges(setup, data, &suspects);
-    possible.extend(single_positions(setup, data, &suspects));
+    let mut possible: Vec<(f64, Explanation)> = exchanges(setup, data, model, &suspects);
+    possible.extend(single_positions(setup, data, model, &suspects));
     possible.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     let best = possible.first().map_or(0.0, |(score, _)| *score);
     possible.retain(|(score, _)| *score <= best + WORSE);
@@ -120,9 +121,7 @@ pub(crate) fn hint(setup: &Setup, data: &Data, chi_square: &ChiSquare) -> Option
 /// misclosures.
 fn suspects(setup: &Setup, data: &Data, fit: &Fit) -> Vec<usize> {
     let positions = &setup.coefficients().positions;
-    let misclosure = |place: usize| {
-        (fit.whitening[place] * fit.unknowns.misclosure(&positions[place], &data.currents_ma[place])).norm()
-    };
+    let misclosure = |place: usize| (fit.whitening[place] * fit.misclosure(place, &data.currents_ma[place])).norm();
     let mut places: Vec<usize> = (0..positions.len()).collect();
     places.sort_by(|&one, &other| misclosure(other).total_cmp(&misclosure(one)));
     places.truncate(MOST_SUSPECTS);
@@ -131,12 +130,12 @@ fn suspects(setup: &Setup, data: &Data, fit: &Fit) -> Vec<usize> {
 }
 
 /// Returns every exchange of two positions that makes the readings fit, with its score.
-fn exchanges(setup: &Setup, data: &Data, suspects: &[usize]) -> Vec<(f64, Explanation)> {
+fn exchanges(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Vec<(f64, Explanation)> {
     let positions = &setup.coefficients().positions;
     let mut possible = Vec::new();
     for (rank, &one) in suspects.iter().enumerate() {
         for &other in &suspects[rank + 1..] {
-            let found = chi_square(setup, &data.exchanged(one, other));
+            let found = chi_square(setup, &data.exchanged(one, other), model);
             if let Some(found) = found.filter(|found| found.probability > POSSIBLE) {
                 let explanation = Explanation::Exchanged(positions[one].index, positions[other].index);
                 possible.push((found.value, explanation));
@@ -147,10 +146,10 @@ fn exchanges(setup: &Setup, data: &Data, suspects: &[usize]) -> Vec<(f64, Explan
 }
 
 /// Returns every position without which the other positions fit, with its score.
-fn single_positions(setup: &Setup, data: &Data, suspects: &[usize]) -> Vec<(f64, Explanation)> {
+fn single_positions(setup: &Setup, data: &Data, model: Model, suspects: &[usize]) -> Vec<(f64, Explanation)> {
     let possible = suspects.iter().filter_map(|&place| {
         let (rest, others) = (setup.without(place), data.without(place));
-        let fit = others.fit(&rest, false).ok()?;
+        let fit = others.fit(&rest, model).ok()?;
         let found = ChiSquare::new(propagation::chi_square(&rest, &fit, &others));
         if found.degrees_of_freedom == 0 || found.probability <= POSSIBLE {
             return None;
@@ -179,8 +178,8 @@ fn turns(sensitivity: &Sensitivity, place: usize) -> Matrix2x3<f64> {
     Matrix2x3::from_columns(&axes.map(|axis| sensitivity.to_case_turn(place, &axis)))
 }
 
-fn chi_square(setup: &Setup, data: &Data) -> Option<ChiSquare> {
-    let fit = data.fit(setup, false).ok().filter(|fit| fit.settled)?;
+fn chi_square(setup: &Setup, data: &Data, model: Model) -> Option<ChiSquare> {
+    let fit = data.fit(setup, model).ok().filter(|fit| fit.settled)?;
     let found = ChiSquare::new(propagation::chi_square(setup, &fit, data));
     found.value.is_finite().then_some(found)
 }

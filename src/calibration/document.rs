@@ -2,15 +2,18 @@
 
 use super::iterative::{LARGEST_NUMBER_OF_STEPS, StepChange};
 use super::mistake::Mistake;
+use super::noise::{DriftNoise, NoiseSource};
 use super::parameter::Parameter;
+use super::readings::{Exclusion, Readings};
 use super::result::{Calibration, MethodResult};
-use super::scatter::RowScatter;
+use super::scatter::{RowScatter, Scatter};
 use super::stated::NotStated;
+use super::unknowns::Model;
 use super::verdict::{Found, Verdict};
 use crate::gyro::GyroParameters;
 use crate::text::Unreadable;
 use crate::text::problem::Location;
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{Matrix2, Matrix2x3, Vector2};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -27,6 +30,15 @@ pub struct CalibrationDocument {
     /// Standard uncertainty of g, m/s²; absent if it is not stated.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) gravity_u_m_per_s2: Option<f64>,
+    /// What was calibrated, by whom and from which file; absent in results of earlier versions.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) subject: Option<Subject>,
+    /// Visits that were left out, each with its reason.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub(crate) excluded: Vec<ExclusionDocument>,
+    /// Positions of the passport without a reading.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub(crate) left_out: Vec<IndexDocument>,
     /// Results, one for each method.
     pub(crate) results: Vec<ResultDocument>,
     /// Inputs whose uncertainty certificate, site and laboratory do not state; the result does not include it.
@@ -35,6 +47,12 @@ pub struct CalibrationDocument {
     /// Agreement of the visits of a position; present if there are several visits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) scatter: Option<ScatterDocument>,
+    /// Agreement of the turn-ons with the gyro type; present if there are several and the type states their noise.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) turn_on_scatter: Option<ScatterDocument>,
+    /// Probability of a larger drift in time if there is none; present if the readings have times and none was fitted.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) drift_probability: Option<f64>,
     /// Scatter of the rows of a visit; present if there are several rows.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) row_scatter: Option<RowScatterDocument>,
@@ -57,22 +75,90 @@ pub struct CalibrationDocument {
     monte_carlo: (),
 }
 
+/// What was calibrated, by whom, when and from which file.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Subject {
+    /// Serial number of the gyro.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub gyro_serial: Option<String>,
+    /// Who took the readings.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub operator: Option<String>,
+    /// Day of the readings, YYYY-MM-DD.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub date: Option<jiff::civil::Date>,
+    /// Temperature during the readings, °C.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub temperature_c: Option<f64>,
+    /// SHA-256 of the file of currents.
+    pub currents_sha256: String,
+}
+
+/// Visit that was left out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ExclusionDocument {
+    /// Frame index.
+    pub(crate) i: u32,
+    /// Platform index.
+    pub(crate) j: u32,
+    /// Number of the visit within its cycle and position.
+    pub(crate) visit: u32,
+    /// Turn-on of the gyro.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) cycle: Option<u32>,
+    /// Reason.
+    pub(crate) why: String,
+}
+
+/// Index of a position.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct IndexDocument {
+    /// Frame index.
+    pub(crate) i: u32,
+    /// Platform index.
+    pub(crate) j: u32,
+}
+
 /// JSON result of one method.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ResultDocument {
     /// Name of the method.
     pub(crate) method: String,
+    /// Model of the g-sensitive drift: paper or general.
+    #[serde(default = "paper")]
+    pub(crate) model: String,
     /// K, °/(h·mA): [[K_x, K_xy], [K_yx, K_y]].
     pub(crate) k_deg_per_h_per_ma: [[f64; 2]; 2],
     /// ω_0, °/h: [x, y].
     pub(crate) omega0_deg_per_h: [f64; 2],
     /// ω_n, °/(h·g), 2×2: four independent numbers for the paper's methods.
-    pub(crate) omega_n_deg_per_h_per_g: [[f64; 2]; 2],
-    /// ω_g, °/h per local g.
-    pub(crate) omega_g_deg_per_h_per_g: f64,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]>,
+    /// ω_g, °/h per local g; absent in the general model, as ω_n and ω_k are.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) omega_g_deg_per_h_per_g: Option<f64>,
     /// ω_k, °/h per local g.
-    pub(crate) omega_k_deg_per_h_per_g: f64,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) omega_k_deg_per_h_per_g: Option<f64>,
+    /// Matrix of g-sensitive drift of the general model, °/h per local g, 2×3, for (n_x, n_y, n_z).
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) g_matrix_deg_per_h_per_g: Option<[[f64; 3]; 2]>,
+    /// F test whether the paper's model is enough; present with a larger one.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) model_test: Option<ModelTestDocument>,
+    /// Linear drift of ω_0 in time, °/h per hour: [x, y]; ω_0 is then that at the mean time of the readings.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) drift_deg_per_h_per_h: Option<[f64; 2]>,
+    /// ω_0 of each turn-on of the gyro.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub(crate) cycles: Vec<CycleDocument>,
+    /// Noise of the gyro's drift that the uncertainties contain; absent in results of earlier versions.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) noise: Option<NoiseDocument>,
     /// Anisoelastic coefficient, °/(h·g²); absent if it was not fitted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) anisoelasticity_deg_per_h_per_g2: Option<f64>,
@@ -110,6 +196,69 @@ pub(crate) struct ResultDocument {
     pub(crate) residuals_deg_per_h: Vec<ResidualDocument>,
 }
 
+fn paper() -> String {
+    Model::Paper.key().to_owned()
+}
+
+/// ω_0 of one turn-on of the gyro.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CycleDocument {
+    /// Number of the turn-on.
+    pub(crate) cycle: u32,
+    /// ω_0, °/h: [x, y].
+    pub(crate) omega0_deg_per_h: [f64; 2],
+}
+
+/// F test whether the paper's model of the g-sensitive drift is enough.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ModelTestDocument {
+    /// Ratio of mean squares.
+    pub(crate) f: f64,
+    /// Number of further parameters, and degrees of freedom of the rest.
+    pub(crate) degrees_of_freedom: [usize; 2],
+    /// Probability of a larger ratio if the paper's model is enough.
+    pub(crate) probability: f64,
+}
+
+/// Noise of the gyro's drift: from visit to visit, and from one turn-on to the next.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct NoiseDocument {
+    /// Standard deviation from visit to visit, each axis; absent if it is not known.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) visit_deg_per_h: Option<f64>,
+    /// stated, estimated or not_stated.
+    pub(crate) visit_source: String,
+    /// Degrees of freedom of an estimate.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) visit_degrees_of_freedom: Option<f64>,
+    /// Standard deviation of ω_0 from one turn-on to the next, each axis; absent if it is not known.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) turn_on_deg_per_h: Option<f64>,
+    /// stated, estimated or not_stated.
+    pub(crate) turn_on_source: String,
+    /// Degrees of freedom of an estimate.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) turn_on_degrees_of_freedom: Option<f64>,
+}
+
+impl NoiseDocument {
+    fn new(calibration: &Calibration) -> Self {
+        let known = |noise: &DriftNoise| (noise.source != NoiseSource::NotStated).then_some(noise.deg_per_h);
+        let (visit, turn_on) = (&calibration.visit_noise, &calibration.turn_on_noise);
+        Self {
+            visit_deg_per_h: known(visit),
+            visit_source: visit.source.key().to_owned(),
+            visit_degrees_of_freedom: finite(visit.degrees_of_freedom),
+            turn_on_deg_per_h: known(turn_on),
+            turn_on_source: turn_on.source.key().to_owned(),
+            turn_on_degrees_of_freedom: finite(turn_on.degrees_of_freedom),
+        }
+    }
+}
+
 /// Stop rule of the iteration: the paper's Δ₁ and Δ₂.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -141,11 +290,20 @@ pub(crate) struct UncertaintyDocument {
     /// Standard uncertainties of ω_0, °/h: [x, y].
     pub(crate) omega0_deg_per_h: [f64; 2],
     /// Standard uncertainties of the elements of ω_n, °/(h·g).
-    pub(crate) omega_n_deg_per_h_per_g: [[f64; 2]; 2],
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]>,
     /// Standard uncertainty of ω_g, °/(h·g).
-    pub(crate) omega_g_deg_per_h_per_g: f64,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) omega_g_deg_per_h_per_g: Option<f64>,
     /// Standard uncertainty of ω_k, °/(h·g).
-    pub(crate) omega_k_deg_per_h_per_g: f64,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) omega_k_deg_per_h_per_g: Option<f64>,
+    /// Standard uncertainties of the elements of the matrix of g-sensitive drift, °/(h·g).
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) g_matrix_deg_per_h_per_g: Option<[[f64; 3]; 2]>,
+    /// Standard uncertainties of the drift in time, °/h per hour: [x, y].
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) drift_deg_per_h_per_h: Option<[f64; 2]>,
     /// Standard uncertainty of the anisoelastic coefficient, °/(h·g²); absent if it was not fitted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) anisoelasticity_deg_per_h_per_g2: Option<f64>,
@@ -247,14 +405,14 @@ impl CalibrationDocument {
             passport_verified,
             gravity_m_per_s2,
             gravity_u_m_per_s2,
-            results: calibration.results.iter().map(ResultDocument::new).collect(),
+            subject: None,
+            excluded: Vec::new(),
+            left_out: Vec::new(),
+            results: calibration.results.iter().map(|result| ResultDocument::new(result, calibration)).collect(),
             not_stated: not_stated.iter().map(|what| what.words().to_owned()).collect(),
-            scatter: calibration.scatter.as_ref().map(|scatter| ScatterDocument {
-                chi_square: scatter.chi_square,
-                degrees_of_freedom: scatter.degrees_of_freedom,
-                probability: scatter.probability,
-                variance_factor: scatter.variance_factor,
-            }),
+            scatter: calibration.scatter.as_ref().map(ScatterDocument::new),
+            turn_on_scatter: calibration.turn_on_scatter.as_ref().map(ScatterDocument::new),
+            drift_probability: calibration.drift_test.map(|test| test.probability),
             row_scatter: calibration.row_scatter.as_ref().map(RowScatterDocument::new),
             hint: calibration.hint.as_ref().map(ToString::to_string),
             mistake: None,
@@ -263,6 +421,27 @@ impl CalibrationDocument {
             budget: (),
             monte_carlo: (),
         }
+    }
+
+    /// Adds what was calibrated, and what of its readings was left out.
+    pub(crate) fn record(&mut self, subject: Subject, readings: &Readings) {
+        self.subject = Some(subject);
+        let excluded = readings.exclusions().iter().map(|Exclusion { index, visit, cycle, why }| ExclusionDocument {
+            i: index.i,
+            j: index.j,
+            visit: *visit,
+            cycle: *cycle,
+            why: why.clone(),
+        });
+        self.excluded = excluded.collect();
+        self.left_out = readings.left_out().iter().map(|index| IndexDocument { i: index.i, j: index.j }).collect();
+    }
+
+    /// Returns the serial numbers of the two gyros if an earlier result is known to be that of another one.
+    pub(crate) fn another_gyro<'a>(&'a self, subject: &'a Subject) -> Option<[&'a str; 2]> {
+        let earlier = self.subject.as_ref()?.gyro_serial.as_deref()?;
+        let now = subject.gyro_serial.as_deref()?;
+        (earlier != now).then_some([earlier, now])
     }
 
     /// Reads an earlier JSON result; `name` is the file name in messages.
@@ -293,9 +472,14 @@ fn rows(matrix: &Matrix2<f64>) -> [[f64; 2]; 2] {
     [[matrix.m11, matrix.m12], [matrix.m21, matrix.m22]]
 }
 
+fn rows_of_three(matrix: &Matrix2x3<f64>) -> [[f64; 3]; 2] {
+    [[matrix.m11, matrix.m12, matrix.m13], [matrix.m21, matrix.m22, matrix.m23]]
+}
+
 impl ResultDocument {
-    fn new(result: &MethodResult) -> Self {
+    fn new(result: &MethodResult, calibration: &Calibration) -> Self {
         let parameters = &result.parameters;
+        let of_the_paper = result.model != Model::General;
         let iteration = result.iteration.as_ref();
         let chi_square = &result.chi_square;
         let residuals = result.residuals.iter().filter(|_| chi_square.judges()).map(|residual| {
@@ -305,11 +489,25 @@ impl ResultDocument {
         });
         Self {
             method: result.method.key().to_owned(),
+            model: result.model.key().to_owned(),
             k_deg_per_h_per_ma: rows(&parameters.k_deg_per_h_per_ma),
             omega0_deg_per_h: parameters.omega0_deg_per_h.into(),
-            omega_n_deg_per_h_per_g: rows(&result.omega_n_deg_per_h_per_g),
-            omega_g_deg_per_h_per_g: parameters.omega_g_deg_per_h_per_g,
-            omega_k_deg_per_h_per_g: parameters.omega_k_deg_per_h_per_g,
+            omega_n_deg_per_h_per_g: of_the_paper.then(|| rows(&result.omega_n_deg_per_h_per_g)),
+            omega_g_deg_per_h_per_g: result.value(Parameter::OmegaG),
+            omega_k_deg_per_h_per_g: result.value(Parameter::OmegaK),
+            g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows_of_three(&g.deg_per_h_per_g)),
+            model_test: result.model_test.map(|test| ModelTestDocument {
+                f: test.f,
+                degrees_of_freedom: test.degrees_of_freedom,
+                probability: test.probability,
+            }),
+            drift_deg_per_h_per_h: result.drift.map(|drift| drift.deg_per_h_per_h.into()),
+            cycles: result
+                .cycles
+                .iter()
+                .map(|at| CycleDocument { cycle: at.cycle, omega0_deg_per_h: at.omega0_deg_per_h.into() })
+                .collect(),
+            noise: Some(NoiseDocument::new(calibration)),
             anisoelasticity_deg_per_h_per_g2: result.anisoelasticity_deg_per_h_per_g2,
             iterations: iteration.map(|iteration| iteration.steps),
             iterations_predicted: iteration
@@ -344,8 +542,8 @@ impl ResultDocument {
             parameters: GyroParameters {
                 k_deg_per_h_per_ma: Matrix2::new(kx, kxy, kyx, ky),
                 omega0_deg_per_h: Vector2::from(self.omega0_deg_per_h),
-                omega_g_deg_per_h_per_g: self.omega_g_deg_per_h_per_g,
-                omega_k_deg_per_h_per_g: self.omega_k_deg_per_h_per_g,
+                omega_g_deg_per_h_per_g: self.omega_g_deg_per_h_per_g.unwrap_or(f64::NAN),
+                omega_k_deg_per_h_per_g: self.omega_k_deg_per_h_per_g.unwrap_or(f64::NAN),
             },
             standard_uncertainty: [
                 u_kx,
@@ -354,8 +552,8 @@ impl ResultDocument {
                 u_ky,
                 u_0x,
                 u_0y,
-                u.omega_g_deg_per_h_per_g,
-                u.omega_k_deg_per_h_per_g,
+                u.omega_g_deg_per_h_per_g.unwrap_or(f64::NAN),
+                u.omega_k_deg_per_h_per_g.unwrap_or(f64::NAN),
             ],
             gravity_m_per_s2,
             gravity_u_m_per_s2: gravity_u_m_per_s2.unwrap_or(0.0),
@@ -365,6 +563,13 @@ impl ResultDocument {
 
 fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
+}
+
+impl ScatterDocument {
+    fn new(scatter: &Scatter) -> Self {
+        let Scatter { chi_square, degrees_of_freedom, probability, variance_factor } = *scatter;
+        Self { chi_square, degrees_of_freedom, probability, variance_factor }
+    }
 }
 
 impl RowScatterDocument {
@@ -393,9 +598,12 @@ impl UncertaintyDocument {
         Self {
             k_deg_per_h_per_ma: [[u(Parameter::Kx), u(Parameter::Kxy)], [u(Parameter::Kyx), u(Parameter::Ky)]],
             omega0_deg_per_h: [u(Parameter::Omega0x), u(Parameter::Omega0y)],
-            omega_n_deg_per_h_per_g: rows(&result.omega_n_uncertainty_deg_per_h_per_g),
-            omega_g_deg_per_h_per_g: u(Parameter::OmegaG),
-            omega_k_deg_per_h_per_g: u(Parameter::OmegaK),
+            omega_n_deg_per_h_per_g: (result.model != Model::General)
+                .then(|| rows(&result.omega_n_uncertainty_deg_per_h_per_g)),
+            omega_g_deg_per_h_per_g: result.standard_uncertainty(Parameter::OmegaG),
+            omega_k_deg_per_h_per_g: result.standard_uncertainty(Parameter::OmegaK),
+            g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows_of_three(&g.standard_uncertainty_deg_per_h_per_g)),
+            drift_deg_per_h_per_h: result.drift.map(|drift| drift.standard_uncertainty_deg_per_h_per_h.into()),
             anisoelasticity_deg_per_h_per_g2: result.standard_uncertainty(Parameter::Anisoelasticity),
         }
     }
@@ -404,7 +612,9 @@ impl UncertaintyDocument {
 impl MethodResult {
     /// Returns values and standard uncertainties for a comparison, with the local g and its standard uncertainty, m/s².
     pub fn found(&self, gravity_m_per_s2: f64, gravity_u_m_per_s2: f64) -> Found {
-        let standard_uncertainty = Parameter::EIGHT.map(|p| self.standard_uncertainty(p).unwrap_or(0.0));
-        Found { parameters: self.parameters, standard_uncertainty, gravity_m_per_s2, gravity_u_m_per_s2 }
+        let standard_uncertainty = Parameter::EIGHT.map(|p| self.standard_uncertainty(p).unwrap_or(f64::NAN));
+        let values = Parameter::EIGHT.map(|parameter| self.value(parameter).unwrap_or(f64::NAN));
+        let parameters = GyroParameters::from_vector(&values);
+        Found { parameters, standard_uncertainty, gravity_m_per_s2, gravity_u_m_per_s2 }
     }
 }

@@ -36,6 +36,8 @@ pub(crate) struct Estimates {
     pub(crate) angles: Vec<[Basis; 3]>,
     pub(crate) returns: Basis,
     pub(crate) noise: Basis,
+    pub(crate) visits: Basis,
+    pub(crate) turn_ons: Basis,
     pub(crate) platform: Basis,
     pub(crate) base: Basis,
 }
@@ -49,6 +51,8 @@ impl Estimates {
             angles: Vec::new(),
             returns: Basis::Known,
             noise: Basis::Known,
+            visits: Basis::Known,
+            turn_ons: Basis::Known,
             platform: Basis::Known,
             base: Basis::Known,
         };
@@ -86,10 +90,13 @@ impl Estimates {
         let mut all = Self::of_stand(setup);
         all.noise = all.add(repeats.noise_degrees_of_freedom);
         if repeats.visit_degrees_of_freedom.is_finite() {
-            // An enlarged variance of a visit is estimated from the scatter alone, whatever was stated of its parts.
+            // A variance of a visit that is not the stated one is estimated from the scatter, whatever was stated of its
+            // parts.
             all.returns = all.add(repeats.visit_degrees_of_freedom);
             all.noise = all.returns;
+            all.visits = all.returns;
         }
+        all.turn_ons = all.add(repeats.turn_on.degrees_of_freedom);
         all
     }
 

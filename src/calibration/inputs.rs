@@ -1,10 +1,12 @@
 //! Inputs of a calibration: the coefficients, and the standard uncertainties of everything behind them.
 
+use super::readings::Readings;
 use crate::attitude::{self, Deviation};
-use crate::coefficients::{Coefficients, EarthRate, Position, SingularPositions, StandGeometry};
+use crate::coefficients::{Coefficients, EIGHT_POSITIONS, EarthRate, Position, SingularPositions, StandGeometry};
 use crate::gyro::GyroNoise;
 use crate::laboratory::Meter;
 use nalgebra::{Matrix3, Vector3};
+use std::borrow::Cow;
 
 /// Standard uncertainties of all inputs of a calibration. Zero means exact.
 ///
@@ -215,6 +217,22 @@ impl Setup {
     /// Returns the standard uncertainties of all inputs.
     pub fn uncertainty(&self) -> &InputUncertainty {
         &self.uncertainty
+    }
+
+    /// Returns the setup with the positions that have readings; closed methods then need all of the paper's eight.
+    pub(crate) fn of_readings(&self, readings: &Readings) -> Cow<'_, Self> {
+        let left_out = |place: &usize| readings.left_out().contains(&self.coefficients.positions[*place].index);
+        let places: Vec<usize> = (0..self.coefficients.positions.len()).filter(left_out).collect();
+        if places.is_empty() {
+            return Cow::Borrowed(self);
+        }
+        let eight = |place: &usize| {
+            EIGHT_POSITIONS.iter().any(|(index, ..)| *index == self.coefficients.positions[*place].index)
+        };
+        let matrices = if places.iter().any(eight) { None } else { self.coefficients.matrices };
+        let mut rest = places.iter().rev().fold(self.clone(), |rest, place| rest.without(*place));
+        rest.coefficients.matrices = matrices;
+        Cow::Owned(rest)
     }
 
     /// Returns a copy without position `place` and without Δ, B, C.

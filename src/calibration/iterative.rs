@@ -34,7 +34,7 @@ impl Default for StopRule {
 pub enum NoIterativeSolution {
     /// Some of the paper's eight positions are missing, and the method requires all of them.
     #[error(
-        "the stand lacks some of the eight positions that the iterative method requires; use least squares, which \
+        "some of the eight positions that the iterative method requires have no readings; use least squares, which \
              takes any positions"
     )]
     EightPositionsMissing,

@@ -7,9 +7,10 @@
 //! iterated), never from the noisy readings.
 
 use super::inputs::MeterUncertainty;
+use super::offsets::Offsets;
 use super::parameter::Parameter;
-use super::unknowns::{Unknowns, design};
-use crate::coefficients::Coefficients;
+use super::unknowns::{Model, Unknowns, design};
+use crate::coefficients::{Coefficients, PositionCoefficients};
 use crate::gyro::GyroParameters;
 use crate::statistics::least_squares::{Factorised, condition};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
@@ -22,6 +23,9 @@ use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 /// condition number grows towards the poles, to 74 at a latitude of 85°. With the anisoelastic coefficient it is
 /// infinite without deviations, above 500 at ±10′ and below 100 from about ±15° on.
 pub(crate) const LARGEST_CONDITION: f64 = 300.0;
+
+/// Condition number above which turn-ons or a drift cannot be told from other unknowns at all.
+const SINGULAR: f64 = 1e6;
 
 /// Maximum number of steps of the fit; usually it needs three or four.
 const LARGEST_NUMBER_OF_STEPS: usize = 30;
@@ -61,6 +65,12 @@ pub enum NoLeastSquares {
         /// Condition number of the equations.
         condition: f64,
     },
+    /// A drift in time is asked for, but a reading has no time.
+    #[error("a drift in time cannot be fitted without the time of every reading: add the column time_s")]
+    NoTimes,
+    /// A drift in time is asked for, but all readings have the same time.
+    #[error("a drift in time cannot be fitted, because all readings have the same time_s")]
+    ConstantTime,
     /// A current or an uncertainty that is not finite, or a meter without any uncertainty.
     #[error("every current must be finite and every uncertainty positive")]
     NotUsable,
@@ -89,9 +99,9 @@ pub(crate) fn solve(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],
     meter: &MeterUncertainty,
-    anisoelasticity: bool,
+    model: Model,
 ) -> Result<LeastSquaresSolution, NoLeastSquares> {
-    Ok(Fit::new(coefficients, currents_ma, anisoelasticity, own_covariance_of(meter))?.solution())
+    Ok(Fit::new(coefficients, currents_ma, model, &Offsets::default(), own_covariance_of(meter))?.solution())
 }
 
 /// Returns the standard uncertainties of [`Parameter::EIGHT`], to first order, for one reading of the exact currents of
@@ -103,12 +113,13 @@ pub(crate) fn expected_uncertainties(
     gyro: &GyroParameters,
     meter: &MeterUncertainty,
 ) -> Option<[f64; 8]> {
-    let unknowns = Unknowns { parameters: *gyro, anisoelasticity_deg_per_h_per_g2: 0.0 };
+    let unknowns = Unknowns::of(*gyro);
     let currents_ma = unknowns.currents_ma(&coefficients.positions)?;
     let own_covariance = own_covariance_of(meter);
-    let problem = Problem { coefficients, currents_ma: &currents_ma, anisoelasticity: false, own_covariance };
+    let (model, offsets) = (Model::Paper, &Offsets::default());
+    let problem = Problem { coefficients, currents_ma: &currents_ma, model, offsets, own_covariance };
     problem.conditioned(largest_current(&currents_ma)).ok()?;
-    let (_, fit) = problem.step(&unknowns, currents_ma.clone())?;
+    let (_, fit) = problem.step(&Solution { unknowns, changing: Vec::new() }, Regressors::Computed)?;
     // The covariance of the parameters is R⁻¹ R⁻¹'.
     let r_inverse = fit.model.r_inverse();
     Some(std::array::from_fn(|place| r_inverse.row(place).norm()))
@@ -130,10 +141,30 @@ fn largest_current(currents_ma: &[Vector2<f64>]) -> f64 {
     if largest == 0.0 { 1.0 } else { largest }
 }
 
+/// Unknowns of the drift model, and x of the [`Offsets`].
+#[derive(Debug, Clone, PartialEq)]
+struct Solution {
+    unknowns: Unknowns,
+    changing: Vec<f64>,
+}
+
+/// Currents that stand in the equations as regressors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Regressors {
+    /// Those that follow from the last solution.
+    Computed,
+    /// Those that were read.
+    Read,
+}
+
 /// Fitted unknowns, with the quantities from which their covariance is computed.
 #[derive(Debug, Clone)]
 pub(crate) struct Fit {
     pub(crate) unknowns: Unknowns,
+    /// x of the offsets: biases of turn-ons, °/h, and drift in time, °/h².
+    pub(crate) changing: Vec<f64>,
+    /// Positions with the Earth rate less the offset of their mean.
+    pub(crate) positions: Vec<PositionCoefficients>,
     /// Currents (J_x, J_y) that follow from the unknowns, mA.
     pub(crate) currents_ma: Vec<Vector2<f64>>,
     /// W for every position, with W C W' = 1, where C is the covariance of its own part.
@@ -143,7 +174,8 @@ pub(crate) struct Fit {
     /// `true` if the steps converged. Otherwise the readings are far from any gyro's, and the regressors are measured
     /// currents.
     pub(crate) settled: bool,
-    anisoelasticity: bool,
+    /// Model of the g-sensitive drift.
+    pub(crate) of: Model,
 }
 
 impl Fit {
@@ -152,17 +184,18 @@ impl Fit {
     pub(crate) fn new(
         coefficients: &Coefficients,
         currents_ma: &[Vector2<f64>],
-        anisoelasticity: bool,
+        model: Model,
+        offsets: &Offsets,
         own_covariance: impl Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>,
     ) -> Result<Self, NoLeastSquares> {
-        let problem = Problem { coefficients, currents_ma, anisoelasticity, own_covariance };
+        let problem = Problem { coefficients, currents_ma, model, offsets, own_covariance };
         let start = problem.first()?;
-        if let Some(fit) = problem.settle(start) {
+        if let Some(fit) = problem.settle(start.clone()) {
             return Ok(fit);
         }
         // No gyro gives such readings. One step with the measured currents as regressors is the best available fit.
-        let (step, mut fit) = problem.step(&start, currents_ma.to_vec()).ok_or(NoLeastSquares::NotUsable)?;
-        fit.unknowns = start.plus(&step.0);
+        let (step, mut fit) = problem.step(&start, Regressors::Read).ok_or(NoLeastSquares::NotUsable)?;
+        problem.advance(&mut fit, &step.0);
         fit.settled = false;
         Ok(fit)
     }
@@ -171,26 +204,64 @@ impl Fit {
         let anisoelasticity = self.unknowns.anisoelasticity_deg_per_h_per_g2;
         LeastSquaresSolution {
             parameters: self.unknowns.parameters,
-            anisoelasticity_deg_per_h_per_g2: self.anisoelasticity.then_some(anisoelasticity),
+            anisoelasticity_deg_per_h_per_g2: (self.of == Model::Anisoelastic).then_some(anisoelasticity),
         }
     }
+
+    /// Returns the drift in time about x and y, °/h², and its covariance from the own parts of the positions; `None` if it
+    /// was not fitted.
+    pub(crate) fn drift(&self, offsets: &Offsets) -> Option<(Vector2<f64>, Matrix2<f64>)> {
+        let &[.., x, y] = self.changing.as_slice() else { return None };
+        let r_inverse = self.model.r_inverse();
+        let rows = r_inverse.rows(r_inverse.nrows() - 2, 2);
+        let covariance = Matrix2::from_fn(|row, column| rows.row(row).dot(&rows.row(column)));
+        offsets.drift.then_some((Vector2::new(x, y), covariance))
+    }
+
+    /// Returns the unwhitened equations, with the rows and columns of the offsets.
+    pub(crate) fn design(&self, offsets: &Offsets) -> DMatrix<f64> {
+        whole_design(&self.positions, &self.currents_ma, self.of, offsets)
+    }
+
+    /// Returns the misclosure of the mean of a position, °/h.
+    pub(crate) fn misclosure(&self, place: usize, current_ma: &Vector2<f64>) -> Vector2<f64> {
+        self.unknowns.misclosure(&self.positions[place], current_ma)
+    }
+
+    /// Returns the misclosures of the rows that the differences of visits add, in units of their standard uncertainty.
+    pub(crate) fn of_differences(&self, offsets: &Offsets) -> DVector<f64> {
+        &offsets.right - &offsets.rows * DVector::from_column_slice(&self.changing)
+    }
+}
+
+fn whole_design(
+    positions: &[PositionCoefficients],
+    currents_ma: &[Vector2<f64>],
+    model: Model,
+    offsets: &Offsets,
+) -> DMatrix<f64> {
+    let design = design(positions, currents_ma, model);
+    if offsets.columns() == 0 {
+        return design;
+    }
+    let (rows, columns) = design.shape();
+    let mut whole = design.resize(rows + offsets.rows.nrows(), columns + offsets.columns(), 0.0);
+    offsets.write(&mut whole, columns);
+    whole
 }
 
 /// Input of a fit, kept together to shorten the argument lists of its steps.
 struct Problem<'a, F> {
     coefficients: &'a Coefficients,
     currents_ma: &'a [Vector2<f64>],
-    anisoelasticity: bool,
+    model: Model,
+    offsets: &'a Offsets,
     own_covariance: F,
 }
 
 impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
-    fn columns(&self) -> usize {
-        if self.anisoelasticity { Parameter::NINE.len() } else { Parameter::EIGHT.len() }
-    }
-
     /// Returns the unweighted equations with measured currents in the unit `unit_ma`, after a check of rank and
-    /// condition.
+    /// condition. Columns of offsets are only checked.
     fn conditioned(&self, unit_ma: f64) -> Result<Factorised, NoLeastSquares> {
         let positions = &self.coefficients.positions;
         if self.currents_ma.len() != positions.len() {
@@ -198,7 +269,10 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
             return Err(NoLeastSquares::WrongNumberOfCurrents { found, expected });
         }
         let scaled: Vec<_> = self.currents_ma.iter().map(|current| current / unit_ma).collect();
-        let design = design(positions, &scaled, self.columns());
+        if self.offsets.columns() > 0 {
+            self.offsets_determined(whole_design(positions, &scaled, self.model, self.offsets))?;
+        }
+        let design = design(positions, &scaled, self.model);
         let model = Factorised::new(design.clone()).ok().filter(|model| model.condition_bound() <= LARGEST_CONDITION);
         match model {
             Some(model) => Ok(model),
@@ -207,7 +281,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
     }
 
     /// Returns the unweighted solution with measured currents.
-    fn first(&self) -> Result<Unknowns, NoLeastSquares> {
+    fn first(&self) -> Result<Solution, NoLeastSquares> {
         let positions = &self.coefficients.positions;
         let unit_ma = largest_current(self.currents_ma);
         let model = self.conditioned(unit_ma)?;
@@ -219,7 +293,8 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         model.rotate(&mut right);
         let (mut solution, _) = model.solve_rotated(&right);
         solution.rows_mut(0, 4).scale_mut(1.0 / unit_ma);
-        Ok(Unknowns::from_vector(&solution))
+        let unknowns = Unknowns::from_vector(self.model, &solution);
+        Ok(Solution { unknowns, changing: vec![0.0; self.offsets.columns()] })
     }
 
     /// Returns the model if its exact condition number is small enough; called if the bound of the condition number is
@@ -229,30 +304,81 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         if found.number <= LARGEST_CONDITION {
             return Factorised::new(design).map_err(|_| NoLeastSquares::NotUsable);
         }
-        Err(NoLeastSquares::Inseparable { groups: mixed(&found.undetermined), condition: found.number })
+        let groups = mixed(&found.undetermined, &self.names());
+        Err(NoLeastSquares::Inseparable { groups, condition: found.number })
+    }
+
+    /// Checks that no offset is mixed with another unknown. How well each is known, its uncertainty tells.
+    fn offsets_determined(&self, mut design: DMatrix<f64>) -> Result<(), NoLeastSquares> {
+        // Rows of differences are in units of their uncertainty, which has no place here; columns have different units.
+        let first = 2 * self.coefficients.positions.len();
+        let largest = design.rows_range(first..).amax();
+        if largest > 0.0 {
+            design.rows_range_mut(first..).unscale_mut(largest);
+        }
+        let found = condition(&scaled_columns(design), SINGULAR).ok_or(NoLeastSquares::NotUsable)?;
+        if found.undetermined.is_empty() {
+            return Ok(());
+        }
+        let groups = mixed(&found.undetermined, &self.names());
+        Err(NoLeastSquares::Inseparable { groups, condition: found.number })
+    }
+
+    /// Returns the names of all columns.
+    fn names(&self) -> Vec<Parameter> {
+        let turn_ons = self.offsets.cycles.len().saturating_sub(1);
+        let turn_ons = (0..turn_ons).flat_map(|_| [Parameter::TurnOn(0), Parameter::TurnOn(1)]);
+        let drift = self.offsets.drift.then_some([Parameter::Drift(0), Parameter::Drift(1)]);
+        self.model.parameters().iter().copied().chain(turn_ons).chain(drift.into_iter().flatten()).collect()
     }
 
     /// Iterates from `start` until a step is negligible, or returns `None` if the steps do not converge.
-    fn settle(&self, start: Unknowns) -> Option<Fit> {
-        let mut unknowns = start;
+    fn settle(&self, start: Solution) -> Option<Fit> {
+        let mut solution = start;
         for _ in 0..LARGEST_NUMBER_OF_STEPS {
-            let currents_ma = unknowns.currents_ma(&self.coefficients.positions)?;
-            let ((step, length), mut fit) = self.step(&unknowns, currents_ma)?;
-            unknowns = unknowns.plus(&step);
-            fit.unknowns = unknowns;
+            let ((step, length), mut fit) = self.step(&solution, Regressors::Computed)?;
+            self.advance(&mut fit, &step);
             if length < SETTLED {
                 return Some(fit);
             }
+            solution = Solution { unknowns: fit.unknowns, changing: fit.changing };
         }
         None
     }
 
-    /// Returns one step from `unknowns` and its length in units of the solution's own uncertainty, with regressors and
-    /// weights from the currents `regressors_ma`; `None` if the equations cannot be factorised.
-    fn step(&self, unknowns: &Unknowns, regressors_ma: Vec<Vector2<f64>>) -> Option<((DVector<f64>, f64), Fit)> {
-        let positions = &self.coefficients.positions;
-        let mut design = design(positions, &regressors_ma, self.columns());
-        let mut right = DMatrix::zeros(2 * positions.len(), 1);
+    /// Adds a step to the solution of `fit`.
+    fn advance(&self, fit: &mut Fit, step: &DVector<f64>) {
+        fit.unknowns = fit.unknowns.plus(self.model, step);
+        if self.offsets.columns() > 0 {
+            for (value, change) in fit.changing.iter_mut().zip(step.iter().skip(self.model.columns())) {
+                *value += change;
+            }
+            fit.positions = self.positions(&fit.changing);
+        }
+    }
+
+    /// Returns the positions with the Earth rate less the offset of their mean.
+    fn positions(&self, changing: &[f64]) -> Vec<PositionCoefficients> {
+        let mut positions = self.coefficients.positions.clone();
+        if self.offsets.columns() > 0 {
+            for (place, at) in positions.iter_mut().enumerate() {
+                at.earth_rate_deg_per_h -= self.offsets.of_mean(place, changing);
+            }
+        }
+        positions
+    }
+
+    /// Returns one step from a solution and its length in units of the solution's own uncertainty; `None` if the
+    /// equations cannot be factorised.
+    fn step(&self, from: &Solution, regressors: Regressors) -> Option<((DVector<f64>, f64), Fit)> {
+        let Solution { unknowns, changing } = from;
+        let positions = self.positions(changing);
+        let regressors_ma = match regressors {
+            Regressors::Computed => unknowns.currents_ma(&positions)?,
+            Regressors::Read => self.currents_ma.to_vec(),
+        };
+        let mut design = whole_design(&positions, &regressors_ma, self.model, self.offsets);
+        let mut right = DMatrix::zeros(design.nrows(), 1);
         let mut whitening = Vec::with_capacity(positions.len());
         for (place, at) in positions.iter().enumerate() {
             let covariance = (self.own_covariance)(place, unknowns, &regressors_ma[place]);
@@ -263,12 +389,27 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
             whitening.push(whiten);
         }
         let model = Factorised::new(design).ok()?;
-        model.rotate(&mut right);
-        let step = model.solve_rotated(&right);
-        let (unknowns, currents_ma) = (*unknowns, regressors_ma);
-        let anisoelasticity = self.anisoelasticity;
-        Some((step, Fit { unknowns, currents_ma, whitening, model, settled: true, anisoelasticity }))
+        let (unknowns, changing, currents_ma, of) = (*unknowns, changing.clone(), regressors_ma, self.model);
+        let fit = Fit { unknowns, changing, positions, currents_ma, whitening, model, settled: true, of };
+        if self.offsets.columns() > 0 {
+            right
+                .rows_mut(2 * fit.positions.len(), self.offsets.rows.nrows())
+                .copy_from(&fit.of_differences(self.offsets));
+        }
+        fit.model.rotate(&mut right);
+        Some((fit.model.solve_rotated(&right), fit))
     }
+}
+
+/// Returns a matrix with columns of length 1, so that their units do not matter; columns of zeros stay.
+fn scaled_columns(mut matrix: DMatrix<f64>) -> DMatrix<f64> {
+    for mut column in matrix.column_iter_mut() {
+        let length = column.norm();
+        if length > 0.0 {
+            column.unscale_mut(length);
+        }
+    }
+    matrix
 }
 
 /// Returns L⁻¹ for C = L L', or `None` if C is not positive definite.
@@ -292,7 +433,7 @@ pub(crate) fn whiten_rows(matrix: &mut DMatrix<f64>, place: usize, whiten: &Matr
 ///
 /// Elimination with the largest element as pivot leaves each direction with as few parameters as possible. Two
 /// parameters that are undetermined independently then do not seem to be mixed with each other.
-fn mixed(directions: &[DVector<f64>]) -> Vec<Vec<Parameter>> {
+fn mixed(directions: &[DVector<f64>], names: &[Parameter]) -> Vec<Vec<Parameter>> {
     let mut rows: Vec<DVector<f64>> = directions.to_vec();
     for pivot_row in 0..rows.len() {
         let pivot = rows[pivot_row].iamax();
@@ -311,7 +452,7 @@ fn mixed(directions: &[DVector<f64>]) -> Vec<Vec<Parameter>> {
     }
     let involved = |row: &DVector<f64>| {
         let limit = 0.1 * row.amax();
-        Parameter::NINE.into_iter().filter(|p| row.get(p.place()).is_some_and(|x| x.abs() > limit)).collect()
+        names.iter().zip(row.iter()).filter(|(_, x)| x.abs() > limit).map(|(name, _)| *name).collect()
     };
     rows.iter().map(involved).collect()
 }

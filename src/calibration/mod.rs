@@ -7,7 +7,8 @@
 //! * [`iterative`]: the paper's iterative method, eq. (17)-(19).
 //! * `least_squares`: weighted least squares on all readings of any positions.
 //! * `procedure`: all methods side by side; `result`: their results with uncertainties, residuals and chi-square.
-//! * `scatter`: agreement of the rows of a visit and of the visits of a position.
+//! * `scatter`: agreement of the rows of a visit, of the visits of a position and of the turn-ons with what was stated.
+//! * `noise`: the gyro's own noise; `offsets`: drift that changes during a run.
 //! * `diagnosis`: possible causes if the readings do not fit.
 //! * `verdict`: comparison with a type's specification and with an earlier calibration.
 //! * `mistake`: errors that do not show in the fit, recognised by comparison with the expected gyro.
@@ -49,6 +50,8 @@ pub(crate) mod inputs;
 pub mod iterative;
 pub(crate) mod least_squares;
 pub(crate) mod mistake;
+pub(crate) mod noise;
+pub(crate) mod offsets;
 pub(crate) mod parameter;
 pub(crate) mod prediction;
 pub(crate) mod procedure;
@@ -64,16 +67,18 @@ pub(crate) mod verdict;
 pub use analytic::NoAnalyticSolution;
 pub use causes::{Cause, Input};
 pub use diagnosis::{Explanation, Hint};
-pub use document::CalibrationDocument;
+pub use document::{CalibrationDocument, Subject};
 pub use estimates::Basis;
 pub use inputs::{InputUncertainty, MeterUncertainty, NoSetup, Setup};
 pub use least_squares::NoLeastSquares;
 pub use mistake::{CurrentsMistaken, Mistake};
+pub use noise::{DriftNoise, NoiseSource};
 pub use parameter::Parameter;
 pub use prediction::predicted;
 pub use procedure::{Options, calibrate};
-pub use readings::{NoReadings, PositionReadings, Reading, Readings, Visit};
+pub use readings::{Exclusion, NoReadings, NotExcluded, PositionReadings, Reading, Readings, Visit};
 pub use result::{Calibration, ChiSquare, Iteration, Method, MethodRefusal, MethodResult, Residual};
 pub use scatter::{Agreement, RowScatter, Scatter};
 pub use stated::NotStated;
+pub use unknowns::Model;
 pub use verdict::{Decision, Found, ParameterVerdict, Verdict, against_earlier, against_type};

@@ -25,6 +25,13 @@ pub enum Parameter {
     OmegaK,
     /// Anisoelastic coefficient, called ω_n in eq. (2), °/(h·g²).
     Anisoelasticity,
+    /// Element (row, column) of the matrix of g-sensitive drift of the general model, °/(h·g); rows x and y, columns of
+    /// n_x, n_y, n_z, from 0.
+    G(u8, u8),
+    /// Difference of ω_0 between turn-ons of the gyro, °/h, about axis x or y, counted from 0.
+    TurnOn(u8),
+    /// Linear drift of ω_0 in time, °/h², about axis x or y, counted from 0.
+    Drift(u8),
 }
 
 impl Parameter {
@@ -49,6 +56,22 @@ impl Parameter {
         Self::Anisoelasticity,
     ];
 
+    /// The parameters of the general model: G by rows takes the place of ω_g and ω_k.
+    pub(crate) const TWELVE: [Self; 12] = [
+        Self::Kx,
+        Self::Kxy,
+        Self::Kyx,
+        Self::Ky,
+        Self::Omega0x,
+        Self::Omega0y,
+        Self::G(0, 0),
+        Self::G(0, 1),
+        Self::G(0, 2),
+        Self::G(1, 0),
+        Self::G(1, 1),
+        Self::G(1, 2),
+    ];
+
     /// Returns the key of the parameter in JSON results.
     pub fn key(self) -> &'static str {
         match self {
@@ -61,6 +84,9 @@ impl Parameter {
             Self::OmegaG => "omega_g",
             Self::OmegaK => "omega_k",
             Self::Anisoelasticity => "anisoelasticity",
+            Self::G(row, column) => G_KEYS[usize::from(row)][usize::from(column)],
+            Self::TurnOn(axis) => ["turn_on_x", "turn_on_y"][usize::from(axis)],
+            Self::Drift(axis) => ["drift_x", "drift_y"][usize::from(axis)],
         }
     }
 
@@ -76,6 +102,9 @@ impl Parameter {
             Self::OmegaG => "ω_g",
             Self::OmegaK => "ω_k",
             Self::Anisoelasticity => "ω_n (anisoelasticity)",
+            Self::G(row, column) => G_SYMBOLS[usize::from(row)][usize::from(column)],
+            Self::TurnOn(axis) => ["the turn-ons about x", "the turn-ons about y"][usize::from(axis)],
+            Self::Drift(axis) => ["the drift in time about x", "the drift in time about y"][usize::from(axis)],
         }
     }
 
@@ -83,17 +112,21 @@ impl Parameter {
     pub fn unit(self) -> &'static str {
         match self {
             Self::Kx | Self::Kxy | Self::Kyx | Self::Ky => "deg/h/mA",
-            Self::Omega0x | Self::Omega0y => "deg/h",
-            Self::OmegaG | Self::OmegaK => "deg/h/g",
+            Self::Omega0x | Self::Omega0y | Self::TurnOn(_) => "deg/h",
+            Self::OmegaG | Self::OmegaK | Self::G(..) => "deg/h/g",
             Self::Anisoelasticity => "deg/h/g^2",
+            Self::Drift(_) => "deg/h/h",
         }
     }
 
-    /// Returns the index of the parameter in vectors of parameters.
+    /// Returns the index of one of [`Self::NINE`] in vectors of parameters.
     pub(crate) fn place(self) -> usize {
-        self as usize
+        Self::NINE.iter().position(|one| *one == self).unwrap_or(usize::MAX)
     }
 }
+
+const G_KEYS: [[&str; 3]; 2] = [["g_xx", "g_xy", "g_xz"], ["g_yx", "g_yy", "g_yz"]];
+const G_SYMBOLS: [[&str; 3]; 2] = [["G_xx", "G_xy", "G_xz"], ["G_yx", "G_yy", "G_yz"]];
 
 impl GyroParameters {
     /// Returns the eight parameters in the order of [`Parameter::EIGHT`].

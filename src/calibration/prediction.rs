@@ -3,6 +3,7 @@
 
 use super::inputs::{MeterUncertainty, Setup};
 use super::least_squares;
+use super::parameter::Parameter;
 use super::procedure::{Options, calibrate};
 use super::readings::Readings;
 use super::result::{Method, MethodResult};
@@ -19,6 +20,23 @@ pub fn predicted(setup: &Setup, gyro: &GyroParameters, method: Method) -> Option
     let readings = Readings::new(setup.coefficients(), &each?).ok()?;
     let options = Options { methods: vec![method], ..Options::default() };
     calibrate(setup, &readings, &options).ok()?.results.pop()
+}
+
+/// Returns the parameter whose standard uncertainty suffers most from the positions that `readings` left out, with its
+/// ratio to that with all positions, each visited once.
+///
+/// Returns `None` if none was left out, or the rest does not determine the parameters.
+pub(crate) fn cost_of_missing(setup: &Setup, readings: &Readings, gyro: &GyroParameters) -> Option<(Parameter, f64)> {
+    let rest = setup.of_readings(readings);
+    if readings.left_out().is_empty() {
+        return None;
+    }
+    let [all, rest] = [setup, &rest].map(|setup| predicted(setup, gyro, Method::LeastSquares));
+    let (all, rest) = (all?, rest?);
+    let ratio = |parameter: Parameter| {
+        Some((parameter, rest.standard_uncertainty(parameter)? / all.standard_uncertainty(parameter)?))
+    };
+    Parameter::EIGHT.into_iter().filter_map(ratio).max_by(|(_, one), (_, other)| one.total_cmp(other))
 }
 
 /// Ratios of standard uncertainties on a stand to those on the ideal stand with the same positions at the same site.

@@ -5,15 +5,26 @@ use super::diagnosis;
 use super::inputs::Setup;
 use super::iterative::{self, NoIterativeSolution, StopRule};
 use super::least_squares::{Fit, NoLeastSquares};
+use super::offsets::Offsets;
 use super::parameter::Parameter;
 use super::propagation::{Propagation, chi_square, covariance, standard_deviations};
 use super::readings::Readings;
-use super::result::{Calibration, ChiSquare, Iteration, Method, MethodRefusal, MethodResult, Residual};
+use super::result::{
+    Calibration, ChiSquare, Cycle, Drift, DriftTest, GMatrix, Iteration, Method, MethodRefusal, MethodResult,
+    ModelTest, Residual,
+};
 use super::scatter::{Observed, Repeats};
 use super::sensitivity::Sensitivity;
-use super::unknowns::Unknowns;
+use super::unknowns::{Model, Unknowns};
 use crate::gyro::GyroParameters;
-use nalgebra::{DMatrix, Matrix2, Vector2};
+use crate::statistics::distributions::chi_square_larger;
+use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2};
+
+/// Number of repeated fits with differences of visits after which their change no longer matters; two or three do.
+const MOST_OBSERVATIONS: usize = 8;
+
+/// Relative change of turn-ons and drift from one fit to the next that does not matter.
+const SAME_OFFSET: f64 = 1e-12;
 
 /// Options of a calibration.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,13 +33,15 @@ pub struct Options {
     pub methods: Vec<Method>,
     /// Stop rule of the iterative method.
     pub stop_rule: StopRule,
-    /// `true` if least squares also fits the anisoelastic coefficient of eq. (2).
-    pub anisoelasticity: bool,
+    /// Model of the g-sensitive drift that least squares fits; the paper's methods have the paper's.
+    pub model: Model,
+    /// `true` if least squares also fits a linear drift of ω_0 in time.
+    pub drift: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { methods: Method::ALL.to_vec(), stop_rule: StopRule::default(), anisoelasticity: false }
+        Self { methods: Method::ALL.to_vec(), stop_rule: StopRule::default(), model: Model::Paper, drift: false }
     }
 }
 
@@ -38,27 +51,51 @@ impl Default for Options {
 /// Returns [`NoLeastSquares`] if the readings are for other positions or do not determine a gyro; the results of other
 /// methods would then be meaningless. A refusal of a single method is in [`Calibration::refused`].
 pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Result<Calibration, NoLeastSquares> {
+    let setup = &*setup.of_readings(readings);
     let indices = readings.positions().iter().map(|position| position.index);
     if !indices.eq(setup.coefficients().positions.iter().map(|at| at.index)) {
         return Err(NoLeastSquares::OtherPositions);
     }
-    let mut data = Data::new(setup, readings);
-    let mut fit = data.fit(setup, false)?;
-    let Observed { rows, visits } = data.observe(setup, readings, &mut fit)?;
+    if options.drift {
+        drift_can_be_fitted(readings)?;
+    }
+    // If the positions do not determine the model, least squares alone has no result.
+    let (Observation { data, fit, seen }, refused) = match Observation::new(setup, readings, options) {
+        Err(refusal) if options.model != Model::Paper => {
+            let paper = Options { model: Model::Paper, ..options.clone() };
+            (Observation::new(setup, readings, &paper)?, Some(refusal))
+        }
+        found => (found?, None),
+    };
     let evaluation = Evaluation::new(setup, &data, &fit);
-    let hint = diagnosis::hint(setup, &data, &evaluation.chi_square);
-    let settled = fit.settled;
-    let (results, refused) = (Vec::new(), Vec::new());
-    let mut calibration = Calibration { results, refused, scatter: visits, row_scatter: rows, settled, hint };
+    let hint = diagnosis::hint(setup, &data, fit.of, &evaluation.chi_square);
+    let mut calibration = Calibration {
+        results: Vec::new(),
+        refused: Vec::new(),
+        scatter: seen.visits,
+        row_scatter: seen.rows,
+        turn_on_scatter: seen.turn_ons,
+        visit_noise: data.repeats.visit,
+        turn_on_noise: data.repeats.turn_on,
+        drift_test: (!options.drift).then(|| drift_test(setup, readings, options)).flatten(),
+        settled: fit.settled,
+        hint,
+    };
+    let closed = options.model != Model::General && !options.drift && data.offsets.are_balanced();
+    let paper = if fit.of == Model::Paper { fit.clone() } else { data.fit(setup, Model::Paper)? };
+    let of_the_paper = Evaluation::new(setup, &data, &paper);
     for &method in &options.methods {
         let result = match method {
-            Method::Analytic => evaluation.analytic().map_err(MethodRefusal::from),
-            Method::Iterative => evaluation.iterative(&options.stop_rule),
-            Method::LeastSquares if options.anisoelasticity => data
-                .fit(setup, true)
-                .map(|fit| Evaluation::new(setup, &data, &fit).least_squares())
-                .map_err(MethodRefusal::from),
-            Method::LeastSquares => Ok(evaluation.least_squares()),
+            Method::Analytic | Method::Iterative if !closed => Err(MethodRefusal::NotThisModel),
+            Method::Analytic => of_the_paper.analytic().map_err(MethodRefusal::from),
+            Method::Iterative => of_the_paper.iterative(&options.stop_rule),
+            Method::LeastSquares => match &refused {
+                Some(refusal) => Err(refusal.clone().into()),
+                None => {
+                    let model_test = ModelTest::new(setup, &data, [&paper, &fit]);
+                    Ok(MethodResult { model_test, ..evaluation.least_squares() })
+                }
+            },
         };
         match result {
             Ok(result) => calibration.results.push(result),
@@ -66,6 +103,28 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
         }
     }
     Ok(calibration)
+}
+
+/// Checks that all readings have times, and not all the same.
+fn drift_can_be_fitted(readings: &Readings) -> Result<(), NoLeastSquares> {
+    let mut times = readings.positions().iter().flat_map(|at| &at.visits).map(|visit| visit.time_s);
+    let first = times.next().flatten().ok_or(NoLeastSquares::NoTimes)?;
+    let mut same = true;
+    for time_s in times {
+        same &= time_s.ok_or(NoLeastSquares::NoTimes)? == first;
+    }
+    if same { Err(NoLeastSquares::ConstantTime) } else { Ok(()) }
+}
+
+/// Tests whether the drift differs from 0 where it is not fitted; `None` if there are no times, or they do not determine
+/// it.
+fn drift_test(setup: &Setup, readings: &Readings, options: &Options) -> Option<DriftTest> {
+    drift_can_be_fitted(readings).ok()?;
+    let Observation { data, fit, .. } =
+        Observation::new(setup, readings, &Options { drift: true, ..options.clone() }).ok()?;
+    let (drift, covariance) = fit.drift(&data.offsets)?;
+    let chi_square = drift.dot(&(covariance.try_inverse()? * drift));
+    Some(DriftTest { drift_deg_per_h_per_h: drift, probability: chi_square_larger(chi_square, 2) })
 }
 
 /// First-order response of a calibration to small changes of all its inputs.
@@ -77,6 +136,8 @@ pub(crate) struct Linearised {
     pub(crate) found: Unknowns,
     /// Numbers of visits and readings of each position.
     pub(crate) repeats: Repeats,
+    /// Drift that changes during the run.
+    pub(crate) offsets: Offsets,
     /// L: response of the parameters to the misclosures (parameters × misclosures, two per position). L F is the spread
     /// of the parameters.
     pub(crate) response: DMatrix<f64>,
@@ -87,16 +148,12 @@ pub(crate) fn linearise(
     setup: &Setup,
     readings: &Readings,
     method: Method,
-    anisoelasticity: bool,
+    options: &Options,
 ) -> Result<Linearised, MethodRefusal> {
-    let mut data = Data::new(setup, readings);
-    let anisoelasticity = anisoelasticity && method == Method::LeastSquares;
-    let mut fit = data.fit(setup, false)?;
-    data.observe(setup, readings, &mut fit)?;
-    if anisoelasticity {
-        fit = data.fit(setup, true)?;
-    }
-    let propagation = Propagation::new(setup, &fit);
+    let setup = &*setup.of_readings(readings);
+    let model = if method == Method::LeastSquares { options.model } else { Model::Paper };
+    let Observation { data, fit, .. } = Observation::new(setup, readings, &Options { model, ..options.clone() })?;
+    let propagation = Propagation::new(setup, &fit, &data);
     let (found, response) = match method {
         Method::LeastSquares => (fit.unknowns, propagation.response_of_least_squares()),
         Method::Analytic | Method::Iterative => {
@@ -106,11 +163,10 @@ pub(crate) fn linearise(
                 Some(_) => NoAnalyticSolution::SingularCurrents,
                 None => NoAnalyticSolution::EightPositionsMissing,
             })?;
-            let found = Unknowns { parameters, anisoelasticity_deg_per_h_per_g2: 0.0 };
-            (found, propagation.response_of_analytic(&map))
+            (Unknowns::of(parameters), propagation.response_of_analytic(&map))
         }
     };
-    Ok(Linearised { found, repeats: data.repeats, response, fit })
+    Ok(Linearised { found, repeats: data.repeats, offsets: data.offsets, response, fit })
 }
 
 /// Mean currents of all positions, the input of a fit.
@@ -120,21 +176,52 @@ pub(crate) struct Data {
     pub(crate) currents_ma: Vec<Vector2<f64>>,
     /// Numbers of visits and readings behind each mean, and their scatter.
     pub(crate) repeats: Repeats,
+    /// Drift that changes during the run.
+    pub(crate) offsets: Offsets,
+}
+
+/// The fit of a model, with the errors of visits, readings and turn-ons as observed.
+struct Observation {
+    data: Data,
+    fit: Fit,
+    seen: Observed,
+}
+
+impl Observation {
+    /// Fits with the errors as stated, updates them from their scatter, and fits again while that changes anything.
+    fn new(setup: &Setup, readings: &Readings, options: &Options) -> Result<Self, NoLeastSquares> {
+        let model = options.model;
+        let mut data = Data::new(setup, readings);
+        let mut fit = data.fit(setup, model)?;
+        data.offsets = Offsets::new(readings, options.drift);
+        let stated = data.repeats.clone();
+        let mut seen = data.repeats.observe(setup, readings, &mut data.offsets, &fit);
+        if data.repeats != stated || data.offsets.columns() > 0 {
+            fit = data.fit(setup, model)?;
+        }
+        // Differences of visits depend on K, which depends on them.
+        for _ in 0..MOST_OBSERVATIONS {
+            if data.offsets.columns() == 0 || data.offsets.rows.nrows() == 0 {
+                break;
+            }
+            let before = fit.changing.clone();
+            data.repeats = stated.clone();
+            seen = data.repeats.observe(setup, readings, &mut data.offsets, &fit);
+            fit = data.fit(setup, model)?;
+            let close = |(now, before): (&f64, &f64)| (now - before).abs() <= SAME_OFFSET * before.abs();
+            if fit.changing.iter().zip(&before).all(close) {
+                break;
+            }
+        }
+        seen.turn_ons = data.repeats.observe_turn_ons(&data.offsets, &fit);
+        Ok(Self { data, fit, seen })
+    }
 }
 
 impl Data {
     pub(crate) fn new(setup: &Setup, readings: &Readings) -> Self {
-        Self { currents_ma: readings.means_ma(), repeats: Repeats::stated(setup, readings) }
-    }
-
-    /// Updates the errors of visits and readings from their scatter, and fits again if they differ from those stated.
-    fn observe(&mut self, setup: &Setup, readings: &Readings, fit: &mut Fit) -> Result<Observed, NoLeastSquares> {
-        let stated = self.repeats.clone();
-        let observed = self.repeats.observe(setup, readings, fit);
-        if self.repeats != stated {
-            *fit = self.fit(setup, false)?;
-        }
-        Ok(observed)
+        let (currents_ma, repeats) = (readings.means_ma(), Repeats::stated(setup, readings));
+        Self { currents_ma, repeats, offsets: Offsets::default() }
     }
 
     /// Returns a copy without position `place`.
@@ -142,6 +229,9 @@ impl Data {
         let mut rest = self.clone();
         rest.currents_ma.remove(place);
         rest.repeats.shares.remove(place);
+        if place < rest.offsets.means.len() {
+            rest.offsets.means.remove(place);
+        }
         rest
     }
 
@@ -150,12 +240,15 @@ impl Data {
         let mut exchanged = self.clone();
         exchanged.currents_ma.swap(one, other);
         exchanged.repeats.shares.swap(one, other);
+        if !exchanged.offsets.means.is_empty() {
+            exchanged.offsets.means.swap(one, other);
+        }
         exchanged
     }
 
     /// Returns the weighted fit at `setup`.
-    pub(crate) fn fit(&self, setup: &Setup, anisoelasticity: bool) -> Result<Fit, NoLeastSquares> {
-        Fit::new(setup.coefficients(), &self.currents_ma, anisoelasticity, |place, unknowns, current| {
+    pub(crate) fn fit(&self, setup: &Setup, model: Model) -> Result<Fit, NoLeastSquares> {
+        Fit::new(setup.coefficients(), &self.currents_ma, model, &self.offsets, |place, unknowns, current| {
             Sensitivity::new(setup, unknowns).own_covariance(place, current, &self.repeats)
         })
     }
@@ -169,7 +262,7 @@ fn in_units(value: f64, u: f64) -> f64 {
 /// Quantities common to all methods.
 struct Evaluation<'a> {
     setup: &'a Setup,
-    currents_ma: &'a [Vector2<f64>],
+    data: &'a Data,
     fit: &'a Fit,
     propagation: Propagation<'a>,
     chi_square: ChiSquare,
@@ -177,21 +270,41 @@ struct Evaluation<'a> {
 
 impl<'a> Evaluation<'a> {
     fn new(setup: &'a Setup, data: &'a Data, fit: &'a Fit) -> Self {
-        let propagation = Propagation::new(setup, fit);
+        let propagation = Propagation::new(setup, fit, data);
         let chi_square = ChiSquare::new(chi_square(setup, fit, data));
-        Self { setup, currents_ma: &data.currents_ma, fit, propagation, chi_square }
+        Self { setup, data, fit, propagation, chi_square }
     }
 
     fn least_squares(&self) -> MethodResult {
         let solution = self.fit.solution();
+        let model = self.fit.of;
         let spread = self.propagation.least_squares();
-        let covariance = covariance(&spread);
-        let [u_g, u_k] = [Parameter::OmegaG, Parameter::OmegaK].map(|p| covariance[(p.place(), p.place())].sqrt());
+        let all = covariance(&spread);
+        let covariance = all.view((0, 0), (model.columns(), model.columns())).into_owned();
+        let u = |p| model.column(p).map_or(0.0, |column| covariance[(column, column)].sqrt());
+        let [u_g, u_k] = [Parameter::OmegaG, Parameter::OmegaK].map(u);
+        let g_matrix = (model == Model::General).then(|| GMatrix {
+            deg_per_h_per_g: self.fit.unknowns.g_matrix_deg_per_h_per_g(),
+            standard_uncertainty_deg_per_h_per_g: Matrix2x3::from_fn(|row, column| {
+                let place = 6 + 3 * row + column;
+                covariance[(place, place)].sqrt()
+            }),
+        });
+        let drift = self.fit.drift(&self.data.offsets).map(|(deg_per_h_per_h, _)| {
+            let place = all.nrows() - 2;
+            let u = [0, 1].map(|axis| all[(place + axis, place + axis)].sqrt());
+            Drift { deg_per_h_per_h, standard_uncertainty_deg_per_h_per_h: u.into() }
+        });
         MethodResult {
             method: Method::LeastSquares,
+            model,
             parameters: solution.parameters,
             omega_n_deg_per_h_per_g: solution.parameters.omega_n_deg_per_h_per_g(),
             anisoelasticity_deg_per_h_per_g2: solution.anisoelasticity_deg_per_h_per_g2,
+            g_matrix,
+            model_test: None,
+            drift,
+            cycles: self.cycles(&solution.parameters),
             iteration: None,
             residuals: self.residuals(&self.fit.unknowns, &spread),
             covariance,
@@ -201,8 +314,20 @@ impl<'a> Evaluation<'a> {
         }
     }
 
+    /// Returns ω_0 of each turn-on, whose mean is that of `parameters`.
+    fn cycles(&self, parameters: &GyroParameters) -> Vec<Cycle> {
+        let (offsets, omega0) = (&self.data.offsets, parameters.omega0_deg_per_h);
+        let turn_ons = offsets.turn_ons();
+        let each = turn_ons.row_iter().zip(&offsets.cycles).map(|(row, &cycle)| {
+            let bias = row.iter().zip(self.fit.changing.chunks_exact(2));
+            let bias = bias.fold(Vector2::zeros(), |sum, (a, x)| sum + Vector2::new(x[0], x[1]) * *a);
+            Cycle { cycle, omega0_deg_per_h: omega0 + bias }
+        });
+        each.collect()
+    }
+
     fn analytic(&self) -> Result<MethodResult, NoAnalyticSolution> {
-        let solution = analytic::solve(self.setup.coefficients(), self.currents_ma)?;
+        let solution = analytic::solve(self.setup.coefficients(), &self.data.currents_ma)?;
         let refusal = NoAnalyticSolution::SingularCurrents;
         let (parameters, omega_n) = (solution.parameters, solution.omega_n_deg_per_h_per_g);
         self.of_the_paper(Method::Analytic, parameters, omega_n, None).ok_or(refusal)
@@ -210,8 +335,8 @@ impl<'a> Evaluation<'a> {
 
     fn iterative(&self, rule: &StopRule) -> Result<MethodResult, MethodRefusal> {
         let coefficients = self.setup.coefficients();
-        let found = iterative::solve(coefficients, self.currents_ma, rule)?;
-        let predicted_steps = iterative::Plan::new(coefficients, self.currents_ma)?.predicted_steps(rule);
+        let found = iterative::solve(coefficients, &self.data.currents_ma, rule)?;
+        let predicted_steps = iterative::Plan::new(coefficients, &self.data.currents_ma)?.predicted_steps(rule);
         let iteration = Iteration {
             stop_rule: *rule,
             steps: found.steps,
@@ -239,12 +364,17 @@ impl<'a> Evaluation<'a> {
         let map = AnalyticMap::new(self.setup.coefficients(), &self.fit.currents_ma)?;
         let (spread, spread_omega_n) = self.propagation.analytic(&map);
         let u = standard_deviations(&spread_omega_n);
-        let unknowns = Unknowns { parameters, anisoelasticity_deg_per_h_per_g2: 0.0 };
+        let unknowns = Unknowns::of(parameters);
         Some(MethodResult {
             method,
+            model: Model::Paper,
             parameters,
             omega_n_deg_per_h_per_g: omega_n,
             anisoelasticity_deg_per_h_per_g2: None,
+            g_matrix: None,
+            model_test: None,
+            drift: None,
+            cycles: self.cycles(&parameters),
             iteration,
             residuals: self.residuals(&unknowns, &spread),
             covariance: covariance(&spread),
@@ -256,14 +386,15 @@ impl<'a> Evaluation<'a> {
 
     /// Returns the differences from least squares divided by their standard uncertainties.
     fn difference_to_least_squares(&self, parameters: &GyroParameters, spread: &DMatrix<f64>) -> [f64; 8] {
-        let u = standard_deviations(&(spread - self.propagation.least_squares()));
+        let of_least_squares = self.propagation.least_squares();
+        let u = standard_deviations(&(spread - of_least_squares.rows(0, spread.nrows())));
         let (found, answer) = (parameters.to_vector(), self.fit.unknowns.parameters.to_vector());
         std::array::from_fn(|place| in_units(found[place] - answer[place], u[place]))
     }
 
     fn residuals(&self, unknowns: &Unknowns, spread: &DMatrix<f64>) -> Vec<Residual> {
         let u = self.propagation.of_residuals(spread);
-        let each = self.setup.coefficients().positions.iter().zip(self.currents_ma).zip(u.chunks_exact(2));
+        let each = self.fit.positions.iter().zip(&self.data.currents_ma).zip(u.chunks_exact(2));
         each.map(|((at, current), u)| {
             let residual = unknowns.misclosure(at, current);
             Residual {

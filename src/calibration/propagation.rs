@@ -13,7 +13,6 @@ use super::inputs::Setup;
 use super::least_squares::{Fit, whiten_rows};
 use super::procedure::Data;
 use super::sensitivity::Sensitivity;
-use super::unknowns::design;
 use crate::coefficients::PositionIndex;
 use crate::statistics::scaled_f::{Part, ScaledF};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
@@ -32,13 +31,15 @@ pub(crate) struct Propagation<'a> {
 }
 
 impl<'a> Propagation<'a> {
-    pub(crate) fn new(setup: &Setup, fit: &'a Fit) -> Self {
-        let positions = &setup.coefficients().positions;
-        let rows = 2 * positions.len();
-        let mut shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma);
+    pub(crate) fn new(setup: &Setup, fit: &'a Fit, data: &Data) -> Self {
+        let rows = fit.model.rows();
+        let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma, &data.repeats);
+        // Differences of visits, the last rows, contain nothing that is common to all positions.
+        let mut shared = shared.resize_vertically(rows, 0.0);
         let mut causes = DMatrix::zeros(rows, rows + shared.ncols());
         causes.columns_mut(rows, shared.ncols()).copy_from(&shared);
         // W C W' = 1, so the own part of F is W⁻¹, and becomes the identity when whitened.
+        causes.view_mut((0, 0), (rows, rows)).fill_diagonal(1.0);
         let mut rotated = DMatrix::identity(rows, rows + shared.ncols());
         for (place, whiten) in fit.whitening.iter().enumerate() {
             let own = Matrix2::new(1.0 / whiten.m11, 0.0, -whiten.m21 / (whiten.m11 * whiten.m22), 1.0 / whiten.m22);
@@ -47,7 +48,7 @@ impl<'a> Propagation<'a> {
         }
         rotated.columns_mut(rows, shared.ncols()).copy_from(&shared);
         fit.model.rotate(&mut rotated);
-        Self { fit, design: design(positions, &fit.currents_ma, fit.model.columns()), causes, rotated }
+        Self { fit, design: fit.design(&data.offsets), causes, rotated }
     }
 
     /// Returns L F of least squares: the change of each parameter for one standard uncertainty of each cause
@@ -69,7 +70,7 @@ impl<'a> Propagation<'a> {
     pub(crate) fn analytic(&self, map: &AnalyticMap) -> (DMatrix<f64>, DMatrix<f64>) {
         let causes = self.causes.ncols();
         let (mut spread, mut omega_n) = (DMatrix::zeros(8, causes), DMatrix::zeros(4, causes));
-        let mut misclosures = vec![Vector2::zeros(); self.causes.nrows() / 2];
+        let mut misclosures = vec![Vector2::zeros(); self.fit.whitening.len()];
         for (cause, column) in self.causes.column_iter().enumerate() {
             for (place, misclosure) in misclosures.iter_mut().enumerate() {
                 *misclosure = Vector2::new(column[2 * place], column[2 * place + 1]);
@@ -104,8 +105,8 @@ impl<'a> Propagation<'a> {
     pub(crate) fn response_of_analytic(&self, map: &AnalyticMap) -> DMatrix<f64> {
         let rows = self.causes.nrows();
         let mut response = DMatrix::zeros(8, rows);
-        let mut misclosures = vec![Vector2::zeros(); rows / 2];
-        for row in 0..rows {
+        let mut misclosures = vec![Vector2::zeros(); self.fit.whitening.len()];
+        for row in 0..2 * misclosures.len() {
             misclosures[row / 2][row % 2] = 1.0;
             response.column_mut(row).copy_from_slice(&map.apply(&misclosures).parameters.to_vector());
             misclosures[row / 2][row % 2] = 0.0;
@@ -117,7 +118,8 @@ impl<'a> Propagation<'a> {
     pub(crate) fn of_residuals(&self, spread: &DMatrix<f64>) -> Vec<f64> {
         let mut residual = self.causes.clone();
         for (cause, mut column) in residual.column_iter_mut().enumerate() {
-            for parameter in 0..self.design.ncols() {
+            // The paper's methods have no offsets; they are asked only where these do not change the mean of a position.
+            for parameter in 0..spread.nrows() {
                 column.axpy(-spread[(parameter, cause)], &self.design.column(parameter), 1.0);
             }
         }
@@ -140,13 +142,14 @@ pub(crate) struct Misfit {
 /// that fits exact readings exactly. It is computed from z = Q₂'W e, whose covariance 1 + B B' has full rank (B is Q₂'W
 /// times the common part of all positions).
 pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> Misfit {
-    let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma);
+    let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma, &data.repeats);
     let count = shared.ncols();
     // The misclosures follow the common part as one more column, so that a single rotation transforms both.
-    let mut rotated = shared.resize_horizontally(count + 1, 0.0);
-    let positions = &setup.coefficients().positions;
-    for (place, ((at, current), whiten)) in positions.iter().zip(&data.currents_ma).zip(&fit.whitening).enumerate() {
-        let misclosure = fit.unknowns.misclosure(at, current);
+    let mut rotated = shared.resize(fit.model.rows(), count + 1, 0.0);
+    let top = 2 * fit.whitening.len();
+    rotated.view_mut((top, count), (fit.model.rows() - top, 1)).copy_from(&fit.of_differences(&data.offsets));
+    for (place, (current, whiten)) in data.currents_ma.iter().zip(&fit.whitening).enumerate() {
+        let misclosure = fit.misclosure(place, current);
         rotated[(2 * place, count)] = misclosure.x;
         rotated[(2 * place + 1, count)] = misclosure.y;
         whiten_rows(&mut rotated, place, whiten);
@@ -183,8 +186,8 @@ fn parts(setup: &Setup, fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Op
     if estimates.degrees_of_freedom.is_empty() {
         return Vec::new();
     }
-    let (inputs, mut columns) = causes::inputs(setup, &fit.unknowns, &fit.currents_ma, &data.repeats);
-    let mut taken = design(&setup.coefficients().positions, &fit.currents_ma, fit.model.columns());
+    let (inputs, mut columns) = causes::inputs(setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
+    let mut taken = fit.design(&data.offsets);
     for (place, whiten) in fit.whitening.iter().enumerate() {
         whiten_rows(&mut columns, place, whiten);
         whiten_rows(&mut taken, place, whiten);
@@ -258,7 +261,7 @@ mod tests {
     use super::*;
     use crate::attitude::Deviation;
     use crate::calibration::inputs::{InputUncertainty, MeterUncertainty};
-    use crate::calibration::unknowns::Unknowns;
+    use crate::calibration::unknowns::{Model, Unknowns};
     use crate::calibration::{analytic, readings::Readings};
     use crate::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
     use crate::gyro::GyroType;
@@ -294,13 +297,13 @@ mod tests {
         currents.iter_mut().for_each(|current| *current = current.map(|j| j * (1.0 + stream.within(2e-4))));
         let each: Vec<_> = positions.iter().map(|at| at.index).zip(currents.clone()).collect();
         let data = Data::new(&setup, &Readings::new(setup.coefficients(), &each).unwrap());
-        let fit = data.fit(&setup, false).unwrap();
+        let fit = data.fit(&setup, Model::Paper).unwrap();
         let Misfit { value: expected, degrees_of_freedom, .. } = chi_square(&setup, &fit, &data);
         assert_eq!(degrees_of_freedom, 8);
-        let propagation = Propagation::new(&setup, &fit);
+        let propagation = Propagation::new(&setup, &fit, &data);
         let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma).unwrap();
         let closed = analytic::solve(setup.coefficients(), &currents).unwrap().parameters;
-        let closed = Unknowns { parameters: closed, anisoelasticity_deg_per_h_per_g2: 0.0 };
+        let closed = Unknowns::of(closed);
         let methods = [(fit.unknowns, propagation.least_squares()), (closed, propagation.analytic(&map).0)];
         for (unknowns, spread) in methods {
             let rows = positions.iter().zip(&currents).flat_map(|(at, j)| {

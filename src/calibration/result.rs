@@ -1,15 +1,21 @@
 //! Results of a calibration.
 
 use super::analytic::NoAnalyticSolution;
-use super::diagnosis::Hint;
+use super::diagnosis::{ALARM, Hint};
+use super::inputs::Setup;
 use super::iterative::{NoIterativeSolution, StepChange, StopRule};
-use super::least_squares::NoLeastSquares;
+use super::least_squares::{Fit, NoLeastSquares};
+use super::noise::{DriftNoise, NoiseSource};
 use super::parameter::Parameter;
-use super::propagation::Misfit;
+use super::procedure::Data;
+use super::propagation::{self, Misfit};
 use super::scatter::{RowScatter, Scatter};
+use super::stated::NotStated;
+use super::unknowns::Model;
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroParameters;
-use nalgebra::{DMatrix, Matrix2, Vector2};
+use crate::statistics::beta::f_larger;
+use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2};
 
 /// Method of calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -48,6 +54,14 @@ pub struct Calibration {
     pub scatter: Option<Scatter>,
     /// Scatter of the rows of each visit; `None` if every visit has one row.
     pub row_scatter: Option<RowScatter>,
+    /// Comparison of the turn-ons with what the gyro type states; `None` if there is one, or nothing is stated.
+    pub turn_on_scatter: Option<Scatter>,
+    /// Noise of the gyro's drift from visit to visit, each axis.
+    pub visit_noise: DriftNoise,
+    /// Noise of ω_0 from one turn-on of the gyro to the next, each axis.
+    pub turn_on_noise: DriftNoise,
+    /// Test for a drift in time that was not fitted; `None` if it was, or the readings have no times.
+    pub drift_test: Option<DriftTest>,
     /// `true` if the fit converged. Otherwise the readings are far from those of any gyro on this stand.
     pub settled: bool,
     /// Possible causes if the readings do not fit; otherwise `None`.
@@ -59,6 +73,12 @@ impl Calibration {
     /// result.
     pub fn answer(&self) -> Option<&MethodResult> {
         self.results.iter().find(|result| result.method == Method::LeastSquares).or(self.results.last())
+    }
+
+    /// Returns the noises of the gyro that are neither stated nor shown by the readings.
+    pub(crate) fn noise_not_stated(&self) -> impl Iterator<Item = NotStated> {
+        let each = [(self.visit_noise, NotStated::Visits), (self.turn_on_noise, NotStated::TurnOns)];
+        each.into_iter().filter(|(noise, _)| noise.source == NoiseSource::NotStated).map(|(_, what)| what)
     }
 
     /// Returns the reason why no parameters are given, or `None` if the fit converged. Without convergence the
@@ -83,13 +103,100 @@ pub enum MethodRefusal {
     /// Refusal of weighted least squares.
     #[error(transparent)]
     LeastSquares(#[from] NoLeastSquares),
+    /// One of the paper's methods, asked for another model than the paper's.
+    #[error(
+        "the method has only the paper's model with one constant drift; the general model, a drift in time, and turn-ons \
+         that did not all visit the same positions need least squares"
+    )]
+    NotThisModel,
 }
+
+/// ω_0 of one turn-on of the gyro.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cycle {
+    /// Number of the turn-on.
+    pub cycle: u32,
+    /// ω_0 about x and y, °/h.
+    pub omega0_deg_per_h: Vector2<f64>,
+}
+
+/// Linear drift of ω_0 in time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drift {
+    /// Drift about x and y, °/h per hour.
+    pub deg_per_h_per_h: Vector2<f64>,
+    /// Its standard uncertainties, °/h per hour.
+    pub standard_uncertainty_deg_per_h_per_h: Vector2<f64>,
+}
+
+/// Test for a drift in time that was not fitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DriftTest {
+    /// Drift about x and y that the readings show, °/h per hour.
+    pub drift_deg_per_h_per_h: Vector2<f64>,
+    /// Probability of a larger drift if there is none.
+    pub probability: f64,
+}
+
+impl DriftTest {
+    /// Returns `true` if the drift should be fitted.
+    pub(crate) fn is_significant(&self) -> bool {
+        self.probability < ALARM
+    }
+}
+
+/// Matrix G of the general model: g-sensitive drift for (n_x, n_y, n_z).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GMatrix {
+    /// G, °/(h·g), 2×3.
+    pub deg_per_h_per_g: Matrix2x3<f64>,
+    /// Standard uncertainties of its elements, °/(h·g), 2×3.
+    pub standard_uncertainty_deg_per_h_per_g: Matrix2x3<f64>,
+}
+
+/// F test whether the two parameters of the paper's g-sensitive drift are enough.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModelTest {
+    /// Ratio of mean squares: of what the further parameters explain to what they leave.
+    pub f: f64,
+    /// Number of further parameters, and degrees of freedom of the rest.
+    pub degrees_of_freedom: [usize; 2],
+    /// Probability of a larger ratio if the paper's parameters are enough.
+    pub probability: f64,
+}
+
+impl ModelTest {
+    /// Compares the fits of the paper's and of a larger model; `None` if the larger model leaves no degree of freedom.
+    pub(crate) fn new(setup: &Setup, data: &Data, [paper, larger]: [&Fit; 2]) -> Option<Self> {
+        let [(before, of_paper), (after, of_larger)] = [paper, larger].map(|fit| {
+            let found = propagation::chi_square(setup, fit, data);
+            (found.value, found.degrees_of_freedom)
+        });
+        let degrees_of_freedom = [of_paper.checked_sub(of_larger)?, of_larger];
+        let [further, rest] = degrees_of_freedom;
+        if further == 0 || rest == 0 || after.is_nan() || after <= 0.0 {
+            return None;
+        }
+        let f = (before - after).max(0.0) / further as f64 / (after / rest as f64);
+        Some(Self { f, degrees_of_freedom, probability: f_larger(f, further, rest as f64) })
+    }
+
+    /// Returns `true` if the further parameters are needed.
+    pub(crate) fn is_significant(&self) -> bool {
+        self.probability < SIGNIFICANT
+    }
+}
+
+/// Probability below which further parameters are taken to be needed.
+const SIGNIFICANT: f64 = 0.01;
 
 /// Result of one method.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MethodResult {
     /// Method that gave this result.
     pub method: Method,
+    /// Model that was fitted.
+    pub model: Model,
     /// Parameters K, ω_0, ω_g, ω_k.
     pub parameters: GyroParameters,
     /// ω_n, °/(h·g), 2×2: four independent numbers for the paper's methods, [[ω_g, −ω_k], [ω_k, ω_g]] for least
@@ -97,9 +204,18 @@ pub struct MethodResult {
     pub omega_n_deg_per_h_per_g: Matrix2<f64>,
     /// Anisoelastic coefficient, °/(h·g²); `None` if it was not fitted.
     pub anisoelasticity_deg_per_h_per_g2: Option<f64>,
+    /// Matrix of g-sensitive drift; `None` but for the general model.
+    pub g_matrix: Option<GMatrix>,
+    /// Test whether the paper's model is enough; `None` if it was fitted, or the test is not possible.
+    pub model_test: Option<ModelTest>,
+    /// Drift in time; `None` if it was not fitted.
+    pub drift: Option<Drift>,
+    /// ω_0 of each turn-on; empty if there is one.
+    pub cycles: Vec<Cycle>,
     /// Course of the iteration; `None` for other methods.
     pub iteration: Option<Iteration>,
-    /// Covariance of the parameters from all inputs, 8×8 or 9×9, in the order of `Parameter::NINE`.
+    /// Covariance of the parameters from all inputs, 8×8 in the order of [`Parameter::EIGHT`]; 9×9 with the anisoelastic
+    /// coefficient last, or 12×12 with G by rows in place of ω_g and ω_k.
     pub covariance: DMatrix<f64>,
     /// Standard uncertainties of the elements of ω_n, °/(h·g), 2×2.
     pub omega_n_uncertainty_deg_per_h_per_g: Matrix2<f64>,
@@ -115,13 +231,18 @@ pub struct MethodResult {
 impl MethodResult {
     /// Returns the standard uncertainty of a parameter in its unit, or `None` if it was not fitted.
     pub fn standard_uncertainty(&self, parameter: Parameter) -> Option<f64> {
-        self.covariance.get((parameter.place(), parameter.place())).map(|variance| variance.sqrt())
+        let column = self.model.column(parameter)?;
+        self.covariance.get((column, column)).map(|variance| variance.sqrt())
     }
 
     /// Returns the value of a parameter in its unit, or `None` if it was not fitted.
     pub fn value(&self, parameter: Parameter) -> Option<f64> {
         match parameter {
             Parameter::Anisoelasticity => self.anisoelasticity_deg_per_h_per_g2,
+            Parameter::G(row, column) => {
+                self.g_matrix.map(|g| g.deg_per_h_per_g[(usize::from(row), usize::from(column))])
+            }
+            Parameter::OmegaG | Parameter::OmegaK if self.model == Model::General => None,
             other => self.parameters.to_vector().get(other.place()).copied(),
         }
     }

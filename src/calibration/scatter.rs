@@ -6,14 +6,19 @@
 use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
 use super::least_squares::{Fit, whitening_of};
+use super::noise::{self, DriftNoise, NoiseSource};
+use super::offsets::Offsets;
 use super::readings::{PositionReadings, Readings};
 use super::sensitivity::Sensitivity;
 use crate::statistics::distributions::chi_square_larger;
 use crate::statistics::scaled_f::{Part, ScaledF};
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 
 /// Probability below which a scatter, larger or smaller, does not agree with what was stated.
 pub(crate) const IMPROBABLE: f64 = 0.001;
+
+/// Noise of a visit with which differences between visits are weighted if they show none, °/h.
+const LEAST_DEG_PER_H: f64 = 1e-9;
 
 /// Scatter compared with what was stated.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,10 +83,15 @@ pub(crate) struct Repeats {
     /// Standard deviation of a single reading, mA, and its degrees of freedom if estimated from repeated rows.
     pub(crate) noise_ma: f64,
     pub(crate) noise_degrees_of_freedom: f64,
-    /// Factor by which the variance of a visit (repeatability and noise together) is enlarged, and its degrees of
-    /// freedom.
+    /// Factor by which the variance of a visit (repeatability, readings and gyro together) is enlarged, and its degrees
+    /// of freedom if it is estimated.
     pub(crate) visit_factor: f64,
     pub(crate) visit_degrees_of_freedom: f64,
+    /// Noise of the gyro's drift from visit to visit, and from one turn-on to the next.
+    pub(crate) visit: DriftNoise,
+    pub(crate) turn_on: DriftNoise,
+    /// Number of turn-ons.
+    pub(crate) cycles: usize,
 }
 
 impl Repeats {
@@ -94,7 +104,20 @@ impl Repeats {
             noise_degrees_of_freedom: f64::INFINITY,
             visit_factor: 1.0,
             visit_degrees_of_freedom: f64::INFINITY,
+            visit: DriftNoise::stated(setup.uncertainty().visit_deg_per_h),
+            turn_on: DriftNoise::stated(setup.uncertainty().turn_on_deg_per_h),
+            cycles: readings.cycles().len(),
         }
+    }
+
+    /// Returns the variance of the mean of a position from the gyro's noise from visit to visit, (°/h)², each axis.
+    pub(crate) fn drift_variance(&self, place: usize) -> f64 {
+        self.return_share(place) * self.visit.deg_per_h * self.visit.deg_per_h
+    }
+
+    /// Returns the standard uncertainty of the mean of the turn-ons, °/h, each axis.
+    pub(crate) fn turn_on_of_mean_deg_per_h(&self) -> f64 {
+        self.turn_on.deg_per_h / (self.cycles as f64).sqrt()
     }
 
     /// Returns the fraction of the variance of one visit that the mean of a position has.
@@ -107,25 +130,15 @@ impl Repeats {
         self.visit_factor * self.shares[place][1] * self.noise_ma * self.noise_ma
     }
 
-    /// Compares the scatter of rows and visits at a fit with what was stated. Replaces the errors if the scatter is
-    /// larger than stated, or if nothing was stated.
-    pub(crate) fn observe(&mut self, setup: &Setup, readings: &Readings, fit: &Fit) -> Observed {
+    /// Compares the scatter of rows, visits and turn-ons at a fit with what was stated. Replaces the errors if the scatter
+    /// is larger than stated, or if nothing was stated; `offsets` takes over what differences between visits say.
+    pub(crate) fn observe(&mut self, setup: &Setup, readings: &Readings, offsets: &mut Offsets, fit: &Fit) -> Observed {
         let mut of_rows = Squares::default();
         for visit in readings.positions().iter().flat_map(|at| &at.visits) {
             of_rows.add(&visit.each_ma, &visit.mean_ma);
         }
-        let nothing_stated = self.noise_ma == 0.0 && setup.uncertainty().repeatability_rad == 0.0;
-        if nothing_stated && of_rows.sum == 0.0 {
-            // In this case visits are treated as single readings.
-            let mut of_visits = Squares::default();
-            for at in readings.positions() {
-                let means: Vec<_> = at.visits.iter().map(|visit| visit.mean_ma).collect();
-                of_visits.add(&means, &at.mean_ma);
-            }
-            return Observed { rows: self.observe_rows(&of_visits), visits: None };
-        }
         let rows = self.observe_rows(&of_rows);
-        Observed { rows, visits: self.observe_visits(setup, readings, fit) }
+        Observed { rows, visits: self.observe_visits(setup, readings, offsets, fit), turn_ons: None }
     }
 
     fn observe_rows(&mut self, found: &Squares) -> Option<RowScatter> {
@@ -146,40 +159,101 @@ impl Repeats {
         Some(RowScatter { standard_deviation_ma, degrees_of_freedom, against_stated })
     }
 
-    fn observe_visits(&mut self, setup: &Setup, readings: &Readings, fit: &Fit) -> Option<Scatter> {
+    fn observe_visits(
+        &mut self,
+        setup: &Setup,
+        readings: &Readings,
+        offsets: &mut Offsets,
+        fit: &Fit,
+    ) -> Option<Scatter> {
         let sensitivity = Sensitivity::new(setup, &fit.unknowns);
-        let estimates = Estimates::new(setup, self);
         let k = fit.unknowns.parameters.k_deg_per_h_per_ma;
-        let (mut chi_square, mut degrees_of_freedom) = (0.0, 0);
+        let positions = readings.positions();
+        let returns: Vec<_> = (0..positions.len()).map(|place| sensitivity.of_return(place)).collect();
+        let reading = k * k.transpose() * (self.noise_ma * self.noise_ma);
+        let of_noise = |place: usize, visit: usize| reading / positions[place].visits[visit].each_ma.len() as f64;
+        let known = |place: usize, visit: usize| returns[place] + of_noise(place, visit);
+        let stated = self.visit.deg_per_h * self.visit.deg_per_h;
+        let of_stated = |place, visit| known(place, visit) + Matrix2::from_diagonal_element(stated);
+        let found = offsets.differences(readings, &k, of_stated);
+        let scatter = found.as_ref().filter(|found| found.degrees_of_freedom > 0).map(|found| {
+            let parts = self.parts(setup, readings, &returns, of_noise, of_stated);
+            let probability = ScaledF::new(found.degrees_of_freedom, &parts).larger(found.chi_square);
+            Scatter::new(found.chi_square, found.degrees_of_freedom, probability)
+        });
+        // A noise that is stated as 0, where nothing else scatters, cannot be compared with a scatter that is there.
+        if self.visit.source == NoiseSource::NotStated || found.is_none() {
+            let (deg_per_h, degrees_of_freedom) = noise::of_visits(offsets, readings, &k, known)?;
+            self.visit = DriftNoise::estimated(deg_per_h, degrees_of_freedom);
+            if deg_per_h > 0.0 {
+                self.visit_degrees_of_freedom = degrees_of_freedom as f64;
+            }
+            let variance = Matrix2::from_diagonal_element(deg_per_h.max(LEAST_DEG_PER_H).powi(2));
+            offsets.with(&offsets.differences(readings, &k, |place, visit| known(place, visit) + variance)?);
+            return scatter.map(|scatter| Scatter { variance_factor: 1.0, ..scatter });
+        }
+        let scatter = scatter?;
+        if scatter.variance_factor > 1.0 {
+            self.visit_factor = scatter.variance_factor;
+            self.visit_degrees_of_freedom = scatter.degrees_of_freedom as f64;
+        }
+        let factor = self.visit_factor;
+        offsets.with(&offsets.differences(readings, &k, |place, visit| of_stated(place, visit) * factor)?);
+        Some(scatter)
+    }
+
+    /// Returns the parts of the covariance of the visits that rest on estimates.
+    fn parts(
+        &self,
+        setup: &Setup,
+        readings: &Readings,
+        returns: &[Matrix2<f64>],
+        of_noise: impl Fn(usize, usize) -> Matrix2<f64>,
+        of_visit: impl Fn(usize, usize) -> Matrix2<f64>,
+    ) -> Vec<Part> {
+        let estimates = Estimates::new(setup, self);
         let mut parts = Parts::new(&estimates);
         for (place, at) in readings.positions().iter().enumerate().filter(|(_, at)| at.visits.len() > 1) {
-            let returns = sensitivity.of_return(place);
-            let of_noise = |visit: usize| {
-                k * k.transpose() * (self.noise_ma * self.noise_ma / at.visits[visit].each_ma.len() as f64)
-            };
-            let whiten: Option<Vec<Matrix2<f64>>> =
-                (0..at.visits.len()).map(|visit| whitening_of(&(returns + of_noise(visit)))).collect();
-            let whiten = whiten?;
-            let weights = whiten.iter().map(|w| w.transpose() * w);
-            let misclosures: Vec<Vector2<f64>> = at.visits.iter().map(|visit| k * visit.mean_ma).collect();
-            let sum: Vector2<f64> = weights.clone().zip(&misclosures).map(|(weight, at)| weight * at).sum();
-            let mean = weights.sum::<Matrix2<f64>>().try_inverse()? * sum;
-            chi_square += whiten.iter().zip(&misclosures).map(|(w, at)| (w * (at - mean)).norm_squared()).sum::<f64>();
-            degrees_of_freedom += 2 * (at.visits.len() - 1);
             let kept = 1.0 - at.visit_share();
-            for (visit, w) in whiten.iter().enumerate() {
-                parts.add(estimates.returns, kept, &(w * returns * w.transpose()));
-                parts.add(estimates.noise, kept, &(w * of_noise(visit) * w.transpose()));
+            for visit in 0..at.visits.len() {
+                let Some(w) = whitening_of(&of_visit(place, visit)) else { continue };
+                parts.add(estimates.returns, kept, &(w * returns[place] * w.transpose()));
+                parts.add(estimates.noise, kept, &(w * of_noise(place, visit) * w.transpose()));
             }
         }
-        if degrees_of_freedom == 0 || chi_square.is_nan() {
+        parts.parts
+    }
+
+    /// Compares the biases of the turn-ons with what the gyro type states; estimates their scatter if it states nothing,
+    /// or too little.
+    pub(crate) fn observe_turn_ons(&mut self, offsets: &Offsets, fit: &Fit) -> Option<Scatter> {
+        let cycles = offsets.cycles.len();
+        if cycles < 2 {
             return None;
         }
-        let probability = ScaledF::new(degrees_of_freedom, &parts.parts).larger(chi_square);
-        let found = Scatter::new(chi_square, degrees_of_freedom, probability);
+        let degrees_of_freedom = 2 * (cycles - 1);
+        let (map, first) = (offsets.turn_ons(), fit.of.columns());
+        let (mut squares, mut of_noise) = (0.0, 0.0);
+        for axis in 0..2 {
+            let column = |term: usize| 2 * term + axis;
+            let x = DVector::from_fn(cycles - 1, |term, _| fit.changing[column(term)]);
+            let r_inverse = fit.model.r_inverse();
+            let rows =
+                DMatrix::from_fn(cycles - 1, r_inverse.ncols(), |term, inner| r_inverse[(first + column(term), inner)]);
+            squares += (&map * x).norm_squared();
+            of_noise += (&map * rows).norm_squared();
+        }
+        let [variance, of_noise] = [squares, of_noise].map(|sum| sum / degrees_of_freedom as f64);
+        let estimate = DriftNoise::estimated((variance - of_noise).max(0.0).sqrt(), degrees_of_freedom);
+        if self.turn_on.source == NoiseSource::NotStated {
+            self.turn_on = estimate;
+            return None;
+        }
+        let stated = self.turn_on.deg_per_h * self.turn_on.deg_per_h + of_noise;
+        let chi_square = squares / stated;
+        let found = Scatter::new(chi_square, degrees_of_freedom, chi_square_larger(chi_square, degrees_of_freedom));
         if found.variance_factor > 1.0 {
-            self.visit_factor = found.variance_factor;
-            self.visit_degrees_of_freedom = degrees_of_freedom as f64;
+            self.turn_on = estimate;
         }
         Some(found)
     }
@@ -190,6 +264,7 @@ impl Repeats {
 pub(crate) struct Observed {
     pub(crate) rows: Option<RowScatter>,
     pub(crate) visits: Option<Scatter>,
+    pub(crate) turn_ons: Option<Scatter>,
 }
 
 /// Sum of squared differences of both currents from means, mA².

@@ -69,7 +69,7 @@ impl<'a> Sensitivity<'a> {
         let VectorChange { earth_rate_deg_per_h, vertical } = change;
         let at = &self.setup.coefficients().positions[place];
         let unknowns = self.unknowns;
-        let drift = unknowns.parameters.omega_n_deg_per_h_per_g() * vertical.xy();
+        let drift = unknowns.parameters.omega_n_deg_per_h_per_g() * vertical.xy() + unknowns.beyond_the_paper(vertical);
         // d(n n_z) = dn n_z + n dn_z (paper, eq. (2)).
         let anisoelastic = vertical.xy() * at.specific_force_z_g + at.specific_force_g * vertical.z;
         earth_rate_deg_per_h.xy() - drift - anisoelastic * unknowns.anisoelasticity_deg_per_h_per_g2
@@ -82,14 +82,15 @@ impl<'a> Sensitivity<'a> {
     }
 
     /// Returns the covariance of the own part of a position, (°/h)², 2×2. It includes the specification of the meter,
-    /// the repeatability and the noise of the readings according to `repeats`, and the certified angles.
+    /// the repeatability, the noise of the readings and that of the gyro according to `repeats`, and the certified angles.
     pub(crate) fn own_covariance(&self, place: usize, current_ma: &Vector2<f64>, repeats: &Repeats) -> Matrix2<f64> {
         let meter = self.setup.uncertainty().meter;
         let noise = repeats.noise_variance_ma2(place);
         let k = &self.unknowns.parameters.k_deg_per_h_per_ma;
         let currents = current_ma.map(|current| meter.own_variance_ma2(current) + noise);
         let meter = k * Matrix2::from_diagonal(&currents) * k.transpose();
-        self.with_return(meter, place, repeats.return_share(place)) + self.of_certified_angles(place)
+        let gyro = Matrix2::from_diagonal_element(repeats.drift_variance(place));
+        self.with_return(meter, place, repeats.return_share(place)) + self.of_certified_angles(place) + gyro
     }
 
     /// Returns the covariance of one visit from the repeatability, (°/h)², 2×2.
@@ -117,9 +118,9 @@ impl<'a> Sensitivity<'a> {
     }
 
     /// Returns the errors of the misclosures for one standard uncertainty of each common input, °/h (two rows per
-    /// position × inputs): platform and seat, base with level and azimuth, latitude, meter gain and offset. Exact
-    /// inputs have no column.
-    pub(crate) fn shared(&self, currents_ma: &[Vector2<f64>]) -> DMatrix<f64> {
+    /// position × inputs): platform and seat, base with level and azimuth, latitude, meter gain and offset, and the mean
+    /// of the turn-ons. Exact inputs have no column.
+    pub(crate) fn shared(&self, currents_ma: &[Vector2<f64>], repeats: &Repeats) -> DMatrix<f64> {
         let u = self.setup.uncertainty();
         let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
         let mut columns: Vec<(f64, Shared)> = Vec::with_capacity(9);
@@ -133,6 +134,7 @@ impl<'a> Sensitivity<'a> {
         columns.push((libm::hypot(u.latitude_rad, u.deflection_rad), Shared::Latitude));
         columns.push((u.meter.gain, Shared::Gain));
         columns.push((u.meter.offset_ma, Shared::Offset));
+        columns.extend([0, 1].map(|axis| (repeats.turn_on_of_mean_deg_per_h(), Shared::TurnOn(axis))));
         columns.retain(|(u, _)| *u > 0.0);
         let positions = currents_ma.len();
         let mut matrix = DMatrix::zeros(2 * positions, columns.len());
@@ -155,6 +157,7 @@ impl<'a> Sensitivity<'a> {
             Shared::Latitude => self.of_vectors(place, &self.setup.latitude_changed(place)),
             Shared::Gain => -(k * current_ma),
             Shared::Offset => -(k * Vector2::repeat(1.0)),
+            Shared::TurnOn(axis) => -Vector2::from_fn(|row, _| if row == *axis { 1.0 } else { 0.0 }),
         }
     }
 }
@@ -168,4 +171,6 @@ pub(crate) enum Shared {
     Latitude,
     Gain,
     Offset,
+    /// Mean bias of the turn-ons about axis x or y, counted from 0.
+    TurnOn(usize),
 }

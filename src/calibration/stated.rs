@@ -31,6 +31,10 @@ pub enum NotStated {
     Level,
     /// Gyro seat.
     Seat,
+    /// Noise of the gyro from visit to visit.
+    Visits,
+    /// Noise of the gyro from turn-on to turn-on.
+    TurnOns,
     /// Gravity, required for a comparison with a gyro type.
     Gravity,
 }
@@ -49,6 +53,8 @@ impl NotStated {
             Self::Mark => "azimuth of the mark (position_u_m, deflection_arcsec.u)",
             Self::Level => "level of the base (level_arcsec)",
             Self::Seat => "gyro seat (seating_arcsec)",
+            Self::Visits => "gyro from visit to visit (noise.visit_deg_per_h, or repeated visits)",
+            Self::TurnOns => "gyro from turn-on to turn-on (noise.turn_on_deg_per_h, or repeated cycles)",
             Self::Gravity => "gravity (gravity_u_m_per_s2)",
         }
     }

@@ -5,12 +5,14 @@ use super::render::{Written, languages};
 use super::show::{PassportOptions, Read};
 use super::simulate::{MethodName, read_gyro};
 use super::{Code, Failure, REFUSED, output, uncertainty};
-use crate::calibration::document::CalibrationDocument;
+use crate::calibration::document::{CalibrationDocument, Subject};
 use crate::calibration::iterative::StopRule;
 use crate::calibration::mistake::Mistake;
+use crate::calibration::prediction::cost_of_missing;
 use crate::calibration::stated::temperature_remark;
 use crate::calibration::verdict::{Decision, against_earlier, against_type};
-use crate::calibration::{self, Method, Options as CalibrationOptions, Readings, Setup};
+use crate::calibration::{self, Exclusion, Method, Model, Options as CalibrationOptions, Readings, Setup};
+use crate::coefficients::PositionIndex;
 use crate::document::sha256_hex;
 use crate::files;
 use crate::gyro::GyroType;
@@ -18,9 +20,10 @@ use crate::laboratory::Laboratory;
 use crate::passport::{Content, Question, Trust, Verification};
 use crate::report::calibration as report;
 use crate::report::page::{CalibrationPage, PassportPage, UsedPassport};
+use crate::text::printable::printable;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use crate::uncertainty::document::WholeDocument;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use jiff::Timestamp;
 use std::path::{Path, PathBuf};
 
@@ -51,8 +54,32 @@ pub(super) struct Options {
     /// Stop limit of the iteration for ω_g and ω_k, deg/(h·g)
     #[arg(long, value_name = "D", default_value_t = 0.001, value_parser = limit, allow_hyphen_values = true)]
     delta2_deg_per_h: f64,
-    /// Also fit the anisoelastic coefficient by least squares; the eight positions alone do not determine it
+    /// Visit to leave out, as i,j,visit or i,j,visit,cycle; visits count within a cycle and position. May be repeated
+    #[arg(long, value_name = "I,J,VISIT[,CYCLE]", value_parser = excluded, requires = "why")]
+    exclude: Vec<(PositionIndex, u32, Option<u32>)>,
+    /// Reason for leaving a visit out; one for each --exclude, in the same order, or one for all
+    #[arg(long, value_name = "TEXT", requires = "exclude")]
+    why: Vec<String>,
+    /// Serial number of the gyro; --previous then refuses the result of another one
+    #[arg(long, value_name = "SERIAL")]
+    gyro_serial: Option<String>,
+    /// Who took the readings
+    #[arg(long, value_name = "NAME")]
+    operator: Option<String>,
+    /// Day of the readings
+    #[arg(long, value_name = "YYYY-MM-DD")]
+    date: Option<jiff::civil::Date>,
+    /// Temperature during the readings, °C
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    temperature_c: Option<f64>,
+    /// Model of the g-sensitive drift: the paper's, or the full 2×3 matrix, with a test whether it is needed
+    #[arg(long, value_enum, default_value = "paper")]
+    model: ModelName,
+    /// Fit one linear drift of ω_0 in time; needs the column time_s
     #[arg(long)]
+    drift: bool,
+    /// Also fit the anisoelastic coefficient by least squares; the eight positions alone do not determine it
+    #[arg(long, conflicts_with = "model")]
     anisoelasticity: bool,
     #[command(flatten)]
     uncertainty: uncertainty::UncertaintyOptions,
@@ -67,6 +94,22 @@ pub(super) struct Options {
     format: Format,
 }
 
+/// Parses a visit to leave out.
+fn excluded(text: &str) -> Result<(PositionIndex, u32, Option<u32>), String> {
+    let numbers: Option<Vec<u32>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[i, j, visit]) => Ok((PositionIndex { i, j }, visit, None)),
+        Some(&[i, j, visit, cycle]) => Ok((PositionIndex { i, j }, visit, Some(cycle))),
+        _ => Err("three or four whole numbers: i,j,visit or i,j,visit,cycle".to_owned()),
+    }
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ModelName {
+    Paper,
+    General,
+}
+
 /// Parses a stop limit: the largest change in the last step of the iteration.
 fn limit(text: &str) -> Result<f64, String> {
     let value = text.parse().ok().filter(|value| (0.0..f64::INFINITY).contains(value));
@@ -78,22 +121,42 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let verified = verification.is_some();
     let laboratory = read_laboratory(options.laboratory.as_deref())?;
     let gyro_type = read_gyro(options.gyro.as_deref())?;
-    let earlier = earlier(options)?;
+    let previous = previous(options)?;
+    let earlier = previous.as_ref().and_then(CalibrationDocument::answer);
     let stated = Setup::stated(&content.certificate, &content.positions, &content.site, &laboratory);
-    let (setup, missing) = stated.map_err(Failure::refused)?;
+    let (setup, mut missing) = stated.map_err(Failure::refused)?;
+    let setup = setup.of_gyro(gyro_type.as_ref().and_then(|gyro_type| gyro_type.noise.as_ref()));
     let bytes = files::read(&options.currents, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
     let name = name_of(&options.currents);
     let readings = Readings::from_csv(&name, &bytes, setup.coefficients(), laboratory.meter.range_ma);
-    let readings = readings.map_err(Failure::unreadable)?;
+    let mut readings = readings.map_err(Failure::unreadable)?;
+    exclude(options, &mut readings)?;
+    let subject = Subject {
+        gyro_serial: options.gyro_serial.clone(),
+        operator: options.operator.clone(),
+        date: options.date,
+        temperature_c: options.temperature_c,
+        currents_sha256: sha256_hex(&bytes),
+    };
+    if let Some([before, now]) = previous.as_ref().and_then(|document| document.another_gyro(&subject)) {
+        let words = format!("--previous is the result of gyro {}, not of {}", printable(before), printable(now));
+        return Err(Failure::refused(words));
+    }
     if let Some(remark) = readings.remark() {
         output::say(remark);
     }
     let asked = CalibrationOptions {
         methods: options.method.iter().copied().map(Method::from).collect(),
         stop_rule: StopRule { delta1_percent: options.delta1_percent, delta2_deg_per_h: options.delta2_deg_per_h },
-        anisoelasticity: options.anisoelasticity,
+        model: match options.model {
+            _ if options.anisoelasticity => Model::Anisoelastic,
+            ModelName::Paper => Model::Paper,
+            ModelName::General => Model::General,
+        },
+        drift: options.drift,
     };
     let calibration = calibration::calibrate(&setup, &readings, &asked).map_err(Failure::refused)?;
+    missing.extend(calibration.noise_not_stated());
     if let Some(words) = calibration.meaningless() {
         return Err(Failure::refused(words));
     }
@@ -102,6 +165,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
     let mut document = CalibrationDocument::new(&content.passport.id, verified, gravity, &calibration, &missing);
+    document.record(subject, &readings);
     let Some(found) = document.answer() else {
         let words: Vec<String> =
             calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key())).collect();
@@ -111,13 +175,13 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     // a thousand.
     let usual = earlier.map_or_else(|| GyroType::gvk_6().nominal.to_model(), |earlier| earlier.parameters);
     let rate = content.earth.rate();
+    let missing_cost = cost_of_missing(&setup, &readings, &found.parameters);
     document.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type.as_ref(), &usual);
     document.verdict = gyro_type.as_ref().map(|gyro_type| against_type(&found, gyro_type));
     let judged_change = earlier.as_ref().zip(gyro_type.as_ref());
     document.change = judged_change.map(|(earlier, gyro_type)| against_earlier(&found, earlier, gyro_type));
     let tolerance = gyro_type.as_ref().map(|gyro_type| &gyro_type.tolerance);
-    let asked = (options.anisoelasticity, tolerance);
-    let uncertainty = options.uncertainty.find(&setup, &readings, &calibration, asked)?;
+    let uncertainty = options.uncertainty.find(&setup, &readings, &calibration, (&asked, tolerance))?;
     if let Some(path) = &options.report {
         let page = CalibrationPage {
             passport: used(&content, &passport, verification.as_ref())?,
@@ -153,6 +217,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
                         .map(|gyro_type| gyro_type.r#type.as_str())
                         .zip(document.verdict.as_ref()),
                     change: earlier.as_ref().map(|earlier| (earlier, document.change.as_ref())),
+                    readings: Some((&readings, missing_cost)),
                 },
             ) + &uncertainty.text()),
         )?,
@@ -184,11 +249,27 @@ pub(super) fn read_laboratory(path: Option<&Path>) -> Result<Laboratory, Failure
     Laboratory::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)
 }
 
-fn earlier(options: &Options) -> Result<Option<calibration::verdict::Found>, Failure> {
+fn previous(options: &Options) -> Result<Option<CalibrationDocument>, Failure> {
     let Some(path) = &options.previous else { return Ok(None) };
     let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
-    let name = name_of(path);
-    let document = CalibrationDocument::from_json(&name, &bytes).map_err(Failure::unreadable)?;
-    let found = document.answer().ok_or_else(|| Failure::unusable(format!("{}: contains no result", shown(path))))?;
-    Ok(Some(found))
+    let document = CalibrationDocument::from_json(&name_of(path), &bytes).map_err(Failure::unreadable)?;
+    if document.answer().is_none() {
+        return Err(Failure::unusable(format!("{}: contains no result", shown(path))));
+    }
+    Ok(Some(document))
+}
+
+/// Leaves out the visits that `--exclude` names.
+fn exclude(options: &Options, readings: &mut Readings) -> Result<(), Failure> {
+    if options.why.len() > 1 && options.why.len() != options.exclude.len() {
+        let (visits, reasons) = (options.exclude.len(), options.why.len());
+        return Err(Failure::unusable(format!(
+            "{visits} --exclude and {reasons} --why; give one --why for each, or for all"
+        )));
+    }
+    let reasons = options.why.iter().chain(options.why.last().into_iter().cycle());
+    for (&(index, visit, cycle), why) in options.exclude.iter().zip(reasons) {
+        readings.exclude(Exclusion { index, visit, cycle, why: why.clone() }).map_err(Failure::unusable)?;
+    }
+    Ok(())
 }

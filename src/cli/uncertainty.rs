@@ -1,7 +1,7 @@
 //! Options of `calibrate` for the uncertainty budget and the Monte Carlo method.
 
 use super::{Failure, output};
-use crate::calibration::{Calibration, Method, Readings, Setup};
+use crate::calibration::{Calibration, Method, Model, Options as CalibrationOptions, Readings, Setup};
 use crate::gyro::Tolerance;
 use crate::report::{budget as budget_report, monte_carlo as monte_carlo_report, picture};
 use crate::uncertainty::document::{BudgetDocument, MonteCarloDocument};
@@ -90,18 +90,19 @@ impl UncertaintyOptions {
         setup: &Setup,
         readings: &Readings,
         calibration: &Calibration,
-        (anisoelasticity, tolerance): (bool, Option<&Tolerance>),
+        (options, tolerance): (&CalibrationOptions, Option<&Tolerance>),
     ) -> Result<Found, Failure> {
         if !self.budget && !self.monte_carlo {
             return Ok(Found { budget: None, monte_carlo: None });
         }
         let method = calibration.answer().map_or(Method::LeastSquares, |answer| answer.method);
-        if self.monte_carlo && anisoelasticity {
+        if self.monte_carlo && (options.model != Model::Paper || options.drift) {
             return Err(Failure::unusable(
-                "--monte-carlo cannot be combined with the anisoelastic coefficient; omit one of the two options",
+                "--monte-carlo has the paper's model with one constant drift; omit it, or --anisoelasticity, --drift and \
+                 --model general",
             ));
         }
-        let budget = Budget::new(setup, readings, method, anisoelasticity).map_err(Failure::refused)?;
+        let budget = Budget::new(setup, readings, method, options).map_err(Failure::refused)?;
         if let Some(path) = &self.budget_svg {
             let svg = picture::budget::budget(&budget);
             let svg =

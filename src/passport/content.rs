@@ -1,7 +1,7 @@
 //! Content of a passport (`dtg-passport/1`), and the numbers in it that are computed from the stand and the site.
 
 use super::accuracy::Accuracy;
-use crate::calibration::{analytic, least_squares};
+use crate::calibration::{Model, analytic, least_squares};
 use crate::coefficients::{
     Coefficients, Matrices, PositionCoefficients, PositionIndex, SingularPositions, StandGeometry,
 };
@@ -314,7 +314,7 @@ impl SelfCheck {
             analytic::solve(coefficients, &currents).ok().map(|found| found.parameters)
         } else {
             let meter = (&Laboratory::paper().meter).into();
-            least_squares::solve(coefficients, &currents, &meter, false).ok().map(|found| found.parameters)
+            least_squares::solve(coefficients, &currents, &meter, Model::Paper).ok().map(|found| found.parameters)
         };
         found.map_or(f64::INFINITY, |found| largest_relative_difference(&found, &self.parameters().to_model()))
     }

@@ -3,13 +3,15 @@
 use crate::calibration::diagnosis::CANNOT_TELL;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::mistake::Mistake;
+use crate::calibration::noise::NoiseSource;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, Found, Verdict, change_in_uncertainties};
-use crate::calibration::{Calibration, MethodResult};
+use crate::calibration::{Calibration, Exclusion, MethodResult, Readings};
 use crate::report::page::Language;
 use crate::report::{columns, mistake};
+use crate::text::printable::printable;
 use crate::units::printed;
 use std::fmt::Write;
 
@@ -30,6 +32,8 @@ pub(crate) struct Context<'a> {
     pub verdict: Option<(&'a str, &'a Verdict)>,
     /// An earlier result, and the verdict on the change since then against the same tolerance.
     pub change: Option<(&'a Found, Option<&'a Verdict>)>,
+    /// Readings, and the parameter that suffers most from positions without a reading, with the ratio of its uncertainty.
+    pub readings: Option<(&'a Readings, Option<(Parameter, f64)>)>,
 }
 
 /// Returns the whole result: parameters, fit, verdict, and errors that the residuals do not show.
@@ -48,6 +52,9 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
     if let Some(mistake) = context.mistake {
         columns::paragraph(&mut out, "", &format!("WARNING: {}", mistake::words(mistake, Language::English)));
     }
+    if let Some((readings, cost)) = context.readings {
+        left_out(&mut out, readings, cost);
+    }
     parameters(&mut out, calibration);
     methods(&mut out, calibration);
     fit(&mut out, calibration, context.missing);
@@ -64,6 +71,23 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
     out
 }
 
+/// Writes which visits and positions were left out, and what that cost.
+fn left_out(out: &mut String, readings: &Readings, cost: Option<(Parameter, f64)>) {
+    for Exclusion { index, visit, cycle, why } in readings.exclusions() {
+        let cycle = cycle.map_or_else(String::new, |cycle| format!(" in cycle {cycle}"));
+        let words = format!("Left out: visit {visit} to position {index}{cycle}: {}.", printable(why));
+        columns::paragraph(out, "", &words);
+    }
+    if !readings.left_out().is_empty() {
+        let positions: Vec<String> = readings.left_out().iter().map(ToString::to_string).collect();
+        let cost = cost.map_or_else(String::new, |(parameter, ratio)| {
+            format!("; u({}) is {ratio:.2} times as large as with all positions", parameter.symbol())
+        });
+        let words = format!("Positions without a reading: {}{cost}.", positions.join(", "));
+        columns::paragraph(out, "", &words);
+    }
+}
+
 fn parameters(out: &mut String, calibration: &Calibration) {
     let Some(answer) = calibration.answer() else { return };
     let others: Vec<&MethodResult> =
@@ -72,8 +96,11 @@ fn parameters(out: &mut String, calibration: &Calibration) {
     for other in &others {
         names.extend([other.method.key().to_owned(), "diff. / u".to_owned()]);
     }
-    let rows: Vec<Vec<String>> = Parameter::NINE
-        .into_iter()
+    let rows: Vec<Vec<String>> = answer
+        .model
+        .parameters()
+        .iter()
+        .copied()
         .filter_map(|parameter| {
             let (value, u) = (answer.value(parameter)?, answer.standard_uncertainty(parameter)?);
             let digits = columns::decimals(u);
@@ -96,7 +123,46 @@ fn parameters(out: &mut String, calibration: &Calibration) {
     }
 }
 
+/// Writes ω_0 of each turn-on, the drift in time, and the test whether a larger model is needed.
+fn beyond_the_paper(out: &mut String, answer: &MethodResult) {
+    for at in &answer.cycles {
+        let u = answer.standard_uncertainty(Parameter::Omega0x).unwrap_or(0.0);
+        let digits = columns::decimals(u);
+        let (omega0, cycle) = (at.omega0_deg_per_h, at.cycle);
+        let _ = writeln!(out, "  turn-on {cycle}: ω_0 = ({:.digits$}, {:.digits$}) deg/h", omega0.x, omega0.y);
+    }
+    if !answer.cycles.is_empty() {
+        columns::paragraph(out, "  ", "ω_0 is the mean of the turn-ons; u is that of the long-term mean.");
+    }
+    if let Some(drift) = &answer.drift {
+        for (axis, name) in ["x", "y"].into_iter().enumerate() {
+            let (value, u) = (drift.deg_per_h_per_h[axis], drift.standard_uncertainty_deg_per_h_per_h[axis]);
+            let digits = columns::decimals(u);
+            let _ = writeln!(out, "  drift in time about {name}: {value:.digits$} deg/h per hour, u = {u:.digits$}");
+        }
+        columns::paragraph(out, "  ", "ω_0 is that at the mean time of the readings.");
+    }
+    if let Some(test) = &answer.model_test {
+        let [further, rest] = test.degrees_of_freedom;
+        let verdict = if test.is_significant() {
+            "the paper's model is not enough for this gyro"
+        } else {
+            "the readings do not show that the paper's model is not enough"
+        };
+        let words = format!(
+            "Test of the further parameters: F = {:.2} with {further} and {rest} degrees of freedom (probability of a \
+             larger value: {}): {verdict}.",
+            test.f,
+            columns::probability(test.probability)
+        );
+        columns::paragraph(out, "  ", &words);
+    }
+}
+
 fn methods(out: &mut String, calibration: &Calibration) {
+    if let Some(answer) = calibration.answer() {
+        beyond_the_paper(out, answer);
+    }
     for result in &calibration.results {
         let Some(iteration) = &result.iteration else { continue };
         let predicted = match iteration.predicted_steps {
@@ -192,15 +258,37 @@ fn scatter(out: &mut String, calibration: &Calibration) {
             "if these readings were taken without leaving the position, give them the same number in the column visit";
         columns::paragraph(out, "  ", &agreement("Visits to a position", visits, less));
     }
+    if let Some(turn_ons) = &calibration.turn_on_scatter {
+        columns::paragraph(out, "  ", &agreement("Turn-ons", turn_ons, "check the noise that the gyro type states"));
+    }
+    let each = [("visit to visit", &calibration.visit_noise), ("turn-on to turn-on", &calibration.turn_on_noise)];
+    for (between, noise) in each.into_iter().filter(|(_, noise)| noise.source == NoiseSource::Estimated) {
+        let words = format!(
+            "Noise of the gyro from {between}, estimated: {:.1e} deg/h ({} degrees of freedom).",
+            noise.deg_per_h, noise.degrees_of_freedom
+        );
+        columns::paragraph(out, "  ", &words);
+    }
+    if let Some(test) = calibration.drift_test.filter(|test| test.is_significant()) {
+        let words = format!(
+            "WARNING: the residuals show a drift of ω_0 in time, ({:+.1e}, {:+.1e}) deg/h per hour, which is not fitted \
+             (probability of a larger one: {}). Fit it with --drift.",
+            test.drift_deg_per_h_per_h.x,
+            test.drift_deg_per_h_per_h.y,
+            columns::probability(test.probability)
+        );
+        columns::paragraph(out, "", &words);
+    }
 }
 
 /// Returns a sentence that compares an observed scatter with the stated uncertainty; `less` is the advice if the
 /// scatter is smaller.
 fn agreement(what: &str, found: &Scatter, less: &str) -> String {
     let verdict = match found.agreement() {
-        Agreement::More => {
+        Agreement::More if found.variance_factor > 1.0 => {
             format!("more than stated, so the variance was multiplied by {:.1}", found.variance_factor)
         }
+        Agreement::More => "more than stand and meter explain; the rest is taken as noise of the gyro".to_owned(),
         Agreement::AsStated => "as stated".to_owned(),
         Agreement::Less => format!("less than stated; {less}"),
     };
@@ -270,6 +358,7 @@ fn change(
     let words: Vec<String> = Parameter::EIGHT
         .iter()
         .zip(change)
+        .filter(|(_, change)| change.is_finite())
         .map(|(parameter, change)| format!("{} {change:+.1}", parameter.symbol()))
         .collect();
     let _ = writeln!(

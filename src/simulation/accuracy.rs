@@ -8,7 +8,7 @@
 use super::draw::{self, CurrentError, Deviations};
 use crate::calibration::iterative::{self, StopRule};
 use crate::calibration::parameter::Parameter;
-use crate::calibration::{MeterUncertainty, Method, analytic, least_squares};
+use crate::calibration::{MeterUncertainty, Method, Model, analytic, least_squares};
 use crate::coefficients::{Coefficients, EarthRate, Position, StandGeometry};
 use crate::gyro::{GyroParameters, GyroType};
 use crate::laboratory::Laboratory;
@@ -209,7 +209,7 @@ impl<'a> Simulation<'a> {
                 iterative::solve(at, currents_ma, &StopRule::default()).ok().map(|found| found.parameters)
             }
             Method::LeastSquares => {
-                least_squares::solve(at, currents_ma, &self.meter, false).ok().map(|found| found.parameters)
+                least_squares::solve(at, currents_ma, &self.meter, Model::Paper).ok().map(|found| found.parameters)
             }
         }
     }

@@ -7,9 +7,9 @@
 use crate::calibration::causes::{self, Cause, Input};
 use crate::calibration::estimates::{Basis, Estimates};
 use crate::calibration::parameter::Parameter;
-use crate::calibration::procedure::linearise;
+use crate::calibration::procedure::{Linearised, linearise};
 use crate::calibration::result::MethodRefusal;
-use crate::calibration::{Method, Readings, Setup};
+use crate::calibration::{Method, Model, Options, Readings, Setup};
 use crate::statistics::beta::student_factor;
 use crate::statistics::propagation;
 use nalgebra::DMatrix;
@@ -24,7 +24,7 @@ pub struct Budget {
     pub method: Method,
     /// Uncertain inputs.
     pub inputs: Vec<Input>,
-    /// Change of each parameter (rows, in the order of `Parameter::NINE`) for one standard uncertainty of each input
+    /// Change of each parameter (rows, in the order of `parameters`) for one standard uncertainty of each input
     /// (columns), in the unit of the parameter.
     pub spread: DMatrix<f64>,
     /// Budgets of the parameters, in the order of the rows.
@@ -73,32 +73,28 @@ pub struct Contribution {
 }
 
 impl Budget {
-    /// Computes the budget of `method` for a calibration of `readings` at `setup`.
+    /// Computes the budget of `method` for a calibration of `readings` at `setup` with the model of `options`.
     ///
     /// The sum of squares of the contributions is the variance that
     /// [`calibrate`](crate::calibration::calibrate) states.
     ///
     /// # Errors
     /// Returns [`MethodRefusal`] if the method has no solution for these readings.
-    pub fn new(
-        setup: &Setup,
-        readings: &Readings,
-        method: Method,
-        anisoelasticity: bool,
-    ) -> Result<Self, MethodRefusal> {
-        let linear = linearise(setup, readings, method, anisoelasticity)?;
-        let (inputs, columns) = causes::inputs(setup, &linear.fit.unknowns, &linear.fit.currents_ma, &linear.repeats);
-        let spread = product(&linear.response, &columns);
-        let mut values = linear.found.parameters.to_vector().to_vec();
-        values.push(linear.found.anisoelasticity_deg_per_h_per_g2);
-        let estimates = Estimates::new(setup, &linear.repeats).degrees_of_freedom;
-        let each = Parameter::NINE.into_iter().zip(values).take(spread.nrows());
-        let of = |(parameter, value)| of_parameter(parameter, value, &inputs, &spread, &estimates);
-        let parameters = each.map(of).collect();
+    pub fn new(setup: &Setup, readings: &Readings, method: Method, options: &Options) -> Result<Self, MethodRefusal> {
+        let Linearised { fit, found, repeats, offsets, response } = linearise(setup, readings, method, options)?;
+        let setup = &*setup.of_readings(readings);
+        let (inputs, columns) = causes::inputs(setup, &fit.unknowns, &fit.currents_ma, &repeats, &offsets);
+        let spread = product(&response, &columns);
+        let of = if method == Method::LeastSquares { fit.of } else { Model::Paper };
+        let spread = spread.rows(0, of.columns()).into_owned();
+        let estimates = Estimates::new(setup, &repeats).degrees_of_freedom;
+        let each = of.parameters().iter().map(|parameter| (*parameter, found.value(*parameter)));
+        let line = |(row, (parameter, value))| of_parameter(parameter, value, &inputs, (&spread, row), &estimates);
+        let parameters = each.enumerate().map(line).collect();
         Ok(Self { method, inputs, spread, parameters })
     }
 
-    /// Returns the covariance of the parameters, in the order of `Parameter::NINE`; 8×8 or 9×9.
+    /// Returns the covariance of the parameters, in their order; 8×8, 9×9 or 12×12.
     pub fn covariance(&self) -> DMatrix<f64> {
         crate::calibration::propagation::covariance(&self.spread)
     }
@@ -121,10 +117,9 @@ fn of_parameter(
     parameter: Parameter,
     value: f64,
     inputs: &[Input],
-    spread: &DMatrix<f64>,
+    (spread, row): (&DMatrix<f64>, usize),
     estimates: &[f64],
 ) -> ParameterBudget {
-    let row = parameter.place();
     let changes: Vec<f64> = (0..inputs.len()).map(|column| spread[(row, column)]).collect();
     let variance: f64 = changes.iter().map(|change| change * change).sum();
     let mut contributions: Vec<Contribution> = Vec::new();

@@ -19,7 +19,8 @@ fn weight(line: &ParameterBudget, tolerance: Option<&Tolerance>) -> f64 {
         Parameter::Omega0x | Parameter::Omega0y => tolerance.omega0_deg_per_h,
         Parameter::OmegaG => tolerance.omega_g_deg_per_h_per_g,
         Parameter::OmegaK => tolerance.omega_k_deg_per_h_per_g,
-        Parameter::Anisoelasticity => f64::INFINITY,
+        // A type states nothing of these.
+        _ => f64::INFINITY,
     });
     if allowed > 0.0 { line.standard_uncertainty / allowed } else { 0.0 }
 }
@@ -142,6 +143,9 @@ fn what_to_do(cause: Cause, limit: f64) -> String {
         Cause::Reading(..) => format!("measure the currents with an uncertainty of {to}"),
         Cause::Floor(..) => format!("measure the currents with an uncertainty of {to} at zero"),
         Cause::Noise(..) => format!("reduce the noise of the mean reading to {to}"),
+        Cause::Visits(..) => format!("reduce the gyro's noise in the mean of a position to {to}, by more visits"),
+        Cause::TurnOn(_) => format!("reduce the scatter of the mean of the turn-ons to {to}, by more cycles"),
+        Cause::Differences(_) => "visit each position more often".to_owned(),
         Cause::Gain => format!("calibrate the gain of the meter with an uncertainty of {to}"),
         Cause::Offset => format!("calibrate the offset of the meter with an uncertainty of {to}"),
     }

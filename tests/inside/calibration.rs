@@ -4,7 +4,7 @@ use crate::inside::reference::*;
 use dtg_passport::calibration::iterative::{self, StopRule};
 use dtg_passport::calibration::least_squares::{self, NoLeastSquares};
 use dtg_passport::calibration::parameter::Parameter;
-use dtg_passport::calibration::{InputUncertainty, Method, MethodResult, Options, Setup, calibrate};
+use dtg_passport::calibration::{InputUncertainty, Method, MethodResult, Model, Options, Setup, calibrate};
 use dtg_passport::coefficients::{EarthRate, Position, PositionIndex};
 use dtg_passport::statistics::least_squares::condition;
 use dtg_passport::statistics::random::Stream;
@@ -162,15 +162,16 @@ fn undetermined_parameters_are_named() {
     let perfect = eight([[0.0; 3]; 8]);
     let upright = setup(&perfect[..4], LATITUDE_DEG);
     let currents_ma = currents(&upright, &gvk_6());
-    let error = least_squares::solve(upright.coefficients(), &currents_ma, &paper_meter(), false).unwrap_err();
+    let error = least_squares::solve(upright.coefficients(), &currents_ma, &paper_meter(), Model::Paper).unwrap_err();
     let words = error.to_string();
     assert!(words.contains("cannot determine ω_g") && words.contains("determine ω_k"), "{words}");
     let eight = setup(&perfect, LATITUDE_DEG);
     let currents_ma = currents(&eight, &gvk_6());
-    let error = least_squares::solve(eight.coefficients(), &currents_ma, &paper_meter(), true).unwrap_err();
+    let error =
+        least_squares::solve(eight.coefficients(), &currents_ma, &paper_meter(), Model::Anisoelastic).unwrap_err();
     assert!(error.to_string().contains("cannot determine ω_n (anisoelasticity)"), "{error}");
     let constant = vec![Vector2::new(0.1, -0.2); 8];
-    let error = least_squares::solve(eight.coefficients(), &constant, &paper_meter(), false).unwrap_err();
+    let error = least_squares::solve(eight.coefficients(), &constant, &paper_meter(), Model::Paper).unwrap_err();
     assert!(matches!(error, NoLeastSquares::Inseparable { .. }), "{error}");
 }
 
@@ -190,7 +191,7 @@ fn other_positions_and_anisoelasticity() {
         gyro.currents_ma(at).unwrap() - inverse * at.specific_force_g * at.specific_force_z_g * anisoelasticity
     });
     let currents: Vec<_> = currents.collect();
-    let options = Options { anisoelasticity: true, ..Options::default() };
+    let options = Options { model: Model::Anisoelastic, ..Options::default() };
     let found = calibrate(&setup, &readings(&setup, &currents), &options).unwrap();
     let result = found.results.last().unwrap();
     assert!((result.value(Parameter::Anisoelasticity).unwrap() - anisoelasticity).abs() < 1e-10);

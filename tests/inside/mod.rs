@@ -44,6 +44,7 @@ mod reissue;
 mod repeats;
 #[cfg(feature = "monte-carlo")]
 mod robustness;
+mod runs;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod same_stand;
 #[cfg(feature = "report")]

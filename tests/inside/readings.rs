@@ -1,7 +1,8 @@
 //! Currents in CSV: what is read, and every way in which a file is refused.
 
 use crate::inside::reference::*;
-use dtg_passport::calibration::{Readings, Setup};
+use dtg_passport::calibration::{Exclusion, Readings, Setup};
+use dtg_passport::coefficients::PositionIndex;
 
 /// (file, what the message must say).
 const BAD: [(&str, &[&str]); 29] = [
@@ -68,8 +69,8 @@ fn a_position_missing_or_double() {
     let setup = paper();
     let good = good(&setup);
     let without = |start: &str| good.lines().filter(|line| !line.starts_with(start)).collect::<Vec<_>>().join("\n");
-    let error = read(&setup, &without("2,3,")).unwrap_err();
-    assert!(error.contains("no reading of position (2, 3)"), "{error}");
+    let seven = read(&setup, &without("2,3,")).unwrap();
+    assert_eq!((seven.positions().len(), seven.left_out()), (7, [PositionIndex { i: 2, j: 3 }].as_slice()));
     let error = read(&setup, &good.replace("2,3,", "2,2,")).unwrap_err();
     assert!(error.contains("position (2, 2) occurs 2 times; check whether one of these rows"), "{error}");
     assert_eq!(
@@ -123,9 +124,9 @@ fn form_does_not_matter() {
 /// (cycle, number, rows) of the visits to position (1, 1).
 fn visits(text: &str) -> Vec<(u32, u32, usize)> {
     let setup = paper();
-    let rest: String = good(&setup).lines().skip(2).map(|line| format!("{line},9,9,0\n")).collect();
+    let rest: String = good(&setup).lines().skip(2).map(|line| format!("{line},1,9,0\n")).collect();
     let (header, rows) = text.split_once('\n').unwrap();
-    let all = format!("{header}\n{rows}{}", if header.contains("cycle") { rest } else { rest.replace(",9,9,0", "") });
+    let all = format!("{header}\n{rows}{}", if header.contains("cycle") { rest } else { rest.replace(",1,9,0", "") });
     let readings = read(&setup, &all).unwrap();
     readings.positions()[0].visits.iter().map(|visit| (visit.cycle, visit.number, visit.each_ma.len())).collect()
 }
@@ -137,7 +138,9 @@ fn visits_are_told_by_the_column_or_by_the_order() {
     let plain = "i,j,jx_ma,jy_ma\n1,1,0.1,0.2\n1,1,0.1,0.2\n1,2,0.1,0.3\n1,1,0.1,0.2\n";
     assert_eq!(visits(plain), [(1, 1, 2), (1, 2, 1)]);
     let header = "i,j,jx_ma,jy_ma,cycle,visit,time_s\n";
-    let numbered = ["1,1,0.1,0.2,1,2,0", "1,1,0.1,0.2,1,1,5.5", "1,1,0.1,0.2,2,1,9", "1,1,0.1,0.2,1,2,12"].join("\n");
+    let numbered =
+        ["1,1,0.1,0.2,1,2,5.5", "1,1,0.1,0.2,1,1,0", "1,1,0.1,0.2,2,1,12", "1,2,0.1,0.2,2,1,13", "1,1,0.1,0.2,1,2,9"]
+            .join("\n");
     assert_eq!(visits(&format!("{header}{numbered}\n")), [(1, 2, 2), (1, 1, 1), (2, 1, 1)]);
     let setup = paper();
     let good = good(&setup);
@@ -170,4 +173,37 @@ fn other_columns_are_named_and_left_out() {
     assert_eq!(found.means_ma(), read(&setup, &good).unwrap().means_ma());
     assert_eq!(found.remark(), Some("c.csv: the columns \"operator\", \"temp_c\" are ignored"));
     assert_eq!(read(&setup, &good).unwrap().remark(), None);
+}
+
+/// Two visits at once, a cycle that visits one position alone, an exclusion that is not there: refused with the numbers.
+#[test]
+fn visits_and_cycles_that_cannot_be() {
+    let setup = paper();
+    let timed = |rows: &str| {
+        let rest: String = good(&setup).lines().skip(1).map(|line| format!("{line},1,1,0\n")).collect();
+        read(&setup, &format!("i,j,jx_ma,jy_ma,cycle,visit,time_s\n{rest}{rows}"))
+    };
+    let error = timed("1,1,0.1,0.2,1,2,60\n1,2,0.1,0.2,1,2,70\n1,1,0.1,0.2,1,2,80\n").unwrap_err();
+    assert!(error.contains("c.csv:12:15") && error.contains("visit 2 of position (1, 1) again"), "{error}");
+    let error = timed("1,1,0.1,0.2,2,1,60\n").unwrap_err();
+    assert!(error.contains("one position alone in cycle 2"), "{error}");
+
+    let error = timed("1,1,0.1,0.2,2,1,-60\n1,2,0.1,0.2,2,1,-50\n").unwrap_err();
+    assert!(error.contains("c.csv:10:17") && error.contains("after the last one of cycle 1, 0 s"), "{error}");
+    let rows: String = good(&setup).lines().skip(1).zip(0..).map(|(row, t)| format!("{row},{}\n", 100 - t)).collect();
+    let error = read(&setup, &format!("i,j,jx_ma,jy_ma,time_s\n{rows}")).unwrap_err();
+    assert!(error.contains("c.csv:3:") && error.contains("not before that of the row above, 100 s"), "{error}");
+
+    let (first, other) = (PositionIndex { i: 1, j: 1 }, PositionIndex { i: 1, j: 2 });
+    let exclusion = |index, visit, cycle| Exclusion { index, visit, cycle, why: "table was knocked".to_owned() };
+    let mut readings = timed("1,1,0.1,0.2,2,1,60\n1,2,0.1,0.2,2,1,70\n1,2,0.3,0.2,1,2,50\n").unwrap();
+    let error = readings.exclude(exclusion(first, 1, None)).unwrap_err().to_string();
+    assert!(error.contains("cycles [1, 2]") && error.contains("i,j,visit,cycle"), "{error}");
+    let error = readings.exclude(exclusion(first, 7, None)).unwrap_err().to_string();
+    assert!(error.contains("no visit 7 to position (1, 1)"), "{error}");
+    readings.exclude(exclusion(other, 2, None)).unwrap();
+    assert_eq!(readings.exclusions(), [exclusion(other, 2, Some(1))]);
+    assert_eq!(readings.positions()[1].visits.len(), 2);
+    readings.exclude(exclusion(PositionIndex { i: 2, j: 4 }, 1, None)).unwrap();
+    assert_eq!(readings.left_out(), [PositionIndex { i: 2, j: 4 }]);
 }

@@ -1,6 +1,7 @@
 //! Rows and visits: what reading again makes smaller, and whether the scatter is what was stated.
 
 use crate::inside::reference::*;
+use dtg_passport::calibration::noise::NoiseSource;
 use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::readings::Reading;
 use dtg_passport::calibration::scatter::Agreement;
@@ -18,6 +19,7 @@ const REPEATABILITY_ARCSEC: f64 = 4.0;
 fn bench(noise_ma: f64) -> Setup {
     let mut u = InputUncertainty::of_meter(paper_meter());
     u.meter.noise_ma = noise_ma;
+    u.visit_deg_per_h = Some(0.0);
     u.repeatability_rad = radians_from_arcseconds(REPEATABILITY_ARCSEC);
     with_uncertainty(&drawn_stand(&mut Stream::new(8), 2.0), LATITUDE_DEG, u)
 }
@@ -134,6 +136,7 @@ fn scatter_is_judged_in_both_tails() {
         missing: &[],
         verdict: None,
         change: None,
+        readings: None,
         mistake: None,
     };
     let with = |visit_ma: f64, row_ma: f64| {
@@ -170,8 +173,12 @@ fn noise_that_is_not_stated_is_found_from_the_readings() {
     // Σ squares 2 · 8 · 2 · (1e-5)², 2 · 8 degrees of freedom.
     assert!((of_rows.standard_deviation_ma / (2.0_f64.sqrt() * 1e-5) - 1.0).abs() < 1e-9, "{of_rows:?}");
     let visited = solved(&setup, &rows(&setup, 2, 1, |_, visit, _| sign(visit - 1)));
-    assert_eq!(visited.row_scatter, Some(of_rows));
-    assert_eq!(visited.scatter, None);
+    assert_eq!((visited.row_scatter, visited.scatter), (None, None));
+    // Each visit is K (1e-5, 1e-5) mA off the mean of its position: 2 · 8 squares, 2 · 8 degrees of freedom, and K of the
+    // paper's gyro gives |K (1, 1)| = √2 · 104.5 °/(h·mA).
+    let noise = visited.visit_noise;
+    assert_eq!((noise.source, noise.degrees_of_freedom), (NoiseSource::Estimated, 16.0));
+    assert!((noise.deg_per_h / (2.0_f64.sqrt() * 104.5e-5) - 1.0).abs() < 1e-3, "{noise:?}");
 }
 
 /// Monte Carlo draws what first order adds up: visits, rows, and an estimate that the angles share.
@@ -185,13 +192,15 @@ fn monte_carlo_draws_the_same_structure() {
     u.common_platform_degrees_of_freedom = 40.0;
     u.common_base_rad = radians_from_arcseconds(2.0);
     u.common_base_degrees_of_freedom = 40.0;
+    // What is not stated would be estimated, with few degrees of freedom.
+    u.visit_deg_per_h = Some(0.0);
     let setup = with_uncertainty(&drawn_stand(&mut Stream::new(8), 2.0), LATITUDE_DEG, u);
     let mut stream = Stream::new(5);
     let rows = rows(&setup, 2, 2, |_, _, _| Vector2::from_fn(|_, _| 4e-5 * stream.normal()));
     let readings = Readings::of_rows(setup.coefficients(), &rows).unwrap();
     for method in [Method::Analytic, Method::LeastSquares] {
         let engine = Engine::new(&setup, &readings, method, ReadingShape::Normal).unwrap();
-        let budget = Budget::new(&setup, &readings, method, false).unwrap();
+        let budget = Budget::new(&setup, &readings, method, &Options::default()).unwrap();
         let trials = monte_carlo::Trials { trials: Some(150_000), seed: 4, threads: 2, cancel: None, progress: None };
         let found = monte_carlo::monte_carlo(&engine, &budget, &trials);
         for (line, trials) in budget.parameters.iter().zip(&found.parameters) {
@@ -234,6 +243,7 @@ fn too_few_readings_to_judge() {
         missing: &[],
         verdict: None,
         change: None,
+        readings: None,
         mistake: None,
     };
     let text = report::text(&found, &context);

@@ -3,7 +3,7 @@
 use crate::inside::reference::*;
 use dtg_passport::calibration::inputs::MeterUncertainty;
 use dtg_passport::calibration::iterative::{Plan, StopRule};
-use dtg_passport::calibration::{InputUncertainty, Options, Readings, calibrate};
+use dtg_passport::calibration::{InputUncertainty, Model, Options, Readings, calibrate};
 use dtg_passport::statistics::random::Stream;
 use nalgebra::Vector2;
 use proptest::prelude::*;
@@ -28,11 +28,11 @@ proptest! {
     #[test]
     fn absurd_readings(
         seed in any::<u64>(), limit_deg in 0.0..45.0, latitude in -89.999..89.999,
-        values in prop::collection::vec(current(), 16), anisoelasticity in any::<bool>(),
+        values in prop::collection::vec(current(), 16), model in 0..3_usize,
     ) {
         let setup = setup(&drawn_stand(&mut Stream::new(seed), limit_deg), latitude);
         let currents: Vec<_> = values.chunks_exact(2).map(|pair| Vector2::new(pair[0], pair[1])).collect();
-        let options = Options { anisoelasticity, ..Options::default() };
+        let options = Options { model: [Model::Paper, Model::Anisoelastic, Model::General][model], ..Options::default() };
         if let Ok(found) = calibrate(&setup, &readings(&setup, &currents), &options) {
             for result in &found.results {
                 prop_assert!(result.parameters.to_vector().iter().all(|x| x.is_finite()), "{result:?}");

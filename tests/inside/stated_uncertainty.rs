@@ -88,6 +88,8 @@ fn uncertainties_cover_what_they_state() {
     };
     let u = InputUncertainty {
         meter: dtg_passport::calibration::MeterUncertainty { gain: 5e-5, offset_ma: 2e-5, noise_ma: 2e-5, ..u.meter },
+        // A gyro that is known not to drift from visit to visit; what is not stated would be estimated.
+        visit_deg_per_h: Some(0.0),
         ..u
     };
     let certified = drawn_stand(&mut Stream::new(21), 5.0);

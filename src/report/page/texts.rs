@@ -44,6 +44,7 @@ pub(crate) mod units {
         G { en: "g", ru: "g" }
         MILLIAMPERES { en: "mA", ru: "мА" }
         DEG_PER_H { en: "°/h", ru: "°/ч" }
+        DEG_PER_H2 { en: "°/h²", ru: "°/ч²" }
         DEG_PER_H_PER_G { en: "°/(h·g)", ru: "°/(ч·g)" }
         DEG_PER_H_PER_G2 { en: "°/(h·g²)", ru: "°/(ч·g²)" }
         DEG_PER_H_PER_MA { en: "°/(h·mA)", ru: "°/(ч·мА)" }

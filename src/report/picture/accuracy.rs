@@ -83,8 +83,9 @@ fn rows(accuracy: &Accuracy, gravity_m_per_s2: f64) -> Vec<Row> {
 pub(crate) fn unit(parameter: Parameter) -> Text {
     match parameter {
         Parameter::Kx | Parameter::Kxy | Parameter::Kyx | Parameter::Ky => units::DEG_PER_H_PER_MA,
-        Parameter::Omega0x | Parameter::Omega0y => units::DEG_PER_H,
-        Parameter::OmegaG | Parameter::OmegaK => units::DEG_PER_H_PER_G,
+        Parameter::Omega0x | Parameter::Omega0y | Parameter::TurnOn(_) => units::DEG_PER_H,
+        Parameter::OmegaG | Parameter::OmegaK | Parameter::G(..) => units::DEG_PER_H_PER_G,
+        Parameter::Drift(_) => units::DEG_PER_H2,
         Parameter::Anisoelasticity => units::DEG_PER_H_PER_G2,
     }
 }

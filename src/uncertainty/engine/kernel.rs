@@ -45,6 +45,7 @@ struct Place {
     means_ma: Vector2<f64>,
     currents: [Scaled; 2],
     noise: [Scaled; 2],
+    visits: [Scaled; 2],
 }
 
 /// Model of all positions.
@@ -57,6 +58,9 @@ pub(crate) struct Kernel {
     latitude: Scaled,
     gain: Scaled,
     offset: Scaled,
+    turn_on: [Scaled; 2],
+    /// `true` if the gyro's drift has noise.
+    drifts: bool,
     earth: Vector3<f64>,
     /// `true` if the case rotates in any position; `base_turns` likewise for the base.
     case_turns: bool,
@@ -87,6 +91,7 @@ impl Kernel {
                     means_ma: *means_ma,
                     currents: [0, 1].map(|axis| plan.slot(Drawn::Current(place, axis))),
                     noise: [0, 1].map(|axis| plan.slot(Drawn::Noise(place, axis))),
+                    visits: [0, 1].map(|axis| plan.slot(Drawn::Visits(place, axis))),
                 }
             })
             .collect();
@@ -105,7 +110,22 @@ impl Kernel {
         let largest = largest.chain([&latitude]).fold(0.0, |largest: f64, (_, u)| largest.max(*u));
         let may_be_large = plan.has_long_tails() || 4.0 * LARGEST_NORMAL * largest > SMALL_RAD;
         let (gain, offset) = (plan.slot(Drawn::Gain), plan.slot(Drawn::Offset));
-        Self { places, case, base, latitude, gain, offset, earth, case_turns, base_turns, may_be_large }
+        let turn_on = [0, 1].map(|axis| plan.slot(Drawn::TurnOn(axis)));
+        let drifts = drawn(&turn_on) || places.iter().any(|place| drawn(&place.visits));
+        Self {
+            places,
+            case,
+            base,
+            latitude,
+            gain,
+            offset,
+            turn_on,
+            drifts,
+            earth,
+            case_turns,
+            base_turns,
+            may_be_large,
+        }
     }
 
     pub(crate) fn positions(&self) -> usize {
@@ -152,6 +172,9 @@ impl Kernel {
         for (place, at) in self.places.iter().zip(positions) {
             place.vectors::<EXACT, CASE, BASE>(&case, &base, deviates, at);
             self.currents(place, deviates, at);
+            if self.drifts {
+                self.drift(place, deviates, at);
+            }
         }
     }
 
@@ -176,6 +199,18 @@ impl Kernel {
             }
         }
         vectors
+    }
+
+    /// Takes the gyro's noise from the Earth rate, which the equations have on the other side.
+    #[inline(always)]
+    fn drift(&self, place: &Place, deviates: &[Column], at: &mut At) {
+        for axis in 0..2 {
+            let [(own, u), (turn_on, u_turn_on)] =
+                [place.visits[axis], self.turn_on[axis]].map(|(slot, u)| (&deviates[slot], u));
+            for trial in 0..WIDTH {
+                at.omega[axis][trial] -= u * own[trial] + u_turn_on * turn_on[trial];
+            }
+        }
     }
 
     #[inline(always)]

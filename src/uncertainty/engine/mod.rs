@@ -20,7 +20,7 @@ mod student;
 
 use crate::calibration::procedure::{Linearised, linearise};
 use crate::calibration::result::MethodRefusal;
-use crate::calibration::{Method, Readings, Setup};
+use crate::calibration::{Method, Options, Readings, Setup};
 use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
 use closed::Closed;
 use kernel::Kernel;
@@ -75,7 +75,11 @@ impl Engine {
     /// # Errors
     /// Returns [`MethodRefusal`] if the method has no solution for these readings.
     pub fn new(setup: &Setup, readings: &Readings, method: Method, shape: ReadingShape) -> Result<Self, MethodRefusal> {
-        let Linearised { fit, repeats, .. } = linearise(setup, readings, method, false)?;
+        let Linearised { fit, repeats, offsets, .. } = linearise(setup, readings, method, &Options::default())?;
+        if !offsets.are_balanced() {
+            return Err(MethodRefusal::NotThisModel);
+        }
+        let setup = &*setup.of_readings(readings);
         let means_ma = readings.means_ma();
         let solver = match method {
             Method::LeastSquares => Solver::Refit(Box::new(Refit::new(&fit))),

@@ -28,6 +28,10 @@ pub(crate) enum Drawn {
     Current(usize, usize),
     /// Noise of the readings of a current (0 or 1) of the position at a place, in their mean.
     Noise(usize, usize),
+    /// Gyro noise of the position at a place, in the mean of its visits, about axis 0 or 1 of the case.
+    Visits(usize, usize),
+    /// Mean of the turn-ons, about axis 0 or 1 of the case.
+    TurnOn(usize),
     /// Platform and seat, about axis 0, 1, 2 of the case.
     Case(usize),
     /// Platform alone, if its uncertainty is an estimate with few degrees of freedom.
@@ -108,7 +112,11 @@ impl Plan {
                 let own = u.meter.own_variance_ma2(current_ma[axis]).sqrt();
                 add(Drawn::Current(place, axis), own, Basis::Known, shape);
                 add(Drawn::Noise(place, axis), noise, estimates.noise, normal);
+                add(Drawn::Visits(place, axis), repeats.drift_variance(place).sqrt(), estimates.visits, normal);
             }
+        }
+        for axis in 0..2 {
+            add(Drawn::TurnOn(axis), repeats.turn_on_of_mean_deg_per_h(), estimates.turn_ons, normal);
         }
         Self { inputs, estimates: estimates.degrees_of_freedom }
     }

@@ -2,7 +2,7 @@
 
 use dtg_passport::attitude::Deviation;
 use dtg_passport::calibration::parameter::Parameter;
-use dtg_passport::calibration::{MeterUncertainty, Method, analytic, least_squares};
+use dtg_passport::calibration::{MeterUncertainty, Method, Model, analytic, least_squares};
 use dtg_passport::coefficients::{EIGHT_POSITIONS, EarthRate, Position, StandGeometry};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::report::picture::simulation as picture;
@@ -206,7 +206,7 @@ fn unweighted_least_squares() {
                 let mut currents: Vec<_> = at.positions.iter().map(|at| nominal.currents_ma(at).unwrap()).collect();
                 CurrentError::Independent.add(stream, 0.015, &mut currents);
                 let closed = analytic::solve(&at, &currents).unwrap().parameters;
-                let fitted = least_squares::solve(&at, &currents, &equal, false).unwrap().parameters;
+                let fitted = least_squares::solve(&at, &currents, &equal, Model::Paper).unwrap().parameters;
                 for (errors, found) in errors.iter_mut().zip([closed, fitted]) {
                     for ((summary, found), nominal) in errors.iter_mut().zip(found.to_vector()).zip(nominal.to_vector())
                     {

@@ -2,8 +2,10 @@
 
 use super::conformity::probability;
 use super::{CalibrationPage, Section};
+use crate::calibration::Calibration;
 use crate::calibration::diagnosis::{Explanation, Hint};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
+use crate::calibration::noise::NoiseSource;
 use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
 use crate::report::page::language::{Language, Languages, Text};
@@ -83,7 +85,32 @@ fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
             None => {}
         }
         @if let Some(visits) = &calibration.scatter { (agreement(visits, texts::SCATTER, languages)) }
+        @if let Some(turn_ons) = &calibration.turn_on_scatter {
+            (agreement(turn_ons, texts::TURN_ON_SCATTER, languages))
+        }
+        (noise(calibration, languages))
+        @if calibration.drift_test.is_some_and(|test| test.is_significant()) {
+            (languages.paragraph_with(|language| html! { (texts::DRIFTS.filled(language, &[("option", "--drift")])) }))
+        }
     }
+}
+
+/// Writes the noise of the gyro that the uncertainties contain.
+fn noise(calibration: &Calibration, languages: &Languages) -> Markup {
+    let each = [(texts::VISIT_NOISE, &calibration.visit_noise), (texts::TURN_ON_NOISE, &calibration.turn_on_noise)];
+    fields(each.into_iter().filter(|(_, noise)| noise.source != NoiseSource::NotStated).map(|(name, noise)| {
+        let estimated = noise.source == NoiseSource::Estimated;
+        let value = html! {
+            (quantity(languages, &Number::scientific(noise.deg_per_h, 2), units::DEG_PER_H)) " ("
+            (languages.label_with(|language| {
+                let known = Number::fixed(noise.degrees_of_freedom, 0).text(language);
+                let text = if estimated { texts::NOISE_ESTIMATED } else { texts::NOISE_STATED };
+                text.filled(language, &[("known", &known)])
+            }))
+            ")"
+        };
+        field(languages, name, Some(value))
+    }))
 }
 
 /// Writes the comparison of an observed scatter with the stated uncertainty.
@@ -176,6 +203,8 @@ fn not_stated(what: NotStated) -> Text {
         NotStated::Mark => texts::NOT_STATED_MARK,
         NotStated::Level => texts::NOT_STATED_LEVEL,
         NotStated::Seat => texts::NOT_STATED_SEAT,
+        NotStated::Visits => texts::NOT_STATED_VISITS,
+        NotStated::TurnOns => texts::NOT_STATED_TURN_ONS,
         NotStated::Gravity => texts::NOT_STATED_GRAVITY,
     }
 }

@@ -4,7 +4,7 @@ use super::{CalibrationPage, Section, method};
 use crate::calibration::document::{ResultDocument, UncertaintyDocument};
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::parameter::Parameter;
-use crate::report::page::language::Languages;
+use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{field, fields, figure, heading, quantity, symbol};
 use crate::report::page::passport::numbers::parameters;
@@ -19,6 +19,8 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
         @if results.iter().any(|result| result.from_least_squares.is_some()) { (languages.paragraph(texts::OFF_BY_NOTE)) }
         @for result in results {
             (anisoelasticity(result, languages))
+            (general(result, languages))
+            (changing(result, languages))
             (iteration(result, languages))
         }
         @for (refused, _) in &page.calibration.refused {
@@ -37,7 +39,15 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     let rows = results.iter().rev().flat_map(|result| {
         let (values, u) = (values(result), uncertainties(&result.standard_uncertainty));
         let cells = |number: &dyn Fn(Parameter) -> Number| {
-            Parameter::AS_IN_THE_PAPER.map(|parameter| number(parameter).markup(languages))
+            Parameter::AS_IN_THE_PAPER.map(|parameter| {
+                // The general model has no ω_g and ω_k.
+                let found = !values[parameter.place()].is_nan();
+                if found {
+                    number(parameter).markup(languages)
+                } else {
+                    html! { "–" }
+                }
+            })
         };
         let name = match result.method.as_str() {
             "least-squares" => texts::LEAST_SQUARES,
@@ -60,14 +70,16 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
 fn values(result: &ResultDocument) -> [f64; 8] {
     let [[kx, kxy], [kyx, ky]] = result.k_deg_per_h_per_ma;
     let [w0x, w0y] = result.omega0_deg_per_h;
-    [kx, kxy, kyx, ky, w0x, w0y, result.omega_g_deg_per_h_per_g, result.omega_k_deg_per_h_per_g]
+    let [wg, wk] = [result.omega_g_deg_per_h_per_g, result.omega_k_deg_per_h_per_g].map(|w| w.unwrap_or(f64::NAN));
+    [kx, kxy, kyx, ky, w0x, w0y, wg, wk]
 }
 
 /// Returns the standard uncertainties of the eight parameters in the order of `Parameter::EIGHT`.
 fn uncertainties(u: &UncertaintyDocument) -> [f64; 8] {
     let [[kx, kxy], [kyx, ky]] = u.k_deg_per_h_per_ma;
     let [w0x, w0y] = u.omega0_deg_per_h;
-    [kx, kxy, kyx, ky, w0x, w0y, u.omega_g_deg_per_h_per_g, u.omega_k_deg_per_h_per_g]
+    let [wg, wk] = [u.omega_g_deg_per_h_per_g, u.omega_k_deg_per_h_per_g].map(|w| w.unwrap_or(f64::NAN));
+    [kx, kxy, kyx, ky, w0x, w0y, wg, wk]
 }
 
 fn anisoelasticity(result: &ResultDocument, languages: &Languages) -> Markup {
@@ -78,6 +90,65 @@ fn anisoelasticity(result: &ResultDocument, languages: &Languages) -> Markup {
         (quantity(languages, &Number::uncertainty(u), units::DEG_PER_H_PER_G2))
     };
     fields([field(languages, texts::ANISOELASTICITY, Some(value))])
+}
+
+/// Returns a value with its standard uncertainty.
+fn with_uncertainty(languages: &Languages, value: f64, u: f64, unit: Text) -> Markup {
+    html! {
+        (quantity(languages, &Number::measured(value, u), unit)) ", " (symbol("u", "")) " = "
+        (quantity(languages, &Number::uncertainty(u), unit))
+    }
+}
+
+/// Writes the matrix of the general model and the test whether it is needed.
+fn general(result: &ResultDocument, languages: &Languages) -> Markup {
+    let u = result.standard_uncertainty.g_matrix_deg_per_h_per_g;
+    let Some((matrix, u)) = result.g_matrix_deg_per_h_per_g.zip(u) else { return html! {} };
+    let elements = matrix.iter().flatten().zip(u.iter().flatten()).zip(["xx", "xy", "xz", "yx", "yy", "yz"]);
+    html! {
+        (heading(languages, texts::G_MATRIX))
+        ul {
+            @for ((value, u), index) in elements {
+                li { (symbol("G", index)) " = " (with_uncertainty(languages, *value, *u, units::DEG_PER_H_PER_G)) }
+            }
+        }
+        @if let Some(test) = &result.model_test {
+            (languages.paragraph_with(|language| {
+                let [further, rest] = test.degrees_of_freedom.map(|known| known.to_string());
+                let (f, p) = (Number::significant(test.f, 3).text(language), Number::significant(test.probability, 2).text(language));
+                let values = [("f", f.as_str()), ("further", &further), ("rest", &rest), ("p", &p)];
+                html! { (texts::MODEL_TEST.filled(language, &values)) }
+            }))
+        }
+    }
+}
+
+/// Writes ω_0 of each turn-on and the drift in time.
+fn changing(result: &ResultDocument, languages: &Languages) -> Markup {
+    let drift = result.drift_deg_per_h_per_h.zip(result.standard_uncertainty.drift_deg_per_h_per_h);
+    let u = result.standard_uncertainty.omega0_deg_per_h;
+    html! {
+        @if result.method == "least-squares" && !result.cycles.is_empty() {
+            (heading(languages, texts::CYCLES))
+            ul {
+                @for at in &result.cycles {
+                    li {
+                        (at.cycle) ": "
+                        @for ((value, u), axis) in at.omega0_deg_per_h.iter().zip(u).zip(["0x", "0y"]) {
+                            @if axis == "0y" { ", " }
+                            (symbol("ω", axis)) " = "
+                            (quantity(languages, &Number::measured(*value, u), units::DEG_PER_H))
+                        }
+                    }
+                }
+            }
+        }
+        @if let Some((drift, u)) = drift {
+            (fields([texts::DRIFT_X, texts::DRIFT_Y].into_iter().zip(drift.into_iter().zip(u)).map(|(name, (drift, u))| {
+                field(languages, name, Some(with_uncertainty(languages, drift, u, units::DEG_PER_H2)))
+            })))
+        }
+    }
 }
 
 /// Writes the spectral radius and the steps of the iterative method, or nothing for the other methods.

@@ -1,6 +1,7 @@
 //! Object of the calibration: gyro, stand, passport and readings.
 
 use super::{CalibrationPage, Section, UsedPassport};
+use crate::calibration::document::ExclusionDocument;
 use crate::laboratory::Laboratory;
 use crate::passport::accuracy::StatedLaboratory;
 use crate::report::page::language::Languages;
@@ -24,21 +25,56 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
 fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
     let content = page.content();
     let stand = format!("{} {}", content.stand.model, content.stand.serial);
-    fields([
-        field(languages, texts::TYPE, page.gyro.map(|gyro| given(&gyro.r#type))),
-        field(languages, texts::SERIAL, None),
-        field(languages, texts::CONDITION, None),
-        field(languages, texts::REPORT_NUMBER, None),
-        field(languages, texts::CUSTOMER, None),
-        field(languages, record::CUSTOMER_CONTACT, None),
-        field(languages, texts::RECEIVED, None),
-        field(languages, texts::MEASURED, None),
-        field(languages, texts::STAND, Some(given(&stand))),
-        field(languages, texts::SITE, Some(given(content.site.name.as_deref().unwrap_or(content.site.id.as_str())))),
-        field(languages, texts::TIME, Some(time(languages, page.time))),
-        field(languages, texts::CURRENTS, Some(given(page.currents.0))),
-        wide_field(languages, texts::CURRENTS_SHA256, Some(html! { code { (page.currents.1) } })),
-    ])
+    let result = page.result();
+    let subject = result.subject.as_ref();
+    let celsius = |value: f64| quantity(languages, &Number::exact(value), units::CELSIUS);
+    let excluded = |at: &ExclusionDocument| {
+        let cycle = at.cycle.map(|cycle| format!(",{cycle}")).unwrap_or_default();
+        format!("{},{},{}{cycle}: {}", at.i, at.j, at.visit, at.why)
+    };
+    let excluded: Vec<String> = result.excluded.iter().map(excluded).collect();
+    let left_out: Vec<String> = result.left_out.iter().map(|at| format!("({}, {})", at.i, at.j)).collect();
+    let listed = |each: Vec<String>| (!each.is_empty()).then(|| given(&each.join("; ")));
+    fields(
+        [
+            field(languages, texts::TYPE, page.gyro.map(|gyro| given(&gyro.r#type))),
+            field(languages, texts::SERIAL, subject.and_then(|subject| subject.gyro_serial.as_deref()).map(given)),
+            field(languages, texts::CONDITION, None),
+            field(languages, texts::REPORT_NUMBER, None),
+            field(languages, texts::CUSTOMER, None),
+            field(languages, record::CUSTOMER_CONTACT, None),
+            field(languages, texts::RECEIVED, None),
+            field(
+                languages,
+                texts::MEASURED,
+                subject.and_then(|subject| subject.date).map(|date| given(&date.to_string())),
+            ),
+            field(languages, texts::OPERATOR, subject.and_then(|subject| subject.operator.as_deref()).map(given)),
+            field(
+                languages,
+                texts::MEASURED_TEMPERATURE,
+                subject.and_then(|subject| subject.temperature_c).map(celsius),
+            ),
+            field(languages, texts::STAND, Some(given(&stand))),
+            field(
+                languages,
+                texts::SITE,
+                Some(given(content.site.name.as_deref().unwrap_or(content.site.id.as_str()))),
+            ),
+            field(languages, texts::TIME, Some(time(languages, page.time))),
+            field(languages, texts::CURRENTS, Some(given(page.currents.0))),
+            wide_field(languages, texts::CURRENTS_SHA256, Some(html! { code { (page.currents.1) } })),
+        ]
+        .into_iter()
+        .chain(
+            [
+                listed(excluded).map(|visits| wide_field(languages, texts::EXCLUDED, Some(visits))),
+                listed(left_out).map(|positions| wide_field(languages, texts::LEFT_OUT, Some(positions))),
+            ]
+            .into_iter()
+            .flatten(),
+        ),
+    )
 }
 
 fn passport(page: &CalibrationPage, languages: &Languages) -> Markup {

@@ -138,6 +138,8 @@ fn of_input(cause: Cause, u: f64, language: Language) -> String {
     let (unit, blank) = match cause.unit() {
         "%" => (units::PERCENT, "\u{a0}"),
         "mA" => (units::MILLIAMPERES, "\u{a0}"),
+        "deg/h" => (units::DEG_PER_H, "\u{a0}"),
+        "1" => (units::ONE, "\u{a0}"),
         _ => (units::ARCSEC, ""),
     };
     format!("{}{blank}{}", Number::scientific(u, 2).text(language), unit.of(language))
@@ -155,6 +157,9 @@ fn cause(cause: Cause, language: Language) -> String {
         Cause::Reading(..) => plain(texts::CAUSE_READING),
         Cause::Floor(..) => plain(texts::CAUSE_FLOOR),
         Cause::Noise(..) => plain(texts::CAUSE_NOISE),
+        Cause::Visits(..) => plain(texts::CAUSE_VISITS),
+        Cause::Differences(_) => plain(texts::CAUSE_DIFFERENCES),
+        Cause::TurnOn(axis) => about(texts::CAUSE_TURN_ON, case(axis)),
         Cause::Platform(axis) => about(texts::CAUSE_PLATFORM, case(axis)),
         Cause::Seat(axis) => about(texts::CAUSE_SEAT, case(axis)),
         Cause::Base(axis) => about(texts::CAUSE_BASE, base(axis)),

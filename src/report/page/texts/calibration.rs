@@ -89,6 +89,10 @@ texts! {
     SITE { en: "Site", ru: "Место установки" }
     TIME { en: "Verified as of", ru: "Проверен по состоянию на" }
     CURRENTS { en: "File of currents", ru: "Файл токов" }
+    OPERATOR { en: "Readings taken by", ru: "Показания снял" }
+    MEASURED_TEMPERATURE { en: "Temperature during the readings", ru: "Температура при снятии показаний" }
+    EXCLUDED { en: "Visits left out (i, j, visit, cycle)", ru: "Исключённые установки (i, j, установка, запуск)" }
+    LEFT_OUT { en: "Positions without a reading", ru: "Положения без показаний" }
     CURRENTS_SHA256 { en: "SHA-256 of the file of currents", ru: "SHA-256 файла токов" }
     PASSPORT { en: "Passport of the stand", ru: "Паспорт стенда" }
     PASSPORT_SHA256 { en: "SHA-256 of the passport", ru: "SHA-256 паспорта" }
@@ -218,6 +222,29 @@ texts! {
         en: "Standard deviation of a reading within a visit",
         ru: "Стандартное отклонение показания в\u{a0}одной установке"
     }
+    TURN_ON_SCATTER {
+        en: "Variation between turn-ons, chi-square",
+        ru: "Рассеяние между запусками, хи-квадрат"
+    }
+    VISIT_NOISE { en: "Gyro noise from visit to visit", ru: "Шум гироскопа от установки к\u{a0}установке" }
+    TURN_ON_NOISE { en: "Gyro noise from turn-on to turn-on", ru: "Нестабильность гироскопа от запуска к\u{a0}запуску" }
+    NOISE_STATED { en: "as the gyro type states", ru: "по данным типа гироскопа" }
+    NOISE_ESTIMATED {
+        en: "estimated, {known} degrees of freedom",
+        ru: "оценка, число степеней свободы {known}"
+    }
+    DRIFTS {
+        en: "The residuals change with time more than chance explains: the gyro drifted during the run. Fit a linear drift with {option}.",
+        ru: "Остатки меняются со временем больше, чем можно объяснить случайностью: за\u{a0}время измерений гироскоп дрейфовал. Учтите линейное изменение: {option}."
+    }
+    G_MATRIX { en: "Matrix of g-sensitive drift", ru: "Матрица дрейфа, зависящего от\u{a0}g" }
+    MODEL_TEST {
+        en: "Test whether ω_g and ω_k alone are enough: F = {f} with {further} and {rest} degrees of freedom, probability of a larger value {p}.",
+        ru: "Проверка достаточности ω_g и\u{a0}ω_k: F = {f} при {further} и\u{a0}{rest} степенях свободы, вероятность большего значения {p}."
+    }
+    CYCLES { en: "Turn-ons", ru: "Запуски" }
+    DRIFT_X { en: "Drift in time about x", ru: "Изменение дрейфа во времени, ось x" }
+    DRIFT_Y { en: "Drift in time about y", ru: "Изменение дрейфа во времени, ось y" }
     ENLARGED { en: "Factor applied to the variance", ru: "Коэффициент увеличения дисперсии" }
     LESS_THAN_STATED {
         en: "The variation is less than stated. Readings taken without leaving the position belong to one visit.",
@@ -274,6 +301,8 @@ texts! {
     NOT_STATED_LATITUDE { en: "latitude", ru: "широта" }
     NOT_STATED_DEFLECTION { en: "deflection of the vertical", ru: "уклонение отвесной линии" }
     NOT_STATED_MARK { en: "azimuth of the mark", ru: "азимут ориентирного пункта" }
+    NOT_STATED_VISITS { en: "gyro from visit to visit", ru: "шум гироскопа от установки к\u{a0}установке" }
+    NOT_STATED_TURN_ONS { en: "gyro from turn-on to turn-on", ru: "нестабильность гироскопа от запуска к\u{a0}запуску" }
     NOT_STATED_GRAVITY { en: "gravity", ru: "ускорение свободного падения" }
     NOT_STATED_AZIMUTH { en: "azimuth of the base", ru: "азимут основания" }
     NOT_STATED_LEVEL { en: "level of the base", ru: "горизонтирование основания" }
@@ -317,6 +346,9 @@ texts! {
     CAUSE_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
     CAUSE_READING { en: "meter, specification", ru: "измеритель, погрешность показания" }
     CAUSE_FLOOR { en: "meter, floor", ru: "измеритель, постоянная часть" }
+    CAUSE_VISITS { en: "gyro, visit to visit", ru: "гироскоп, от установки к установке" }
+    CAUSE_DIFFERENCES { en: "differences between visits", ru: "разности между установками" }
+    CAUSE_TURN_ON { en: "gyro, turn-ons, axis {axis}", ru: "гироскоп, запуски, ось {axis}" }
     CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
     CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа вокруг {axis}" }
     CAUSE_SEAT { en: "gyro seat about {axis}", ru: "посадочная поверхность вокруг {axis}" }

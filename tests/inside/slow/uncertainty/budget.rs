@@ -69,7 +69,7 @@ fn covariances_are_those_of_gtc() {
     let (mut worst, mut of_freedom) = (0.0_f64, 0.0_f64);
     for case in three() {
         let theirs = asked("gtc_budget.py", &described(&case));
-        let budget = Budget::new(&case.setup, &case.readings, Method::Analytic, false).unwrap();
+        let budget = Budget::new(&case.setup, &case.readings, Method::Analytic, &Options::default()).unwrap();
         let (ours, due) = (budget.covariance(), numbers(&theirs["covariance"]));
         for row in 0..8 {
             for column in 0..8 {
@@ -108,7 +108,7 @@ fn a_budget_adds_up_to_the_uncertainty_of_the_calibration() {
     for case in three() {
         let calibration = calibrate(&case.setup, &case.readings, &Options::default()).unwrap();
         for result in &calibration.results {
-            let budget = Budget::new(&case.setup, &case.readings, result.method, false).unwrap();
+            let budget = Budget::new(&case.setup, &case.readings, result.method, &Options::default()).unwrap();
             let covariance = budget.covariance();
             for (row, line) in budget.parameters.iter().enumerate() {
                 let u = result.standard_uncertainty(line.parameter).unwrap();
@@ -134,7 +134,7 @@ fn the_sentence_is_computed() {
         uncertainty.seating_rad[2] = radians_from_arcseconds(arcsec);
         let setup = with_uncertainty(&eight([[0.0; 3]; 8]), LATITUDE_DEG, uncertainty);
         let readings = readings(&setup, &currents(&setup, &gvk_6()));
-        Budget::new(&setup, &readings, Method::LeastSquares, false).unwrap()
+        Budget::new(&setup, &readings, Method::LeastSquares, &Options::default()).unwrap()
     };
     let said = Dominant::of(&seat(30.0), Some(&GyroType::gvk_6().tolerance)).unwrap().sentence();
     let due = "u(ω_0x) is 0.0029 deg/h; nearly all of the variance comes from one source (gyro seat about z); to halve u, seat the gyro with an uncertainty of 14 arcsec about the spin axis";
@@ -153,7 +153,7 @@ fn the_sentence_is_computed() {
 #[test]
 fn the_picture_has_every_parameter_and_no_colour() {
     let case = &three()[1];
-    let budget = Budget::new(&case.setup, &case.readings, Method::LeastSquares, false).unwrap();
+    let budget = Budget::new(&case.setup, &case.readings, Method::LeastSquares, &Options::default()).unwrap();
     let svg = picture::budget::budget(&budget).unwrap();
     let page = Document::parse(&svg).unwrap();
     let words =
@@ -174,7 +174,7 @@ fn the_picture_has_every_parameter_and_no_colour() {
 #[test]
 fn bars_are_as_long_as_contributions() {
     for case in three() {
-        let budget = Budget::new(&case.setup, &case.readings, Method::LeastSquares, false).unwrap();
+        let budget = Budget::new(&case.setup, &case.readings, Method::LeastSquares, &Options::default()).unwrap();
         let svg = picture::budget::budget(&budget).unwrap();
         let page = Document::parse(&svg).unwrap();
         let panels = page.descendants().filter(|node| node.has_tag_name("g"));
@@ -219,7 +219,7 @@ fn uncertainties_are_those_of_suncal() {
     let theirs = asked("suncal_budget.py", &json!(described));
     let mut worst: f64 = 0.0;
     for (case, theirs) in cases.iter().zip(theirs.as_array().expect("a list")) {
-        let budget = Budget::new(&case.setup, &case.readings, Method::Analytic, false).unwrap();
+        let budget = Budget::new(&case.setup, &case.readings, Method::Analytic, &Options::default()).unwrap();
         for (place, line) in budget.parameters.iter().enumerate() {
             let ratio = theirs["monte_carlo"][place].as_f64().unwrap() / line.standard_uncertainty - 1.0;
             worst = worst.max(ratio.abs() * (2.0 * samples).sqrt());

@@ -184,7 +184,8 @@ fn pair(files: &Files, stream: &mut Stream, runs: Option<u32>) -> [bool; 10] {
     };
     let gyro = gvk_6();
     let readings = readings(&setup, &files.currents(stream, &real, &gyro));
-    let budget = Budget::new(&setup, &readings, Method::LeastSquares, false).expect("eight good positions");
+    let budget =
+        Budget::new(&setup, &readings, Method::LeastSquares, &Options::default()).expect("eight good positions");
     let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
     let probability = calibrate(&setup, &readings, &options).expect("a result").results[0].chi_square.probability;
     let due = gyro.to_vector();

@@ -3,7 +3,7 @@
 use super::cases::{Case, three};
 use crate::inside::reference::*;
 use dtg_passport::attitude::{self, Deviation};
-use dtg_passport::calibration::{InputUncertainty, Method, analytic, least_squares};
+use dtg_passport::calibration::{InputUncertainty, Method, Model, Options, analytic, least_squares};
 use dtg_passport::coefficients::{Coefficients, EIGHT_POSITIONS, Matrices, PositionCoefficients, pair_differences};
 use dtg_passport::statistics::random::Stream;
 use dtg_passport::statistics::wide_random::WIDTH;
@@ -130,11 +130,11 @@ fn the_refit_is_that_of_least_squares() {
     let readings = readings(&setup, &currents(&setup, &gvk_6()));
     let case = Case { latitude_deg: case.latitude_deg, positions: case.positions.clone(), setup, readings };
     let engine = Engine::new(&case.setup, &case.readings, Method::LeastSquares, ReadingShape::Normal).unwrap();
-    let budget = Budget::new(&case.setup, &case.readings, Method::LeastSquares, false).unwrap();
+    let budget = Budget::new(&case.setup, &case.readings, Method::LeastSquares, &Options::default()).unwrap();
     let trials = deviates(&engine, 5, 1.0);
     for (trial, found) in trials.iter().zip(engine.solutions_for(&trials)) {
         let (coefficients, currents) = exactly(&case, &engine, trial);
-        let due = least_squares::solve(&coefficients, &currents, &paper_meter(), false).unwrap();
+        let due = least_squares::solve(&coefficients, &currents, &paper_meter(), Model::Paper).unwrap();
         for ((found, due), line) in found.iter().zip(due.parameters.to_vector()).zip(&budget.parameters) {
             assert!((found - due).abs() < 0.01 * line.standard_uncertainty, "{}: {found} {due}", line.parameter.key());
         }
@@ -150,7 +150,7 @@ fn the_same_seed_gives_the_same_bytes_on_any_number_of_threads() {
     let case = &three()[1];
     for method in [Method::Analytic, Method::LeastSquares] {
         let engine = Engine::new(&case.setup, &case.readings, method, ReadingShape::Normal).unwrap();
-        let budget = Budget::new(&case.setup, &case.readings, method, false).unwrap();
+        let budget = Budget::new(&case.setup, &case.readings, method, &Options::default()).unwrap();
         let one = monte_carlo(&engine, &budget, &fixed(7 * BLOCK - 5, 1));
         assert_eq!((one.trials, one.failed), (7 * BLOCK, 0));
         for threads in [0, 2, 5] {
@@ -173,7 +173,7 @@ fn first_order_and_monte_carlo_agree() {
     let readings = readings(&case.setup, &noisy);
     for method in [Method::Analytic, Method::LeastSquares] {
         let engine = Engine::new(&case.setup, &readings, method, ReadingShape::Normal).unwrap();
-        let budget = Budget::new(&case.setup, &readings, method, false).unwrap();
+        let budget = Budget::new(&case.setup, &readings, method, &Options::default()).unwrap();
         let found = monte_carlo(&engine, &budget, &fixed(1_000_000, 2));
         let (mut of_u, mut of_ends) = (0.0_f64, 0.0_f64);
         let covariance = budget.covariance();
@@ -217,7 +217,7 @@ fn few_degrees_of_freedom_are_drawn_as_such() {
     let setup = with_uncertainty(&three()[1].positions, LATITUDE_DEG, uncertainty);
     let readings = readings(&setup, &currents(&setup, &gvk_6()));
     let engine = Engine::new(&setup, &readings, Method::Analytic, ReadingShape::Normal).unwrap();
-    let budget = Budget::new(&setup, &readings, Method::Analytic, false).unwrap();
+    let budget = Budget::new(&setup, &readings, Method::Analytic, &Options::default()).unwrap();
     let found = monte_carlo(&engine, &budget, &fixed(400_000, 2));
     for (line, trials) in budget.parameters.iter().zip(&found.parameters) {
         let ratio = trials.standard_uncertainty / line.standard_uncertainty / (6.0_f64 / 4.0).sqrt();
@@ -232,7 +232,7 @@ fn trials_go_on_until_digits_are_stable() {
     let setup = setup(&three()[0].positions, LATITUDE_DEG);
     let readings = readings(&setup, &currents(&setup, &gvk_6()));
     let engine = Engine::new(&setup, &readings, Method::Analytic, ReadingShape::Normal).unwrap();
-    let budget = Budget::new(&setup, &readings, Method::Analytic, false).unwrap();
+    let budget = Budget::new(&setup, &readings, Method::Analytic, &Options::default()).unwrap();
     let found = monte_carlo(&engine, &budget, &Trials { threads: 2, ..Trials::adaptive(3) });
     println!("{} trials", found.trials);
     assert!(found.stable && found.failed == 0);
@@ -248,7 +248,7 @@ fn trials_go_on_until_digits_are_stable() {
 fn many_trials_tell_how_far_they_are() {
     let case = &three()[0];
     let engine = Engine::new(&case.setup, &case.readings, Method::Analytic, ReadingShape::Normal).unwrap();
-    let budget = Budget::new(&case.setup, &case.readings, Method::Analytic, false).unwrap();
+    let budget = Budget::new(&case.setup, &case.readings, Method::Analytic, &Options::default()).unwrap();
     let (cancel, told) = (AtomicBool::new(false), Mutex::new(Vec::new()));
     let progress = |done: u64, due: u64| {
         told.lock().unwrap().push((done, due));
