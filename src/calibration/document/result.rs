@@ -1,0 +1,420 @@
+//! The JSON of one method, and what belongs to it.
+
+use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, StepChange};
+use crate::calibration::noise::{DriftNoise, NoiseSource};
+use crate::calibration::parameter::Parameter;
+use crate::calibration::result::{Calibration, MethodResult};
+use crate::calibration::scatter::{RowScatter, Scatter};
+use crate::calibration::unknowns::Model;
+use crate::calibration::verdict::Found;
+use crate::gyro::GyroParameters;
+use nalgebra::{Matrix2, Matrix2x3, Vector2};
+use serde::{Deserialize, Serialize};
+
+/// JSON result of one method.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ResultDocument {
+    /// Name of the method.
+    pub(crate) method: String,
+    /// Model of the g-sensitive drift: paper or general.
+    #[serde(default = "paper")]
+    pub(crate) model: String,
+    /// K, °/(h·mA): [[K_x, K_xy], [K_yx, K_y]].
+    pub(crate) k_deg_per_h_per_ma: [[f64; 2]; 2],
+    /// ω_0, °/h: [x, y].
+    pub(crate) omega0_deg_per_h: [f64; 2],
+    /// ω_n, °/(h·g), 2×2: four independent numbers for the paper's methods.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]>,
+    /// ω_g, °/h per local g; absent in the general model, as ω_n and ω_k are.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) omega_g_deg_per_h_per_g: Option<f64>,
+    /// ω_k, °/h per local g.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) omega_k_deg_per_h_per_g: Option<f64>,
+    /// Matrix of g-sensitive drift of the general model, °/h per local g, 2×3, for (n_x, n_y, n_z).
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) g_matrix_deg_per_h_per_g: Option<[[f64; 3]; 2]>,
+    /// F test whether the paper's model is enough; present with a larger one.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) model_test: Option<ModelTestDocument>,
+    /// Linear drift of ω_0 in time, °/h per hour: [x, y]; ω_0 is then that at the mean time of the readings.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) drift_deg_per_h_per_h: Option<[f64; 2]>,
+    /// ω_0 of each turn-on of the gyro.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub(crate) cycles: Vec<CycleDocument>,
+    /// Noise of the gyro's drift that the uncertainties contain; absent in results of earlier versions.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) noise: Option<NoiseDocument>,
+    /// Anisoelastic coefficient, °/(h·g²); absent if it was not fitted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) anisoelasticity_deg_per_h_per_g2: Option<f64>,
+    /// Number of steps of the iterative method.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) iterations: Option<u32>,
+    /// Number of steps predicted before the first one; absent if it exceeds the maximum number of steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) iterations_predicted: Option<u32>,
+    /// Stop rule of the iteration, Δ₁ and Δ₂.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) stop_rule: Option<StopRuleDocument>,
+    /// Changes of the parameters in each step after the first approximation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) changes: Option<Vec<ChangeDocument>>,
+    /// Spectral radius ρ(T).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) spectral_radius: Option<f64>,
+    /// Exact remainder of K, °/(h·mA), 2×2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) remainder_k_deg_per_h_per_ma: Option<[[f64; 2]; 2]>,
+    /// Exact remainder of ω_n, °/(h·g), 2×2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) remainder_omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]>,
+    /// Standard uncertainties, under the keys of the values.
+    pub(crate) standard_uncertainty: UncertaintyDocument,
+    /// Differences from least squares in units of their standard uncertainties: K_x, K_xy, K_yx, K_y, ω_0x, ω_0y, ω_g,
+    /// ω_k.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) from_least_squares: Option<[f64; 8]>,
+    /// Chi-square test of the fit.
+    pub(crate) chi_square: ChiSquareDocument,
+    /// Residuals of each position, °/h; absent without degrees of freedom.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub(crate) residuals_deg_per_h: Vec<ResidualDocument>,
+}
+
+fn paper() -> String {
+    Model::Paper.key().to_owned()
+}
+
+/// ω_0 of one turn-on of the gyro.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CycleDocument {
+    /// Number of the turn-on.
+    pub(crate) cycle: u32,
+    /// ω_0, °/h: [x, y].
+    pub(crate) omega0_deg_per_h: [f64; 2],
+}
+
+/// F test whether the paper's model of the g-sensitive drift is enough.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ModelTestDocument {
+    /// Ratio of mean squares.
+    pub(crate) f: f64,
+    /// Number of further parameters, and degrees of freedom of the rest.
+    pub(crate) degrees_of_freedom: [usize; 2],
+    /// Probability of a larger ratio if the paper's model is enough.
+    pub(crate) probability: f64,
+}
+
+/// Noise of the gyro's drift: from visit to visit, and from one turn-on to the next.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct NoiseDocument {
+    /// Standard deviation from visit to visit, each axis; absent if it is not known.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) visit_deg_per_h: Option<f64>,
+    /// stated, estimated or not_stated.
+    pub(crate) visit_source: String,
+    /// Degrees of freedom of an estimate.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) visit_degrees_of_freedom: Option<f64>,
+    /// Standard deviation of ω_0 from one turn-on to the next, each axis; absent if it is not known.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) turn_on_deg_per_h: Option<f64>,
+    /// stated, estimated or not_stated.
+    pub(crate) turn_on_source: String,
+    /// Degrees of freedom of an estimate.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) turn_on_degrees_of_freedom: Option<f64>,
+}
+
+impl NoiseDocument {
+    fn new(calibration: &Calibration) -> Self {
+        let known = |noise: &DriftNoise| (noise.source != NoiseSource::NotStated).then_some(noise.deg_per_h);
+        let (visit, turn_on) = (&calibration.visit_noise, &calibration.turn_on_noise);
+        Self {
+            visit_deg_per_h: known(visit),
+            visit_source: visit.source.key().to_owned(),
+            visit_degrees_of_freedom: finite(visit.degrees_of_freedom),
+            turn_on_deg_per_h: known(turn_on),
+            turn_on_source: turn_on.source.key().to_owned(),
+            turn_on_degrees_of_freedom: finite(turn_on.degrees_of_freedom),
+        }
+    }
+}
+
+/// Stop rule of the iteration: the paper's Δ₁ and Δ₂.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StopRuleDocument {
+    /// Δ₁, percent.
+    pub(crate) delta1_percent: f64,
+    /// Δ₂, °/(h·g).
+    pub(crate) delta2_deg_per_h: f64,
+}
+
+/// Changes of the parameters in one step of the iterative method.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ChangeDocument {
+    /// Number of the step; the first approximation is step 1.
+    pub(crate) step: u32,
+    /// Larger change of K_x and K_y, percent.
+    pub(crate) main_scale_factors_percent: f64,
+    /// Larger change of ω_g and ω_k, °/(h·g).
+    pub(crate) g_drifts_deg_per_h_per_g: f64,
+}
+
+/// Standard uncertainties of the values of one method.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct UncertaintyDocument {
+    /// Standard uncertainties of the elements of K, °/(h·mA).
+    pub(crate) k_deg_per_h_per_ma: [[f64; 2]; 2],
+    /// Standard uncertainties of ω_0, °/h: [x, y].
+    pub(crate) omega0_deg_per_h: [f64; 2],
+    /// Standard uncertainties of the elements of ω_n, °/(h·g).
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) omega_n_deg_per_h_per_g: Option<[[f64; 2]; 2]>,
+    /// Standard uncertainty of ω_g, °/(h·g).
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) omega_g_deg_per_h_per_g: Option<f64>,
+    /// Standard uncertainty of ω_k, °/(h·g).
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) omega_k_deg_per_h_per_g: Option<f64>,
+    /// Standard uncertainties of the elements of the matrix of g-sensitive drift, °/(h·g).
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) g_matrix_deg_per_h_per_g: Option<[[f64; 3]; 2]>,
+    /// Standard uncertainties of the drift in time, °/h per hour: [x, y].
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) drift_deg_per_h_per_h: Option<[f64; 2]>,
+    /// Standard uncertainty of the anisoelastic coefficient, °/(h·g²); absent if it was not fitted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) anisoelasticity_deg_per_h_per_g2: Option<f64>,
+}
+
+/// Chi-square test of a fit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ChiSquareDocument {
+    /// Value of chi-square.
+    pub(crate) value: f64,
+    /// Number of readings minus number of parameters.
+    pub(crate) degrees_of_freedom: usize,
+    /// Probability of a larger value if the readings agree with all stated uncertainties; absent without degrees of
+    /// freedom.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) probability: Option<f64>,
+    /// Degrees of freedom of the uncertainties from which chi-square is computed; absent if infinite.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) uncertainty_degrees_of_freedom: Option<f64>,
+}
+
+/// Scatter of the visits of each position, compared with the stated one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ScatterDocument {
+    /// Sum of squares in units of the stated variance.
+    pub(crate) chi_square: f64,
+    /// Degrees of freedom: two for each visit after a position's first.
+    pub(crate) degrees_of_freedom: usize,
+    /// Probability of more scatter if the stated variance is correct; close to 1 if there is less than stated.
+    pub(crate) probability: f64,
+    /// Factor by which the variance of a visit was enlarged.
+    pub(crate) variance_factor: f64,
+}
+
+/// Scatter of the rows of each visit, compared with the stated noise.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RowScatterDocument {
+    /// Standard deviation of one reading, mA.
+    pub(crate) standard_deviation_ma: f64,
+    /// Degrees of freedom: two for each row after a visit's first.
+    pub(crate) degrees_of_freedom: usize,
+    /// Sum of squares in units of the stated variance; absent if no noise is stated.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) chi_square: Option<f64>,
+    /// Probability of more scatter if the stated noise is correct; close to 1 if there is less than stated.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) probability: Option<f64>,
+    /// Factor by which the variance of a reading was enlarged.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) variance_factor: Option<f64>,
+}
+
+/// Residuals of one position.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ResidualDocument {
+    /// Frame index.
+    pub(crate) i: u32,
+    /// Platform index.
+    pub(crate) j: u32,
+    /// Residual along x, °/h.
+    pub(crate) x: f64,
+    /// Residual along y, °/h.
+    pub(crate) y: f64,
+    /// Standard uncertainty of the residual along x, °/h; absent in results of earlier versions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) u_x: Option<f64>,
+    /// Standard uncertainty of the residual along y, °/h.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) u_y: Option<f64>,
+}
+
+fn rows(matrix: &Matrix2<f64>) -> [[f64; 2]; 2] {
+    [[matrix.m11, matrix.m12], [matrix.m21, matrix.m22]]
+}
+
+fn rows_of_three(matrix: &Matrix2x3<f64>) -> [[f64; 3]; 2] {
+    [[matrix.m11, matrix.m12, matrix.m13], [matrix.m21, matrix.m22, matrix.m23]]
+}
+
+impl ResultDocument {
+    pub(super) fn new(result: &MethodResult, calibration: &Calibration) -> Self {
+        let parameters = &result.parameters;
+        let of_the_paper = result.model != Model::General;
+        let iteration = result.iteration.as_ref();
+        let chi_square = &result.chi_square;
+        let residuals = result.residuals.iter().filter(|_| chi_square.judges()).map(|residual| {
+            let (index, value) = (residual.index, residual.residual_deg_per_h);
+            let u = residual.standard_uncertainty_deg_per_h;
+            ResidualDocument { i: index.i, j: index.j, x: value.x, y: value.y, u_x: Some(u.x), u_y: Some(u.y) }
+        });
+        Self {
+            method: result.method.key().to_owned(),
+            model: result.model.key().to_owned(),
+            k_deg_per_h_per_ma: rows(&parameters.k_deg_per_h_per_ma),
+            omega0_deg_per_h: parameters.omega0_deg_per_h.into(),
+            omega_n_deg_per_h_per_g: of_the_paper.then(|| rows(&result.omega_n_deg_per_h_per_g)),
+            omega_g_deg_per_h_per_g: result.value(Parameter::OmegaG),
+            omega_k_deg_per_h_per_g: result.value(Parameter::OmegaK),
+            g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows_of_three(&g.deg_per_h_per_g)),
+            model_test: result.model_test.map(|test| ModelTestDocument {
+                f: test.f,
+                degrees_of_freedom: test.degrees_of_freedom,
+                probability: test.probability,
+            }),
+            drift_deg_per_h_per_h: result.drift.map(|drift| drift.deg_per_h_per_h.into()),
+            cycles: result
+                .cycles
+                .iter()
+                .map(|at| CycleDocument { cycle: at.cycle, omega0_deg_per_h: at.omega0_deg_per_h.into() })
+                .collect(),
+            noise: Some(NoiseDocument::new(calibration)),
+            anisoelasticity_deg_per_h_per_g2: result.anisoelasticity_deg_per_h_per_g2,
+            iterations: iteration.map(|iteration| iteration.steps),
+            iterations_predicted: iteration
+                .and_then(|iteration| iteration.predicted_steps)
+                .filter(|steps| *steps <= LARGEST_NUMBER_OF_STEPS),
+            stop_rule: iteration.map(|iteration| StopRuleDocument {
+                delta1_percent: iteration.stop_rule.delta1_percent,
+                delta2_deg_per_h: iteration.stop_rule.delta2_deg_per_h,
+            }),
+            changes: iteration.map(|iteration| (2..).zip(&iteration.changes).map(ChangeDocument::new).collect()),
+            spectral_radius: iteration.map(|iteration| iteration.spectral_radius),
+            remainder_k_deg_per_h_per_ma: iteration.map(|it| rows(&it.remainder_k_deg_per_h_per_ma)),
+            remainder_omega_n_deg_per_h_per_g: iteration.map(|it| rows(&it.remainder_omega_n_deg_per_h_per_g)),
+            standard_uncertainty: UncertaintyDocument::new(result),
+            from_least_squares: result.from_least_squares,
+            chi_square: ChiSquareDocument {
+                value: chi_square.value,
+                degrees_of_freedom: chi_square.degrees_of_freedom,
+                probability: chi_square.judges().then_some(chi_square.probability),
+                uncertainty_degrees_of_freedom: finite(chi_square.of_uncertainties),
+            },
+            residuals_deg_per_h: residuals.collect(),
+        }
+    }
+
+    pub(super) fn found(&self, gravity_m_per_s2: f64, gravity_u_m_per_s2: Option<f64>) -> Found {
+        let [[kx, kxy], [kyx, ky]] = self.k_deg_per_h_per_ma;
+        let u = &self.standard_uncertainty;
+        let [[u_kx, u_kxy], [u_kyx, u_ky]] = u.k_deg_per_h_per_ma;
+        let [u_0x, u_0y] = u.omega0_deg_per_h;
+        Found {
+            parameters: GyroParameters {
+                k_deg_per_h_per_ma: Matrix2::new(kx, kxy, kyx, ky),
+                omega0_deg_per_h: Vector2::from(self.omega0_deg_per_h),
+                omega_g_deg_per_h_per_g: self.omega_g_deg_per_h_per_g.unwrap_or(f64::NAN),
+                omega_k_deg_per_h_per_g: self.omega_k_deg_per_h_per_g.unwrap_or(f64::NAN),
+            },
+            standard_uncertainty: [
+                u_kx,
+                u_kxy,
+                u_kyx,
+                u_ky,
+                u_0x,
+                u_0y,
+                u.omega_g_deg_per_h_per_g.unwrap_or(f64::NAN),
+                u.omega_k_deg_per_h_per_g.unwrap_or(f64::NAN),
+            ],
+            gravity_m_per_s2,
+            gravity_u_m_per_s2: gravity_u_m_per_s2.unwrap_or(0.0),
+        }
+    }
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+impl ScatterDocument {
+    pub(super) fn new(scatter: &Scatter) -> Self {
+        let Scatter { chi_square, degrees_of_freedom, probability, variance_factor } = *scatter;
+        Self { chi_square, degrees_of_freedom, probability, variance_factor }
+    }
+}
+
+impl RowScatterDocument {
+    pub(super) fn new(rows: &RowScatter) -> Self {
+        let stated = rows.against_stated;
+        Self {
+            standard_deviation_ma: rows.standard_deviation_ma,
+            degrees_of_freedom: rows.degrees_of_freedom,
+            chi_square: stated.map(|stated| stated.chi_square),
+            probability: stated.map(|stated| stated.probability),
+            variance_factor: stated.map(|stated| stated.variance_factor),
+        }
+    }
+}
+
+impl ChangeDocument {
+    fn new((step, change): (u32, &StepChange)) -> Self {
+        let StepChange { main_scale_factors_percent, g_drifts_deg_per_h_per_g } = *change;
+        Self { step, main_scale_factors_percent, g_drifts_deg_per_h_per_g }
+    }
+}
+
+impl UncertaintyDocument {
+    fn new(result: &MethodResult) -> Self {
+        let u = |parameter| result.standard_uncertainty(parameter).unwrap_or(0.0);
+        Self {
+            k_deg_per_h_per_ma: [[u(Parameter::Kx), u(Parameter::Kxy)], [u(Parameter::Kyx), u(Parameter::Ky)]],
+            omega0_deg_per_h: [u(Parameter::Omega0x), u(Parameter::Omega0y)],
+            omega_n_deg_per_h_per_g: (result.model != Model::General)
+                .then(|| rows(&result.omega_n_uncertainty_deg_per_h_per_g)),
+            omega_g_deg_per_h_per_g: result.standard_uncertainty(Parameter::OmegaG),
+            omega_k_deg_per_h_per_g: result.standard_uncertainty(Parameter::OmegaK),
+            g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows_of_three(&g.standard_uncertainty_deg_per_h_per_g)),
+            drift_deg_per_h_per_h: result.drift.map(|drift| drift.standard_uncertainty_deg_per_h_per_h.into()),
+            anisoelasticity_deg_per_h_per_g2: result.standard_uncertainty(Parameter::Anisoelasticity),
+        }
+    }
+}
+
+impl MethodResult {
+    /// Returns values and standard uncertainties for a comparison, with the local g and its standard uncertainty, m/s².
+    pub fn found(&self, gravity_m_per_s2: f64, gravity_u_m_per_s2: f64) -> Found {
+        let standard_uncertainty = Parameter::EIGHT.map(|p| self.standard_uncertainty(p).unwrap_or(f64::NAN));
+        let values = Parameter::EIGHT.map(|parameter| self.value(parameter).unwrap_or(f64::NAN));
+        let parameters = GyroParameters::from_vector(&values);
+        Found { parameters, standard_uncertainty, gravity_m_per_s2, gravity_u_m_per_s2 }
+    }
+}

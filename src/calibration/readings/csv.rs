@@ -1,0 +1,206 @@
+//! Currents from CSV: `i,j,jx_ma,jy_ma`, and optionally `cycle`, `visit`, `time_s`.
+
+use super::{Reading, Readings};
+use crate::coefficients::{Coefficients, PositionIndex};
+use crate::text::Unreadable;
+use crate::text::problem::{MOST_PROBLEMS, Problem};
+use crate::text::table::{Row, Table};
+use nalgebra::Vector2;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Required columns of the file.
+pub(crate) const COLUMNS: [&str; 4] = ["i", "j", "jx_ma", "jy_ma"];
+
+/// Optional columns of the file.
+pub(crate) const OPTIONAL_COLUMNS: [&str; 3] = ["cycle", "visit", "time_s"];
+
+impl Readings {
+    /// Reads the CSV file `name` for the positions of `coefficients`; `range_ma` is the range of the meter, mA.
+    ///
+    /// # Errors
+    /// Returns [`Unreadable`] with the line and column of every error: invalid form or number, missing or unknown
+    /// position, current beyond the range, axis without current.
+    pub fn from_csv(name: &str, bytes: &[u8], coefficients: &Coefficients, range_ma: f64) -> Result<Self, Unreadable> {
+        let table = Table::read(name, bytes, &COLUMNS, &OPTIONAL_COLUMNS)?;
+        let [cycle, visit, time] = OPTIONAL_COLUMNS.map(|column| table.place(column));
+        let mut problems = Vec::new();
+        let mut readings = Vec::new();
+        for row in &table.rows {
+            if problems.len() >= MOST_PROBLEMS {
+                break;
+            }
+            let index = position(&table, row, coefficients, &mut problems);
+            let x = current(&table, row, 2, range_ma, &mut problems);
+            let y = current(&table, row, 3, range_ma, &mut problems);
+            let mut whole = |column: Option<usize>| column.and_then(|column| table.index(row, column, &mut problems));
+            let (cycle, visit) = (whole(cycle).unwrap_or(1), whole(visit));
+            let time_s = time.and_then(|column| table.number(row, column, &mut problems));
+            if let (Some(index), Some(x), Some(y)) = (index, x, y) {
+                readings.push(Reading { index, current_ma: Vector2::new(x, y), cycle, visit, time_s });
+            }
+        }
+        if problems.is_empty() && visit.is_none() {
+            problems = perhaps_mistaken(coefficients, &readings);
+        }
+        if problems.is_empty() {
+            problems = torn_visits(&table, &readings);
+        }
+        if problems.is_empty() {
+            problems = lone_cycles(&readings);
+        }
+        if problems.is_empty() {
+            problems = impossible_times(&table, &readings);
+        }
+        if problems.is_empty() {
+            problems = without_current(&readings);
+        }
+        if !problems.is_empty() {
+            return Err(table.refuse(problems));
+        }
+        let readings = Self::of_rows(coefficients, &readings)
+            .map_err(|error| Unreadable::whole(name, None, error.to_string(), "a reading of every position", ""))?;
+        Ok(Self { remark: table.remark(), ..readings })
+    }
+}
+
+fn position(
+    table: &Table,
+    row: &Row,
+    coefficients: &Coefficients,
+    problems: &mut Vec<Problem>,
+) -> Option<PositionIndex> {
+    let i = table.index(row, 0, problems);
+    let j = table.index(row, 1, problems);
+    let index = PositionIndex { i: i?, j: j? };
+    if coefficients.positions.iter().any(|at| at.index == index) {
+        return Some(index);
+    }
+    let advice = "check that this is the passport of this stand";
+    let found = format!("position {index}");
+    problems.push(table.problem(&row.cells[0], 0, found, "a position of the passport", advice));
+    None
+}
+
+fn current(table: &Table, row: &Row, column: usize, range_ma: f64, problems: &mut Vec<Problem>) -> Option<f64> {
+    let value = table.number(row, column, problems)?;
+    if value.abs() <= range_ma {
+        return Some(value);
+    }
+    let advice = if (1e-3..=1e3).contains(&(value.abs() / range_ma)) && value.abs() > 10.0 * range_ma {
+        "convert it to milliamperes; it may be in microamperes"
+    } else {
+        "check the value, or the range of the meter in the laboratory file"
+    };
+    let expected = format!("at most {range_ma} mA in either direction, the range of the meter");
+    problems.push(table.problem(&row.cells[column], column, format!("{value}"), &expected, advice));
+    None
+}
+
+/// Returns a problem for each position without a reading if one other position has more rows than all others: its row may
+/// belong there. A column of visits would say that it does not.
+fn perhaps_mistaken(coefficients: &Coefficients, readings: &[Reading]) -> Vec<Problem> {
+    let count = |wanted: PositionIndex| readings.iter().filter(|row| row.index == wanted).count();
+    let most = coefficients.positions.iter().max_by_key(|at| count(at.index));
+    let most = most
+        .filter(|at| coefficients.positions.iter().filter(|other| count(other.index) == count(at.index)).count() == 1)
+        .filter(|at| count(at.index) > 1);
+    let Some(most) = most else { return Vec::new() };
+    let advice = format!(
+        "position {} occurs {} times; check whether one of these rows belongs to this position, or add the column visit",
+        most.index,
+        count(most.index)
+    );
+    let missing = coefficients.positions.iter().filter(|at| count(at.index) == 0);
+    missing
+        .map(|at| whole_file(format!("no reading of position {}", at.index), "a reading of every position", &advice))
+        .collect()
+}
+
+/// Returns a problem for the first row, in the order of time, that continues a visit after another position was visited.
+/// Without times the rows of a visit may stand in any order.
+fn torn_visits(table: &Table, readings: &[Reading]) -> Vec<Problem> {
+    let timed = |(reading, row): (&Reading, _)| Some((reading.time_s?, *reading, row));
+    let Some(mut rows) = readings.iter().zip(&table.rows).map(timed).collect::<Option<Vec<_>>>() else {
+        return Vec::new();
+    };
+    rows.sort_by(|(one, ..), (other, ..)| one.total_cmp(other));
+    let mut ended = BTreeSet::new();
+    let mut before: Option<(PositionIndex, u32, u32)> = None;
+    for (_, reading, row) in rows {
+        let Some(visit) = reading.visit else { continue };
+        let here = (reading.index, reading.cycle, visit);
+        if before.is_some_and(|before| before != here) {
+            ended.extend(before);
+        }
+        before = Some(here);
+        if ended.contains(&here) {
+            let found = format!("visit {visit} of position {} again, later than another visit", reading.index);
+            let advice = "give a return to the position the next number, or check the times";
+            let column = table.place("visit").unwrap_or(0);
+            return vec![table.problem(&row.cells[column], column, found, "a visit that is not interrupted", advice)];
+        }
+    }
+    Vec::new()
+}
+
+/// Returns a problem for the first row whose time cannot be: earlier than the row before it where the order of rows tells
+/// the visits, or in a cycle that begins before an earlier one ends.
+fn impossible_times(table: &Table, readings: &[Reading]) -> Vec<Problem> {
+    let Some(column) = table.place("time_s") else { return Vec::new() };
+    let mut last: BTreeMap<u32, f64> = BTreeMap::new();
+    for reading in readings {
+        let end = last.entry(reading.cycle).or_insert(f64::NEG_INFINITY);
+        *end = end.max(reading.time_s.unwrap_or(f64::NEG_INFINITY));
+    }
+    let mut before = f64::NEG_INFINITY;
+    for (reading, row) in readings.iter().zip(&table.rows) {
+        let time_s = reading.time_s.unwrap_or(before);
+        let refuse = |expected: &str, advice: &str| {
+            vec![table.problem(&row.cells[column], column, format!("{time_s} s"), expected, advice)]
+        };
+        if let Some((cycle, end)) = last.range(..reading.cycle).find(|(_, end)| **end > time_s) {
+            let expected = format!("a time after the last one of cycle {cycle}, {end} s");
+            return refuse(&expected, "count the time from the first reading of the run, not of each cycle");
+        }
+        if reading.visit.is_none() && time_s < before {
+            let expected = format!("a time not before that of the row above, {before} s");
+            return refuse(&expected, "sort the rows by time, or number the visits in the column visit");
+        }
+        before = time_s;
+    }
+    Vec::new()
+}
+
+/// Returns a problem for each cycle that has readings of one position alone: its own ω_0 would take up all of them.
+fn lone_cycles(readings: &[Reading]) -> Vec<Problem> {
+    let mut positions: BTreeMap<u32, BTreeSet<PositionIndex>> = BTreeMap::new();
+    for reading in readings {
+        positions.entry(reading.cycle).or_default().insert(reading.index);
+    }
+    if positions.len() < 2 {
+        return Vec::new();
+    }
+    let lone = positions.iter().filter(|(_, at)| at.len() == 1).map(|(cycle, _)| *cycle);
+    let advice = "leave this cycle out, or check the column cycle: it counts the turn-ons of the gyro";
+    lone.map(|cycle| {
+        whole_file(format!("one position alone in cycle {cycle}"), "at least two positions in every cycle", advice)
+    })
+    .collect()
+}
+
+/// Returns a problem if the currents of an axis are all zero.
+fn without_current(readings: &[Reading]) -> Vec<Problem> {
+    let zero = |axis: usize| readings.iter().all(|row| row.current_ma[axis] == 0.0);
+    let (found, advice) = match (zero(0), zero(1)) {
+        (true, true) => ("currents that are all zero", "check that the gyro was running with its feedback loop closed"),
+        (true, false) => ("a current J_x that is zero in every position", "add the readings of both axes"),
+        (false, true) => ("a current J_y that is zero in every position", "add the readings of both axes"),
+        (false, false) => return Vec::new(),
+    };
+    vec![whole_file(found.to_owned(), "currents of both axes", advice)]
+}
+
+fn whole_file(found: String, expected: &str, advice: &str) -> Problem {
+    let (expected, advice) = (expected.to_owned(), advice.to_owned());
+    Problem { location: None, field: String::new(), found, expected, advice }
+}
