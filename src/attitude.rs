@@ -1,7 +1,8 @@
 //! Orientation of the gyro's case on the stand: nominal (A), deviation (E), actual (Ã).
 //!
-//! The base axes ξηζ are east, north and up; the case axes are xyz with z along the spin axis. All rotation matrices
-//! are passive: the case coordinates of a vector are Ã times its base coordinates. Source:
+//! The base axes ξηζ are east, north and up in the paper. A base may also be rotated about the plumb line: its axis ξ,
+//! the frame's axis, then points to another azimuth, and ζ stays up. The case axes are xyz with z along the spin axis.
+//! All rotation matrices are passive: the case coordinates of a vector are Ã times its base coordinates. Source:
 //! [the paper](crate::bibliography::Bibliography::Tang17), eq. (3) and (4).
 
 use crate::units::sin_cos_of_degrees;
@@ -31,6 +32,25 @@ pub fn nominal(theta_deg: f64, phi_deg: f64) -> Matrix3<f64> {
         c_phi, c_theta * s_phi, s_theta * s_phi,
         -s_phi, c_theta * c_phi, s_theta * c_phi,
         0.0, -s_theta, c_theta,
+    );
+    matrix
+}
+
+/// Azimuth of the frame's axis in the paper, degrees clockwise from north: ξ points east.
+pub(crate) const PAPER_FRAME_AXIS_AZIMUTH_DEG: f64 = 90.0;
+
+/// Returns the rotation matrix Rz(90° − ψ), east-north-up to base axes (3×3), of a levelled base whose frame axis ξ
+/// points to the azimuth ψ, degrees clockwise from north.
+///
+/// At whole quadrants its elements are exactly 0 and ±1; at the paper's 90° it is the identity.
+pub(crate) fn base(frame_axis_azimuth_deg: f64) -> Matrix3<f64> {
+    // sin(90° − ψ) = cos ψ and cos(90° − ψ) = sin ψ.
+    let (sin, cos) = sin_cos_of_degrees(frame_axis_azimuth_deg);
+    #[rustfmt::skip]
+    let matrix = Matrix3::new(
+        sin, cos, 0.0,
+        -cos, sin, 0.0,
+        0.0, 0.0, 1.0,
     );
     matrix
 }

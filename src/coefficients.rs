@@ -48,13 +48,15 @@ pub struct Position {
     pub deviation: Deviation,
 }
 
-/// Earth rate at a site, in base axes.
+/// Earth rate at a site, and the azimuth of the frame's axis, which determines its components in base axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EarthRate {
     /// Horizontal component ω_Γ, positive to the north, °/h.
     pub horizontal_deg_per_h: f64,
     /// Vertical component ω_B, positive upwards, °/h.
     pub vertical_deg_per_h: f64,
+    /// Azimuth ψ of the frame's axis ξ, degrees clockwise from north; 90 in the paper.
+    pub frame_axis_azimuth_deg: f64,
 }
 
 /// Refusal of a stand whose n_2 of the eight positions has no inverse, so that the matrices Δ, B, C do not exist.
@@ -75,11 +77,12 @@ pub struct StandGeometry {
     eight: Option<EightGeometry>,
 }
 
-/// Differences A_1, A_2, n_1, n_2 of the paper's eight positions, and the matrices computed from them.
+/// Differences of the paper's eight positions, and the matrices computed from them. They do not depend on the azimuth of
+/// the frame's axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct EightGeometry {
-    a1: Matrix2<f64>,
-    a2: Matrix2<f64>,
+    /// Differences of the first two columns of E·A, along ξ and η: θ = 0°, θ = 90°.
+    horizontal: [(Matrix2<f64>, Matrix2<f64>); 2],
     n1: Matrix2<f64>,
     n2: Matrix2<f64>,
     n2_inverse: Matrix2<f64>,
@@ -109,11 +112,14 @@ impl StandGeometry {
 
     /// Returns the coefficients at a site with the Earth rate `earth` (paper, eq. (5), (12), (13), (15)).
     ///
+    /// The orientation is Ã = E·A·Rz(90° − ψ), where ψ is the azimuth of the frame's axis; the paper's Ã = E·A has ψ = 90°.
     /// B = ω_Γ (A_1 − A_2 Δ) and C = ω_B·1 + ω_Γ A_2 n_2⁻¹ are the paper's B and C, with the part that does not depend
     /// on the site separated.
     pub fn at(&self, earth: EarthRate) -> Coefficients {
-        let EarthRate { horizontal_deg_per_h: w_h, vertical_deg_per_h: w_v } = earth;
+        let EarthRate { horizontal_deg_per_h: w_h, vertical_deg_per_h: w_v, frame_axis_azimuth_deg } = earth;
+        let base = attitude::base(frame_axis_azimuth_deg);
         let positions = self.positions.iter().map(|(index, attitude)| {
+            let attitude = attitude * base;
             let (a, b) = (attitude.m12, attitude.m22);
             let (c, d) = (attitude.m13, attitude.m23);
             PositionCoefficients {
@@ -123,15 +129,18 @@ impl StandGeometry {
                 earth_rate_deg_per_h: Vector2::new(a * w_h + c * w_v, b * w_h + d * w_v),
             }
         });
-        let matrices = self.eight.map(|g| Matrices {
-            delta: g.delta,
-            b_deg_per_h: (g.a1 - g.a2 * g.delta) * w_h,
-            c_deg_per_h_per_g: Matrix2::identity() * w_v + g.a2 * g.n2_inverse * w_h,
-            n1: g.n1,
-            n2: g.n2,
-            n2_inverse: g.n2_inverse,
-            omega1_deg_per_h: g.a1 * w_h + g.n1 * w_v,
-            omega2_deg_per_h: g.a2 * w_h + g.n2 * w_v,
+        let matrices = self.eight.map(|g| {
+            let (a1, a2) = g.north(&base);
+            Matrices {
+                delta: g.delta,
+                b_deg_per_h: (a1 - a2 * g.delta) * w_h,
+                c_deg_per_h_per_g: Matrix2::identity() * w_v + a2 * g.n2_inverse * w_h,
+                n1: g.n1,
+                n2: g.n2,
+                n2_inverse: g.n2_inverse,
+                omega1_deg_per_h: a1 * w_h + g.n1 * w_v,
+                omega2_deg_per_h: a2 * w_h + g.n2 * w_v,
+            }
         });
         Coefficients { positions: positions.collect(), matrices }
     }
@@ -148,15 +157,21 @@ fn eight_attitudes(positions: &[(PositionIndex, Matrix3<f64>)]) -> Option<[Matri
 
 impl EightGeometry {
     fn new(eight: &[Matrix3<f64>; 8]) -> Result<Self, SingularPositions> {
-        let north = |position: usize| Vector2::new(eight[position].m12, eight[position].m22);
-        let up = |position: usize| Vector2::new(eight[position].m13, eight[position].m23);
         // X_1 = (x_11 - x_13, x_12 - x_14), X_2 = (x_21 - x_23, x_22 - x_24), as columns (paper, eq. (11)).
-        let (a1, a2) = pair_differences(north);
-        let (n1, n2) = pair_differences(up);
+        let along = |axis: usize| {
+            pair_differences(|position| Vector2::new(eight[position][(0, axis)], eight[position][(1, axis)]))
+        };
+        let (n1, n2) = along(2);
         let singular_values = n2.singular_values();
         let condition = singular_values.max() / singular_values.min();
         let n2_inverse = n2.try_inverse().filter(|_| condition < 1e12).ok_or(SingularPositions { condition })?;
-        Ok(Self { a1, a2, n1, n2, n2_inverse, delta: n2_inverse * n1 })
+        Ok(Self { horizontal: [along(0), along(1)], n1, n2, n2_inverse, delta: n2_inverse * n1 })
+    }
+
+    /// Returns A_1 and A_2, the differences of (a, b), the second column of Ã = E·A·R with R = `base`.
+    fn north(&self, base: &Matrix3<f64>) -> (Matrix2<f64>, Matrix2<f64>) {
+        let [(xi1, xi2), (eta1, eta2)] = self.horizontal;
+        (xi1 * base.m12 + eta1 * base.m22, xi2 * base.m12 + eta2 * base.m22)
     }
 }
 

@@ -4,6 +4,7 @@
 //! The latitude of a levelled stand is astronomic, because the stand follows the plumb line; the latitude of a place on
 //! the ellipsoid is geodetic. Every name here says which one is meant.
 
+use crate::attitude::PAPER_FRAME_AXIS_AZIMUTH_DEG;
 use crate::coefficients::EarthRate;
 use crate::units::{
     ARCSECONDS_PER_DEGREE, arcseconds_from_radians, degrees_from_radians, degrees_per_hour_from_radians_per_second,
@@ -24,10 +25,15 @@ pub fn rotation_deg_per_h() -> f64 {
 
 impl EarthRate {
     /// Creates the Earth rate at the astronomic latitude Φ, degrees: ω_Γ = Ω cos Φ and ω_B = Ω sin Φ (paper, eq. (5)).
+    /// The frame's axis points east, as in the paper.
     pub fn at_astronomic_latitude(latitude_deg: f64) -> Self {
         let (sin, cos) = sin_cos_of_degrees(latitude_deg);
         let rotation = rotation_deg_per_h();
-        Self { horizontal_deg_per_h: rotation * cos, vertical_deg_per_h: rotation * sin }
+        Self {
+            horizontal_deg_per_h: rotation * cos,
+            vertical_deg_per_h: rotation * sin,
+            frame_axis_azimuth_deg: PAPER_FRAME_AXIS_AZIMUTH_DEG,
+        }
     }
 }
 

@@ -3,11 +3,12 @@
 #[cfg(feature = "factory")]
 mod consistency;
 
+use crate::attitude::PAPER_FRAME_AXIS_AZIMUTH_DEG;
 use crate::coefficients::EarthRate;
 use crate::earth::{self, LaplaceCorrection, Place};
 use crate::text::scalar::Identifier;
 use crate::text::sink::Sink;
-use crate::text::{Field, Node, Path, Problems, record};
+use crate::text::{Field, Node, Path, Problems, number, record};
 use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};
 
 /// Value of `format` in a site file.
@@ -94,6 +95,8 @@ record! {
         pub gravity_u_m_per_s2: Option<f64>,
         /// Azimuth mark, which defines north.
         pub azimuth_mark: Option<AzimuthMark>,
+        /// Azimuth of the frame's axis ξ, clockwise from north, from 0 to less than 360; 90 (east) if absent.
+        pub frame_axis_azimuth_deg: Option<f64>,
         /// Change of ω_Γ or ω_B that determines the validity radius; 0.001 if absent.
         pub valid_within_deg_per_h: Option<f64>,
         /// Standard uncertainties of the base, as set up at the site.
@@ -164,9 +167,14 @@ record! {
 }
 
 impl Earth {
-    /// Returns the Earth rate at the site, ω_Γ and ω_B.
-    pub fn rate(&self) -> EarthRate {
-        EarthRate { horizontal_deg_per_h: self.horizontal_deg_per_h, vertical_deg_per_h: self.vertical_deg_per_h }
+    /// Returns the Earth rate, ω_Γ and ω_B, with the azimuth of the frame's axis at `site`, to which these Earth
+    /// parameters belong.
+    pub fn rate(&self, site: &Site) -> EarthRate {
+        EarthRate {
+            horizontal_deg_per_h: self.horizontal_deg_per_h,
+            vertical_deg_per_h: self.vertical_deg_per_h,
+            frame_axis_azimuth_deg: site.frame_axis_azimuth_deg(),
+        }
     }
 }
 
@@ -205,6 +213,11 @@ impl Site {
         }
         if let Some(mark) = &self.azimuth_mark {
             mark.check(&at.key("azimuth_mark"), problems);
+        }
+        if let Some(azimuth) = self.frame_axis_azimuth_deg.filter(|azimuth| !(0.0..360.0).contains(azimuth)) {
+            let at = at.key("frame_axis_azimuth_deg");
+            let advice = "count clockwise from north: 0 is north, 90 east";
+            problems.at(&at, number::decimal(azimuth), "degrees from 0 to less than 360", advice);
         }
         if let Some(uncertainty) = &self.uncertainty {
             let at = at.key("uncertainty");
@@ -273,6 +286,11 @@ impl Site {
     /// Returns `true` if the geodetic latitude is computed from an astronomic one without a known deflection.
     pub(crate) fn geodetic_is_uncertain(&self) -> bool {
         self.latitude_deg.is_none() && self.deflection_arcsec.is_none()
+    }
+
+    /// Returns the azimuth of the frame's axis, degrees clockwise from north: as stated, or the paper's 90.
+    pub(crate) fn frame_axis_azimuth_deg(&self) -> f64 {
+        self.frame_axis_azimuth_deg.unwrap_or(PAPER_FRAME_AXIS_AZIMUTH_DEG)
     }
 
     /// Returns the Earth parameters at the site.

@@ -116,6 +116,7 @@ pub fn sites(count: usize) -> Vec<Site> {
                 gravity_m_per_s2: surveyed.then(|| degrees(normal_gravity + stream.within(0.002))),
                 gravity_u_m_per_s2: surveyed.then_some(1e-6),
                 azimuth_mark: None,
+                frame_axis_azimuth_deg: None,
                 valid_within_deg_per_h: None,
                 uncertainty: Some(SiteUncertainty {
                     latitude_arcsec: Some(1.0),

@@ -124,9 +124,9 @@ pub struct Setup {
 /// Orientation of one position, and the axes about which its angles rotate it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Turn {
-    /// Ã: rotation matrix, base to case axes, 3×3.
+    /// Ã = E·A·Rz(90° − ψ): rotation matrix, east-north-up to case axes, 3×3.
     pub(crate) attitude: Matrix3<f64>,
-    /// A: nominal rotation matrix, base to platform axes, 3×3.
+    /// A·Rz(90° − ψ): nominal rotation matrix, east-north-up to platform axes, 3×3.
     pub(crate) nominal: Matrix3<f64>,
     /// Certified deviation α, β, γ.
     pub(crate) certified: Deviation,
@@ -197,7 +197,8 @@ impl Setup {
     pub fn new(positions: &[Position], earth: EarthRate, uncertainty: InputUncertainty) -> Result<Self, NoSetup> {
         uncertainty.check()?;
         let coefficients = StandGeometry::new(positions)?.at(earth);
-        Ok(Self { coefficients, turns: positions.iter().map(Turn::of).collect(), earth, uncertainty })
+        let base = attitude::base(earth.frame_axis_azimuth_deg);
+        Ok(Self { coefficients, turns: positions.iter().map(|at| Turn::of(at, &base)).collect(), earth, uncertainty })
     }
 
     /// Returns the setup with the noise that the type of the gyro states; without one it is left out of account, or
@@ -254,17 +255,19 @@ impl Setup {
         &self.turns
     }
 
-    /// Returns the Earth rate in base axes (east, north, up), °/h.
-    pub(crate) fn earth_rate_in_base(&self) -> Vector3<f64> {
+    /// Returns the Earth rate (east, north, up), °/h.
+    pub(crate) fn earth_rate_east_north_up(&self) -> Vector3<f64> {
         Vector3::new(0.0, self.earth.horizontal_deg_per_h, self.earth.vertical_deg_per_h)
     }
 }
 
 impl Turn {
-    pub(crate) fn of(position: &Position) -> Self {
+    /// Returns the orientation of a position; `base` is [`attitude::base`], or the identity if only the axes of the
+    /// stand matter.
+    pub(crate) fn of(position: &Position, base: &Matrix3<f64>) -> Self {
         let deviation = attitude::deviation(&position.deviation);
         let (sin_gamma, cos_gamma) = libm::sincos(position.deviation.gamma_rad);
-        let nominal = attitude::nominal(position.theta_deg, position.phi_deg);
+        let nominal = attitude::nominal(position.theta_deg, position.phi_deg) * base;
         Self {
             attitude: deviation * nominal,
             nominal,

@@ -1,7 +1,7 @@
 //! First-order sensitivities of the misclosures e = ω_3 − K J − ω_0 − ω_n n of all positions (two each) to every input.
 //!
 //! Rotations are passive. If the case rotates by the small vector δ, the coordinates v of a fixed vector change by
-//! v × δ. If the base rotates by δ, Ã w changes by Ã (w × δ).
+//! v × δ. If the base rotates by δ about east, north and up, Ã w changes by Ã (w × δ), with w in these axes.
 
 use super::inputs::Setup;
 use super::scatter::Repeats;
@@ -24,17 +24,17 @@ impl Setup {
     pub(crate) fn case_turned(&self, place: usize, axis: &Vector3<f64>) -> VectorChange {
         let attitude = &self.turns()[place].attitude;
         VectorChange {
-            earth_rate_deg_per_h: (attitude * self.earth_rate_in_base()).cross(axis),
+            earth_rate_deg_per_h: (attitude * self.earth_rate_east_north_up()).cross(axis),
             vertical: attitude.column(2).cross(axis),
         }
     }
 
     /// Returns the change of the vectors of position `place` per radian of a rotation of the base about the unit vector
-    /// `axis` (base coordinates).
+    /// `axis` (east, north, up).
     pub(crate) fn base_turned(&self, place: usize, axis: &Vector3<f64>) -> VectorChange {
         let attitude = &self.turns()[place].attitude;
         VectorChange {
-            earth_rate_deg_per_h: attitude * self.earth_rate_in_base().cross(axis),
+            earth_rate_deg_per_h: attitude * self.earth_rate_east_north_up().cross(axis),
             vertical: attitude * Vector3::z().cross(axis),
         }
     }
@@ -42,7 +42,7 @@ impl Setup {
     /// Returns the change of the vectors of position `place` per radian of latitude: ω_Γ falls by ω_B, ω_B rises by
     /// ω_Γ.
     pub(crate) fn latitude_changed(&self, place: usize) -> VectorChange {
-        let earth = self.earth_rate_in_base();
+        let earth = self.earth_rate_east_north_up();
         let change = self.turns()[place].attitude * Vector3::new(0.0, -earth.z, earth.y);
         VectorChange { earth_rate_deg_per_h: change, vertical: Vector3::zeros() }
     }
@@ -166,7 +166,7 @@ impl<'a> Sensitivity<'a> {
 pub(crate) enum Shared {
     /// Rotation of the case about an axis of the case.
     Case(Vector3<f64>),
-    /// Rotation of the base about an axis of the base.
+    /// Rotation of the base about an axis given by its components east, north, up.
     Base(Vector3<f64>),
     Latitude,
     Gain,

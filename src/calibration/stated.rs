@@ -137,7 +137,7 @@ impl Setup {
     ) -> Result<(Self, Vec<NotStated>), NoSetup> {
         let Stated { uncertainty, missing } = Stated::new(certificate, positions, site, laboratory);
         let positions: Vec<_> = positions.iter().map(CertifiedPosition::to_model).collect();
-        Ok((Self::new(&positions, site.earth().rate(), uncertainty)?, missing))
+        Ok((Self::new(&positions, site.earth().rate(site), uncertainty)?, missing))
     }
 }
 

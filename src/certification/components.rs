@@ -142,7 +142,7 @@ pub(crate) fn turns_at(positions: &[Position], means_arcsec: &[Vector3<f64>]) ->
         position.deviation.alpha_rad = radians_from_arcseconds(mean.x);
         position.deviation.beta_rad = radians_from_arcseconds(mean.y);
         position.deviation.gamma_rad = radians_from_arcseconds(mean.z);
-        Turn::of(&position)
+        Turn::of(&position, &Matrix3::identity())
     })
     .collect()
 }

@@ -174,7 +174,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     // Without a type or an earlier result, the nominal values of the paper's gyro still reveal an error by a factor of
     // a thousand.
     let usual = earlier.map_or_else(|| GyroType::gvk_6().nominal.to_model(), |earlier| earlier.parameters);
-    let rate = content.earth.rate();
+    let rate = content.earth.rate(&content.site);
     let missing_cost = cost_of_missing(&setup, &readings, &found.parameters);
     document.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type.as_ref(), &usual);
     document.verdict = gyro_type.as_ref().map(|gyro_type| against_type(&found, gyro_type));

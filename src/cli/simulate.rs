@@ -148,7 +148,10 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 
 fn run_accuracy(arguments: &AccuracyArguments) -> Result<Code, Failure> {
     let earth = match &arguments.site {
-        Some(path) => read_site(path)?.earth().rate(),
+        Some(path) => {
+            let site = read_site(path)?;
+            site.earth().rate(&site)
+        }
         None => EarthRate::at_astronomic_latitude(PAPER_LATITUDE_DEG),
     };
     let stands = match &arguments.stand {

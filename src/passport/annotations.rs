@@ -2,9 +2,10 @@
 //! ignore them.
 
 use super::content::Content;
+use crate::attitude::PAPER_FRAME_AXIS_AZIMUTH_DEG;
 use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
 use crate::stand::{Certificate, CertifiedPosition, Datum, Stand};
-use crate::text::canonical;
+use crate::text::{canonical, number};
 use crate::{earth, units};
 
 /// Writes the payload of a passport: its content in canonical form, with its comments.
@@ -209,12 +210,16 @@ fn of_the_stand(path: &str, absences: impl Fn() -> Vec<Absence>) -> Vec<String> 
     }
 }
 
+/// Comment on the axes in a passport whose frame's axis points east, as in the paper.
+const AXES: &str =
+    "Axes: base xi east, eta north, zeta up; case x, y, z with z along the spin axis. i and j count from 1.";
+
 fn comments(content: &Content, path: &str) -> Vec<String> {
     let fixed: &[&str] = match path {
         "format" => &[
             "Passport of a two-axis test stand for dynamically tuned gyros.",
             "Signed verbatim: any change, even of a space or of this comment, makes the signature invalid.",
-            "Axes: base xi east, eta north, zeta up; case x, y, z with z along the spin axis. i and j count from 1.",
+            AXES,
             "Equations: Tang and Podchezertsev 2017, doi 10.18698/2308-6033-2017-10-1691.",
             "Standard uncertainties (k = 1). Matrices are lists of rows.",
         ],
@@ -239,11 +244,31 @@ fn comments(content: &Content, path: &str) -> Vec<String> {
     };
     let mut lines: Vec<String> = fixed.iter().map(|line| (*line).to_owned()).collect();
     match path {
+        "format" => with_axes(&mut lines, content.site.frame_axis_azimuth_deg()),
         "site" => lines.extend(sentences(of_the_site(content))),
         "earth" => lines.extend(of_the_earth(content)),
         _ => {}
     }
     lines
+}
+
+/// Replaces the comment on the axes if the frame's axis does not point east.
+fn with_axes(lines: &mut Vec<String>, azimuth_deg: f64) {
+    let Some(place) = lines.iter().position(|line| line == AXES) else { return };
+    if azimuth_deg == PAPER_FRAME_AXIS_AZIMUTH_DEG {
+        return;
+    }
+    let turned = [
+        format!(
+            "Axes: base xi (axis of the frame) at the azimuth {} deg, clockwise from north; zeta up, eta 90 deg \
+             counterclockwise",
+            number::decimal(azimuth_deg)
+        ),
+        "from xi. Case x, y, z with z along the spin axis. i and j count from 1.".to_owned(),
+        "Orientation, from east, north, up to case: E A Rz(90 deg - azimuth), with A and E as in eq. (3) and (4)."
+            .to_owned(),
+    ];
+    lines.splice(place..=place, turned);
 }
 
 fn of_the_earth(content: &Content) -> Vec<String> {

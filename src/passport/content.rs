@@ -201,12 +201,8 @@ pub(crate) fn derive(
 
 /// Computes all numbers that follow from the geometry of the positions and a site.
 pub(crate) fn derive_from(geometry: &StandGeometry, site: &Site, gyro: &Parameters) -> Derived {
-    derive_at(geometry, site.earth(), gyro)
-}
-
-/// Computes all numbers that follow from the geometry of the positions and the Earth parameters at the site.
-pub(crate) fn derive_at(geometry: &StandGeometry, earth: Earth, gyro: &Parameters) -> Derived {
-    let coefficients = geometry.at(earth.rate());
+    let earth = site.earth();
+    let coefficients = geometry.at(earth.rate(site));
     let vectors = coefficients.positions.iter().map(PositionVectors::from_model).collect();
     let matrices = coefficients.matrices.as_ref().map(MatrixRows::from_model);
     // Positions other than the paper's eight may not determine all parameters; laboratory software then cannot be

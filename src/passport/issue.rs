@@ -262,7 +262,7 @@ impl Draft {
         let positions: Vec<_> = content.positions.iter().map(CertifiedPosition::to_model).collect();
         let meter = (&Laboratory::paper().meter).into();
         let gyro = GyroType::gvk_6().nominal.to_model();
-        let noise = noise_growth(&positions, content.earth.rate(), &gyro, meter);
+        let noise = noise_growth(&positions, content.earth.rate(&content.site), &gyro, meter);
         let odd = stand::remarks::of(&content.certificate, &content.positions);
         Remarks { noise, uncertainty_growth: content.site.uncertainty_growth(), odd, absences: absences(content) }
     }

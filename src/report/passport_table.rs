@@ -150,6 +150,7 @@ fn site(out: &mut String, content: &Content) {
         line(out, "pillar", pillar);
         option(out, "u of both, m", mark.position_u_m);
     }
+    option(out, "frame axis azimuth, deg", site.frame_axis_azimuth_deg);
     if let Some(base) = &site.uncertainty {
         option(out, "u of latitude, arcsec", base.latitude_arcsec);
         option(out, "u of base azimuth, arcsec", base.azimuth_arcsec);

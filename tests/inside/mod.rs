@@ -30,6 +30,7 @@ mod calibration;
 mod certification;
 #[cfg(feature = "factory")]
 mod forgeries;
+mod frame_axis;
 mod model;
 #[cfg(all(feature = "factory", feature = "report"))]
 mod passport_accuracy;

@@ -44,6 +44,18 @@ fn the_stand_hangs_on_the_plumb_line() {
 }
 
 #[test]
+fn the_azimuth_of_the_frames_axis_is_a_full_circle() {
+    let with = |azimuth: &str| format!("latitude_deg: 45.0\nframe_axis_azimuth_deg: {azimuth}");
+    for (azimuth, found) in [("0", 0.0), ("90.0", 90.0), ("359.999", 359.999)] {
+        assert_eq!(site(&with(azimuth)).frame_axis_azimuth_deg(), found);
+    }
+    assert_eq!(site("latitude_deg: 45.0").frame_axis_azimuth_deg(), 90.0);
+    for azimuth in ["360", "-0.001", "-90", "1e300"] {
+        refused(&with(azimuth), &["here.yaml:4:", "frame_axis_azimuth_deg", "from 0 to less than 360", "clockwise"]);
+    }
+}
+
+#[test]
 fn gravity_is_the_measured_one_or_the_normal_one() {
     assert_eq!(site("latitude_deg: 55.0\ngravity_m_per_s2: 9.8156").earth().gravity_m_per_s2, 9.8156);
     // WGS 84 normal gravity at 45°, 9.8061977694 m/s²; above the ellipsoid, in mGal with h in m (Heiskanen and Moritz,

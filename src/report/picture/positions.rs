@@ -1,12 +1,13 @@
 //! Positions of the stand, drawn one by one: base, frame, platform, gyro, and the actual case axes.
 //!
-//! The view is a parallel projection. Axes and rotations are those of [`attitude`]: base ξ east, η north, ζ up; the
-//! rows of a matrix are the case axes in base axes. Source: [the paper](crate::bibliography::Bibliography::Tang17),
-//! fig. 2 and 3.
+//! The view is a parallel projection with east, north and up as its axes. The base is rotated so that its axis ξ, the
+//! frame's axis, points to its azimuth: east in the paper. Rotations are those of [`attitude`]; the rows of a matrix are
+//! axes of the case or the base by their components east, north and up. Source:
+//! [the paper](crate::bibliography::Bibliography::Tang17), fig. 2 and 3.
 
 use super::drawing::{Anchor, Panel, Point, arrow, label, legend, line, panels, polygon, words};
 use super::label::{Area, width};
-use crate::attitude;
+use crate::attitude::{self, PAPER_FRAME_AXIS_AZIMUTH_DEG};
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::Number;
 use crate::report::page::texts::{pictures as texts, words as compass};
@@ -40,26 +41,33 @@ const AXIS_HEIGHT: f64 = 1.32;
 /// Length of the drawn axes.
 const AXIS: f64 = 1.27;
 
-/// Draws `positions` of a stand or of a passport: any number of them, at any angles.
-pub(crate) fn positions(languages: &Languages, positions: &[CertifiedPosition]) -> Markup {
-    let drawings: Vec<Markup> = positions.iter().map(|at| position(languages, at)).collect();
-    panels(COLUMNS, PANEL_PIXELS, &drawings, &key(languages))
+/// Draws `positions` of a stand or of a passport: any number of them, at any angles. The frame's axis points to the
+/// azimuth `frame_axis_azimuth_deg`.
+pub(crate) fn positions(languages: &Languages, positions: &[CertifiedPosition], frame_axis_azimuth_deg: f64) -> Markup {
+    let base = attitude::base(frame_axis_azimuth_deg);
+    let drawings: Vec<Markup> = positions.iter().map(|at| position(languages, at, &base)).collect();
+    let points_east = frame_axis_azimuth_deg == PAPER_FRAME_AXIS_AZIMUTH_DEG;
+    panels(COLUMNS, PANEL_PIXELS, &drawings, &key(languages, points_east))
 }
 
-fn key(languages: &Languages) -> Markup {
+fn key(languages: &Languages, points_east: bool) -> Markup {
+    let (frame, base) = match points_east {
+        true => (texts::FRAME, texts::BASE_AXES),
+        false => (texts::FRAME_OF_ROTATED_BASE, texts::NORTH_AND_UP),
+    };
     let stroke = |class: &str| arrow([2.0, 7.0], [26.0, 7.0], class);
     let swatch = |class: &str| polygon(&[[4.0, 2.0], [24.0, 2.0], [24.0, 12.0], [4.0, 12.0]], class);
     let entries = [
         (stroke("axis"), texts::CASE_AXES),
         (line([2.0, 7.0], [26.0, 7.0], "ideal"), texts::CASE_AXES_IDEAL),
-        (swatch("solid frame s2"), texts::FRAME),
+        (swatch("solid frame s2"), frame),
         (swatch("solid platform s1"), texts::PLATFORM),
-        (stroke("base-axis"), texts::BASE_AXES),
+        (stroke("base-axis"), base),
     ];
     legend(languages, &entries)
 }
 
-/// The view: two directions of the drawing plane and the direction towards the viewer, in base axes.
+/// The view: two directions of the drawing plane and the direction towards the viewer, each east, north, up.
 struct View {
     right: Vector3<f64>,
     up: Vector3<f64>,
@@ -74,7 +82,7 @@ impl View {
         Self { right: Vector3::new(ca, sa, 0.0), up: Vector3::new(-sa * se, ca * se, ce), towards }
     }
 
-    /// Returns the place on the drawing of a point in base axes.
+    /// Returns the place on the drawing of a point, given east, north and up.
     fn point(&self, at: &Vector3<f64>) -> Point {
         [CENTRE[0] + UNIT * self.right.dot(at), CENTRE[1] - UNIT * self.up.dot(at)]
     }
@@ -138,20 +146,17 @@ fn shade(normal: &Vector3<f64>) -> &'static str {
     }
 }
 
-fn position(languages: &Languages, at: &CertifiedPosition) -> Markup {
+fn position(languages: &Languages, at: &CertifiedPosition, base_axes: &Matrix3<f64>) -> Markup {
     let name = format!("position-{}-{}", at.i, at.j);
     let panel = Panel { name: &name, languages, size: SIZE };
     let position = at.to_model();
-    let designed = attitude::nominal(at.theta_deg, at.phi_deg);
-    let real = attitude::actual(at.theta_deg, at.phi_deg, &position.deviation);
+    let designed = attitude::nominal(at.theta_deg, at.phi_deg) * base_axes;
+    let real = attitude::actual(at.theta_deg, at.phi_deg, &position.deviation) * base_axes;
+    let frame = attitude::nominal(at.theta_deg, 0.0) * base_axes;
     let view = View::new();
-    let (base, words) = base(&view, languages);
-    let drawing = [
-        heading(at, languages),
-        base,
-        stand(&view, &attitude::nominal(at.theta_deg, 0.0), &real),
-        axes(&view, &designed, &real, words),
-    ];
+    let (base, words) = base(&view, base_axes, languages);
+    let drawing =
+        [heading(at, languages), base, stand(&view, base_axes, &frame, &real), axes(&view, &designed, &real, words)];
     panel.svg(
         |language| texts::POSITION_TITLE.filled(language, &[("index", &position.index.to_string())]),
         |language| in_words(language, at, &real),
@@ -170,11 +175,15 @@ fn heading(at: &CertifiedPosition, languages: &Languages) -> Markup {
 }
 
 /// Draws the base plate with north and up, and returns it with the areas of their words.
-fn base(view: &View, languages: &Languages) -> (Markup, Vec<Area>) {
+fn base(view: &View, base_axes: &Matrix3<f64>, languages: &Languages) -> (Markup, Vec<Area>) {
     let floor = -AXIS_HEIGHT;
-    let plate = [Vector3::new(1.56, 0.0, 0.0), Vector3::new(0.0, 0.9, 0.0), Vector3::new(0.0, 0.0, 0.045)];
-    let on_plate = |x: f64, y: f64| Vector3::new(x, y, floor);
-    let corner = on_plate(-1.43, -0.76);
+    let [xi, eta, _] = rows(base_axes);
+    let plate = [xi * 1.56, eta * 0.9, Vector3::new(0.0, 0.0, 0.045)];
+    let corners = [[-1.43, -0.76], [-1.43, 0.76], [1.43, -0.76], [1.43, 0.76]];
+    let corners = corners.map(|[along, across]| xi * along + eta * across + Vector3::new(0.0, 0.0, floor));
+    let left = |corner: &Vector3<f64>| view.right.dot(corner);
+    // The arrows begin at the left corner of the plate, where the stand does not hide them.
+    let corner = corners.into_iter().min_by(|one, other| left(one).total_cmp(&left(other))).unwrap_or_default();
     let (north, up) = (corner + Vector3::new(0.0, 1.0, 0.0), corner + Vector3::new(0.0, 0.0, 0.7));
     let [north_x, north_y] = view.point(&north);
     let [up_x, up_y] = view.point(&up);
@@ -198,7 +207,8 @@ fn base(view: &View, languages: &Languages) -> (Markup, Vec<Area>) {
 }
 
 /// Draws posts, frame, platform and gyro from back to front; planes across ξ separate them.
-fn stand(view: &View, frame: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
+fn stand(view: &View, base_axes: &Matrix3<f64>, frame: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
+    let [_, eta, _] = rows(base_axes);
     let [xi, across, out] = rows(frame);
     let [_, _, spin] = rows(real);
     let bar = |centre: Vector3<f64>, along: Vector3<f64>, thick: Vector3<f64>| {
@@ -214,20 +224,21 @@ fn stand(view: &View, frame: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
     };
     let post = |sign: f64| {
         let height = 0.5 * (AXIS_HEIGHT + 0.12);
-        let centre = Vector3::new(sign * POST, 0.0, height - AXIS_HEIGHT);
-        let half = [Vector3::new(0.06, 0.0, 0.0), Vector3::new(0.0, 0.13, 0.0), Vector3::new(0.0, 0.0, height)];
+        let centre = xi * (sign * POST) + Vector3::new(0.0, 0.0, height - AXIS_HEIGHT);
+        let half = [xi * 0.06, eta * 0.13, Vector3::new(0.0, 0.0, height)];
         view.cuboid(&centre, &half, "base")
     };
+    let near_end = if xi.dot(&view.towards) < 0.0 { -1.0 } else { 1.0 };
     let nearer = if across.dot(&view.towards) < 0.0 { -1.0 } else { 1.0 };
     let centre = Vector3::zeros();
     let gyro_is_near = spin.dot(&view.towards) > 0.0;
     let gyro = view.cylinder(&centre, &(spin * GYRO_HEIGHT), GYRO, "gyro");
     html! {
-        (post(-1.0)) (side(-1.0)) (crossbar(-nearer))
+        (post(-near_end)) (side(-near_end)) (crossbar(-nearer))
         @if !gyro_is_near { (gyro) }
         (view.circle(&centre, &spin, PLATFORM, &format!("solid platform {}", shade(&spin))))
         (platform_mark(view, real))
-        (crossbar(nearer)) (side(1.0)) (post(1.0))
+        (crossbar(nearer)) (side(near_end)) (post(near_end))
         (line(view.point(&(xi * -1.42)), view.point(&(xi * -1.1)), "axle"))
         (line(view.point(&(xi * 1.1)), view.point(&(xi * 1.42)), "axle"))
         @if gyro_is_near { (gyro) }
@@ -288,7 +299,7 @@ fn about_letter([x, y]: Point) -> Area {
     Area { low: [x - 4.6, y - 8.0], high: [x + 4.6, y + 7.2] }
 }
 
-/// Returns the case axes in base axes: the rows of the matrix.
+/// Returns the axes of the case or of the base, each east, north, up: the rows of the matrix.
 fn rows(matrix: &Matrix3<f64>) -> [Vector3<f64>; 3] {
     [0, 1, 2].map(|row| matrix.row(row).transpose())
 }

@@ -66,10 +66,11 @@ fn key(languages: &Languages) -> Markup {
 }
 
 fn subjects(content: &Content) -> [Subject; 2] {
-    let earth = content.earth.rate();
+    let earth = content.earth.rate(&content.site);
+    let base = attitude::base(earth.frame_axis_azimuth_deg);
     // The vectors have the order of the positions: both are sorted by (i, j).
     let each = content.positions.iter().zip(&content.vectors).map(|(at, vectors)| {
-        let nominal = attitude::nominal(at.theta_deg, at.phi_deg);
+        let nominal = attitude::nominal(at.theta_deg, at.phi_deg) * base;
         let rate =
             |row: usize| nominal[(row, 1)] * earth.horizontal_deg_per_h + nominal[(row, 2)] * earth.vertical_deg_per_h;
         let index = at.index();

@@ -1,8 +1,9 @@
 //! Specific force, Earth rate and currents of every position, computed from standard deviates.
 //!
-//! Rotations are applied exactly: Ã = T · E(α + δα, β + δβ, γ + δγ) · A · R, where R rotates the base, and T the case
-//! (by the sum of the small vectors of platform, seat and repeatability). A small rotation by a vector δ is exactly
-//! v + s₁ v×δ + s₂ (v×δ)×δ with s₁ = sin|δ|/|δ| and s₂ = (1 − cos|δ|)/δ².
+//! Rotations are applied exactly: Ã = T · E(α + δα, β + δβ, γ + δγ) · A · Rz(90° − ψ) · R, where ψ is the azimuth of the
+//! frame's axis, R rotates the base about east, north and up, and T the case (by the sum of the small vectors of
+//! platform, seat and repeatability). A small rotation by a vector δ is exactly v + s₁ v×δ + s₂ (v×δ)×δ with
+//! s₁ = sin|δ|/|δ| and s₂ = (1 − cos|δ|)/δ².
 
 use super::plan::{Drawn, Plan, Slot};
 use crate::calibration::Setup;
@@ -74,7 +75,7 @@ const LARGEST_NORMAL: f64 = 8.5;
 
 impl Kernel {
     pub(crate) fn new(setup: &Setup, means_ma: &[Vector2<f64>], plan: &Plan) -> Self {
-        let earth = setup.earth_rate_in_base();
+        let earth = setup.earth_rate_east_north_up();
         let each = setup.turns().iter().zip(setup.coefficients().positions.iter()).zip(means_ma).enumerate();
         let places: Vec<Place> = each
             .map(|(place, ((turn, _), means_ma))| {

@@ -53,7 +53,7 @@ fn deviations_are_where_their_axes_say() {
 #[test]
 fn positions_are_named_as_in_the_file() {
     for content in passports() {
-        let text = whole(&[positions::positions(&english(), &content.positions)]);
+        let text = whole(&[positions::positions(&english(), &content.positions, 90.0)]);
         let page = Document::parse(&text).unwrap();
         for (at, panel) in content.positions.iter().zip(svgs(&page)) {
             let said: Vec<String> = panel.descendants().filter(|node| node.has_tag_name("text")).map(words).collect();

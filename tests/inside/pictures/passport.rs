@@ -31,7 +31,7 @@ fn all_pictures(languages: &Languages, content: &Content) -> String {
     let gravity = content.earth.gravity_m_per_s2;
     let stated = content.accuracy.as_ref().unwrap();
     let pictures = [
-        positions::positions(languages, &content.positions),
+        positions::positions(languages, &content.positions, 90.0),
         deviations::deviations(languages, &content.positions),
         vectors::vectors(languages, content),
         place::place(languages, content),
@@ -59,7 +59,12 @@ fn position(i: u32, j: u32, angles_deg: [f64; 2], deviation_deg: [f64; 3]) -> Ce
 
 /// Tips of the axes x, y, z of each position, from the middle of its panel.
 fn axes(drawn: &[CertifiedPosition], middle: [f64; 2]) -> Vec<[[f64; 2]; 3]> {
-    let text = whole(&[positions::positions(&english(), drawn)]);
+    axes_at(90.0, drawn, middle)
+}
+
+/// The same on a base whose frame axis points to an azimuth.
+fn axes_at(frame_axis_azimuth_deg: f64, drawn: &[CertifiedPosition], middle: [f64; 2]) -> Vec<[[f64; 2]; 3]> {
+    let text = whole(&[positions::positions(&english(), drawn, frame_axis_azimuth_deg)]);
     let page = Document::parse(&text).unwrap();
     let of_panel = |svg: Node| {
         let tips: Vec<[f64; 2]> = of_class_of(svg, "axis");
@@ -147,13 +152,38 @@ fn deviations_turn_the_axes_the_right_way() {
     same(found[3][1], combination(&[(cos, u), (-sin, n)]));
 }
 
+/// By hand: with θ = φ = 0 x is along the frame's axis, which points to its azimuth; at 0° y is then west. The axle is drawn
+/// along it, and the arrow of north does not turn.
+#[test]
+fn the_frames_axis_points_to_its_azimuth() {
+    let ([e, n, u], middle) = drawn_directions();
+    let [w, s] = [e, n].map(|[x, y]| [-x, -y]);
+    let first = [position(1, 1, [0.0, 0.0], [0.0; 3])];
+    for (azimuth_deg, expected) in [(0.0, [n, w, u]), (180.0, [s, e, u]), (270.0, [w, s, u])] {
+        for (found, expected) in axes_at(azimuth_deg, &first, middle)[0].iter().zip(expected) {
+            same(*found, expected);
+        }
+    }
+    let (sin, cos) = libm::sincos(30_f64.to_radians());
+    same(axes_at(30.0, &first, middle)[0][0], combination(&[(sin, e), (cos, n)]));
+    for azimuth_deg in [0.0, 30.0, 90.0, 250.0] {
+        let text = whole(&[positions::positions(&english(), &first, azimuth_deg)]);
+        let page = Document::parse(&text).unwrap();
+        let arrow = of_class(page.root(), "base-axis")[0];
+        let shaft = arrow.children().find(|node| node.has_tag_name("line")).unwrap();
+        let ([x, y], [x1, y1]) = (tip(arrow), [number(shaft, "x1"), number(shaft, "y1")]);
+        // The arrow is one unit long, an axis 1.27.
+        same([1.27 * (x - x1), 1.27 * (y - y1)], n);
+    }
+}
+
 #[test]
 fn any_number_of_positions_at_any_angles() {
     for count in [4, 24] {
         let stand: Vec<CertifiedPosition> = (0..count)
             .map(|k| position(3 + k / 6, 1 + k % 6, [f64::from(37 * k), f64::from(61 * k)], [1.0; 3]))
             .collect();
-        let text = whole(&[positions::positions(&both(), &stand), deviations::deviations(&both(), &stand)]);
+        let text = whole(&[positions::positions(&both(), &stand, 90.0), deviations::deviations(&both(), &stand)]);
         let page = Document::parse(&text).unwrap();
         assert_eq!(svgs(&page).len(), count as usize + 3);
         assert_eq!(of_class(page.root(), "bar").len(), 3 * count as usize + 1, "and one in the legend");
@@ -197,14 +227,22 @@ fn bars_are_as_long_as_deviations_are_large() {
 }
 
 /// By hand after eq. (5): on a perfect stand ω_3 is ω_Γ along the axis that points north, ω_B along the one that points up, and
-/// n is 1 along that one.
+/// n is 1 along that one. With the frame's axis north x points north in the positions (1, 1) and (2, 1).
 #[test]
 fn ideal_vectors_are_those_of_a_perfect_stand() {
     let (content, _) = passport(fixtures::DEGREES, fixtures::SITE);
     let (h, v) = (content.earth.horizontal_deg_per_h, content.earth.vertical_deg_per_h);
     let rates = [[0.0, h], [h, 0.0], [0.0, -h], [-h, 0.0], [0.0, v], [v, 0.0], [0.0, -v], [-v, 0.0]];
+    ideal_vectors_are(&content, rates);
+    let north = format!("{}frame_axis_azimuth_deg: 0.0\n", fixtures::SITE);
+    let (content, _) = passport(fixtures::DEGREES, &north);
+    let rates = [[h, 0.0], [0.0, -h], [-h, 0.0], [0.0, h], [h, v], [v, -h], [-h, -v], [-v, h]];
+    ideal_vectors_are(&content, rates);
+}
+
+fn ideal_vectors_are(content: &Content, rates: [[f64; 2]; 8]) {
     let forces = [[0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [0.0, -1.0], [-1.0, 0.0]];
-    let text = whole(&[vectors::vectors(&english(), &content)]);
+    let text = whole(&[vectors::vectors(&english(), content)]);
     let page = Document::parse(&text).unwrap();
     let panels = svgs(&page);
     let real = |index: usize| (content.vectors[index].omega_deg_per_h, content.vectors[index].specific_force_g);

@@ -36,13 +36,14 @@ print(max(r[:4]), max(r[4:6]), r[6], r[7])
 
 #[test]
 fn the_ratio_is_that_of_numpy() {
-    let site = fs::read(programs::project("sites/beijing-nim.yaml")).unwrap();
-    let earth = Site::from_yaml("beijing-nim.yaml", &site).unwrap().earth();
+    let site_file = fs::read(programs::project("sites/beijing-nim.yaml")).unwrap();
+    let site = Site::from_yaml("beijing-nim.yaml", &site_file).unwrap();
+    let earth = site.earth();
     for path in ["passports/SPS-1/0203/stand.yaml", "passports/SPS-2/0017/stand.yaml"] {
         let stand = Stand::from_yaml(path, &fs::read(programs::project(path)).unwrap()).unwrap();
         let positions: Vec<_> = stand.positions.iter().map(CertifiedPosition::to_model).collect();
         let (gyro, meter) = (GyroType::gvk_6().nominal.to_model(), (&Laboratory::paper().meter).into());
-        let found = noise_growth(&positions, earth.rate(), &gyro, meter).unwrap();
+        let found = noise_growth(&positions, earth.rate(&site), &gyro, meter).unwrap();
         let mut python = programs::python();
         python.args(["-c", PROGRAM]).arg(programs::project(path)).arg(earth.latitude_deg.to_string());
         let expected: Vec<f64> =

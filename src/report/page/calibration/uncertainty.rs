@@ -148,8 +148,11 @@ fn of_input(cause: Cause, u: f64, language: Language) -> String {
 fn cause(cause: Cause, language: Language) -> String {
     let about = |text: Text, axis: &str| text.filled(language, &[("axis", axis)]);
     let case = |axis: usize| ["x", "y", "z"].get(axis).copied().unwrap_or_default();
-    // The base axes have the paper's letters: ξ east, η north, ζ up.
-    let base = |axis: usize| ["ξ", "η", "ζ"].get(axis).copied().unwrap_or_default();
+    // No letters of the base axes, because the frame's axis ξ may point to any azimuth.
+    let base = |axis: usize| {
+        let axes = [texts::ABOUT_EAST, texts::ABOUT_NORTH, texts::ABOUT_UP];
+        axes.get(axis).map_or("", |axis| axis.of(language))
+    };
     let plain = |text: Text| text.of(language).to_owned();
     match cause {
         Cause::Angle(..) => plain(texts::CAUSE_ANGLE),

@@ -147,6 +147,8 @@ fn place(site: &Site, languages: &Languages) -> Markup {
             (symbol("ξ", "")) " " (arcsec(deflection.xi)) ", " (symbol("η", "")) " " (arcsec(deflection.eta))
         },
     });
+    let frame_axis =
+        site.frame_axis_azimuth_deg.map(|azimuth_deg| field(languages, texts::FRAME_AXIS, Some(degrees(azimuth_deg))));
     // A site states one of the two latitudes, never both.
     let latitude = match site.astronomic_latitude_deg {
         Some(astronomic) => field(languages, texts::ASTRONOMIC_LATITUDE, Some(degrees(astronomic))),
@@ -161,6 +163,7 @@ fn place(site: &Site, languages: &Languages) -> Markup {
                 site.height_m.map(|height| quantity(languages, &Number::exact(height), units::METRES))),
             field(languages, texts::DEFLECTION, deflection),
             field(languages, texts::GRAVITY_MEASURED, gravity_measured(site, languages)),
+            frame_axis.unwrap_or_default(),
             field(languages, texts::LATITUDE_U, base.and_then(|base| base.latitude_arcsec).map(u)),
             field(languages, texts::AZIMUTH_U, base.and_then(|base| base.azimuth_arcsec).map(u)),
             field(languages, texts::LEVEL_U, base.and_then(|base| base.level_arcsec).map(u)),

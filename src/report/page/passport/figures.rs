@@ -26,7 +26,9 @@ pub(super) enum Slot {
 pub(super) fn figure(slot: Slot, content: &Content, languages: &Languages) -> Markup {
     let (id, drawing, caption) = match slot {
         Slot::Positions => {
-            ("positions", picture::positions::positions(languages, &content.positions), texts::FIGURE_POSITIONS)
+            let azimuth_deg = content.site.frame_axis_azimuth_deg();
+            let drawing = picture::positions::positions(languages, &content.positions, azimuth_deg);
+            ("positions", drawing, texts::FIGURE_POSITIONS)
         }
         Slot::Deviations => {
             ("deviations", picture::deviations::deviations(languages, &content.positions), texts::FIGURE_DEVIATIONS)

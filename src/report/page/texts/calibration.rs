@@ -353,6 +353,9 @@ texts! {
     CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа вокруг {axis}" }
     CAUSE_SEAT { en: "gyro seat about {axis}", ru: "посадочная поверхность вокруг {axis}" }
     CAUSE_BASE { en: "base of the stand about {axis}", ru: "основание стенда вокруг {axis}" }
+    ABOUT_EAST { en: "east", ru: "направления на восток" }
+    ABOUT_NORTH { en: "north", ru: "направления на север" }
+    ABOUT_UP { en: "up", ru: "вертикали" }
     CAUSE_LEVEL { en: "level of the base about {axis}", ru: "наклон основания вокруг {axis}" }
     CAUSE_AZIMUTH { en: "azimuth of the base", ru: "азимут основания" }
     CAUSE_MARK { en: "azimuth of the mark", ru: "азимут ориентирного пункта" }

@@ -124,6 +124,7 @@ texts! {
     MARK_POSITION { en: "Latitude and longitude of the mark", ru: "Широта и\u{a0}долгота пункта" }
     PILLAR_POSITION { en: "Latitude and longitude of the pillar", ru: "Широта и\u{a0}долгота пилона" }
     POSITION_U { en: "u of each of these coordinates", ru: "u каждой из этих координат" }
+    FRAME_AXIS { en: "Azimuth of the frame’s axis ξ", ru: "Азимут оси рамки ξ" }
     LATITUDE_U { en: "u of the latitude", ru: "u широты" }
     AZIMUTH_U { en: "u of the azimuth of the base", ru: "u азимута основания" }
     LEVEL_U { en: "u of the level of the base", ru: "u горизонтирования основания" }

@@ -28,10 +28,12 @@ texts! {
         en: "frame, rotated by θ about east (ξ)",
         ru: "рамка, повёрнута на угол θ вокруг направления на восток (ξ)"
     }
+    FRAME_OF_ROTATED_BASE { en: "frame, rotated by θ about its axis ξ", ru: "рамка, повёрнута на угол θ вокруг своей оси ξ" }
     PLATFORM {
         en: "platform with the gyro, rotated by φ about z; its two pins are along x",
         ru: "платформа с гироскопом, повёрнута на угол φ вокруг z; два штифта направлены по x"
     }
+    NORTH_AND_UP { en: "north and up (ζ)", ru: "север и\u{a0}верх (ζ)" }
     BASE_AXES { en: "base axes: north (η) and up (ζ)", ru: "оси основания: север (η) и верх (ζ)" }
 
     DEVIATIONS_TITLE { en: "Certified deviations {angle} about {axis}", ru: "Аттестованные отклонения {angle} вокруг {axis}" }

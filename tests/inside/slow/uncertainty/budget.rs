@@ -27,7 +27,7 @@ pub fn described(case: &Case) -> Value {
         .iter()
         .enumerate()
         .map(|(place, at)| {
-            let nominal = attitude::nominal(at.theta_deg, at.phi_deg);
+            let nominal = attitude::nominal(at.theta_deg, at.phi_deg) * case.base();
             let rows: Vec<Vec<f64>> = nominal.row_iter().map(|row| row.iter().copied().collect()).collect();
             let df = u.angles_degrees_of_freedom[place];
             json!({

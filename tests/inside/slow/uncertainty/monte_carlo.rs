@@ -37,7 +37,7 @@ fn exactly(case: &Case, engine: &Engine, deviates: &[f64]) -> (Coefficients, Vec
         place.map_or(0.0, |place| deviates[place] * inputs[place].standard_uncertainty)
     };
     let vector = |of: &dyn Fn(usize) -> Drawn| Vector3::from_fn(|axis, _| value(of(axis)));
-    let base = rotation(vector(&Drawn::Base));
+    let base = case.base() * rotation(vector(&Drawn::Base));
     let latitude = radians_from_degrees(case.latitude_deg) + value(Drawn::Latitude);
     let (sin, cos) = libm::sincos(latitude);
     let earth = Vector3::new(0.0, cos, sin) * dtg_passport::earth::rotation_deg_per_h();
@@ -128,7 +128,7 @@ fn the_refit_is_that_of_least_squares() {
     let case = &three()[1];
     let setup = with_uncertainty(&case.positions, case.latitude_deg, uncertainty);
     let readings = readings(&setup, &currents(&setup, &gvk_6()));
-    let case = Case { latitude_deg: case.latitude_deg, positions: case.positions.clone(), setup, readings };
+    let case = Case { setup, readings, positions: case.positions.clone(), ..*case };
     let engine = Engine::new(&case.setup, &case.readings, Method::LeastSquares, ReadingShape::Normal).unwrap();
     let budget = Budget::new(&case.setup, &case.readings, Method::LeastSquares, &Options::default()).unwrap();
     let trials = deviates(&engine, 5, 1.0);
