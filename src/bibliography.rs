@@ -57,6 +57,9 @@ pub enum Bibliography {
     /// B. Rosner, "Percentage points for a generalized ESD many-outlier procedure", Technometrics 25, 1983, 165-172,
     /// <https://doi.org/10.1080/00401706.1983.10487848>.
     Rosner83,
+    /// R. D. Cook and C. J. Nachtsheim, "A comparison of algorithms for constructing exact D-optimal designs",
+    /// Technometrics 22, 1980, 315-324, <https://doi.org/10.1080/00401706.1980.10486162>.
+    CookNachtsheim80,
     /// ISO 5725-2:1994, Accuracy (trueness and precision) of measurement methods and results, part 2, 7.3: a value that
     /// fails the test at 1 % is an outlier; one that fails only at 5 % is a straggler.
     Iso5725,

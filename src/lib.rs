@@ -62,6 +62,7 @@
 //! | [`passport`] | content and verification; issue and re-issue with `factory` | |
 //! | [`register`] | what is in force among many | |
 //! | [`certification`] | readings of the angles to a stand, and whether it is still the same one | `factory` |
+//! | `plan` | the best positions to certify or to read, and their order | `factory` and `monte-carlo` |
 //! | `files`, [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports | `factory` |
 //! | `batch` | many passports at once | `factory` |
 //! | [`report`] | what people read | `report` |
@@ -110,6 +111,8 @@ pub mod gyro;
 pub mod laboratory;
 pub(crate) mod parallel;
 pub mod passport;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+pub(crate) mod plan;
 pub mod register;
 #[cfg(feature = "report")]
 pub mod report;

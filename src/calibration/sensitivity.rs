@@ -108,7 +108,8 @@ impl<'a> Sensitivity<'a> {
         })
     }
 
-    fn of_certified_angles(&self, place: usize) -> Matrix2<f64> {
+    /// Returns the covariance of a position from its certified angles, (°/h)², 2×2.
+    pub(crate) fn of_certified_angles(&self, place: usize) -> Matrix2<f64> {
         let angles = self.setup.uncertainty().angles_rad.get(place).copied().unwrap_or_default();
         let axes = self.setup.turns()[place].axes;
         angles.iter().zip(&axes).filter(|(u, _)| **u > 0.0).fold(Matrix2::zeros(), |sum, (u, axis)| {

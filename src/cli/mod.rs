@@ -13,6 +13,7 @@ mod issue;
 mod key_options;
 mod keygen;
 mod output;
+mod plan;
 mod register;
 mod reissue;
 mod render;
@@ -52,6 +53,7 @@ enum Verb {
     Calibrate(calibrate::Options),
     Register(register::Options),
     Revoke(revoke::Options),
+    Plan(plan::Options),
     Simulate(simulate::Options),
     Selftest(selftest::Options),
     Schema(schema::Options),
@@ -133,6 +135,7 @@ pub fn main() -> ExitCode {
         Verb::Calibrate(options) => calibrate::run(&options),
         Verb::Register(options) => register::run(&options),
         Verb::Revoke(options) => revoke::run(&options),
+        Verb::Plan(options) => plan::run(&options),
         Verb::Simulate(options) => simulate::run(&options),
         Verb::Selftest(options) => selftest::run(&options),
         Verb::Schema(options) => schema::run(&options),

@@ -151,7 +151,7 @@ impl Stated {
 }
 
 /// Returns the nominal parameters of the gyro with the drifts per local g.
-fn at_gravity(gyro: &GyroType, gravity_m_per_s2: f64) -> GyroParameters {
+pub(crate) fn at_gravity(gyro: &GyroType, gravity_m_per_s2: f64) -> GyroParameters {
     let ratio = gravity_m_per_s2 / gyro.gravity();
     let nominal = gyro.nominal.to_model();
     GyroParameters {

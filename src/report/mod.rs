@@ -11,6 +11,7 @@
 //! * `issued`: the outcome of an order, and warnings for the factory.
 //! * `page`: pages for print and screen, in several languages.
 //! * `passport_table`: a passport in a terminal.
+//! * `plan`: the best positions, and what they cannot see.
 //! * `picture`: the contents of a document as pictures.
 //! * `register`: the passports in a folder and their states.
 //! * `selftest`: the reference cases.
@@ -30,6 +31,8 @@ pub(crate) mod monte_carlo;
 pub(crate) mod page;
 pub(crate) mod passport_table;
 pub(crate) mod picture;
+#[cfg(feature = "factory")]
+pub(crate) mod plan;
 pub(crate) mod register;
 pub(crate) mod selftest;
 pub(crate) mod simulation;

@@ -173,6 +173,49 @@ fn issue_and_reissue_report_alike() {
 
 /// The keys of a passport with everything in it, in the order in which the format has them.
 #[test]
+fn a_plan_has_its_keys() {
+    let folder = Folder::new();
+    let found = folder.json("plan --site here.yaml --frame-axis east,north", 0);
+    assert_eq!(
+        found.names(),
+        "criterion value frame_axis_azimuth_deg readings order standard_uncertainty paper worse has_matrices \
+         has_general_model common_errors drift_over_tolerance_per_deg_per_h exhaustive not_stated"
+    );
+    assert!(found.at("readings").items().iter().all(|at| at.names() == "theta_deg phi_deg visits"));
+    assert_eq!(found.at("order").items().len(), 8);
+    assert!(found.at("order").items().iter().all(|visit| visit.items().len() == 2));
+    let parameters = "k_deg_per_h_per_ma omega0_deg_per_h omega_g_deg_per_h_per_g omega_k_deg_per_h_per_g";
+    assert_eq!(found.at("standard_uncertainty").names(), parameters);
+    assert_eq!(found.at("paper").names(), "value standard_uncertainty");
+    assert_eq!(found.at("paper").at("standard_uncertainty").names(), parameters);
+    let effect = "change largest_over_tolerance largest_residual_deg_per_h residuals_over_noise";
+    assert_eq!(found.at("common_errors").first().names(), format!("error size unit {effect} paper"));
+    assert_eq!(found.at("common_errors").first().at("paper").names(), effect);
+    // Σ (u/T)², T the tolerances of the GVK-6.
+    let number = |of: &Keys| of.text().parse::<f64>().unwrap();
+    let sum = |found: &Keys| {
+        let u = found.at("standard_uncertainty");
+        let k = u.at("k_deg_per_h_per_ma");
+        let [kx, kxy, kyx, ky] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| number(&k.items()[i].items()[j]));
+        let omega0 = u.at("omega0_deg_per_h").items();
+        let drifts = [&omega0[0], &omega0[1], u.at("omega_g_deg_per_h_per_g"), u.at("omega_k_deg_per_h_per_g")];
+        let main = [kx, ky].map(|u| u / 95.0 / 0.0005);
+        let cross = [kxy, kyx].map(|u| u / 9.5 / 0.005);
+        let drifts = drifts.map(|u| number(u) / 0.01);
+        main.iter().chain(&cross).chain(&drifts).map(|share| share * share).sum::<f64>()
+    };
+    for found in [&found, found.at("paper")] {
+        assert!((sum(found) / number(found.at("value")) - 1.0).abs() < 1e-12);
+    }
+    let found = folder.json("plan --site here.yaml --stand stand.yaml --readings 9 --criterion worst", 0);
+    assert!(found.at("readings").items().iter().all(|at| at.names() == "theta_deg phi_deg i j visits"));
+    assert!(!found.names().contains("paper"), "8 does not divide 9");
+    let visits: u64 =
+        found.at("readings").items().iter().map(|at| at.at("visits").text().parse::<u64>().unwrap()).sum();
+    assert_eq!((visits, found.at("order").items().len()), (9, 9));
+}
+
+#[test]
 fn show_has_the_keys_of_the_passport_in_their_order() {
     let folder = Folder::new();
     folder.run(&format!("issue stand.yaml --site here.yaml {SIGN} --issued-at 2026-11-03"), 0);

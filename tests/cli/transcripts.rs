@@ -45,6 +45,7 @@ transcripts! {
     hostile_folder: "hostile-folder.md",
     keys: "keys.md",
     near_the_pole: "near-the-pole.md",
+    plan: "plan.md",
     register: "register.md",
     render: "render.md",
     report: "report.md",

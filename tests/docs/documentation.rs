@@ -116,6 +116,18 @@ fn every_key_is_in_the_reference() {
     );
 }
 
+/// The picture of the plan is what the command under it writes.
+#[test]
+fn the_picture_of_the_plan_is_that_of_its_command() {
+    let page = fs::read_to_string(programs::project("docs/positions.md")).unwrap();
+    let command = page.split('`').find(|code| code.starts_with("dtg-passport plan") && code.contains(" -o ")).unwrap();
+    let folder = fresh_folder("picture-of-the-plan");
+    let printed = run(command, &folder);
+    let drawn = fs::read_to_string(folder.join("positions.svg")).expect(&printed);
+    let committed = fs::read_to_string(programs::project("docs/pictures/positions.svg")).unwrap();
+    assert!(drawn == committed, "run docs/pictures/make");
+}
+
 /// The guide names the verbs that print JSON: those, and no others, whose help offers it for the result.
 #[test]
 fn the_verbs_that_print_json_are_named() {

@@ -36,6 +36,8 @@ mod model;
 mod passport_accuracy;
 #[cfg(all(feature = "factory", feature = "report"))]
 mod pictures;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod plan;
 mod readings;
 #[cfg(feature = "factory")]
 mod register_attacks;

@@ -9,7 +9,7 @@
 //! * [`place`]: the area where the passport is valid.
 //! * [`accuracy`]: the expected calibration uncertainty.
 //! * [`residuals`], [`tolerances`], [`convergence`]: pictures of a calibration.
-//! * [`budget`], [`simulation`]: picture files of a budget and of the paper's Fig. 4.
+//! * [`budget`], [`simulation`], `plan`: picture files of a budget, of the paper's Fig. 4, and of a plan.
 //! * [`chart`], [`drawing`], [`file`], [`label`]: common parts.
 
 pub(crate) mod accuracy;
@@ -21,6 +21,8 @@ pub(crate) mod drawing;
 pub(crate) mod file;
 pub(crate) mod label;
 pub(crate) mod place;
+#[cfg(feature = "factory")]
+pub(crate) mod plan;
 pub(crate) mod positions;
 pub(crate) mod residuals;
 pub(crate) mod simulation;

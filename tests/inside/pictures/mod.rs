@@ -3,4 +3,5 @@
 mod calibration;
 mod drawn;
 mod passport;
+mod plan;
 mod simulation;

@@ -1,0 +1,126 @@
+//! Verb `plan`: the best positions to certify, or of a certified stand's positions to read, and their order.
+
+use super::calibrate::read_laboratory;
+use super::issue::{read_site, read_stand};
+use super::output::Format;
+use super::simulate::read_gyro;
+use super::{Code, Failure, output};
+use crate::gyro::GyroType;
+use crate::plan::candidates::Angles;
+use crate::plan::criterion::Criterion;
+use crate::plan::document::PlanDocument;
+use crate::plan::{FEWEST_READINGS, MOST_READINGS, Question, plan};
+use crate::report::picture::plan as picture;
+use crate::report::plan as report;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// Find the best positions to certify or to read, how often, in which order, and with the frame's axis at which azimuth
+#[derive(Args)]
+pub(super) struct Options {
+    /// Site file (dtg-site/1)
+    #[arg(long, value_name = "SITE")]
+    site: PathBuf,
+    /// Certified stand to read (dtg-stand/1) [default: the positions of --angles, without deviations]
+    #[arg(long, value_name = "STAND", conflicts_with = "angles")]
+    stand: Option<PathBuf>,
+    /// Gyro type (dtg-gyro/1) [default: the paper's GVK-6]
+    #[arg(long, value_name = "FILE")]
+    gyro: Option<PathBuf>,
+    /// Laboratory (dtg-laboratory/1) [default: the paper's meter, 0.015 %]
+    #[arg(long, value_name = "FILE")]
+    laboratory: Option<PathBuf>,
+    /// Number of readings, each after a return to its position
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = readings())]
+    readings: u32,
+    /// Nominal angles to choose from: quadrants, or a step in degrees for theta and phi
+    #[arg(long, value_name = "quadrants|DEG", default_value = "quadrants", value_parser = angles)]
+    angles: Angles,
+    /// Azimuths of the frame's axis to choose from [default: that of the site]
+    #[arg(long, value_enum, value_delimiter = ',')]
+    frame_axis: Vec<FrameAxis>,
+    /// What plans are compared by
+    #[arg(long, value_enum, default_value = "a")]
+    criterion: CriterionName,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+    /// Picture to write
+    #[arg(short, value_name = "FILE.svg")]
+    output: Option<PathBuf>,
+    /// Replace an existing picture
+    #[arg(long)]
+    force: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum FrameAxis {
+    /// 90 degrees, as in the paper
+    East,
+    /// 0 degrees
+    North,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum CriterionName {
+    /// Sum of (u/tolerance)²
+    A,
+    /// Determinant of the covariance
+    D,
+    /// Largest u/tolerance
+    Worst,
+}
+
+fn readings() -> clap::builder::RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(i64::from(FEWEST_READINGS)..=i64::from(MOST_READINGS))
+}
+
+fn angles(text: &str) -> Result<Angles, String> {
+    if text == "quadrants" {
+        return Ok(Angles::Quadrants);
+    }
+    let step = text.parse().ok().and_then(Angles::every);
+    step.ok_or_else(|| "quadrants, or a step from 10 to 180 degrees that divides 360".to_owned())
+}
+
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
+    let site = read_site(&options.site)?;
+    let stand = options.stand.as_deref().map(read_stand).transpose()?;
+    let gyro = read_gyro(options.gyro.as_deref())?.unwrap_or_else(GyroType::gvk_6);
+    let laboratory = read_laboratory(options.laboratory.as_deref())?;
+    let of_site = site.frame_axis_azimuth_deg();
+    let mut azimuths_deg: Vec<f64> = Vec::new();
+    for axis in &options.frame_axis {
+        azimuths_deg.push(match axis {
+            FrameAxis::East => 90.0,
+            FrameAxis::North => 0.0,
+        });
+    }
+    if azimuths_deg.is_empty() {
+        azimuths_deg.push(of_site);
+    }
+    let criterion = match options.criterion {
+        CriterionName::A => Criterion::A,
+        CriterionName::D => Criterion::D,
+        CriterionName::Worst => Criterion::Worst,
+    };
+    let question = Question {
+        site: &site,
+        stand: stand.as_ref(),
+        angles: options.angles,
+        gyro: &gyro,
+        laboratory: &laboratory,
+        readings: options.readings,
+        azimuths_deg,
+        criterion,
+    };
+    let found = plan(&question).map_err(Failure::refused)?;
+    if let Some(path) = &options.output {
+        output::file(path, &picture::plan(&found), options.force)?;
+    }
+    match options.format {
+        Format::Json => output::json(&PlanDocument::from(&found))?,
+        Format::Text => output::result(&report::text(&found, site.id.as_str(), of_site))?,
+    }
+    Ok(0)
+}

@@ -1,0 +1,398 @@
+//! Positions to choose from, at one azimuth of the frame's axis, and what their visits tell about the parameters.
+//!
+//! For m visits of position p the misclosures have the covariance C_p = A_p + B_p/m. A_p is the part that no visit
+//! reduces: the specification of the meter, and the certified angles. B_p is that of one visit: noise of the meter and
+//! of the gyro, and the repeatability of positioning. The information is M = Σ F_p' C_p⁻¹ F_p with the two rows
+//! F_p = (J, 1, n) of each position, and the covariance of the parameters M⁻¹; the scatter of turn-ons adds to ω_0.
+
+use super::criterion::{Criterion, Symmetric, add, cholesky, inverse_of_lower};
+use super::sensitivity::effects;
+use super::{Evaluation, NoPlan, Question, Visited};
+use crate::attitude::Deviation;
+use crate::calibration::parameter::Parameter;
+use crate::calibration::sensitivity::Sensitivity;
+use crate::calibration::unknowns::{Model, Unknowns};
+use crate::calibration::{InputUncertainty, NotStated, Setup, least_squares};
+use crate::coefficients::{Coefficients, EIGHT_POSITIONS, Position, PositionIndex};
+use crate::gyro::GyroType;
+use crate::passport::accuracy::at_gravity;
+use crate::site::Site;
+use crate::stand::{CertifiedPosition, Stand};
+use nalgebra::{Matrix2, Vector2};
+
+/// Nominal angles of the candidates without a stand: every θ with every φ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Angles {
+    /// Multiples of 90°.
+    Quadrants,
+    /// Multiples of a step, degrees; see [`Angles::every`].
+    Step(f64),
+}
+
+/// Smallest step of the angles, degrees: 1296 candidates.
+const SMALLEST_STEP_DEG: f64 = 10.0;
+
+/// First index of positions of a grid. Not 1, because (1, 1) to (2, 4) are the paper's.
+const FIRST_OF_GRID: u32 = 1001;
+
+impl Angles {
+    /// Returns the multiples of `step_deg`, or `None` if it does not divide a full circle or is less than 10°.
+    pub(crate) fn every(step_deg: f64) -> Option<Self> {
+        let is_usable = (SMALLEST_STEP_DEG..=180.0).contains(&step_deg) && (360.0 / step_deg).fract() == 0.0;
+        is_usable.then_some(Self::Step(step_deg))
+    }
+
+    fn positions(self) -> Vec<Position> {
+        let step_deg = match self {
+            Self::Quadrants => 90.0,
+            Self::Step(step_deg) => step_deg,
+        };
+        let steps = (360.0 / step_deg) as u32;
+        let each = (0..steps).flat_map(|i| (0..steps).map(move |j| (i, j)));
+        let each = each.map(|(i, j)| Position {
+            index: PositionIndex { i: FIRST_OF_GRID + i, j: FIRST_OF_GRID + j },
+            theta_deg: step_deg * f64::from(i),
+            phi_deg: step_deg * f64::from(j),
+            deviation: NONE,
+        });
+        each.collect()
+    }
+}
+
+/// No deviation.
+const NONE: Deviation = Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 };
+
+/// One position with its equations and its errors.
+#[derive(Debug, Clone)]
+struct Candidate {
+    position: Position,
+    /// F: two rows, eight parameters in units of their tolerances.
+    rows: [[f64; 8]; 2],
+    /// A: covariance that no visit reduces, (°/h)².
+    fixed: Matrix2<f64>,
+    /// B: covariance of one visit, (°/h)².
+    of_visit: Matrix2<f64>,
+}
+
+impl Candidate {
+    /// Returns C⁻¹ of the mean of `visits` visits, (h/°)²; zero without a visit.
+    fn weight(&self, visits: u32) -> Matrix2<f64> {
+        if visits == 0 {
+            return Matrix2::zeros();
+        }
+        let covariance = self.fixed + self.of_visit / f64::from(visits);
+        // Positive definite, because the floor of the meter is positive.
+        covariance.try_inverse().unwrap_or_default()
+    }
+
+    /// Returns F' C⁻¹ F.
+    fn information(&self, visits: u32) -> Symmetric {
+        let weight = self.weight(visits);
+        let [x, y] = &self.rows;
+        let mut information = [[0.0; 8]; 8];
+        for (row, values) in information.iter_mut().enumerate() {
+            let weighted = [weight.m11 * x[row] + weight.m12 * y[row], weight.m12 * x[row] + weight.m22 * y[row]];
+            for (column, value) in values.iter_mut().enumerate().take(row + 1) {
+                *value = weighted[0] * x[column] + weighted[1] * y[column];
+            }
+        }
+        information
+    }
+}
+
+/// All positions to choose from, at one azimuth of the frame's axis.
+#[derive(Debug, Clone)]
+pub(crate) struct Candidates {
+    /// Azimuth of the frame's axis, degrees.
+    pub frame_axis_azimuth_deg: f64,
+    /// Tolerances, in the units of the parameters and the order of [`Parameter::EIGHT`].
+    pub tolerance: [f64; 8],
+    /// Variance that the scatter of turn-ons adds to ω_0x and ω_0y, in units of their tolerance.
+    pub turn_on: f64,
+    pub(super) setup: Setup,
+    pub(super) unknowns: Unknowns,
+    pub(super) currents_ma: Vec<Vector2<f64>>,
+    candidates: Vec<Candidate>,
+    certified: bool,
+    not_stated: Vec<NotStated>,
+}
+
+impl Candidates {
+    /// Prepares the candidates of a question, with the frame's axis at an azimuth.
+    ///
+    /// # Errors
+    /// Returns [`NoPlan`] if the inputs are unusable or all candidates together do not determine the parameters.
+    pub(crate) fn new(question: &Question, azimuth_deg: f64) -> Result<Self, NoPlan> {
+        let prepared = match question.stand {
+            Some(stand) => Self::certified(question, stand, &stand.positions, azimuth_deg)?,
+            None => Self::nominal(question, &question.angles.positions(), azimuth_deg)?,
+        };
+        let meter = prepared.setup.uncertainty().meter;
+        least_squares::solve(prepared.setup.coefficients(), &prepared.currents_ma, &meter, Model::Paper)
+            .map_err(NoPlan::Undetermined)?;
+        Ok(prepared)
+    }
+
+    /// Prepares the paper's eight positions; returns `None` if the stand lacks one.
+    ///
+    /// # Errors
+    /// Returns [`NoPlan`] if the inputs are unusable.
+    pub(crate) fn paper(question: &Question, azimuth_deg: f64) -> Result<Option<Self>, NoPlan> {
+        let Some(stand) = question.stand else {
+            let eight = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| Position {
+                index,
+                theta_deg,
+                phi_deg,
+                deviation: NONE,
+            });
+            return Self::nominal(question, &eight, azimuth_deg).map(Some);
+        };
+        let find = |index: PositionIndex| stand.positions.iter().find(|at| at.index() == index).cloned();
+        let eight: Option<Vec<_>> = EIGHT_POSITIONS.iter().map(|(index, _, _)| find(*index)).collect();
+        eight.map(|eight| Self::certified(question, stand, &eight, azimuth_deg)).transpose()
+    }
+
+    fn certified(
+        question: &Question,
+        stand: &Stand,
+        positions: &[CertifiedPosition],
+        azimuth_deg: f64,
+    ) -> Result<Self, NoPlan> {
+        let site = Site { frame_axis_azimuth_deg: Some(azimuth_deg), ..question.site.clone() };
+        let (setup, missing) = Setup::stated(&stand.certificate, positions, &site, question.laboratory)?;
+        let models: Vec<_> = positions.iter().map(CertifiedPosition::to_model).collect();
+        let of_positions = |input: &NotStated| matches!(input, NotStated::Angles | NotStated::Return);
+        let not_stated = missing.into_iter().filter(of_positions).collect();
+        Self { certified: true, not_stated, ..Self::of(question, setup, &models, azimuth_deg)? }.checked()
+    }
+
+    fn nominal(question: &Question, positions: &[Position], azimuth_deg: f64) -> Result<Self, NoPlan> {
+        let site = Site { frame_axis_azimuth_deg: Some(azimuth_deg), ..question.site.clone() };
+        let uncertainty = InputUncertainty::of_meter((&question.laboratory.meter).into());
+        let setup = Setup::new(positions, site.earth().rate(&site), uncertainty)?;
+        Self::of(question, setup, positions, azimuth_deg)?.checked()
+    }
+
+    fn of(question: &Question, setup: Setup, positions: &[Position], azimuth_deg: f64) -> Result<Self, NoPlan> {
+        let tolerance = tolerances(question.gyro)?;
+        let setup = setup.of_gyro(question.gyro.noise.as_ref());
+        let gyro = at_gravity(question.gyro, question.site.earth().gravity_m_per_s2);
+        let unknowns = Unknowns::of(gyro);
+        let currents_ma = unknowns.currents_ma(&setup.coefficients().positions).ok_or(NoPlan::SingularGyro)?;
+        let turn_on = setup.uncertainty().turn_on_deg_per_h.unwrap_or(0.0) / tolerance[Parameter::Omega0x.place()];
+        let candidates = positions
+            .iter()
+            .enumerate()
+            .map(|(place, position)| candidate(&setup, &unknowns, (place, position), currents_ma[place], &tolerance))
+            .collect();
+        Ok(Self {
+            frame_axis_azimuth_deg: azimuth_deg,
+            tolerance,
+            turn_on: turn_on * turn_on,
+            setup,
+            unknowns,
+            currents_ma,
+            candidates,
+            certified: false,
+            not_stated: Vec::new(),
+        })
+    }
+
+    /// Returns the number of candidates.
+    pub(crate) fn len(&self) -> usize {
+        self.candidates.len()
+    }
+
+    /// Returns the inputs of single positions whose uncertainty the certificate does not state.
+    pub(crate) fn not_stated(&self) -> Vec<NotStated> {
+        self.not_stated.clone()
+    }
+
+    /// Returns the information of `visits` visits of the candidate at `place`, in units of the tolerances.
+    pub(crate) fn information(&self, place: usize, visits: u32) -> Symmetric {
+        self.candidates[place].information(visits)
+    }
+
+    /// Returns the information of all visits, in units of the tolerances.
+    pub(crate) fn information_of(&self, visits: &[u32]) -> Symmetric {
+        let mut sum = [[0.0; 8]; 8];
+        for (place, visits) in visits.iter().enumerate().filter(|(_, visits)| **visits > 0) {
+            add(&mut sum, &self.information(place, *visits), 1.0);
+        }
+        sum
+    }
+
+    /// Returns `true` if each of the paper's eight positions is visited.
+    pub(crate) fn has_eight(&self, visits: &[u32]) -> bool {
+        EIGHT_POSITIONS.iter().all(|(index, theta_deg, phi_deg)| {
+            self.candidates.iter().zip(visits).any(|(candidate, visits)| {
+                let at = &candidate.position;
+                let is_it =
+                    at.index == *index || !self.certified && (at.theta_deg, at.phi_deg) == (*theta_deg, *phi_deg);
+                is_it && *visits > 0
+            })
+        })
+    }
+}
+
+/// Prepares one candidate at its place.
+fn candidate(
+    setup: &Setup,
+    unknowns: &Unknowns,
+    (place, position): (usize, &Position),
+    current_ma: Vector2<f64>,
+    tolerance: &[f64; 8],
+) -> Candidate {
+    let u = setup.uncertainty();
+    let sensitivity = Sensitivity::new(setup, unknowns);
+    let k = &unknowns.parameters.k_deg_per_h_per_ma;
+    let of_currents = |variance_ma2: Vector2<f64>| k * Matrix2::from_diagonal(&variance_ma2) * k.transpose();
+    let visit = u.visit_deg_per_h.unwrap_or(0.0);
+    let specification = of_currents(current_ma.map(|current| u.meter.own_variance_ma2(current)));
+    let noise = of_currents(Vector2::repeat(u.meter.noise_ma * u.meter.noise_ma));
+    let n = &setup.coefficients().positions[place].specific_force_g;
+    let (jx, jy) = (current_ma.x, current_ma.y);
+    let mut rows = [[jx, jy, 0.0, 0.0, 1.0, 0.0, n.x, -n.y], [0.0, 0.0, jx, jy, 0.0, 1.0, n.y, n.x]];
+    rows.iter_mut().for_each(|row| row.iter_mut().zip(tolerance).for_each(|(value, unit)| *value *= unit));
+    Candidate {
+        position: *position,
+        rows,
+        fixed: specification + sensitivity.of_certified_angles(place),
+        of_visit: noise + sensitivity.of_return(place) + Matrix2::identity() * (visit * visit),
+    }
+}
+
+/// Returns the tolerances in the units of the parameters.
+///
+/// # Errors
+/// Returns [`NoPlan::NoTolerance`] if one is 0.
+fn tolerances(gyro: &GyroType) -> Result<[f64; 8], NoPlan> {
+    let of = &gyro.tolerance;
+    let nominal = gyro.nominal.to_model().to_vector();
+    let mut tolerances = [0.0; 8];
+    for parameter in Parameter::EIGHT {
+        let place = parameter.place();
+        tolerances[place] = match parameter {
+            Parameter::Kx | Parameter::Ky => of.k_main_percent / 100.0 * nominal[place].abs(),
+            Parameter::Kxy | Parameter::Kyx => of.k_cross_percent / 100.0 * nominal[place].abs(),
+            Parameter::Omega0x | Parameter::Omega0y => of.omega0_deg_per_h,
+            Parameter::OmegaG => of.omega_g_deg_per_h_per_g,
+            _ => of.omega_k_deg_per_h_per_g,
+        };
+        if tolerances[place] <= 0.0 {
+            return Err(NoPlan::NoTolerance(parameter));
+        }
+    }
+    Ok(tolerances)
+}
+
+/// Chosen numbers of visits, with the covariance of the parameters that they give.
+#[derive(Debug, Clone)]
+pub(crate) struct Design<'a> {
+    pub(super) candidates: &'a Candidates,
+    pub(super) visits: Vec<u32>,
+    /// Covariance of the fit without the scatter of turn-ons, in units of the tolerances.
+    covariance: [[f64; 8]; 8],
+}
+
+impl<'a> Design<'a> {
+    /// Creates the design of `visits` visits of each candidate; returns `None` if they do not determine the parameters.
+    pub(crate) fn new(candidates: &'a Candidates, visits: &[u32]) -> Option<Self> {
+        let inverse = inverse_of_lower(&cholesky(&candidates.information_of(visits))?);
+        let mut covariance = [[0.0; 8]; 8];
+        for (row, values) in covariance.iter_mut().enumerate() {
+            for (column, value) in values.iter_mut().enumerate() {
+                *value = inverse.iter().map(|line| line[row] * line[column]).sum();
+            }
+        }
+        Some(Self { candidates, visits: visits.to_vec(), covariance })
+    }
+
+    /// Returns the places of the candidates that are visited, with their numbers of visits.
+    pub(crate) fn visited(&self) -> impl Iterator<Item = (usize, u32)> {
+        self.visits.iter().copied().enumerate().filter(|(_, visits)| *visits > 0)
+    }
+
+    /// Returns G = M⁻¹ F' C⁻¹ of the candidate at `place`: the change of each parameter, in units of its tolerance, for a
+    /// misclosure of 1 °/h in the mean of its visits about x and about y.
+    pub(crate) fn response(&self, place: usize) -> [[f64; 8]; 2] {
+        let candidate = &self.candidates.candidates[place];
+        let weight = candidate.weight(self.visits[place]);
+        let [x, y] = &candidate.rows;
+        [(weight.m11, weight.m12), (weight.m12, weight.m22)].map(|(of_x, of_y)| {
+            let mut response = [0.0; 8];
+            for (value, line) in response.iter_mut().zip(&self.covariance) {
+                *value = (0..8).map(|inner| line[inner] * (of_x * x[inner] + of_y * y[inner])).sum();
+            }
+            response
+        })
+    }
+
+    /// Returns the misclosure that a change of the parameters (in units of the tolerances) makes at `place`, °/h.
+    pub(crate) fn misclosure(&self, place: usize, change: &[f64; 8]) -> Vector2<f64> {
+        let of = |row: &[f64; 8]| row.iter().zip(change).map(|(a, b)| a * b).sum();
+        let [x, y] = &self.candidates.candidates[place].rows;
+        Vector2::new(of(x), of(y))
+    }
+
+    /// Returns r' C⁻¹ r for the residual r at `place`, °/h.
+    pub(crate) fn weighted_square(&self, place: usize, residual: &Vector2<f64>) -> f64 {
+        residual.dot(&(self.candidates.candidates[place].weight(self.visits[place]) * residual))
+    }
+
+    /// Returns the positions that are visited.
+    pub(crate) fn readings(&self) -> Vec<Visited> {
+        let certified = self.candidates.certified;
+        let visited = self.visited().map(|(place, visits)| {
+            let Position { index, theta_deg, phi_deg, .. } = self.candidates.candidates[place].position;
+            Visited { theta_deg, phi_deg, index: certified.then_some(index), visits }
+        });
+        visited.collect()
+    }
+
+    /// Returns value, uncertainties and effects of common errors.
+    pub(crate) fn evaluation(&self, criterion: Criterion) -> Evaluation {
+        let Candidates { tolerance, turn_on, .. } = self.candidates;
+        let information = self.candidates.information_of(&self.visits);
+        let mut standard_uncertainty = [0.0; 8];
+        for parameter in Parameter::EIGHT {
+            let place = parameter.place();
+            let is_omega0 = matches!(parameter, Parameter::Omega0x | Parameter::Omega0y);
+            let variance = self.covariance[place][place] + if is_omega0 { *turn_on } else { 0.0 };
+            standard_uncertainty[place] = tolerance[place] * variance.sqrt();
+        }
+        Evaluation { value: criterion.value(&information, *turn_on), standard_uncertainty, effects: effects(self) }
+    }
+
+    /// Returns `true` if the visited positions also determine the full 2×3 matrix of g-sensitive drift.
+    pub(crate) fn determines_general_model(&self) -> bool {
+        let Candidates { setup, currents_ma, .. } = self.candidates;
+        let places: Vec<usize> = self.visited().map(|(place, _)| place).collect();
+        let positions = places.iter().map(|place| setup.coefficients().positions[*place]).collect();
+        let currents: Vec<_> = places.iter().map(|place| currents_ma[*place]).collect();
+        let visited = Coefficients { positions, matrices: None };
+        least_squares::solve(&visited, &currents, &setup.uncertainty().meter, Model::General).is_ok()
+    }
+}
+
+impl Candidates {
+    /// Returns the candidates if every number of them is finite.
+    fn checked(self) -> Result<Self, NoPlan> {
+        let finite = self.candidates.iter().all(|at| {
+            at.rows.as_flattened().iter().chain(&at.fixed).chain(&at.of_visit).all(|value| value.is_finite())
+        });
+        if finite { Ok(self) } else { Err(NoPlan::SingularGyro) }
+    }
+
+    /// Returns the setup of all candidates.
+    #[cfg(test)]
+    pub(crate) fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    /// Returns the parameters of the gyro, drifts per local g.
+    #[cfg(test)]
+    pub(crate) fn gyro(&self) -> crate::gyro::GyroParameters {
+        self.unknowns.parameters
+    }
+}

@@ -1,0 +1,205 @@
+//! The best positions to certify, or of a certified stand's positions to read: how often each, in which order, and with
+//! the frame's axis at which azimuth.
+//!
+//! A reading is one visit of a position. Its errors are those of a calibration by least squares: specification and
+//! noise of the meter, noise of the gyro from visit to visit, repeatability and certified angles of the stand. Errors
+//! that all positions share do not depend on the choice in this way; [`sensitivity`] computes what they cost and
+//! whether the residuals would show them.
+//!
+//! * `candidates`: positions to choose from, with the information that their visits give.
+//! * `criterion`: what a plan is compared by.
+//! * `search`: the best numbers of visits, by enumeration or by exchange.
+//! * `order`: the order of visits that a drift of ω_0 affects least.
+//! * `sensitivity`: errors that all positions share.
+//! * `document`: the plan as JSON.
+
+pub(crate) mod candidates;
+pub(crate) mod criterion;
+pub(crate) mod document;
+pub(crate) mod order;
+pub(crate) mod search;
+pub(crate) mod sensitivity;
+
+use crate::attitude::PAPER_FRAME_AXIS_AZIMUTH_DEG;
+use crate::calibration::least_squares::NoLeastSquares;
+use crate::calibration::parameter::Parameter;
+use crate::calibration::{NoSetup, NotStated};
+use crate::coefficients::PositionIndex;
+use crate::gyro::GyroType;
+use crate::laboratory::Laboratory;
+use crate::site::Site;
+use crate::stand::Stand;
+use candidates::{Angles, Candidates, Design};
+use criterion::Criterion;
+use order::Order;
+use sensitivity::Effect;
+
+/// Smallest number of readings: each gives two equations, and there are eight parameters.
+pub(crate) const FEWEST_READINGS: u32 = 4;
+
+/// Largest number of readings.
+pub(crate) const MOST_READINGS: u32 = 256;
+
+/// Smallest growth of an uncertainty that is reported.
+const GROWTH: f64 = 1.005;
+
+/// What a plan is for.
+#[derive(Debug, Clone)]
+pub(crate) struct Question<'a> {
+    /// Site; its azimuth of the frame's axis is replaced by each of `azimuths_deg`.
+    pub site: &'a Site,
+    /// Certified stand to read; without one, `angles` are the candidates.
+    pub stand: Option<&'a Stand>,
+    /// Nominal angles of candidates without a stand.
+    pub angles: Angles,
+    /// Gyro type.
+    pub gyro: &'a GyroType,
+    /// Laboratory, of which the meter and the seat count.
+    pub laboratory: &'a Laboratory,
+    /// Number of readings, [`FEWEST_READINGS`] to [`MOST_READINGS`].
+    pub readings: u32,
+    /// Azimuths of the frame's axis to choose from, degrees; at least one.
+    pub azimuths_deg: Vec<f64>,
+    /// What plans are compared by.
+    pub criterion: Criterion,
+}
+
+/// Reason why there is no plan.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub(crate) enum NoPlan {
+    /// A stand whose matrix n_2 has no inverse, or an invalid uncertainty.
+    #[error(transparent)]
+    Setup(#[from] NoSetup),
+    /// Nominal scale factors without an inverse.
+    #[error("the gyro type's scale factors have no inverse; correct nominal.k_deg_per_h_per_ma")]
+    SingularGyro,
+    /// A parameter without a tolerance.
+    #[error(
+        "the tolerance of {} is 0, and a plan weighs the uncertainties in units of the tolerances; state positive \
+         tolerances, and nominal values of K that are not 0",
+        .0.symbol()
+    )]
+    NoTolerance(Parameter),
+    /// Candidates that do not determine the parameters, however often they are read.
+    #[error(
+        "{0}; certify other positions, such as the paper's eight or theta = 90 and 270 deg with the frame's axis north"
+    )]
+    Undetermined(NoLeastSquares),
+    /// No choice of so few readings determines the parameters.
+    #[error("no choice of {readings} readings determines the eight parameters; allow more with --readings")]
+    TooFew {
+        /// Number of readings.
+        readings: u32,
+    },
+}
+
+/// Position of a plan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Visited {
+    /// Frame angle θ, degrees.
+    pub theta_deg: f64,
+    /// Platform angle φ, degrees.
+    pub phi_deg: f64,
+    /// Index of the certified position; `None` without a stand.
+    pub index: Option<PositionIndex>,
+    /// Number of visits.
+    pub visits: u32,
+}
+
+/// Value of a design, with its uncertainties.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Evaluation {
+    /// Value by the criterion.
+    pub value: f64,
+    /// Standard uncertainties in the order of [`Parameter::EIGHT`].
+    pub standard_uncertainty: [f64; 8],
+    /// Effects of errors that all positions share.
+    pub effects: Vec<Effect>,
+}
+
+/// A plan.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Plan {
+    pub criterion: Criterion,
+    /// Azimuth of the frame's axis, degrees.
+    pub frame_axis_azimuth_deg: f64,
+    /// Positions with at least one visit, in the order of the candidates.
+    pub readings: Vec<Visited>,
+    /// Order of the visits.
+    pub order: Order,
+    pub evaluation: Evaluation,
+    /// The paper's eight positions with the frame's axis east and as many readings; `None` if the stand lacks one of
+    /// them, or eight does not divide the number of readings.
+    pub paper: Option<Evaluation>,
+    /// Tolerances in the units of the parameters, in the order of [`Parameter::EIGHT`].
+    pub tolerance: [f64; 8],
+    /// Number of candidates.
+    pub candidates: usize,
+    /// `true` if every choice was compared; `false` if the plan was found by exchange.
+    pub exhaustive: bool,
+    /// `true` if the paper's eight positions are in the plan, so that its matrices and closed methods exist.
+    pub has_matrices: bool,
+    /// `true` if the plan also determines the twelve parameters of the general model.
+    pub has_general_model: bool,
+    /// Inputs of single positions whose uncertainty the certificate does not state; they count as 0.
+    pub of_positions_not_stated: Vec<NotStated>,
+    /// `true` if the gyro type states no noise from visit to visit, which then counts as 0.
+    pub noise_not_stated: bool,
+}
+
+impl Plan {
+    /// Returns the parameters whose uncertainty is larger than that of the paper's eight, with the ratio.
+    pub(crate) fn worse(&self) -> Vec<(Parameter, f64)> {
+        let Some(paper) = &self.paper else { return Vec::new() };
+        let ratio = |parameter: Parameter| {
+            let place = parameter.place();
+            self.evaluation.standard_uncertainty[place] / paper.standard_uncertainty[place]
+        };
+        let each = Parameter::EIGHT.into_iter().map(|parameter| (parameter, ratio(parameter)));
+        each.filter(|(_, ratio)| *ratio > GROWTH).collect()
+    }
+}
+
+/// Finds the best plan.
+///
+/// # Errors
+/// Returns [`NoPlan`] if the inputs are unusable or no choice determines the parameters.
+pub(crate) fn plan(question: &Question) -> Result<Plan, NoPlan> {
+    let mut best: Option<(Candidates, search::Found)> = None;
+    for azimuth_deg in &question.azimuths_deg {
+        let candidates = Candidates::new(question, *azimuth_deg)?;
+        let found = search::best(&candidates, question.readings, question.criterion);
+        let Some(found) = found else { continue };
+        if best.as_ref().is_none_or(|(_, best)| search::is_better(&found, best)) {
+            best = Some((candidates, found));
+        }
+    }
+    let Some((candidates, found)) = best else { return Err(NoPlan::TooFew { readings: question.readings }) };
+    let design = Design::new(&candidates, &found.visits).ok_or(NoPlan::TooFew { readings: question.readings })?;
+    let has_matrices = candidates.has_eight(&found.visits);
+    Ok(Plan {
+        criterion: question.criterion,
+        frame_axis_azimuth_deg: candidates.frame_axis_azimuth_deg,
+        readings: design.readings(),
+        order: order::best(&design),
+        evaluation: design.evaluation(question.criterion),
+        paper: paper(question)?,
+        tolerance: candidates.tolerance,
+        candidates: candidates.len(),
+        exhaustive: found.exhaustive,
+        has_matrices,
+        has_general_model: design.determines_general_model(),
+        of_positions_not_stated: candidates.not_stated(),
+        noise_not_stated: question.gyro.noise.as_ref().is_none_or(|noise| noise.visit_deg_per_h.is_none()),
+    })
+}
+
+/// Evaluates the paper's eight positions with the frame's axis east, each visited an eighth of the readings.
+fn paper(question: &Question) -> Result<Option<Evaluation>, NoPlan> {
+    if !question.readings.is_multiple_of(8) {
+        return Ok(None);
+    }
+    let Some(candidates) = Candidates::paper(question, PAPER_FRAME_AXIS_AZIMUTH_DEG)? else { return Ok(None) };
+    let visits = vec![question.readings / 8; candidates.len()];
+    Ok(Design::new(&candidates, &visits).map(|design| design.evaluation(question.criterion)))
+}

@@ -1,0 +1,152 @@
+//! Errors that all positions share: what they change in the parameters, and what they leave in the residuals.
+//!
+//! An error e of the misclosures changes the parameters by b = Σ G_p e_p and leaves r_p = e_p − F_p b. It is computed from
+//! the sensitivities of the calibration, so nothing here says beforehand which errors a plan can see.
+
+use super::candidates::Design;
+use crate::calibration::sensitivity::{Sensitivity, Shared};
+use crate::units::radians_from_arcseconds;
+use nalgebra::Vector3;
+
+/// Error that all positions share.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum CommonError {
+    Azimuth,
+    LevelAboutNorth,
+    LevelAboutEast,
+    SeatAboutZ,
+    SeatAboutX,
+    SeatAboutY,
+    Latitude,
+    Gain,
+    Offset,
+}
+
+impl CommonError {
+    /// All errors, in the order of tables.
+    pub(crate) const ALL: [Self; 9] = [
+        Self::Azimuth,
+        Self::LevelAboutNorth,
+        Self::LevelAboutEast,
+        Self::SeatAboutZ,
+        Self::SeatAboutX,
+        Self::SeatAboutY,
+        Self::Latitude,
+        Self::Gain,
+        Self::Offset,
+    ];
+
+    /// Returns the name of the error.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Azimuth => "azimuth of the base",
+            Self::LevelAboutNorth => "level about north",
+            Self::LevelAboutEast => "level about east",
+            Self::SeatAboutZ => "gyro seat about z",
+            Self::SeatAboutX => "gyro seat about x",
+            Self::SeatAboutY => "gyro seat about y",
+            Self::Latitude => "latitude",
+            Self::Gain => "gain of the meter",
+            Self::Offset => "offset of the meter",
+        }
+    }
+
+    /// Returns the size for which the effects are stated, and its unit.
+    pub(crate) fn size(self) -> (f64, &'static str) {
+        match self {
+            Self::Azimuth | Self::SeatAboutZ => (30.0, "arcsec"),
+            Self::LevelAboutNorth | Self::LevelAboutEast | Self::SeatAboutX | Self::SeatAboutY => (5.0, "arcsec"),
+            Self::Latitude => (10.0, "arcsec"),
+            Self::Gain => (0.01, "%"),
+            Self::Offset => (1e-4, "mA"),
+        }
+    }
+
+    /// Returns the size in the unit of the sensitivities: rad, share, or mA.
+    fn in_model_unit(self) -> f64 {
+        let (size, unit) = self.size();
+        match unit {
+            "arcsec" => radians_from_arcseconds(size),
+            "%" => size / 100.0,
+            _ => size,
+        }
+    }
+
+    fn shared(self) -> Shared {
+        match self {
+            Self::Azimuth => Shared::Base(Vector3::z()),
+            Self::LevelAboutNorth => Shared::Base(Vector3::y()),
+            Self::LevelAboutEast => Shared::Base(Vector3::x()),
+            Self::SeatAboutZ => Shared::Case(Vector3::z()),
+            Self::SeatAboutX => Shared::Case(Vector3::x()),
+            Self::SeatAboutY => Shared::Case(Vector3::y()),
+            Self::Latitude => Shared::Latitude,
+            Self::Gain => Shared::Gain,
+            Self::Offset => Shared::Offset,
+        }
+    }
+}
+
+/// Smallest change of a parameter, in units of its tolerance, that counts as an effect.
+const SMALLEST_EFFECT: f64 = 1e-3;
+
+/// Effect of an error on a design.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Effect {
+    pub error: CommonError,
+    /// Changes of the parameters in their units, in the order of [`crate::calibration::parameter::Parameter::EIGHT`].
+    pub change: [f64; 8],
+    /// Largest change in units of its tolerance.
+    pub largest_over_tolerance: f64,
+    /// Largest residual, °/h.
+    pub largest_residual_deg_per_h: f64,
+    /// √(Σ r' C⁻¹ r): the residuals in units of their own noise.
+    pub residuals_over_noise: f64,
+}
+
+impl Effect {
+    /// Returns `true` if the error changes a parameter noticeably, by more than a thousandth of its tolerance.
+    pub(crate) fn matters(&self) -> bool {
+        self.largest_over_tolerance > SMALLEST_EFFECT
+    }
+
+    /// Returns `true` if the residuals that the error leaves are hidden in their noise.
+    pub(crate) fn is_hidden(&self) -> bool {
+        self.residuals_over_noise < 1.0
+    }
+}
+
+/// Returns the effect of every common error on a design.
+pub(crate) fn effects(design: &Design) -> Vec<Effect> {
+    let sensitivity = Sensitivity::new(&design.candidates.setup, &design.candidates.unknowns);
+    let each = CommonError::ALL.map(|error| effect(design, &sensitivity, error));
+    each.to_vec()
+}
+
+fn effect(design: &Design, sensitivity: &Sensitivity, error: CommonError) -> Effect {
+    let currents_ma = &design.candidates.currents_ma;
+    let shared = error.shared();
+    let misclosure = |place: usize| sensitivity.to_shared(place, &currents_ma[place], &shared) * error.in_model_unit();
+    let mut over_tolerance = [0.0; 8];
+    for (place, _) in design.visited() {
+        let (of_axes, misclosure) = (design.response(place), misclosure(place));
+        for (response, misclosure) in of_axes.iter().zip(misclosure.iter()) {
+            over_tolerance.iter_mut().zip(response).for_each(|(sum, value)| *sum += value * misclosure);
+        }
+    }
+    let (mut largest_residual, mut square) = (0.0_f64, 0.0);
+    for (place, _) in design.visited() {
+        let residual = misclosure(place) - design.misclosure(place, &over_tolerance);
+        largest_residual = largest_residual.max(residual.amax());
+        square += design.weighted_square(place, &residual);
+    }
+    let mut change = over_tolerance;
+    change.iter_mut().zip(&design.candidates.tolerance).for_each(|(value, unit)| *value *= unit);
+    Effect {
+        error,
+        change,
+        largest_over_tolerance: over_tolerance.iter().fold(0.0, |most, value| most.max(value.abs())),
+        largest_residual_deg_per_h: largest_residual,
+        residuals_over_noise: square.sqrt(),
+    }
+}

@@ -1,0 +1,122 @@
+//! A plan next to the paper's eight positions as a picture file: the uncertainty of each parameter, and what errors
+//! cost that all positions share.
+
+use super::drawing::{Anchor, Panel, Point, Scale, label, number, plain_symbol, rectangle, symbol, words};
+use super::file::{caption, file};
+use crate::calibration::parameter::Parameter;
+use crate::plan::sensitivity::Effect;
+use crate::plan::{Evaluation, Plan};
+use crate::report::page::language::{Language, Languages};
+use crate::report::page::number::Number;
+use maud::{Markup, html};
+
+/// Left and right end of the bars of both panels. Names are to their left, numbers to their right.
+const BARS: [Point; 2] = [[52.0, 262.0], [520.0, 730.0]];
+const WIDTH: f64 = 790.0;
+const TOP: f64 = 62.0;
+const ROW: f64 = 30.0;
+const BAR: f64 = 11.0;
+
+/// A row of a panel: its name, and the values of the plan and of the paper's eight, % of the tolerance.
+type Row = (Markup, f64, Option<f64>);
+
+/// Draws a plan, in black and white.
+pub(crate) fn plan(plan: &Plan) -> String {
+    let uncertainties: Vec<Row> = Parameter::AS_IN_THE_PAPER
+        .map(|parameter| {
+            let share = |of: &Evaluation| {
+                100.0 * of.standard_uncertainty[parameter.place()] / plan.tolerance[parameter.place()]
+            };
+            (symbol(parameter.symbol()), share(&plan.evaluation), plan.paper.as_ref().map(share))
+        })
+        .into();
+    let errors = plan.evaluation.effects.iter().enumerate().map(|(place, effect)| {
+        let percent = |effect: &Effect| 100.0 * effect.largest_over_tolerance;
+        let paper = plan.paper.as_ref().map(|paper| percent(&paper.effects[place]));
+        (html! { (name_of(effect)) }, percent(effect), paper)
+    });
+    let errors: Vec<Row> = errors.collect();
+    let rows = uncertainties.len().max(errors.len());
+    let drawing = [
+        key(plan),
+        words([14.0, TOP - 12.0], Anchor::Start, "title", "Standard uncertainty, % of the tolerance"),
+        words([400.0, TOP - 12.0], Anchor::Start, "title", "Largest change by a common error, % of the tolerance"),
+        panel(&uncertainties, BARS[0]),
+        panel(&errors, BARS[1]),
+    ];
+    let languages = Languages::from(Language::English);
+    let height = TOP + ROW * rows as f64 + 10.0;
+    let picture = Panel { name: "plan", languages: &languages, size: [WIDTH, height] };
+    file(&picture, "Plan of readings", &in_words(plan, &errors), &drawing)
+}
+
+fn name_of(effect: &Effect) -> String {
+    let (size, unit) = effect.error.size();
+    let unit = match unit {
+        "arcsec" => "″".to_owned(),
+        unit => format!("\u{a0}{unit}"),
+    };
+    format!("{} {size}{unit}", effect.error.name())
+}
+
+fn key(plan: &Plan) -> Markup {
+    let sample = |class: &str| rectangle([2.0, 3.0], [28.0, 13.0], class, None);
+    let axis = format!("plan, frame’s axis at {}°", plan.frame_axis_azimuth_deg);
+    let mut entries = vec![(sample("bar"), axis.as_str())];
+    if plan.paper.is_some() {
+        entries.push((sample("bar open"), "paper’s eight positions, axis at 90°"));
+    }
+    caption([14.0, 20.0], "", &entries)
+}
+
+fn panel(rows: &[Row], [left, right]: Point) -> Markup {
+    let longest = rows.iter().flat_map(|(_, plan, paper)| [*plan, paper.unwrap_or(0.0)]).fold(0.0, f64::max);
+    // Without any length any scale will do.
+    let scale = Scale { values: [0.0, if longest > 0.0 { longest } else { 1.0 }], places: [left, right] };
+    let bar = |value: f64, top: f64, class: &str| {
+        // A bar of no visible length has no outline either.
+        let width = scale.place(value) - left;
+        html! {
+            @if width >= 0.3 { (rectangle([left, top], [left + width, top + BAR - 1.0], class, None)) }
+            (number([left + width + 5.0, top + BAR - 2.0], Anchor::Start, value, &percent(value)))
+        }
+    };
+    html! {
+        @for (place, (name, plan, paper)) in rows.iter().enumerate() {
+            @let top = TOP + ROW * place as f64;
+            (label([left - 7.0, top + BAR + 3.0], Anchor::End, "", name))
+            (bar(*plan, top, "bar"))
+            @if let Some(paper) = paper { (bar(*paper, top + BAR, "bar open")) }
+        }
+    }
+}
+
+/// Formats a percentage: two digits, or 0 where only rounding is left.
+fn percent(value: f64) -> String {
+    if value < 1e-6 { "0".to_owned() } else { Number::significant(value, 2).text(Language::English) }
+}
+
+fn in_words(plan: &Plan, errors: &[Row]) -> String {
+    let of = |name: &str, value: f64, paper: Option<f64>| {
+        let paper = paper.map_or_else(String::new, |paper| format!(" (paper’s eight: {} %)", percent(paper)));
+        format!("{name} {} %{paper}", percent(value))
+    };
+    let share = |of: &Evaluation, place: usize| 100.0 * of.standard_uncertainty[place] / plan.tolerance[place];
+    let uncertainties = Parameter::AS_IN_THE_PAPER.map(|parameter| {
+        let place = parameter.place();
+        let paper = plan.paper.as_ref().map(|paper| share(paper, place));
+        of(&plain_symbol(parameter.symbol()), share(&plan.evaluation, place), paper)
+    });
+    let errors: Vec<String> = plan
+        .evaluation
+        .effects
+        .iter()
+        .zip(errors)
+        .map(|(effect, (_, value, paper))| of(&name_of(effect), *value, *paper))
+        .collect();
+    format!(
+        "Standard uncertainty in % of the tolerance: {}. Largest change of a parameter in % of its tolerance: {}.",
+        uncertainties.join("; "),
+        errors.join("; ")
+    )
+}

@@ -1,0 +1,231 @@
+//! A plan as text, for a terminal of 100 columns.
+
+use super::columns;
+use crate::calibration::parameter::Parameter;
+use crate::plan::criterion::Criterion;
+use crate::plan::sensitivity::Effect;
+use crate::plan::{Plan, Visited};
+use crate::text::number::decimal;
+use crate::units::printed;
+use std::fmt::Write;
+
+/// Rise of ω_0 during the run for which the text states its effect, °/h.
+const DRIFT_DEG_PER_H: f64 = 0.01;
+
+/// Returns the plan: positions, order, uncertainties next to those of the paper's eight, and what it cannot see.
+/// `site` is the identifier of the site, and `site_azimuth_deg` its azimuth of the frame's axis.
+pub(crate) fn text(plan: &Plan, site: &str, site_azimuth_deg: f64) -> String {
+    let mut out = String::new();
+    let readings: u32 = plan.readings.iter().map(|at| at.visits).sum();
+    let how = match plan.exhaustive {
+        true => "the best of all choices",
+        false => "found by exchange",
+    };
+    let _ = writeln!(
+        out,
+        "Plan for {site}: {readings} readings in {} of {} positions, frame's axis at {}",
+        plan.readings.len(),
+        plan.candidates,
+        azimuth(plan.frame_axis_azimuth_deg)
+    );
+    let _ = writeln!(out, "Criterion {}; {how}\n", of_criterion(plan.criterion));
+    positions(&mut out, plan);
+    uncertainties(&mut out, plan);
+    common_errors(&mut out, plan);
+    out.push('\n');
+    for sentence in remarks(plan, site_azimuth_deg) {
+        columns::paragraph(&mut out, "", &sentence);
+    }
+    out
+}
+
+fn azimuth(azimuth_deg: f64) -> String {
+    let name = match azimuth_deg {
+        0.0 => " (north)",
+        90.0 => " (east)",
+        180.0 => " (south)",
+        270.0 => " (west)",
+        _ => "",
+    };
+    format!("{azimuth_deg} deg{name}")
+}
+
+fn of_criterion(criterion: Criterion) -> &'static str {
+    match criterion {
+        Criterion::A => "a: sum of (u/tolerance)²",
+        Criterion::D => "d: ln det of the covariance in units of the tolerances",
+        Criterion::Worst => "worst: largest u/tolerance",
+    }
+}
+
+fn positions(out: &mut String, plan: &Plan) {
+    let certified = plan.readings.iter().any(|at| at.index.is_some());
+    let mut names = vec!["theta, deg", "phi, deg", "visits"];
+    if certified {
+        names.splice(0..0, ["i", "j"]);
+    }
+    let row = |at: &Visited| {
+        let mut row: Vec<String> =
+            at.index.iter().flat_map(|index| [index.i.to_string(), index.j.to_string()]).collect();
+        row.extend([at.theta_deg.to_string(), at.phi_deg.to_string(), at.visits.to_string()]);
+        row
+    };
+    columns::table(out, &names, &plan.readings.iter().map(row).collect::<Vec<_>>());
+    let visit = |place: &usize| {
+        let at = &plan.readings[*place];
+        match at.index {
+            // Without a space, so that both numbers stay on one line.
+            Some(index) => format!("({},{})", index.i, index.j),
+            None => format!("({},{})", at.theta_deg, at.phi_deg),
+        }
+    };
+    let order: Vec<String> = plan.order.places.iter().map(visit).collect();
+    let names = if certified { "(i,j)" } else { "(theta,phi)" };
+    out.push('\n');
+    columns::paragraph(out, "", &format!("Order of the visits {names}: {}", order.join(", ")));
+    out.push('\n');
+}
+
+fn uncertainties(out: &mut String, plan: &Plan) {
+    let mut names = vec!["", "unit", "u", "% of tolerance"];
+    if plan.paper.is_some() {
+        names.extend(["u, paper's eight", "ratio"]);
+    }
+    let row = |parameter: Parameter| {
+        let place = parameter.place();
+        let u = plan.evaluation.standard_uncertainty[place];
+        let shown = |u: f64| format!("{u:.*}", columns::decimals(u));
+        let mut row = vec![
+            parameter.symbol().to_owned(),
+            printed(parameter.unit()),
+            shown(u),
+            format!("{:.1}", 100.0 * u / plan.tolerance[place]),
+        ];
+        if let Some(paper) = &plan.paper {
+            let other = paper.standard_uncertainty[place];
+            row.extend([shown(other), format!("{:.2}", u / other)]);
+        }
+        row
+    };
+    columns::table(out, &names, &Parameter::AS_IN_THE_PAPER.map(row));
+    let value = plan.evaluation.value;
+    let mut words = format!("Value: {}.", significant(value));
+    if let Some(paper) = &plan.paper {
+        let ratio = plan.criterion.ratio(value, paper.value);
+        let paper = significant(paper.value);
+        let _ = write!(
+            words,
+            " The paper's eight positions with the axis east: {paper}. As one uncertainty, the plan's is {ratio:.3} times \
+             theirs."
+        );
+    }
+    columns::paragraph(out, "", &words);
+}
+
+/// Formats a value with four significant digits.
+fn significant(value: f64) -> String {
+    let digits = if value == 0.0 { 0.0 } else { 3.0 - libm::floor(libm::log10(value.abs())) };
+    format!("{value:.*}", digits.clamp(0.0, 12.0) as usize)
+}
+
+fn common_errors(out: &mut String, plan: &Plan) {
+    out.push_str(
+        "\nErrors that all positions share: largest change of a parameter in % of its tolerance, largest residual\n",
+    );
+    let mut names = vec!["error", "size", "change, %", "residual, deg/h"];
+    if plan.paper.is_some() {
+        names.extend(["paper: change, %", "residual, deg/h"]);
+    }
+    let cells = |effect: &Effect| {
+        // Rounding leaves about 1e-15.
+        let residual = effect.largest_residual_deg_per_h;
+        let residual = if residual < 1e-12 { "0".to_owned() } else { format!("{residual:.1e}") };
+        [percent(effect.largest_over_tolerance), residual]
+    };
+    let rows = plan.evaluation.effects.iter().enumerate().map(|(place, effect)| {
+        let (size, unit) = effect.error.size();
+        let mut row = vec![effect.error.name().to_owned(), format!("{size} {unit}")];
+        row.extend(cells(effect));
+        row.extend(plan.paper.iter().flat_map(|paper| cells(&paper.effects[place])));
+        row
+    });
+    columns::table(out, &names, &rows.collect::<Vec<_>>());
+}
+
+/// Formats a share in percent: two digits, or 0 where only rounding is left.
+fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    match percent {
+        small if small < 1e-6 => "0".to_owned(),
+        small if small < 0.095 => format!("{small:.1e}"),
+        small if small < 9.5 => format!("{small:.1}"),
+        large => format!("{large:.0}"),
+    }
+}
+
+/// Returns what a user of the plan must know besides the numbers.
+fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let names = |these: &dyn Fn(&&Effect) -> bool| {
+        let names: Vec<&str> = plan.evaluation.effects.iter().filter(these).map(|at| at.error.name()).collect();
+        names.join(", ")
+    };
+    let unseen = names(&|effect| effect.matters() && effect.is_hidden());
+    if !unseen.is_empty() {
+        remarks.push(format!(
+            "This plan cannot see the following errors, because the residuals do not show them: {unseen}."
+        ));
+    }
+    let shown = names(&|effect| effect.matters() && !effect.is_hidden());
+    if !shown.is_empty() {
+        remarks.push(format!("The residuals show errors of this size: {shown}."));
+    }
+    let harmless = names(&|effect| !effect.matters());
+    if !harmless.is_empty() {
+        remarks.push(format!("Almost without effect on it (below 0.1 % of every tolerance): {harmless}."));
+    }
+    let worse: Vec<String> =
+        plan.worse().iter().map(|(parameter, ratio)| format!("{} {ratio:.2} times", parameter.symbol())).collect();
+    match (&plan.paper, worse.as_slice()) {
+        (None, _) => {}
+        (Some(_), []) => remarks.push("No parameter is more uncertain than with the paper's eight.".to_owned()),
+        (Some(_), worse) => {
+            remarks.push(format!("More uncertain than with the paper's eight: {}.", worse.join(", ")));
+        }
+    }
+    if !plan.has_matrices {
+        remarks.push(
+            "The plan lacks some of the paper's eight positions: without them a passport has no matrices, and only least \
+             squares applies."
+                .to_owned(),
+        );
+    }
+    if !plan.has_general_model {
+        remarks.push("It does not determine the general model, the full matrix of g-sensitive drift.".to_owned());
+    }
+    if 2 * plan.readings.len() == Parameter::EIGHT.len() {
+        remarks.push("Four positions leave no degrees of freedom: the fit cannot be tested.".to_owned());
+    }
+    remarks.push(format!(
+        "In this order an ω_0 that rises by {DRIFT_DEG_PER_H} deg/h on both axes during the run changes no parameter by \
+         more than {} % of its tolerance.",
+        percent(DRIFT_DEG_PER_H * plan.order.largest_over_tolerance)
+    ));
+    if plan.frame_axis_azimuth_deg != site_azimuth_deg {
+        remarks.push(format!(
+            "The site file has the frame's axis at {}; for this plan set up the base so that the axis points to {}, and state \
+             frame_axis_azimuth_deg: {}.",
+            azimuth(site_azimuth_deg),
+            azimuth(plan.frame_axis_azimuth_deg),
+            decimal(plan.frame_axis_azimuth_deg)
+        ));
+    }
+    if !plan.has_matrices && plan.readings.iter().all(|at| at.index.is_none()) {
+        remarks.push("The stand must have these positions certified; the paper's eight are not enough.".to_owned());
+    }
+    let not_stated: Vec<&str> = plan.not_stated().collect();
+    if !not_stated.is_empty() {
+        remarks.push(format!("Not stated, and taken as 0: {}.", not_stated.join("; ")));
+    }
+    remarks
+}
