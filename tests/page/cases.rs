@@ -55,6 +55,8 @@ pub fn all() -> Vec<Case> {
         case("many-en", &many_positions(), fixtures::SITE, &[English]),
         case("many-ru", &many_positions(), fixtures::SITE, &[Russian]),
         case("four-ru", &four_positions(), BARE_SITE, &[Russian]),
+        case("north-both", fixtures::DEGREES, &pointing(0.0), &[Russian, English]),
+        case("many-north-west-en", &many_positions(), &pointing(321.5), &[English]),
         case("bare-en", BARE_STAND, BARE_SITE, &[English]),
         case("bare-ru", BARE_STAND, BARE_SITE, &[Russian]),
         full("elsewhere-en", &[English]).asking(wrong.clone()),
@@ -181,6 +183,11 @@ positions:
   - {i: 2, j: 3, theta_deg: 90, phi_deg: 180, alpha_arcsec: 18.0, beta_arcsec: -73.5, gamma_arcsec: -9.3}
   - {i: 2, j: 4, theta_deg: 90, phi_deg: 270, alpha_arcsec: 39.6, beta_arcsec: 26.8, gamma_arcsec: -81.4}
 "#;
+
+/// The usual site with the frame's axis at an azimuth.
+fn pointing(azimuth_deg: f64) -> String {
+    format!("{}frame_axis_azimuth_deg: {azimuth_deg:?}\n", fixtures::SITE)
+}
 
 const BARE_SITE: &str = r#"format: "dtg-site/1"
 id: "somewhere"
