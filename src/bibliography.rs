@@ -63,6 +63,12 @@ pub enum Bibliography {
     /// ISO 5725-2:1994, Accuracy (trueness and precision) of measurement methods and results, part 2, 7.3: a value that
     /// fails the test at 1 % is an outlier; one that fails only at 5 % is a straggler.
     Iso5725,
+    /// ISO/TS 28037:2010, Determination and use of straight-line calibration functions: clause 6, known uncertainties of
+    /// the ordinates.
+    Iso28037,
+    /// S. Holm, "A simple sequentially rejective multiple test procedure", Scandinavian Journal of Statistics 6, 1979,
+    /// 65-70.
+    Holm79,
     /// S. R. Searle, G. Casella and C. E. McCulloch, Variance Components, Wiley, 1992: estimation by equating sums of
     /// squares to their expectations (chapter 5).
     Searle92,

@@ -61,6 +61,7 @@
 //! | [`revocation`] | the signed list of withdrawn passports | |
 //! | [`passport`] | content and verification; issue and re-issue with `factory` | |
 //! | [`register`] | what is in force among many | |
+//! | `history` | one stand over the years, and whether its deviations drift | |
 //! | [`certification`] | readings of the angles to a stand, and whether it is still the same one | `factory` |
 //! | `plan` | the best positions to certify or to read, and their order | `factory` and `monte-carlo` |
 //! | `files`, [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports | `factory` |
@@ -108,6 +109,7 @@ pub(crate) mod files;
 #[cfg(feature = "factory")]
 pub mod folder;
 pub mod gyro;
+pub(crate) mod history;
 pub mod laboratory;
 pub(crate) mod parallel;
 pub mod passport;

@@ -9,6 +9,9 @@ mod calibrate;
 mod certify;
 mod completions;
 mod demo;
+mod diff;
+mod export;
+mod history;
 mod issue;
 mod key_options;
 mod keygen;
@@ -49,6 +52,9 @@ enum Verb {
     Reissue(reissue::Options),
     Verify(verify::Options),
     Show(show::Options),
+    Export(export::Options),
+    Diff(diff::Options),
+    History(history::Options),
     Render(render::Options),
     Calibrate(calibrate::Options),
     Register(register::Options),
@@ -131,6 +137,9 @@ pub fn main() -> ExitCode {
         Verb::Reissue(options) => reissue::run(&options),
         Verb::Verify(options) => verify::run(&options),
         Verb::Show(options) => show::run(&options),
+        Verb::Export(options) => export::run(&options),
+        Verb::Diff(options) => diff::run(&options),
+        Verb::History(options) => history::run(&options),
         Verb::Render(options) => render::run(&options),
         Verb::Calibrate(options) => calibrate::run(&options),
         Verb::Register(options) => register::run(&options),

@@ -2,9 +2,11 @@
 //! never replace another file.
 //!
 //! * `search`: the files in a folder, and their register.
+//! * `record`: the history of one stand, from the files in a folder.
 
 mod claim;
 mod names;
+pub(crate) mod record;
 pub(crate) mod search;
 mod superseding;
 mod visited;

@@ -52,6 +52,20 @@ pub(crate) fn find(root: &Path) -> Result<Found, FileError> {
     Ok(found)
 }
 
+/// Returns the files under `root` that claim to be passports, at any depth, with an error for each entry that was not
+/// read. They are recognised by content; nothing in them is verified.
+///
+/// # Errors
+/// Returns [`FileError::Read`] if `root` cannot be read.
+pub(crate) fn passports(root: &Path) -> Result<Vec<Result<PathBuf, FileError>>, FileError> {
+    let found = find(root)?;
+    let claims = found.files.into_iter().filter_map(|path| match files::read_first(&path, LARGEST_DOCUMENT_BYTES) {
+        Ok(bytes) => (Claim::of(&path, &bytes) == Some(Claim::Passport)).then_some(Ok(path)),
+        Err(error) => Some(Err(error)),
+    });
+    Ok(claims.chain(found.unreadable.into_iter().map(Err)).collect())
+}
+
 /// Returns the register of a folder and the trust extended by its lists of withdrawn passports.
 ///
 /// Lists in the folders up to two levels above also extend the trust. `threads` threads do the work.

@@ -10,11 +10,16 @@
 //! * `place`: comparison of a place with the site.
 //! * `verification`: the six steps, and "may I use this passport, on this stand, here, now?".
 //! * [`reissue`]: re-issue of a passport as its successor.
+//! * `difference`: differences of two passports, number by number.
+//! * `export`: stand and site of a passport as files again.
 
 pub(crate) mod accuracy;
 pub(crate) mod annotations;
 pub(crate) mod checks;
 pub(crate) mod content;
+pub(crate) mod difference;
+#[cfg(feature = "factory")]
+pub(crate) mod export;
 #[cfg(feature = "factory")]
 pub mod issue;
 pub(crate) mod place;

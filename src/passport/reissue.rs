@@ -7,7 +7,7 @@ use super::issue::{Draft, Issue, IssueRefused, PreparedStand, Reissued};
 use super::verification::Verification;
 use crate::document::sha256_hex;
 use crate::site::Site;
-use crate::stand::{STAND_FORMAT, Stand};
+use crate::stand::Stand;
 use crate::text::{Field, Node, number, rule};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -123,7 +123,7 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         let (issued_at, old) = (order.issued_at, old.passport.issued_at);
         return Err(ReissueRefused::BeforeOld { issued_at, old });
     }
-    let prepared = order.stand.clone().unwrap_or_else(|| Arc::new(PreparedStand::new(stand_of(old))));
+    let prepared = order.stand.clone().unwrap_or_else(|| Arc::new(PreparedStand::new(old.to_stand())));
     let stand = prepared.stand();
     let site = order.site.clone().unwrap_or_else(|| old.site.clone());
     let name = |model: &dyn std::fmt::Display, serial: &dyn std::fmt::Display| format!("{model} {serial}");
@@ -161,7 +161,7 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         allow_uncalibratable: order.allow_uncalibratable,
     };
     let says_the_same = matches!(usable, Usable::Whole)
-        && *stand == stand_of(old)
+        && *stand == old.to_stand()
         && site == old.site
         && issue.issuer == old.passport.issuer
         && issue.valid_until.or(stand.certificate.valid_until) == old.passport.valid_until;
@@ -201,16 +201,6 @@ fn usable(verification: &Verification) -> Result<Usable, ReissueRefused> {
         }
     }
     Ok(usable)
-}
-
-fn stand_of(old: &Content) -> Stand {
-    Stand {
-        format: STAND_FORMAT.to_owned(),
-        stand: old.stand.clone(),
-        certificate: old.certificate.clone(),
-        datum: old.datum.clone(),
-        positions: old.positions.clone(),
-    }
 }
 
 impl Successor {

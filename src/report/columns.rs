@@ -102,6 +102,13 @@ pub(crate) fn decimals(u: f64) -> usize {
     usize::try_from(1 - exponent).unwrap_or(0).min(12)
 }
 
+/// Formats a value with its sign; a value that rounds to zero has none.
+pub(crate) fn signed(value: f64, decimals: usize) -> String {
+    let printed = format!("{value:+.decimals$}");
+    let is_zero = printed.chars().all(|c| matches!(c, '+' | '-' | '0' | '.'));
+    if is_zero { format!("{:.decimals$}", 0.0) } else { printed }
+}
+
 /// Formats a probability with two digits, or as `< 1e-6`.
 pub(crate) fn probability(p: f64) -> String {
     if p < 1e-6 {

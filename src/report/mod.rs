@@ -6,6 +6,9 @@
 //! * `certification`: a certified stand, and a check run.
 //! * `columns`: text in columns.
 //! * `deviations`: the certified deviations, drawn in block characters.
+//! * `difference`: differences of two passports.
+//! * `exported`: a verified passport as JSON, with what its verification found.
+//! * `history`: one stand over the years.
 //! * `mistake`: the explanation of a result that is not the gyro's.
 //! * `monte_carlo`: coverage intervals, and the test of linear propagation.
 //! * `issued`: the outcome of an order, and warnings for the factory.
@@ -24,6 +27,9 @@ pub(crate) mod calibration;
 pub(crate) mod certification;
 pub(crate) mod columns;
 pub(crate) mod deviations;
+pub(crate) mod difference;
+pub(crate) mod exported;
+pub(crate) mod history;
 #[cfg(feature = "factory")]
 pub(crate) mod issued;
 pub(crate) mod mistake;

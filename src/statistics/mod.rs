@@ -8,6 +8,7 @@
 //! * [`propagation`]: the law of propagation of uncertainty for any model with its gradient.
 //! * [`random`]: streams of random numbers that do not depend on the number of threads or on the platform.
 //! * [`wide_random`]: many random numbers at a time; [`elementary`]: the sine, cosine and logarithm for them.
+//! * [`straight_line`]: a straight line through points of known uncertainty; Holm's correction for many tests.
 //! * [`bins`]: quantiles and coverage intervals of a sample of any size.
 //! * [`summary`]: largest value, mean, standard deviation, percentiles, and the standard error of a share.
 
@@ -23,6 +24,7 @@ pub(crate) mod propagation;
 pub(crate) mod random;
 pub(crate) mod saddle_point;
 pub(crate) mod scaled_f;
+pub(crate) mod straight_line;
 pub(crate) mod summary;
 #[cfg(feature = "monte-carlo")]
 pub(crate) mod wide_random;

@@ -90,8 +90,19 @@ pub(crate) fn outgoing(text: &str, codes: &[&str]) -> String {
 /// # Errors
 /// Returns an error if the value cannot be written as JSON.
 pub(crate) fn json(value: &impl Serialize) -> Result<String, serde_json::Error> {
-    // Outside strings, JSON is ASCII.
-    let text = serde_json::to_string_pretty(value)?;
+    Ok(json_escaped(&serde_json::to_string_pretty(value)?))
+}
+
+/// Returns a value as JSON on a single line, escaped as [`json`] does.
+///
+/// # Errors
+/// Returns an error if the value cannot be written as JSON.
+pub(crate) fn json_line(value: &impl Serialize) -> Result<String, serde_json::Error> {
+    Ok(json_escaped(&serde_json::to_string(value)?))
+}
+
+/// Escapes the invisible characters of a JSON text, all of which are in its strings: outside strings, JSON is ASCII.
+fn json_escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         if visible(c) || c == '\n' {
@@ -102,7 +113,7 @@ pub(crate) fn json(value: &impl Serialize) -> Result<String, serde_json::Error> 
             }
         }
     }
-    Ok(escaped)
+    escaped
 }
 
 #[cfg(test)]

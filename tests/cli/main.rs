@@ -8,6 +8,8 @@ mod fixtures;
 mod programs;
 
 mod certify;
+mod export;
+mod history;
 #[cfg(unix)]
 mod hostile_words;
 mod json_keys;

@@ -52,6 +52,7 @@ transcripts! {
     revisions: "revisions.md",
     trust: "trust.md",
     uncertainty: "uncertainty.md",
+    years: "years.md",
 }
 
 /// Fails with the first line of a transcript that differs from what comes back.

@@ -1,0 +1,209 @@
+//! Verb `export`: verified passports in other forms: stand and site files again, and JSON.
+
+use super::trust_options::TrustOptions;
+use super::{Code, Failure, REFUSED, UNUSABLE, output};
+use crate::batch::paths::{self, Named};
+use crate::document::sha256_hex;
+use crate::folder::search;
+use crate::passport::export::{site_file, stand_file};
+use crate::passport::verification::unreadable;
+use crate::passport::{Content, Question, Trust, Verification, verify};
+use crate::report::{exported, style, verdict};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of, printable, shown};
+use crate::{files, parallel};
+use clap::{Args, ValueEnum};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// Number of passports that are verified at a time.
+const AT_ONCE: usize = 256;
+
+/// Export verified passports: the stand and site files again, or JSON for other programs
+///
+/// PASSPORT is a file, a quoted pattern, or a folder; a - reads a list of paths from standard input. Files are written
+/// to DIR/<model>/<serial>/stand.yaml, DIR/<site id>.yaml and DIR/<model>/<serial>/<site id>-<revision>.json.
+#[derive(Args)]
+pub(super) struct Options {
+    /// Passports
+    #[arg(required = true, value_name = "PASSPORT")]
+    passports: Vec<PathBuf>,
+    /// What to export, separated by commas
+    #[arg(long, value_enum, value_delimiter = ',', required = true, value_name = "FORM")]
+    to: Vec<Form>,
+    #[command(flatten)]
+    trust: TrustOptions,
+    /// Folder to write to [default: the current folder; JSON goes to standard output, one line for each passport]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replace existing files
+    #[arg(long)]
+    force: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Form {
+    /// Stand file (dtg-stand/1)
+    Stand,
+    /// Site file (dtg-site/1)
+    Site,
+    /// Passport with its checks, as JSON
+    Json,
+}
+
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
+    let (trust, question) = options.trust.load()?;
+    let mut run = Run { options, trust, question, written: HashMap::new(), code: 0, next: Vec::new() };
+    let mut list = std::io::stdin().lock();
+    for named in paths::named(&options.passports, &mut list) {
+        match named {
+            Ok(Named::File(path)) => run.push(path)?,
+            Ok(Named::Folder(root)) => {
+                for found in search::passports(&root).map_err(Failure::unusable)? {
+                    match found {
+                        Ok(path) => run.push(path)?,
+                        Err(error) => run.failed(UNUSABLE, &error.to_string()),
+                    }
+                }
+            }
+            Err(failure) => run.failed(UNUSABLE, &failure.why),
+        }
+    }
+    run.chunk()?;
+    Ok(run.code)
+}
+
+/// Passport in the requested forms.
+struct Exported {
+    path: PathBuf,
+    verification: Verification,
+    /// Files to write, by their paths.
+    files: Result<Vec<(PathBuf, String)>, Unreadable>,
+    /// Line for standard output, if JSON goes there.
+    line: Option<String>,
+    /// `true` if the passport could not be read at all.
+    unread: bool,
+}
+
+struct Run<'a> {
+    options: &'a Options,
+    trust: Trust,
+    question: Question,
+    /// SHA-256 of the files written so far, and the passports that they come from.
+    written: HashMap<PathBuf, (String, PathBuf)>,
+    code: Code,
+    next: Vec<PathBuf>,
+}
+
+impl Run<'_> {
+    fn push(&mut self, path: PathBuf) -> Result<(), Failure> {
+        self.next.push(path);
+        if self.next.len() == AT_ONCE { self.chunk() } else { Ok(()) }
+    }
+
+    fn failed(&mut self, code: Code, words: &str) {
+        output::say(words);
+        self.code = self.code.max(code);
+    }
+
+    fn chunk(&mut self) -> Result<(), Failure> {
+        let paths = std::mem::take(&mut self.next);
+        let exported = parallel::map(&paths, parallel::processors(), |path| self.export(path));
+        let mut lines = String::new();
+        for exported in exported {
+            let exported = exported?;
+            lines.extend(exported.line.as_deref());
+            self.write(&exported)?;
+        }
+        output::result(&lines)
+    }
+
+    fn export(&self, path: &Path) -> Result<Exported, Failure> {
+        let name = name_of(path);
+        let (bytes, verification, unread) = match files::read_first(path, LARGEST_DOCUMENT_BYTES + 1) {
+            Ok(bytes) => {
+                let verification = verify(&name, &bytes, &self.trust, &self.question);
+                (bytes, verification, false)
+            }
+            Err(error) => (Vec::new(), unreadable(&error.to_string(), &self.question), true),
+        };
+        let to = |form: Form| self.options.to.contains(&form);
+        let json = || {
+            let node = exported::json(&name, &sha256_hex(&bytes), &verification);
+            printable::json_line(&node).map(|line| line + "\n").map_err(Failure::unusable)
+        };
+        let json = if to(Form::Json) && !unread { Some(json()?) } else { None };
+        let passport = verification.passport();
+        let content = passport.as_ref().map(|passport| passport.content());
+        let files = content.map_or_else(|| Ok(Vec::new()), |content| self.files(content, json.as_deref()));
+        let line = json.filter(|_| self.options.out.is_none());
+        Ok(Exported { path: path.to_owned(), verification, files, line, unread })
+    }
+
+    /// Returns the files of a verified passport.
+    fn files(&self, content: &Content, json: Option<&str>) -> Result<Vec<(PathBuf, String)>, Unreadable> {
+        let root = self.options.out.as_deref().unwrap_or(Path::new(""));
+        let folder = root.join(content.stand.model.as_str()).join(content.stand.serial.as_str());
+        let mut files = Vec::new();
+        if self.options.to.contains(&Form::Stand) {
+            files.push((folder.join("stand.yaml"), stand_file(content)?));
+        }
+        if self.options.to.contains(&Form::Site) {
+            files.push((root.join(format!("{}.yaml", content.site.id)), site_file(content)?));
+        }
+        if let Some(json) = json.filter(|_| self.options.out.is_some()) {
+            let name = format!("{}-{}.json", content.site.id, content.passport.revision);
+            files.push((folder.join(name), json.to_owned()));
+        }
+        Ok(files)
+    }
+
+    /// Writes the files of one passport, all or none of them.
+    fn write(&mut self, exported: &Exported) -> Result<(), Failure> {
+        let Exported { path, verification, files, unread, .. } = exported;
+        let verdict = || style::plain(&verdict::text(&[verdict::Verdict::of(&name_of(path), verification)]));
+        if !verification.valid() {
+            self.failed(if *unread { UNUSABLE } else { REFUSED }, &format!("nothing was exported\n{}", verdict()));
+            return Ok(());
+        }
+        let files = match files {
+            Ok(files) => files,
+            Err(error) => {
+                self.failed(REFUSED, &format!("{}: {error}; nothing was exported", shown(path)));
+                return Ok(());
+            }
+        };
+        let mut new = Vec::new();
+        for (target, text) in files {
+            let sha256 = sha256_hex(text.as_bytes());
+            match self.written.get(target) {
+                Some((there, _)) if *there == sha256 => {}
+                Some((_, from)) => {
+                    let words = format!(
+                        "{}: nothing was exported: its {} differs from that of {}; export them to different folders",
+                        shown(path),
+                        shown(target),
+                        shown(from)
+                    );
+                    self.failed(REFUSED, &words);
+                    return Ok(());
+                }
+                None if !self.options.force && target.symlink_metadata().is_ok() => {
+                    let words = format!(
+                        "{}: already exists, not overwritten; to replace it, use --force; nothing was exported from {}",
+                        shown(target),
+                        shown(path)
+                    );
+                    self.failed(REFUSED, &words);
+                    return Ok(());
+                }
+                None => new.push((target, text, sha256)),
+            }
+        }
+        for (target, text, sha256) in new {
+            output::file(target, text, self.options.force)?;
+            output::say(&format!("wrote {}", shown(target)));
+            self.written.insert(target.clone(), (sha256, path.clone()));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,71 @@
+//! Verb `history`: one stand over the years.
+
+use super::output::{self, Format};
+use super::trust_options::TrustOptions;
+use super::{Code, Failure, UNUSABLE};
+use crate::folder::record;
+use crate::parallel;
+use crate::report::history as report;
+use crate::report::picture::history as picture;
+use crate::text::scalar::Identifier;
+use crate::text::{Printable, shown};
+use clap::Args;
+use std::path::PathBuf;
+
+/// Show one stand over the years: certificates, passports, places, withdrawals, and whether it drifts
+#[derive(Args)]
+pub(super) struct Options {
+    /// Stand
+    #[arg(value_name = "MODEL/SERIAL", value_parser = stand)]
+    stand: String,
+    /// Folder of passports; revocation lists in it and up to two levels above are used too
+    #[arg(long, value_name = "DIR", default_value = "passports")]
+    passports: PathBuf,
+    #[command(flatten)]
+    trust: TrustOptions,
+    /// Picture of the time line and of the drift to write
+    #[arg(short, value_name = "FILE.svg")]
+    output: Option<PathBuf>,
+    /// Replace an existing picture
+    #[arg(long)]
+    force: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+fn stand(text: &str) -> Result<String, String> {
+    let parts =
+        text.split_once('/').filter(|(model, serial)| [model, serial].iter().all(|name| Identifier::new(name).is_ok()));
+    parts.map(|_| text.to_owned()).ok_or_else(|| "model and serial number, such as SPS-2/0017".to_owned())
+}
+
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
+    let (trust, question) = options.trust.load()?;
+    let found = record::history(&options.passports, &options.stand, trust, question.time, parallel::processors());
+    let (history, register) = found.map_err(Failure::unusable)?;
+    let Some(history) = history else {
+        let known: std::collections::BTreeSet<&str> =
+            register.passports.iter().filter_map(|line| line.stand.as_deref()).collect();
+        let some: Vec<&str> = known.iter().take(5).copied().collect();
+        let there =
+            if some.is_empty() { "no passports".to_owned() } else { format!("passports of {}", some.join(", ")) };
+        let more = known.len().saturating_sub(some.len());
+        let more = if more > 0 { format!(" and of {more} more stands") } else { String::new() };
+        return Err(Failure::refused(format!(
+            "{}: found no passport of {}; the folder contains {}{more}",
+            shown(&options.passports),
+            options.stand,
+            Printable(there)
+        )));
+    };
+    if let Some(path) = &options.output {
+        output::file(path, &picture::history(&history, question.time), options.force)?;
+        output::say(&format!("wrote {}", shown(path)));
+    }
+    match options.format {
+        Format::Json => output::json(&report::to_json(&history))?,
+        Format::Text => output::result(&report::text(&history))?,
+    }
+    Ok(if register.is_incomplete() { UNUSABLE } else { 0 })
+}

@@ -1,0 +1,208 @@
+//! Drift of the certified deviations: a straight line through each over the years, and the test of its slope.
+
+use super::measured;
+use crate::coefficients::PositionIndex;
+use crate::passport::difference::u_of_deviations_arcsec;
+use crate::stand::{ActsOn, CertifiedPosition, Stand};
+use crate::statistics::propagation::effective_degrees_of_freedom;
+use crate::statistics::straight_line::{Point, StraightLine, holm};
+use jiff::civil::Date;
+
+/// Corrected probability below which a deviation drifts, as for an outlier in
+/// [ISO 5725-2](crate::bibliography::Bibliography::Iso5725).
+pub(crate) const DRIFTS: f64 = 0.01;
+
+/// Corrected probability below which a drift is suspected, as for a straggler.
+pub(crate) const SUSPECTED: f64 = 0.05;
+
+/// Mean length of a year of the Gregorian calendar, days.
+const DAYS_PER_YEAR: f64 = 365.2425;
+
+/// Names of the angles of a deviation.
+pub(crate) const ANGLES: [&str; 3] = ["alpha", "beta", "gamma"];
+
+/// Value of a deviation in one certificate.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Value {
+    /// Number of the certificate.
+    pub certificate: String,
+    /// Date to which the value belongs.
+    pub date: Date,
+    /// Years since the first certificate of the stand.
+    pub years: f64,
+    /// Deviation, arcsec.
+    pub arcsec: f64,
+    /// Combined standard uncertainty of the deviation, arcsec: own and common parts; `None` if not stated.
+    pub u_arcsec: Option<f64>,
+    /// Degrees of freedom of that uncertainty.
+    pub degrees_of_freedom: f64,
+}
+
+/// One deviation of a position over the years.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Series {
+    /// Index (i, j) of the position.
+    pub index: PositionIndex,
+    /// Angle: 0, 1, 2 for α, β, γ.
+    pub angle: usize,
+    /// Values in the order of time.
+    pub values: Vec<Value>,
+    /// Fitted line in arcseconds over years; `None` without two certificates of different dates that state the
+    /// uncertainty.
+    pub line: Option<StraightLine>,
+    /// Probability of the slope or a larger one without drift, corrected for the number of tested deviations.
+    pub corrected_probability: Option<f64>,
+}
+
+/// Drift of all deviations of a stand.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Drift {
+    /// Every deviation of every position, sorted by (i, j), then α, β, γ.
+    pub series: Vec<Series>,
+}
+
+impl Drift {
+    /// Compares the certificates of one stand, which are in the order of their measurement.
+    ///
+    /// The uncertainties of different certificates are taken as independent. Contributions that they share, such as
+    /// those of one autocollimator, then make a drift look less significant than it is.
+    pub(crate) fn of(certificates: &[&Stand]) -> Self {
+        let Some(first) = certificates.first().map(|stand| measured(stand)) else { return Self { series: Vec::new() } };
+        let mut nominal: Vec<(PositionIndex, f64, f64)> = Vec::new();
+        for at in certificates.iter().flat_map(|stand| &stand.positions) {
+            let position = (at.index(), at.theta_deg, at.phi_deg);
+            if !nominal.contains(&position) {
+                nominal.push(position);
+            }
+        }
+        nominal.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
+        let mut series: Vec<Series> = nominal
+            .iter()
+            .flat_map(|position| (0..3).map(move |angle| (position, angle)))
+            .map(|(position, angle)| {
+                let values = certificates.iter().filter_map(|stand| value(stand, position, angle, first)).collect();
+                Series::of(position.0, angle, values)
+            })
+            .collect();
+        let tested: Vec<usize> = (0..series.len()).filter(|at| series[*at].line.is_some()).collect();
+        let probabilities: Vec<f64> =
+            tested.iter().filter_map(|at| Some(series[*at].line.as_ref()?.probability())).collect();
+        for (at, corrected) in tested.into_iter().zip(holm(&probabilities)) {
+            series[at].corrected_probability = Some(corrected);
+        }
+        Self { series }
+    }
+
+    /// Returns the number of tested deviations.
+    pub(crate) fn tested(&self) -> usize {
+        self.series.iter().filter(|series| series.line.is_some()).count()
+    }
+
+    /// Returns the deviation with the least corrected probability, or `None` if none was tested.
+    pub(crate) fn most_significant(&self) -> Option<&Series> {
+        let tested = self.series.iter().filter_map(|series| Some((series.line?.probability(), series)));
+        tested.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, series)| series)
+    }
+
+    /// Returns whether any deviation drifts, or `None` if none was tested.
+    pub(crate) fn drifts(&self) -> Option<bool> {
+        Some(self.most_significant()?.corrected_probability? < DRIFTS)
+    }
+}
+
+/// Returns the value of a deviation in a certificate, or `None` if it does not contain the position.
+fn value(stand: &Stand, position: &(PositionIndex, f64, f64), angle: usize, first: Date) -> Option<Value> {
+    let same = |at: &&CertifiedPosition| (at.index(), at.theta_deg, at.phi_deg) == *position;
+    let at = stand.positions.iter().find(same)?;
+    let date = measured(stand);
+    let days = first.until(date).map_or(0, |span| span.get_days());
+    let u_arcsec = u_of_deviations_arcsec(at, &stand.certificate)[angle];
+    Some(Value {
+        certificate: stand.certificate.number.clone(),
+        date,
+        years: f64::from(days) / DAYS_PER_YEAR,
+        arcsec: [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec][angle],
+        u_arcsec,
+        degrees_of_freedom: u_arcsec.map_or(f64::INFINITY, |u| degrees_of_freedom(stand, at, angle, u)),
+    })
+}
+
+/// Returns the effective degrees of freedom of the combined uncertainty `u` of a deviation. The part common to a run
+/// varies about three axes in each of the runs but one; contributions of type B are taken as known exactly.
+fn degrees_of_freedom(stand: &Stand, at: &CertifiedPosition, angle: usize, u: f64) -> f64 {
+    let certificate = &stand.certificate;
+    let own = [at.u_alpha_arcsec, at.u_beta_arcsec, at.u_gamma_arcsec][angle].unwrap_or(0.0);
+    let runs = certificate.evidence.as_ref().map_or(f64::INFINITY, |evidence| 3.0 * (f64::from(evidence.runs) - 1.0));
+    let type_b = [ActsOn::Platform, ActsOn::Base].map(|on| certificate.type_b_arcsec2(on)).iter().sum::<f64>();
+    let common = (u * u - own * own).max(0.0);
+    let repeated = (common - type_b).max(0.0);
+    effective_degrees_of_freedom(&[
+        (own, at.degrees_of_freedom.unwrap_or(f64::INFINITY)),
+        (repeated.sqrt(), if runs > 0.0 { runs } else { 1.0 }),
+        ((common - repeated).sqrt(), f64::INFINITY),
+    ])
+}
+
+impl Series {
+    fn of(index: PositionIndex, angle: usize, values: Vec<Value>) -> Self {
+        let point = |at: &Value| {
+            Some(Point { x: at.years, y: at.arcsec, u: at.u_arcsec?, degrees_of_freedom: at.degrees_of_freedom })
+        };
+        // A certificate without a stated uncertainty cannot be weighted, so the series is then not tested.
+        let points: Option<Vec<Point>> = values.iter().map(point).collect();
+        let line = points.and_then(|points| StraightLine::fit(&points));
+        Self { index, angle, values, line, corrected_probability: None }
+    }
+}
+
+#[cfg(all(test, feature = "factory"))]
+mod tests {
+    use super::*;
+
+    fn stand(date: &str, number: &str, change: impl Fn(&mut CertifiedPosition)) -> Stand {
+        let mut stand = Stand::from_yaml("stand", include_bytes!("../../passports/SPS-2/0017/stand.yaml")).unwrap();
+        stand.certificate.performed = Some(date.parse().unwrap());
+        stand.certificate.number = number.to_owned();
+        stand.positions.iter_mut().for_each(change);
+        stand
+    }
+
+    fn drift(rate: f64) -> Drift {
+        let stands = [0, 1, 2, 3].map(|year| {
+            stand(&format!("20{}-06-01", 20 + year), &format!("C-{year}"), |at| {
+                if (at.i, at.j) == (2, 3) {
+                    at.gamma_arcsec += rate * f64::from(year);
+                }
+            })
+        });
+        Drift::of(&stands.each_ref())
+    }
+
+    /// Expected: one deviation with a rate of many u is found, and no other; without a rate none is.
+    #[test]
+    fn the_deviation_that_drifts_is_found() {
+        let still = drift(0.0);
+        assert_eq!((still.series.len(), still.tested(), still.drifts()), (24, 24, Some(false)));
+        assert_eq!(still.most_significant().unwrap().corrected_probability, Some(1.0));
+        let moving = drift(8.0);
+        assert_eq!(moving.drifts(), Some(true));
+        let found: Vec<_> = moving.series.iter().filter(|at| at.corrected_probability.unwrap() < DRIFTS).collect();
+        assert_eq!(found.len(), 1);
+        assert_eq!((found[0].index, found[0].angle), (PositionIndex { i: 2, j: 3 }, 2));
+        // Expected: 8 arcsec a year; the years have 365 and 366 days.
+        assert!((found[0].line.unwrap().slope - 8.0).abs() < 0.02);
+    }
+
+    #[test]
+    fn one_certificate_shows_no_drift() {
+        let one = stand("2020-06-01", "C-0", |_| {});
+        let drift = Drift::of(&[&one]);
+        assert_eq!((drift.tested(), drift.drifts()), (0, None));
+        assert!(drift.series.iter().all(|at| at.values.len() == 1 && at.line.is_none()));
+        let same_day = Drift::of(&[&one, &stand("2020-06-01", "C-1", |_| {})]);
+        assert_eq!(same_day.tested(), 0);
+        let unstated = Drift::of(&[&one, &stand("2021-06-01", "C-1", |at| at.u_alpha_arcsec = None)]);
+        assert_eq!(unstated.tested(), 16);
+        assert_eq!(Drift::of(&[]).series.len(), 0);
+    }
+}

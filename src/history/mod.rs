@@ -1,0 +1,252 @@
+//! One stand over the years: its certificates, passports, places and withdrawals, and the drift of its deviations.
+//!
+//! * `drift`: the deviations of all certificates, and the test whether they drift.
+//!
+//! A history is a function of verified passports; [`crate::folder`] finds the files.
+
+pub(crate) mod drift;
+
+use crate::document::sha256_hex;
+use crate::passport::{Content, Question, Trust, verify};
+use crate::register::{Line, Register, State};
+use crate::stand::Stand;
+use crate::text::scalar::day;
+use drift::Drift;
+use jiff::Timestamp;
+use jiff::civil::Date;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Certificate of the stand, as its passports state it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PastCertificate {
+    /// Stand with its certificate and its certified positions.
+    pub stand: Stand,
+    /// Identifiers of the passports that contain it.
+    pub passports: Vec<String>,
+    /// `true` unless all of its passports were withdrawn; the deviations of a withdrawn certificate are not used.
+    pub counts: bool,
+}
+
+/// Passport of the stand.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub(crate) struct PastPassport {
+    /// Entry of the register.
+    #[serde(flatten)]
+    pub line: Line,
+    /// Time of issue; null unless the passport is authentic.
+    pub issued_at: Option<Timestamp>,
+    /// Time from which the passport was no longer in force: superseded, moved, expired or withdrawn; null if it still
+    /// is, or was never.
+    pub ended_at: Option<Timestamp>,
+    /// Identifier of the predecessor.
+    pub predecessor: Option<String>,
+    /// Reason for the re-issue.
+    pub reason: Option<String>,
+}
+
+/// Stay of the stand at a site.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub(crate) struct Stay {
+    /// Identifier of the site.
+    pub site: String,
+    /// Issue of the first passport for the site.
+    pub from: Timestamp,
+    /// End of the last passport for the site; null if it is in force.
+    pub until: Option<Timestamp>,
+}
+
+/// Withdrawal of a passport.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub(crate) struct Withdrawal {
+    /// Identifier of the passport.
+    pub id: String,
+    /// SHA-256 of its file.
+    pub sha256: String,
+    /// Time of withdrawal.
+    pub revoked_at: Timestamp,
+    /// Reason for the withdrawal.
+    pub reason: String,
+}
+
+/// History of a stand.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct History {
+    /// Model and serial number, `<model>/<serial>`.
+    pub stand: String,
+    /// Certificates in the order of their measurement.
+    pub certificates: Vec<PastCertificate>,
+    /// Passports in the order of their issue; those that are not authentic come last.
+    pub passports: Vec<PastPassport>,
+    /// Sites at which the stand has been, in the order of the first issue.
+    pub places: Vec<Stay>,
+    /// Withdrawals, in the order of their time.
+    pub withdrawals: Vec<Withdrawal>,
+    /// Change of the deviations over the years.
+    pub drift: Drift,
+    /// Alarms of the register that concern the stand, and remarks on its certificates, in words.
+    pub remarks: Vec<String>,
+}
+
+/// File of a passport of the stand: its entry in the register, and its content if it is authentic.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Recorded {
+    line: Line,
+    content: Option<Content>,
+}
+
+impl Recorded {
+    /// Verifies the file of a register entry again, to obtain its content. A file that has changed since has none.
+    pub(crate) fn of(line: &Line, bytes: &[u8], trust: &Trust, time: Timestamp) -> Self {
+        let same = sha256_hex(bytes) == line.sha256;
+        let verification = same.then(|| verify(&line.file, bytes, trust, &Question::at(time)));
+        let content = verification.as_ref().and_then(|found| found.authentic()).map(|(content, _)| content.clone());
+        Self { line: line.clone(), content }
+    }
+}
+
+/// Returns the date to which the deviations of a certificate belong: that of the measurement, else that of issue.
+pub(crate) fn measured(stand: &Stand) -> Date {
+    stand.certificate.performed.unwrap_or(stand.certificate.issued)
+}
+
+impl History {
+    /// Creates the history of a stand, `<model>/<serial>`, from the files of its passports; `register` and `trust` are
+    /// those of their folder.
+    pub(crate) fn of(stand: &str, recorded: Vec<Recorded>, register: &Register, trust: &Trust, now: Timestamp) -> Self {
+        let mut remarks: Vec<String> =
+            register.alarms.iter().filter(|alarm| concerns(alarm, stand, &recorded)).map(ToString::to_string).collect();
+        let certificates = certificates(&recorded, &mut remarks);
+        let passports = passports(&recorded, trust, now);
+        let withdrawals = withdrawals(&recorded, trust);
+        let used: Vec<&Stand> = certificates.iter().filter(|at| at.counts).map(|at| &at.stand).collect();
+        let drift = Drift::of(&used);
+        Self {
+            stand: stand.to_owned(),
+            places: places(&passports),
+            certificates,
+            passports,
+            withdrawals,
+            drift,
+            remarks,
+        }
+    }
+}
+
+fn concerns(alarm: &crate::register::Alarm, stand: &str, recorded: &[Recorded]) -> bool {
+    alarm.concerns(stand) || recorded.iter().any(|at| alarm.files.contains(&at.line.file))
+}
+
+fn certificates(recorded: &[Recorded], remarks: &mut Vec<String>) -> Vec<PastCertificate> {
+    let mut found: Vec<PastCertificate> = Vec::new();
+    let authentic = recorded.iter().filter_map(|at| Some((at, at.content.as_ref()?)));
+    for (at, content) in authentic {
+        let stand = content.to_stand();
+        let counts = at.line.state != State::Revoked;
+        let id = content.passport.id.clone();
+        match found
+            .iter_mut()
+            .find(|known| known.stand.certificate == stand.certificate && known.stand.positions == stand.positions)
+        {
+            Some(known) => {
+                known.counts |= counts;
+                known.passports.push(id);
+            }
+            None => found.push(PastCertificate { stand, passports: vec![id], counts }),
+        }
+    }
+    found.sort_by(|a, b| {
+        let key = |at: &PastCertificate| (measured(&at.stand), at.stand.certificate.issued);
+        key(a).cmp(&key(b)).then_with(|| a.stand.certificate.number.cmp(&b.stand.certificate.number))
+    });
+    for (place, at) in found.iter().enumerate() {
+        let number = &at.stand.certificate.number;
+        if found[..place].iter().any(|other| other.stand.certificate.number == *number) {
+            remarks.push(format!("certificate {number} has different contents in {}", at.passports.join(", ")));
+        }
+        if !at.counts {
+            remarks.push(format!(
+                "all passports of certificate {number} were withdrawn; its deviations are not used for the drift"
+            ));
+        }
+    }
+    found
+}
+
+fn passports(recorded: &[Recorded], trust: &Trust, now: Timestamp) -> Vec<PastPassport> {
+    // Time from which a file is superseded, by its SHA-256.
+    let mut superseded: BTreeMap<&str, Timestamp> = BTreeMap::new();
+    let mut predecessors: BTreeMap<&str, &str> = BTreeMap::new();
+    for (line, content) in recorded.iter().filter_map(|at| Some((&at.line, at.content.as_ref()?))) {
+        let header = &content.passport;
+        if let Some(from) = &header.reissued_from {
+            predecessors.insert(&line.sha256, &from.sha256);
+        }
+        if let (Some(from), Some(true)) = (&header.reissued_from, header.supersedes) {
+            let first = superseded.entry(&from.sha256).or_insert(header.issued_at);
+            *first = (*first).min(header.issued_at);
+        }
+    }
+    let mut passports: Vec<PastPassport> = recorded
+        .iter()
+        .map(|Recorded { line, content }| {
+            let header = content.as_ref().map(|content| &content.passport);
+            let expired = content.as_ref().and_then(Content::last_day).map(|(last, _)| day(last).1);
+            let withdrawn = trust.withdrawn.entry(&line.sha256).map(|entry| entry.revoked_at);
+            let ends = [superseded.get(line.sha256.as_str()).copied(), expired, withdrawn];
+            PastPassport {
+                line: line.clone(),
+                issued_at: header.map(|header| header.issued_at),
+                ended_at: header.and(ends.into_iter().flatten().min()).filter(|end| *end <= now),
+                predecessor: header.and_then(|header| Some(header.reissued_from.as_ref()?.id.clone())),
+                reason: header.and_then(|header| Some(header.reissued_from.as_ref()?.reason.clone())),
+            }
+        })
+        .collect();
+    let ancestors = |at: &PastPassport| {
+        let mut sha256 = at.line.sha256.as_str();
+        // A chain cannot be longer than the number of files.
+        (0..recorded.len())
+            .take_while(|_| {
+                predecessors.get(sha256).is_some_and(|from| {
+                    sha256 = from;
+                    true
+                })
+            })
+            .count()
+    };
+    passports.sort_by(|a, b| {
+        // Of two passports of the same second, the predecessor comes first.
+        let key = |at: &PastPassport| (at.issued_at.is_none(), at.issued_at, ancestors(at));
+        key(a).cmp(&key(b)).then_with(|| a.line.id.cmp(&b.line.id)).then_with(|| a.line.file.cmp(&b.line.file))
+    });
+    passports
+}
+
+fn places(passports: &[PastPassport]) -> Vec<Stay> {
+    let mut places: Vec<Stay> = Vec::new();
+    for passport in passports {
+        let (Some(from), Some(site)) = (passport.issued_at, &passport.line.site) else { continue };
+        match places.iter_mut().find(|stay| stay.site == *site) {
+            // The passports of a site follow each other, so the later end counts; one without an end is in force.
+            Some(stay) => stay.until = stay.until.zip(passport.ended_at).map(|(a, b)| a.max(b)),
+            None => places.push(Stay { site: site.clone(), from, until: passport.ended_at }),
+        }
+    }
+    places
+}
+
+fn withdrawals(recorded: &[Recorded], trust: &Trust) -> Vec<Withdrawal> {
+    let entries = recorded.iter().filter_map(|at| trust.withdrawn.entry(&at.line.sha256));
+    let mut found: Vec<Withdrawal> = entries
+        .map(|entry| Withdrawal {
+            id: entry.id.clone(),
+            sha256: entry.sha256.clone(),
+            revoked_at: entry.revoked_at,
+            reason: entry.reason.clone(),
+        })
+        .collect();
+    found.sort_by(|a, b| (a.revoked_at, &a.id).cmp(&(b.revoked_at, &b.id)));
+    found.dedup();
+    found
+}

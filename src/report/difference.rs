@@ -1,0 +1,129 @@
+//! Differences of two passports, as text and as JSON.
+
+use crate::passport::Content;
+use crate::passport::difference::{Differences, NumberDifference, OtherDifference};
+use crate::report::{columns, style};
+use crate::text::{Node, Printable, number};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// Passport that is compared: its file, the SHA-256 of the file, and its content.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Side<'a> {
+    pub(crate) file: &'a str,
+    pub(crate) sha256: &'a str,
+    pub(crate) content: &'a Content,
+}
+
+impl Side<'_> {
+    fn json(&self) -> Value {
+        let header = &self.content.passport;
+        json!({
+            "file": self.file, "id": header.id, "sha256": self.sha256, "issued_at": header.issued_at.to_string(),
+            "certificate": self.content.certificate.number,
+        })
+    }
+}
+
+/// Returns the differences as JSON: `{a, b, compared, numbers, others}`.
+pub(crate) fn to_json(a: Side, b: Side, found: &Differences) -> Value {
+    let others = found.others.iter().map(|other| json!({"key": other.key, "a": other.a, "b": other.b}));
+    json!({
+        "a": a.json(),
+        "b": b.json(),
+        "compared": found.compared,
+        "numbers": numbers_json(&found.numbers),
+        "others": others.collect::<Vec<_>>(),
+    })
+}
+
+/// Returns numbers that differ as JSON: a list of `{key, a, b, difference, standard_uncertainty, ratio}`.
+pub(crate) fn numbers_json(numbers: &[NumberDifference]) -> Value {
+    let of = |number: &NumberDifference| {
+        json!({
+            "key": number.key, "a": number.a, "b": number.b, "difference": number.difference(),
+            "standard_uncertainty": number.standard_uncertainty, "ratio": number.ratio(),
+        })
+    };
+    numbers.iter().map(of).collect()
+}
+
+/// Returns the differences as text: a table of the numbers, then the other values in words.
+pub(crate) fn text(a: Side, b: Side, found: &Differences) -> String {
+    let mut out = String::new();
+    for (name, side) in [("A", a), ("B", b)] {
+        let (header, certificate) = (&side.content.passport, &side.content.certificate);
+        let _ = writeln!(out, "{name}  {}  {}", style::heading(&header.id), Printable(side.file));
+        let issued =
+            format!("issued {}, certificate {} of {}", header.issued_at, certificate.number, certificate.issued);
+        columns::paragraph(&mut out, "   ", &issued);
+    }
+    if found.numbers.is_empty() && found.others.is_empty() {
+        let _ = writeln!(out, "\nThe contents are equal: {} numbers and all texts.", found.compared);
+        return out;
+    }
+    let _ = writeln!(
+        out,
+        "\n{} of {} numbers differ. u: standard uncertainty (k = 1) of B - A.",
+        found.numbers.len(),
+        found.compared
+    );
+    if !found.numbers.is_empty() {
+        numbers(&mut out, &found.numbers);
+    }
+    if !found.others.is_empty() {
+        let _ = writeln!(out, "\n{}", style::heading("Other differences, A -> B"));
+        for OtherDifference { key, a, b } in &found.others {
+            columns::paragraph(&mut out, "  ", &format!("{key}: {} -> {}", shown(a.as_ref()), shown(b.as_ref())));
+        }
+    }
+    out
+}
+
+/// Appends a table of numbers that differ.
+pub(crate) fn numbers(out: &mut String, numbers: &[NumberDifference]) {
+    let rows = numbers.iter().map(|at| {
+        let difference = at.difference();
+        let decimals = match at.standard_uncertainty {
+            Some(u) => columns::decimals(u),
+            None => difference.map_or(6, decimals_of_a_difference),
+        };
+        let plain = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| stated(value, decimals));
+        let signed = |value: Option<f64>| value.map_or_else(String::new, |value| columns::signed(value, decimals));
+        vec![
+            at.key.clone(),
+            plain(at.a),
+            plain(at.b),
+            signed(difference),
+            at.standard_uncertainty.map_or_else(String::new, |u| format!("{u:.decimals$}")),
+            at.ratio().map_or_else(String::new, |ratio| format!("{ratio:+.1}")),
+        ]
+    });
+    columns::table(out, &["", "A", "B", "B - A", "u", "(B - A)/u"], &rows.collect::<Vec<_>>());
+}
+
+/// Formats a number as it is in the file if it is short, as those are that people write, and else with `decimals`.
+fn stated(value: f64, decimals: usize) -> String {
+    const SHORT: usize = 12;
+    let exact = number::decimal(value);
+    if exact.len() <= SHORT { exact } else { format!("{value:.decimals$}") }
+}
+
+/// Returns the number of decimals, at most 15, that show a difference with three significant digits.
+fn decimals_of_a_difference(difference: f64) -> usize {
+    let magnitude = difference.abs();
+    if !(magnitude.is_finite() && magnitude > 0.0) {
+        return 6;
+    }
+    let exponent = libm::floor(libm::log10(magnitude)) as i32;
+    usize::try_from(2 - exponent).unwrap_or(0).min(15)
+}
+
+fn shown(value: Option<&Node>) -> String {
+    match value {
+        None => "absent".to_owned(),
+        Some(Node::Text(text)) => format!("\"{}\"", Printable(text)),
+        Some(Node::Number(value)) => number::decimal(*value),
+        Some(other) => other.describe(),
+    }
+}

@@ -1,0 +1,104 @@
+//! Passport as one JSON object for programs that compute with it, with the result of its verification.
+
+use crate::passport::{Content, Verification};
+use crate::text::{Field, Node};
+
+/// Keys of a position, in the order of the file.
+const POSITION: [&str; 11] = [
+    "i",
+    "j",
+    "theta_deg",
+    "phi_deg",
+    "alpha_arcsec",
+    "beta_arcsec",
+    "gamma_arcsec",
+    "u_alpha_arcsec",
+    "u_beta_arcsec",
+    "u_gamma_arcsec",
+    "degrees_of_freedom",
+];
+
+/// Keys of a contribution of type B, in the order of the file.
+const TYPE_B: [&str; 4] = ["source", "acts_on", "u_arcsec", "degrees_of_freedom"];
+
+/// Returns a passport as JSON: `{file, verified, sha256, checks, …}`, then the keys of the passport if every check
+/// passed. The objects in a list have the same keys, null where a value is absent, so that programs such as MATLAB read
+/// the list as an array.
+pub(crate) fn json(file: &str, sha256: &str, verification: &Verification) -> Node {
+    let text = |text: &str| Node::Text(text.to_owned());
+    let checks = verification.checks().iter().map(|check| {
+        map([
+            ("name", text(check.name.as_str())),
+            ("passed", check.passed().map_or(Node::Null, Node::Bool)),
+            ("code", text(check.code.as_str())),
+            ("detail", text(&check.detail)),
+        ])
+    });
+    let mut entries = vec![
+        ("file".to_owned(), text(file)),
+        ("verified".to_owned(), Node::Bool(verification.valid())),
+        ("sha256".to_owned(), text(sha256)),
+        ("checks".to_owned(), Node::List(checks.collect())),
+    ];
+    if let Some(passport) = verification.passport() {
+        entries.extend(uniform_content(passport.content()));
+    }
+    Node::Map(entries)
+}
+
+fn map<const N: usize>(entries: [(&str, Node); N]) -> Node {
+    Node::Map(entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
+}
+
+/// Returns the keys of a passport and their values, with uniform keys in its lists.
+fn uniform_content(content: &Content) -> Vec<(String, Node)> {
+    let Some(Node::Map(mut entries)) = content.write() else { return Vec::new() };
+    for (key, value) in &mut entries {
+        match key.as_str() {
+            "positions" => uniform(value, &POSITION),
+            "certificate" => {
+                if let Node::Map(certificate) = value {
+                    let type_b = certificate.iter_mut().filter(|(key, _)| key == "type_b");
+                    type_b.for_each(|(_, lines)| uniform(lines, &TYPE_B));
+                }
+            }
+            _ => {}
+        }
+    }
+    entries
+}
+
+/// Gives every object of a list the same `keys`, in their order.
+fn uniform(list: &mut Node, keys: &[&str]) {
+    let Node::List(items) = list else { return };
+    for item in items {
+        let filled = keys.iter().map(|key| ((*key).to_owned(), item.get(key).cloned().unwrap_or(Node::Null)));
+        *item = Node::Map(filled.collect());
+    }
+}
+
+#[cfg(all(test, feature = "factory"))]
+mod tests {
+    use super::*;
+    use crate::stand::Stand;
+
+    /// Expected: the keys that the records write when every optional value is stated.
+    #[test]
+    fn the_uniform_keys_are_those_of_the_records() {
+        let mut stand = Stand::from_yaml("stand", include_bytes!("../../passports/SPS-2/0017/stand.yaml")).unwrap();
+        let position = &mut stand.positions[0];
+        position.degrees_of_freedom = Some(1.0);
+        let keys = |node: Option<Node>| match node {
+            Some(Node::Map(entries)) => entries.into_iter().map(|(key, _)| key).collect::<Vec<_>>(),
+            _ => Vec::new(),
+        };
+        assert_eq!(keys(position.write()), POSITION);
+        let type_b = crate::stand::TypeB {
+            source: String::new(),
+            acts_on: crate::stand::ActsOn::Base,
+            u_arcsec: 1.0,
+            degrees_of_freedom: Some(1.0),
+        };
+        assert_eq!(keys(type_b.write()), TYPE_B);
+    }
+}

@@ -1,0 +1,210 @@
+//! One stand over the years, as text and as JSON.
+
+use crate::history::drift::{ANGLES, DRIFTS, Drift, SUSPECTED, Series};
+use crate::history::{History, PastCertificate, PastPassport, measured};
+use crate::report::{columns, style};
+use crate::text::printable;
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// Returns the history as JSON: `{stand, certificates, passports, places, withdrawals, drift, remarks}`.
+pub(crate) fn to_json(history: &History) -> Value {
+    json!({
+        "stand": history.stand,
+        "certificates": history.certificates.iter().map(certificate_json).collect::<Vec<_>>(),
+        "passports": history.passports,
+        "places": history.places,
+        "withdrawals": history.withdrawals,
+        "drift": drift_json(&history.drift),
+        "remarks": history.remarks,
+    })
+}
+
+fn certificate_json(at: &PastCertificate) -> Value {
+    let certificate = &at.stand.certificate;
+    let date = |date: Option<jiff::civil::Date>| date.map(|date| date.to_string());
+    json!({
+        "number": certificate.number,
+        "issued": certificate.issued.to_string(),
+        "performed": date(certificate.performed),
+        "valid_until": date(certificate.valid_until),
+        "laboratory": certificate.laboratory,
+        "runs": certificate.evidence.as_ref().map(|evidence| evidence.runs),
+        "readings_sha256": certificate.evidence.as_ref().map(|evidence| &evidence.readings_sha256),
+        "passports": at.passports,
+        "withdrawn": !at.counts,
+    })
+}
+
+fn drift_json(drift: &Drift) -> Value {
+    let worst = drift.most_significant();
+    json!({
+        "drifts": drift.drifts(),
+        "tested": drift.tested(),
+        "probability": worst.and_then(|series| series.corrected_probability),
+        "sentence": sentence(drift),
+        "deviations": drift.series.iter().map(series_json).collect::<Vec<_>>(),
+    })
+}
+
+fn series_json(series: &Series) -> Value {
+    let line = series.line.as_ref();
+    // Infinite degrees of freedom are null, because JSON has no infinity.
+    let finite = |value: f64| value.is_finite().then_some(value);
+    let values = series.values.iter().map(|at| {
+        json!({
+            "certificate": at.certificate, "date": at.date.to_string(), "arcsec": at.arcsec, "u_arcsec": at.u_arcsec,
+        })
+    });
+    json!({
+        "i": series.index.i, "j": series.index.j, "angle": ANGLES[series.angle],
+        "values": values.collect::<Vec<_>>(),
+        "slope_arcsec_per_year": line.map(|line| line.slope),
+        "u_slope_arcsec_per_year": line.map(|line| line.u_slope),
+        "degrees_of_freedom": line.and_then(|line| finite(line.slope_degrees_of_freedom)),
+        "probability": line.map(|line| line.probability()),
+        "corrected_probability": series.corrected_probability,
+        "chi_square": line.map(|line| {
+            json!({"value": line.chi_square, "degrees_of_freedom": line.degrees_of_freedom})
+        }),
+    })
+}
+
+/// Returns the result of the test for drift, in words.
+pub(crate) fn sentence(drift: &Drift) -> String {
+    let (Some(worst), Some(probability)) =
+        (drift.most_significant(), drift.most_significant().and_then(|worst| worst.corrected_probability))
+    else {
+        let what = "two certificates from different dates that state the uncertainties of the deviations";
+        return format!("drift was not tested: this needs {what}");
+    };
+    let name = format!("{} of position {}", ANGLES[worst.angle], worst.index);
+    let tested = drift.tested();
+    let p = columns::probability(probability);
+    let by = format!("probability {p}, corrected for {tested} tests");
+    let slope = worst.line.map_or_else(String::new, |line| {
+        let decimals = columns::decimals(line.u_slope);
+        format!("{} arcsec per year (u {:.decimals$})", columns::signed(line.slope, decimals), line.u_slope)
+    });
+    let drifting = drift.series.iter().filter(|at| at.corrected_probability.is_some_and(|p| p < DRIFTS)).count();
+    if probability < DRIFTS {
+        format!("the stand drifts: {drifting} of {tested} deviations; most significant is {name}, {slope}, {by}")
+    } else if probability < SUSPECTED {
+        format!("a drift is suspected: {name}, {slope}, {by}; certify the stand again earlier than planned")
+    } else {
+        format!("no drift was found: most significant is {name}, {slope}, {by}")
+    }
+}
+
+/// Returns the history as text: the time line, the drift of each deviation, and the result of the test.
+pub(crate) fn text(history: &History) -> String {
+    let mut out = String::new();
+    let counts = [
+        (history.certificates.len(), "certificate"),
+        (history.passports.len(), "passport"),
+        (history.places.len(), "place"),
+        (history.withdrawals.len(), "withdrawal"),
+    ];
+    let counts = counts.map(|(count, what)| format!("{count} {what}{}", if count == 1 { "" } else { "s" }));
+    let _ = writeln!(out, "{}: {}\n", style::heading(&history.stand), counts.join(", "));
+    for (when, what, words) in time_line(history) {
+        columns::named(&mut out, &format!("{when}  {what}"), 25, &printable(words));
+    }
+    let _ = writeln!(out, "\n{}", style::heading("Places"));
+    for stay in &history.places {
+        let day = |time: jiff::Timestamp| time.to_string().chars().take(10).collect::<String>();
+        let from = day(stay.from);
+        let time = stay.until.map_or_else(|| format!("since {from}"), |until| format!("{from} to {}", day(until)));
+        columns::named(&mut out, &time, 25, &stay.site);
+    }
+    drift(&mut out, &history.drift);
+    for remark in &history.remarks {
+        columns::paragraph(&mut out, "", &printable(format!("Remark: {remark}.")));
+    }
+    out
+}
+
+/// Returns the events in the order of time: date, kind, words.
+fn time_line(history: &History) -> Vec<(String, &'static str, String)> {
+    let mut events = Vec::new();
+    let day = |time: &jiff::Timestamp| time.to_string().chars().take(10).collect::<String>();
+    for at in &history.certificates {
+        let certificate = &at.stand.certificate;
+        let runs =
+            certificate.evidence.as_ref().map_or_else(String::new, |evidence| format!(", {} runs", evidence.runs));
+        let withdrawn = if at.counts { "" } else { "; all of its passports were withdrawn" };
+        let words = format!(
+            "{}, {}{runs}, issued {}{withdrawn}",
+            certificate.number, certificate.laboratory, certificate.issued
+        );
+        events.push((measured(&at.stand).to_string(), "measured", words));
+    }
+    for passport in &history.passports {
+        let id = passport.line.id.as_deref().unwrap_or("(id not verified)");
+        let Some(issued) = &passport.issued_at else { continue };
+        events.push((day(issued), "issued", issued_words(passport, id)));
+    }
+    for withdrawn in &history.withdrawals {
+        events.push((day(&withdrawn.revoked_at), "withdrawn", format!("{}: {}", withdrawn.id, withdrawn.reason)));
+    }
+    // The sort is stable: on one day the measurement comes before the passports, and these before a withdrawal.
+    events.sort_by(|a, b| a.0.cmp(&b.0));
+    for passport in history.passports.iter().filter(|passport| passport.issued_at.is_none()) {
+        let id = passport.line.id.as_deref().unwrap_or("(id not verified)");
+        events.push((
+            "-         ".to_owned(),
+            "not used",
+            format!("{id}, {}: {}", passport.line.state.words(), passport.line.why),
+        ));
+    }
+    events
+}
+
+fn issued_words(passport: &PastPassport, id: &str) -> String {
+    let line = &passport.line;
+    let certificate = line.certificate.as_deref().unwrap_or("?");
+    let reason = match (&passport.predecessor, &passport.reason) {
+        (Some(from), Some(reason)) => format!(", re-issued from {from}: {reason}"),
+        _ => String::new(),
+    };
+    format!("{id}, certificate {certificate} ({}){reason}", line.state.words())
+}
+
+fn drift(out: &mut String, drift: &Drift) {
+    let tested: Vec<&Series> = drift.series.iter().filter(|series| series.line.is_some()).collect();
+    if !tested.is_empty() {
+        let _ = writeln!(out, "\n{}", style::heading("Drift of the deviations (u: standard uncertainty, k = 1)"));
+        let rows = tested.iter().filter_map(|series| {
+            let line = series.line.as_ref()?;
+            let decimals = columns::decimals(line.u_slope);
+            let change = series.values.last()?.arcsec - series.values.first()?.arcsec;
+            let p = series.corrected_probability?;
+            let mark = if p < DRIFTS {
+                "DRIFTS"
+            } else if p < SUSPECTED {
+                "suspected"
+            } else {
+                ""
+            };
+            Some(vec![
+                series.index.i.to_string(),
+                series.index.j.to_string(),
+                ANGLES[series.angle].to_owned(),
+                series.values.len().to_string(),
+                columns::signed(change, decimals),
+                columns::signed(line.slope, decimals),
+                format!("{:.decimals$}", line.u_slope),
+                columns::probability(line.probability()),
+                columns::probability(p),
+                mark.to_owned(),
+            ])
+        });
+        let names = ["i", "j", "angle", "values", "change, arcsec", "arcsec/year", "u", "probability", "corrected", ""];
+        columns::table(out, &names, &rows.collect::<Vec<_>>());
+    }
+    let sentence = sentence(drift);
+    let mut letters = sentence.chars();
+    let capital = letters.next().map(|first| first.to_ascii_uppercase().to_string()).unwrap_or_default();
+    let _ = writeln!(out);
+    columns::paragraph(out, "", &format!("{capital}{}.", letters.as_str()));
+}

@@ -1,0 +1,218 @@
+//! One stand over the years as a picture file: the time line above, below it the change of every deviation since the
+//! first certificate, all to one scale.
+
+use super::chart::Field;
+use super::drawing::{Anchor, Panel, Point, Scale, Ticks, coordinate, line, rectangle, words};
+use super::file::{caption, file};
+use crate::history::drift::{DRIFTS, Drift, Series};
+use crate::history::{History, PastPassport, measured};
+use crate::report::page::language::{Language, Languages};
+use jiff::Timestamp;
+use jiff::civil::Date;
+use maud::{Markup, html};
+
+const WIDTH: f64 = 760.0;
+/// Left and right end of the time line.
+const ACROSS: Point = [130.0, 740.0];
+/// First baseline, height of a row of the time line, half-height of a bar.
+const TOP: f64 = 64.0;
+const ROW: f64 = 20.0;
+const BAR_HALF: f64 = 5.0;
+/// A small panel: distance between their left ends, width of the plot area, distance between their upper ends, height.
+const COLUMN: f64 = 240.0;
+const PLOT_WIDTH: f64 = 186.0;
+const PANEL_ROW: f64 = 74.0;
+const PLOT_HEIGHT: f64 = 52.0;
+const LEFT: f64 = 56.0;
+
+/// Half-length of the whiskers, in standard uncertainties.
+const COVERAGE_FACTOR: f64 = 2.0;
+
+/// Letters of the angles.
+const LETTERS: [&str; 3] = ["α", "β", "γ"];
+
+/// Draws the history as of `now`.
+pub(crate) fn history(history: &History, now: Timestamp) -> String {
+    let time = time_scale(history, now);
+    let rows = history.places.len() as f64 + 1.0;
+    let bottom = TOP + ROW * rows;
+    let panels_top = bottom + 92.0;
+    let positions = history.drift.series.len().div_ceil(LETTERS.len()) as f64;
+    let height = if positions > 0.0 { panels_top + PANEL_ROW * positions + 24.0 } else { bottom + 40.0 };
+    let title = format!("Stand {} over the years", history.stand);
+    let languages = Languages::from(Language::English);
+    let panel = Panel { name: "history", languages: &languages, size: [WIDTH, height] };
+    let drawing = [
+        words([20.0, 20.0], Anchor::Start, "title", &title),
+        time_line(history, &time, bottom),
+        drift(&history.drift, panels_top),
+    ];
+    file(&panel, &title, &in_words(history), &drawing)
+}
+
+/// Decimal year of a date, for the horizontal axis.
+fn year_of(date: Date) -> f64 {
+    let days = f64::from(if date.in_leap_year() { 366 } else { 365 });
+    f64::from(date.year()) + (f64::from(date.day_of_year()) - 1.0) / days
+}
+
+fn year_of_time(time: Timestamp) -> f64 {
+    let seconds = time.as_second().rem_euclid(86_400) as f64 / 86_400.0;
+    year_of(time.to_zoned(jiff::tz::TimeZone::UTC).date()) + seconds / 366.0
+}
+
+fn time_scale(history: &History, now: Timestamp) -> Scale {
+    let certificates = history.certificates.iter().map(|at| year_of(measured(&at.stand)));
+    let issued = history.passports.iter().filter_map(|at| at.issued_at).map(year_of_time);
+    let (low, high) = certificates
+        .chain(issued)
+        .chain([year_of_time(now)])
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (f64::min(low, at), f64::max(high, at)));
+    // A day of one year alone would have no length.
+    let margin = f64::max(0.03 * (high - low), 0.05);
+    Scale { values: [low - margin, high + margin], places: ACROSS }
+}
+
+fn time_line(history: &History, time: &Scale, bottom: f64) -> Markup {
+    let ticks = Ticks::along(time, Language::English);
+    let (sure, unsure) = ("bar", "frame-line");
+    let row = |place: usize| TOP + ROW * place as f64;
+    html! {
+        (caption([20.0, 42.0], "", &[
+            (rectangle([2.0, 2.5], [26.0, 11.5], sure, None), "in force"),
+            (rectangle([2.0, 2.5], [26.0, 11.5], unsure, None), "withdrawn later"),
+            (super::drawing::mark([14.0, 7.0], 1, "mark"), "measured for a certificate"),
+        ]))
+        @for value in &ticks.values {
+            @let x = time.place(*value);
+            (line([x, TOP - 10.0], [x, bottom], "grid"))
+            (words([x, bottom + 14.0], Anchor::Middle, "small", &ticks.text(*value, Language::English)))
+        }
+        (words([ACROSS[0] - 8.0, row(0) + 4.0], Anchor::End, "small", "certificates"))
+        @for at in &history.certificates {
+            (super::drawing::mark([time.place(year_of(measured(&at.stand))), row(0)], 1, "mark"))
+        }
+        @for (place, stay) in (1..).zip(&history.places) {
+            (words([ACROSS[0] - 8.0, row(place) + 4.0], Anchor::End, "small", &shortened(&stay.site)))
+            @for passport in history.passports.iter().filter(|at| at.line.site.as_ref() == Some(&stay.site)) {
+                (bar(passport, history, time, row(place)))
+            }
+        }
+    }
+}
+
+/// Draws the time in which a passport was in force.
+fn bar(passport: &PastPassport, history: &History, time: &Scale, y: f64) -> Markup {
+    let Some(from) = passport.issued_at.map(year_of_time) else { return super::drawing::nothing() };
+    let until = passport.ended_at.map_or(time.values[1], year_of_time);
+    let withdrawn = history.withdrawals.iter().any(|entry| entry.sha256 == passport.line.sha256);
+    let class = if withdrawn { "frame-line" } else { "bar" };
+    rectangle([time.clamped(from), y - BAR_HALF], [time.clamped(until), y + BAR_HALF], class, None)
+}
+
+/// Shortens the name of a site to the room on the left.
+fn shortened(site: &str) -> String {
+    const MOST: usize = 20;
+    if site.chars().count() <= MOST {
+        return site.to_owned();
+    }
+    site.chars().take(MOST - 1).chain(['…']).collect()
+}
+
+fn drift(drift: &Drift, top: f64) -> Markup {
+    if drift.series.is_empty() {
+        return super::drawing::nothing();
+    }
+    let ends = drift.series.iter().flat_map(|series| {
+        let first = series.values.first().map_or(0.0, |at| at.arcsec);
+        series.values.iter().flat_map(move |at| {
+            let half = COVERAGE_FACTOR * at.u_arcsec.unwrap_or(0.0);
+            [at.arcsec - first - half, at.arcsec - first + half]
+        })
+    });
+    let (low, high) = ends.fold((-1.0, 1.0), |(low, high), end| (f64::min(low, end), f64::max(high, end)));
+    let last = drift.series.iter().flat_map(|series| &series.values).map(|at| at.years).fold(0.0, f64::max);
+    let years = [-0.06 * last.max(1.0), 1.06 * last.max(1.0)];
+    let legend = [
+        (whisker_sample(), "change since the first certificate, ± 2 u"),
+        (line([1.0, 7.0], [27.0, 7.0], "series"), "line of a deviation that drifts"),
+        (line([1.0, 7.0], [27.0, 7.0], "grid"), "other line"),
+    ];
+    html! {
+        (caption([20.0, top - 30.0], "arcsec over years:", &legend))
+        @for (place, series) in drift.series.iter().enumerate() {
+            @let (column, row) = ((place % 3) as f64, (place / 3) as f64);
+            @let left = LEFT + COLUMN * column;
+            @let upper = top + PANEL_ROW * row;
+            @let field = Field {
+                x: Scale { values: years, places: [left, left + PLOT_WIDTH] },
+                y: Scale { values: [low, high], places: [upper + PLOT_HEIGHT, upper] },
+            };
+            // Only the lowest panel of a column has the numbers of its horizontal axis.
+            (panel(series, &field, place + LETTERS.len() >= drift.series.len()))
+        }
+    }
+}
+
+fn panel(series: &Series, field: &Field, lowest: bool) -> Markup {
+    let language = Language::English;
+    let marked = |ticks: Ticks| -> Vec<(f64, String)> {
+        ticks.values.iter().map(|value| (*value, ticks.text(*value, language))).collect()
+    };
+    let years = marked(Ticks::along(&field.x, language)).into_iter().filter(|(year, _)| *year >= 0.0);
+    let years = years.map(|(year, printed)| (year, if lowest { printed } else { String::new() }));
+    let changes = marked(Ticks::between(field.y.values[0], field.y.values[1], 3));
+    let first = series.values.first().map_or(0.0, |at| at.arcsec);
+    let drifts = series.corrected_probability.is_some_and(|p| p < DRIFTS);
+    let [left, right] = field.x.places;
+    let title = format!("{} {}{}", LETTERS[series.angle], series.index, if drifts { ": drifts" } else { "" });
+    html! {
+        g {
+            (field.axes(&years.collect::<Vec<_>>(), &changes))
+            @if let Some(fitted) = &series.line {
+                @let end = |x: f64| [field.x.place(x), field.y.clamped(fitted.at(x) - first)];
+                @let last = series.values.last().map_or(0.0, |at| at.years);
+                (line(end(0.0), end(last), if drifts { "series" } else { "grid" }))
+            }
+            @for at in &series.values {
+                @let x = field.x.place(at.years);
+                @let half = COVERAGE_FACTOR * at.u_arcsec.unwrap_or(0.0);
+                @if half > 0.0 {
+                    (whisker(x, field.y.clamped(at.arcsec - first - half), field.y.clamped(at.arcsec - first + half)))
+                }
+                (super::drawing::mark([x, field.y.clamped(at.arcsec - first)], 1, "mark"))
+            }
+            (words([right, field.y.places[1] - 3.0], Anchor::End, if drifts { "title" } else { "small" }, &title))
+            (line([left, field.y.place(0.0)], [right, field.y.place(0.0)], "grid"))
+        }
+    }
+}
+
+fn whisker(x: f64, from: f64, to: f64) -> Markup {
+    let [left, right, middle, from, to] = [x - 2.5, x + 2.5, x, from, to].map(coordinate);
+    let d = format!("M{middle},{from}V{to}M{left},{from}H{right}M{left},{to}H{right}");
+    html! { path.frame-line d=(d) {} }
+}
+
+fn whisker_sample() -> Markup {
+    html! { (whisker(14.0, 1.0, 13.0)) (super::drawing::mark([14.0, 7.0], 1, "mark")) }
+}
+
+fn in_words(history: &History) -> String {
+    let certificates = history
+        .certificates
+        .iter()
+        .map(|at| format!("certificate {} measured on {}", at.stand.certificate.number, measured(&at.stand)));
+    let passports = history.passports.iter().filter_map(|at| {
+        let ended = at.ended_at.map_or_else(|| "in force".to_owned(), |end| format!("until {end}"));
+        Some(format!("passport {} from {}, {ended}", at.line.id.as_deref()?, at.issued_at?))
+    });
+    let drifts = history.drift.series.iter().filter_map(|series| {
+        let fitted = series.line.as_ref()?;
+        let (name, index) = (LETTERS[series.angle], series.index);
+        Some(format!("{name} {index} {:+.3} arcsec per year, u {:.3}", fitted.slope, fitted.u_slope))
+    });
+    let all: Vec<String> =
+        certificates.chain(passports).chain(drifts).chain([crate::report::history::sentence(&history.drift)]).collect();
+    all.join("; ") + "."
+}

@@ -1,0 +1,137 @@
+//! `history`: the lines and their tests against SciPy, and the picture as a drawing.
+
+use crate::programs;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// Reads the passports with PyYAML, and fits and tests every deviation with SciPy; prints the largest relative difference
+/// from the JSON of the program, and the number of fits.
+const COMPARE: &str = r#"
+import json, sys, datetime, yaml, scipy.stats
+found = json.load(open(sys.argv[1]))
+series = {}
+for path in sys.argv[2:]:
+    text = open(path, encoding="utf-8").read().split("\nsignature: |")[0] + "\n"
+    passport = yaml.safe_load(text)
+    c = passport["certificate"]
+    day = datetime.date.fromisoformat(c["performed"])
+    type_b = sum(line["u_arcsec"] ** 2 for line in c.get("type_b", []) if line["acts_on"] != "position")
+    common = c["common_platform_arcsec"] ** 2 + c["common_base_arcsec"] ** 2
+    for at in passport["positions"]:
+        for angle in ("alpha", "beta", "gamma"):
+            own = at[f"u_{angle}_arcsec"] ** 2
+            doubt = own ** 2 / at["degrees_of_freedom"] + (common - type_b) ** 2 / (3 * (c["evidence"]["runs"] - 1))
+            point = (day, at[f"{angle}_arcsec"], own + common, (own + common) ** 2 / doubt)
+            series.setdefault((at["i"], at["j"], angle), []).append(point)
+fits = {}
+for key, points in series.items():
+    first = min(day for day, *_ in points)
+    x = [(day - first).days / 365.2425 for day, *_ in points]
+    w = [1 / variance for _, _, variance, _ in points]
+    mean = sum(a * b for a, b in zip(w, x)) / sum(w)
+    spread = sum(a * (b - mean) ** 2 for a, b in zip(w, x))
+    c = [a * (b - mean) / spread for a, b in zip(w, x)]
+    slope = sum(a * y for a, (_, y, *_) in zip(c, points))
+    variance = sum(a * a * v for a, (_, _, v, _) in zip(c, points))
+    freedom = variance ** 2 / sum((a * a * v) ** 2 / n for a, (_, _, v, n) in zip(c, points))
+    level = sum(a * y for a, (_, y, *_) in zip(w, points)) / sum(w)
+    rest = sum(a * (y - level - slope * (b - mean)) ** 2 for a, b, (_, y, *_) in zip(w, x, points))
+    p = 2 * scipy.stats.t.sf(abs(slope) / variance ** 0.5, freedom)
+    fits[key] = [slope, variance ** 0.5, freedom, p, rest]
+order = sorted(fits, key=lambda key: fits[key][3])
+largest = 0
+for before, key in enumerate(order):
+    largest = max(largest, min(1, fits[key][3] * (len(order) - before)))
+    fits[key].append(largest)
+worst = 0
+for at in found["drift"]["deviations"]:
+    mine = [at["slope_arcsec_per_year"], at["u_slope_arcsec_per_year"], at["degrees_of_freedom"], at["probability"],
+            at["chi_square"]["value"], at["corrected_probability"]]
+    due = fits.pop((at["i"], at["j"], at["angle"]))
+    worst = max(worst, *(abs(a / b - 1) for a, b in zip(mine, due)))
+print(worst, len(order), len(fits), found["drift"]["drifts"], order[0])
+"#;
+
+fn run(folder: &Path, arguments: &str) -> String {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+    command.args(arguments.split(' ')).current_dir(folder).stdin(Stdio::null());
+    programs::output(command)
+}
+
+/// The readings of the guide with the angle of one position shifted and all others slightly different.
+fn readings(year: u32) -> String {
+    let text = fs::read_to_string(programs::project("docs/angles.csv")).unwrap();
+    let lines = text.lines().enumerate().map(|(number, line)| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if cells.len() == 6 && cells[0] != "i" {
+            for (column, cell) in cells.iter_mut().enumerate().skip(3) {
+                let drifts = line.starts_with("2,3,") && column == 5;
+                let noise = f64::from((number as u32 * 7 + column as u32 * 5 + year * 11) % 13) / 13.0;
+                *cell = format!(
+                    "{:.3}",
+                    cell.parse::<f64>().unwrap() + noise + if drifts { 4.0 * f64::from(year) } else { 0.0 }
+                );
+            }
+        }
+        cells.join(",") + "\n"
+    });
+    lines.collect()
+}
+
+/// Expected: SciPy, from the passports as PyYAML reads them. The program also takes the angles between the axes of the
+/// deviations into account, which changes u by 1e-6 for the arc minutes of this stand.
+#[test]
+fn the_drift_is_what_scipy_finds() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::copy(programs::project("tests/cmd/files/allowed_signers"), at("allowed_signers")).unwrap();
+    fs::copy(programs::project("tests/cmd/files/sites/here.yaml"), at("here.yaml")).unwrap();
+    fs::copy(programs::project("tests/keys/examples"), at("key")).unwrap();
+    assert!(Command::new("chmod").arg("600").arg(at("key")).status().unwrap().success());
+    let header = fs::read_to_string(programs::project("docs/header.yaml")).unwrap();
+    let mut passports = Vec::new();
+    for (revision, year) in (1..).zip([0, 2, 3, 6]) {
+        let date = format!("{}-03-0{revision}", 2016 + year);
+        let edited: String = header
+            .lines()
+            .filter(|line| !line.contains("valid_until"))
+            .map(|line| match line.trim_start().split(':').next() {
+                Some("number") => format!("  number: \"C-{year}\"\n"),
+                Some("issued") => format!("  issued: \"{date}\"\n"),
+                Some("performed") => format!("  performed: \"{date}\"\n"),
+                Some("datum") => {
+                    "  type_b: [{source: \"scale\", acts_on: \"platform\", u_arcsec: 0.3}]\ndatum:\n".to_owned()
+                }
+                _ => format!("{line}\n"),
+            })
+            .collect();
+        fs::write(at("header.yaml"), edited).unwrap();
+        fs::write(at("angles.csv"), readings(year)).unwrap();
+        run(folder.path(), &format!("certify angles.csv --stand header.yaml -o stand-{year}.yaml"));
+        let sign = format!("--key key --identity factory --issued-at {date}T12:00:00Z");
+        if revision == 1 {
+            run(folder.path(), &format!("issue stand-{year}.yaml --site here.yaml {sign}"));
+        } else {
+            let old = revision - 1;
+            let trust = "--trust allowed_signers --reason certified";
+            let passport = format!("passports/SPS-2/0017/here-{old}.yaml");
+            run(folder.path(), &format!("reissue {passport} --stand stand-{year}.yaml {sign} {trust}"));
+        }
+        passports.push(at(&format!("passports/SPS-2/0017/here-{revision}.yaml")));
+    }
+    let history = "history SPS-2/0017 --trust allowed_signers --time 2026-11-21";
+    fs::write(at("found.json"), run(folder.path(), &format!("{history} --format json -o years.svg"))).unwrap();
+    let mut python = programs::python();
+    python.args(["-c", COMPARE]).arg(at("found.json")).args(&passports);
+    let compared = programs::output(python);
+    let words: Vec<&str> = compared.trim().splitn(5, ' ').collect();
+    assert!(words[0].parse::<f64>().unwrap() < 1e-5, "{compared}");
+    assert_eq!(words[1..], ["24", "0", "True", "(2, 3, 'gamma')"], "{compared}");
+    // The picture is well-formed XML, with a mark for each value and each certificate, and one in the legend of each.
+    let mut python = programs::python();
+    let count = "import sys, xml.dom.minidom as x; d = x.parse(sys.argv[1]); \
+                 print(len(d.getElementsByTagName('circle')), 'drifts' in d.toxml())";
+    python.args(["-c", count]).arg(at("years.svg"));
+    assert_eq!(programs::output(python).trim(), format!("{} True", 24 * 4 + 4 + 2));
+}
