@@ -10,10 +10,12 @@
 //! * `shard`: a part of a job, for one of several machines.
 //! * `issue`: every stand at every site.
 //! * `successors`: re-issue of passports.
+//! * `recertification`: a new certificate of one stand, and the successors of its passports.
 
 pub(crate) mod catalogue;
 pub(crate) mod issue;
 pub(crate) mod paths;
+pub(crate) mod recertification;
 pub(crate) mod shard;
 pub(crate) mod successors;
 

@@ -1,15 +1,20 @@
 //! Verb `certify`: a stand file from repeated readings of the angles, or a later check run against it.
 
+use super::diff::Past;
 use super::issue::read_stand;
 use super::output::Format;
+use super::trust_options::OptionalTrust;
 use super::{Code, Failure, REFUSED, output};
 use crate::certification::comparison::compare;
 use crate::certification::{AngleReadings, Header, certify};
 use crate::files;
+use crate::folder::archive::Superseded;
+use crate::passport::content::claims_to_be_a_passport;
 use crate::report::certification as report;
+use crate::stand::Stand;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Certify a stand from repeated readings of its angles, or check that it has not changed
 #[derive(Args)]
@@ -26,16 +31,18 @@ pub(super) struct Options {
     /// Replace an existing stand file
     #[arg(long)]
     force: bool,
-    /// Certified stand to compare the readings with; one run is sufficient
-    #[arg(long, value_name = "stand.yaml")]
+    /// Certified stand or passport to compare the readings with; one run is sufficient. A passport requires --trust
+    #[arg(long, value_name = "FILE")]
     against: Option<PathBuf>,
+    #[command(flatten)]
+    trust: OptionalTrust,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let against = options.against.as_deref().map(read_stand).transpose()?;
+    let against = options.against.as_deref().map(|path| certified(path, &options.trust)).transpose()?;
     let header = match (&options.stand, &against) {
         (Some(path), _) => {
             let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
@@ -71,6 +78,11 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             return Err(Failure::unusable(words));
         }
         let text = certified.to_yaml(&name_of(path)).map_err(Failure::refused)?;
+        let superseded = Superseded::of(path, text.as_bytes()).map_err(Failure::file)?.filter(|_| options.force);
+        if let Some(superseded) = &superseded {
+            superseded.keep().map_err(Failure::file)?;
+            output::say(&format!("kept the superseded stand file as {}", shown(&superseded.path)));
+        }
         output::file(path, &text, options.force)?;
         output::say(&format!("wrote {}", shown(path)));
     }
@@ -84,4 +96,15 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         }
     }
     Ok(if comparison.is_some_and(|comparison| !comparison.same_stand) { REFUSED } else { 0 })
+}
+
+/// Reads the certified stand in a stand file or, if `trust` verifies it, in a passport.
+fn certified(path: &Path, trust: &OptionalTrust) -> Result<Stand, Failure> {
+    let is_passport =
+        files::read_first(path, LARGEST_DOCUMENT_BYTES).is_ok_and(|bytes| claims_to_be_a_passport(&bytes));
+    match (is_passport, trust.load()?) {
+        (false, _) => read_stand(path),
+        (true, Some((trust, question))) => Ok(Past::read(path, &trust, &question)?.content.to_stand()),
+        (true, None) => Err(Failure::unusable(format!("{}: is a passport; specify --trust to verify it", shown(path)))),
+    }
 }

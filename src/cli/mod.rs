@@ -17,6 +17,7 @@ mod key_options;
 mod keygen;
 mod output;
 mod plan;
+mod recertify;
 mod register;
 mod reissue;
 mod render;
@@ -50,6 +51,7 @@ enum Verb {
     Certify(certify::Options),
     Issue(issue::Options),
     Reissue(reissue::Options),
+    Recertify(recertify::Options),
     Verify(verify::Options),
     Show(show::Options),
     Export(export::Options),
@@ -135,6 +137,7 @@ pub fn main() -> ExitCode {
         Verb::Certify(options) => certify::run(&options),
         Verb::Issue(options) => issue::run(&options),
         Verb::Reissue(options) => reissue::run(&options),
+        Verb::Recertify(options) => recertify::run(&options),
         Verb::Verify(options) => verify::run(&options),
         Verb::Show(options) => show::run(&options),
         Verb::Export(options) => export::run(&options),

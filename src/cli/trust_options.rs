@@ -48,6 +48,28 @@ pub(super) struct TrustOptions {
     asked: Asked,
 }
 
+/// Options of trust of a verb that also works without a passport.
+#[derive(Args)]
+pub(super) struct OptionalTrust {
+    /// Trusted signing keys: an OpenSSH allowed_signers file
+    #[arg(long, value_name = "SIGNERS")]
+    trust: Option<PathBuf>,
+    /// Revocations: an OpenSSH KRL, a list of public keys, or a list of withdrawn passports (repeatable)
+    #[arg(long, value_name = "FILE", requires = "trust")]
+    revoked: Vec<PathBuf>,
+    #[command(flatten)]
+    asked: Asked,
+}
+
+impl OptionalTrust {
+    /// Returns the trust and the question, or `None` if no `--trust` is given.
+    pub(super) fn load(&self) -> Result<Option<(Trust, Question)>, Failure> {
+        let question = self.asked.question();
+        let Some(signers) = &self.trust else { return Ok(None) };
+        Ok(Some((load(signers, &self.revoked, question.time)?, question)))
+    }
+}
+
 impl TrustOptions {
     pub(super) fn load(&self) -> Result<(Trust, Question), Failure> {
         let question = self.asked.question();

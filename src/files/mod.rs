@@ -1,9 +1,11 @@
 //! File access: files are read completely up to a limit, and written completely or not at all.
 //!
 //! * [`leftovers`]: temporary files that killed runs left behind.
+//! * [`together`]: several files, all or none.
 //! * [`walk`]: the files under a folder.
 
 pub(crate) mod leftovers;
+pub(crate) mod together;
 pub(crate) mod walk;
 
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, shown};

@@ -2,8 +2,10 @@
 //! never replace another file.
 //!
 //! * `search`: the files in a folder, and their register.
+//! * `archive`: stand files that a new certificate supersedes.
 //! * `record`: the history of one stand, from the files in a folder.
 
+pub(crate) mod archive;
 mod claim;
 mod names;
 pub(crate) mod record;
@@ -103,6 +105,15 @@ impl Unwritten {
     pub(crate) fn remarks(&self) -> Remarks {
         self.draft.remarks()
     }
+}
+
+/// Passport that was signed and verified.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Sealed {
+    /// Passport, which exists once its text has been written.
+    pub issued: Issued,
+    /// Text to be written, or `None` if an equal passport already exists.
+    pub text: Option<String>,
 }
 
 /// Number of times that an order is tried; each retry means that another run has just written a passport.
@@ -340,6 +351,26 @@ impl Folder {
         }
     }
 
+    /// Signs the next passport and verifies it with the trust of `seal`, but does not write it, so that several can be
+    /// written together with [`files::together::write_together`].
+    ///
+    /// # Errors
+    /// Returns [`FolderRefused`] if the signer fails or the passport fails verification.
+    pub(crate) fn seal(&self, next: Next, seal: Seal) -> Result<Sealed, FolderRefused> {
+        match next {
+            Next::There(issued) => Ok(Sealed { issued, text: None }),
+            Next::New(Unwritten { path, draft }) => {
+                let text = draft.sign(seal.signer)?;
+                if let Some(trust) = seal.trust {
+                    check_verifiable(&path, &text, &draft, trust)?;
+                }
+                let (id, sha256) = (draft.content().passport.id.clone(), sha256_hex(text.as_bytes()));
+                let issued = Issued { id, path, sha256, new: true, remarks: draft.remarks() };
+                Ok(Sealed { issued, text: Some(text) })
+            }
+        }
+    }
+
     /// Signs and writes the next passport. If another run writes a file of that name first, the next step is determined
     /// again.
     fn settle(&self, next: impl Fn() -> Result<Next, FolderRefused>, seal: Seal) -> Result<Issued, FolderRefused> {
@@ -360,14 +391,10 @@ impl Folder {
     }
 
     fn write(&self, new: Unwritten, seal: Seal) -> Result<Issued, FolderRefused> {
-        let Unwritten { path, draft } = new;
-        let text = draft.sign(seal.signer)?;
-        if let Some(trust) = seal.trust {
-            check_verifiable(&path, &text, &draft, trust)?;
-        }
-        files::write_new_as(&path, text.as_bytes(), Access::Shared, self.durability)?;
-        let id = draft.content().passport.id.clone();
-        Ok(Issued { id, path, sha256: sha256_hex(text.as_bytes()), new: true, remarks: draft.remarks() })
+        let Sealed { issued, text } = self.seal(Next::New(new), seal)?;
+        let text = text.unwrap_or_default();
+        files::write_new_as(&issued.path, text.as_bytes(), Access::Shared, self.durability)?;
+        Ok(issued)
     }
 
     /// Checks that the path from the root to `folder` has no link, once for all its passports.

@@ -20,6 +20,11 @@ use std::fmt::{self, Display, Formatter};
 /// Format name of a passport.
 pub(crate) const PASSPORT_FORMAT: &str = "dtg-passport/1";
 
+/// Returns `true` if the file states the format of a passport.
+pub(crate) fn claims_to_be_a_passport(bytes: &[u8]) -> bool {
+    memchr::memmem::find(bytes, b"format: \"dtg-passport/").is_some()
+}
+
 record! {
     /// Predecessor: the passport that was re-issued.
     pub struct Predecessor {

@@ -2,7 +2,7 @@
 
 use super::content::Content;
 use crate::calibration::inputs::Turn;
-use crate::stand::{Certificate, CertifiedPosition};
+use crate::stand::{Certificate, CertifiedPosition, Stand};
 use crate::text::{Field, Node};
 use crate::units::ARCSECONDS_PER_DEGREE;
 use nalgebra::Matrix3;
@@ -102,6 +102,32 @@ impl Differences {
             (a, b) => self.others.push(OtherDifference { key: key.to_owned(), a: a.cloned(), b: b.cloned() }),
         }
     }
+}
+
+/// Returns the certified deviations of two certificates of one stand, unchanged ones too: those of the first, then those
+/// of positions that only the second has.
+pub(crate) fn of_deviations(a: &Stand, b: &Stand) -> Vec<NumberDifference> {
+    let mut numbers: Vec<NumberDifference> = Vec::new();
+    let only_in_b = b.positions.iter().filter(|at| a.positions.iter().all(|other| other.index() != at.index()));
+    for position in a.positions.iter().chain(only_in_b) {
+        let of = |stand: &Stand| {
+            let at = stand.positions.iter().find(|at| at.index() == position.index())?.clone();
+            let u = u_of_deviations_arcsec(&at, &stand.certificate);
+            Some(([at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec], u))
+        };
+        let (old, new) = (of(a), of(b));
+        for (angle, name) in ["alpha", "beta", "gamma"].into_iter().enumerate() {
+            let key = format!("positions[{},{}].{name}_arcsec", position.i, position.j);
+            let u = |of: &Option<([f64; 3], [Option<f64>; 3])>| of.as_ref().and_then(|(_, u)| u[angle]);
+            numbers.push(NumberDifference {
+                key,
+                a: old.as_ref().map(|(values, _)| values[angle]),
+                b: new.as_ref().map(|(values, _)| values[angle]),
+                standard_uncertainty: u(&old).zip(u(&new)).map(|(a, b)| libm::hypot(a, b)),
+            });
+        }
+    }
+    numbers
 }
 
 /// Returns the keys of two mappings, those of the first before those that only the second has.

@@ -88,7 +88,11 @@ pub(crate) fn numbers(out: &mut String, numbers: &[NumberDifference]) {
             Some(u) => columns::decimals(u),
             None => difference.map_or(6, decimals_of_a_difference),
         };
-        let plain = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| stated(value, decimals));
+        let plain = |value: Option<f64>| match value {
+            None => "-".to_owned(),
+            Some(value) if at.standard_uncertainty.is_some() => format!("{value:.decimals$}"),
+            Some(value) => stated(value, decimals),
+        };
         let signed = |value: Option<f64>| value.map_or_else(String::new, |value| columns::signed(value, decimals));
         vec![
             at.key.clone(),

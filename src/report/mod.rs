@@ -16,6 +16,7 @@
 //! * `passport_table`: a passport in a terminal.
 //! * `plan`: the best positions, and what they cannot see.
 //! * `picture`: the contents of a document as pictures.
+//! * `recertification`: a new certificate of a stand, and the successors of its passports.
 //! * `register`: the passports in a folder and their states.
 //! * `selftest`: the reference cases.
 //! * `simulation`: the tables of simulations.
@@ -39,6 +40,7 @@ pub(crate) mod passport_table;
 pub(crate) mod picture;
 #[cfg(feature = "factory")]
 pub(crate) mod plan;
+pub(crate) mod recertification;
 pub(crate) mod register;
 pub(crate) mod selftest;
 pub(crate) mod simulation;

@@ -13,6 +13,7 @@ mod history;
 #[cfg(unix)]
 mod hostile_words;
 mod json_keys;
+mod recertify;
 mod report;
 mod revocation_chain;
 mod selftest;

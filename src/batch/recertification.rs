@@ -1,0 +1,439 @@
+//! Recertification of a stand: the check against its certificate, the new certificate, and the successors of its
+//! passports in force, in one step.
+//!
+//! Everything is computed, signed and verified before anything is written, and the files are then written together. A
+//! second run with the same input completes a run that was killed in between, and changes nothing otherwise.
+
+use crate::certification::comparison::compare;
+use crate::certification::{AngleReadings, Certification, Comparison, Header, certify};
+use crate::files::{self, FileError, folder_of, leftovers};
+use crate::folder::archive::Superseded;
+use crate::folder::{Folder, FolderRefused, Issued, Next, Seal, Sealed, Superseding, search};
+use crate::passport::difference::{NumberDifference, of_deviations};
+use crate::passport::issue::PreparedStand;
+use crate::passport::reissue::{Order, successor};
+use crate::passport::{Content, Question, Trust, verify};
+use crate::register::{Asked, Line, Register, State};
+use crate::site::Site;
+use crate::stand::Stand;
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, shown};
+use jiff::Timestamp;
+use jiff::civil::Date;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Place at which a new passport is requested.
+#[derive(Debug, Clone)]
+pub(crate) enum AtSite {
+    /// Site as the passport in force states it.
+    Id(String),
+    /// Corrected site of this id.
+    File(Box<Site>),
+}
+
+impl AtSite {
+    fn id(&self) -> &str {
+        match self {
+            Self::Id(id) => id,
+            Self::File(site) => site.id.as_str(),
+        }
+    }
+}
+
+/// Order of a recertification.
+#[derive(Clone)]
+pub(crate) struct Recertification<'a> {
+    /// Passport of the stand, which is in force.
+    pub passport: &'a Path,
+    /// Name and content of the file of readings.
+    pub readings: (&'a str, &'a [u8]),
+    /// Header of the new certificate; that of the passport if `None`.
+    pub header: Option<Header>,
+    /// Number of the new certificate.
+    pub number: &'a str,
+    /// Date of issue of the new certificate.
+    pub issued: Date,
+    /// Expiry date of the new certificate (inclusive); that of the header if `None`.
+    pub valid_until: Option<Date>,
+    /// Places that get a new passport; all in force if empty.
+    pub sites: &'a [AtSite],
+    /// Reason for the re-issue.
+    pub reason: &'a str,
+    /// Issuer.
+    pub issuer: &'a str,
+    /// Time of issue.
+    pub issued_at: Timestamp,
+    /// Trust in the predecessors, by which the successors are verified too.
+    pub trust: Trust,
+    /// Question by which the passport is verified.
+    pub question: Question,
+    /// Root of the new files; that of the passport's path if `None`.
+    pub out: Option<PathBuf>,
+    /// Flag that cancels the recertification before anything is written.
+    pub cancel: Option<&'a AtomicBool>,
+}
+
+/// Successor of a recertification.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum NewPassport {
+    /// Passport that exists now, new or unchanged.
+    There(Issued),
+    /// Passport that an earlier run issued, which was in force before this one.
+    Done(Line),
+    /// Passport that would be issued without the dry run: its id and its path.
+    Planned(String, PathBuf),
+}
+
+/// Result of a recertification.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Recertified {
+    /// New certificate, with its evidence.
+    pub certification: Certification,
+    /// Check of the stand against the old certificate.
+    pub comparison: Comparison,
+    /// Number of the old certificate.
+    pub old_number: String,
+    /// Deviations of the old and the new certificate.
+    pub changes: Vec<NumberDifference>,
+    /// New passports.
+    pub passports: Vec<NewPassport>,
+    /// Passports of the stand that stay in force under the old certificate.
+    pub remaining: Vec<String>,
+    /// Stand file of the new certificate.
+    pub stand_file: PathBuf,
+    /// Path under which the superseded stand file is kept.
+    pub superseded: Option<PathBuf>,
+}
+
+impl Recertified {
+    /// Returns the passports that were written.
+    pub(crate) fn new_passports(&self) -> impl Iterator<Item = &Issued> {
+        self.passports.iter().filter_map(|passport| match passport {
+            NewPassport::There(issued) => Some(issued).filter(|issued| issued.new),
+            NewPassport::Done(_) | NewPassport::Planned(..) => None,
+        })
+    }
+}
+
+/// Reason why a stand was not recertified; nothing was written.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum NotRecertified {
+    /// Rule that the order or the readings break.
+    #[error("{0}; nothing was written")]
+    Refused(String),
+    /// Input with errors.
+    #[error(transparent)]
+    Unreadable(#[from] Unreadable),
+    /// Successor that cannot be issued.
+    #[error("{0}: {1}; nothing was written")]
+    Folder(String, FolderRefused),
+    /// Failure of the file system.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+impl NotRecertified {
+    /// Returns `true` if a file cannot be used, `false` if a document was refused.
+    pub(crate) fn is_unusable(&self) -> bool {
+        match self {
+            Self::Refused(_) | Self::File(FileError::Exists { .. }) => false,
+            Self::Unreadable(_) | Self::File(_) => true,
+            Self::Folder(_, refused) => refused.is_unusable(),
+        }
+    }
+}
+
+fn refused(why: impl std::fmt::Display) -> NotRecertified {
+    NotRecertified::Refused(why.to_string())
+}
+
+/// Predecessor in force, with its file.
+struct Old {
+    path: PathBuf,
+    bytes: Vec<u8>,
+    content: Content,
+    site: Option<Site>,
+}
+
+impl Recertification<'_> {
+    /// Recertifies the stand. Without `seal` it is a dry run, which computes and checks everything and writes nothing.
+    ///
+    /// # Errors
+    /// Returns [`NotRecertified`]; nothing is then written.
+    pub(crate) fn run(&self, seal: Option<Seal>) -> Result<Recertified, NotRecertified> {
+        let bytes = files::read(self.passport, LARGEST_DOCUMENT_BYTES)?;
+        let old = self.content(self.passport, &bytes, &self.trust, &self.question)?;
+        let old_stand = old.to_stand();
+        let header = self.header(&old_stand)?;
+        let (certification, comparison) = self.measured(&old_stand, &header)?;
+        let new = certification.stand.clone();
+        let root = self.root(&old_stand)?;
+        let stand_file = root.join(new.stand.model.as_str()).join(new.stand.serial.as_str()).join("stand.yaml");
+        let text = certification.to_yaml(&name_of(&stand_file))?;
+        self.check_there(&stand_file, &certification)?;
+        let (found, trust) = search::register(
+            folder_of(self.passport),
+            self.trust.clone(),
+            &Asked::at(self.question.time),
+            crate::parallel::processors(),
+        )?;
+        let chosen = self.chosen(&found, &old_stand, &new, &trust)?;
+        let folder = Folder::new(root);
+        let prepared = Arc::new(PreparedStand::new(new.clone()));
+        let mut next = Vec::new();
+        for predecessor in &chosen.predecessors {
+            next.push(self.next(predecessor, &folder, &prepared, &trust)?);
+        }
+        let superseded = Superseded::of(&stand_file, text.as_bytes())?;
+        let mut passports = chosen.done;
+        match seal {
+            None => passports.extend(next.into_iter().map(|next| match next {
+                Next::There(issued) => NewPassport::There(issued),
+                Next::New(new) => NewPassport::Planned(new.id().to_owned(), new.path().to_owned()),
+            })),
+            Some(seal) => {
+                let sealed = next.into_iter().map(|next| {
+                    let id = match &next {
+                        Next::There(issued) => issued.id.clone(),
+                        Next::New(new) => new.id().to_owned(),
+                    };
+                    folder.seal(next, seal).map_err(|refused| NotRecertified::Folder(id, refused))
+                });
+                let sealed = sealed.collect::<Result<Vec<_>, _>>()?;
+                if self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed)) {
+                    return Err(refused("interrupted"));
+                }
+                write(&sealed, &stand_file, &text, superseded.as_ref())?;
+                passports.extend(sealed.into_iter().map(|sealed| NewPassport::There(sealed.issued)));
+            }
+        }
+        Ok(Recertified {
+            changes: of_deviations(&old_stand, &new),
+            old_number: old_stand.certificate.number,
+            certification,
+            comparison,
+            passports,
+            remaining: chosen.remaining,
+            stand_file,
+            superseded: superseded.map(|superseded| superseded.path),
+        })
+    }
+
+    /// Returns the content of a passport that passes every check of `question`.
+    fn content(
+        &self,
+        path: &Path,
+        bytes: &[u8],
+        trust: &Trust,
+        question: &Question,
+    ) -> Result<Content, NotRecertified> {
+        let verification = verify(&name_of(path), bytes, trust, question);
+        if let Some(passport) = verification.passport() {
+            return Ok(passport.content().clone());
+        }
+        let failed = verification.checks().iter().find(|check| check.passed() == Some(false));
+        let why = failed.map_or_else(String::new, |check| format!(" ({}: {})", check.name.as_str(), check.detail));
+        Err(refused(format!("{}: the passport failed verification{why}", shown(path))))
+    }
+
+    fn header(&self, old: &Stand) -> Result<Header, NotRecertified> {
+        let mut header = self.header.clone().unwrap_or_else(|| Header::from(old));
+        if header.stand.id() != old.stand.id() {
+            let (given, old) = (header.stand.id(), old.stand.id());
+            return Err(refused(format!("the header is for {given}, but the passport is for {old}")));
+        }
+        self.number.clone_into(&mut header.certificate.number);
+        header.certificate.issued = self.issued;
+        header.certificate.valid_until = self.valid_until.or(header.certificate.valid_until);
+        Ok(header)
+    }
+
+    /// Certifies the stand from the readings, and compares it with the old certificate.
+    fn measured(&self, old: &Stand, header: &Header) -> Result<(Certification, Comparison), NotRecertified> {
+        let (name, bytes) = self.readings;
+        let of_readings = |why: &dyn std::fmt::Display| refused(format!("{}: {why}", Printable(name)));
+        let readings = AngleReadings::from_csv(name, bytes, &header.positions)?;
+        let certification = certify(header, &readings).map_err(|why| of_readings(&why))?;
+        if certification.check_number(old).is_err() || old.certificate.number == self.number {
+            let number = self.number;
+            return Err(refused(format!(
+                "certificate {number} is the certificate of the passport; give the new certificate its own number with \
+                 --number"
+            )));
+        }
+        let comparison = compare(old, header, &readings, Some(&certification)).map_err(|why| of_readings(&why))?;
+        if comparison.positions.iter().all(|at| !at.repeats) {
+            return Err(of_readings(
+                &"no half of the positions agree with the certificate; check that these are the readings of this stand. \
+                  For a stand that was rebuilt, use `certify` and `reissue --stand`",
+            ));
+        }
+        Ok((certification, comparison))
+    }
+
+    /// Returns the folder of passports into which the new files are written.
+    fn root(&self, stand: &Stand) -> Result<PathBuf, NotRecertified> {
+        let shown_by_path = || Folder::root_of(self.passport, &stand.stand).map(Path::to_owned);
+        self.out.clone().or_else(shown_by_path).ok_or_else(|| {
+            refused(format!(
+                "{}: the passport is not in a folder {}, so the folder of its successor is unknown; specify the folder \
+                 of passports with --out",
+                shown(self.passport),
+                stand.stand.id()
+            ))
+        })
+    }
+
+    /// Checks that the existing stand file does not state other angles under the new number.
+    fn check_there(&self, path: &Path, new: &Certification) -> Result<(), NotRecertified> {
+        match files::read(path, LARGEST_DOCUMENT_BYTES) {
+            Err(FileError::Read { error, .. }) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),
+            Err(error) => Err(error.into()),
+            Ok(bytes) => {
+                let there = Stand::from_yaml(&name_of(path), &bytes)?;
+                new.check_number(&there).map_err(|why| refused(format!("{}: {why}", shown(path))))
+            }
+        }
+    }
+
+    /// Selects the passports that get a successor.
+    fn chosen(&self, found: &Register, old: &Stand, new: &Stand, trust: &Trust) -> Result<Chosen, NotRecertified> {
+        let id = old.stand.id();
+        if let Some(alarm) = found.uncertain().or_else(|| found.doubt(&id)) {
+            let advice = "get the damaged or missing file again, and list the folder with `register`";
+            return Err(refused(format!("it is unknown which passports are in force: {}; {advice}", alarm.reason())));
+        }
+        let of_stand = |line: &&Line| line.stand.as_deref() == Some(id.as_str());
+        let lines: Vec<&Line> = found.passports.iter().filter(of_stand).collect();
+        let mut chosen = Chosen::default();
+        for line in lines.iter().filter(|line| matches!(line.state, State::InForce | State::Expiring)) {
+            let site = line.site.as_deref().unwrap_or_default();
+            let asked = self.sites.iter().find(|asked| asked.id() == site);
+            let path = PathBuf::from(&line.file);
+            let bytes = files::read(&path, LARGEST_DOCUMENT_BYTES)?;
+            let content = self.content(&path, &bytes, trust, &Question::at(self.question.time))?;
+            if found.is_of_a_fork(&line.sha256) {
+                let words = "its predecessor has several successors; list them with `register` and withdraw the wrong \
+                             ones with `revoke`";
+                return Err(refused(format!("{}: {words}", shown(&path))));
+            }
+            if content.to_stand() == *new {
+                chosen.done.push(NewPassport::Done(Line::clone(line)));
+            } else if content.certificate.number == new.certificate.number {
+                let number = &new.certificate.number;
+                return Err(refused(format!("{}: certificate {number} already states other contents", shown(&path))));
+            } else if self.sites.is_empty() || asked.is_some() {
+                let site = asked.and_then(|asked| match asked {
+                    AtSite::File(site) => Some(Site::clone(site)),
+                    AtSite::Id(_) => None,
+                });
+                chosen.predecessors.push(Old { path, bytes, content, site });
+            } else {
+                chosen.remaining.push(content.passport.id);
+            }
+        }
+        self.check_chosen(&chosen, &lines)?;
+        Ok(chosen)
+    }
+
+    /// Checks that the given passport and every requested place are among the passports in force.
+    fn check_chosen(&self, chosen: &Chosen, lines: &[&Line]) -> Result<(), NotRecertified> {
+        let known = |path: &Path| lines.iter().find(|line| same_file(Path::new(&line.file), path));
+        if let Some(line) = known(self.passport)
+            && !matches!(line.state, State::InForce | State::Expiring)
+            && chosen.done.is_empty()
+        {
+            let words =
+                format!("{}: the passport is not in force: {} {}", shown(self.passport), line.state.key(), line.why);
+            return Err(refused(words));
+        }
+        let there: Vec<&str> = chosen.predecessors.iter().map(|old| old.content.site.id.as_str()).collect();
+        for asked in self.sites {
+            let site = asked.id();
+            let is_done =
+                |done: &NewPassport| matches!(done, NewPassport::Done(line) if line.site.as_deref() == Some(site));
+            let done = chosen.done.iter().any(is_done);
+            if !there.contains(&site) && !done {
+                let in_force = lines.iter().filter(|line| matches!(line.state, State::InForce | State::Expiring));
+                let in_force: Vec<&str> = in_force.filter_map(|line| line.site.as_deref()).collect();
+                return Err(refused(format!(
+                    "no passport of the stand is in force for site {site}; found {}",
+                    in_force.join(", ")
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the next step for the successor of one passport.
+    fn next(
+        &self,
+        old: &Old,
+        folder: &Folder,
+        stand: &Arc<PreparedStand>,
+        trust: &Trust,
+    ) -> Result<Next, NotRecertified> {
+        let order = Order {
+            stand: Some(Arc::clone(stand)),
+            site: old.site.clone(),
+            moved: false,
+            reason: self.reason.to_owned(),
+            issuer: self.issuer.to_owned(),
+            issued_at: self.issued_at,
+            valid_until: None,
+            allow_uncalibratable: old.content.self_check.is_none(),
+        };
+        let verification = verify(&name_of(&old.path), &old.bytes, trust, &Question::at(self.question.time));
+        let next = successor(&old.bytes, &verification, &order)
+            .map_err(|why| refused(format!("{}: {why}", shown(&old.path))))?;
+        let path = folder.path_of(&next.stand().stand, &next.site().id, next.first_revision());
+        let asked = Asked::at(self.question.time);
+        let rival = Superseding::default().of(folder_of(&path), next.old_sha256(), &path, trust, &asked);
+        folder
+            .next_successor(&next.beside(rival))
+            .map_err(|why| NotRecertified::Folder(old.content.passport.id.clone(), why))
+    }
+}
+
+/// Passports of a stand that are in force.
+#[derive(Default)]
+struct Chosen {
+    /// Passports that get a successor.
+    predecessors: Vec<Old>,
+    /// Passports that an earlier run has already issued.
+    done: Vec<NewPassport>,
+    /// Ids of the passports that were not requested.
+    remaining: Vec<String>,
+}
+
+fn same_file(one: &Path, other: &Path) -> bool {
+    match (one.canonicalize(), other.canonicalize()) {
+        (Ok(one), Ok(other)) => one == other,
+        _ => one == other,
+    }
+}
+
+/// Writes the superseded stand file under its new name, then all passports and the new stand file together.
+fn write(
+    sealed: &[Sealed],
+    stand_file: &Path,
+    text: &str,
+    superseded: Option<&Superseded>,
+) -> Result<(), NotRecertified> {
+    leftovers::remove(folder_of(stand_file));
+    let new: Vec<(PathBuf, Vec<u8>)> = sealed
+        .iter()
+        .filter_map(|sealed| Some((sealed.issued.path.clone(), sealed.text.clone()?.into_bytes())))
+        .collect();
+    if let Some(superseded) = superseded {
+        superseded.keep()?;
+    }
+    let written = files::together::write_together(&new, &(stand_file.to_owned(), text.as_bytes().to_vec()));
+    if written.is_err()
+        && let Some(superseded) = superseded.filter(|superseded| !superseded.kept)
+    {
+        let _ = std::fs::remove_file(&superseded.path);
+    }
+    Ok(written?)
+}

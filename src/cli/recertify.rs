@@ -1,0 +1,130 @@
+//! Verb `recertify`: a new certificate from new readings, and successors of the passports in force, in one step.
+
+use super::issue::read_site;
+use super::key_options::{self, signer_of};
+use super::output::{self, Format};
+use super::trust_options::{self, TrustOptions};
+use super::{Code, Failure, REFUSED, UNUSABLE};
+use crate::batch::recertification::{AtSite, NotRecertified, Recertification};
+use crate::certification::Header;
+use crate::files;
+use crate::folder::Seal;
+use crate::passport::issue::time_of_issue;
+use crate::report::issued::{Told, warnings};
+use crate::report::recertification as report;
+use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, name_of};
+use clap::Args;
+use jiff::Timestamp;
+use jiff::civil::Date;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Recertify a stand: check it against its certificate, certify it again, and re-issue its passports in force
+///
+/// Everything is computed, signed and verified first; then all files are written, or none. The superseded stand file is
+/// kept as stand-<certificate number>.superseded.yaml.
+#[derive(Args)]
+pub(super) struct Options {
+    /// Passport of the stand, in force
+    #[arg(value_name = "PASSPORT")]
+    passport: PathBuf,
+    /// Angles: CSV with the header i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec, and every position in every run
+    #[arg(value_name = "READINGS.csv")]
+    readings: PathBuf,
+    /// Number of the new certificate
+    #[arg(long, value_name = "N")]
+    number: String,
+    /// Date of issue of the new certificate
+    #[arg(long, value_name = "DATE", value_parser = trust_options::date)]
+    issued: Date,
+    /// Place that gets a new passport: a site file, or the id of a site (repeatable) [default: every place in force in
+    /// the folder of the passport]
+    #[arg(long = "site", value_name = "SITE")]
+    sites: Vec<PathBuf>,
+    /// Reason for the re-issue, recorded in the passports
+    #[arg(long, value_name = "TEXT")]
+    reason: String,
+    /// Private key file, or a .pub file whose private half is in ssh-agent or a FIDO token
+    #[arg(long, value_name = "KEY", required_unless_present = "dry_run")]
+    key: Option<PathBuf>,
+    /// Issuer: the principal of the key in allowed_signers
+    #[arg(long, value_name = "WHO", value_parser = key_options::identity)]
+    identity: String,
+    #[command(flatten)]
+    trust: TrustOptions,
+    /// Header of the new certificate (dtg-stand/1 without angles) [default: that of the passport, without the dates and
+    /// the temperature of its measurement]
+    #[arg(long, value_name = "FILE")]
+    header: Option<PathBuf>,
+    /// Expiry date of the new certificate (inclusive) [default: that of --header]
+    #[arg(long, value_name = "DATE", value_parser = trust_options::date)]
+    valid_until: Option<Date>,
+    /// Time of issue of the passports, RFC 3339 [default: now]
+    #[arg(long, value_name = "TIME", value_parser = trust_options::time)]
+    issued_at: Option<Timestamp>,
+    /// Folder of passports [default: the parent of <model>/<serial> in the path of the passport]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Compute and check everything, and show it, but write nothing; requires no key
+    #[arg(long)]
+    dry_run: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
+    let (trust, question) = options.trust.load()?;
+    let cancel = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&cancel);
+    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)).map_err(Failure::unusable)?;
+    let read = |path: &PathBuf| files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable);
+    let header = options
+        .header
+        .as_ref()
+        .map(|path| Header::from_yaml(&name_of(path), &read(path)?).map_err(Failure::unreadable));
+    let (name, bytes) = (name_of(&options.readings), read(&options.readings)?);
+    let sites = options.sites.iter().map(|path| at_site(path)).collect::<Result<Vec<_>, _>>()?;
+    let order = Recertification {
+        passport: &options.passport,
+        readings: (&name, &bytes),
+        header: header.transpose()?,
+        number: &options.number,
+        issued: options.issued,
+        valid_until: options.valid_until,
+        sites: &sites,
+        reason: &options.reason,
+        issuer: &options.identity,
+        issued_at: time_of_issue(options.issued_at, trust_options::now()).map_err(Failure::refused)?,
+        trust: trust.clone(),
+        question,
+        out: options.out.clone(),
+        cancel: Some(&cancel),
+    };
+    let signer = options.key.as_deref().filter(|_| !options.dry_run).map(signer_of).transpose()?;
+    let seal = signer.as_deref().map(|signer| Seal { signer, trust: Some(&trust) });
+    let found = order.run(seal).map_err(|why| match why {
+        NotRecertified::Unreadable(error) => Failure::unreadable(error),
+        why => Failure { code: if why.is_unusable() { UNUSABLE } else { REFUSED }, message: why.to_string() },
+    })?;
+    match options.format {
+        Format::Json => output::json(&report::to_json(&found, options.dry_run))?,
+        Format::Text => output::result(&report::text(&found, options.dry_run))?,
+    }
+    let mut told = Told::default();
+    for issued in found.new_passports() {
+        warnings(&issued.remarks).into_iter().for_each(|words| told.add(&issued.id, words));
+    }
+    told.lines().iter().for_each(|line| output::say(line));
+    Ok(0)
+}
+
+/// Returns the place of `--site`: the site file of that name, or else the id of a site.
+fn at_site(path: &Path) -> Result<AtSite, Failure> {
+    let id = path.to_str().filter(|id| !path.is_file() && Identifier::new(id).is_ok());
+    match id {
+        Some(id) => Ok(AtSite::Id(id.to_owned())),
+        None => read_site(path).map(|site| AtSite::File(Box::new(site))),
+    }
+}

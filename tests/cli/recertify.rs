@@ -1,0 +1,302 @@
+//! `recertify`: one step from readings to the passports of all places, or nothing at all.
+
+use crate::programs;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+const HERE: &str = "passports/SPS-2/0017/here-1.yaml";
+const SIGN: &str = "--key key --identity factory";
+const TRUST: &str = "--trust allowed_signers --time 2026-11-21";
+const ORDER: &str = "--number C-2026-0300 --issued 2026-11-20 --issued-at 2026-11-20T10:00:00Z --reason recertified";
+
+/// A factory's folder with a certified stand and its passports for two places.
+struct Factory(tempfile::TempDir);
+
+impl Factory {
+    fn new() -> Self {
+        let factory = Self(tempfile::tempdir().unwrap());
+        for (from, to) in [
+            ("tests/cmd/files/allowed_signers", "allowed_signers"),
+            ("tests/cmd/files/sites/here.yaml", "here.yaml"),
+            ("tests/cmd/files/sites/there.yaml", "there.yaml"),
+            ("tests/keys/examples", "key"),
+            ("docs/angles.csv", "angles.csv"),
+            ("docs/header.yaml", "header.yaml"),
+        ] {
+            fs::copy(programs::project(from), factory.path(to)).unwrap();
+        }
+        assert!(Command::new("chmod").arg("600").arg(factory.path("key")).status().unwrap().success());
+        fs::write(factory.path("new.csv"), new_readings(6.0)).unwrap();
+        factory.good("certify angles.csv --stand header.yaml -o passports/SPS-2/0017/stand.yaml");
+        let stand = "passports/SPS-2/0017/stand.yaml";
+        factory.good(&format!("issue {stand} --site here.yaml --site there.yaml {SIGN} --issued-at 2026-11-03"));
+        factory
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Exit code, standard output, standard error.
+    fn run(&self, arguments: &str) -> (i32, String, String) {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+        command.args(arguments.split(' ')).current_dir(self.0.path()).stdin(Stdio::null());
+        let output = command.output().unwrap();
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    }
+
+    fn good(&self, arguments: &str) -> String {
+        let (code, stdout, said) = self.run(arguments);
+        assert_eq!(code, 0, "{arguments}: {said}");
+        stdout
+    }
+
+    fn json(&self, arguments: &str) -> Value {
+        serde_json::from_str(&self.good(&format!("{arguments} --format json"))).unwrap()
+    }
+
+    /// Every file under `passports` with its content.
+    fn passports(&self) -> BTreeMap<String, Vec<u8>> {
+        let folder = self.path("passports/SPS-2/0017");
+        let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        files.map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(path).unwrap())).collect()
+    }
+
+    fn states(&self) -> Vec<String> {
+        let register = self.json(&format!("register passports {TRUST}"));
+        let line = |line: &Value| format!("{} {}", line["id"].as_str().unwrap(), line["state"].as_str().unwrap());
+        register["passports"].as_array().unwrap().iter().map(line).collect()
+    }
+}
+
+/// The readings of the guide, each slightly different, and γ of position (2, 3) changed by `shift_arcsec`.
+fn new_readings(shift_arcsec: f64) -> String {
+    let text = fs::read_to_string(programs::project("docs/angles.csv")).unwrap();
+    let lines = text.lines().enumerate().map(|(number, line)| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if cells.len() == 6 && cells[0] != "i" {
+            for (column, cell) in cells.iter_mut().enumerate().skip(3) {
+                let shift = if line.starts_with("2,3,") && column == 5 { shift_arcsec } else { 0.0 };
+                let noise = ((number * 7 + column * 5) % 13) as f64 / 26.0;
+                *cell = format!("{:.3}", cell.parse::<f64>().unwrap() + noise + shift);
+            }
+        }
+        cells.join(",") + "\n"
+    });
+    lines.collect()
+}
+
+#[test]
+fn all_places_get_the_new_certificate() {
+    let factory = Factory::new();
+    let before = factory.passports();
+    let recertify = format!("recertify {HERE} new.csv {ORDER} --identity factory {TRUST}");
+    let planned = factory.json(&format!("{recertify} --dry-run"));
+    assert_eq!(factory.passports(), before, "a dry run writes nothing");
+    assert_eq!((&planned["dry_run"], &planned["passports"][0]["state"]), (&Value::Bool(true), &"planned".into()));
+
+    let found = factory.json(&format!("{recertify} --key key"));
+    let ids: Vec<&str> = found["passports"].as_array().unwrap().iter().map(|at| at["id"].as_str().unwrap()).collect();
+    assert_eq!(ids, ["SPS-2/0017/here/2", "SPS-2/0017/there/2"]);
+    assert_eq!(
+        factory.states(),
+        [
+            "SPS-2/0017/here/1 superseded",
+            "SPS-2/0017/here/2 in_force",
+            "SPS-2/0017/there/1 superseded",
+            "SPS-2/0017/there/2 in_force"
+        ]
+    );
+    let after = factory.passports();
+    let names: Vec<&str> = after.keys().map(String::as_str).collect();
+    let expected = [
+        "here-1.yaml",
+        "here-2.yaml",
+        "stand-C-2026-0142.superseded.yaml",
+        "stand.yaml",
+        "there-1.yaml",
+        "there-2.yaml",
+    ];
+    assert_eq!(names, expected);
+    assert_eq!(after["stand-C-2026-0142.superseded.yaml"], before["stand.yaml"]);
+    before.iter().filter(|(name, _)| *name != "stand.yaml").for_each(|(name, bytes)| assert_eq!(&after[name], bytes));
+
+    // Expected: `certify` with a header that omits the results and the dates of the old measurement.
+    let header = fs::read_to_string(factory.path("header.yaml")).unwrap();
+    let dropped = ["performed", "valid_until", "temperature_c"];
+    let header: String = header
+        .lines()
+        .filter(|line| !dropped.iter().any(|key| line.trim_start().starts_with(key)))
+        .map(|line| match line.trim_start().split(':').next() {
+            Some("number") => "  number: \"C-2026-0300\"\n".to_owned(),
+            Some("issued") => "  issued: \"2026-11-20\"\n".to_owned(),
+            _ => format!("{line}\n"),
+        })
+        .collect();
+    fs::write(factory.path("new-header.yaml"), header).unwrap();
+    factory.good("certify new.csv --stand new-header.yaml -o certified.yaml");
+    assert_eq!(after["stand.yaml"], fs::read(factory.path("certified.yaml")).unwrap());
+
+    // What has changed: γ of (2, 3), by 6 arcsec and the mean of the noise.
+    let changes = found["changes"].as_array().unwrap();
+    assert_eq!(changes.len(), 24);
+    let ratio = |key: &str| changes.iter().find(|at| at["key"] == key).unwrap()["ratio"].as_f64().unwrap();
+    assert!(ratio("positions[2,3].gamma_arcsec") > 3.0 && ratio("positions[1,1].alpha_arcsec").abs() < 1.0);
+    assert_eq!(found["comparison"]["same_stand"], false);
+
+    // Again: nothing to do; and half done by a kill between two files: completed.
+    let again = factory.json(&format!("{recertify} --key key"));
+    assert!(again["passports"].as_array().unwrap().iter().all(|at| at["state"] == "unchanged"), "{again}");
+    assert_eq!(factory.passports(), after);
+    fs::remove_file(factory.path("passports/SPS-2/0017/there-2.yaml")).unwrap();
+    fs::write(factory.path("passports/SPS-2/0017/stand.yaml"), &before["stand.yaml"]).unwrap();
+    let completed = factory.json(&format!("{recertify} --key key"));
+    let states: Vec<&Value> = completed["passports"].as_array().unwrap().iter().map(|at| &at["state"]).collect();
+    assert_eq!(states, ["unchanged", "issued"]);
+    assert_eq!(factory.passports(), after, "the same files, byte by byte");
+}
+
+#[test]
+fn a_header_and_a_place_can_be_chosen() {
+    let factory = Factory::new();
+    let order = format!("{ORDER} --valid-until 2028-11-19 --header header.yaml --site here");
+    let (code, stdout, said) = factory.run(&format!("recertify {HERE} new.csv {order} {SIGN} {TRUST}"));
+    assert_eq!(code, 0, "{said}");
+    assert!(stdout.contains("issued     SPS-2/0017/here/2") && !stdout.contains("there/2"), "{stdout}");
+    let words = stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("WARNING: in force under certificate C-2026-0142 still: SPS-2/0017/there/1"), "{stdout}");
+    let stand = String::from_utf8(factory.passports()["stand.yaml"].clone()).unwrap();
+    assert!(stand.contains("valid_until: \"2028-11-19\"") && stand.contains("performed: \"2026-10-29\""), "{stand}");
+    // The other place follows, with a corrected site.
+    let site = fs::read_to_string(factory.path("there.yaml"))
+        .unwrap()
+        .replace("id: \"there\"", "id: \"there\"\nname: \"Hall 2\"");
+    fs::write(factory.path("there.yaml"), site).unwrap();
+    let order = order.replace("--site here", "--site there.yaml");
+    factory.good(&format!("recertify passports/SPS-2/0017/there-1.yaml new.csv {order} {SIGN} {TRUST}"));
+    let there = String::from_utf8(factory.passports()["there-2.yaml"].clone()).unwrap();
+    assert!(there.contains("name: \"Hall 2\"") && there.contains("C-2026-0300"));
+    assert!(factory.states().iter().filter(|line| line.ends_with("in_force")).all(|line| line.contains("/2 ")));
+}
+
+/// Every refusal leaves all files as they were.
+#[test]
+fn a_refusal_writes_nothing() {
+    let factory = Factory::new();
+    let text = fs::read_to_string(factory.path("angles.csv")).unwrap();
+    let one_run: String = text
+        .lines()
+        .filter(|line| line.starts_with(['#', 'i']) || line.split(',').nth(2) == Some("1"))
+        .map(|line| format!("{line}\n"))
+        .collect();
+    fs::write(factory.path("one.csv"), one_run).unwrap();
+    // The angles of every position are those of the next one: another stand.
+    let rotated: String = text
+        .lines()
+        .map(|line| {
+            let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+            if cells.len() == 6 && cells[0] != "i" {
+                let j: u32 = cells[1].parse().unwrap();
+                cells[1] = (j % 4 + 1).to_string();
+            }
+            cells.join(",") + "\n"
+        })
+        .collect();
+    fs::write(factory.path("rotated.csv"), rotated).unwrap();
+    let altered = fs::read_to_string(factory.path(HERE)).unwrap().replacen("alpha_arcsec: ", "alpha_arcsec: 1", 1);
+    fs::create_dir_all(factory.path("other/SPS-2/0017")).unwrap();
+    fs::write(factory.path("other/SPS-2/0017/here-1.yaml"), altered).unwrap();
+    fs::copy(factory.path(HERE), factory.path("alone.yaml")).unwrap();
+    let before = factory.passports();
+    let good = format!("{ORDER} {SIGN} {TRUST}");
+    let number = |number: &str| good.replace("C-2026-0300", number);
+    let cases: Vec<(String, i32, &str)> = vec![
+        (
+            format!("{HERE} new.csv {good} --site nowhere"),
+            1,
+            "no passport of the stand is in force for site nowhere; found here, there",
+        ),
+        (
+            format!("{HERE} new.csv {}", number("C-2026-0142")),
+            1,
+            "certificate C-2026-0142 is the certificate of the passport",
+        ),
+        (format!("{HERE} one.csv {good}"), 1, "found one run, expected at least two"),
+        (format!("{HERE} rotated.csv {good}"), 1, "check that these are the readings of this stand"),
+        (format!("{HERE} absent.csv {good}"), 2, "no such file"),
+        (format!("{HERE} here.yaml {good}"), 2, "here.yaml"),
+        (format!("other/SPS-2/0017/here-1.yaml new.csv {good}"), 1, "failed verification (signature"),
+        (format!("alone.yaml new.csv {good}"), 1, "specify the folder of passports with --out"),
+        (
+            format!("{HERE} new.csv {}", good.replace("--identity factory", "--identity somebody")),
+            1,
+            "failed verification (signer",
+        ),
+        (format!("{HERE} new.csv {}", good.replace("--issued 2026-11-20", "--issued 2026-11-21")), 1, "certificate"),
+        (format!("{HERE} new.csv {}", good.replace("--time 2026-11-21", "--time 2029-11-21")), 1, "in_force"),
+        (format!("{HERE} new.csv {good} --serial 0018"), 1, "not 0018"),
+    ];
+    for (arguments, due, words) in cases {
+        let (code, stdout, said) = factory.run(&format!("recertify {arguments}"));
+        assert_eq!((code, stdout.as_str()), (due, ""), "{arguments}: {said}");
+        assert!(said.contains(words), "{arguments}: {said}");
+        assert_eq!(factory.passports(), before, "{arguments}");
+    }
+    // A file is in the way of the second passport: the first is not written either.
+    fs::create_dir(factory.path("passports/SPS-2/0017/there-2.yaml")).unwrap();
+    let (code, _, said) = factory.run(&format!("recertify {HERE} new.csv {good}"));
+    assert!(code != 0 && !factory.path("passports/SPS-2/0017/here-2.yaml").exists(), "{said}");
+    fs::remove_dir(factory.path("passports/SPS-2/0017/there-2.yaml")).unwrap();
+    assert_eq!(factory.passports(), before);
+}
+
+/// A laboratory has only the passport: it checks its stand against that.
+#[test]
+fn a_passport_is_enough_for_a_check() {
+    let factory = Factory::new();
+    let (code, stdout, said) = factory.run(&format!("certify new.csv --against {HERE} {TRUST}"));
+    let of_passport = stdout.clone();
+    assert_eq!(code, 1, "{said}");
+    assert!(stdout.contains("NOT AS CERTIFIED") && stdout.contains("position (2, 3) has changed"), "{stdout}");
+    let (_, stdout, _) = factory.run("certify new.csv --against passports/SPS-2/0017/stand.yaml");
+    assert_eq!(of_passport, stdout, "the passport and the stand file say the same");
+    let (code, stdout, said) = factory.run(&format!("certify new.csv --against {HERE}"));
+    assert!(code == 2 && stdout.is_empty() && said.contains("is a passport; specify --trust"), "{said}");
+    let altered = fs::read_to_string(factory.path(HERE)).unwrap().replacen("gamma_arcsec: ", "gamma_arcsec: 1", 1);
+    fs::write(factory.path("altered.yaml"), altered).unwrap();
+    let (code, stdout, said) = factory.run(&format!("certify new.csv --against altered.yaml {TRUST}"));
+    assert!(code == 1 && stdout.is_empty() && said.contains("FAILED  signature"), "{said}");
+}
+
+/// `certify --force` keeps the stand file that it replaces.
+#[test]
+fn a_superseded_stand_file_is_kept() {
+    let factory = Factory::new();
+    let old = factory.passports()["stand.yaml"].clone();
+    let header = fs::read_to_string(factory.path("header.yaml")).unwrap().replace("C-2026-0142", "C 2026/0300");
+    fs::write(factory.path("header.yaml"), header).unwrap();
+    let certify = "certify new.csv --stand header.yaml -o passports/SPS-2/0017/stand.yaml --force";
+    let (code, _, said) = factory.run(certify);
+    assert!(code == 0 && said.contains("stand-C-2026-0142.superseded.yaml"), "{said}");
+    assert_eq!(factory.passports()["stand-C-2026-0142.superseded.yaml"], old);
+    // The same file again is not superseded.
+    factory.good(certify);
+    assert_eq!(factory.passports().len(), 4);
+    assert!(factory.states().iter().all(|line| line.ends_with("in_force")));
+}
+
+/// The whole of `passports` is readable for others, and no temporary file is left.
+#[test]
+fn nothing_else_is_left() {
+    let factory = Factory::new();
+    factory.good(&format!("recertify {HERE} new.csv {ORDER} {SIGN} {TRUST} --out renewed"));
+    let there: Vec<_> =
+        fs::read_dir(factory.path("renewed/SPS-2/0017")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(there.len(), 3, "{there:?}");
+    assert!(Path::new(&factory.path("renewed/SPS-2/0017/stand.yaml")).is_file());
+    assert_eq!(factory.passports().len(), 3);
+}
