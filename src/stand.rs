@@ -3,6 +3,7 @@
 pub(crate) mod remarks;
 pub(crate) mod type_b;
 
+pub(crate) use type_b::Excluded;
 pub use type_b::{ActsOn, Evidence, TypeB};
 
 use crate::attitude::Deviation;

@@ -13,6 +13,7 @@
 //! unbiased, and equal to the analysis of variance if all axes scatter alike.
 
 use super::NotCertified;
+use super::deletion::Deletion;
 use crate::calibration::inputs::Turn;
 use crate::coefficients::Position;
 use crate::statistics::beta::chi_square_point;
@@ -198,6 +199,29 @@ pub(crate) fn estimate(turns: &[Turn], runs: &[u32], differences: &[DVector<f64>
 }
 
 impl Components {
+    /// Corrects the variances of readings of which some are predictions from the others, and so show no scatter:
+    /// `deletion` is the fit without them, and `missing` has the places (position, run) of the predictions.
+    pub(crate) fn without(&mut self, deletion: &Deletion, missing: &[(usize, usize)]) {
+        let ratio = |axis: usize| deletion.squares_arcsec2[axis].value / self.axis_squares_arcsec2[axis].value;
+        let ratios = [0, 1, 2].map(ratio);
+        for (own, ratio) in self.own_arcsec2.iter_mut().zip(ratios) {
+            *own = Variance { value: own.value * ratio, degrees_of_freedom: own.degrees_of_freedom / ratio };
+        }
+        self.axis_squares_arcsec2 = deletion.squares_arcsec2;
+        self.pooled_arcsec2 =
+            pooled(&[0, 1, 2].map(|a| Variance { value: self.axis_squares_arcsec2[a].value, ..self.own_arcsec2[a] }));
+        let changes = self.residuals.len() as f64 - 1.0;
+        let mean_ratio = ratios.iter().sum::<f64>() / 3.0;
+        for (place, square) in self.position_squares.iter_mut().enumerate() {
+            let lost = missing.iter().filter(|(of, _)| *of == place).count() as f64;
+            let kept = (changes - lost) / changes;
+            *square = Variance {
+                value: square.value / mean_ratio / kept,
+                degrees_of_freedom: square.degrees_of_freedom * kept,
+            };
+        }
+    }
+
     /// Returns the degrees of freedom that the residuals of an axis keep: their sum of squares over their mean square.
     pub(crate) fn kept(&self, axis: usize) -> f64 {
         let rows = (axis..self.keeps.nrows()).step_by(3);

@@ -25,7 +25,7 @@ pub(crate) struct Deletion {
     /// Mean squares of the remaining residuals, by axis, arcsec².
     pub(crate) squares_arcsec2: [Variance; 3],
     /// Covariance of the shifts for readings with variance 1.
-    spread: DMatrix<f64>,
+    pub(crate) spread: DMatrix<f64>,
 }
 
 impl Deletion {

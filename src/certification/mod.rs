@@ -27,6 +27,7 @@ use crate::calibration::inputs::Turn;
 use crate::coefficients::PositionIndex;
 use crate::stand::{self, ActsOn, Certificate, CertifiedPosition, Evidence, Stand};
 use components::{case_turn, turns_at};
+use deletion::Deletion;
 use nalgebra::{DVector, Matrix3, Vector3};
 
 /// Smallest number of runs for which the program does not warn that there are few.
@@ -62,6 +63,9 @@ pub enum NotCertified {
          by, and do not copy runs"
     )]
     Constant(&'static str),
+    /// Excluded readings that the others do not determine.
+    #[error("the other readings do not determine the excluded ones; exclude the whole run, or measure again")]
+    Undetermined,
     /// Readings that do not scatter once the common rotation of each run is removed.
     #[error("the readings do not vary; check whether the runs are shifted copies of each other")]
     NoScatter,
@@ -87,9 +91,9 @@ impl Certification {
     /// Returns [`NumberInUse`] if it does.
     pub(crate) fn check_number(&self, there: &Stand) -> Result<(), NumberInUse> {
         let number = &self.stand.certificate.number;
-        let digest =
-            |stand: &Stand| stand.certificate.evidence.as_ref().map(|evidence| evidence.readings_sha256.clone());
-        let same_readings = digest(there).is_some() && digest(there) == digest(&self.stand);
+        // The same file with other exclusions gives other angles.
+        let of = |stand: &Stand| stand.certificate.evidence.clone();
+        let same_readings = of(there).is_some() && of(there) == of(&self.stand);
         if *number != there.certificate.number || same_readings {
             return Ok(());
         }
@@ -138,8 +142,13 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     if let Some(angle) = constant(readings) {
         return Err(NotCertified::Constant(angle));
     }
+    let (readings, deletion) = predicted(header, readings)?;
+    let readings = &readings;
     let turns = turns_of(header, readings);
-    let components = components::estimate(&turns, runs, &differences(&turns, readings))?;
+    let mut components = components::estimate(&turns, runs, &differences(&turns, readings))?;
+    if let Some(deletion) = &deletion {
+        components.without(deletion, readings.missing());
+    }
     let suspects = Suspects::of(header, readings, &components);
     let worse: Vec<usize> = suspects.worse.iter().map(|at| at.place).collect();
     let scatter = components.scatter_of_positions(&worse).filter(|_| !worse.is_empty());
@@ -155,7 +164,11 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     stand.positions = each
         .map(|(place, ((nominal, mean), turn))| {
             let of_position = scatter.as_ref().map(|scatter| scatter[place]);
-            let own = components.own_arcsec2.map(|axis| of_mean(axis, of_position, number, &header.certificate));
+            let own = [0, 1, 2].map(|axis| {
+                let share =
+                    share_of_mean(place, axis, runs.len(), deletion.as_ref().map(|at| (at, readings.missing())));
+                of_mean(components.own_arcsec2[axis], of_position, share, &header.certificate)
+            });
             certified(nominal, &mean, turn, &own)
         })
         .collect();
@@ -169,13 +182,74 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     };
     certificate.common_platform_arcsec = common(Some(&components.platform), ActsOn::Platform);
     certificate.common_base_arcsec = common(components.base.as_ref(), ActsOn::Base);
-    let of_readings = |sha256: &str| Evidence { readings_sha256: sha256.to_owned(), runs: runs.len() as u32 };
+    let of_readings = |sha256: &str| Evidence {
+        readings_sha256: sha256.to_owned(),
+        runs: runs.len() as u32,
+        excluded: Some(readings.excluded().to_vec()).filter(|excluded| !excluded.is_empty()),
+    };
     certificate.evidence = readings.sha256().map(of_readings);
     let mut warnings = suspects.warnings(runs);
     warnings.extend(remarks(&components, runs.len(), &stand.positions));
     warnings.extend(stand::remarks::of(&stand.certificate, &stand.positions));
     let (runs, repeated_rows) = (runs.to_vec(), readings.repeated_rows());
     Ok(Certification { stand, runs, repeated_rows, components, suspects, warnings })
+}
+
+/// Replaces the angles of excluded readings by their predictions from all other readings (Yates' missing-plot
+/// technique), and returns them with the fit without the predictions; `None` if no reading was excluded.
+///
+/// The means of the completed readings are the least-squares estimates from the readings that are there.
+///
+/// # Errors
+/// Returns [`NotCertified`] if the others do not determine the excluded ones.
+pub(crate) fn predicted(
+    header: &Header,
+    readings: &AngleReadings,
+) -> Result<(AngleReadings, Option<Deletion>), NotCertified> {
+    if readings.missing().is_empty() {
+        return Ok((readings.clone(), None));
+    }
+    let angles: Vec<deletion::Angle> =
+        readings.missing().iter().flat_map(|(place, run)| (0..3).map(move |axis| (*run, 3 * place + axis))).collect();
+    let fit = |readings: &AngleReadings| {
+        let turns = turns_of(header, readings);
+        let components = components::estimate(&turns, readings.runs(), &differences(&turns, readings))?;
+        let deletion = Deletion::of(&components, angles.clone()).ok_or(NotCertified::Undetermined)?;
+        Ok((turns, deletion))
+    };
+    let mut completed = readings.clone();
+    // The axes of a position depend on its mean, so the second pass removes what is left of the second order.
+    for _ in 0..2 {
+        let (turns, deletion) = fit(&completed)?;
+        let shift = |(number, (place, _)): (usize, &(usize, usize))| {
+            let shift = deletion.shifts_arcsec.fixed_rows::<3>(3 * number).into_owned();
+            to_angles(&turns[*place]) * shift
+        };
+        let shifts: Vec<Vector3<f64>> = readings.missing().iter().enumerate().map(shift).collect();
+        completed = completed.shifted(&shifts);
+    }
+    let (_, deletion) = fit(&completed)?;
+    Ok((completed, Some(deletion)))
+}
+
+/// Returns the variance of the mean of a position about one axis, relative to that of one visit: 1/R for R runs, and more
+/// if some of its readings are predictions.
+///
+/// The mean of the completed readings is that of all readings less the sum of the shifts over R, and the residuals, on
+/// which the shifts depend, are uncorrelated with the mean.
+fn share_of_mean(place: usize, axis: usize, runs: usize, deletion: Option<(&Deletion, &[(usize, usize)])>) -> f64 {
+    let runs = runs as f64;
+    let Some((deletion, missing)) = deletion else { return 1.0 / runs };
+    let own: Vec<usize> = (0..missing.len()).filter(|number| missing[*number].0 == place).collect();
+    let pairs = own.iter().flat_map(|one| own.iter().map(move |other| (3 * one + axis, 3 * other + axis)));
+    let shifts = pairs.map(|at| deletion.spread[at]).sum::<f64>();
+    1.0 / runs + shifts / (runs * runs)
+}
+
+/// Returns the matrix from a rotation of the case to the angles α, β, γ of a position.
+fn to_angles(turn: &Turn) -> Matrix3<f64> {
+    // The angles solve axes · angles = rotation; the three axes are never coplanar while the angles are within ±45°.
+    Matrix3::from_columns(&turn.axes).try_inverse().unwrap_or_else(Matrix3::identity)
 }
 
 /// Returns the name of an angle that is the same in all runs of every position, or `None` if all angles vary.
@@ -207,11 +281,11 @@ fn differences(turns: &[Turn], readings: &AngleReadings) -> Vec<DVector<f64>> {
 }
 
 /// Returns the variance of a certified mean about one axis of the case, arcsec²: the variance `axis` of one visit,
-/// scaled by the `scatter` of the position relative to that of all and divided by the `number` of runs, plus the type B
+/// scaled by the `scatter` of the position relative to that of all and by its `share` in the mean, plus the type B
 /// variances that `certificate` states for a position.
-fn of_mean(axis: Variance, scatter: Option<Variance>, number: f64, certificate: &Certificate) -> Variance {
+fn of_mean(axis: Variance, scatter: Option<Variance>, share: f64, certificate: &Certificate) -> Variance {
     let of_position = scatter.unwrap_or(Variance { value: 1.0, ..axis });
-    let repeated = Variance { value: axis.value * of_position.value / number, ..of_position };
+    let repeated = Variance { value: axis.value * of_position.value * share, ..of_position };
     let type_b = certificate.type_b_on(ActsOn::Position).map(|line| Variance {
         value: line.u_arcsec * line.u_arcsec,
         degrees_of_freedom: line.degrees_of_freedom.unwrap_or(f64::INFINITY),
@@ -222,8 +296,7 @@ fn of_mean(axis: Variance, scatter: Option<Variance>, number: f64, certificate: 
 /// Returns the certified position with the means `mean` (α, β, γ, arcsec) and their uncertainties, where `own` is the
 /// variance of its rotation about each axis of the case, arcsec².
 fn certified(nominal: &NominalPosition, mean: &Vector3<f64>, turn: &Turn, own: &[Variance; 3]) -> CertifiedPosition {
-    // The angles solve axes · angles = rotation; the three axes are never coplanar while the angles are within ±45°.
-    let to_angles = Matrix3::from_columns(&turn.axes).try_inverse().unwrap_or_else(Matrix3::identity);
+    let to_angles = to_angles(turn);
     let u = |angle: usize| {
         let variance =
             (0..3).map(|axis| to_angles[(angle, axis)] * to_angles[(angle, axis)] * own[axis].value).sum::<f64>();

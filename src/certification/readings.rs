@@ -4,7 +4,7 @@ mod whole_runs;
 
 use super::header::NominalPosition;
 use crate::coefficients::PositionIndex;
-use crate::stand::LARGEST_DEVIATION_DEG;
+use crate::stand::{Excluded, LARGEST_DEVIATION_DEG};
 use crate::text::Unreadable;
 use crate::text::problem::{MOST_PROBLEMS, Problem};
 use crate::text::scalar::sha256_hex;
@@ -29,6 +29,9 @@ pub struct AngleReadings {
     repeated_rows: usize,
     sha256: Option<String>,
     remark: Option<String>,
+    excluded: Vec<Excluded>,
+    /// Excluded readings, whose angles are predicted from the others: places of position and run.
+    missing: Vec<(usize, usize)>,
 }
 
 /// Error for readings that do not contain every position in every run.
@@ -51,7 +54,9 @@ impl AngleReadings {
     pub fn new(runs: Vec<u32>, each_arcsec: Vec<Vec<Vector3<f64>>>) -> Result<Self, NotBalanced> {
         let balanced = !runs.is_empty() && !each_arcsec.is_empty();
         if balanced && each_arcsec.iter().all(|position| position.len() == runs.len()) {
-            Ok(Self { runs, each_arcsec, lines: Vec::new(), repeated_rows: 0, sha256: None, remark: None })
+            let (excluded, missing) = (Vec::new(), Vec::new());
+            let lines = Vec::new();
+            Ok(Self { runs, each_arcsec, lines, repeated_rows: 0, sha256: None, remark: None, excluded, missing })
         } else {
             Err(NotBalanced)
         }
@@ -64,6 +69,21 @@ impl AngleReadings {
     /// Returns [`Unreadable`] with every error at its line and column: form, numbers, positions unknown or missing from
     /// a run, angles beyond 45°, angles too far off to be scatter (another unit, another position).
     pub fn from_csv(name: &str, bytes: &[u8], positions: &[NominalPosition]) -> Result<Self, Unreadable> {
+        Self::from_csv_without(name, bytes, positions, &[])
+    }
+
+    /// Reads a CSV file as [`AngleReadings::from_csv`] does, without the `excluded` readings and runs, whose angles are
+    /// not examined.
+    ///
+    /// # Errors
+    /// Returns the errors of [`AngleReadings::from_csv`], and one for each exclusion that is not in the file or leaves
+    /// fewer than two readings of a position.
+    pub(crate) fn from_csv_without(
+        name: &str,
+        bytes: &[u8],
+        positions: &[NominalPosition],
+        excluded: &[Excluded],
+    ) -> Result<Self, Unreadable> {
         let table = Table::read(name, bytes, &COLUMNS, &[])?;
         let mut problems = Vec::new();
         let mut rows: Vec<Reading> = Vec::new();
@@ -79,7 +99,11 @@ impl AngleReadings {
             }
         }
         if problems.is_empty() {
-            problems = incomplete(positions, &rows);
+            problems = not_there(&rows, excluded);
+            rows.retain(|(place, ..)| !excluded.iter().any(|excluded| is_excluded(excluded, *place)));
+        }
+        if problems.is_empty() {
+            problems = incomplete(positions, &rows, excluded);
         }
         if problems.is_empty() {
             let others = other_runs(&rows);
@@ -89,7 +113,8 @@ impl AngleReadings {
             }
         }
         if problems.is_empty() {
-            Ok(Self { sha256: Some(sha256_hex(bytes)), remark: table.remark(), ..Self::averaged(positions, &rows) })
+            let (sha256, excluded) = (Some(sha256_hex(bytes)), excluded.to_vec());
+            Ok(Self { sha256, remark: table.remark(), excluded, ..Self::averaged(positions, &rows) })
         } else {
             Err(table.refuse(problems))
         }
@@ -98,20 +123,45 @@ impl AngleReadings {
     fn averaged(positions: &[NominalPosition], rows: &[Reading]) -> Self {
         let averages = averages(rows);
         let runs: BTreeSet<u32> = rows.iter().map(|((_, run), ..)| *run).collect();
-        let of_position = |at: &NominalPosition| -> Vec<_> {
-            runs.iter().filter_map(|run| averages.get(&(at.index(), *run))).collect()
-        };
-        let each: Vec<_> = positions.iter().map(of_position).collect();
-        let angles = |runs: &Vec<&(Vector3<f64>, usize)>| runs.iter().map(|(angles, _)| *angles).collect();
-        let lines = |runs: &Vec<&(Vector3<f64>, usize)>| runs.iter().map(|(_, line)| *line).collect();
+        let mut missing = Vec::new();
+        let (mut each_arcsec, mut lines) = (Vec::new(), Vec::new());
+        for (place, at) in positions.iter().enumerate() {
+            let of_runs: Vec<_> = runs.iter().map(|run| averages.get(&(at.index(), *run))).collect();
+            let there: Vec<_> = of_runs.iter().flatten().map(|(angles, _)| angles).collect();
+            // The mean of the other runs, until the angles can be predicted from all other readings.
+            let middle = there.iter().copied().sum::<Vector3<f64>>() / there.len().max(1) as f64;
+            missing.extend((0..of_runs.len()).filter(|run| of_runs[*run].is_none()).map(|run| (place, run)));
+            each_arcsec.push(of_runs.iter().map(|of_run| of_run.map_or(middle, |(angles, _)| *angles)).collect());
+            lines.push(of_runs.iter().map(|of_run| of_run.map_or(0, |(_, line)| *line)).collect());
+        }
         Self {
             runs: runs.into_iter().collect(),
-            each_arcsec: each.iter().map(angles).collect(),
-            lines: each.iter().map(lines).collect(),
+            each_arcsec,
+            lines,
             repeated_rows: rows.len() - averages.len(),
             sha256: None,
             remark: None,
+            excluded: Vec::new(),
+            missing,
         }
+    }
+
+    /// Returns the excluded readings and runs.
+    pub(crate) fn excluded(&self) -> &[Excluded] {
+        &self.excluded
+    }
+
+    /// Returns the places (position, run) of the readings whose angles are predictions, because they were excluded.
+    pub(crate) fn missing(&self) -> &[(usize, usize)] {
+        &self.missing
+    }
+
+    /// Subtracts `shifts_arcsec` (α, β, γ) from the predictions, in the order of [`AngleReadings::missing`].
+    pub(crate) fn shifted(mut self, shifts_arcsec: &[Vector3<f64>]) -> Self {
+        for ((place, run), shift) in self.missing.iter().zip(shifts_arcsec) {
+            self.each_arcsec[*place][*run] -= shift;
+        }
+        self
     }
 
     /// Returns a remark about ignored columns of the file, or `None` if there are none.
@@ -194,8 +244,23 @@ fn angle(table: &Table, row: &Row, column: usize, problems: &mut Vec<Problem>) -
     None
 }
 
+/// Returns `true` if the reading at a place is excluded.
+fn is_excluded(excluded: &Excluded, (index, run): Place) -> bool {
+    excluded.run == run && excluded.index().is_none_or(|of| of == index)
+}
+
+/// Returns a problem for each exclusion that concerns no reading of the file.
+fn not_there(rows: &[Reading], excluded: &[Excluded]) -> Vec<Problem> {
+    let missing = excluded.iter().filter(|excluded| !rows.iter().any(|(place, ..)| is_excluded(excluded, *place)));
+    let problem = |excluded: &Excluded| {
+        let found = format!("no reading of {} to exclude", excluded.describe());
+        whole_file(found, "a reading of the file", "check --exclude")
+    };
+    missing.map(problem).collect()
+}
+
 /// Returns a problem for each position without any reading, and for each position missing from a run.
-fn incomplete(positions: &[NominalPosition], rows: &[Reading]) -> Vec<Problem> {
+fn incomplete(positions: &[NominalPosition], rows: &[Reading], excluded: &[Excluded]) -> Vec<Problem> {
     let runs: BTreeSet<u32> = rows.iter().map(|((_, run), ..)| *run).collect();
     let there: BTreeSet<Place> = rows.iter().map(|(place, ..)| *place).collect();
     let mut problems = Vec::new();
@@ -203,7 +268,14 @@ fn incomplete(positions: &[NominalPosition], rows: &[Reading]) -> Vec<Problem> {
         if problems.len() >= MOST_PROBLEMS {
             break;
         }
-        let missing: Vec<u32> = runs.iter().copied().filter(|run| !there.contains(&(at.index(), *run))).collect();
+        let mut missing: Vec<u32> = runs.iter().copied().filter(|run| !there.contains(&(at.index(), *run))).collect();
+        let of_exclusions = |run: u32| excluded.iter().any(|excluded| is_excluded(excluded, (at.index(), run)));
+        let left = runs.len() - missing.len();
+        if left < 2 && missing.iter().any(|run| of_exclusions(*run)) {
+            let found = format!("{left} readings of position {} after the exclusions", at.index());
+            problems.push(whole_file(found, "at least two", "measure the position again"));
+            continue;
+        }
         if missing.len() == runs.len() {
             let advice = "check that these are the readings of this stand";
             problems.push(whole_file(
@@ -213,6 +285,7 @@ fn incomplete(positions: &[NominalPosition], rows: &[Reading]) -> Vec<Problem> {
             ));
             continue;
         }
+        missing.retain(|run| !of_exclusions(*run));
         let advice = "measure it, or omit the whole run, because only complete runs show their common part";
         for run in missing.into_iter().take(MOST_PROBLEMS - problems.len()) {
             let found = format!("no reading of position {} in run {run}", at.index());

@@ -109,6 +109,9 @@ pub(crate) fn certification(found: &Certification) -> String {
     if found.repeated_rows > 0 {
         let _ = writeln!(out, "Rows averaged with another row of the same visit: {}.", found.repeated_rows);
     }
+    for excluded in stand.certificate.evidence.iter().filter_map(|evidence| evidence.excluded.as_ref()).flatten() {
+        columns::paragraph(&mut out, "", &format!("Excluded: {}: {}.", excluded.describe(), excluded.why));
+    }
     let names = ["i", "j", "alpha, arcsec", "u", "beta, arcsec", "u", "gamma, arcsec", "u", "deg. of freedom"];
     let rows: Vec<Vec<String>> = stand
         .positions

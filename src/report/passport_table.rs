@@ -80,8 +80,11 @@ fn stand(out: &mut String, content: &Content) {
         let known = degrees_of_freedom.map_or_else(String::new, |known| format!(" ({known} degrees of freedom)"));
         line(out, &format!("type B, {}, arcsec", acts_on.word()), format!("{u_arcsec}{known}: {source}"));
     }
-    if let Some(Evidence { readings_sha256, runs }) = &certificate.evidence {
+    if let Some(Evidence { readings_sha256, runs, excluded }) = &certificate.evidence {
         line(out, "readings", format!("{runs} runs, sha256 {readings_sha256}"));
+        for excluded in excluded.iter().flatten() {
+            line(out, "excluded", format!("{}: {}", excluded.describe(), excluded.why));
+        }
     }
     if let Some(datum) = &content.datum {
         heading(out, "Datum");

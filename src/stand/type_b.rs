@@ -2,6 +2,7 @@
 //! 4.3), and the readings from which a certificate was computed.
 
 use super::{Certificate, CertifiedPosition};
+use crate::coefficients::PositionIndex;
 use crate::text::scalar::is_sha256_hex;
 use crate::text::sink::Sink;
 use crate::text::{Field, Node, Path, Problems, record};
@@ -67,12 +68,57 @@ record! {
 }
 
 record! {
+    /// Reading or run that was excluded from the certificate.
+    pub struct Excluded {
+        /// Frame index of the position; absent for a whole run.
+        pub i: Option<u32>,
+        /// Platform index of the position; absent for a whole run.
+        pub j: Option<u32>,
+        /// Number of the run.
+        pub run: u32,
+        /// Reason for the exclusion.
+        pub why: String,
+    }
+}
+
+impl Excluded {
+    /// Returns the position of the excluded reading, or `None` for a whole run.
+    pub(crate) fn index(&self) -> Option<PositionIndex> {
+        Some(PositionIndex { i: self.i?, j: self.j? })
+    }
+
+    /// Describes the reading or the run.
+    pub(crate) fn describe(&self) -> String {
+        match self.index() {
+            Some(index) => format!("position {index} in run {}", self.run),
+            None => format!("run {}", self.run),
+        }
+    }
+
+    fn check(&self, at: &Path, problems: &mut Problems) {
+        if self.i.is_some() != self.j.is_some() {
+            problems.at(at, "one of i and j", "both, or neither for a whole run", "");
+        }
+        for (key, number) in [("i", self.i), ("j", self.j), ("run", Some(self.run))] {
+            if number == Some(0) {
+                problems.at(&at.key(key), "0", "a whole number from 1", "");
+            }
+        }
+        if self.why.is_empty() {
+            problems.at(&at.key("why"), "an empty text", "the reason for the exclusion", "");
+        }
+    }
+}
+
+record! {
     /// Readings from which the certificate was computed.
     pub struct Evidence {
         /// SHA-256 of the file of readings, in lower-case hexadecimal.
         pub readings_sha256: String,
         /// Number of runs.
         pub runs: u32,
+        /// Readings and runs in the file that were excluded.
+        pub excluded: Option<Vec<Excluded>>,
     }
 }
 
@@ -114,6 +160,13 @@ pub(super) fn check(certificate: &Certificate, positions: &[CertifiedPosition], 
         if evidence.runs < 2 {
             let advice = "certify from two or more runs";
             problems.at(&at.key("runs"), format!("{}", evidence.runs), "2 or more", advice);
+        }
+        let excluded = at.key("excluded");
+        if evidence.excluded.as_ref().is_some_and(Vec::is_empty) {
+            problems.at(&excluded, "an empty list", "at least one exclusion", "omit the key if there is none");
+        }
+        for (index, line) in evidence.excluded.iter().flatten().enumerate() {
+            line.check(&excluded.item(index), problems);
         }
     }
     let mut contains = |at: &Path, key: &'static str, u: Option<f64>, on: ActsOn| {

@@ -267,3 +267,116 @@ fn what_is_odd_is_said() {
     let (code, text, _) = run(&folder, "r.csv --stand header.yaml -o odd.yaml");
     assert!(code == 0 && text.contains("alpha_arcsec of position (2, 1) is 678"), "{text}");
 }
+
+/// Least squares with NumPy on the readings that are there: a mean for each position, and a rotation of platform and base
+/// for each run, whose sum over the runs is zero. Prints the means that the missing readings concern, the ratio of their u
+/// to those of other positions, and the repeatability.
+const WITHOUT: &str = r##"
+import csv, json, sys
+import numpy as np
+path, left_out = sys.argv[1], json.loads(sys.argv[2])
+rows = [row for row in csv.DictReader(line for line in open(path) if not line.startswith("#"))]
+rows = [{k: float(v) for k, v in row.items()} for row in rows]
+rows = [r for r in rows if [r["i"], r["j"], r["run"]] not in left_out and [r["run"]] not in left_out]
+places = sorted({(r["i"], r["j"]) for r in rows}); runs = sorted({r["run"] for r in rows})
+arcsec = np.pi / 648000
+def turn(axis, angle):
+    c, s = np.cos(angle), np.sin(angle); a, b = [(1, 2), (2, 0), (0, 1)][axis]
+    m = np.eye(3); m[a, a] = m[b, b] = c; m[a, b] = s; m[b, a] = -s
+    return m
+angles = {p: np.mean([[r["alpha_arcsec"], r["beta_arcsec"], r["gamma_arcsec"]] for r in rows if (r["i"], r["j"]) == p], axis=0) for p in places}
+design, seen = [], []
+for r in rows:
+    p = (r["i"], r["j"]); a, b, g = angles[p] * arcsec
+    z = turn(2, g); zy = z @ turn(1, b); e = zy @ turn(0, a)
+    axes = np.column_stack([zy @ [1, 0, 0], z @ [0, 1, 0], [0, 0, 1]])
+    nominal = turn(2, np.radians(90 * (p[1] - 1))) @ turn(0, np.radians(90 * (p[0] - 1)))
+    row = np.zeros((3, 3 * len(places) + 6 * (len(runs) - 1)))
+    k = places.index(p); row[:, 3 * k:3 * k + 3] = np.eye(3)
+    effect = np.hstack([np.eye(3), e @ nominal]); q = runs.index(r["run"])
+    for other in range(len(runs) - 1):
+        sign = 1 if q == other else -1 if q == len(runs) - 1 else 0
+        at = 3 * len(places) + 6 * other; row[:, at:at + 6] = sign * effect
+    design.append(row)
+    seen.append(axes @ (np.array([r["alpha_arcsec"], r["beta_arcsec"], r["gamma_arcsec"]]) - angles[p]))
+design, seen = np.vstack(design), np.concatenate(seen)
+found, _, rank, _ = np.linalg.lstsq(design, seen, rcond=None)
+assert rank == design.shape[1]
+rest = seen - design @ found
+cov = np.linalg.inv(design.T @ design)
+means = {f"{int(p[0])},{int(p[1])}": list(angles[p] + found[3 * k:3 * k + 3]) for k, p in enumerate(places)}
+share = {f"{int(p[0])},{int(p[1])}": float(cov[3 * k + 2, 3 * k + 2]) * len(runs) for k, p in enumerate(places)}
+print(json.dumps({"means": means, "share": share, "s": float(np.sqrt(rest @ rest / (len(seen) - rank)))}))
+"##;
+
+/// Expected: NumPy's least squares on the incomplete readings. The certificate states four digits of u, and its angles at
+/// the last of these; for one mean reading alone, u is that of one run less.
+#[test]
+fn an_excluded_reading_is_left_out_and_recorded() {
+    let folder = folder("exclude");
+    // A blunder that no certification would accept.
+    let bad = replaced("2,3,4,", 4, |_| "9999".into());
+    fs::write(folder.join("bad.csv"), &bad).unwrap();
+    let (code, _, said) = run(&folder, "bad.csv --stand header.yaml -o bad.yaml");
+    assert!(code == 2 && said.contains("check the digits"), "{said}");
+    for (name, exclude, left_out, runs) in [
+        ("one", "--exclude 2,3,4 --why blunder", "[[2, 3, 4]]", 5),
+        ("two", "--exclude 2,3,4 --why blunder --exclude 1,2,1 --why vibration", "[[2, 3, 4], [1, 2, 1]]", 5),
+        ("same", "--exclude 2,3,4 --exclude 2,3,1 --why blunder", "[[2, 3, 4], [2, 3, 1]]", 5),
+        ("run", "--exclude 4 --why blunder", "[[4]]", 4),
+    ] {
+        let (code, text, said) =
+            run(&folder, &format!("bad.csv --stand header.yaml -o {name}.yaml --format json {exclude}"));
+        assert_eq!(code, 0, "{said}");
+        let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let stand = &found["certification"]["stand"];
+        let evidence = &stand["certificate"]["evidence"];
+        assert_eq!((&evidence["runs"], evidence["excluded"][0]["run"].as_u64()), (&runs.into(), Some(4)));
+        assert_eq!(evidence["excluded"][0]["why"], "blunder");
+        let mut python = crate::programs::python();
+        python.args(["-c", WITHOUT]).arg(folder.join("bad.csv")).arg(left_out);
+        let due: serde_json::Value = serde_json::from_str(&crate::programs::output(python)).unwrap();
+        let s = stand["certificate"]["repeatability_arcsec"].as_f64().unwrap();
+        assert!((s / due["s"].as_f64().unwrap() - 1.0).abs() < 1e-3, "{name}: {s}, {due}");
+        let positions = stand["positions"].as_array().unwrap();
+        let u = |at: &serde_json::Value| at["u_gamma_arcsec"].as_f64().unwrap();
+        let whole = u(&positions[0]);
+        for at in positions {
+            let key = format!("{},{}", at["i"], at["j"]);
+            for (axis, angle) in ["alpha", "beta", "gamma"].iter().enumerate() {
+                let (mean, due) = (&at[format!("{angle}_arcsec")], &due["means"][&key][axis]);
+                let apart = (mean.as_f64().unwrap() - due.as_f64().unwrap()).abs();
+                assert!(apart < 1e-3, "{name}, {key}: {mean}, {due}");
+            }
+            let share = due["share"][&key].as_f64().unwrap();
+            assert!((u(at) / whole / share.sqrt() - 1.0).abs() < 5e-3, "{name}, {key}: {}, {share}", u(at) / whole);
+        }
+        // The file is read again, and a passport of it says what was excluded.
+        let text = fs::read_to_string(folder.join(format!("{name}.yaml"))).unwrap();
+        assert!(text.contains("    excluded:\n      - {"), "{text}");
+    }
+}
+
+#[test]
+fn bad_exclusions_are_refused() {
+    let folder = folder("exclusions");
+    for (exclude, code, words) in [
+        ("--exclude 2,3,9 --why x", 2, "no reading of position (2, 3) in run 9 to exclude"),
+        ("--exclude 9 --why x", 2, "no reading of run 9 to exclude"),
+        ("--exclude 2,3 --why x", 2, "i,j,run for a reading"),
+        ("--exclude 2,3,4", 2, "--why"),
+        ("--why x", 2, "--exclude"),
+        ("--exclude 2,3,4 --why x --why y", 2, "found 2 --why for 1 --exclude"),
+        ("--exclude 2,3,1 --exclude 2,3,2 --exclude 2,3,3 --exclude 2,3,4 --why x", 2, "1 readings of position (2, 3)"),
+        ("--exclude 1 --exclude 2 --exclude 3 --exclude 4 --why x", 1, "one run"),
+    ] {
+        let (found, _, said) = run(&folder, &format!("angles.csv --stand header.yaml -o out.yaml {exclude}"));
+        assert!(found == code && said.contains(words), "{exclude}: {found} {said}");
+        assert!(!folder.join("out.yaml").exists());
+    }
+    // The same readings with other exclusions are other angles.
+    assert_eq!(run(&folder, "angles.csv --stand header.yaml -o stand.yaml").0, 0);
+    let again = "angles.csv --stand header.yaml -o stand.yaml --force --exclude 2,3,4 --why x";
+    let (code, _, said) = run(&folder, again);
+    assert!(code == 1 && said.contains("already states other angles"), "{said}");
+}

@@ -9,7 +9,7 @@ use dtg_passport::statistics::random::Stream;
 /// The certificate of a stand measured in so many runs, as `certify` writes it from a file.
 fn certificate(truth: &Truth, stream: &mut Stream, runs: u32) -> Stand {
     let mut stand = certified(truth, stream, runs as usize).stand;
-    stand.certificate.evidence = Some(Evidence { readings_sha256: "0".repeat(64), runs });
+    stand.certificate.evidence = Some(Evidence { readings_sha256: "0".repeat(64), runs, excluded: None });
     stand
 }
 
@@ -88,7 +88,7 @@ fn the_scale_is_the_runs_own_variance() {
         AngleReadings::new(vec![1, 2, 3], each).unwrap()
     };
     let mut stand = certify(&header(), &of_runs(0.0, &mut stream)).unwrap().stand;
-    stand.certificate.evidence = Some(Evidence { readings_sha256: "0".repeat(64), runs: 3 });
+    stand.certificate.evidence = Some(Evidence { readings_sha256: "0".repeat(64), runs: 3, excluded: None });
     let test = against(&stand, &of_runs(60.0, &mut stream)).common.test.unwrap();
     let expected = 3.0 * 60.0 * 60.0 / (1.0 / 3.0 + 1.0 / 3.0);
     assert!((test.chi_square / expected - 1.0).abs() < 0.01, "{}, not {expected}", test.chi_square);
@@ -135,7 +135,7 @@ fn type_b_is_not_scatter_of_runs() {
     );
     let with = Header::from_yaml("h.yaml", text.as_bytes()).unwrap();
     let readings = truth.measured(&mut stream, 5);
-    let evidence = Some(Evidence { readings_sha256: "0".repeat(64), runs: 5 });
+    let evidence = Some(Evidence { readings_sha256: "0".repeat(64), runs: 5, excluded: None });
     let [mut bare, mut full] = [&header(), &with].map(|header| certify(header, &readings).unwrap().stand);
     bare.certificate.evidence.clone_from(&evidence);
     full.certificate.evidence = evidence;

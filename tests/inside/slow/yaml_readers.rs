@@ -378,7 +378,7 @@ const KEYS: &[&str] = &[
     "customer", "certificate", "number", "issued", "performed", "received", "valid_until_basis", "laboratory",
     "address", "authorized_by", "accreditation", "method", "traceability", "temperature_c", "temperature_range_c",
     "repeatability_arcsec", "repeatability_degrees_of_freedom", "common_platform_arcsec", "common_base_arcsec",
-    "type_b", "acts_on", "u_arcsec", "evidence", "readings_sha256", "runs", "datum", "level", "azimuth", "gyro_seat", "positions", "i", "j", "theta_deg", "phi_deg", "alpha_arcsec",
+    "type_b", "acts_on", "u_arcsec", "evidence", "readings_sha256", "runs", "excluded", "run", "why", "datum", "level", "azimuth", "gyro_seat", "positions", "i", "j", "theta_deg", "phi_deg", "alpha_arcsec",
     "beta_arcsec", "gamma_arcsec", "u_alpha_arcsec", "u_beta_arcsec", "u_gamma_arcsec", "degrees_of_freedom", "site",
     "latitude_deg", "astronomic_latitude_deg", "longitude_deg", "height_m", "deflection_arcsec", "xi", "eta", "u",
     "gravity_m_per_s2", "gravity_u_m_per_s2", "azimuth_mark", "pillar_latitude_deg", "pillar_longitude_deg",

@@ -2,14 +2,14 @@
 
 use super::PassportPage;
 use super::figures::{Slot, figure};
-use crate::report::page::language::Languages;
+use crate::report::page::language::{Language, Languages};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{
     Table, blank, field, fields, given, heading, quantity, section as part, symbol, symbol_and_unit, wide_field,
 };
 use crate::report::page::texts::{passport as texts, units};
 use crate::site::{Earth, Site};
-use crate::stand::{ActsOn, Certificate, CertifiedPosition, TypeB};
+use crate::stand::{ActsOn, Certificate, CertifiedPosition, Excluded, TypeB};
 use crate::units::ARCSECONDS_PER_DEGREE;
 use maud::{Markup, html};
 
@@ -89,12 +89,27 @@ fn headings(languages: &Languages) -> Vec<Markup> {
     headings
 }
 
+/// Writes an excluded reading or run, with the reason.
+pub(crate) fn exclusion(excluded: &Excluded, languages: &Languages) -> Markup {
+    let run = excluded.run.to_string();
+    let index = excluded.index().map(|index| index.to_string());
+    let words = |language: Language| match &index {
+        Some(index) => texts::EXCLUDED_READING.filled(language, &[("index", index), ("run", &run)]),
+        None => texts::EXCLUDED_RUN.filled(language, &[("run", &run)]),
+    };
+    html! { (languages.inline_with(words)) ": " (given(&excluded.why)) }
+}
+
 fn common(certificate: &Certificate, languages: &Languages) -> Markup {
     let arcsec = |u| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
     let freedom = certificate.repeatability_degrees_of_freedom;
     let type_b = certificate.type_b.iter().flatten().map(|line| type_b(line, languages));
     let evidence = certificate.evidence.as_ref().map(|evidence| {
-        let value = html! { (evidence.runs) ", SHA-256 " code { (evidence.readings_sha256) } };
+        let excluded = evidence.excluded.iter().flatten().map(|excluded| exclusion(excluded, languages));
+        let value = html! {
+            (evidence.runs) ", SHA-256 " code { (evidence.readings_sha256) }
+            @for excluded in excluded { br; (excluded) }
+        };
         wide_field(languages, texts::EVIDENCE, Some(value))
     });
     let common = [

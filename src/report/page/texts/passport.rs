@@ -105,6 +105,11 @@ texts! {
         ru: "По типу B, в\u{a0}общей составляющей платформы"
     }
     TYPE_B_BASE { en: "Type B, in the common part of the base", ru: "По типу B, в\u{a0}общей составляющей основания" }
+    EXCLUDED_READING {
+        en: "excluded: position {index}, run {run}",
+        ru: "исключено: положение {index}, серия {run}"
+    }
+    EXCLUDED_RUN { en: "excluded: run {run}", ru: "исключена серия {run}" }
     EVIDENCE { en: "Number of runs, file of readings", ru: "Серии, файл показаний" }
     DATUM { en: "Datum surfaces", ru: "Базовые поверхности" }
     DATUM_LEVEL { en: "Surface for levelling", ru: "Поверхность для горизонтирования" }
