@@ -3,6 +3,7 @@
 use super::diff::Past;
 use super::issue::read_stand;
 use super::output::Format;
+use super::render::{Written, languages};
 use super::trust_options::OptionalTrust;
 use super::{Code, Failure, REFUSED, output};
 use crate::certification::comparison::compare;
@@ -10,7 +11,9 @@ use crate::certification::{AngleReadings, Header, certify, predicted};
 use crate::files;
 use crate::folder::archive::Superseded;
 use crate::passport::content::claims_to_be_a_passport;
+use crate::passport::difference::of_deviations;
 use crate::report::certification as report;
+use crate::report::page::certification::CertificationPage;
 use crate::stand::{Excluded, Stand};
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of, rule, shown};
 use clap::Args;
@@ -42,6 +45,12 @@ pub(super) struct Options {
     /// Reason for the exclusion, recorded in the certificate; one for each --exclude, or one for all
     #[arg(long, value_name = "TEXT", requires = "exclude")]
     why: Vec<String>,
+    /// Record of the certification for paper to write: readings, tests, uncertainty, signature lines
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
+    /// Languages of the record; the first sets the number format
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
+    lang: Vec<Written>,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -73,9 +82,19 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     // is none.
     let (certified, refused) = match certified {
         Ok(certified) => (Some(certified), None),
-        Err(refused) if options.output.is_none() => (None, Some(refused)),
+        Err(refused) if options.output.is_none() && options.report.is_none() => (None, Some(refused)),
         Err(refused) => return Err(Failure::refused(format!("{}: {refused}", Printable(name)))),
     };
+    let page = certified.as_ref().zip(options.report.as_ref()).map(|(certified, path)| {
+        let change = comparison.as_ref().zip(against.as_ref());
+        let change = change.map(|(comparison, old)| (comparison, of_deviations(old, &certified.stand)));
+        let page = CertificationPage { certification: certified, readings: (&name, &bytes), change };
+        (path, page.html(&languages(&options.lang)))
+    });
+    if let Some((path, _)) = page.as_ref().filter(|(path, _)| !options.force && path.symlink_metadata().is_ok()) {
+        // Nothing is written if the record cannot be.
+        return Err(Failure::file(files::FileError::Exists { path: path.to_path_buf(), replaceable: true }));
+    }
     if let (Some(path), Some(certified)) = (&options.output, &certified) {
         // An existing output file need not be a stand file; --force replaces it in any case.
         let there = read_stand(path).ok();
@@ -93,6 +112,10 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             output::say(&format!("kept the superseded stand file as {}", shown(&superseded.path)));
         }
         output::file(path, &text, options.force)?;
+        output::say(&format!("wrote {}", shown(path)));
+    }
+    if let Some((path, page)) = &page {
+        output::file(path, page, options.force)?;
         output::say(&format!("wrote {}", shown(path)));
     }
     match options.format {

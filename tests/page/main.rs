@@ -17,6 +17,7 @@ mod programs;
 mod words;
 
 mod cases;
+mod certified;
 mod figures;
 mod language;
 mod pages;

@@ -1,5 +1,6 @@
 //! What holds of every page, a passport's or a report's: as Chromium, axe and html-validate find it.
 
+use crate::certified::CERTIFIED;
 use crate::passports::PASSPORTS;
 use crate::programs;
 use crate::reports::REPORTED;
@@ -19,9 +20,9 @@ pub struct Page<'a> {
     pub found: &'a Value,
 }
 
-/// The passports and the reports.
+/// The passports, the reports, and the records of certifications.
 pub fn all_pages() -> impl Iterator<Item = Page<'static>> {
-    PASSPORTS.pages().chain(REPORTED.pages())
+    PASSPORTS.pages().chain(REPORTED.pages()).chain(CERTIFIED.pages())
 }
 
 /// Has the browser look at the pages of a folder; what it finds stays there too.

@@ -1,6 +1,7 @@
 //! Pages for print, screen and phone: one HTML file each, without scripts and without external resources.
 //!
 //! * [`calibration`]: the report of a calibration.
+//! * `certification`: the record of a certification.
 //! * [`language`]: the languages of a page, and a text in each of them.
 //! * [`texts`]: the table of texts.
 //! * [`number`]: numbers formatted for people.
@@ -10,6 +11,8 @@
 //! * [`passport`]: the printed passport.
 
 pub(crate) mod calibration;
+#[cfg(feature = "factory")]
+pub(crate) mod certification;
 pub(crate) mod code;
 pub(crate) mod language;
 pub(crate) mod number;

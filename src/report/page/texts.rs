@@ -6,6 +6,7 @@
 //! * [`record`]: the printed passport: parts to fill in by hand.
 //! * [`absences`]: inputs that a passport does not state, and the effect of each.
 //! * [`calibration`]: the report of a calibration.
+//! * [`certification`]: the record of a certification.
 //! * [`pictures`]: words in pictures, and their descriptions.
 
 #[cfg(test)]
@@ -14,6 +15,7 @@ use super::language::texts;
 
 pub(crate) mod absences;
 pub(crate) mod calibration;
+pub(crate) mod certification;
 pub(crate) mod checks;
 pub(crate) mod passport;
 pub(crate) mod pictures;
@@ -21,7 +23,7 @@ pub(crate) mod record;
 
 /// Every table with its name.
 #[cfg(test)]
-pub(crate) const TABLES: [(&str, &[(&str, Text)]); 8] = [
+pub(crate) const TABLES: [(&str, &[(&str, Text)]); 9] = [
     ("units", units::ALL),
     ("words", words::ALL),
     ("checks", checks::ALL),
@@ -29,6 +31,7 @@ pub(crate) const TABLES: [(&str, &[(&str, Text)]); 8] = [
     ("record", record::ALL),
     ("absences", absences::ALL),
     ("calibration", calibration::ALL),
+    ("certification", certification::ALL),
     ("pictures", pictures::ALL),
 ];
 

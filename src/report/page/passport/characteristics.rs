@@ -9,7 +9,7 @@ use crate::report::page::parts::{
 };
 use crate::report::page::texts::{passport as texts, units};
 use crate::site::{Earth, Site};
-use crate::stand::{ActsOn, Certificate, CertifiedPosition, Excluded, TypeB};
+use crate::stand::{ActsOn, Certificate, CertifiedPosition, Datum, Excluded, TypeB};
 use crate::units::ARCSECONDS_PER_DEGREE;
 use maud::{Markup, html};
 
@@ -24,7 +24,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
         (heading(languages, texts::COMMON))
         (common(&content.certificate, languages))
         (heading(languages, texts::DATUM))
-        (datum(page, languages))
+        (datum(content.datum.as_ref(), languages))
         (heading(languages, texts::SITE))
         (place(&content.site, languages))
         (heading(languages, texts::EARTH))
@@ -36,7 +36,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     part(languages, "characteristics", "2", texts::CHARACTERISTICS, &body)
 }
 
-fn positions(positions: &[CertifiedPosition], languages: &Languages) -> Markup {
+pub(crate) fn positions(positions: &[CertifiedPosition], languages: &Languages) -> Markup {
     type Angle = (fn(&CertifiedPosition) -> f64, fn(&CertifiedPosition) -> Option<f64>);
     let angles: [Angle; 3] = [
         (|at| at.alpha_arcsec, |at| at.u_alpha_arcsec),
@@ -90,7 +90,7 @@ fn headings(languages: &Languages) -> Vec<Markup> {
 }
 
 /// Writes an excluded reading or run, with the reason.
-pub(crate) fn exclusion(excluded: &Excluded, languages: &Languages) -> Markup {
+fn exclusion(excluded: &Excluded, languages: &Languages) -> Markup {
     let run = excluded.run.to_string();
     let index = excluded.index().map(|index| index.to_string());
     let words = |language: Language| match &index {
@@ -100,7 +100,7 @@ pub(crate) fn exclusion(excluded: &Excluded, languages: &Languages) -> Markup {
     html! { (languages.inline_with(words)) ": " (given(&excluded.why)) }
 }
 
-fn common(certificate: &Certificate, languages: &Languages) -> Markup {
+pub(crate) fn common(certificate: &Certificate, languages: &Languages) -> Markup {
     let arcsec = |u| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
     let freedom = certificate.repeatability_degrees_of_freedom;
     let type_b = certificate.type_b.iter().flatten().map(|line| type_b(line, languages));
@@ -137,8 +137,7 @@ fn type_b(line: &TypeB, languages: &Languages) -> Markup {
     field(languages, part, Some(value))
 }
 
-fn datum(page: &PassportPage, languages: &Languages) -> Markup {
-    let datum = page.content.datum.as_ref();
+pub(crate) fn datum(datum: Option<&Datum>, languages: &Languages) -> Markup {
     let surface = |name: Option<&String>| name.map(|name| given(name));
     fields([
         field(languages, texts::DATUM_LEVEL, surface(datum.and_then(|datum| datum.level.as_ref()))),

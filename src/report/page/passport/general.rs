@@ -6,20 +6,20 @@ use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
 use crate::report::page::parts::{date, field, fields, given, heading, quantity, section as part, wide_field};
 use crate::report::page::texts::{passport as texts, record, units};
+use crate::stand::{Certificate, Identity};
 use maud::{Markup, html};
 
 pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let body = html! {
-        (stand(page, languages))
-        (certificate(page, languages))
+        (stand(&page.content.stand, languages))
+        (certificate(&page.content.certificate, languages))
         (left_to_the_laboratory(languages))
         div.statement { (languages.paragraph(texts::THIS_ITEM_ONLY)) }
     };
     part(languages, "general", "1", texts::GENERAL, &body)
 }
 
-fn stand(page: &PassportPage, languages: &Languages) -> Markup {
-    let stand = &page.content.stand;
+pub(crate) fn stand(stand: &Identity, languages: &Languages) -> Markup {
     html! {
         (heading(languages, texts::STAND))
         (fields([
@@ -35,8 +35,7 @@ fn stand(page: &PassportPage, languages: &Languages) -> Markup {
     }
 }
 
-fn certificate(page: &PassportPage, languages: &Languages) -> Markup {
-    let certificate = &page.content.certificate;
+pub(crate) fn certificate(certificate: &Certificate, languages: &Languages) -> Markup {
     let day = |day| date(languages, day);
     let celsius = |value| quantity(languages, &Number::exact(value), units::CELSIUS);
     let range = certificate.temperature_range_c.map(|[low, high]| {

@@ -16,11 +16,11 @@
 
 pub(super) mod accuracy;
 mod annex;
-mod characteristics;
+pub(super) mod characteristics;
 pub(super) mod checks;
 mod figures;
 mod front;
-mod general;
+pub(super) mod general;
 pub(super) mod numbers;
 mod record;
 

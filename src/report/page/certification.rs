@@ -1,0 +1,130 @@
+//! Record of a certification, which the laboratory keeps ([ISO/IEC
+//! 17025:2017](crate::bibliography::Bibliography::Iso17025), 7.5.1): readings, exclusions, tests, components and budget of
+//! the uncertainty, the change since the last certificate, and signature lines.
+//!
+//! * `evidence`: readings, exclusions, components, tests.
+//! * `change`: comparison with the last certificate.
+
+mod change;
+mod evidence;
+
+use super::language::{Languages, Text};
+use super::parts::{field, fields, heading, section as part};
+use super::passport::{characteristics, general};
+use super::shell::{Margins, document};
+use super::texts::{calibration as calibration_texts, certification as texts, passport as passport_texts};
+use crate::certification::{Certification, Comparison};
+use crate::passport::difference::NumberDifference;
+use crate::report::picture;
+use base64ct::{Base64, Encoding};
+use maud::{Markup, html};
+
+/// Certification with everything that its record states.
+#[derive(Debug, Clone)]
+pub(crate) struct CertificationPage<'a> {
+    /// Certification, with the evidence for its numbers.
+    pub certification: &'a Certification,
+    /// Name and content of the file of readings.
+    pub readings: (&'a str, &'a [u8]),
+    /// Comparison with the last certificate, and the deviations of both; `None` without an earlier one.
+    pub change: Option<(&'a Comparison, Vec<NumberDifference>)>,
+}
+
+impl CertificationPage<'_> {
+    /// Returns the record as one self-contained HTML document.
+    pub(crate) fn html(&self, languages: &Languages) -> String {
+        let number = &self.certification.stand.certificate.number;
+        let margins = Margins {
+            top_left: texts::MARGIN.filled(languages.first(), &[("number", number)]),
+            top_right: String::new(),
+            bottom_left: texts::MARGIN_SHA256.filled(languages.first(), &[("sha256", &self.sha256())]),
+        };
+        let title = format!("{} {number}", languages.plain(texts::TITLE));
+        document(languages, &title, &margins, &self.body(languages))
+    }
+
+    /// Returns the SHA-256 of the file of readings.
+    fn sha256(&self) -> String {
+        crate::document::sha256_hex(self.readings.1)
+    }
+
+    fn body(&self, languages: &Languages) -> Markup {
+        let stand = &self.certification.stand;
+        html! {
+            header.title {
+                p.kind { (languages.label(texts::TITLE)) }
+                h1 { (stand.certificate.number) }
+                p.subject { (languages.label(texts::SUBTITLE)) }
+            }
+            main {
+                (part(languages, "subject", "1", texts::SUBJECT, &html! {
+                    (general::stand(&stand.stand, languages))
+                    (general::certificate(&stand.certificate, languages))
+                    (heading(languages, passport_texts::DATUM))
+                    (characteristics::datum(stand.datum.as_ref(), languages))
+                }))
+                (evidence::readings(self, languages))
+                (self.result(languages))
+                (evidence::uncertainty(self, languages))
+                (evidence::tests(self, languages))
+                (change::section(self, languages))
+                (signatures(languages))
+                (self.annex(languages))
+            }
+        }
+    }
+
+    fn result(&self, languages: &Languages) -> Markup {
+        let positions = &self.certification.stand.positions;
+        let body = html! {
+            (characteristics::positions(positions, languages))
+            (languages.paragraph(passport_texts::DEVIATIONS_NOTE))
+            (super::parts::figure(
+                languages,
+                "deviations",
+                &picture::deviations::deviations(languages, positions),
+                texts::FIGURE_DEVIATIONS,
+            ))
+        };
+        part(languages, "result", "3", texts::RESULT, &body)
+    }
+
+    /// Writes the file of readings verbatim.
+    fn annex(&self, languages: &Languages) -> Markup {
+        let (name, bytes) = self.readings;
+        let address = format!("data:text/csv;base64,{}", Base64::encode_string(bytes));
+        let number = &self.certification.stand.certificate.number;
+        let body = html! {
+            (languages.paragraph(texts::ANNEX_NOTE))
+            p.save { a href=(address) download=(name) { (languages.inline(texts::SAVE)) } }
+            pre lang="" translate="no" tabindex="0" aria-labelledby="annex-heading" {
+                (String::from_utf8_lossy(bytes).replace("\r\n", "\n"))
+            }
+            p.end { (languages.label_with(|language| texts::END.filled(language, &[("number", number)]))) }
+        };
+        part(languages, "annex", "", texts::ANNEX, &body)
+    }
+}
+
+fn signatures(languages: &Languages) -> Markup {
+    let names = [
+        calibration_texts::POST_AND_NAME,
+        calibration_texts::SIGNATURE,
+        calibration_texts::DATE,
+        calibration_texts::STAMP,
+    ];
+    let signature = |who: Text| {
+        html! {
+            div.part {
+                (heading(languages, who))
+                (fields(names.map(|name| field(languages, name, None))))
+            }
+        }
+    };
+    let body = html! {
+        div.pair { (signature(texts::MEASURED_BY)) (signature(texts::CHECKED_BY)) }
+        div.pair { (signature(texts::AUTHORISED_BY)) }
+        div.statement { (languages.paragraph(calibration_texts::VALID_WHEN_SIGNED)) }
+    };
+    part(languages, "signatures", "", texts::SIGNATURES, &body)
+}

@@ -1,0 +1,112 @@
+//! Change of the stand since its last certificate.
+
+use super::CertificationPage;
+use super::evidence::{in_english, numbers};
+use crate::certification::comparison::{Comparison, Test};
+use crate::passport::difference::NumberDifference;
+use crate::report::page::language::Languages;
+use crate::report::page::number::{Number, column};
+use crate::report::page::parts::{field, fields, heading, section as part, symbol, symbol_and_unit};
+use crate::report::page::texts::{certification as texts, units};
+use maud::{Markup, html};
+
+pub(super) fn section(page: &CertificationPage, languages: &Languages) -> Markup {
+    let body = match &page.change {
+        None => html! { div.verdict.neutral { p.headline { (languages.label(texts::NOT_COMPARED)) } } },
+        Some((comparison, changes)) => compared(comparison, changes, languages),
+    };
+    part(languages, "change", "6", texts::CHANGE, &body)
+}
+
+fn compared(comparison: &Comparison, changes: &[NumberDifference], languages: &Languages) -> Markup {
+    let number = [("number", comparison.certificate.as_str())];
+    let (class, verdict) =
+        if comparison.same_stand { ("verdict", texts::SAME) } else { ("verdict refused", texts::CHANGED) };
+    html! {
+        div class=(class) {
+            p.headline { (languages.label_with(|language| verdict.filled(language, &number))) }
+            @if !comparison.words.is_empty() {
+                (in_english(&comparison.words))
+            }
+        }
+        (heading(languages, texts::ROTATIONS))
+        (rotations(comparison, languages))
+        (fields([
+            field(languages, texts::ALL_TOGETHER, Some(test(&comparison.all, languages))),
+            field(languages, texts::COMMON_TURN, comparison.common.test.as_ref().ok().map(|of| test(of, languages))),
+        ]))
+        p { (languages.label_with(|language| texts::CHANGE_CAPTION.filled(language, &number))) }
+        (table(changes, languages))
+    }
+}
+
+/// Writes chi-square with its degrees of freedom and its probability.
+fn test(test: &Test, languages: &Languages) -> Markup {
+    html! {
+        (Number::fixed(test.chi_square, 2).markup(languages)) " (" (test.degrees_of_freedom) "), "
+        (symbol("p", "")) " " (Number::scientific(test.probability, 2).markup(languages))
+    }
+}
+
+fn rotations(comparison: &Comparison, languages: &Languages) -> Markup {
+    let positions = &comparison.positions;
+    let mut headings = vec![languages.label(texts::POSITION)];
+    let mut columns = Vec::new();
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        headings.push(symbol_and_unit(languages, &symbol(name, ""), units::ARCSEC));
+        headings.push(symbol("u", ""));
+        let values = positions.iter().map(|at| Some(Number::measured(at.turn_arcsec[axis], at.u_arcsec[axis])));
+        columns.push(column(languages, &values.collect::<Vec<_>>()));
+        let us = positions.iter().map(|at| Some(Number::uncertainty(at.u_arcsec[axis])));
+        columns.push(column(languages, &us.collect::<Vec<_>>()));
+    }
+    headings.push(languages.label(texts::PROBABILITY));
+    let p = positions.iter().map(|at| Some(Number::scientific(at.test.probability, 2)));
+    columns.push(column(languages, &p.collect::<Vec<_>>()));
+    headings.push(html! {});
+    let word = |repeats: bool| languages.inline(if repeats { texts::REPEATS } else { texts::REPEATS_NOT });
+    columns.push(positions.iter().map(|at| Some(word(at.repeats))).collect());
+    let names = positions.iter().map(|at| vec![html! { (at.index.to_string()) }]).collect();
+    numbers(languages, headings, names, &columns, texts::ROTATIONS)
+}
+
+fn table(changes: &[NumberDifference], languages: &Languages) -> Markup {
+    let of = |number: fn(&NumberDifference) -> Option<f64>| -> Vec<Option<Markup>> {
+        let each = changes.iter().map(|at| Some(Number::measured(number(at)?, at.standard_uncertainty.unwrap_or(0.0))));
+        column(languages, &each.collect::<Vec<_>>())
+    };
+    let us: Vec<_> = changes.iter().map(|at| at.standard_uncertainty.map(Number::uncertainty)).collect();
+    let ratios: Vec<_> = changes.iter().map(|at| at.ratio().map(|ratio| Number::fixed(ratio, 1))).collect();
+    let columns = [
+        of(|at| at.a),
+        of(|at| at.b),
+        of(NumberDifference::difference),
+        column(languages, &us),
+        column(languages, &ratios),
+    ];
+    let headings = vec![
+        languages.label(texts::POSITION),
+        html! {},
+        languages.label(texts::OLD),
+        languages.label(texts::NEW),
+        languages.label(texts::DIFFERENCE),
+        symbol("u", ""),
+        html! { (languages.label(texts::DIFFERENCE)) "/" i { "u" } },
+    ];
+    let names = changes.iter().map(|at| {
+        let (index, angle) = of_key(&at.key);
+        vec![html! { "(" (index.replace(',', ", ")) ")" }, symbol(angle, "")]
+    });
+    numbers(languages, headings, names.collect(), &columns, texts::CHANGE)
+}
+
+/// Returns the indices and the letter of a deviation from its key, `positions[1,2].alpha_arcsec`.
+fn of_key(key: &str) -> (&str, &'static str) {
+    let (index, angle) = key.trim_start_matches("positions[").split_once("].").unwrap_or_default();
+    let letter = match angle {
+        "alpha_arcsec" => "α",
+        "beta_arcsec" => "β",
+        _ => "γ",
+    };
+    (index, letter)
+}

@@ -1,0 +1,195 @@
+//! Evidence for a certificate: readings, exclusions, components of the uncertainty, tests.
+
+use super::CertificationPage;
+use crate::certification::components::{Common, Variance};
+use crate::certification::suspects::AXES;
+use crate::report::page::language::{Languages, Text};
+use crate::report::page::number::{Number, column};
+use crate::report::page::parts::{
+    Table, field, fields, given, heading, section as part, symbol, symbol_and_unit, wide_field,
+};
+use crate::report::page::passport::characteristics;
+use crate::report::page::texts::{certification as texts, units};
+use crate::statistics::outlier::Bartlett;
+use maud::{Markup, html};
+
+pub(super) fn readings(page: &CertificationPage, languages: &Languages) -> Markup {
+    let certification = page.certification;
+    let runs: Vec<String> = certification.runs.iter().map(u32::to_string).collect();
+    let evidence = certification.stand.certificate.evidence.as_ref();
+    let excluded = evidence.and_then(|evidence| evidence.excluded.as_deref()).unwrap_or_default();
+    let rows = excluded.iter().map(|excluded| {
+        let position = match excluded.index() {
+            Some(index) => html! { (index.to_string()) },
+            None => languages.inline(texts::ALL_POSITIONS),
+        };
+        vec![position, html! { (excluded.run) }, given(&excluded.why)]
+    });
+    let table = Table {
+        headings: [texts::POSITION, texts::RUN, texts::REASON].map(|text| languages.label(text)).into(),
+        rows: rows.collect(),
+        ..Table::default()
+    };
+    let body = html! {
+        (fields([
+            field(languages, texts::FILE, Some(given(page.readings.0))),
+            field(languages, texts::RUNS, Some(html! { (runs.len()) " (" (runs.join(", ")) ")" })),
+            field(languages, texts::POSITIONS, Some(html! { (certification.stand.positions.len()) })),
+            field(languages, texts::REPEATED, Some(html! { (certification.repeated_rows) })),
+            wide_field(languages, texts::FILE_SHA256, Some(html! { code { (page.sha256()) } })),
+        ]))
+        (heading(languages, texts::EXCLUSIONS))
+        @if excluded.is_empty() {
+            (languages.paragraph(texts::NO_EXCLUSIONS))
+        } @else {
+            (table.markup(languages.spoken(texts::EXCLUSIONS)))
+            (languages.paragraph(texts::EXCLUSIONS_NOTE))
+        }
+    };
+    part(languages, "readings", "2", texts::READINGS, &body)
+}
+
+pub(super) fn uncertainty(page: &CertificationPage, languages: &Languages) -> Markup {
+    let body = html! {
+        (heading(languages, texts::BUDGET))
+        (characteristics::common(&page.certification.stand.certificate, languages))
+        (heading(languages, texts::COMPONENTS))
+        (components(page, languages))
+        (languages.paragraph(texts::COMPONENTS_NOTE))
+        (heading(languages, texts::RUN_TURNS))
+        (run_turns(page, languages))
+    };
+    part(languages, "uncertainty", "4", texts::UNCERTAINTY, &body)
+}
+
+fn components(page: &CertificationPage, languages: &Languages) -> Markup {
+    let components = &page.certification.components;
+    let [x, y, z] = &components.own_arcsec2;
+    let visit = |name: Text, of: &Variance| (name, of.value.sqrt(), of.degrees_of_freedom, None);
+    let run = |name: Text, of: &Common| {
+        (name, of.between_runs_arcsec2.sqrt(), of.degrees_of_freedom, Some(of.upper_limit_arcsec2.sqrt()))
+    };
+    let mut found = vec![
+        visit(texts::OWN_X, x),
+        visit(texts::OWN_Y, y),
+        visit(texts::OWN_Z, z),
+        visit(texts::POOLED, &components.pooled_arcsec2),
+        run(texts::PLATFORM, &components.platform),
+    ];
+    found.extend(components.base.iter().map(|base| run(texts::BASE, base)));
+    let root = (page.certification.runs.len() as f64).sqrt();
+    let columns = [
+        column(languages, &found.iter().map(|(_, s, ..)| Some(Number::fixed(*s, 2))).collect::<Vec<_>>()),
+        column(languages, &found.iter().map(|(_, _, freedom, _)| Some(Number::fixed(*freedom, 1))).collect::<Vec<_>>()),
+        column(languages, &found.iter().map(|(_, s, ..)| Some(Number::fixed(s / root, 2))).collect::<Vec<_>>()),
+        column(languages, &found.iter().map(|(.., upper)| upper.map(|s| Number::fixed(s, 2))).collect::<Vec<_>>()),
+    ];
+    let arcsec = |markup: Markup| symbol_and_unit(languages, &markup, units::ARCSEC);
+    let headings = vec![
+        languages.label(texts::COMPONENT),
+        arcsec(symbol("s", "")),
+        symbol("ν", ""),
+        arcsec(html! { i { "s" } "/√" i { "R" } }),
+        arcsec(languages.label(texts::UPPER)),
+    ];
+    let names = found.iter().map(|(name, ..)| vec![languages.label(*name)]).collect();
+    numbers(languages, headings, names, &columns, texts::COMPONENTS)
+}
+
+fn run_turns(page: &CertificationPage, languages: &Languages) -> Markup {
+    let turns = &page.certification.components.run_turns;
+    let of = |number: usize| -> Vec<Option<Markup>> {
+        let value = |turn: &crate::certification::components::RunTurn| {
+            turn.platform_arcsec.iter().chain(&turn.base_arcsec).nth(number).copied()
+        };
+        column(
+            languages,
+            &turns.iter().map(|turn| value(turn).map(|value| Number::fixed(value, 2))).collect::<Vec<_>>(),
+        )
+    };
+    let mut headings = vec![languages.label(texts::RUN)];
+    headings.extend(AXES.map(|axis| symbol(axis, "")));
+    headings.extend([texts::EAST, texts::NORTH, texts::UP].map(|text| languages.label(text)));
+    let columns: Vec<_> = (0..6).map(of).collect();
+    let table = Table {
+        groups: vec![(3, languages.label(texts::OF_PLATFORM)), (3, languages.label(texts::OF_BASE))],
+        headings,
+        rows: rows(turns.iter().map(|turn| vec![html! { (turn.run) }]).collect(), &columns),
+        row_headings: 1,
+        class: "numbers",
+        ..Table::default()
+    };
+    table.markup(languages.spoken(texts::RUN_TURNS))
+}
+
+/// Row of the table of tests: name, statistic, degrees of freedom, probability.
+type TestRow = (Markup, Option<Number>, Option<Number>, Option<f64>);
+
+pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
+    let suspects = &page.certification.suspects;
+    let mut found: Vec<TestRow> = Vec::new();
+    let bartlett = |name: Text, test: &Bartlett| {
+        let freedom = Number::exact(test.degrees_of_freedom as f64);
+        (languages.label(name), Some(Number::fixed(test.statistic, 2)), Some(freedom), Some(test.probability))
+    };
+    found.extend(suspects.positions.iter().map(|test| bartlett(texts::BARTLETT_POSITIONS, test)));
+    found.extend(suspects.axes.iter().map(|test| bartlett(texts::BARTLETT_AXES, test)));
+    found.extend(suspects.worse.iter().map(|at| {
+        let index = at.index.to_string();
+        let name = languages.label_with(|language| texts::COCHRAN.filled(language, &[("index", &index)]));
+        (name, Some(Number::fixed(at.ratio, 2)), None, Some(at.probability))
+    }));
+    found.extend(suspects.outliers.iter().map(|out| {
+        let (index, run) = (out.index.to_string(), out.run.to_string());
+        let values = [("index", index.as_str()), ("run", &run), ("axis", AXES[out.axis])];
+        let name = languages.label_with(|language| texts::GRUBBS.filled(language, &values));
+        (name, Some(Number::fixed(out.residual_arcsec, 2)), None, Some(out.probability))
+    }));
+    if suspects.outliers.is_empty() {
+        found.push((languages.label(texts::NO_OUTLIER), None, None, None));
+    }
+    let columns = [
+        column(languages, &found.iter().map(|(_, value, ..)| value.clone()).collect::<Vec<_>>()),
+        column(languages, &found.iter().map(|(_, _, freedom, _)| freedom.clone()).collect::<Vec<_>>()),
+        column(languages, &found.iter().map(|(.., p)| p.map(|p| Number::scientific(p, 2))).collect::<Vec<_>>()),
+    ];
+    let headings =
+        [texts::TEST, texts::STATISTIC, texts::FREEDOM, texts::PROBABILITY].map(|text| languages.label(text));
+    let names = found.iter().map(|(name, ..)| vec![name.clone()]).collect();
+    let body = html! {
+        (numbers(languages, headings.into(), names, &columns, texts::TESTS))
+        (languages.paragraph(texts::TESTS_NOTE))
+        @if !page.certification.warnings.is_empty() {
+            (heading(languages, texts::WARNINGS))
+            (in_english(&page.certification.warnings))
+        }
+    };
+    part(languages, "tests", "5", texts::TESTS, &body)
+}
+
+/// Writes sentences that the program has in English only.
+pub(super) fn in_english(sentences: &[String]) -> Markup {
+    html! { ul { @for sentence in sentences { li { span.given lang="en" { (sentence) "." } } } } }
+}
+
+/// Writes a table of numbers with one row heading; a missing number is a dash.
+pub(super) fn numbers(
+    languages: &Languages,
+    headings: Vec<Markup>,
+    names: Vec<Vec<Markup>>,
+    columns: &[Vec<Option<Markup>>],
+    name: Text,
+) -> Markup {
+    let row_headings = names.first().map_or(1, Vec::len);
+    let table = Table { headings, rows: rows(names, columns), row_headings, class: "numbers", ..Table::default() };
+    table.markup(languages.spoken(name))
+}
+
+pub(super) fn rows(names: Vec<Vec<Markup>>, columns: &[Vec<Option<Markup>>]) -> Vec<Vec<Markup>> {
+    let cell = |column: &Vec<Option<Markup>>, row: usize| match column.get(row).cloned().flatten() {
+        Some(number) => number,
+        None => html! { "–" },
+    };
+    let each = names.into_iter().enumerate();
+    each.map(|(row, name)| name.into_iter().chain(columns.iter().map(|column| cell(column, row))).collect()).collect()
+}

@@ -1,0 +1,197 @@
+//! Records of certifications, as the program writes them, against the result that it gives to programs.
+
+use crate::pages::{Page, browsed, strings};
+use crate::programs;
+use dtg_passport::report::Language::{English, Russian};
+use dtg_passport::report::{Language, Languages};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::LazyLock;
+
+/// One record: its languages, its readings, and what else `certify` is asked.
+struct Record {
+    name: &'static str,
+    languages: &'static [Language],
+    readings: &'static str,
+    asked: &'static [&'static str],
+}
+
+/// The reason for an exclusion, which would be markup anywhere else.
+const HOSTILE: &str = "</p></section><script>alert('x')</script> & co, лампа";
+
+const RECORDS: &[Record] = &[
+    Record { name: "record-en", languages: &[English], readings: "angles.csv", asked: &[] },
+    Record {
+        name: "record-ru",
+        languages: &[Russian],
+        readings: "angles.csv",
+        asked: &["--exclude", "1,3,2", "--why", HOSTILE],
+    },
+    Record {
+        name: "record-both",
+        languages: &[Russian, English],
+        readings: "later.csv",
+        asked: &["--against", "first.yaml", "--exclude", "4", "--why", "the lamp failed"],
+    },
+    // An outlier, and a position that scatters more: the tests name them.
+    Record {
+        name: "record-odd-both",
+        languages: &[English, Russian],
+        readings: "odd.csv",
+        asked: &["--against", "first.yaml"],
+    },
+];
+
+/// Records and what was found on them.
+pub struct Certified {
+    folder: PathBuf,
+    languages: Vec<Languages>,
+    found: Value,
+}
+
+/// The records are written and opened once for all tests.
+pub static CERTIFIED: LazyLock<Certified> = LazyLock::new(|| {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("record");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    files(&folder);
+    RECORDS.iter().for_each(|record| record.write(&folder));
+    let found = browsed(&folder, RECORDS.iter().map(|record| record.name));
+    let languages = |record: &Record| Languages::new(record.languages[0], record.languages[1..].iter().copied());
+    Certified { languages: RECORDS.iter().map(languages).collect(), folder, found }
+});
+
+impl Certified {
+    /// Each record as a page.
+    pub fn pages(&self) -> impl Iterator<Item = Page<'_>> {
+        RECORDS.iter().zip(&self.languages).map(|(record, languages)| Page {
+            name: record.name,
+            folder: &self.folder,
+            languages,
+            own_words: "C-2028-0007 C-2026-0142",
+            found: &self.found[record.name],
+        })
+    }
+}
+
+impl Record {
+    fn write(&self, folder: &Path) {
+        let tags: Vec<&str> = self.languages.iter().map(|language| language.tag()).collect();
+        let mut certify = certify(folder, self.readings, "header.yaml", &format!("{}.yaml", self.name));
+        certify.args(["--format", "json", "--lang", &tags.join(","), "--report", &format!("{}.html", self.name)]);
+        let output = certify.args(self.asked).output().unwrap();
+        assert!(folder.join(format!("{}.html", self.name)).exists(), "{}", String::from_utf8_lossy(&output.stderr));
+        fs::write(folder.join(format!("{}.json", self.name)), output.stdout).unwrap();
+    }
+}
+
+fn certify(folder: &Path, readings: &str, header: &str, stand: &str) -> Command {
+    let mut certify = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+    certify.current_dir(folder).args(["certify", readings, "--stand", header, "-o", stand]);
+    certify
+}
+
+/// The readings of the guide, and later ones of the same stand with one position changed.
+fn files(folder: &Path) {
+    let write = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();
+    let example = |name: &str| fs::read_to_string(programs::project(name)).unwrap();
+    let (angles, header) = (example("docs/angles.csv"), example("docs/header.yaml"));
+    let changed = |by: &dyn Fn(&[String]) -> f64| -> String {
+        let lines = angles.lines().enumerate().map(|(number, line)| {
+            let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+            if cells.len() == 6 && cells[0] != "i" {
+                let noise = (number * 7 % 13) as f64 / 26.0;
+                cells[5] = format!("{:.3}", cells[5].parse::<f64>().unwrap() + noise + by(&cells));
+            }
+            cells.join(",") + "\n"
+        });
+        lines.collect()
+    };
+    write("angles.csv", &angles);
+    write("first-header.yaml", &header);
+    programs::output(certify(folder, "angles.csv", "first-header.yaml", "first.yaml"));
+    let type_b = "  type_b: [{source: \"autocollimator\", acts_on: \"position\", u_arcsec: 0.3}, \
+                  {source: \"level\", acts_on: \"base\", u_arcsec: 0.4, degrees_of_freedom: 8}]\ndatum:";
+    write("header.yaml", &header.replace("C-2026-0142", "C-2028-0007").replace("datum:", type_b));
+    write("later.csv", &changed(&|cells| if cells[0] == "2" && cells[1] == "3" { 9.0 } else { 0.0 }));
+    write("odd.csv", &changed(&|cells| if cells[..3] == ["1", "2", "3"] { 60.0 } else { 0.0 }));
+}
+
+/// Every number of a document, at any depth.
+fn numbers(value: &Value, found: &mut Vec<f64>) {
+    match value {
+        Value::Number(number) => found.push(number.as_f64().unwrap()),
+        Value::Array(items) => items.iter().for_each(|item| numbers(item, found)),
+        Value::Object(entries) => entries.values().for_each(|item| numbers(item, found)),
+        _ => {}
+    }
+}
+
+/// Expected: the JSON of `certify`, the readings file, and the reason as it was typed.
+#[test]
+fn a_record_has_the_numbers_of_the_certificate() {
+    for record in RECORDS {
+        let said = &CERTIFIED.found[record.name]["said"];
+        let json = fs::read_to_string(CERTIFIED.folder.join(format!("{}.json", record.name))).unwrap();
+        let result: Value = serde_json::from_str(&json).unwrap();
+        let mut due = Vec::new();
+        numbers(&result, &mut due);
+        let mut marked: Vec<f64> = Vec::new();
+        for table in said["tables"].as_array().unwrap() {
+            for cell in table["rows"].as_array().unwrap().iter().flat_map(|row| row.as_array().unwrap()) {
+                marked.extend(strings(&cell["values"]).iter().map(|value| value.parse::<f64>().unwrap()));
+            }
+        }
+        assert!(marked.len() > 100, "{}: {} numbers", record.name, marked.len());
+        let positions = result["certification"]["stand"]["positions"].as_array().unwrap();
+        for at in positions {
+            for key in ["alpha_arcsec", "u_beta_arcsec", "gamma_arcsec", "degrees_of_freedom"] {
+                assert!(marked.contains(&at[key].as_f64().unwrap()), "{}: {key} {}", record.name, at[key]);
+            }
+        }
+        for key in ["own_arcsec", "run_turns", "bartlett", "outliers"] {
+            let mut of_key = Vec::new();
+            match key {
+                "own_arcsec" => numbers(&result["certification"][key], &mut of_key),
+                "run_turns" => result["certification"][key].as_array().unwrap().iter().for_each(|turn| {
+                    numbers(&turn["platform_arcsec"], &mut of_key);
+                }),
+                "bartlett" => numbers(&result["certification"][key]["positions"]["statistic"], &mut of_key),
+                _ => result["certification"][key].as_array().unwrap().iter().for_each(|out| {
+                    numbers(&out["residual_arcsec"], &mut of_key);
+                }),
+            }
+            for number in of_key {
+                assert!(
+                    marked.iter().any(|value| (value / number - 1.0).abs() < 1e-12),
+                    "{}: {key} {number}",
+                    record.name
+                );
+            }
+        }
+        // The annex is the file, and its SHA-256 is in the certificate.
+        let file = fs::read_to_string(CERTIFIED.folder.join(record.readings)).unwrap();
+        assert_eq!(said["annex"].as_str().unwrap(), file);
+        let sha256 = result["certification"]["stand"]["certificate"]["evidence"]["readings_sha256"].as_str().unwrap();
+        assert!(strings(&said["codes"]).contains(&sha256));
+        if record.asked.contains(&HOSTILE) {
+            assert!(strings(&said["given"]).contains(&HOSTILE), "{}", said["given"]);
+        }
+    }
+}
+
+#[test]
+fn a_record_says_whether_the_stand_has_changed() {
+    let headline = |name: &str| CERTIFIED.found[name]["said"]["headline"].as_str().unwrap();
+    assert_eq!(headline("record-en"), "The readings were not compared with an earlier certificate.");
+    assert_eq!(
+        headline("record-both"),
+        "Изменился после сертификата C-2026-0142 Changed since certificate C-2026-0142"
+    );
+    let said = &CERTIFIED.found["record-both"]["said"];
+    assert_eq!(strings(&said["sections"]), ["1", "2", "3", "4", "5", "6"]);
+    let words = said["given"].to_string();
+    assert!(words.contains("position (2, 3) has changed") && words.contains("the lamp failed"), "{words}");
+}
