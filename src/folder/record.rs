@@ -10,8 +10,8 @@ use crate::text::LARGEST_DOCUMENT_BYTES;
 use jiff::Timestamp;
 use std::path::Path;
 
-/// Returns the history of a stand, `<model>/<serial>`, and the register of the folder; the history is `None` if no file
-/// in the folder is a passport of the stand.
+/// Returns the history of a stand, `<model>/<serial>`, and the register of its passports. If no file in the folder is a
+/// passport of the stand, the history is `None`, and the register is that of all stands.
 ///
 /// # Errors
 /// Returns [`FileError`] if the folder, or a passport of the stand, cannot be read.
@@ -22,15 +22,16 @@ pub(crate) fn history(
     time: Timestamp,
     threads: usize,
 ) -> Result<(Option<History>, Register), FileError> {
-    let (register, trust) = search::register(root, trust, &Asked::at(time), threads)?;
+    let asked = Asked::at(time);
+    let (register, extended) = search::register_of(root, Some(stand), trust.clone(), &asked, threads)?;
     let lines: Vec<_> = register.passports.iter().filter(|line| line.stand.as_deref() == Some(stand)).collect();
     if lines.is_empty() {
-        return Ok((None, register));
+        return Ok((None, search::register(root, trust, &asked, threads)?.0));
     }
     let recorded = parallel::map(&lines, threads, |line| {
         let bytes = files::read(Path::new(&line.file), LARGEST_DOCUMENT_BYTES)?;
-        Ok(Recorded::of(line, &bytes, &trust, time))
+        Ok(Recorded::of(line, &bytes, &extended, time))
     });
     let recorded = recorded.into_iter().collect::<Result<Vec<_>, FileError>>()?;
-    Ok((Some(History::of(stand, recorded, &register, &trust, time)), register))
+    Ok((Some(History::of(stand, recorded, &register, &extended, time)), register))
 }

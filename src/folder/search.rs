@@ -74,12 +74,35 @@ pub(crate) fn passports(root: &Path) -> Result<Vec<Result<PathBuf, FileError>>, 
 /// Returns [`FileError::Read`] if `root` cannot be read; an unreadable file or folder below it does not hide the
 /// others.
 pub fn register(root: &Path, trust: Trust, asked: &Asked, threads: usize) -> Result<(Register, Trust), FileError> {
+    register_of(root, None, trust, asked, threads)
+}
+
+/// Returns the register of a folder as [`register`] does, but if a `stand`, `<model>/<serial>`, is given, without the
+/// passports of other stands that are in their own folders. Every entry and every alarm that concerns the stand is there.
+///
+/// # Errors
+/// Returns the errors of [`register`].
+pub(crate) fn register_of(
+    root: &Path,
+    stand: Option<&str>,
+    trust: Trust,
+    asked: &Asked,
+    threads: usize,
+) -> Result<(Register, Trust), FileError> {
     let found = find(root)?;
+    let id = stand.map(|stand| format!("\"{stand}/"));
+    let elsewhere = |path: &Path, bytes: &[u8]| {
+        // A damaged file in the folder of another stand concerns that stand only, and a passport of this stand contains
+        // its id wherever it is.
+        let (Some(stand), Some(id)) = (stand, &id) else { return false };
+        let other = matches!(concern(root, path), Concern::Stand(other) if !other.eq_ignore_ascii_case(stand));
+        other && memchr::memmem::find(bytes, id.as_bytes()).is_none() && Claim::of(path, bytes) != Some(Claim::List)
+    };
     let mut alarms: Vec<Alarm> = found.unreadable.iter().map(|error| unreadable(root, error)).collect();
     alarms.extend(found.links.iter().map(|path| Alarm::link(&name_of(path))));
     alarms.extend(found.special.iter().map(|path| Alarm::special(&name_of(path))));
     let seen = parallel::map_with(&found.files, threads, Vec::new, |bytes, path| {
-        Seen::of(root, path, bytes, |bytes| examine(&name_of(path), bytes, &trust, asked))
+        Seen::of(root, path, bytes, elsewhere, |bytes| examine(&name_of(path), bytes, &trust, asked))
     });
     let (mut examined, mut lists) = (Vec::with_capacity(seen.len()), Vec::new());
     for seen in seen {
@@ -112,10 +135,19 @@ enum Seen {
 }
 
 impl Seen {
-    fn of(root: &Path, path: &Path, bytes: &mut Vec<u8>, examine: impl FnOnce(&[u8]) -> Examined) -> Self {
+    fn of(
+        root: &Path,
+        path: &Path,
+        bytes: &mut Vec<u8>,
+        elsewhere: impl Fn(&Path, &[u8]) -> bool,
+        examine: impl FnOnce(&[u8]) -> Examined,
+    ) -> Self {
         let read = files::read_into(bytes, path, LARGEST_DOCUMENT_BYTES);
         if let Err(error @ (FileError::Read { .. } | FileError::Folder { .. })) = read {
             return Self::Alarm(unreadable(root, &error));
+        }
+        if elsewhere(path, bytes) {
+            return Self::Nothing;
         }
         // For a file that is too large, `bytes` has its beginning.
         let examined = Box::new(examine(bytes));
