@@ -204,7 +204,8 @@ fn uncertainties(content: &Content) -> HashMap<String, f64> {
 /// to all positions, which turn the case by the same amount about every axis. An element is `None` if its own part is
 /// not stated; common parts that are not stated are omitted.
 pub(crate) fn u_of_deviations_arcsec(position: &CertifiedPosition, certificate: &Certificate) -> [Option<f64>; 3] {
-    let turn = Turn::of(&position.to_model());
+    // The certificate is about the axes of its own laboratory, wherever the base points at a site.
+    let turn = Turn::of(&position.to_model(), &Matrix3::identity());
     // The angles solve axes · angles = rotation; the three axes are never coplanar while the angles are within ±45°.
     let to_angles = Matrix3::from_columns(&turn.axes).try_inverse().unwrap_or_else(Matrix3::identity);
     let common = [certificate.common_platform_arcsec, certificate.common_base_arcsec];

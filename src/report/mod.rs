@@ -40,6 +40,7 @@ pub(crate) mod passport_table;
 pub(crate) mod picture;
 #[cfg(feature = "factory")]
 pub(crate) mod plan;
+#[cfg(feature = "factory")]
 pub(crate) mod recertification;
 pub(crate) mod register;
 pub(crate) mod selftest;
