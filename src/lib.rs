@@ -68,11 +68,13 @@
 //! | `batch` | many passports at once | `factory` |
 //! | [`report`] | what people read | `report` |
 //! | `schema` | JSON Schemas of the formats | `cli` |
+//! | `template` | commented files to begin with | `cli` |
+//! | `workspace` | a folder that states key, trust and folders; what it holds | `cli` |
 //! | `demonstration` | the whole story on a built-in example | `cli` |
 //! | [`cli`] | the command line: read, call, write | `cli` |
 //!
 //! The feature `cli`, which has all the others and is the default, builds the program. Only `files`, `signing`, `folder`,
-//! `batch` and `demonstration` touch the file system or start a program; nothing reads the
+//! `batch`, `workspace` and `demonstration` touch the file system or start a program; nothing reads the
 //! clock, prints, or looks at the environment (`ssh-keygen`, where it signs, looks for its agent there).
 //!
 //! # What it refuses
@@ -130,10 +132,14 @@ pub mod simulation;
 pub mod site;
 pub mod stand;
 pub(crate) mod statistics;
+#[cfg(feature = "cli")]
+pub(crate) mod template;
 pub mod text;
 pub mod trust;
 pub mod uncertainty;
 pub mod units;
+#[cfg(feature = "cli")]
+pub(crate) mod workspace;
 
 /// The guide's Rust is compiled and run.
 #[cfg(doctest)]

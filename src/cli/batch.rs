@@ -133,7 +133,7 @@ impl Reporter {
             Outcome::There(_) | Outcome::Skipped { .. } => {}
             Outcome::Failed(failed) => {
                 self.code = self.code.max(if failed.unusable { UNUSABLE } else { REFUSED });
-                self.bar.suspend(|| output::say(&failure(failed)));
+                self.bar.suspend(|| output::complain(&failure(failed)));
             }
         }
         let text = self.reports.add(Report::of_outcome(outcome));
@@ -160,7 +160,7 @@ impl Reporter {
             return Err(failure);
         }
         if self.cancel.load(Ordering::Relaxed) {
-            output::say("interrupted; to complete the job, run the same command again");
+            output::complain("interrupted; to complete the job, run the same command again");
             self.code = self.code.max(REFUSED);
         }
         Ok(self.code)

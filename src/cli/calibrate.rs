@@ -126,7 +126,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let stated = Setup::stated(&content.certificate, &content.positions, &content.site, &laboratory);
     let (setup, mut missing) = stated.map_err(Failure::refused)?;
     let setup = setup.of_gyro(gyro_type.as_ref().and_then(|gyro_type| gyro_type.noise.as_ref()));
-    let bytes = files::read(&options.currents, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+    let bytes = files::read(&options.currents, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
     let name = name_of(&options.currents);
     let readings = Readings::from_csv(&name, &bytes, setup.coefficients(), laboratory.meter.range_ma);
     let mut readings = readings.map_err(Failure::unreadable)?;
@@ -161,7 +161,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         return Err(Failure::refused(words));
     }
     if let Some(remark) = temperature_remark(&content.certificate, &laboratory) {
-        output::say(&format!("WARNING: {remark}"));
+        output::complain(&format!("WARNING: {remark}"));
     }
     let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
     let mut document = CalibrationDocument::new(&content.passport.id, verified, gravity, &calibration, &missing);
@@ -169,7 +169,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let Some(found) = document.answer() else {
         let words: Vec<String> =
             calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key())).collect();
-        return Err(Failure { message: words.join("\n"), code: REFUSED });
+        return Err(Failure::refused(words.join("\n")));
     };
     // Without a type or an earlier result, the nominal values of the paper's gyro still reveal an error by a factor of
     // a thousand.
@@ -245,13 +245,13 @@ fn used<'a>(
 /// Reads a laboratory file. Without a path it returns the paper's meter.
 pub(super) fn read_laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
     let Some(path) = path else { return Ok(Laboratory::paper()) };
-    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
     Laboratory::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)
 }
 
 fn previous(options: &Options) -> Result<Option<CalibrationDocument>, Failure> {
     let Some(path) = &options.previous else { return Ok(None) };
-    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
     let document = CalibrationDocument::from_json(&name_of(path), &bytes).map_err(Failure::unreadable)?;
     if document.answer().is_none() {
         return Err(Failure::unusable(format!("{}: contains no result", shown(path))));

@@ -60,13 +60,13 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let against = options.against.as_deref().map(|path| certified(path, &options.trust)).transpose()?;
     let header = match (&options.stand, &against) {
         (Some(path), _) => {
-            let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+            let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
             Header::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)?
         }
         (None, Some(stand)) => Header::from(stand),
         (None, None) => return Err(Failure::unusable("missing --stand or --against")),
     };
-    let bytes = files::read(&options.readings, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+    let bytes = files::read(&options.readings, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
     let name = name_of(&options.readings);
     let excluded = excluded(options)?;
     let readings = AngleReadings::from_csv_without(&name, &bytes, &header.positions, &excluded);

@@ -1,7 +1,7 @@
 //! Verb `completions`: completion scripts for shells.
 
-use super::{Cli, Code, Failure, output};
-use clap::{Args, CommandFactory};
+use super::{Code, Failure, help, output};
+use clap::Args;
 use clap_complete::Shell;
 
 /// Print the completion script for a shell
@@ -13,7 +13,7 @@ pub(super) struct Options {
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(options.shell, &mut Cli::command(), "dtg-passport", &mut script);
+    clap_complete::generate(options.shell, &mut help::command(), "dtg-passport", &mut script);
     output::own(&String::from_utf8_lossy(&script))?;
     Ok(0)
 }

@@ -1,8 +1,12 @@
 //! Verb `demo`: the whole work of factory and laboratory on a built-in example.
 
+use super::output::Format;
 use super::{Code, Failure, REFUSED, output, trust_options};
 use crate::demonstration;
+use crate::report::style;
+use crate::text::name_of;
 use clap::Args;
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// Demonstrate the work of factory and laboratory with a built-in example, and keep its files
@@ -11,13 +15,32 @@ pub(super) struct Options {
     /// Folder for the files, empty or not existing [default: dtg-passport-demo, numbered if it exists]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+/// The result of the demonstration, for programs.
+#[derive(Serialize)]
+struct Shown {
+    folder: String,
+    passed: bool,
+    steps: Vec<String>,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let folder = options.out.clone().unwrap_or_else(demonstration::free_folder);
-    match demonstration::run(&folder, trust_options::now(), &mut |line| output::result(&format!("{line}\n")).is_ok()) {
-        Ok(true) => Ok(0),
-        Ok(false) => Ok(REFUSED),
-        Err(error) => Err(Failure::unusable(error)),
+    let mut steps = Vec::new();
+    let passed = demonstration::run(&folder, trust_options::now(), &mut |line| match options.format {
+        Format::Text => output::result(&format!("{line}\n")).is_ok(),
+        Format::Json => {
+            steps.push(style::plain(line));
+            true
+        }
+    });
+    let passed = passed.map_err(Failure::unusable)?;
+    if options.format == Format::Json {
+        output::json(&Shown { folder: name_of(&folder), passed, steps })?;
     }
+    Ok(if passed { 0 } else { REFUSED })
 }

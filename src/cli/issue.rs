@@ -3,7 +3,7 @@
 use super::batch::BatchOptions;
 use super::calibrate::read_laboratory;
 use super::simulate::read_gyro;
-use super::{Code, Failure, output, trust_options};
+use super::{Code, Failure, defaults, output, trust_options};
 use crate::batch::catalogue::Listed;
 use crate::batch::issue::{Job, Known};
 use crate::files;
@@ -25,11 +25,11 @@ use std::path::{Path, PathBuf};
 /// every *.yaml in it (also .yml). A - reads a list of paths from standard input, separated by line feeds or NUL.
 #[derive(Args)]
 pub(super) struct Options {
-    /// Stand files (dtg-stand/1)
-    #[arg(required = true, value_name = "STAND")]
+    /// Stand files (dtg-stand/1); in a workspace also MODEL/SERIAL
+    #[arg(required = true, value_name = "STAND", value_parser = defaults::stand())]
     stands: Vec<PathBuf>,
-    /// Site files (dtg-site/1; repeatable)
-    #[arg(long = "site", required = true, value_name = "SITE")]
+    /// Site files (dtg-site/1; repeatable); in a workspace also the identifiers of sites
+    #[arg(long = "site", required = true, value_name = "SITE", value_parser = defaults::site())]
     sites: Vec<PathBuf>,
     /// Folder of passports
     #[arg(long, value_name = "DIR", default_value = "passports")]
@@ -90,13 +90,13 @@ fn stated(options: &Options) -> Result<Stated, Failure> {
 
 /// Reads a stand file.
 pub(super) fn read_stand(path: &Path) -> Result<Stand, Failure> {
-    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
     Stand::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)
 }
 
 /// Reads a site file.
 pub(super) fn read_site(path: &Path) -> Result<Site, Failure> {
-    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
     let site = Site::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)?;
     if let Some(words) = site.remark(path) {
         output::say(&format!("{}: {words}", shown(path)));

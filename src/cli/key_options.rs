@@ -3,8 +3,8 @@
 
 use super::Failure;
 use crate::document::Signer;
-use crate::signing;
 pub(super) use crate::signing::PASSPHRASE_VARIABLE;
+use crate::signing::{self, KeyFileError};
 use crate::text::shown;
 use crate::trust::{BadIdentity, check_identity};
 use clap::Args;
@@ -36,7 +36,10 @@ pub(super) fn identity(text: &str) -> Result<String, BadIdentity> {
 /// Returns the signer for a key file.
 pub(super) fn signer_of(key: &Path) -> Result<Box<dyn Signer + Sync>, Failure> {
     signing::forbid_core_dumps();
-    signing::signer(key, &ask).map_err(Failure::unusable)
+    signing::signer(key, &ask).map_err(|error| match error {
+        KeyFileError::File(error) => Failure::file(error),
+        error => Failure::unusable(error),
+    })
 }
 
 /// Reads the passphrase of an existing key.

@@ -1,12 +1,14 @@
 //! Verb `keygen`: a new signing key.
 
 use super::key_options::{self, PASSPHRASE_VARIABLE, passphrase};
+use super::output::Format;
 use super::{Code, Failure, output};
 use crate::files::{self, Access};
 use crate::signing::{self, allowed_signers_line, forbid_core_dumps};
-use crate::text::shown;
+use crate::text::{name_of, shown};
 use crate::trust::SigningKey;
 use clap::Args;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 use zeroize::Zeroizing;
 
@@ -27,6 +29,21 @@ pub(super) struct Options {
     /// Leave the key unencrypted
     #[arg(long)]
     no_passphrase: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+/// The new key, for programs.
+#[derive(Serialize)]
+struct Created {
+    key: String,
+    public_key: String,
+    fingerprint: String,
+    /// The line for allowed_signers.
+    line: String,
+    /// The file to which the line was appended; null if it was not.
+    appended_to: Option<String>,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -48,22 +65,35 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let public = format!("{} {identity}\n", key.public_key().to_openssh());
     write(&public_path, public.as_bytes(), Access::Shared)?;
     let wrote = format!("wrote {} (keep it secret) and {}", shown(&options.key), shown(&public_path));
-    match signers.map(|path| (path, signing::append_signer(path, &line))) {
-        Some((path, Ok(()))) => {
-            output::say(&format!("{wrote}; appended the line of the key to {}", shown(path)));
-            Ok(0)
-        }
-        unappended => {
-            output::say(&format!("{wrote}; add this line to allowed_signers:"));
-            output::result(&(line + "\n"))?;
-            unappended.map_or(Ok(0), |(_, failed)| failed.map(|()| 0).map_err(Failure::unusable))
-        }
+    let appended = signers.map(|path| (path, signing::append_signer(path, &line)));
+    let (appended_to, failed) = match appended {
+        Some((path, Ok(()))) => (Some(path), None),
+        Some((_, Err(failed))) => (None, Some(failed)),
+        None => (None, None),
+    };
+    match appended_to {
+        Some(path) => output::say(&format!("{wrote}; appended the line of the key to {}", shown(path))),
+        None => output::say(&format!("{wrote}; add this line to allowed_signers:")),
     }
+    match options.format {
+        Format::Text if appended_to.is_none() => output::result(&format!("{line}\n"))?,
+        Format::Text => {}
+        // A failure is then reported instead; its message comes after that with the line.
+        Format::Json if failed.is_some() => output::say(&line),
+        Format::Json => output::json(&Created {
+            key: name_of(&options.key),
+            public_key: name_of(&public_path),
+            fingerprint: key.public_key().fingerprint(),
+            line,
+            appended_to: appended_to.map(name_of),
+        })?,
+    }
+    failed.map_or(Ok(0), |failed| Err(Failure::unusable(failed)))
 }
 
 fn refuse_existing(path: &Path) -> Result<(), Failure> {
     if path.symlink_metadata().is_ok() {
-        return Err(Failure::refused(files::FileError::Exists { path: path.to_owned(), replaceable: false }));
+        return Err(Failure::file(files::FileError::Exists { path: path.to_owned(), replaceable: false }));
     }
     Ok(())
 }

@@ -4,17 +4,24 @@
 //! valid document. 1: a document or a result was refused. 2: wrong usage, or a file that cannot be read in the expected
 //! format. With several files, every one is reported and the highest code is returned.
 
+mod arguments;
 mod batch;
 mod calibrate;
 mod certify;
 mod completions;
+mod defaults;
 mod demo;
 mod diff;
 mod export;
 mod history;
+mod failure;
+mod help;
+mod init;
 mod issue;
 mod key_options;
 mod keygen;
+mod man;
+mod new;
 mod output;
 mod plan;
 mod recertify;
@@ -26,15 +33,18 @@ mod schema;
 mod selftest;
 mod show;
 mod simulate;
+mod status;
 mod trust_options;
 mod uncertainty;
 mod verify;
 
-use crate::files::FileError;
-use crate::text::{Unreadable, printable};
+use crate::text::printable;
+use arguments::Parsed;
 use clap::{Parser, Subcommand};
-use std::ffi::OsString;
+use failure::Failure;
+use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// Signed passports that let a low-cost test stand calibrate a dynamically tuned gyro as well as an expensive one.
 #[derive(Parser)]
@@ -42,11 +52,25 @@ use std::process::ExitCode;
 struct Cli {
     #[command(subcommand)]
     verb: Verb,
+    /// Folder of the workspace, whose dtg-passport.toml states what options do not [env: DTG_PASSPORT_WORKSPACE]
+    #[arg(long, global = true, value_name = "DIR")]
+    // It is read before the other arguments are parsed.
+    #[allow(dead_code)]
+    workspace: Option<PathBuf>,
+    /// Print no messages about a result, only those about failures
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Also print where options come from, and the duration
+    #[arg(short, long, global = true)]
+    verbose: bool,
 }
 
 #[derive(Subcommand)]
 enum Verb {
     Demo(demo::Options),
+    Init(init::Options),
+    New(new::Options),
+    Status(status::Options),
     Keygen(keygen::Options),
     Certify(certify::Options),
     Issue(issue::Options),
@@ -66,6 +90,7 @@ enum Verb {
     Selftest(selftest::Options),
     Schema(schema::Options),
     Completions(completions::Options),
+    Man(man::Options),
 }
 
 /// Exit code of a verb that ran to its end: 0, or the highest code that it reported.
@@ -77,62 +102,24 @@ const REFUSED: Code = 1;
 /// Exit code for wrong usage, or for a file that cannot be read in the expected format.
 const UNUSABLE: Code = 2;
 
-/// A failure that ends a verb at once: a message and an exit code.
-#[derive(Debug)]
-struct Failure {
-    message: String,
-    code: Code,
-}
-
-impl Failure {
-    fn refused(error: impl std::fmt::Display) -> Self {
-        Self { message: error.to_string(), code: REFUSED }
-    }
-
-    /// Converts a write error: an existing file is a refusal, any other error is not.
-    fn file(error: FileError) -> Self {
-        match error {
-            FileError::Exists { .. } => Self::refused(error),
-            _ => Self::unusable(error),
-        }
-    }
-
-    /// Creates the failure for a file with mistakes; the message includes their lines.
-    fn unreadable(error: Unreadable) -> Self {
-        Self::unusable(error.with_lines(""))
-    }
-
-    fn unusable(error: impl std::fmt::Display) -> Self {
-        Self { message: error.to_string(), code: UNUSABLE }
-    }
-}
-
-/// Parses the arguments, or prints the reason why they cannot be parsed.
-///
-/// clap repeats arguments verbatim in its messages. So the message printed is clap's message about a printable copy of
-/// the arguments.
-fn parse(arguments: Vec<OsString>) -> Result<Cli, ExitCode> {
-    let error = match Cli::try_parse_from(&arguments) {
-        Ok(cli) => return Ok(cli),
-        Err(error) => error,
-    };
-    match Cli::try_parse_from(arguments.iter().map(|argument| printable(argument.to_string_lossy()))) {
-        Err(error) => error.exit(),
-        Ok(_) => output::say(&printable(error)),
-    }
-    Err(ExitCode::from(UNUSABLE))
-}
-
 /// Parses the arguments and runs the verb.
 pub fn main() -> ExitCode {
     // The message of a broken invariant may quote untrusted text.
-    std::panic::set_hook(Box::new(|panic| output::say(&format!("internal error: {}", printable(panic)))));
-    let cli = match parse(std::env::args_os().collect()) {
-        Ok(cli) => cli,
+    std::panic::set_hook(Box::new(|panic| output::complain(&format!("internal error: {}", printable(panic)))));
+    let start = Instant::now();
+    let Parsed { cli, json, added } = match arguments::parse(std::env::args_os().collect()) {
+        Ok(parsed) => parsed,
         Err(code) => return code,
     };
+    output::set_quiet(cli.quiet);
+    if cli.verbose {
+        added.iter().for_each(|option| output::say(&format!("uses {option}")));
+    }
     let result = match cli.verb {
         Verb::Demo(options) => demo::run(&options),
+        Verb::Init(options) => init::run(&options),
+        Verb::New(options) => new::run(&options),
+        Verb::Status(options) => status::run(&options),
         Verb::Keygen(options) => keygen::run(&options),
         Verb::Certify(options) => certify::run(&options),
         Verb::Issue(options) => issue::run(&options),
@@ -152,11 +139,18 @@ pub fn main() -> ExitCode {
         Verb::Selftest(options) => selftest::run(&options),
         Verb::Schema(options) => schema::run(&options),
         Verb::Completions(options) => completions::run(&options),
+        Verb::Man(options) => man::run(&options),
     };
+    if cli.verbose {
+        output::say(&format!("took {:.3} s", start.elapsed().as_secs_f64()));
+    }
     match result {
         Ok(code) => ExitCode::from(code),
         Err(failure) => {
-            output::say(&failure.message);
+            if json {
+                output::failure(&failure);
+            }
+            output::complain(&failure.message);
             ExitCode::from(failure.code)
         }
     }

@@ -7,6 +7,7 @@ use crate::text::printable::{self, printable};
 use clap::ValueEnum;
 use std::io::{self, Write};
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The form of a result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -51,13 +52,33 @@ pub(super) fn json(value: &impl serde::Serialize) -> Result<(), Failure> {
     result(&(text + "\n"))
 }
 
+/// Writes a failure as JSON in place of a result. Errors are ignored, because the message and the exit code remain.
+pub(super) fn failure(failure: &Failure) {
+    let _ = json(&failure.document());
+}
+
 /// Writes a result to a file. An existing file is replaced only on request.
 pub(super) fn file(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
     files::write_replaceable(path, text.as_bytes(), force).map_err(Failure::file)
 }
 
-/// Writes a message about a result. Errors are ignored, because there is nowhere left to report them.
+/// Whether only failures are reported.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// Suppresses the messages of [`say`].
+pub(super) fn set_quiet(quiet: bool) {
+    QUIET.store(quiet, Ordering::Relaxed);
+}
+
+/// Writes a message about a result, unless only failures are reported.
 pub(super) fn say(words: &str) {
+    if !QUIET.load(Ordering::Relaxed) {
+        complain(words);
+    }
+}
+
+/// Writes a message about a failure. Errors are ignored, because there is nowhere left to report them.
+pub(super) fn complain(words: &str) {
     let lines: Vec<String> = words.trim_end().split('\n').map(printable).collect();
     let _ = writeln!(io::stderr().lock(), "dtg-passport: {}", lines.join("\n              "));
 }

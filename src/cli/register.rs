@@ -1,14 +1,15 @@
 //! Verb `register`: the passports in a folder and their states.
 
 use super::output::{self, TableFormat};
-use super::trust_options::TrustOptions;
+use super::trust_options::{TrustOptions, date};
 use super::{Code, Failure, REFUSED, UNUSABLE};
 use crate::folder::search;
 use crate::parallel;
 use crate::passport::{Question, Trust};
-use crate::register::{Asked, Register};
+use crate::register::{Asked, Line, Register, State};
 use crate::report::register as report;
 use clap::{Args, ValueEnum};
+use jiff::civil::Date;
 use std::path::{Path, PathBuf};
 
 /// List every passport under a folder: in force, superseded, moved, expired, revoked, broken
@@ -22,6 +23,15 @@ pub(super) struct Options {
     /// Flag passports that expire within DAYS days
     #[arg(long, value_name = "DAYS")]
     within: Option<u32>,
+    /// Only passports in these states
+    #[arg(long, value_delimiter = ',', value_name = "STATE", value_parser = State::ALL.map(State::key))]
+    state: Vec<String>,
+    /// Only passports of this site
+    #[arg(long, value_name = "ID")]
+    site: Option<String>,
+    /// Only passports in force whose expiry date is before this UTC date
+    #[arg(long, value_name = "DATE", value_parser = date)]
+    expiring_before: Option<Date>,
     /// Sort order
     #[arg(long, value_enum, default_value = "stand")]
     by: By,
@@ -41,7 +51,14 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let asked = Asked { question, within_days: options.within };
     let register = search::register(&options.folder, trust, &asked, parallel::processors());
-    let (mut register, _) = register.map_err(Failure::unusable)?;
+    let (mut register, _) = register.map_err(Failure::file)?;
+    let code = match (register.is_incomplete(), register.needs_attention()) {
+        (true, _) => UNUSABLE,
+        (_, true) => REFUSED,
+        _ => 0,
+    };
+    // The filters select rows; alarms concern all passports.
+    register.passports.retain(|line| options.selects(line));
     match options.by {
         By::Stand => {}
         By::Site => register.passports.sort_by(|a, b| a.site.cmp(&b.site)),
@@ -52,11 +69,17 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         TableFormat::Json => output::json(&register)?,
         TableFormat::Csv => output::result(&report::csv(&register))?,
     }
-    Ok(match (register.is_incomplete(), register.needs_attention()) {
-        (true, _) => UNUSABLE,
-        (_, true) => REFUSED,
-        _ => 0,
-    })
+    Ok(code)
+}
+
+impl Options {
+    fn selects(&self, line: &Line) -> bool {
+        let in_force = matches!(line.state, State::InForce | State::Expiring);
+        let before = |date: Date| in_force && line.valid_until.is_some_and(|until| until < date);
+        (self.state.is_empty() || self.state.iter().any(|state| state == line.state.key()))
+            && self.site.as_ref().is_none_or(|site| line.site.as_ref() == Some(site))
+            && self.expiring_before.is_none_or(before)
+    }
 }
 
 /// Reads the register of `folder`, and adds the revocation lists found there to `trust`. The register is `None` without
@@ -67,8 +90,8 @@ pub(super) fn asked(
     question: &Question,
 ) -> Result<(Option<Register>, Trust), Failure> {
     let Some(folder) = folder else { return Ok((None, trust)) };
-    let (register, trust) = search::register(folder, trust, &Asked::at(question.time), parallel::processors())
-        .map_err(Failure::unusable)?;
-    register.alarms.iter().for_each(|alarm| output::say(&alarm.to_string()));
+    let (register, trust) =
+        search::register(folder, trust, &Asked::at(question.time), parallel::processors()).map_err(Failure::file)?;
+    register.alarms.iter().for_each(|alarm| output::complain(&alarm.to_string()));
     Ok((Some(register), trust))
 }

@@ -3,7 +3,7 @@
 use super::batch::BatchOptions;
 use super::issue::read_site;
 use super::trust_options::{self, TrustOptions};
-use super::{Code, Failure};
+use super::{Code, Failure, defaults};
 use crate::batch::successors::Change;
 use crate::passport::issue::time_of_issue;
 use crate::passport::reissue::Order;
@@ -19,11 +19,11 @@ use std::sync::Arc;
 /// passports that the register shows as in force or expired are re-issued; with --stand only those of these stands.
 #[derive(Args)]
 pub(super) struct Options {
-    /// Predecessors
-    #[arg(required = true, value_name = "PASSPORT")]
+    /// Predecessors; in a workspace also their identifiers
+    #[arg(required = true, value_name = "PASSPORT", value_parser = defaults::passport())]
     passports: Vec<PathBuf>,
-    /// New or corrected site [default: that of the predecessor]
-    #[arg(long, value_name = "SITE")]
+    /// New or corrected site [default: that of the predecessor]; in a workspace also its identifier
+    #[arg(long, value_name = "SITE", value_parser = defaults::site())]
     site: Option<PathBuf>,
     /// Site files, each for the passports of that site: files, folders, patterns (repeatable)
     #[arg(long = "sites", value_name = "SITE", conflicts_with_all = ["site", "moved"])]

@@ -1,19 +1,21 @@
 //! Verb `render`: the printed form of a verified passport.
 
+use super::output::Format;
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, REFUSED, output, register};
+use super::{Code, Failure, defaults, output, register};
 use crate::files;
 use crate::report::page::{Language, Languages, PassportPage};
 use crate::report::{style, verdict};
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use clap::{Args, ValueEnum};
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// Write the printed passport: one HTML file for paper, screen and phone
 #[derive(Args)]
 pub(super) struct Options {
-    /// Passport file
-    #[arg(value_name = "PASSPORT")]
+    /// Passport file; in a workspace also its identifier
+    #[arg(value_name = "PASSPORT", value_parser = defaults::passport())]
     passport: PathBuf,
     /// HTML file to write
     #[arg(short, value_name = "FILE.html")]
@@ -29,6 +31,17 @@ pub(super) struct Options {
     /// Replace an existing page
     #[arg(long)]
     force: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+/// The written page, and the verdict on its passport.
+#[derive(Serialize)]
+struct Rendered {
+    page: String,
+    #[serde(flatten)]
+    verdict: verdict::Verdict,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -58,16 +71,17 @@ pub(super) fn languages(written: &[Written]) -> Languages {
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let (register, trust) = register::asked(options.register.as_deref(), trust, &question)?;
-    let bytes = files::read(&options.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+    let bytes = files::read(&options.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
     let name = name_of(&options.passport);
-    let page = PassportPage::verified(&name, &bytes, &trust, &question, register.as_ref()).map_err(|refused| {
-        let words = style::plain(&verdict::text(&[verdict::Verdict::of(&name, &refused)]));
-        Failure { message: format!("no page was written\n{words}"), code: REFUSED }
-    })?;
+    let page = PassportPage::verified(&name, &bytes, &trust, &question, register.as_ref())
+        .map_err(|refused| Failure::verdict("no page was written\n", &name, &refused))?;
     output::file(&options.output, &page.html(&languages(&options.lang)), options.force)?;
     output::say(&format!("wrote {}", shown(&options.output)));
-    if !page.verification().valid() {
-        output::say(&style::plain(&verdict::text(&[verdict::Verdict::of(&name, page.verification())])));
+    let verdict = verdict::Verdict::of(&name, page.verification());
+    if options.format == Format::Json {
+        output::json(&Rendered { page: name_of(&options.output), verdict })?;
+    } else if !verdict.valid {
+        output::say(&style::plain(&verdict::text(&[verdict])));
     }
     Ok(0)
 }

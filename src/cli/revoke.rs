@@ -1,6 +1,7 @@
 //! Verb `revoke`: withdrawal of passports.
 
 use super::key_options::KeyOptions;
+use super::output::Format;
 use super::trust_options::{TrustOptions, now};
 use super::{Code, Failure, output};
 use crate::files::{self, Access};
@@ -9,6 +10,7 @@ use crate::folder::search::{self, NoNewestList};
 use crate::passport::verify;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use clap::Args;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// Withdraw passports: add them to the signed list in a folder
@@ -30,12 +32,24 @@ pub(super) struct Options {
     key: KeyOptions,
     #[command(flatten)]
     trust: TrustOptions,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+/// The written list, for programs.
+#[derive(Serialize)]
+struct Written {
+    file: String,
+    sequence: u32,
+    revoked: Vec<String>,
+    passports: usize,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let lists = search::lists(&options.list, &trust, question.time).map_err(|error| match error {
-        NoNewestList::File(error) => Failure::unusable(error),
+        NoNewestList::File(error) => Failure::file(error),
         refused => Failure::refused(refused),
     })?;
     let mut entries = Vec::new();
@@ -48,19 +62,25 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             Failure::refused(format!("{}: cannot be withdrawn: {words}", shown(&path)))
         })?);
     }
-    let count = lists.count() + entries.len();
+    let (count, ids) = (lists.count() + entries.len(), entries.iter().map(|entry| entry.id.clone()).collect());
     let list = lists.following(&options.key.identity, now(), entries).map_err(Failure::refused)?;
     let signer = options.key.signer()?;
     let path = options.list.join(list.file_name());
     let text = list.sign_for(&name_of(&path), signer.as_ref(), &trust.signers, &trust.revoked);
     let text = text.map_err(Failure::refused)?;
     files::write_new(&path, text.as_bytes(), Access::Shared).map_err(Failure::file)?;
-    output::result(&format!("revoked    passports in all: {}  {}\n", count, shown(&path)))?;
+    match options.format {
+        Format::Json => {
+            let written = Written { file: name_of(&path), sequence: list.sequence, revoked: ids, passports: count };
+            output::json(&written)?;
+        }
+        Format::Text => output::result(&format!("revoked    passports in all: {count}  {}\n", shown(&path)))?,
+    }
     Ok(0)
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)
+    files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)
 }
 
 /// Returns the file of an id in `passports`, or `id` itself as a path if it is not an id or if only that file exists.

@@ -2,10 +2,10 @@
 
 use super::output::Format;
 use super::trust_options::{self, Asked};
-use super::{Code, Failure, REFUSED, output};
+use super::{Code, Failure, defaults, output};
 use crate::files;
 use crate::passport::{Content, Question, Trust, Verification, read, verify};
-use crate::report::{passport_table, style, verdict};
+use crate::report::passport_table;
 use crate::text::{Field, LARGEST_DOCUMENT_BYTES, name_of};
 use clap::{ArgGroup, Args};
 use std::path::PathBuf;
@@ -24,8 +24,8 @@ pub(super) struct Options {
 #[derive(Args)]
 #[command(group(ArgGroup::new("whom").required(true).args(["trust", "no_verify"])))]
 pub(super) struct PassportOptions {
-    /// Passport file
-    #[arg(value_name = "PASSPORT")]
+    /// Passport file; in a workspace also its identifier
+    #[arg(value_name = "PASSPORT", value_parser = defaults::passport())]
     passport: PathBuf,
     /// Trusted signing keys: an OpenSSH allowed_signers file
     #[arg(long, value_name = "SIGNERS")]
@@ -52,11 +52,11 @@ impl PassportOptions {
     /// Reads the passport and verifies it, unless `--no-verify` is given. A passport that fails a check is refused with
     /// its verdict.
     pub(super) fn read(&self) -> Result<Read, Failure> {
-        let bytes = files::read(&self.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+        let bytes = files::read(&self.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
         let name = name_of(&self.passport);
         let Some(signers) = &self.trust else {
-            output::say("NOT VERIFIED (--no-verify): the origin of these numbers is unknown");
-            let content = read::content_from_anyone(&name, &bytes).map_err(Failure::unusable)?;
+            output::complain("NOT VERIFIED (--no-verify): the origin of these numbers is unknown");
+            let content = read::content_from_anyone(&name, &bytes).map_err(Failure::unreadable)?;
             return Ok(Read { content, bytes, verification: None });
         };
         let question = self.asked.question();
@@ -67,10 +67,7 @@ impl PassportOptions {
                 let content = passport.content().clone();
                 Ok(Read { content, bytes, verification: Some((verification, trust, question)) })
             }
-            None => {
-                let verdict = verdict::Verdict::of(&name, &verification);
-                Err(Failure { message: style::plain(&verdict::text(&[verdict])), code: REFUSED })
-            }
+            None => Err(Failure::verdict("", &name, &verification)),
         }
     }
 }

@@ -203,7 +203,7 @@ fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
 /// Reads a gyro type, or returns `None` without a path.
 pub(super) fn read_gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
     let Some(path) = path else { return Ok(None) };
-    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
     GyroType::from_yaml(&name_of(path), &bytes).map(Some).map_err(Failure::unreadable)
 }
 

@@ -90,16 +90,16 @@ impl Asked {
 
 /// Reads the trust files. Lists of withdrawn passports are verified at `time`; the newest list applies.
 pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Result<Trust, Failure> {
-    let read = |path: &Path| files::read(path, LARGEST_TRUST_FILE_BYTES).map_err(Failure::unusable);
+    let read = |path: &Path| files::read(path, LARGEST_TRUST_FILE_BYTES).map_err(Failure::file);
     let name = |path: &Path| name_of(path);
-    let mut trust = Trust::of(AllowedSigners::parse(&name(signers), &read(signers)?).map_err(Failure::unusable)?);
+    let mut trust = Trust::of(AllowedSigners::parse(&name(signers), &read(signers)?).map_err(Failure::unreadable)?);
     let mut lists = Vec::new();
     for path in revoked {
         let bytes = read(path)?;
         if claims_to_be_a_list(&bytes) {
             lists.push((name(path), bytes));
         } else {
-            trust.revoked.push(RevokedKeys::parse(&name(path), &bytes).map_err(Failure::unusable)?);
+            trust.revoked.push(RevokedKeys::parse(&name(path), &bytes).map_err(Failure::unreadable)?);
         }
     }
     let verified = lists.iter().map(|(name, bytes)| {
@@ -107,7 +107,7 @@ pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Resu
     });
     let series = Series::of(verified.collect::<Result<_, _>>()?);
     for alarm in series.alarms().iter().filter(|alarm| alarm.is_contradiction()) {
-        output::say(&format!("ALARM: {alarm}; passports withdrawn by any of the lists are treated as withdrawn"));
+        output::complain(&format!("ALARM: {alarm}; passports withdrawn by any of the lists are treated as withdrawn"));
     }
     if let Some(alarm) = series.alarms().iter().find(|alarm| alarm.is_unknown()) {
         return Err(Failure::unusable(format!("{alarm}; specify that list too, with --revoked")));
@@ -134,7 +134,7 @@ pub(super) fn date(text: &str) -> Result<Date, String> {
     date.ok_or_else(|| "a UTC date such as 2026-11-02".to_owned())
 }
 
-fn place(text: &str) -> Result<Place, String> {
+pub(super) fn place(text: &str) -> Result<Place, String> {
     const FORM: &str = "two numbers with decimal points, such as 55.7658,37.6856";
     let (latitude, longitude) = text.split_once(',').ok_or(FORM)?;
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| FORM.to_owned());

@@ -2,7 +2,7 @@
 
 use super::output::Format;
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, REFUSED, UNUSABLE, output, register};
+use super::{Code, Failure, REFUSED, UNUSABLE, defaults, output, register};
 use crate::files;
 use crate::passport::verification::unreadable;
 use crate::passport::verify;
@@ -14,8 +14,8 @@ use std::path::PathBuf;
 /// Check that a passport is valid for this stand, place and time
 #[derive(Args)]
 pub(super) struct Options {
-    /// Passport files
-    #[arg(required = true, value_name = "PASSPORT")]
+    /// Passport files; in a workspace also their identifiers
+    #[arg(required = true, value_name = "PASSPORT", value_parser = defaults::passport())]
     passports: Vec<PathBuf>,
     #[command(flatten)]
     trust: TrustOptions,
@@ -47,7 +47,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
                 verdicts.push(verdict::Verdict::of(&name, &verification));
             }
             Err(error) => {
-                output::say(&error.to_string());
+                output::complain(&error.to_string());
                 code = code.max(UNUSABLE);
                 verdicts.push(verdict::Verdict::of(&name, &unreadable(&error.to_string(), &question)));
             }

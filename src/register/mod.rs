@@ -72,6 +72,20 @@ pub struct Line {
 }
 
 impl State {
+    /// All states, in the order of the register.
+    #[cfg(feature = "cli")]
+    pub(crate) const ALL: [Self; 9] = [
+        Self::InForce,
+        Self::Expiring,
+        Self::Superseded,
+        Self::Moved,
+        Self::Expired,
+        Self::NotYetValid,
+        Self::Revoked,
+        Self::Unknown,
+        Self::Broken,
+    ];
+
     /// Returns the name of the state, for programs.
     pub fn key(self) -> &'static str {
         match self {

@@ -6,6 +6,7 @@
 use super::PublicKey;
 use super::lines;
 use super::pattern::matches_list;
+use super::public_key::fingerprint;
 use super::signer_line::{self, SignerLine};
 use super::sshsig::KeyPoint;
 use crate::text::problem::MOST_PROBLEMS;
@@ -53,6 +54,21 @@ pub enum NotAuthorised {
     },
 }
 
+/// Trusted key for a list: the parts of its line that people compare.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct TrustedKey {
+    /// Patterns of the principals that the key may sign as.
+    pub principals: String,
+    /// Patterns of the namespaces that the key may sign for; any namespace if `None`.
+    pub namespaces: Option<String>,
+    /// Fingerprint as `ssh-keygen -l` prints it.
+    pub fingerprint: String,
+    /// First instant of the validity period; unlimited if `None`.
+    pub valid_after: Option<Timestamp>,
+    /// Last instant of the validity period; unlimited if `None`.
+    pub valid_before: Option<Timestamp>,
+}
+
 impl AllowedSigners {
     /// Reads a list of allowed signers in OpenSSH's format; `name` is the file name used in messages.
     ///
@@ -82,6 +98,17 @@ impl AllowedSigners {
             return Err(Unreadable::whole(name, None, "no key", "a line for each trusted key", advice));
         }
         Ok(Self { lines: kept })
+    }
+
+    /// Returns the keys in the order of their lines.
+    pub(crate) fn keys(&self) -> impl Iterator<Item = TrustedKey> + '_ {
+        self.lines.iter().map(|line| TrustedKey {
+            principals: line.principals.clone(),
+            namespaces: line.namespaces.clone(),
+            fingerprint: fingerprint(&line.key),
+            valid_after: line.valid_after,
+            valid_before: line.valid_before,
+        })
     }
 
     /// Returns the curve point of a key in the list, decoded once; `None` for any other key.

@@ -31,6 +31,7 @@ pub(crate) mod sshsig;
 mod validity;
 mod wire;
 
+pub(crate) use allowed_signers::TrustedKey;
 pub use allowed_signers::{AllowedSigners, NotAuthorised};
 pub use error::{KeyError, SignatureError};
 pub use identity::{BadIdentity, check_identity};

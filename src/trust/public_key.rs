@@ -27,6 +27,12 @@ pub struct PublicKey {
     blob: Vec<u8>,
 }
 
+/// Returns the fingerprint of a key as SSH transmits it, as `ssh-keygen -l` prints it.
+pub(super) fn fingerprint(blob: &[u8]) -> String {
+    let base64 = Base64::encode_string(&Sha256::digest(blob));
+    format!("SHA256:{}", base64.trim_end_matches('='))
+}
+
 impl PublicKey {
     /// Reads a line of OpenSSH's public key format, `ssh-ed25519 AAAA… comment` (sshd(8), AUTHORIZED_KEYS FILE FORMAT,
     /// without options).
@@ -52,8 +58,7 @@ impl PublicKey {
 
     /// Returns the fingerprint as `ssh-keygen -l` prints it, `SHA256:…`.
     pub fn fingerprint(&self) -> String {
-        let base64 = Base64::encode_string(&Sha256::digest(&self.blob));
-        format!("SHA256:{}", base64.trim_end_matches('='))
+        fingerprint(&self.blob)
     }
 
     /// Returns the key type as OpenSSH names it.

@@ -196,7 +196,8 @@ fn an_existing_report_is_not_replaced() {
     folder.write("report.html", "mine");
     let output = folder.calibrate(CURRENTS, "report.html", &[VERIFIED]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(output.stdout.is_empty());
+    let refusal: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(refusal["error"]["code"], "exists");
     assert!(String::from_utf8_lossy(&output.stderr).contains("--force"));
     assert_eq!(std::fs::read_to_string(folder.path("report.html")).unwrap(), "mine");
     folder.page(CURRENTS, &[VERIFIED]);

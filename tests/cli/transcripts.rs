@@ -43,6 +43,7 @@ transcripts! {
     demo: "demo.md",
     good: "good.md",
     hostile_folder: "hostile-folder.md",
+    json_refusals: "json-refusals.md",
     keys: "keys.md",
     near_the_pole: "near-the-pole.md",
     plan: "plan.md",
@@ -50,8 +51,10 @@ transcripts! {
     render: "render.md",
     report: "report.md",
     revisions: "revisions.md",
+    templates: "templates.md",
     trust: "trust.md",
     uncertainty: "uncertainty.md",
+    workspace: "workspace.md",
     years: "years.md",
 }
 

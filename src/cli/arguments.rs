@@ -1,0 +1,118 @@
+//! The arguments: completed from the environment and the workspace, and parsed. What cannot be parsed is reported here.
+
+use super::failure::Failure;
+use super::{Cli, UNUSABLE, defaults, help, output};
+use crate::text::printable;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::parser::ValueSource;
+use clap::{ArgMatches, FromArgMatches};
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+/// The arguments as parsed, and whether a failure is also reported as JSON.
+pub(super) struct Parsed {
+    pub cli: Cli,
+    pub json: bool,
+    /// Options that the environment or the workspace added, in words.
+    pub added: Vec<String>,
+}
+
+/// Parses the arguments, or prints the reason why they cannot be parsed.
+///
+/// clap repeats arguments verbatim in its messages. So the message printed is clap's message about a printable copy of
+/// the arguments.
+pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
+    let added = match defaults::add(&mut arguments) {
+        Ok(added) => added,
+        Err(failure) => {
+            if names_json(&arguments) {
+                output::failure(&failure);
+            }
+            output::complain(&failure.message);
+            return Err(ExitCode::from(failure.code));
+        }
+    };
+    let parsed = |arguments: &[OsString]| {
+        let matches = help::command().try_get_matches_from(arguments)?;
+        Ok((Cli::from_arg_matches(&matches)?, asks_for_json(&matches)))
+    };
+    let error: clap::Error = match parsed(&arguments) {
+        Ok((cli, json)) => return Ok(Parsed { cli, json, added }),
+        Err(error) => error,
+    };
+    let printed: Vec<OsString> =
+        arguments.iter().map(|argument| printable(argument.to_string_lossy()).into()).collect();
+    let refused = parsed(&printed).err();
+    if let Some(help) = refused.as_ref().filter(|error| !error.use_stderr()) {
+        help.exit();
+    }
+    let advice = refused.as_ref().map(advice).unwrap_or_default();
+    if names_json(&arguments) {
+        output::failure(&Failure::usage(words(refused.as_ref().unwrap_or(&error)) + &advice));
+    }
+    match refused {
+        Some(refused) => {
+            let _ = refused.print();
+            if !advice.is_empty() {
+                output::complain(advice.trim_start());
+            }
+        }
+        None => output::complain(&printable(error)),
+    }
+    Err(ExitCode::from(UNUSABLE))
+}
+
+/// Returns clap's message without its mark and its last line feed.
+fn words(error: &clap::Error) -> String {
+    let words = error.render().to_string();
+    let words = words.trim_end();
+    words.strip_prefix("error: ").unwrap_or(words).split('\n').map(printable).collect::<Vec<_>>().join("\n")
+}
+
+/// What a missing option is, and where it comes from.
+const MISSING: [(&str, &str); 4] = [
+    (
+        "--trust",
+        "--trust lists the keys that you trust: the allowed_signers file that the factory gave you, or that `keygen` \
+         printed a line for. Give the file, set DTG_PASSPORT_TRUST, or name a workspace.",
+    ),
+    (
+        "--key",
+        "--key is the private key that signs: `dtg-passport keygen KEY` creates one. Give the file, set \
+         DTG_PASSPORT_KEY, or name a workspace.",
+    ),
+    (
+        "--identity",
+        "--identity is the issuer: the name before your key in allowed_signers. Give it, set DTG_PASSPORT_IDENTITY, or \
+         name a workspace.",
+    ),
+    ("--site", "--site describes the place of use: `dtg-passport new site FILE` writes a template."),
+];
+
+/// Returns, for missing options, what they are; otherwise an empty text.
+fn advice(error: &clap::Error) -> String {
+    if error.kind() != ErrorKind::MissingRequiredArgument {
+        return String::new();
+    }
+    let Some(ContextValue::Strings(missing)) = error.get(ContextKind::InvalidArg) else { return String::new() };
+    let is_missing = |option: &str| {
+        let mut words = missing.iter().flat_map(|argument| argument.split(|c: char| " <>|".contains(c)));
+        words.any(|word| word == option)
+    };
+    MISSING.iter().filter(|(option, _)| is_missing(option)).map(|(_, words)| format!("\n{words}")).collect()
+}
+
+/// Returns `true` if the verb was called with `--format json`.
+fn asks_for_json(matches: &ArgMatches) -> bool {
+    let Some((_, verb)) = matches.subcommand() else { return false };
+    let formats = verb.try_get_raw("format").ok().flatten().into_iter().flatten();
+    let is_json = formats.into_iter().any(|format| format == "json");
+    // The schemas are JSON by default; that says nothing about failures.
+    (is_json && verb.value_source("format") == Some(ValueSource::CommandLine)) || asks_for_json(verb)
+}
+
+/// Returns `true` if arguments that cannot be parsed ask for JSON.
+fn names_json(arguments: &[OsString]) -> bool {
+    arguments.iter().any(|argument| argument == "--format=json")
+        || arguments.windows(2).any(|pair| pair[0] == "--format" && pair[1] == "json")
+}

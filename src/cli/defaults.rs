@@ -1,0 +1,169 @@
+//! Options that are not given: from the environment, then from the workspace.
+//!
+//! A workspace is used only if `--workspace` or the environment names it, never because it is the current folder: a
+//! folder from elsewhere must not choose whom to trust.
+
+use super::failure::Failure;
+use super::help;
+use crate::text::shown;
+use crate::workspace::{NoWorkspace, Workspace};
+use clap::builder::{PathBufValueParser, TypedValueParser};
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Command};
+use std::ffi::{OsStr, OsString};
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// Environment variables; the names are part of the interface.
+const WORKSPACE_VARIABLE: &str = "DTG_PASSPORT_WORKSPACE";
+const KEY_VARIABLE: &str = "DTG_PASSPORT_KEY";
+const IDENTITY_VARIABLE: &str = "DTG_PASSPORT_IDENTITY";
+const TRUST_VARIABLE: &str = "DTG_PASSPORT_TRUST";
+
+/// The workspace of this process: one command line names at most one.
+static WORKSPACE: OnceLock<Workspace> = OnceLock::new();
+
+/// Verbs whose `--out` is the folder of passports.
+const WRITE_PASSPORTS: [&str; 3] = ["issue", "reissue", "recertify"];
+
+/// Returns the workspace, or `None` if none was named.
+pub(super) fn workspace() -> Option<&'static Workspace> {
+    WORKSPACE.get()
+}
+
+/// Adds the options that are not given, and returns them in words.
+///
+/// # Errors
+/// Returns a failure if a workspace is named but cannot be read.
+pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure> {
+    // What this pass cannot parse, the next one refuses.
+    let command = help::command();
+    let Ok(matches) = command.clone().ignore_errors(true).try_get_matches_from(&*arguments) else {
+        return Ok(Vec::new());
+    };
+    let folder =
+        matches.get_one::<PathBuf>("workspace").cloned().or_else(|| variable(WORKSPACE_VARIABLE).map(Into::into));
+    let workspace = folder.map(|folder| Workspace::read(&folder)).transpose().map_err(|error| match error {
+        NoWorkspace::File(error) => Failure::file(error),
+        NoWorkspace::Unreadable(error) => Failure::unreadable(error),
+    })?;
+    let defaults = Defaults::of(workspace.as_ref());
+    let mut added = Vec::new();
+    if let Some((verb, of_command, of_verb)) = verb(&command, &matches) {
+        for (option, value, source) in defaults.for_verb(verb) {
+            if lacks(of_command, of_verb, option) {
+                added.push((option, value, source));
+            }
+        }
+        let root = workspace.as_ref().and_then(|workspace| workspace.passports.clone());
+        if let Some(root) = root.filter(|_| verb == "register" && of_verb.value_source("folder").is_none()) {
+            added.push(("", root.into(), FILE));
+        }
+    }
+    let end = arguments.iter().position(|argument| argument == "--").unwrap_or(arguments.len());
+    let options: Vec<OsString> = added.iter().map(|(option, value, _)| argument(option, value)).collect();
+    arguments.splice(end..end, options);
+    if let Some(workspace) = workspace {
+        // It is set once, before anything reads it.
+        let _ = WORKSPACE.set(workspace);
+    }
+    let words = |(option, value, source): &(&str, OsString, &str)| {
+        let option = if option.is_empty() { "DIR" } else { option };
+        format!("{option} {} (from {source})", shown(Path::new(value)))
+    };
+    Ok(added.iter().map(words).collect())
+}
+
+/// Returns an option with its value as one argument; without an option, the value alone.
+fn argument(option: &str, value: &OsStr) -> OsString {
+    if option.is_empty() {
+        return value.to_owned();
+    }
+    let mut argument = OsString::from(option);
+    argument.push("=");
+    argument.push(value);
+    argument
+}
+
+const ENVIRONMENT: &str = "the environment";
+const FILE: &str = "the workspace";
+
+/// Values for options, each with its source.
+struct Defaults {
+    key: Option<(OsString, &'static str)>,
+    identity: Option<(OsString, &'static str)>,
+    trust: Option<(OsString, &'static str)>,
+    passports: Option<OsString>,
+}
+
+impl Defaults {
+    fn of(workspace: Option<&Workspace>) -> Self {
+        let value = |name: &str, stated: Option<OsString>| {
+            variable(name).map(|value| (value, ENVIRONMENT)).or(stated.map(|value| (value, FILE)))
+        };
+        let path = |path: &Option<PathBuf>| path.clone().map(OsString::from);
+        Self {
+            key: value(KEY_VARIABLE, workspace.and_then(|workspace| path(&workspace.key))),
+            identity: value(IDENTITY_VARIABLE, workspace.and_then(|at| at.identity.clone().map(OsString::from))),
+            trust: value(TRUST_VARIABLE, workspace.and_then(|workspace| path(&workspace.trust))),
+            passports: workspace.and_then(|workspace| path(&workspace.passports)),
+        }
+    }
+
+    fn for_verb(&self, verb: &str) -> Vec<(&'static str, OsString, &'static str)> {
+        let of = |option, value: &Option<(OsString, &'static str)>| {
+            value.clone().map(|(value, source)| (option, value, source))
+        };
+        let passports = |option| self.passports.clone().map(|value| (option, value, FILE));
+        let out = passports("--out").filter(|_| WRITE_PASSPORTS.contains(&verb));
+        // Lists of withdrawn passports belong into the folder of the passports, where `register` finds them.
+        let lists = passports("--list").filter(|_| verb == "revoke");
+        [of("--key", &self.key), of("--identity", &self.identity), of("--trust", &self.trust)]
+            .into_iter()
+            .chain([out, lists, passports("--passports")])
+            .flatten()
+            .collect()
+    }
+}
+
+fn variable(name: &str) -> Option<OsString> {
+    std::env::var_os(name).filter(|value| !value.is_empty())
+}
+
+/// Returns the verb, without and with its arguments.
+fn verb<'a>(command: &'a Command, matches: &'a ArgMatches) -> Option<(&'a str, &'a Command, &'a ArgMatches)> {
+    let (name, matches) = matches.subcommand()?;
+    Some((name, command.find_subcommand(name)?, matches))
+}
+
+/// Returns `true` if the verb has an option that is neither given nor excluded by another one.
+fn lacks(command: &Command, matches: &ArgMatches, option: &str) -> bool {
+    let found = command
+        .get_arguments()
+        .find(|argument| argument.get_long().is_some_and(|long| option.strip_prefix("--") == Some(long)));
+    let given =
+        |id: &str| matches.try_contains_id(id).is_ok() && matches.value_source(id) == Some(ValueSource::CommandLine);
+    let excluded = option == "--trust" && given("no_verify");
+    found.is_some_and(|argument| !given(argument.get_id().as_str()) && !excluded)
+}
+
+/// Parser of the path of a stand file; in a workspace also `MODEL/SERIAL`.
+pub(super) fn stand() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().map(|path| named(path, |workspace, name| workspace.stand(name)))
+}
+
+/// Parser of the path of a site file; in a workspace also the identifier of the site.
+pub(super) fn site() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().map(|path| named(path, |workspace, name| workspace.site(name)))
+}
+
+/// Parser of the path of a passport; in a workspace also its identifier.
+pub(super) fn passport() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().map(|path| named(path, |workspace, name| workspace.passport(name)))
+}
+
+/// Returns the file that a name means in the workspace, or the name as a path if that exists or no file has the name.
+fn named(path: PathBuf, find: fn(&Workspace, &str) -> Option<PathBuf>) -> PathBuf {
+    let found = || find(workspace()?, path.to_str()?).filter(|found| found.exists());
+    if path == Path::new("-") || path.symlink_metadata().is_ok() { path } else { found().unwrap_or(path) }
+}

@@ -1,0 +1,181 @@
+//! Help: the command line as declared, with examples and exit codes for each verb, and the version.
+
+use super::Cli;
+use crate::gyro::GYRO_FORMAT;
+use crate::laboratory::LABORATORY_FORMAT;
+use crate::passport::content::PASSPORT_FORMAT;
+use crate::revocation::REVOCATION_FORMAT;
+use crate::site::SITE_FORMAT;
+use crate::stand::STAND_FORMAT;
+use clap::{Command, CommandFactory};
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  done, or the document is good
+  1  a document or a result is refused
+  2  wrong usage, or a file that cannot be read as what it should be";
+
+/// Two examples for each verb, without the name of the program.
+const EXAMPLES: [(&str, [&str; 2]); 19] = [
+    ("demo", ["demo", "demo --out story"]),
+    ("init", ["init factory --identity factory@example.org", "init laboratory"]),
+    (
+        "new",
+        ["new site sites/moscow-bmstu.yaml --at 55.7658,37.6856 --height-m 150", "new readings readings.csv --runs 5"],
+    ),
+    ("status", ["status --workspace factory", "status --workspace factory --format json"]),
+    (
+        "keygen",
+        [
+            "keygen factory.key --identity factory@example.org",
+            "keygen factory.key --identity factory@example.org --allowed-signers allowed_signers",
+        ],
+    ),
+    (
+        "certify",
+        [
+            "certify angles.csv --stand header.yaml -o stand.yaml",
+            "certify check.csv --against stand.yaml --format json",
+        ],
+    ),
+    (
+        "issue",
+        [
+            "issue stand.yaml --site sites/moscow-bmstu.yaml --key factory.key --identity factory@example.org",
+            "issue stands --site sites --key factory.key --identity factory@example.org --dry-run",
+        ],
+    ),
+    (
+        "reissue",
+        [
+            "reissue moscow-bmstu-1.yaml --site sites/beijing-nim.yaml --moved --reason \"moved to Beijing\" \
+             --key factory.key --identity factory@example.org --trust allowed_signers",
+            "reissue passports --reason \"new key\" --key 2027.key --identity factory@example.org \
+             --trust allowed_signers",
+        ],
+    ),
+    (
+        "verify",
+        [
+            "verify moscow-bmstu-1.yaml --trust allowed_signers --serial 0017 --at 55.7660,37.6850",
+            "verify moscow-bmstu-1.yaml --trust allowed_signers --register passports --format json",
+        ],
+    ),
+    (
+        "show",
+        [
+            "show moscow-bmstu-1.yaml --trust allowed_signers",
+            "show moscow-bmstu-1.yaml --trust allowed_signers --format json",
+        ],
+    ),
+    (
+        "render",
+        [
+            "render moscow-bmstu-1.yaml -o passport.html --trust allowed_signers",
+            "render moscow-bmstu-1.yaml -o passport.html --trust allowed_signers --lang en,ru",
+        ],
+    ),
+    (
+        "calibrate",
+        [
+            "calibrate moscow-bmstu-1.yaml currents.csv --trust allowed_signers --serial 0017 --gyro gvk-6.yaml \
+             --laboratory laboratory.yaml",
+            "calibrate moscow-bmstu-1.yaml currents.csv --trust allowed_signers --method least-squares --budget \
+             --report report.html",
+        ],
+    ),
+    (
+        "register",
+        [
+            "register passports --trust allowed_signers",
+            "register passports --trust allowed_signers --state expiring --within 90 --format csv",
+        ],
+    ),
+    (
+        "revoke",
+        [
+            "revoke SPS-2/0017/moscow-bmstu/1 --reason \"stand dropped\" --list passports --key factory.key \
+             --identity factory@example.org --trust allowed_signers",
+            "revoke passports/SPS-2/0017/moscow-bmstu-1.yaml --reason \"wrong site\" --list passports \
+             --key factory.key --identity factory@example.org --trust allowed_signers",
+        ],
+    ),
+    ("simulate", ["simulate accuracy --trials 100000", "simulate convergence -o convergence.svg"]),
+    ("selftest", ["selftest", "selftest --format json"]),
+    ("schema", ["schema stand", "schema stand,site,passport --format markdown"]),
+    ("completions", ["completions bash", "completions fish"]),
+    ("man", ["man man1", "man man1 --force"]),
+];
+
+/// How to install completions, where shells look for them.
+const COMPLETIONS: &str = "\
+Install:
+  bash  dtg-passport completions bash > ~/.local/share/bash-completion/completions/dtg-passport
+  zsh   dtg-passport completions zsh > \"${fpath[1]}/_dtg-passport\"
+  fish  dtg-passport completions fish > ~/.config/fish/completions/dtg-passport.fish
+
+";
+
+/// Returns the command line with the examples of its verbs.
+pub(super) fn command() -> Command {
+    let command = Cli::command().version(env!("CARGO_PKG_VERSION")).long_version(long_version());
+    let verbs: Vec<String> = command.get_subcommands().map(|verb| verb.get_name().to_owned()).collect();
+    verbs.iter().fold(command.after_long_help(EXIT_CODES), |command, name| {
+        let examples = EXAMPLES.iter().find(|(verb, _)| verb == name).map(|(_, examples)| examples);
+        let lines: String =
+            examples.into_iter().flatten().map(|example| format!("  dtg-passport {example}\n")).collect();
+        let more = if name == "completions" { COMPLETIONS } else { "" };
+        let text = format!("Examples:\n{lines}\n{more}{EXIT_CODES}");
+        command.mut_subcommand(name, |verb| verb.after_long_help(text))
+    })
+}
+
+/// Returns the version, the commit if the build was told it, and the formats.
+///
+/// The commit comes from variables at build time, so that equal sources and variables give equal bytes.
+fn long_version() -> &'static str {
+    use std::sync::OnceLock;
+    static VERSION: OnceLock<String> = OnceLock::new();
+    VERSION.get_or_init(|| {
+        let commit = match (option_env!("DTG_PASSPORT_COMMIT"), option_env!("DTG_PASSPORT_COMMIT_DATE")) {
+            (Some(commit), Some(date)) => format!("\ncommit {commit}, {date}"),
+            (Some(commit), None) => format!("\ncommit {commit}"),
+            _ => String::new(),
+        };
+        let formats =
+            [STAND_FORMAT, SITE_FORMAT, GYRO_FORMAT, LABORATORY_FORMAT, PASSPORT_FORMAT, REVOCATION_FORMAT].join(", ");
+        format!("{}{commit}\nformats {formats}", env!("CARGO_PKG_VERSION"))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Splits an example as a shell does, for the quotes that examples have.
+    fn words(example: &str) -> Vec<String> {
+        let parts = example.split('"').enumerate();
+        let words = parts.flat_map(|(index, part)| match index % 2 {
+            0 => part.split_whitespace().map(str::to_owned).collect::<Vec<_>>(),
+            _ => vec![part.to_owned()],
+        });
+        std::iter::once("dtg-passport".to_owned()).chain(words).collect()
+    }
+
+    #[test]
+    fn every_verb_has_two_examples_that_parse() {
+        let command = command();
+        for verb in command.get_subcommands() {
+            let name = verb.get_name();
+            let (_, examples) = EXAMPLES.iter().find(|(verb, _)| *verb == name).unwrap_or_else(|| panic!("{name}"));
+            assert_ne!(examples[0], examples[1]);
+            for example in examples {
+                assert!(example.split(' ').next() == Some(name), "{example}");
+                let parsed = command.clone().try_get_matches_from(words(example));
+                assert!(parsed.is_ok(), "{example}\n{}", parsed.unwrap_err());
+            }
+            let help = verb.clone().render_long_help().to_string();
+            assert!(help.contains("Examples:\n") && help.contains(EXIT_CODES), "{help}");
+        }
+    }
+}

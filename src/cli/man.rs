@@ -1,0 +1,45 @@
+//! Verb `man`: manual pages.
+
+use super::{Code, Failure, help, output};
+use crate::files::FileError;
+use crate::text::shown;
+use clap::{Args, Command};
+use std::path::PathBuf;
+
+/// Write the manual pages, one for each command, into a folder
+#[derive(Args)]
+pub(super) struct Options {
+    /// Folder for the pages, such as ~/.local/share/man/man1
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// Replace existing pages
+    #[arg(long)]
+    force: bool,
+}
+
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
+    let mut command = help::command();
+    command.build();
+    let mut pages = Vec::new();
+    render(&command, &mut pages)?;
+    // All or none: the page of an older version would contradict the others.
+    let paths: Vec<PathBuf> = pages.iter().map(|(name, _)| options.folder.join(format!("{name}.1"))).collect();
+    if let Some(path) = paths.iter().find(|path| !options.force && path.symlink_metadata().is_ok()) {
+        return Err(Failure::file(FileError::Exists { path: path.clone(), replaceable: true }));
+    }
+    for (path, (_, page)) in paths.iter().zip(&pages) {
+        output::file(path, page, options.force)?;
+    }
+    output::say(&format!("wrote {} pages into {}", pages.len(), shown(&options.folder)));
+    Ok(0)
+}
+
+/// Renders the page of a command and those of its subcommands.
+fn render(command: &Command, pages: &mut Vec<(String, String)>) -> Result<(), Failure> {
+    let mut page = Vec::new();
+    clap_mangen::Man::new(command.clone()).render(&mut page).map_err(Failure::unusable)?;
+    let name = command.get_display_name().unwrap_or_else(|| command.get_name());
+    pages.push((name.to_owned(), String::from_utf8_lossy(&page).into_owned()));
+    let verbs = command.get_subcommands().filter(|verb| verb.get_name() != "help");
+    verbs.into_iter().try_for_each(|verb| render(verb, pages))
+}

@@ -1,0 +1,48 @@
+//! Verb `status`: what a workspace holds.
+
+use super::output::Format;
+use super::trust_options::{self, time};
+use super::{Code, Failure, REFUSED, UNUSABLE, defaults, output};
+use crate::parallel;
+use crate::workspace::status;
+use clap::Args;
+use jiff::Timestamp;
+use std::path::PathBuf;
+
+/// Show what a workspace holds: stands, sites, passports in force, expiring within 90 days, alarms, keys
+#[derive(Args)]
+pub(super) struct Options {
+    /// Trusted signing keys: an OpenSSH allowed_signers file
+    #[arg(long, value_name = "SIGNERS")]
+    trust: Option<PathBuf>,
+    /// Revocations: an OpenSSH KRL, a list of public keys, or a list of withdrawn passports (repeatable)
+    #[arg(long, value_name = "FILE", requires = "trust")]
+    revoked: Vec<PathBuf>,
+    /// Verify as of this time: RFC 3339, or a UTC date (00:00) [default: now]
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    time: Option<Timestamp>,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+pub(super) fn run(options: &Options) -> Result<Code, Failure> {
+    let Some(workspace) = defaults::workspace() else {
+        return Err(Failure::usage(
+            "no workspace was named; give --workspace DIR or set DTG_PASSPORT_WORKSPACE (`dtg-passport init DIR` makes \
+             one)",
+        ));
+    };
+    let time = options.time.unwrap_or_else(trust_options::now);
+    let trust = options.trust.as_deref().map(|path| trust_options::load(path, &options.revoked, time)).transpose()?;
+    let status = status(workspace, trust.as_ref(), time, parallel::processors()).map_err(Failure::file)?;
+    match options.format {
+        Format::Json => output::json(&status)?,
+        Format::Text => output::result(&status.text())?,
+    }
+    Ok(match (status.is_incomplete(), status.needs_attention()) {
+        (true, _) => UNUSABLE,
+        (_, true) => REFUSED,
+        _ => 0,
+    })
+}

@@ -1,0 +1,331 @@
+//! Commented templates of the hand-written files, which their own readers accept as they are.
+//!
+//! A line with `CHANGE` has a value that the program cannot know.
+
+use crate::attitude::Deviation;
+use crate::coefficients::{EarthRate, Position, PositionIndex, SingularPositions, StandGeometry};
+use crate::earth::{
+    NORMAL_GRAVITY_U_M_PER_S2, NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2, Place, normal_gravity_m_per_s2,
+};
+use crate::gyro::GyroType;
+use std::fmt::Write;
+
+/// Set of positions in a template.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Positions {
+    /// The four of the paper's eight positions with which the errors of the parameters, in units of the tolerances of
+    /// the paper's gyro, have the smallest sum of variances.
+    Four,
+    /// The paper's eight positions.
+    Eight,
+    /// The paper's eight positions, and the frame at 45°, 180°, 225° and 270°.
+    TwentyFour,
+}
+
+/// Nominal position: index and angles of frame and platform, degrees.
+struct Nominal {
+    index: PositionIndex,
+    theta_deg: f64,
+    phi_deg: f64,
+}
+
+impl Positions {
+    fn nominal(self) -> Vec<Nominal> {
+        const FRAME_DEG: [f64; 6] = [0.0, 90.0, 180.0, 270.0, 45.0, 225.0];
+        let grid = |frames: u32| (1..=frames).flat_map(|i| (1..=4).map(move |j| (i, j)));
+        let places: Vec<(u32, u32)> = match self {
+            Self::Four => vec![(1, 1), (1, 2), (2, 1), (2, 4)],
+            Self::Eight => grid(2).collect(),
+            Self::TwentyFour => grid(6).collect(),
+        };
+        let nominal = |(i, j): (u32, u32)| Nominal {
+            index: PositionIndex { i, j },
+            theta_deg: FRAME_DEG[i as usize - 1],
+            phi_deg: f64::from(j - 1) * 90.0,
+        };
+        places.into_iter().map(nominal).collect()
+    }
+
+    fn remark(self) -> &'static str {
+        match self {
+            Self::Four => {
+                "# Four positions: without all of the paper's eight there are no matrices, and only least squares applies.\n"
+            }
+            Self::Eight => "# The paper's eight positions.\n",
+            Self::TwentyFour => "# The paper's eight positions (i 1 and 2), and sixteen more.\n",
+        }
+    }
+
+    /// Returns the rows of `positions` in a file; `rest` is what follows the nominal angles.
+    fn rows(self, rest: &str) -> String {
+        let row = |at: Nominal| {
+            let PositionIndex { i, j } = at.index;
+            format!("  - {{i: {i}, j: {j}, theta_deg: {}, phi_deg: {}{rest}}}\n", at.theta_deg, at.phi_deg)
+        };
+        self.nominal().into_iter().map(row).collect()
+    }
+}
+
+/// First lines of a stand file and of a header, up to the measured numbers.
+const STAND: &str = r#"format: "dtg-stand/1"
+stand:
+  manufacturer: "CHANGE"
+  model: "MODEL"                     # CHANGE
+  serial: "0000"                     # CHANGE; both are names of folders too: letters, digits, '.', '_' and '-'
+  configuration: "A"
+  # name: "Two-axis test stand"
+  # customer: "…"
+certificate:
+  number: "C-0000"                   # CHANGE; a number is never used for other angles
+  issued: "2026-01-01"               # CHANGE; UTC date, as year, month, day
+  # performed: "2025-12-20"
+  # valid_until: "2027-12-31"        # the last day; without it the user decides when to recertify
+  # valid_until_basis: "agreed with the customer"
+  laboratory: "CHANGE"
+  # address: "…"
+  # authorized_by: "…"
+  # accreditation: "…"
+  method: "CHANGE: instruments, set-up, number of runs"
+  traceability: "CHANGE: certificates of the instruments"
+  # temperature_c: 20.0
+  # temperature_range_c: [18.0, 22.0]
+"#;
+
+/// Type B components and datum of both.
+const TYPE_B_AND_DATUM: &str = r#"  # type_b:                          # what repeating cannot show; each line is also part of u_* or common_*
+  #   - {source: "autocollimator, calibration C-17", acts_on: "position", u_arcsec: 0.3}
+datum:                               # CHANGE; the surfaces that realise the axes on this stand
+  level: "CHANGE: surface that is levelled"
+  azimuth: "CHANGE: surface or mirror that faces north"
+  gyro_seat: "CHANGE: surface and pins that locate the gyro"
+"#;
+
+/// Returns a stand file with all deviations 0.
+pub(crate) fn stand(positions: Positions) -> String {
+    let rest = ", alpha_arcsec: 0.0, beta_arcsec: 0.0, gamma_arcsec: 0.0";
+    format!(
+        "# Certified stand (dtg-stand/1). `certify` writes such a file from readings; write one by hand only if the\n\
+         # deviations were found otherwise. Replace every CHANGE and every 0.0; delete the lines that do not apply.\n\
+         {STAND}  \
+         # repeatability_arcsec: 1.5        # standard deviation of one return to a position, per axis\n  \
+         # common_platform_arcsec: 0.8      # uncertainty shared by all positions, per axis of the platform\n  \
+         # common_base_arcsec: 0.8          # the same, per axis of the base\n\
+         {TYPE_B_AND_DATUM}\
+         # Deviations of the actual from the nominal orientation. Add to each position, if known, its own standard\n\
+         # uncertainty: u_alpha_arcsec: 1.2, u_beta_arcsec: 1.2, u_gamma_arcsec: 2.0\n\
+         {}positions:\n{}",
+        positions.remark(),
+        positions.rows(rest)
+    )
+}
+
+/// Returns a header for `certify`: a stand file whose positions have no deviations yet.
+pub(crate) fn header(positions: Positions) -> String {
+    format!(
+        "# Header of a certification (dtg-stand/1): the stand and its certificate, before the deviations are measured.\n\
+         # Replace every CHANGE; delete the lines that do not apply. `certify` adds all measured numbers.\n\
+         {STAND}{TYPE_B_AND_DATUM}{}positions:\n{}",
+        positions.remark(),
+        positions.rows("")
+    )
+}
+
+/// Returns a table of angles for `certify`. Their digits are arbitrary and differ from run to run, because runs with
+/// the same angles are refused as copies.
+pub(crate) fn readings(positions: Positions, runs: u32) -> String {
+    let mut text = String::from(
+        "# Angles for `certify`: deviation of the actual from the nominal orientation, in arcseconds.\n\
+         # Replace every angle: these are arbitrary. Measure every position in every run, and move the platform away\n\
+         # and back between the runs.\n\
+         i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec\n",
+    );
+    for run in 1..=runs {
+        for (place, Nominal { index: PositionIndex { i, j }, .. }) in (0..).zip(positions.nominal()) {
+            let [x, y, z] = [0, 1, 2].map(|axis: u32| f64::from((37 * run + 17 * place + 29 * axis) % 101) / 100.0);
+            // Writing into a string cannot fail.
+            let _ = writeln!(text, "{i},{j},{run},{x:.2},{y:.2},{z:.2}");
+        }
+    }
+    text
+}
+
+/// Latitude at which the currents of the template are computed, degrees.
+const EXAMPLE_LATITUDE_DEG: f64 = 45.0;
+
+/// Returns a table of currents for `calibrate`, with those of the paper's gyro on an ideal stand at 45° latitude.
+///
+/// # Errors
+/// Returns [`SingularPositions`] if the positions have no coefficients; those of [`Positions`] have.
+pub(crate) fn currents(positions: Positions) -> Result<String, SingularPositions> {
+    let ideal = |at: Nominal| Position {
+        index: at.index,
+        theta_deg: at.theta_deg,
+        phi_deg: at.phi_deg,
+        deviation: Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 },
+    };
+    let ideal: Vec<_> = positions.nominal().into_iter().map(ideal).collect();
+    let earth = EarthRate::at_astronomic_latitude(EXAMPLE_LATITUDE_DEG);
+    let gyro = GyroType::gvk_6().nominal.to_model();
+    let mut text = String::from(
+        "# Currents for `calibrate`, in milliamperes: mean of each axis in each position.\n\
+         # Replace every current: these are the exact ones of the paper's gyro on an ideal stand at 45 degrees.\n\
+         # Further columns, if you have them: cycle (turn-on of the gyro), visit (arrival at the position), time_s.\n\
+         # Read a position again in further rows; give them another visit if the stand was moved in between.\n\
+         i,j,jx_ma,jy_ma\n",
+    );
+    for at in &StandGeometry::new(&ideal)?.at(earth).positions {
+        if let Some(current) = gyro.currents_ma(at) {
+            let _ = writeln!(text, "{},{},{:.7},{:.7}", at.index.i, at.index.j, current.x, current.y);
+        }
+    }
+    Ok(text)
+}
+
+/// Place of the example site, if none is given: that of the paper.
+const EXAMPLE: Place = Place { latitude_deg: 55.7658, longitude_deg: 37.6856 };
+
+/// Returns a site file with the identifier `id`; `place` and `height_m` (above the ellipsoid) are filled in if known.
+pub(crate) fn site(id: &str, place: Option<Place>, height_m: Option<f64>) -> String {
+    let change = if place.is_some() { "" } else { "CHANGE; " };
+    let Place { latitude_deg, longitude_deg } = place.unwrap_or(EXAMPLE);
+    let gravity = normal_gravity_m_per_s2(latitude_deg, height_m.unwrap_or(0.0));
+    let (height, u, at_height) = match height_m {
+        Some(height) => (format!("height_m: {height:?}"), NORMAL_GRAVITY_U_M_PER_S2, "this height"),
+        None => ("# height_m: 150.0".to_owned(), NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2, "0 m"),
+    };
+    let number = |text: &str| format!("{text:<36} ");
+    let lines = [
+        "# Site (dtg-site/1). Replace every CHANGE, and survey what you can: what is absent is taken as stated here,\n\
+         # and the passport lists its effect.\n\
+         format: \"dtg-site/1\"\n"
+            .to_owned(),
+        number(&format!("id: \"{id}\"")) + "# also the name of the file\n",
+        "# name: \"…\"\n".to_owned(),
+        number(&format!("latitude_deg: {latitude_deg:?}")) + "# " + change + "geodetic, WGS 84, north positive\n",
+        number(&format!("longitude_deg: {longitude_deg:?}")) + "# " + change + "east positive\n",
+        number(&height) + "# above the ellipsoid (a satellite receiver shows it; a map shows another)\n",
+        "# Survey: deflection of the vertical, from the national geodetic service. Unknown: 0 with u = 10 arcsec.\n\
+         # deflection_arcsec: {xi: -3.2, eta: 4.1, u: 1.0}\n"
+            .to_owned(),
+        format!(
+            "# Survey: gravity. As long as this is a comment, normal gravity applies: {gravity:.5} m/s2 for this\n\
+             # latitude and {at_height}, with a standard uncertainty of {u} m/s2.\n\
+             # gravity_m_per_s2: {gravity:.5}\n\
+             # gravity_u_m_per_s2: {u}\n"
+        ),
+        "# Survey: azimuth mark, which defines north; both points geodetic. Or another reference, in `uncertainty`.\n\
+         # azimuth_mark: {name: \"…\", latitude_deg: …, longitude_deg: …, pillar_latitude_deg: …, \
+         pillar_longitude_deg: …, position_u_m: 0.02}\n\
+         # Standard uncertainties of the base as set up here: latitude; from the mark to the base; level per axis.\n\
+         # uncertainty: {latitude_arcsec: 1.0, azimuth_arcsec: 30.0, level_arcsec: 5.0}\n\
+         # Change of the Earth-rate components that limits the distance from here at which the passport may be used:\n\
+         # valid_within_deg_per_h: 0.001\n"
+            .to_owned(),
+        "source: \"CHANGE: where the numbers come from\"\n".to_owned(),
+    ];
+    lines.concat()
+}
+
+/// Gyro type: the paper's.
+pub(crate) const GYRO: &str = r#"# Gyro type (dtg-gyro/1). The numbers are those of the paper's gyro; replace them by those of the type.
+format: "dtg-gyro/1"
+type: "GVK-6"                        # CHANGE
+nominal:
+  k_deg_per_h_per_ma: [[95, 9.5], [9.5, 95]]    # [[K_x, K_xy], [K_yx, K_y]]
+  omega0_deg_per_h: [20, 20]         # constant drift, x and y
+  omega_g_deg_per_h_per_g: 10        # g-sensitive drift
+  omega_k_deg_per_h_per_g: 10
+tolerance:                           # largest permitted deviations from the nominal values
+  k_main_percent: 0.05               # of K_x and K_y
+  k_cross_percent: 0.5               # of K_xy and K_yx
+  omega0_deg_per_h: 0.01
+  omega_g_deg_per_h_per_g: 0.01
+  omega_k_deg_per_h_per_g: 0.01
+# gravity_m_per_s2: 9.80665          # the g to which the drifts refer
+"#;
+
+/// Laboratory with the paper's meter.
+pub(crate) const LABORATORY: &str = r#"# Laboratory (dtg-laboratory/1). All numbers but the range are standard uncertainties (k = 1): divide the limits of a
+# data sheet by 1.73. Replace them by those of your meter, gyro seat and base.
+format: "dtg-laboratory/1"
+name: "CHANGE"
+meter:
+  range_ma: 1.0                      # largest current in either direction
+  reading_percent: 0.0087            # of the reading; own of every position and channel
+  gain_percent: 0.0                  # of the reading; common to all readings
+  offset_ma: 0.0                     # common to all readings
+  floor_ma: 1.0e-06                  # independent of the reading
+  # noise_ma: 0.0                    # own of every reading; absent: estimated from repeated rows, else 0
+seating_arcsec:                      # of the gyro on the platform
+  about_x: 5.0
+  about_y: 5.0
+  about_z: 10.0
+# base: {azimuth_arcsec: 10.0, level_arcsec: 3.0}    # replaces the site's, if you measured it
+# temperature_c: 21.0
+"#;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::calibration::Readings;
+    use crate::certification::{AngleReadings, Header};
+    use crate::laboratory::Laboratory;
+    use crate::site::Site;
+    use crate::stand::{CertifiedPosition, Stand};
+
+    const EACH: [(Positions, usize); 3] = [(Positions::Four, 4), (Positions::Eight, 8), (Positions::TwentyFour, 24)];
+
+    #[test]
+    fn stand_header_readings_and_currents_pass_their_readers() {
+        for (set, count) in EACH {
+            let stand = Stand::from_yaml("stand.yaml", stand(set).as_bytes()).unwrap();
+            let header = Header::from_yaml("header.yaml", header(set).as_bytes()).unwrap();
+            assert_eq!((stand.positions.len(), header.positions.len()), (count, count));
+            let readings = readings(set, 5);
+            let read = AngleReadings::from_csv("readings.csv", readings.as_bytes(), &header.positions).unwrap();
+            assert_eq!((read.runs(), read.each_arcsec().len()), (&[1, 2, 3, 4, 5][..], count));
+            let positions: Vec<_> = stand.positions.iter().map(CertifiedPosition::to_model).collect();
+            let coefficients = StandGeometry::new(&positions).unwrap().at(EarthRate::at_astronomic_latitude(45.0));
+            let currents = currents(set).unwrap();
+            let read = Readings::from_csv("currents.csv", currents.as_bytes(), &coefficients, 1.0).unwrap();
+            assert_eq!(read.positions().len(), count);
+        }
+    }
+
+    #[test]
+    fn gyro_laboratory_and_site_pass_their_readers() {
+        assert_eq!(GyroType::from_yaml("gyro.yaml", GYRO.as_bytes()).unwrap().nominal, GyroType::gvk_6().nominal);
+        Laboratory::from_yaml("laboratory.yaml", LABORATORY.as_bytes()).unwrap();
+        let read = |text: &str| Site::from_yaml("here.yaml", text.as_bytes()).unwrap();
+        read(&site("here", None, None));
+        // Expected: normal gravity of WGS 84 at 45° on the ellipsoid (NIMA TR8350.2, Somigliana), 9.80619769 m/s².
+        let place = Place { latitude_deg: 45.0, longitude_deg: -0.5 };
+        let on_the_ellipsoid = site("here", Some(place), Some(0.0));
+        assert!(on_the_ellipsoid.contains("9.80620 m/s2"), "{on_the_ellipsoid}");
+        assert!(!on_the_ellipsoid.contains("CHANGE; "));
+        let read = read(&on_the_ellipsoid);
+        assert_eq!((read.latitude_deg, read.longitude_deg, read.height_m), (Some(45.0), Some(-0.5), Some(0.0)));
+        assert_eq!(read.id.as_str(), "here");
+    }
+
+    #[test]
+    fn what_is_a_comment_is_right_too() {
+        let uncommented = |text: &str| {
+            let lines = text.lines().map(|line| match line.trim_start().strip_prefix("# ") {
+                Some(rest)
+                    if rest.contains(": ") && !rest.contains('…') && rest.starts_with(|c: char| c.is_lowercase()) =>
+                {
+                    format!("{}{rest}\n", &line[..line.len() - line.trim_start().len()])
+                }
+                _ => format!("{line}\n"),
+            });
+            lines.collect::<String>()
+        };
+        let site = site("here", None, None);
+        let text = uncommented(&site);
+        assert!(text.contains("\ndeflection_arcsec") && text.contains("\ngravity_m_per_s2"), "{text}");
+        Site::from_yaml("here.yaml", text.as_bytes()).unwrap();
+        Laboratory::from_yaml("laboratory.yaml", uncommented(LABORATORY).as_bytes()).unwrap();
+        GyroType::from_yaml("gyro.yaml", uncommented(GYRO).as_bytes()).unwrap();
+    }
+}

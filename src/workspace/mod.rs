@@ -1,0 +1,199 @@
+//! Workspace of a factory or a laboratory: a folder whose `dtg-passport.toml` states the key, the issuer, the trusted
+//! keys and the folders of all commands.
+//!
+//! * `layout`: a new workspace.
+//! * `status`: what a workspace holds.
+
+mod layout;
+mod status;
+
+pub(crate) use layout::{NotMade, make};
+pub(crate) use status::status;
+
+use crate::files::{self, FileError};
+use crate::folder::Folder;
+use crate::text::problem::Problem;
+use crate::text::{LARGEST_DOCUMENT_BYTES, Location, Unreadable, name_of};
+use std::path::{Path, PathBuf};
+use toml::de::{DeTable, DeValue};
+
+/// Name of the file in the folder of a workspace.
+pub(crate) const WORKSPACE_FILE: &str = "dtg-passport.toml";
+
+/// Keys of the file.
+const KEYS: [&str; 6] = ["key", "identity", "trust", "passports", "stands", "sites"];
+
+/// Workspace: the values that the options of commands have if they are not given. Paths begin with that of its folder.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Workspace {
+    /// Folder of the workspace.
+    pub root: PathBuf,
+    /// Signing key.
+    pub key: Option<PathBuf>,
+    /// Issuer: the principal of the key in `trust`.
+    pub identity: Option<String>,
+    /// Trusted signing keys (allowed_signers).
+    pub trust: Option<PathBuf>,
+    /// Folder of passports.
+    pub passports: Option<PathBuf>,
+    /// Folder of stand files.
+    pub stands: Option<PathBuf>,
+    /// Folder of site files.
+    pub sites: Option<PathBuf>,
+}
+
+/// Reason why a workspace cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum NoWorkspace {
+    /// File that cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// File with mistakes.
+    #[error(transparent)]
+    Unreadable(#[from] Unreadable),
+}
+
+impl Workspace {
+    /// Reads the workspace in the folder `root`.
+    ///
+    /// # Errors
+    /// Returns [`NoWorkspace`] if `root` has no readable `dtg-passport.toml`, or for mistakes in it.
+    pub(crate) fn read(root: &Path) -> Result<Self, NoWorkspace> {
+        let path = root.join(WORKSPACE_FILE);
+        let bytes = files::read(&path, LARGEST_DOCUMENT_BYTES)?;
+        Ok(Self::from_toml(root, &name_of(&path), &bytes).map_err(|unreadable| unreadable.in_text(&bytes))?)
+    }
+
+    fn from_toml(root: &Path, name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
+        let text = std::str::from_utf8(bytes).map_err(|error| {
+            let at = location(bytes, error.valid_up_to());
+            Unreadable::whole(name, Some(at), "a byte that is not valid UTF-8", "UTF-8", "save the file as UTF-8")
+        })?;
+        let (table, errors) = DeTable::parse_recoverable(text);
+        let mut problems: Vec<Problem> = errors
+            .iter()
+            .map(|error| Problem {
+                location: error.span().map(|span| location(bytes, span.start)),
+                field: String::new(),
+                found: format!("invalid TOML ({})", error.message().lines().collect::<Vec<_>>().join(", ")),
+                expected: "lines such as trust = \"allowed_signers\", each key once".to_owned(),
+                advice: String::new(),
+            })
+            .collect();
+        let mut values: [Option<String>; 6] = Default::default();
+        for (key, value) in table.get_ref().iter() {
+            match KEYS.iter().position(|known| known == key.get_ref()) {
+                None => problems.push(unknown_key(key.get_ref(), location(bytes, key.span().start))),
+                Some(place) => match text_of(value.get_ref()) {
+                    Some(text) => values[place] = Some(text.to_owned()),
+                    None => problems.push(Problem {
+                        location: Some(location(bytes, value.span().start)),
+                        field: KEYS[place].to_owned(),
+                        found: text.get(value.span()).unwrap_or("nothing").to_owned(),
+                        expected: "text".to_owned(),
+                        advice: "put it in double quotes".to_owned(),
+                    }),
+                },
+            }
+        }
+        if !problems.is_empty() {
+            problems.sort_by_key(|problem| problem.location.map(|at| (at.line, at.column)));
+            return Err(Unreadable::of(name, problems));
+        }
+        let [key, identity, trust, passports, stands, sites] = values;
+        let path = |stated: Option<String>| stated.map(|stated| root.join(stated));
+        Ok(Self {
+            root: root.to_owned(),
+            key: path(key),
+            identity,
+            trust: path(trust),
+            passports: path(passports),
+            stands: path(stands),
+            sites: path(sites),
+        })
+    }
+
+    /// Returns the path of the stand file of `MODEL/SERIAL`.
+    pub(crate) fn stand(&self, name: &str) -> Option<PathBuf> {
+        Some(self.stands.as_ref()?.join(name).join("stand.yaml"))
+    }
+
+    /// Returns the path of the file of the site `id`.
+    pub(crate) fn site(&self, id: &str) -> Option<PathBuf> {
+        Some(self.sites.as_ref()?.join(format!("{id}.yaml")))
+    }
+
+    /// Returns the path of the passport with the identifier `id`, or `None` if it is not an identifier.
+    pub(crate) fn passport(&self, id: &str) -> Option<PathBuf> {
+        Folder::new(self.passports.as_ref()?).path_of_id(id)
+    }
+}
+
+/// Returns the text of a value, or `None` if it is not text or empty.
+fn text_of<'a>(value: &'a DeValue) -> Option<&'a str> {
+    value.as_str().filter(|text| !text.is_empty())
+}
+
+fn unknown_key(key: &str, at: Location) -> Problem {
+    let alike = |known: &&&str| strsim::jaro_winkler(known, key);
+    let nearest = KEYS.iter().max_by(|a, b| alike(a).total_cmp(&alike(b))).filter(|known| alike(known) > 0.8);
+    Problem {
+        location: Some(at),
+        field: String::new(),
+        found: format!("unknown key {key:?}"),
+        expected: format!("one of {}", KEYS.join(", ")),
+        advice: nearest.map_or_else(|| "delete it".to_owned(), |known| format!("did you mean {known}?")),
+    }
+}
+
+/// Returns the line and column of a byte.
+fn location(bytes: &[u8], place: usize) -> Location {
+    crate::text::node::location_of(&bytes[..place.min(bytes.len())])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Workspace, String> {
+        Workspace::from_toml(Path::new("w"), "w.toml", text.as_bytes()).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn paths_are_relative_to_the_workspace() {
+        let found =
+            read("key = \"keys/f.key\" # secret\nidentity = 'f@example.org'\ntrust = \"/etc/signers\"\n").unwrap();
+        assert_eq!(found.key, Some(PathBuf::from("w/keys/f.key")));
+        assert_eq!(found.identity.as_deref(), Some("f@example.org"));
+        assert_eq!(found.trust, Some(PathBuf::from("/etc/signers")));
+        assert_eq!((&found.passports, &found.stands, &found.sites), (&None, &None, &None));
+        assert_eq!(found.passport("SPS-2/0017/here/1"), None);
+        let found = read("passports = \"p\"\nstands = \"s\"\r\nsites = \"t\"").unwrap();
+        assert_eq!(found.passport("SPS-2/0017/here/1"), Some(PathBuf::from("w/p/SPS-2/0017/here-1.yaml")));
+        assert_eq!(found.passport("../here"), None);
+        assert_eq!(found.stand("SPS-2/0017"), Some(PathBuf::from("w/s/SPS-2/0017/stand.yaml")));
+        assert_eq!(found.site("here"), Some(PathBuf::from("w/t/here.yaml")));
+        assert!(read("").is_ok());
+    }
+
+    #[test]
+    fn every_mistake_has_its_line() {
+        for (text, due) in [
+            (
+                "trust = \"a\"\ntrusts = \"b\"",
+                "w.toml:2:1: found unknown key \"trusts\", expected one of key, identity, ",
+            ),
+            ("trust = \"a\"\nkeys = \"b\"", "did you mean key?"),
+            ("trust = \"a\"\n\ntrust = \"b\"\n", "w.toml:3:1: found invalid TOML (duplicate key"),
+            ("[paths]\ntrust = \"a\"", "w.toml:1:2: found unknown key \"paths\""),
+            ("trust = 5", "w.toml:1:9: trust: found 5, expected text; put it in double quotes"),
+            ("trust = allowed_signers", "w.toml:1:9: found invalid TOML ("),
+            ("key = \"\"", "w.toml:1:7: key: found \"\", expected text"),
+        ] {
+            let refused = read(text).unwrap_err();
+            assert!(refused.contains(due), "{text}\n{refused}\n  lacks {due}");
+        }
+        let two = read("kye = \"a\"\ntrust = \"b\"\nsite = \"c\"").unwrap_err();
+        assert_eq!(two.lines().count(), 2, "{two}");
+    }
+}

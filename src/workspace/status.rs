@@ -1,0 +1,294 @@
+//! What a workspace holds: stands, sites, passports in force, passports that expire soon, alarms, keys.
+
+use super::Workspace;
+use crate::files::walk::{Entry, Walk};
+use crate::files::{self, FileError};
+use crate::folder::search;
+use crate::passport::{NAMESPACE, Trust};
+use crate::register::{Asked, Line, Register, State};
+use crate::report::style;
+use crate::site::Site;
+use crate::stand::Stand;
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of};
+use crate::trust::PublicKey;
+use jiff::Timestamp;
+use jiff::civil::Date;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::fmt::Write;
+use std::path::Path;
+
+/// Number of days before the expiry date from which a passport or certificate is listed as expiring.
+const SOON_DAYS: u32 = 90;
+
+/// Most lines of one kind in the text; the rest is counted.
+const MOST_LINES: usize = 20;
+
+/// What a workspace holds.
+#[derive(Debug, Serialize)]
+pub(crate) struct Status {
+    workspace: String,
+    time: Timestamp,
+    stands: Vec<StandLine>,
+    sites: Vec<SiteLine>,
+    passports: Option<Passports>,
+    keys: Vec<KeyLine>,
+    signing_key: Option<SigningKeyLine>,
+    /// Files that cannot be read, and parts that the workspace does not state, in words.
+    remarks: Vec<String>,
+    /// Whether the register could not be read completely.
+    #[serde(skip)]
+    incomplete: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct StandLine {
+    id: String,
+    file: String,
+    certificate: String,
+    valid_until: Option<Date>,
+    expired: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct SiteLine {
+    id: String,
+    file: String,
+    latitude_deg: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Passports {
+    counts: BTreeMap<&'static str, usize>,
+    expiring: Vec<Line>,
+    alarms: Vec<String>,
+}
+
+/// A trusted key, as a line of allowed_signers states it.
+#[derive(Debug, Serialize)]
+struct KeyLine {
+    principals: String,
+    namespaces: Option<String>,
+    fingerprint: String,
+    valid_after: Option<Timestamp>,
+    valid_before: Option<Timestamp>,
+    valid: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct SigningKeyLine {
+    file: String,
+    identity: Option<String>,
+    fingerprint: Option<String>,
+    /// Whether passports that it signs now would be trusted; null without key, identity or trust.
+    trusted: Option<bool>,
+    why: Option<String>,
+}
+
+/// Returns what `workspace` holds at `time`; without `trust`, passports are not examined. `threads` threads do the work.
+///
+/// # Errors
+/// Returns [`FileError::Read`] if a folder that the workspace states cannot be read.
+pub(crate) fn status(
+    workspace: &Workspace,
+    trust: Option<&Trust>,
+    time: Timestamp,
+    threads: usize,
+) -> Result<Status, FileError> {
+    let mut remarks = Vec::new();
+    let stands = stands(workspace, time, &mut remarks)?;
+    let sites = sites(workspace, &mut remarks)?;
+    let register = match (&workspace.passports, trust) {
+        (Some(folder), Some(trust)) => {
+            let asked = Asked { within_days: Some(SOON_DAYS), ..Asked::at(time) };
+            Some(search::register(folder, trust.clone(), &asked, threads)?.0)
+        }
+        (None, _) => {
+            remarks.push("no folder of passports is stated (passports)".to_owned());
+            None
+        }
+        (_, None) => {
+            remarks.push("the passports were not examined, because no trusted keys are stated (trust)".to_owned());
+            None
+        }
+    };
+    let incomplete = register.as_ref().is_some_and(Register::is_incomplete);
+    let keys = trust.map_or_else(Vec::new, |trust| keys(trust, time));
+    Ok(Status {
+        workspace: name_of(&workspace.root),
+        time,
+        stands,
+        sites,
+        passports: register.map(passports),
+        keys,
+        signing_key: workspace.key.as_deref().map(|key| signing_key(key, workspace, trust, time)),
+        remarks,
+        incomplete,
+    })
+}
+
+fn stands(workspace: &Workspace, time: Timestamp, remarks: &mut Vec<String>) -> Result<Vec<StandLine>, FileError> {
+    let Some(folder) = &workspace.stands else { return Ok(Vec::new()) };
+    let today = time.to_zoned(jiff::tz::TimeZone::UTC).date();
+    let line = |file: String, stand: Stand| StandLine {
+        id: stand.stand.id(),
+        file,
+        certificate: stand.certificate.number,
+        valid_until: stand.certificate.valid_until,
+        expired: stand.certificate.valid_until.is_some_and(|last| last < today),
+    };
+    read_each(Walk::deep(folder, |name| name == "stand.yaml"), Stand::from_yaml, line, remarks)
+}
+
+fn sites(workspace: &Workspace, remarks: &mut Vec<String>) -> Result<Vec<SiteLine>, FileError> {
+    let Some(folder) = &workspace.sites else { return Ok(Vec::new()) };
+    let is_site = |name: &OsStr| Path::new(name).extension().is_some_and(|extension| extension == "yaml");
+    let line = |file, site: Site| SiteLine { id: site.id.to_string(), file, latitude_deg: site.geodetic_deg() };
+    read_each(Walk::flat(folder, is_site), Site::from_yaml, line, remarks)
+}
+
+fn read_each<T, L>(
+    walk: Walk,
+    read: impl Fn(&str, &[u8]) -> Result<T, Unreadable>,
+    line: impl Fn(String, T) -> L,
+    remarks: &mut Vec<String>,
+) -> Result<Vec<L>, FileError> {
+    let mut lines = Vec::new();
+    for entry in walk {
+        let Entry::File(path) = entry? else { continue };
+        let name = name_of(&path);
+        match read(&name, &files::read(&path, LARGEST_DOCUMENT_BYTES)?) {
+            Ok(found) => lines.push(line(name, found)),
+            Err(refused) => remarks.push(refused.to_string()),
+        }
+    }
+    Ok(lines)
+}
+
+fn passports(register: Register) -> Passports {
+    let counts = register.counts().into_iter().map(|(state, count)| (state.key(), count)).collect();
+    let alarms = register.alarms.iter().map(ToString::to_string).collect();
+    let expiring = register.passports.into_iter().filter(|line| line.state == State::Expiring).collect();
+    Passports { counts, expiring, alarms }
+}
+
+fn keys(trust: &Trust, time: Timestamp) -> Vec<KeyLine> {
+    let line = |key: crate::trust::TrustedKey| KeyLine {
+        valid: key.valid_after.is_none_or(|from| from <= time) && key.valid_before.is_none_or(|until| time <= until),
+        principals: key.principals,
+        namespaces: key.namespaces,
+        fingerprint: key.fingerprint,
+        valid_after: key.valid_after,
+        valid_before: key.valid_before,
+    };
+    trust.signers.keys().map(line).collect()
+}
+
+/// Describes the signing key by its public half, because the private one is secret.
+fn signing_key(key: &Path, workspace: &Workspace, trust: Option<&Trust>, time: Timestamp) -> SigningKeyLine {
+    let mut public = key.as_os_str().to_owned();
+    if key.extension().is_none_or(|extension| extension != "pub") {
+        public.push(".pub");
+    }
+    let read = files::read(Path::new(&public), LARGEST_DOCUMENT_BYTES).map_err(|error| error.to_string());
+    let found = read.and_then(|bytes| {
+        let text = String::from_utf8_lossy(&bytes);
+        let name = Printable(name_of(Path::new(&public)));
+        PublicKey::from_openssh(text.trim_end()).map_err(|error| format!("{name}: {error}"))
+    });
+    let (fingerprint, mut why) = match &found {
+        Ok(key) => (Some(key.fingerprint()), None),
+        Err(why) => (None, Some(why.clone())),
+    };
+    let asked = found.ok().zip(workspace.identity.as_deref()).zip(trust);
+    let trusted = asked.map(|((key, identity), trust)| {
+        let revoked = trust.revoked.iter().find_map(|list| list.revokes(&key));
+        let authorised = trust.signers.authorise(&key, identity, NAMESPACE, time).map_err(|miss| miss.to_string());
+        let refused = authorised.err().or(revoked);
+        let trusted = refused.is_none();
+        why = why.take().or(refused);
+        trusted
+    });
+    SigningKeyLine { file: name_of(key), identity: workspace.identity.clone(), fingerprint, trusted, why }
+}
+
+impl Status {
+    /// Returns `true` if the system refused to read a part of the folder of passports.
+    pub(crate) fn is_incomplete(&self) -> bool {
+        self.incomplete
+    }
+
+    /// Returns `true` if there is an alarm, a broken passport, or a file that cannot be read.
+    pub(crate) fn needs_attention(&self) -> bool {
+        let passports = self.passports.as_ref();
+        let broken = |passports: &Passports| !passports.alarms.is_empty() || passports.counts.contains_key("broken");
+        passports.is_some_and(broken) || !self.remarks.is_empty()
+    }
+
+    /// Returns the status as text: one line for each number, and below it what needs attention.
+    pub(crate) fn text(&self) -> String {
+        let mut out = format!("Workspace  {}, {}\n", Printable(&self.workspace), self.time);
+        let expired = self.stands.iter().filter(|stand| stand.expired).count();
+        let _ = writeln!(out, "Stands     {}{}", self.stands.len(), count(expired, "with an expired certificate"));
+        let expired = self.stands.iter().filter(|stand| stand.expired).map(|stand| {
+            let until = stand.valid_until.map_or_else(String::new, |day| format!(", valid until {day}"));
+            format!("{}  certificate {}{until}", stand.id, Printable(&stand.certificate))
+        });
+        indented(&mut out, expired.collect());
+        let _ = writeln!(out, "Sites      {}", self.sites.len());
+        if let Some(passports) = &self.passports {
+            let counts: Vec<String> =
+                passports.counts.iter().map(|(state, count)| format!("{count} {}", state.replace('_', " "))).collect();
+            let counts = if counts.is_empty() { "none".to_owned() } else { counts.join(", ") };
+            let _ = writeln!(out, "Passports  {counts}");
+            let expiring = passports.expiring.iter().map(|line| {
+                let until = line.valid_until.map_or_else(String::new, |day| day.to_string());
+                format!("{}  valid until {until}", line.id.as_deref().unwrap_or_default())
+            });
+            indented(&mut out, expiring.collect());
+            let _ = writeln!(out, "Alarms     {}", passports.alarms.len());
+            indented(&mut out, passports.alarms.clone());
+        }
+        self.write_keys(&mut out);
+        for remark in &self.remarks {
+            let _ = writeln!(out, "{}", style::bad(&remark.replace('\n', "\n  ")));
+        }
+        out
+    }
+
+    fn write_keys(&self, out: &mut String) {
+        let invalid = self.keys.iter().filter(|key| !key.valid).count();
+        let _ = writeln!(out, "Keys       {} trusted{}", self.keys.len(), count(invalid, "not valid now"));
+        let line = |key: &KeyLine| {
+            let from = key.valid_after.map_or_else(String::new, |from| format!(", from {from}"));
+            let until = key.valid_before.map_or_else(String::new, |until| format!(", until {until}"));
+            let now = if key.valid { "" } else { "  NOT VALID NOW" };
+            format!("{}  {}{from}{until}{now}", Printable(&key.principals), key.fingerprint)
+        };
+        indented(out, self.keys.iter().map(line).collect());
+        if let Some(key) = &self.signing_key {
+            let trusted = match (key.trusted, &key.why) {
+                (Some(true), _) => "trusted".to_owned(),
+                (_, Some(why)) => format!("NOT USABLE: {why}"),
+                _ => "not checked: identity or trust is not stated".to_owned(),
+            };
+            let identity = key.identity.as_deref().unwrap_or("(no identity)");
+            let _ = writeln!(out, "Signs with {}  {}  {trusted}", Printable(&key.file), Printable(identity));
+        }
+    }
+}
+
+fn count(number: usize, words: &str) -> String {
+    if number == 0 { String::new() } else { format!(", {number} {words}") }
+}
+
+/// Writes the lines below a number, the first [`MOST_LINES`] of them.
+fn indented(out: &mut String, lines: Vec<String>) {
+    for line in lines.iter().take(MOST_LINES) {
+        let _ = writeln!(out, "           {}", line.replace('\n', "\n           "));
+    }
+    if let Some(more) = lines.len().checked_sub(MOST_LINES).filter(|more| *more > 0) {
+        let _ = writeln!(out, "           … and {more} more (--format json lists all)");
+    }
+}
