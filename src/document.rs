@@ -5,6 +5,7 @@
 
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::canonical::{self, NotCanonical};
+use crate::text::kind::{Kind, mistaken};
 use crate::text::problem::{Location, Unreadable};
 pub(crate) use crate::text::scalar::{is_sha256_hex, sha256_hex};
 use crate::text::{Field, Printable, Problems, rule};
@@ -93,13 +94,24 @@ pub struct Malformed {
     pub other_namespace: Option<String>,
 }
 
+/// Describes the documents of a namespace.
+fn expected(namespace: &str) -> &'static str {
+    if namespace == "dtg-passport" { "a passport, which `issue` makes and signs" } else { "a signed document" }
+}
+
 impl<'a> SignedText<'a> {
     /// Checks the text rule, splits the file and checks the form of the signature, in this order.
     ///
     /// # Errors
     /// Returns [`Malformed`] with the line and the column of the first fault.
     pub(crate) fn split(name: &str, bytes: &'a [u8], namespace: &str) -> Result<Self, Malformed> {
-        let malformed = |fault| Malformed { fault, other_namespace: None };
+        // An unsigned file of another kind is named as what it is.
+        let other = || {
+            let (is_signed, expected) =
+                (|kind| matches!(kind, Kind::Passport | Kind::RevocationList), expected(namespace));
+            signature_line(bytes).is_none().then(|| mistaken(name, bytes, expected, is_signed)).flatten()
+        };
+        let malformed = |fault| Malformed { fault: other().unwrap_or(fault), other_namespace: None };
         if bytes.len() > LARGEST_DOCUMENT_BYTES {
             rule::check(name, bytes).map_err(malformed)?;
         }

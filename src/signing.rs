@@ -134,7 +134,10 @@ pub fn signer(path: &Path, ask: AskPassphrase) -> Result<Box<dyn Signer + Sync>,
 /// Returns the key in a private key file, or `None` if the file is only the handle of a key on a token.
 fn private_key(path: &Path, ask: AskPassphrase) -> Result<Option<SigningKey>, KeyFileError> {
     let text = text(path)?;
-    refuse_exposed(path)?;
+    // What is not a private key may be readable; it is refused as what it is.
+    if text.contains("PRIVATE KEY") {
+        refuse_exposed(path)?;
+    }
     let key = match SigningKey::from_openssh(&text, None) {
         Err(KeyError::Encrypted) => {
             let asked = ask(path);

@@ -27,6 +27,9 @@ const LARGEST_DEFLECTION_U_ARCSEC: f64 = 3600.0;
 /// Largest uncertainty of a coordinate of pillar or mark, m: a thousand kilometres.
 const LARGEST_POSITION_U_M: f64 = 1e6;
 
+/// Gravity on the surface of the Earth, m/s².
+const GRAVITY_M_PER_S2: std::ops::RangeInclusive<f64> = 9.7..=9.9;
+
 /// Largest assumed difference between geodetic and astronomic latitude if the deflection is unknown, arcsec.
 pub(crate) const LATITUDE_MARGIN_ARCSEC: f64 = 30.0;
 
@@ -196,9 +199,15 @@ impl Site {
     /// site files and new passports: earlier passports of sites that break them stay valid.
     pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
         self.check_latitude(at, problems);
-        problems.within(&at.key("longitude_deg"), self.longitude_deg, -180.0, 180.0);
+        if let Some(longitude) = self.longitude_deg.filter(|longitude| !(-180.0..=180.0).contains(longitude)) {
+            let advice = decimal_degrees(longitude, 180.0).unwrap_or_default();
+            problems.at(&at.key("longitude_deg"), format!("{longitude}"), "a number from -180 to 180", advice);
+        }
         problems.within(&at.key("height_m"), self.height_m, -500.0, 9000.0);
-        problems.within(&at.key("gravity_m_per_s2"), self.gravity_m_per_s2, 9.7, 9.9);
+        if let Some(gravity) = self.gravity_m_per_s2.filter(|gravity| !GRAVITY_M_PER_S2.contains(gravity)) {
+            let advice = gravity_in_another_unit(gravity);
+            problems.at(&at.key("gravity_m_per_s2"), format!("{gravity}"), "a number from 9.7 to 9.9", advice);
+        }
         problems.within(&at.key("gravity_u_m_per_s2"), self.gravity_u_m_per_s2, 0.0, f64::MAX);
         problems.within(&at.key("valid_within_deg_per_h"), self.valid_within_deg_per_h, 1e-6, 1.0);
         if self.gravity_u_m_per_s2.is_some() && self.gravity_m_per_s2.is_none() {
@@ -374,6 +383,26 @@ impl AzimuthMark {
 fn check_latitude_range(at: &Path, latitude_deg: Option<f64>, longitude_deg: Option<f64>, problems: &mut Problems) {
     let Some(latitude) = latitude_deg.filter(|latitude| !(-90.0..=90.0).contains(latitude)) else { return };
     let exchanged = latitude.abs() <= 180.0 && longitude_deg.is_some_and(|longitude| longitude.abs() <= 90.0);
-    let advice = if exchanged { "check whether latitude and longitude are exchanged" } else { "" };
+    let exchange = || exchanged.then(|| "check whether latitude and longitude are exchanged".to_owned());
+    let advice = exchange().or_else(|| decimal_degrees(latitude, 90.0)).unwrap_or_default();
     problems.at(at, format!("{latitude}"), "a number from -90 to 90", advice);
+}
+
+/// Returns the advice for an angle beyond `largest` degrees that may be in degrees and minutes, `dddmm.m`, as
+/// satellite receivers write it; otherwise `None`.
+fn decimal_degrees(angle: f64, largest: f64) -> Option<String> {
+    let (degrees, minutes) = ((angle.abs() / 100.0).trunc(), angle.abs() % 100.0);
+    let decimal = (degrees + minutes / 60.0).copysign(angle);
+    (minutes < 60.0 && decimal.abs() <= largest)
+        .then(|| format!("write decimal degrees; {degrees} degrees {minutes:.1} minutes would be {decimal:.5}"))
+}
+
+/// Returns the advice for gravity that may be in another unit; empty if none explains it.
+fn gravity_in_another_unit(gravity: f64) -> String {
+    const UNITS: [(&str, f64); 3] = [("Gal (cm/s2)", 1e-2), ("mGal", 1e-5), ("um/s2", 1e-6)];
+    let explains = |(_, factor): &&(&str, f64)| GRAVITY_M_PER_S2.contains(&(gravity * factor));
+    UNITS
+        .iter()
+        .find(explains)
+        .map_or_else(String::new, |(unit, factor)| format!("write m/s2; in {unit} it would be {:.5}", gravity * factor))
 }

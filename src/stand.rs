@@ -180,9 +180,10 @@ impl Stand {
     /// Returns [`crate::text::Unreadable`] with the line, column and field of every error.
     #[cfg(feature = "factory")]
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
-        let mut stand = crate::text::yaml::read_document(name, bytes, STAND_FORMAT, |stand: &Self, problems| {
+        let read = crate::text::yaml::read_document(name, bytes, STAND_FORMAT, |stand: &Self, problems| {
             check(&stand.certificate, &stand.positions, problems);
-        })?;
+        });
+        let mut stand = read.map_err(|refused| without_angles(&refused).unwrap_or(refused))?;
         stand.positions.sort_by_key(CertifiedPosition::index);
         Ok(stand)
     }
@@ -194,6 +195,23 @@ impl Stand {
     pub(crate) fn geometry(&self) -> Result<StandGeometry, SingularPositions> {
         geometry(&self.positions)
     }
+}
+
+/// Returns the refusal of a stand file in one sentence if only the angles are missing: it is then a header.
+#[cfg(feature = "factory")]
+fn without_angles(refused: &crate::text::Unreadable) -> Option<crate::text::Unreadable> {
+    let angles = [".alpha_arcsec", ".beta_arcsec", ".gamma_arcsec"];
+    let is_angle = |problem: &crate::text::Problem| {
+        problem.found.starts_with("missing") && angles.iter().any(|angle| problem.field.ends_with(angle))
+    };
+    // The last one may say that there are more.
+    let (angle, other): (Vec<_>, Vec<_>) = refused.problems().iter().partition(|problem| is_angle(problem));
+    let is_header = angle.len() >= angles.len() && other.iter().all(|problem| problem.field.is_empty());
+    let location = angle.first()?.location;
+    let expected = "a certified stand, with α, β and γ of each position";
+    let advice = "`certify` computes them from readings";
+    let found = "positions without angles";
+    is_header.then(|| crate::text::Unreadable::whole(refused.name(), location, found, expected, advice))
 }
 
 /// Returns the geometry of certified positions.

@@ -143,7 +143,7 @@ impl Failure {
 
     /// Creates the failure for a file that cannot be read.
     pub(crate) fn file(error: FileError) -> Self {
-        Self::unusable(error.path(), error.to_string())
+        Self::unusable(error.path(), error.with_nearest())
     }
 
     /// Creates the failure for an order that the folder refused.

@@ -95,11 +95,11 @@ pub(crate) fn found(entry: Result<Entry, FileError>) -> Result<PathBuf, Failure>
 
 /// Returns `true` if the file name is that of a stand. Other spellings than `stand.yaml` are also read, with a remark,
 /// because a silently skipped file would be noticed late.
-fn is_stand(name: &OsStr) -> bool {
+pub(crate) fn is_stand(name: &OsStr) -> bool {
     is_yaml(name) && Path::new(name).file_stem().is_some_and(|stem| stem.eq_ignore_ascii_case("stand"))
 }
 
-fn is_yaml(name: &OsStr) -> bool {
+pub(crate) fn is_yaml(name: &OsStr) -> bool {
     let extension = Path::new(name).extension();
     let is_yaml =
         ["yaml", "yml"].iter().any(|yaml| extension.is_some_and(|extension| extension.eq_ignore_ascii_case(yaml)));

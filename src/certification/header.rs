@@ -72,10 +72,19 @@ impl Header {
     /// Returns [`Unreadable`] with every error at its line, column and field: those of a stand file, and numbers that
     /// the certification computes itself.
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        let mut header = yaml::read_document(name, bytes, STAND_FORMAT, |header: &Self, problems| {
+        let read = yaml::read_document(name, bytes, STAND_FORMAT, |header: &Self, problems| {
             let positions: Vec<_> = header.positions.iter().map(|at| at.with_angles([0.0; 3])).collect();
             stand::check(&header.certificate, &positions, problems);
             check_not_measured(&header.certificate, problems);
+        });
+        // A certified stand breaks the rules of a header in every position; one sentence is enough.
+        let mut header = read.map_err(|refused| match Stand::from_yaml(name, bytes) {
+            Ok(_) => {
+                let expected = "a header: positions without angles, and no measured numbers";
+                let advice = "check this stand with --against, or write a header with `dtg-passport new header`";
+                Unreadable::whole(name, None, "a certified stand", expected, advice)
+            }
+            Err(_) => refused,
         })?;
         header.positions.sort_by_key(NominalPosition::index);
         Ok(header)

@@ -71,6 +71,11 @@ pub(crate) struct Suspects {
     pub twins: Vec<(u32, u32)>,
 }
 
+/// Returns a probability as text; the smallest numbers of the computer are not zero.
+fn probability(p: f64) -> String {
+    if p < 1e-99 { "below 1e-99".to_owned() } else { format!("{p:.2e}") }
+}
+
 impl Suspects {
     pub(crate) fn of(header: &Header, readings: &AngleReadings, components: &Components) -> Self {
         let outliers = outliers(header, readings, components);
@@ -96,24 +101,24 @@ impl Suspects {
         for worse in &self.worse {
             said.push(format!(
                 "{}: the standard deviation of position {} is {:.1} times the pooled one (Cochran's test: probability \
-                 {:.2e}); its uncertainty is computed from its own readings, that of the others without it",
+                 {}); its uncertainty is computed from its own readings, that of the others without it",
                 grade(worse.probability),
                 worse.index,
                 worse.ratio,
-                worse.probability
+                probability(worse.probability)
             ));
         }
         for out in &self.outliers {
             let line = out.line.map_or_else(String::new, |line| format!(" (line {line} of the readings)"));
             said.push(format!(
                 "{}: position {}, run {}{line}, differs by {:+.2} arcsec from the other runs about {} (Grubbs' test: \
-                 probability {:.2e}); it was not excluded; measure it again, or omit the run",
+                 probability {}); it was not excluded; measure it again, or omit the run",
                 grade(out.probability),
                 out.index,
                 out.run,
                 out.residual_arcsec,
                 AXES[out.axis],
-                out.probability
+                probability(out.probability)
             ));
         }
         if let ([one, other], false) = (runs, self.outliers.is_empty()) {
@@ -134,9 +139,9 @@ impl Suspects {
         }
         if let Some(test) = self.axes.filter(|test| test.probability < OUTLIER) {
             said.push(format!(
-                "the variances about x, y and z differ (Bartlett's test: probability {:.2e}); repeatability_arcsec is \
+                "the variances about x, y and z differ (Bartlett's test: probability {}); repeatability_arcsec is \
                  their root mean square, which is too large for one axis and too small for another",
-                test.probability
+                probability(test.probability)
             ));
         }
         said

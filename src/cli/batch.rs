@@ -6,13 +6,16 @@ use super::{Code, Failure, REFUSED, UNUSABLE};
 use crate::batch::shard::Shard;
 use crate::batch::{Batch, Event, Listener, Outcome};
 use crate::document::Signer;
-use crate::files::Durability;
+use crate::files::{self, Durability};
 use crate::folder::{Folder, Seal};
 use crate::parallel;
-use crate::passport::Trust;
+use crate::passport::{NAMESPACE, Trust};
 use crate::report::issued::{Form, Report, Reports, Told, failure, warnings};
+use crate::text::{LARGEST_DOCUMENT_BYTES, shown};
+use crate::trust::{AllowedSigners, NotAuthorised};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use jiff::Timestamp;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -49,6 +52,25 @@ impl BatchOptions {
     /// Returns the signer, or `None` in a dry run, which signs nothing.
     pub(super) fn signer(&self) -> Result<Option<Box<dyn Signer + Sync>>, Failure> {
         self.key.as_deref().filter(|_| !self.dry_run).map(signer_of).transpose()
+    }
+
+    /// Warns if a file `allowed_signers` next to the key gives the key to another identity. The file is not trusted:
+    /// without `--trust` nothing depends on it.
+    pub(super) fn warn_of_other_identity(&self, signer: Option<&(dyn Signer + Sync)>, issued_at: Timestamp) {
+        let found = self.key.as_deref().zip(signer.and_then(|signer| signer.public_key()));
+        let Some((key, public)) = found else { return };
+        let path = files::folder_of(key).join("allowed_signers");
+        let Ok(bytes) = files::read(&path, LARGEST_DOCUMENT_BYTES) else { return };
+        let Ok(signers) = AllowedSigners::parse("allowed_signers", &bytes) else { return };
+        match signers.authorise(&public, &self.identity, NAMESPACE, issued_at) {
+            Ok(()) | Err(NotAuthorised::UnknownKey) => {}
+            Err(miss) => output::say(&format!(
+                "--identity {}: {miss}, as {} shows; the passport will not be valid for whoever trusts that list; use \
+                 --trust to refuse it",
+                self.identity,
+                shown(&path)
+            )),
+        }
     }
 
     /// Returns the folder of passports at `root`.

@@ -76,7 +76,7 @@ impl Failure {
             FileError::Write { .. } => (UNUSABLE, UNWRITABLE),
             _ => (UNUSABLE, UNREADABLE),
         };
-        let message = error.to_string();
+        let message = error.with_nearest();
         let place = Place { file: name_of(error.path()), line: None, column: None, message: message.clone() };
         Self { problems: vec![place], ..Self::new(message, code, kind) }
     }

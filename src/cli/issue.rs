@@ -65,6 +65,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let issued_at = time_of_issue(options.issued_at, now).map_err(Failure::refused)?;
     let signer = options.batch.signer()?;
     let trust = options.trust.as_deref().map(|path| trust_options::load(path, &[], now)).transpose()?;
+    if trust.is_none() {
+        options.batch.warn_of_other_identity(signer.as_deref(), issued_at);
+    }
     let order = Issue {
         valid_until: options.valid_until,
         accuracy: options.accuracy.then(|| stated(options)).transpose()?,

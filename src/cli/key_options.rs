@@ -28,6 +28,13 @@ impl KeyOptions {
     }
 }
 
+/// Returns the path of the public half of a key.
+pub(super) fn with_pub(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".pub");
+    PathBuf::from(name)
+}
+
 /// Parses an identity given as an option.
 pub(super) fn identity(text: &str) -> Result<String, BadIdentity> {
     check_identity(text).map(|()| text.to_owned())

@@ -1,6 +1,6 @@
 //! Verb `keygen`: a new signing key.
 
-use super::key_options::{self, PASSPHRASE_VARIABLE, passphrase};
+use super::key_options::{self, PASSPHRASE_VARIABLE, passphrase, with_pub};
 use super::output::Format;
 use super::{Code, Failure, output};
 use crate::files::{self, Access};
@@ -100,12 +100,6 @@ fn refuse_existing(path: &Path) -> Result<(), Failure> {
 
 fn write(path: &Path, bytes: &[u8], access: Access) -> Result<(), Failure> {
     files::write_new(path, bytes, access).map_err(Failure::file)
-}
-
-fn with_pub(path: &Path) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(".pub");
-    PathBuf::from(name)
 }
 
 fn new_passphrase(options: &Options) -> Result<Option<Zeroizing<String>>, Failure> {

@@ -8,6 +8,7 @@ use crate::parallel;
 use crate::passport::{Question, Trust};
 use crate::register::{Asked, Line, Register, State};
 use crate::report::register as report;
+use crate::text::shown;
 use clap::{Args, ValueEnum};
 use jiff::civil::Date;
 use std::path::{Path, PathBuf};
@@ -48,6 +49,12 @@ enum By {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
+    if options.folder.is_file() {
+        let folder = shown(&options.folder);
+        return Err(Failure::usage(format!(
+            "{folder}: is a file, expected a folder; check one passport with `verify`"
+        )));
+    }
     let (trust, question) = options.trust.load()?;
     let asked = Asked { question, within_days: options.within };
     let register = search::register(&options.folder, trust, &asked, parallel::processors());

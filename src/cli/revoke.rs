@@ -8,7 +8,7 @@ use crate::files::{self, Access};
 use crate::folder::Folder;
 use crate::folder::search::{self, NoNewestList};
 use crate::passport::verify;
-use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
 use clap::Args;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -54,7 +54,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     })?;
     let mut entries = Vec::new();
     for id in &options.ids {
-        let path = file_of(id, &options.passports);
+        let path = file_of(id, &options.passports)?;
         let bytes = read(&path)?;
         let verification = verify(&name_of(&path), &bytes, &trust, &question);
         entries.push(verification.withdrawal(&bytes, now(), &options.reason).map_err(|failed| {
@@ -83,10 +83,22 @@ fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)
 }
 
-/// Returns the file of an id in `passports`, or `id` itself as a path if it is not an id or if only that file exists.
-fn file_of(id: &str, passports: &Path) -> PathBuf {
-    match Folder::new(passports).path_of_id(id) {
-        Some(path) if path.exists() || !Path::new(id).exists() => path,
-        _ => PathBuf::from(id),
+/// Returns the file of an id in `passports`, or `id` itself as a path if only that file exists.
+fn file_of(id: &str, passports: &Path) -> Result<PathBuf, Failure> {
+    let folder = Folder::new(passports);
+    let path = folder.path_of_id(id);
+    match &path {
+        Some(path) if path.exists() => return Ok(path.clone()),
+        _ if Path::new(id).exists() => return Ok(PathBuf::from(id)),
+        _ => {}
     }
+    let nearest = folder.nearest_id(id).map_or_else(String::new, |nearest| format!("; did you mean {nearest}?"));
+    let (id, passports) = (Printable(id), shown(passports));
+    Err(Failure::unusable(match path {
+        Some(_) => format!("{id}: {passports} contains no such passport{nearest}"),
+        None => format!(
+            "{id}: found neither a file nor an identifier, expected MODEL/SERIAL/SITE/REVISION, such as \
+             SPS-2/0017/moscow-bmstu/1{nearest}"
+        ),
+    }))
 }

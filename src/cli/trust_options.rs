@@ -7,7 +7,7 @@ use crate::files;
 use crate::passport::{Question, Trust};
 use crate::revocation::{RevocationList, Series, claims_to_be_a_list};
 use crate::text::name_of;
-use crate::text::scalar::day;
+use crate::text::scalar::{day, impossible_date};
 use crate::trust::{AllowedSigners, LARGEST_TRUST_FILE_BYTES, RevokedKeys};
 use clap::Args;
 use jiff::Timestamp;
@@ -121,6 +121,9 @@ pub(super) fn time(text: &str) -> Result<Timestamp, String> {
     if let Ok(date) = date(text) {
         return Ok(day(date).0);
     }
+    if let Some(words) = impossible_date(text.get(..10).unwrap_or(text)) {
+        return Err(words);
+    }
     match text.parse::<Timestamp>() {
         Ok(time) if time.subsec_nanosecond() == 0 => Ok(time),
         Ok(_) => Err("whole seconds, such as 2026-11-02T09:30:00Z".to_owned()),
@@ -131,7 +134,7 @@ pub(super) fn time(text: &str) -> Result<Timestamp, String> {
 /// Parses a date given as an option. A date with a time but no zone is rejected, because the time zone is unknown.
 pub(super) fn date(text: &str) -> Result<Date, String> {
     let date = text.parse::<Date>().ok().filter(|date| date.to_string() == text);
-    date.ok_or_else(|| "a UTC date such as 2026-11-02".to_owned())
+    date.ok_or_else(|| impossible_date(text).unwrap_or_else(|| "a UTC date such as 2026-11-02".to_owned()))
 }
 
 pub(super) fn place(text: &str) -> Result<Place, String> {

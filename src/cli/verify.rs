@@ -3,7 +3,7 @@
 use super::output::Format;
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, REFUSED, UNUSABLE, defaults, output, register};
-use crate::files;
+use crate::files::{self, FileError};
 use crate::passport::verification::unreadable;
 use crate::passport::verify;
 use crate::report::verdict;
@@ -47,9 +47,14 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
                 verdicts.push(verdict::Verdict::of(&name, &verification));
             }
             Err(error) => {
-                output::complain(&error.to_string());
+                let advice = "list its passports with `register`, or give the files";
+                let words = match error {
+                    FileError::Folder { .. } => format!("{error}; {advice}"),
+                    error => error.with_nearest(),
+                };
+                output::complain(&words);
                 code = code.max(UNUSABLE);
-                verdicts.push(verdict::Verdict::of(&name, &unreadable(&error.to_string(), &question)));
+                verdicts.push(verdict::Verdict::of(&name, &unreadable(&words, &question)));
             }
         }
     }

@@ -65,6 +65,16 @@ pub enum FileError {
 }
 
 impl FileError {
+    /// Returns the message, with the nearest existing path if there is no such file.
+    pub(crate) fn with_nearest(&self) -> String {
+        let is_missing = |error: &io::Error| error.kind() == io::ErrorKind::NotFound;
+        let near = match self {
+            Self::Read { path, error } if is_missing(error) => nearest(path),
+            _ => None,
+        };
+        near.map_or_else(|| self.to_string(), |near| format!("{self}; did you mean {}?", shown(&near)))
+    }
+
     /// Returns the path of the file.
     pub(crate) fn path(&self) -> &Path {
         match self {
@@ -76,6 +86,35 @@ impl FileError {
             | Self::Write { path, .. } => path,
         }
     }
+}
+
+/// Number of names in a folder among which the nearest is looked for.
+const MOST_NAMES: usize = 10_000;
+
+/// Returns the existing path nearest to one that does not exist: one that differs in a few letters of one name, or
+/// `None` if there is none.
+pub(crate) fn nearest(path: &Path) -> Option<PathBuf> {
+    let mut there = PathBuf::new();
+    let mut parts = path.components();
+    for part in parts.by_ref() {
+        if there.join(part).symlink_metadata().is_ok() {
+            there.push(part);
+            continue;
+        }
+        let name = part.as_os_str().to_str()?.to_lowercase();
+        let folder = if there.as_os_str().is_empty() { Path::new(".") } else { &there };
+        let names =
+            fs::read_dir(folder).ok()?.take(MOST_NAMES).filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+        let distance = |other: &String| strsim::damerau_levenshtein(&other.to_lowercase(), &name);
+        let most = name.chars().count() / 6 + 1;
+        let (_, nearest) =
+            names.map(|other| (distance(&other), other)).filter(|(distance, _)| *distance <= most).min()?;
+        let found = there.join(nearest).join(parts.as_path());
+        // Without a remainder, `join` would add a separator to the name of a file.
+        let found: PathBuf = found.components().collect();
+        return found.exists().then_some(found);
+    }
+    None
 }
 
 /// Returns the reason of a system error, in words for users who do not know its error numbers.

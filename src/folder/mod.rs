@@ -20,6 +20,8 @@ pub(crate) use visited::Visited;
 
 use crate::document::sha256_hex;
 use crate::document::{SignedText, Signer};
+#[cfg(feature = "cli")]
+use crate::files::walk::{Entry, Walk};
 use crate::files::{self, Access};
 use crate::passport::content::Content;
 use crate::passport::issue::{Draft, Issue, IssueRefused, PreparedStand, Remarks};
@@ -219,6 +221,10 @@ impl FolderRefused {
     }
 }
 
+/// Number of files among which the nearest id is looked for.
+#[cfg(feature = "cli")]
+const MOST_FILES: usize = 10_000;
+
 impl Folder {
     /// Creates the handle of the folder `root`, which need not exist yet. Every file is synced as soon as it is
     /// written.
@@ -260,6 +266,24 @@ impl Folder {
         let [Some(model), Some(serial), Some(site)] = names else { return None };
         let revision: u32 = revision.parse().ok()?;
         Some(self.root.join(model.as_str()).join(serial.as_str()).join(format!("{site}-{revision}.yaml")))
+    }
+
+    /// Returns the id nearest to `id` among those that the names of the files show, or `None` if none is near.
+    #[cfg(feature = "cli")]
+    pub(crate) fn nearest_id(&self, id: &str) -> Option<String> {
+        let files = Walk::deep(&self.root, search::is_numbered).filter_map(|entry| match entry {
+            Ok(Entry::File(path)) => Some(path),
+            _ => None,
+        });
+        let id_of = |path: PathBuf| {
+            let name = path.strip_prefix(&self.root).ok()?.to_str()?.strip_suffix(".yaml")?.replace('\\', "/");
+            let (site, revision) = name.rsplit_once('-')?;
+            Some(format!("{site}/{revision}"))
+        };
+        let ids = files.take(MOST_FILES).filter_map(id_of);
+        let near = ids.map(|other| (strsim::damerau_levenshtein(&other, id), other));
+        let most = id.chars().count() / 3;
+        near.filter(|(distance, _)| *distance <= most).min().map(|(_, id)| id)
     }
 
     /// Returns the objections to a further passport from the certificate of `stand`, in words: the certificate was

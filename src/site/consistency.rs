@@ -80,7 +80,10 @@ impl Site {
     }
 
     fn check_gravity(&self, latitude_deg: f64, at: &Path, problems: &mut Problems) {
-        let Some(gravity) = self.gravity_m_per_s2 else { return };
+        // Gravity beyond the range has been refused already.
+        let Some(gravity) = self.gravity_m_per_s2.filter(|gravity| super::GRAVITY_M_PER_S2.contains(gravity)) else {
+            return;
+        };
         let deficit = match self.height_m {
             Some(_) => LARGEST_ANOMALY_M_PER_S2,
             None => LARGEST_DEFICIT_WITHOUT_HEIGHT_M_PER_S2,

@@ -26,7 +26,10 @@ pub(crate) struct Excerpt {
 impl Excerpt {
     /// Returns the line of `text` around `at`, or `None` if the text has no such line.
     pub(crate) fn new(text: &[u8], at: Location) -> Option<Self> {
-        let line = text.split(|byte| *byte == b'\n').nth(at.line.checked_sub(1)?)?;
+        let mut lines = text.split(|byte| *byte == b'\n').skip(at.line.checked_sub(1)?);
+        let line = lines.next()?;
+        // The CR of a line end is not part of the line.
+        let line = line.strip_suffix(b"\r").filter(|_| lines.next().is_some()).unwrap_or(line);
         let line = String::from_utf8_lossy(line);
         let column = at.column.saturating_sub(1);
         let start = column.saturating_sub(BEFORE);
@@ -87,6 +90,7 @@ mod tests {
     #[test]
     fn a_terminal_obeys_nothing_of_it() {
         assert_eq!(shown("\u{1b}[2Jx\r", 1, 5), "1 | \\u{1b}[2Jx\\r\n  |          ^");
+        assert_eq!(shown("a\rb\r\nc", 1, 1), "1 | a\\rb\n  | ^");
         assert_eq!(shown("\t\u{202e}x", 1, 3), "1 | \\t\\u{202e}x\n  |           ^");
     }
 

@@ -10,10 +10,12 @@
 //! * `table`: tables of numbers (CSV).
 //! * `yaml`: conversion of hand-written YAML to a tree; the location of a value is found again if an error needs it.
 //! * `printable`: safe display of text from other sources.
+//! * `kind`: what a file is that was given instead of another.
 //! * `problem`: location, found content, expected content and advice of an error; `excerpt`: its line.
 
 pub(crate) mod canonical;
 pub(crate) mod excerpt;
+pub(crate) mod kind;
 pub(crate) mod node;
 pub(crate) mod number;
 pub(crate) mod printable;

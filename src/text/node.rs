@@ -88,6 +88,19 @@ pub(crate) fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unr
     Ok(text)
 }
 
+/// Returns the text of a hand-written file, without byte order mark and with LF line ends, as editors of Windows and
+/// spreadsheets write them.
+pub(crate) fn hand_written_text(name: &str, bytes: &[u8]) -> Result<String, Unreadable> {
+    let bytes = bytes.strip_prefix(&[0xEF, 0xBB, 0xBF]).unwrap_or(bytes);
+    let mut plain = Vec::with_capacity(bytes.len());
+    for (index, &byte) in bytes.iter().enumerate() {
+        if byte != b'\r' || bytes.get(index + 1) != Some(&b'\n') {
+            plain.push(byte);
+        }
+    }
+    plain_text(name, &plain).map(str::to_owned)
+}
+
 /// Returns `true` if the bytes are UTF-16, with or without a byte order mark: other text does not have NUL as exactly
 /// one of its first two bytes.
 pub(crate) fn is_utf16(bytes: &[u8]) -> bool {

@@ -105,7 +105,7 @@ impl Display for Problem {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         let Self { field, found, expected, advice, .. } = self;
         let (colon, semicolon) = (if field.is_empty() { "" } else { ": " }, if advice.is_empty() { "" } else { "; " });
-        let verb = if found == MISSING { "" } else { "found " };
+        let verb = if found.starts_with(MISSING) { "" } else { "found " };
         Printable(format_args!("{field}{colon}{verb}{found}, expected {expected}{semicolon}{advice}")).fmt(f)
     }
 }
@@ -233,12 +233,22 @@ impl Problems {
     }
 
     fn refused(self, name: &str, affordable: usize, locate: impl Fn(&Target) -> Option<Location>) -> Unreadable {
-        let more = self.more || self.found.len() > affordable;
-        let mut problems: Vec<Problem> = self
-            .found
+        let groups = grouped(self.found);
+        let more = self.more || groups.len() > affordable;
+        let mut problems: Vec<Problem> = groups
             .into_iter()
             .take(affordable)
-            .map(|(target, problem)| Problem { location: target.and_then(|target| locate(&target)), ..problem })
+            .map(|Group { first: (target, problem), others, last }| {
+                let locate = |target: Option<Target>| target.and_then(|target| locate(&target));
+                let found = match (others, locate(last)) {
+                    (0, _) => problem.found,
+                    (others, Some(at)) => {
+                        format!("{} (and {others} more of this kind, up to line {})", problem.found, at.line)
+                    }
+                    (others, None) => format!("{} (and {others} more of this kind)", problem.found),
+                };
+                Problem { location: locate(target), found, ..problem }
+            })
             .collect();
         problems.sort_by_key(|problem| problem.location.map(|at| (at.line, at.column)));
         if more {
@@ -247,6 +257,47 @@ impl Problems {
         }
         Unreadable::of(name, problems)
     }
+}
+
+/// Number of errors of one kind from which only the first is shown.
+const ALIKE: usize = 4;
+
+/// Errors of one kind: the first of them, the number of others, and the place of the last.
+struct Group {
+    first: (Option<Target>, Problem),
+    others: usize,
+    last: Option<Target>,
+}
+
+/// Groups errors that differ only in the items of lists and in what was found, if there are many of a kind.
+fn grouped(found: Vec<(Option<Target>, Problem)>) -> Vec<Group> {
+    let kind = |problem: &Problem| {
+        let field: String = problem.field.chars().filter(|c| !c.is_ascii_digit()).collect();
+        // The rest of an advice may repeat the value.
+        let advice = problem.advice.split(": ").next().unwrap_or_default().to_owned();
+        (field, problem.found == MISSING, problem.expected.clone(), advice)
+    };
+    let mut counts = std::collections::HashMap::new();
+    for (_, problem) in found.iter().filter(|(_, problem)| problem.field.contains('[')) {
+        *counts.entry(kind(problem)).or_insert(0_usize) += 1;
+    }
+    let mut groups: Vec<Group> = Vec::new();
+    let mut places = std::collections::HashMap::new();
+    for (target, problem) in found {
+        let kind = kind(&problem);
+        let is_one_of_many = counts.get(&kind).is_some_and(|count| *count >= ALIKE);
+        match places.get(&kind).filter(|_| is_one_of_many).and_then(|place: &usize| groups.get_mut(*place)) {
+            Some(group) => {
+                group.others += 1;
+                group.last = target;
+            }
+            None => {
+                places.insert(kind, groups.len());
+                groups.push(Group { first: (target, problem), others: 0, last: None });
+            }
+        }
+    }
+    groups
 }
 
 /// Refused document: its name and the errors found.

@@ -1,6 +1,7 @@
 //! Conversion of a [`Node`] to a Rust struct and back; the declaration in `record!` defines the format.
 
 use super::canonical::Scanner;
+use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
 use super::sink::{Sink, Tree};
 use super::{Node, Path, Problems};
 use std::collections::HashSet;
@@ -163,6 +164,9 @@ fn unknown_key_advice(entries: &[(String, Node)], index: usize, key: &str, value
     {
         return format!("use a decimal point: {name}: {whole}.{key}");
     }
+    if let Some((latin, odd)) = latin(key).filter(|(latin, _)| known.contains(&latin.as_str())) {
+        return format!("the {odd} only looks like a Latin letter; type {latin} again");
+    }
     let alike = |name: &&str| strsim::jaro_winkler(name, key);
     match known.iter().max_by(|a, b| alike(a).total_cmp(&alike(b))) {
         Some(name) if alike(name) > ALIKE => format!("did you mean {name}?"),
@@ -218,7 +222,7 @@ impl Field for f64 {
             Node::Number(value) if value.is_finite() => Some(*value + 0.0),
             Node::Integer(value) => Some(*value as f64),
             other => {
-                problems.at(at, other.describe(), expected_number(at.last_key()), number_advice(other));
+                problems.at(at, other.describe(), expected_number(at.last_key()), number_advice(other, at.last_key()));
                 None
             }
         }
@@ -240,8 +244,19 @@ impl Field for f64 {
 
 const NOT_FINITE: &str = "use a finite number, because NaN and infinity are not measured values";
 
-fn number_advice(node: &Node) -> &'static str {
+fn number_advice(node: &Node, key: &str) -> &'static str {
     match node {
+        Node::Text(text) if has_two_points(text) && key.ends_with("_deg") => {
+            "it has two points; write degrees, minutes and seconds as decimal degrees, with one point"
+        }
+        Node::Text(text) if has_two_points(text) => "it has two points; use one decimal point",
+        Node::Text(text) if unquoted(text).parse::<f64>().is_ok_and(f64::is_finite) && unquoted(text) != text => {
+            if typographic_quote(text).is_some() {
+                STRAIGHT_QUOTES
+            } else {
+                "write the number without quotes"
+            }
+        }
         Node::Text(text) if text.contains(',') && text.chars().all(|c| c.is_ascii_digit() || "+-,. ".contains(c)) => {
             "use a decimal point"
         }
@@ -251,6 +266,18 @@ fn number_advice(node: &Node) -> &'static str {
         Node::Number(_) => NOT_FINITE,
         _ => "",
     }
+}
+
+/// Returns a text without the quotes around it, straight or typographic.
+pub(crate) fn unquoted(text: &str) -> &str {
+    text.trim_matches(|c| "\"'“”„‟«»‘’".contains(c)).trim()
+}
+
+/// Returns `true` for digits with two points between them.
+pub(crate) fn has_two_points(text: &str) -> bool {
+    let digits = text.trim_start_matches(['+', '-']);
+    digits.matches('.').count() == 2
+        && digits.split('.').all(|part| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
 impl Field for u32 {

@@ -70,6 +70,49 @@ fn character(c: char) -> String {
     format!("{script}{c:?} (U+{:04X})", u32::from(c))
 }
 
+/// Letters of other alphabets that look like Latin ones, in the order of those below.
+const ALIKE: &str = "аеорсухіјѕԁһАВЕКМНОРСТХІЈЅοανρτυχΑΒΕΖΗΙΚΜΝΟΡΤΥΧ";
+const LATIN: &str = "aeopcyxijsdhABEKMHOPCTXIJSoavptuxABEZHIKMNOPTYX";
+
+/// Returns the text with the Latin letters that its letters of other alphabets look like, and a description of the
+/// first of these; `None` if there are none, or if others remain.
+pub(crate) fn latin(text: &str) -> Option<(String, String)> {
+    let odd = text.chars().find(|c| !c.is_ascii())?;
+    let alike = |c: char| match ALIKE.chars().position(|alike| alike == c) {
+        Some(place) => LATIN.chars().nth(place).unwrap_or(c),
+        None => c,
+    };
+    let latin: String = text.chars().map(alike).collect();
+    latin.is_ascii().then(|| (latin, character(odd)))
+}
+
+/// Advice for [`typographic_quote`].
+pub(crate) const STRAIGHT_QUOTES: &str = "replace the typographic quotes by straight ones (\")";
+
+/// Returns the first typographic quote in a text, as word processors write it, or `None` if there is none.
+pub(crate) fn typographic_quote(text: &str) -> Option<char> {
+    text.chars().find(|c| "“”„‟«»‘’".contains(*c))
+}
+
+/// Returns the reason why a text in the form of a date is not a day of the calendar, or `None` if it has another form
+/// or is one.
+pub(crate) fn impossible_date(text: &str) -> Option<String> {
+    let parts: Vec<&str> = text.split('-').collect();
+    let digits = |part: &&str| part.bytes().all(|byte| byte.is_ascii_digit());
+    let ([4, 2, 2], true) = (&parts.iter().map(|part| part.len()).collect::<Vec<_>>()[..], parts.iter().all(digits))
+    else {
+        return None;
+    };
+    let (year, month, day): (i16, i8, i8) = (parts[0].parse().ok()?, parts[1].parse().ok()?, parts[2].parse().ok()?);
+    match Date::new(year, month, 1) {
+        Err(_) => Some(format!("there is no month {:02}", month)),
+        Ok(first) if !(1..=first.days_in_month()).contains(&day) => {
+            Some(format!("month {month:02} of {year} has {} days", first.days_in_month()))
+        }
+        Ok(_) => None,
+    }
+}
+
 impl fmt::Display for Identifier {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&self.0)
@@ -78,7 +121,9 @@ impl fmt::Display for Identifier {
 
 impl Field for Identifier {
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
-        const ADVICE: &str = "use a name that is valid for files and folders; put free text into name";
+        const VALID: &str = "use a name that is valid for files and folders; put free text into name";
+        let quoted = matches!(node, Node::Text(text) if typographic_quote(text).is_some());
+        let advice = if quoted { STRAIGHT_QUOTES } else { VALID };
         let found = match node {
             Node::Text(text) => match Self::new(text) {
                 Ok(identifier) => return Some(identifier),
@@ -91,7 +136,7 @@ impl Field for Identifier {
             }
             other => other.describe(),
         };
-        problems.at(at, found, Self::expected(""), ADVICE);
+        problems.at(at, found, Self::expected(""), advice);
         None
     }
 
@@ -106,6 +151,8 @@ impl Field for Identifier {
     }
 }
 
+const FORM_OF_DATE: &str = "write year, month and day, in double quotes";
+
 impl Field for Date {
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
         if let Node::Text(text) = node
@@ -114,7 +161,12 @@ impl Field for Date {
         {
             return Some(date);
         }
-        problems.at(at, node.describe(), Self::expected(""), "write year, month and day, in double quotes");
+        let advice = match node {
+            Node::Text(text) if typographic_quote(text).is_some() => STRAIGHT_QUOTES.to_owned(),
+            Node::Text(text) => impossible_date(text).unwrap_or_else(|| FORM_OF_DATE.to_owned()),
+            _ => FORM_OF_DATE.to_owned(),
+        };
+        problems.at(at, node.describe(), Self::expected(""), advice);
         None
     }
 
@@ -191,6 +243,30 @@ mod tests {
             assert!(Identifier::new(bad).is_err(), "{bad}");
         }
         assert!(Identifier::new("SPS-2А").unwrap_err().contains("Cyrillic"));
+    }
+
+    /// Expected: the Gregorian calendar; 2028 is a leap year, 2100 is not.
+    #[test]
+    fn a_day_that_is_not_in_the_calendar_is_told_from_another_form() {
+        assert_eq!(impossible_date("2028-02-30").unwrap(), "month 02 of 2028 has 29 days");
+        assert_eq!(impossible_date("2100-02-29").unwrap(), "month 02 of 2100 has 28 days");
+        assert_eq!(impossible_date("2026-13-01").unwrap(), "there is no month 13");
+        assert_eq!(impossible_date("2026-04-00").unwrap(), "month 04 of 2026 has 30 days");
+        for other in ["2028-02-29", "2026-1-1", "30.02.2028", "2026-02-3O", "a-b-c", "", "2026-02-30T00:00:00Z"] {
+            assert_eq!(impossible_date(other), None, "{other}");
+        }
+    }
+
+    /// Expected: Unicode's names of the characters.
+    #[test]
+    fn letters_that_look_latin_are_told() {
+        assert_eq!(ALIKE.chars().count(), LATIN.chars().count());
+        let (latin_text, odd) = latin("\u{430}lph\u{430}_arcsec").unwrap();
+        assert_eq!((latin_text.as_str(), odd.as_str()), ("alpha_arcsec", "Cyrillic letter 'а' (U+0430)"));
+        assert_eq!(latin("\u{3BF}mega").unwrap().1, "Greek letter 'ο' (U+03BF)");
+        assert!(latin("alpha").is_none() && latin("альфа").is_none());
+        assert_eq!(typographic_quote("\u{201C}A\u{201D}"), Some('\u{201C}'));
+        assert_eq!(typographic_quote("\"A'"), None);
     }
 
     #[test]

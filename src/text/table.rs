@@ -1,12 +1,16 @@
 //! Tables of numbers (CSV): a header of column names in any order, `#` comments, and every error with its location.
 //!
 //! Tables come from a meter's software or a spreadsheet and are not signed. CR LF and a byte order mark, which such
-//! programs write, are therefore accepted. An unknown column is ignored and reported, unless its name looks like a
-//! misspelt one. Semicolons and decimal commas are refused with an explanation, because their meaning depends on the
-//! country of the reader.
+//! programs write, are therefore accepted, and so are empty cells at the end of a line and a first line `sep=;`. An
+//! unknown column is ignored and reported, unless its name looks like a misspelt one. Semicolons between the columns
+//! are accepted and reported, and with them decimal commas if the whole file has them; anything in between is refused,
+//! because its meaning depends on the country of the reader.
 
-use super::node::plain_text;
+use super::kind::{Kind, mistaken};
+use super::node::hand_written_text;
 use super::problem::{Location, MOST_PROBLEMS, Problem, Unreadable};
+use super::record::{has_two_points, unquoted};
+use super::scalar::latin;
 use std::collections::BTreeMap;
 
 /// Table: rows of cells, in the order of the requested columns.
@@ -18,6 +22,8 @@ pub(crate) struct Table<'a> {
     /// Rows in the order of the text.
     pub rows: Vec<Row>,
     left_out: Vec<String>,
+    /// How a file with semicolons between the columns was read; `None` with commas between them.
+    semicolons: Option<&'static str>,
 }
 
 /// Row of a table.
@@ -47,28 +53,40 @@ impl<'a> Table<'a> {
         required: &[&'a str],
         optional: &[&'a str],
     ) -> Result<Self, Unreadable> {
-        Self::parse(name, bytes, required, optional).map_err(|unreadable| unreadable.in_text(bytes))
+        Self::parse(name, bytes, required, optional).map_err(|unreadable| {
+            let expected = if required.contains(&"jx_ma") { Kind::Currents } else { Kind::Angles };
+            let other = mistaken(name, bytes, expected.words(), |kind| kind == expected);
+            other.unwrap_or_else(|| unreadable.in_text(bytes))
+        })
     }
 
     fn parse(name: &'a str, bytes: &'a [u8], required: &[&'a str], optional: &[&'a str]) -> Result<Self, Unreadable> {
-        let text = decoded(name, bytes)?;
+        let text = hand_written_text(name, bytes)?;
         let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line)).filter(|(_, line)| {
             let line = line.trim();
             !line.is_empty() && !line.starts_with('#')
         });
-        let Some((line, header)) = lines.next() else {
+        let mut first = lines.next();
+        let declared = first.and_then(|(_, line)| declared_separator(line));
+        if declared.is_some() {
+            first = lines.next();
+        }
+        let Some((line, header)) = first else {
             let expected = format!("the header {}", required.join(","));
             return Err(Unreadable::whole(name, None, "only spaces and comments", expected, ""));
         };
-        let header = Header::read(name, line, header, required, optional)?;
+        let with_semicolons = header.contains(';') && !header.contains(',');
+        let separator = declared.unwrap_or(if with_semicolons { ';' } else { ',' });
+        let header = Header::read(name, (line, header), separator, required, optional)?;
         let mut problems = Vec::new();
         let mut rows = Vec::new();
         for (line, text) in lines {
-            match cells(line, text) {
+            match cells(line, text, separator).map(|cells| without_trailing(cells, header.width)) {
+                Ok(cells) if cells.iter().all(|cell| cell.text.is_empty()) => {}
                 Ok(cells) if cells.len() == header.width => {
                     rows.push(Row { cells: header.order.iter().map(|&place| cells[place].clone()).collect() });
                 }
-                Ok(cells) => problems.push(wrong_number_of_cells(line, text, cells.len(), header.width)),
+                Ok(cells) => problems.push(wrong_number_of_cells((line, text), separator, cells.len(), header.width)),
                 Err(problem) => problems.push(problem),
             }
             if problems.len() >= MOST_PROBLEMS {
@@ -76,19 +94,29 @@ impl<'a> Table<'a> {
             }
         }
         let Header { columns, left_out, .. } = header;
+        let mut semicolons = None;
+        if problems.is_empty() && separator == ';' {
+            match with_decimal_points(&mut rows, &columns) {
+                Ok(true) => semicolons = Some("read with semicolons between columns and decimal commas"),
+                Ok(false) => semicolons = Some("read with semicolons between columns"),
+                Err(problem) => problems.push(problem),
+            }
+        }
         if problems.is_empty() {
-            Ok(Self { name, bytes, columns, rows, left_out })
+            Ok(Self { name, bytes, columns, rows, left_out, semicolons })
         } else {
             Err(Unreadable::of(name, problems))
         }
     }
 
-    /// Returns a remark that lists the ignored columns, or `None` if there are none.
+    /// Returns a remark on how the table was understood, if it has decimal commas or ignored columns, otherwise `None`.
     pub(crate) fn remark(&self) -> Option<String> {
         let names: Vec<String> = self.left_out.iter().map(|name| format!("{name:?}")).collect();
         let (words, are) = if names.len() == 1 { ("column", "is") } else { ("columns", "are") };
-        let name = self.name;
-        (!names.is_empty()).then(|| format!("{name}: the {words} {} {are} ignored", names.join(", ")))
+        let ignored = (!names.is_empty()).then(|| format!("the {words} {} {are} ignored", names.join(", ")));
+        let semicolons = self.semicolons.map(str::to_owned);
+        let remarks: Vec<String> = semicolons.into_iter().chain(ignored).collect();
+        (!remarks.is_empty()).then(|| format!("{}: {}", self.name, remarks.join("; ")))
     }
 
     /// Returns the index of a column in the cells of a row, or `None` for an optional column that is absent.
@@ -170,20 +198,44 @@ fn counted(problems: Vec<Problem>) -> Vec<Problem> {
     shown.collect()
 }
 
-/// Returns the bytes as text, without byte order mark and with LF line endings.
-fn decoded(name: &str, bytes: &[u8]) -> Result<String, Unreadable> {
-    let bytes = bytes.strip_prefix(&[0xEF, 0xBB, 0xBF]).unwrap_or(bytes);
-    let mut plain = Vec::with_capacity(bytes.len());
-    for (index, &byte) in bytes.iter().enumerate() {
-        if byte != b'\r' || bytes.get(index + 1) != Some(&b'\n') {
-            plain.push(byte);
-        }
-    }
-    plain_text(name, &plain).map(str::to_owned)
+/// Returns the separator that a line `sep=;` of a spreadsheet program declares, or `None` for any other line.
+fn declared_separator(line: &str) -> Option<char> {
+    let line = line.trim().trim_matches('"');
+    let declared = line.get(..4).filter(|start| start.eq_ignore_ascii_case("sep=")).map(|_| line[4..].chars());
+    let mut characters = declared?;
+    characters.next().filter(|separator| ",;\t".contains(*separator) && characters.next().is_none())
 }
 
-/// Returns the cells of a line. A quoted cell may contain commas, and quotes written twice (RFC 4180).
-fn cells(line: usize, text: &str) -> Result<Vec<Cell>, Problem> {
+/// Returns the cells without the empty ones beyond the columns of the header, which spreadsheet programs add.
+fn without_trailing(mut cells: Vec<Cell>, columns: usize) -> Vec<Cell> {
+    while cells.len() > columns && cells.last().is_some_and(|cell| cell.text.is_empty()) {
+        cells.pop();
+    }
+    cells
+}
+
+/// Replaces the decimal commas of a table that has semicolons between its columns, and returns `true` if there were
+/// any. Commas are decimal marks only if the whole table has no decimal point.
+fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<bool, Problem> {
+    let comma = rows.iter().flat_map(|row| &row.cells).find(|cell| cell.text.contains(',')).cloned();
+    let Some(comma) = comma else { return Ok(false) };
+    for (place, cell) in rows.iter().flat_map(|row| row.cells.iter().enumerate()) {
+        if cell.text.contains('.') {
+            return Err(Problem {
+                location: Some(cell.location),
+                field: columns.get(place).copied().unwrap_or_default().to_owned(),
+                found: format!("{:?}, with decimal commas from line {} on", cell.text, comma.location.line),
+                expected: "decimal commas or decimal points in the whole file".to_owned(),
+                advice: "save the table again with decimal points".to_owned(),
+            });
+        }
+    }
+    rows.iter_mut().flat_map(|row| &mut row.cells).for_each(|cell| cell.text = cell.text.replacen(',', ".", 1));
+    Ok(true)
+}
+
+/// Returns the cells of a line. A quoted cell may contain separators, and quotes written twice (RFC 4180).
+fn cells(line: usize, text: &str, separator: char) -> Result<Vec<Cell>, Problem> {
     let mut cells = Vec::new();
     let mut rest = Some(text);
     while let Some(here) = rest {
@@ -191,21 +243,21 @@ fn cells(line: usize, text: &str) -> Result<Vec<Cell>, Problem> {
         let column = text[..text.len() - start.len()].chars().count() + 1;
         let location = Location { line, column };
         let (cell, after) = match start.strip_prefix('"') {
-            Some(quoted) => unquoted(quoted).ok_or_else(|| bad_quotes(location))?,
+            Some(quoted) => quoted_cell(quoted, separator).ok_or_else(|| bad_quotes(location))?,
             None => {
-                let end = start.find(',').unwrap_or(start.len());
+                let end = start.find(separator).unwrap_or(start.len());
                 (start[..end].trim_end().to_owned(), &start[end..])
             }
         };
         cells.push(Cell { text: cell, location });
-        rest = after.strip_prefix(',');
+        rest = after.strip_prefix(separator);
     }
     Ok(cells)
 }
 
-/// Returns the text of a quoted cell, given from after its first quote, and the rest of the line: nothing, or a comma
-/// and more. Returns `None` if the last quote is missing or something else follows it.
-fn unquoted(quoted: &str) -> Option<(String, &str)> {
+/// Returns the text of a quoted cell, given from after its first quote, and the rest of the line: nothing, or a
+/// separator and more. Returns `None` if the last quote is missing or something else follows it.
+fn quoted_cell(quoted: &str, separator: char) -> Option<(String, &str)> {
     let (mut text, mut rest) = (String::new(), quoted);
     loop {
         let end = rest.find('"')?;
@@ -218,7 +270,7 @@ fn unquoted(quoted: &str) -> Option<(String, &str)> {
         text.push('"');
     }
     let after = rest.trim_start();
-    (after.is_empty() || after.starts_with(',')).then(|| (text.trim().to_owned(), after))
+    (after.is_empty() || after.starts_with(separator)).then(|| (text.trim().to_owned(), after))
 }
 
 fn bad_quotes(location: Location) -> Problem {
@@ -245,25 +297,26 @@ struct Header<'a> {
 impl<'a> Header<'a> {
     fn read(
         name: &str,
-        line: usize,
-        header: &str,
+        (line, header): (usize, &str),
+        separator: char,
         required: &[&'a str],
         optional: &[&'a str],
     ) -> Result<Self, Unreadable> {
         let at = Location { line, column: 1 };
         let expected = || format!("the header {} (columns in any order)", required.join(","));
-        for (separator, words) in [(';', "semicolons"), ('\t', "tabs")] {
-            if header.contains(separator) {
-                let found = format!("columns separated by {words}");
-                let advice = "save as CSV with commas between columns and decimal points in numbers";
-                return Err(Unreadable::whole(name, Some(at), found, expected(), advice));
-            }
+        let other = [(';', "semicolons and commas"), ('\t', "tabs")];
+        let found = other.iter().find(|(other, _)| *other != separator && header.contains(*other));
+        if let Some((_, words)) = found.or(other.last().filter(|_| separator == '\t')) {
+            let found = format!("columns separated by {words}");
+            let advice = "save as CSV with commas between columns and decimal points in numbers";
+            return Err(Unreadable::whole(name, Some(at), found, expected(), advice));
         }
-        if header.split(',').nth(MOST_PROBLEMS).is_some() {
-            let found = format!("{} columns", header.split(',').count());
+        if header.split(separator).nth(MOST_PROBLEMS).is_some() {
+            let found = format!("{} columns", header.split(separator).count());
             return Err(Unreadable::whole(name, Some(at), found, expected(), "check that this is the right file"));
         }
-        let cells = cells(line, header).map_err(|problem| Unreadable::of(name, vec![problem]))?;
+        let cells = cells(line, header, separator).map_err(|problem| Unreadable::of(name, vec![problem]))?;
+        let cells = without_trailing(cells, 1);
         if cells.iter().all(|cell| cell.text.parse::<f64>().is_ok()) {
             let found = "numbers instead of the header";
             return Err(Unreadable::whole(name, Some(at), found, expected(), "add the header"));
@@ -280,6 +333,9 @@ impl<'a> Header<'a> {
                 if cells[..index].iter().any(|earlier| earlier.text == cell.text) {
                     problem(format!("duplicate column {:?}", cell.text), String::new());
                 }
+            } else if let Some((column, odd)) = latin(&cell.text).filter(|(latin, _)| known.contains(&latin.as_str())) {
+                let advice = format!("the {odd} only looks like a Latin letter; type {column} again");
+                problem(format!("column {:?}", cell.text), advice);
             } else if let Some(column) = meant(&known, &cell.text) {
                 problem(format!("column {:?}", cell.text), format!("did you mean {column}?"));
             } else {
@@ -320,11 +376,15 @@ fn meant<'a>(known: &[&'a str], found: &str) -> Option<&'a str> {
         _ => found.as_str(),
     };
     let other_unit = known.iter().find(|column| column.rsplit_once('_').is_some_and(|(known, _)| known == stem));
-    if nearest.0 <= 2 { Some(nearest.1) } else { other_unit.copied() }
+    // Any two letters are as near to a short column as this.
+    let is_near = nearest.0 <= 2 && nearest.0 < nearest.1.len();
+    if is_near { Some(nearest.1) } else { other_unit.copied() }
 }
 
-fn wrong_number_of_cells(line: usize, text: &str, found: usize, columns: usize) -> Problem {
-    let advice = if text.contains(';') {
+fn wrong_number_of_cells((line, text): (usize, &str), separator: char, found: usize, columns: usize) -> Problem {
+    let advice = if separator == ';' {
+        "separate columns by semicolons, as in the header"
+    } else if text.contains(';') {
         "separate columns by commas, and use decimal points"
     } else if found > columns {
         "use decimal points; a decimal comma splits a number in two"
@@ -349,6 +409,10 @@ fn advice_for_number(text: &str) -> &'static str {
         "omit the whole row of a reading that was not taken"
     } else if text.contains(';') {
         "separate columns by commas"
+    } else if has_two_points(text) {
+        "it has two points; use one decimal point"
+    } else if unquoted(text) != text && unquoted(text).parse::<f64>().is_ok_and(f64::is_finite) {
+        "write the number without quotes"
     } else if !text.is_ascii() {
         "use ASCII digits, a decimal point and an ASCII minus"
     } else if text.ends_with(|c: char| c.is_ascii_alphabetic())

@@ -1,7 +1,9 @@
 //! Conversion of hand-written YAML to a tree with `serde_yaml`, with the line and column of every error.
 
-use super::node::{MOST_BRACKETS, location_of, plain_text};
+use super::kind::{Kind, mistaken};
+use super::node::{MOST_BRACKETS, hand_written_text, location_of};
 use super::problem::{Location, Problems, Step, Target, Unreadable};
+use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
 use super::{Field, Node, Path};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::cell::Cell;
@@ -9,19 +11,20 @@ use std::fmt;
 
 /// Reads one YAML document.
 ///
-/// `name` is the file name used in messages. Refused are documents larger than [`super::LARGEST_DOCUMENT_BYTES`], bytes
-/// that are not UTF-8, a byte order mark, CR, and anything that `serde_yaml` cannot read (with line and column).
+/// `name` is the file name used in messages. A byte order mark and CR LF line ends are accepted. Refused are documents
+/// larger than [`super::LARGEST_DOCUMENT_BYTES`], bytes that are not UTF-8, other CR, and anything that `serde_yaml`
+/// cannot read (with line and column).
 pub(crate) fn tree(name: &str, bytes: &[u8]) -> Result<(Node, String), Unreadable> {
-    let text = plain_text(name, bytes)?;
+    let text = hand_written_text(name, bytes)?;
     if text.lines().all(|line| line.trim_start().is_empty() || line.trim_start().starts_with('#')) {
         return Err(Unreadable::whole(name, None, "only spaces and comments", "a YAML document", ""));
     }
-    refuse_control_characters(name, text)?;
-    refuse_deep(name, text)?;
-    let budget = Budget::of(text);
-    match Whole(&budget).deserialize(serde_yaml::Deserializer::from_str(text)) {
-        Ok(node) => Ok((node, text.to_owned())),
-        Err(error) => Err(unreadable_yaml(name, &error)),
+    refuse_control_characters(name, &text)?;
+    refuse_deep(name, &text)?;
+    let budget = Budget::of(&text);
+    match Whole(&budget).deserialize(serde_yaml::Deserializer::from_str(&text)) {
+        Ok(node) => Ok((node, text)),
+        Err(error) => Err(unreadable_yaml(name, &text, &error)),
     }
 }
 
@@ -38,11 +41,14 @@ fn refuse_control_characters(name: &str, text: &str) -> Result<(), Unreadable> {
     Err(Unreadable::whole(name, at, format!("{kind} U+{:04X}", u32::from(c)), "text", "delete it"))
 }
 
-fn unreadable_yaml(name: &str, error: &serde_yaml::Error) -> Unreadable {
+fn unreadable_yaml(name: &str, text: &str, error: &serde_yaml::Error) -> Unreadable {
     let location = error.location().map(|at| Location { line: at.line(), column: at.column() });
     let mut words = error.to_string();
     if let Some(at) = words.find(" at line ") {
         words.truncate(at);
+    }
+    if let Some(at) = location.filter(|at| is_indented_by_tab(text, *at)) {
+        return Unreadable::whole(name, Some(at), "a tab before the first word", "spaces", "replace the tab by spaces");
     }
     // The parser could read these constructs, but they are refused; the message describes what is in the file.
     let (found, advice) = match words.as_str() {
@@ -60,6 +66,12 @@ fn unreadable_yaml(name: &str, error: &serde_yaml::Error) -> Unreadable {
         }
     };
     Unreadable::whole(name, location, found, "a plain YAML mapping", advice)
+}
+
+/// Returns `true` if the line at `at` begins with spaces and a tab.
+fn is_indented_by_tab(text: &str, at: Location) -> bool {
+    let line = at.line.checked_sub(1).and_then(|index| text.lines().nth(index));
+    line.is_some_and(|line| line.trim_start_matches(' ').starts_with('\t'))
 }
 
 /// Finds the line and column of an error by reading the text again up to it.
@@ -292,6 +304,8 @@ impl<'de> Visitor<'de> for Probe<'_> {
     }
 }
 
+const RIGHT_FILE: &str = "check that this is the right file";
+
 /// Reads a document of the record type `T`: first the tree, then its `format`, then the fields, and finally the rules
 /// of its content (`check`). Every error of the stage that fails is reported.
 pub(crate) fn read_document<T: Field>(
@@ -300,7 +314,12 @@ pub(crate) fn read_document<T: Field>(
     format: &str,
     check: impl FnOnce(&T, &mut Problems),
 ) -> Result<T, Unreadable> {
-    parse(name, bytes, format, check).map_err(|unreadable| unreadable.in_text(bytes))
+    parse(name, bytes, format, check).map_err(|unreadable| {
+        let expected = Kind::of_format(format).map_or(format, |kind| kind.words());
+        // The message about another format shows its line.
+        let other = mistaken(name, bytes, expected, Kind::is_yaml);
+        other.unwrap_or_else(|| unreadable.in_text(bytes))
+    })
 }
 
 fn parse<T: Field>(
@@ -313,7 +332,13 @@ fn parse<T: Field>(
     let mut problems = Problems::new();
     let expected = format!("{format:?}");
     if let Some(found) = node.get("format").filter(|found| **found != Node::Text(format.to_owned())) {
-        let advice = "check that this is the right file";
+        let advice = match found {
+            Node::Text(text) if typographic_quote(text).is_some() => STRAIGHT_QUOTES.to_owned(),
+            Node::Text(text) => latin(text)
+                .filter(|(latin, _)| latin == format)
+                .map_or_else(|| RIGHT_FILE.to_owned(), |(_, odd)| format!("type the {odd} again, as a Latin letter")),
+            _ => RIGHT_FILE.to_owned(),
+        };
         problems.at(&Path::Root.key("format"), found.describe(), expected, advice);
         return Err(problems.refuse(name, &text));
     }

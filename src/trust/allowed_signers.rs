@@ -9,6 +9,7 @@ use super::pattern::matches_list;
 use super::public_key::fingerprint;
 use super::signer_line::{self, SignerLine};
 use super::sshsig::KeyPoint;
+use crate::text::kind::{Kind, mistaken};
 use crate::text::problem::MOST_PROBLEMS;
 use crate::text::{Printable, Unreadable};
 use jiff::Timestamp;
@@ -79,6 +80,12 @@ impl AllowedSigners {
     /// Returns [`Unreadable`] with the errors of all lines, up to a limit. `cert-authority` is an error, and so is a
     /// date without `Z`, because it would depend on the verifier's local time. A list without any key is an error too.
     pub fn parse(name: &str, text: &[u8]) -> Result<Self, Unreadable> {
+        let is_near = |kind| matches!(kind, Kind::AllowedSigners | Kind::PublicKey | Kind::PrivateKey);
+        Self::read(name, text)
+            .map_err(|refused| mistaken(name, text, Kind::AllowedSigners.words(), is_near).unwrap_or(refused))
+    }
+
+    fn read(name: &str, text: &[u8]) -> Result<Self, Unreadable> {
         let mut kept = Vec::new();
         let mut problems = Vec::new();
         for line in lines::of(name, text)? {

@@ -4,6 +4,7 @@ use super::krl::{self, Revoked};
 use super::signer_line::read_key;
 use super::{LARGEST_TRUST_FILE_BYTES, PublicKey, lines};
 use crate::text::Unreadable;
+use crate::text::kind::{Kind, mistaken};
 use crate::text::problem::MOST_PROBLEMS;
 use sha1::Sha1;
 use sha2::{Digest, Sha256};
@@ -27,7 +28,10 @@ impl RevokedKeys {
     /// Returns [`Unreadable`] with every error in a list of public keys, or with the first error in a key revocation
     /// list and its offset in bytes.
     pub fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        let revoked = if bytes.starts_with(b"SSHKRL") { binary(name, bytes)? } else { text(name, bytes)? };
+        let read = if bytes.starts_with(b"SSHKRL") { binary(name, bytes) } else { text(name, bytes) };
+        let expected = "revoked keys: a KRL, or a list of public keys";
+        let is_near = |kind| matches!(kind, Kind::KeyRevocationList | Kind::PublicKey | Kind::PrivateKey);
+        let revoked = read.map_err(|refused| mistaken(name, bytes, expected, is_near).unwrap_or(refused))?;
         Ok(Self { name: name.to_owned(), revoked })
     }
 

@@ -4,6 +4,7 @@ use super::error::{KeyError, SignatureError};
 use super::public_key::{AnyKey, PublicKey, shortened};
 use super::sshsig::{KeyPoint, Message, Signature};
 use super::wire::{Truncated, Wire};
+use crate::text::kind::Kind;
 use base64ct::{Base64, Encoding};
 use ed25519_dalek::Signer as _;
 use ssh_key::private::{Ed25519Keypair, KeypairData};
@@ -181,7 +182,10 @@ fn check_kind(pem: &str) -> Result<(), KeyError> {
         {
             ("a public key", "give the private key, the file without .pub")
         }
-        _ => ("something else", "give the file that `keygen` or `ssh-keygen -t ed25519` wrote"),
+        other => {
+            let found = Kind::of(other.as_bytes()).map_or("something else", Kind::words);
+            (found, "give the file that `keygen` or `ssh-keygen -t ed25519` wrote")
+        }
     };
     Err(KeyError::NotAPrivateKey { found, advice })
 }

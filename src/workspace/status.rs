@@ -1,6 +1,7 @@
 //! What a workspace holds: stands, sites, passports in force, passports that expire soon, alarms, keys.
 
 use super::Workspace;
+use crate::batch::paths::{is_stand, is_yaml};
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
 use crate::folder::search;
@@ -15,7 +16,6 @@ use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -138,14 +138,13 @@ fn stands(workspace: &Workspace, time: Timestamp, remarks: &mut Vec<String>) -> 
         valid_until: stand.certificate.valid_until,
         expired: stand.certificate.valid_until.is_some_and(|last| last < today),
     };
-    read_each(Walk::deep(folder, |name| name == "stand.yaml"), Stand::from_yaml, line, remarks)
+    read_each(Walk::deep(folder, is_stand), Stand::from_yaml, line, remarks)
 }
 
 fn sites(workspace: &Workspace, remarks: &mut Vec<String>) -> Result<Vec<SiteLine>, FileError> {
     let Some(folder) = &workspace.sites else { return Ok(Vec::new()) };
-    let is_site = |name: &OsStr| Path::new(name).extension().is_some_and(|extension| extension == "yaml");
     let line = |file, site: Site| SiteLine { id: site.id.to_string(), file, latitude_deg: site.geodetic_deg() };
-    read_each(Walk::flat(folder, is_site), Site::from_yaml, line, remarks)
+    read_each(Walk::flat(folder, is_yaml), Site::from_yaml, line, remarks)
 }
 
 fn read_each<T, L>(

@@ -45,6 +45,7 @@ transcripts! {
     hostile_folder: "hostile-folder.md",
     json_refusals: "json-refusals.md",
     keys: "keys.md",
+    mistakes: "mistakes.md",
     near_the_pole: "near-the-pole.md",
     plan: "plan.md",
     register: "register.md",

@@ -5,10 +5,12 @@ use dtg_passport::calibration::{Exclusion, Readings, Setup};
 use dtg_passport::coefficients::PositionIndex;
 
 /// (file, what the message must say).
-const BAD: [(&str, &[&str]); 29] = [
+const BAD: [(&str, &[&str]); 31] = [
     ("", &["empty file"]),
     ("# nothing\n\n", &["only spaces and comments"]),
-    ("i;j;jx_ma;jy_ma\n1;1;0,1;0,2\n", &["c.csv:1:1", "semicolons", "commas between columns"]),
+    ("i;j;jx_ma;jy_ma\n1;1;0,1;0.2\n", &["c.csv:2:9", "decimal commas from line 2 on", "the whole file"]),
+    ("i;j,jx_ma,jy_ma\n", &["c.csv:1:1", "semicolons and commas", "commas between columns"]),
+    ("i;j;jx_ma;jy_ma\n1;1;0,1\n", &["c.csv:2:1", "3 values", "semicolons, as in the header"]),
     ("i\tj\tjx_ma\tjy_ma\n", &["c.csv:1:1", "tabs"]),
     ("i,j,jx_ma\n1,1,0.1\n", &["c.csv:1:1", "no column jy_ma"]),
     ("i,j,jx_ua,jy_ma\n", &["c.csv:1:5", "\"jx_ua\"", "did you mean jx_ma?"]),
@@ -119,6 +121,26 @@ fn form_does_not_matter() {
     rows.insert(3, String::new());
     let other = format!("\u{feff}{}\r\n", rows.join("\r\n"));
     assert_eq!(read(&setup, &other).unwrap(), expected);
+}
+
+/// What spreadsheet programs add to a table, or write otherwise in other countries, changes no number.
+#[test]
+fn tables_of_spreadsheet_programs_are_read() {
+    let setup = paper();
+    let good = good(&setup);
+    let expected = read(&setup, &good).unwrap();
+    let excel = format!("sep=,\r\n{},,\r\n,,,,\r\n", good.trim_end().replace('\n', ",,\r\n"));
+    assert_eq!(read(&setup, &excel).unwrap(), expected);
+    let quoted = good.replacen("i,j,jx_ma", "\"i\",\"j\",\"jx_ma\"", 1);
+    assert_eq!(read(&setup, &quoted).unwrap(), expected);
+    let german = good.replace(',', ";").replace('.', ",");
+    let read = |text: &str| read(&setup, text).unwrap();
+    assert_eq!(read(&german).means_ma(), expected.means_ma());
+    assert!(read(&german).remark().unwrap().ends_with("semicolons between columns and decimal commas"));
+    assert_eq!(read(&format!("\"sep=;\"\n{german}")), read(&german));
+    let points = good.replace(',', ";");
+    assert_eq!(read(&points).means_ma(), expected.means_ma());
+    assert!(read(&points).remark().unwrap().ends_with("read with semicolons between columns"));
 }
 
 /// (cycle, number, rows) of the visits to position (1, 1).

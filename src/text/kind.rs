@@ -1,0 +1,183 @@
+//! Kind of a file that was given instead of another, by its content: for messages, never for a decision.
+
+use super::Unreadable;
+
+/// Number of first bytes that show the kind of a file.
+const BEGINNING_BYTES: usize = 4096;
+
+/// Kind of a file that a user may have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// Stand file, certified or not.
+    Stand,
+    /// Site file.
+    Site,
+    /// Gyro type.
+    Gyro,
+    /// Laboratory file.
+    Laboratory,
+    /// Passport.
+    Passport,
+    /// Signed list of withdrawn passports.
+    RevocationList,
+    /// Angles in CSV.
+    Angles,
+    /// Currents in CSV.
+    Currents,
+    /// Result of a calibration in JSON.
+    Result,
+    /// Trusted keys.
+    AllowedSigners,
+    /// Public key, or a list of them.
+    PublicKey,
+    /// Private key.
+    PrivateKey,
+    /// OpenSSH's key revocation list.
+    KeyRevocationList,
+    /// Table of a spreadsheet program.
+    Workbook,
+    /// Document for print.
+    Pdf,
+    /// Page.
+    Html,
+}
+
+/// Formats of YAML documents.
+const FORMATS: [(&str, Kind); 6] = [
+    ("dtg-stand/1", Kind::Stand),
+    ("dtg-site/1", Kind::Site),
+    ("dtg-gyro/1", Kind::Gyro),
+    ("dtg-laboratory/1", Kind::Laboratory),
+    ("dtg-passport/1", Kind::Passport),
+    ("dtg-revocation/1", Kind::RevocationList),
+];
+
+/// First bytes of binary files: ZIP (Office Open XML), Compound File (Office 97), PDF, KRL.
+const MAGIC: [(&[u8], Kind); 4] = [
+    (b"PK\x03\x04", Kind::Workbook),
+    (b"\xD0\xCF\x11\xE0", Kind::Workbook),
+    (b"%PDF", Kind::Pdf),
+    (b"SSHKRL\n\0", Kind::KeyRevocationList),
+];
+
+impl Kind {
+    /// Returns the kind of a file, or `None` if nothing in its beginning shows it.
+    pub(crate) fn of(bytes: &[u8]) -> Option<Self> {
+        if let Some((_, kind)) = MAGIC.iter().find(|(magic, _)| bytes.starts_with(magic)) {
+            return Some(*kind);
+        }
+        let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+        let beginning = String::from_utf8_lossy(&bytes[..bytes.len().min(BEGINNING_BYTES)]);
+        let mut lines = beginning.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+        let first = lines.next()?;
+        let format = |line: &str| {
+            let value = line.strip_prefix("format:")?.trim().trim_matches(['"', '\'']);
+            FORMATS.iter().find(|(format, _)| *format == value).map(|(_, kind)| *kind)
+        };
+        Self::of_line(first, &beginning).or_else(|| std::iter::once(first).chain(lines).find_map(format))
+    }
+
+    /// Returns the kind that the first line shows.
+    fn of_line(line: &str, beginning: &str) -> Option<Self> {
+        let is_key_type =
+            |word: &str| ["ssh-", "sk-ssh-", "ecdsa-sha2-", "sk-ecdsa-"].iter().any(|prefix| word.starts_with(prefix));
+        let lower = line.to_ascii_lowercase();
+        let has_column = |column: &str| lower.contains(column) && lower.contains([',', ';', '\t']);
+        let words: Vec<&str> = line.split_ascii_whitespace().collect();
+        match line {
+            _ if line.starts_with("-----BEGIN") && line.contains("PRIVATE KEY") => Some(Self::PrivateKey),
+            _ if line.starts_with('{') && beginning.contains("\"passport_id\"") => Some(Self::Result),
+            _ if lower.starts_with("<!doctype html") || lower.starts_with("<html") => Some(Self::Html),
+            _ if words.first().is_some_and(|word| is_key_type(word)) && words.len() > 1 => Some(Self::PublicKey),
+            _ if words.iter().any(|word| is_key_type(word)) => Some(Self::AllowedSigners),
+            _ if has_column("jx_") => Some(Self::Currents),
+            _ if has_column("alpha_") => Some(Self::Angles),
+            _ => None,
+        }
+    }
+
+    /// Returns the kind of documents with a `format`.
+    #[cfg(feature = "factory")]
+    pub(crate) fn of_format(format: &str) -> Option<Self> {
+        FORMATS.iter().find(|(known, _)| *known == format).map(|(_, kind)| *kind)
+    }
+
+    /// Returns `true` for documents in YAML, whose readers report the value of `format`.
+    pub(crate) fn is_yaml(self) -> bool {
+        FORMATS.iter().any(|(_, kind)| *kind == self)
+    }
+
+    /// Returns the kind as a noun phrase.
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Self::Stand => "a stand file (dtg-stand/1)",
+            Self::Site => "a site file (dtg-site/1)",
+            Self::Gyro => "a gyro type (dtg-gyro/1)",
+            Self::Laboratory => "a laboratory file (dtg-laboratory/1)",
+            Self::Passport => "a passport (dtg-passport/1)",
+            Self::RevocationList => "a list of withdrawn passports (dtg-revocation/1)",
+            Self::Angles => "a table of angles (CSV)",
+            Self::Currents => "a table of currents (CSV)",
+            Self::Result => "the result of a calibration (JSON)",
+            Self::AllowedSigners => "a list of trusted keys (allowed_signers)",
+            Self::PublicKey => "a public key",
+            Self::PrivateKey => "a private key",
+            Self::KeyRevocationList => "a key revocation list of OpenSSH (KRL)",
+            Self::Workbook => "a file of a spreadsheet or word processor",
+            Self::Pdf => "a PDF file",
+            Self::Html => "an HTML page",
+        }
+    }
+
+    fn advice(self) -> &'static str {
+        match self {
+            Self::RevocationList | Self::KeyRevocationList => "give it with --revoked",
+            Self::AllowedSigners => "give it with --trust",
+            Self::PrivateKey => "give it with --key, and keep it secret",
+            Self::Gyro => "give it with --gyro",
+            Self::Laboratory => "give it with --laboratory",
+            Self::Workbook => "export the table as CSV",
+            Self::Html | Self::Pdf => "give the file from which it was made",
+            _ => "check the order of the arguments",
+        }
+    }
+}
+
+/// Returns the refusal of a file of another kind than `accepted`, or `None` if its kind is accepted or unknown.
+pub(crate) fn mistaken(
+    name: &str,
+    bytes: &[u8],
+    expected: &str,
+    accepted: impl Fn(Kind) -> bool,
+) -> Option<Unreadable> {
+    let kind = Kind::of(bytes).filter(|kind| !accepted(*kind))?;
+    Some(Unreadable::whole(name, None, kind.words(), expected, kind.advice()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_shows_what_it_is() {
+        for (text, kind) in [
+            (&b"# made up\nformat: \"dtg-stand/1\"\nstand: {}\n"[..], Kind::Stand),
+            (b"\xEF\xBB\xBFid: here\r\nformat: dtg-site/1\r\n", Kind::Site),
+            (include_bytes!("../../passports/SPS-2/0017/moscow-bmstu-1.yaml"), Kind::Passport),
+            (include_bytes!("../../docs/currents.csv"), Kind::Currents),
+            (include_bytes!("../../docs/angles.csv"), Kind::Angles),
+            (include_bytes!("../../docs/allowed_signers"), Kind::AllowedSigners),
+            (b"ssh-ed25519 AAAAC3 comment\n", Kind::PublicKey),
+            (b"-----BEGIN OPENSSH PRIVATE KEY-----\nb3", Kind::PrivateKey),
+            (b"SSHKRL\n\0\0\0", Kind::KeyRevocationList),
+            (b"PK\x03\x04\x14\0", Kind::Workbook),
+            (b"{\n  \"passport_id\": \"a\"", Kind::Result),
+            (b"<!DOCTYPE html>", Kind::Html),
+        ] {
+            assert_eq!(Kind::of(text), Some(kind));
+        }
+        for text in [&b""[..], b"\n# x\n", b"hello", b"format: \"dtg-other/1\"\n", b"\xFF\xFE\0", b"{}", b"i,j,k\n"] {
+            assert_eq!(Kind::of(text), None, "{text:?}");
+        }
+    }
+}
