@@ -242,6 +242,7 @@ tolerance:                           # largest permitted deviations from the nom
   omega_g_deg_per_h_per_g: 0.01
   omega_k_deg_per_h_per_g: 0.01
 # gravity_m_per_s2: 9.80665          # the g to which the drifts refer
+# noise: {visit_deg_per_h: 0.001, turn_on_deg_per_h: 0.005}    # of the drift, from visit to visit and between turn-ons
 "#;
 
 /// Laboratory with the paper's meter.

@@ -25,11 +25,12 @@ pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
     let added = match defaults::add(&mut arguments) {
         Ok(added) => added,
         Err(failure) => {
+            let (words, code) = (failure.message.clone(), failure.code);
             if names_json(&arguments) {
-                output::failure(&failure);
+                output::failure(failure);
             }
-            output::complain(&failure.message);
-            return Err(ExitCode::from(failure.code));
+            output::complain(&words);
+            return Err(ExitCode::from(code));
         }
     };
     let parsed = |arguments: &[OsString]| {
@@ -48,7 +49,7 @@ pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
     }
     let advice = refused.as_ref().map(advice).unwrap_or_default();
     if names_json(&arguments) {
-        output::failure(&Failure::usage(words(refused.as_ref().unwrap_or(&error)) + &advice));
+        output::failure(Failure::usage(words(refused.as_ref().unwrap_or(&error)) + &advice));
     }
     match refused {
         Some(refused) => {

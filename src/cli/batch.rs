@@ -12,7 +12,7 @@ use crate::parallel;
 use crate::passport::{NAMESPACE, Trust};
 use crate::report::issued::{Form, Report, Reports, Told, failure, warnings};
 use crate::text::{LARGEST_DOCUMENT_BYTES, shown};
-use crate::trust::{AllowedSigners, NotAuthorised};
+use crate::trust::{AllowedSigners, NotAuthorised, PublicKey};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use jiff::Timestamp;
@@ -62,14 +62,24 @@ impl BatchOptions {
         let path = files::folder_of(key).join("allowed_signers");
         let Ok(bytes) = files::read(&path, LARGEST_DOCUMENT_BYTES) else { return };
         let Ok(signers) = AllowedSigners::parse("allowed_signers", &bytes) else { return };
-        match signers.authorise(&public, &self.identity, NAMESPACE, issued_at) {
-            Ok(()) | Err(NotAuthorised::UnknownKey) => {}
-            Err(miss) => output::say(&format!(
-                "--identity {}: {miss}, as {} shows; the passport will not be valid for whoever trusts that list; use \
-                 --trust to refuse it",
-                self.identity,
-                shown(&path)
-            )),
+        if !matches!(signers.authorise(&public, &self.identity, NAMESPACE, issued_at), Err(NotAuthorised::UnknownKey)) {
+            self.warn_unless_authorised(&signers, &public, issued_at, &shown(&path).to_string());
+        }
+    }
+
+    /// Warns if `signers`, described by `source`, do not give the key to the identity.
+    pub(super) fn warn_unless_authorised(
+        &self,
+        signers: &AllowedSigners,
+        public: &PublicKey,
+        issued_at: Timestamp,
+        source: &str,
+    ) {
+        if let Err(miss) = signers.authorise(public, &self.identity, NAMESPACE, issued_at) {
+            output::say(&format!(
+                "--identity {}: {miss} (by {source}); laboratories with that list will refuse the new passports",
+                self.identity
+            ));
         }
     }
 

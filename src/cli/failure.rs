@@ -38,17 +38,18 @@ struct Place {
     message: String,
 }
 
-/// The JSON of a failure.
+/// The JSON of a failure that ends a verb.
 #[derive(Serialize)]
-pub(super) struct Document<'a> {
-    error: Body<'a>,
+pub(super) struct Document {
+    error: Body,
 }
 
+/// A failure as programs read it.
 #[derive(Serialize)]
-struct Body<'a> {
-    code: &'a str,
-    message: &'a str,
-    problems: &'a [Place],
+pub(super) struct Body {
+    code: &'static str,
+    message: String,
+    problems: Vec<Place>,
 }
 
 impl Failure {
@@ -110,8 +111,13 @@ impl Failure {
     }
 
     /// Returns the failure as programs read it.
-    pub(super) fn document(&self) -> Document<'_> {
-        let message = self.summary.as_ref().unwrap_or(&self.message).trim_end();
-        Document { error: Body { code: self.kind, message, problems: &self.problems } }
+    pub(super) fn into_body(self) -> Body {
+        let message = self.summary.unwrap_or(self.message).trim_end().to_owned();
+        Body { code: self.kind, message, problems: self.problems }
+    }
+
+    /// Returns the failure as the JSON of a verb that it ends.
+    pub(super) fn into_document(self) -> Document {
+        Document { error: self.into_body() }
     }
 }

@@ -72,7 +72,7 @@ const EXAMPLES: [(&str, [&str; 2]); 19] = [
         "render",
         [
             "render moscow-bmstu-1.yaml -o passport.html --trust allowed_signers",
-            "render moscow-bmstu-1.yaml -o passport.html --trust allowed_signers --lang en,ru",
+            "render 'passports/SPS-2/*/*.yaml' --out pages --trust allowed_signers --lang en,ru",
         ],
     ),
     (

@@ -147,11 +147,12 @@ pub fn main() -> ExitCode {
     match result {
         Ok(code) => ExitCode::from(code),
         Err(failure) => {
+            let (words, code) = (failure.message.clone(), failure.code);
             if json {
-                output::failure(&failure);
+                output::failure(failure);
             }
-            output::complain(&failure.message);
-            ExitCode::from(failure.code)
+            output::complain(&words);
+            ExitCode::from(code)
         }
     }
 }

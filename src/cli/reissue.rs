@@ -72,6 +72,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         allow_uncalibratable: options.batch.allow_uncalibratable,
     };
     let signer = options.batch.signer()?;
+    if let Some(public) = signer.as_deref().and_then(|signer| signer.public_key()) {
+        options.batch.warn_unless_authorised(&trust.signers, &public, order.issued_at, "--trust");
+    }
     let folder = options.out.as_deref().map(|out| Arc::new(options.batch.folder(out)));
     let change = Change { order, stands: &options.stands, sites: &options.sites, trust, question, folder };
     options.batch.run(signer.as_deref(), None, |batch, tell| {

@@ -1,25 +1,33 @@
 //! Verb `render`: the printed form of a verified passport.
 
+use super::failure::Body;
 use super::output::Format;
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, defaults, output, register};
-use crate::files;
+use crate::batch::paths::{self, Named};
+use crate::files::{self, FileError};
+use crate::folder::Folder;
 use crate::report::page::{Language, Languages, PassportPage};
-use crate::report::{style, verdict};
+use crate::report::{issued, style, verdict};
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Write the printed passport: one HTML file for paper, screen and phone
+///
+/// With --out, PASSPORT is a file or a quoted pattern, and a - reads a list of paths from standard input.
 #[derive(Args)]
 pub(super) struct Options {
-    /// Passport file; in a workspace also its identifier
-    #[arg(value_name = "PASSPORT", value_parser = defaults::passport())]
-    passport: PathBuf,
-    /// HTML file to write
-    #[arg(short, value_name = "FILE.html")]
-    output: PathBuf,
+    /// Passport files; in a workspace also their identifiers
+    #[arg(required = true, value_name = "PASSPORT", value_parser = defaults::passport())]
+    passports: Vec<PathBuf>,
+    /// HTML file to write, for one passport
+    #[arg(short, value_name = "FILE.html", required_unless_present = "out", conflicts_with = "out")]
+    output: Option<PathBuf>,
+    /// Folder for the pages of several passports: <model>/<serial>/<site>-<revision>.html
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     #[command(flatten)]
     trust: TrustOptions,
     /// Folder of passports: state on the page if another passport in it supersedes this one
@@ -34,6 +42,18 @@ pub(super) struct Options {
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
+}
+
+/// The result for one of several passports.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Each {
+    Written(Rendered),
+    Refused {
+        file: String,
+        #[serde(rename = "error")]
+        refusal: Body,
+    },
 }
 
 /// The written page, and the verdict on its passport.
@@ -71,17 +91,56 @@ pub(super) fn languages(written: &[Written]) -> Languages {
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let (register, trust) = register::asked(options.register.as_deref(), trust, &question)?;
-    let bytes = files::read(&options.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
-    let name = name_of(&options.passport);
-    let page = PassportPage::verified(&name, &bytes, &trust, &question, register.as_ref())
-        .map_err(|refused| Failure::verdict("no page was written\n", &name, &refused))?;
-    output::file(&options.output, &page.html(&languages(&options.lang)), options.force)?;
-    output::say(&format!("wrote {}", shown(&options.output)));
-    let verdict = verdict::Verdict::of(&name, page.verification());
+    let write = |passport: &Path, output: Option<&Path>| {
+        let bytes = files::read(passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+        let name = name_of(passport);
+        let page = PassportPage::verified(&name, &bytes, &trust, &question, register.as_ref())
+            .map_err(|refused| Failure::verdict("no page was written\n", &name, &refused))?;
+        let verdict = verdict::Verdict::of(&name, page.verification());
+        let in_folder = || {
+            let path = Folder::new(options.out.as_deref()?).path_of_id(verdict.id.as_deref()?)?;
+            Some(path.with_extension("html"))
+        };
+        let output = output.map(Path::to_owned).or_else(in_folder);
+        let output = output.ok_or_else(|| Failure::usage("missing -o FILE.html or --out DIR"))?;
+        output::file(&output, &page.html(&languages(&options.lang)), options.force)?;
+        output::say(&format!("wrote {}", shown(&output)));
+        if options.format == Format::Text && !verdict.valid {
+            output::say(&style::plain(&verdict::text(std::slice::from_ref(&verdict))));
+        }
+        Ok(Rendered { page: name_of(&output), verdict })
+    };
+    let Some(output) = &options.output else { return each(options, |passport| write(passport, None)) };
+    let [passport] = options.passports.as_slice() else {
+        return Err(Failure::usage("-o FILE.html is for one passport; give --out DIR for several"));
+    };
+    let rendered = write(passport, Some(output))?;
     if options.format == Format::Json {
-        output::json(&Rendered { page: name_of(&options.output), verdict })?;
-    } else if !verdict.valid {
-        output::say(&style::plain(&verdict::text(&[verdict])));
+        output::json(&rendered)?;
     }
     Ok(0)
+}
+
+/// Writes the page of each passport; one that is refused does not stop the others.
+fn each(options: &Options, write: impl Fn(&Path) -> Result<Rendered, Failure>) -> Result<Code, Failure> {
+    let (mut code, mut results) = (0, Vec::new());
+    for named in paths::named(&options.passports, &mut std::io::stdin().lock()) {
+        let (file, written) = match named {
+            Ok(Named::File(path)) => (name_of(&path), write(&path)),
+            Ok(Named::Folder(path)) => (name_of(&path), Err(Failure::file(FileError::Folder { path }))),
+            Err(refused) => (refused.what.clone(), Err(Failure::unusable(issued::failure(&refused)))),
+        };
+        results.push(match written {
+            Ok(rendered) => Each::Written(rendered),
+            Err(failure) => {
+                output::complain(&failure.message);
+                code = code.max(failure.code);
+                Each::Refused { file, refusal: failure.into_body() }
+            }
+        });
+    }
+    if options.format == Format::Json {
+        output::json(&results)?;
+    }
+    Ok(code)
 }

@@ -233,3 +233,27 @@ fn a_million_planned() {
     println!("peak memory: 10,000 planned {few} KiB, 1,000,000 planned {many} KiB");
     assert!(many < 64 << 10);
 }
+
+/// `cargo test --release --test batch -- --ignored --nocapture status_over_ten_thousand`
+#[test]
+#[ignore = "issues 10,000 passports and measures the time, which means something only for an optimised program"]
+fn status_over_ten_thousand() {
+    let workshop = Workshop::new(50, 200);
+    workshop.write(
+        "dtg-passport.toml",
+        "key = \"key\"\nidentity = \"factory\"\ntrust = \"allowed_signers\"\npassports = \"passports\"\n\
+         stands = \"stands\"\nsites = \"sites\"\n",
+    );
+    workshop.run(&format!("issue stands --site sites {SIGN} --no-sync --out passports --format csv"), 0);
+    let mut seconds: Vec<f64> = (0..5)
+        .map(|_| {
+            let start = std::time::Instant::now();
+            let said = workshop.run("status --workspace . --time 2026-11-20", 0);
+            assert!(said.results.contains("Passports  10000 in force\n"), "{}", said.results);
+            start.elapsed().as_secs_f64()
+        })
+        .collect();
+    seconds.sort_by(f64::total_cmp);
+    println!("status over 10,000 passports, 50 stands, 200 sites: {:.2} s (median of {})", seconds[2], seconds.len());
+    assert!(cfg!(debug_assertions) || seconds[2] <= 1.0, "{seconds:?}");
+}
