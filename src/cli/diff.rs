@@ -2,13 +2,12 @@
 
 use super::output::{self, Format};
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, REFUSED};
+use super::{Code, Failure};
 use crate::document::sha256_hex;
 use crate::files;
 use crate::passport::difference::Differences;
 use crate::passport::{CheckName, Content, Question, Trust, verify};
 use crate::report::difference::{self, Side};
-use crate::report::{style, verdict};
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, printable};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -55,8 +54,7 @@ impl Past {
         let name = name_of(path);
         let verification = verify(&name, &bytes, trust, question);
         let Some(content) = verification.content_even_if_expired().cloned() else {
-            let verdict = verdict::Verdict::of(&name, &verification);
-            return Err(Failure { message: style::plain(&verdict::text(&[verdict])), code: REFUSED });
+            return Err(Failure::verdict("", &name, &verification));
         };
         let expired = verification.checks().iter().find(|check| check.name == CheckName::InForce);
         if let Some(check) = expired.filter(|check| check.passed() == Some(false)) {

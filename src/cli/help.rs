@@ -16,7 +16,7 @@ Exit codes:
   2  wrong usage, or a file that cannot be read as what it should be";
 
 /// Two examples for each verb, without the name of the program.
-const EXAMPLES: [(&str, [&str; 2]); 19] = [
+const EXAMPLES: [(&str, [&str; 2]); 24] = [
     ("demo", ["demo", "demo --out story"]),
     ("init", ["init factory --identity factory@example.org", "init laboratory"]),
     (
@@ -98,6 +98,43 @@ const EXAMPLES: [(&str, [&str; 2]); 19] = [
              --identity factory@example.org --trust allowed_signers",
             "revoke passports/SPS-2/0017/moscow-bmstu-1.yaml --reason \"wrong site\" --list passports \
              --key factory.key --identity factory@example.org --trust allowed_signers",
+        ],
+    ),
+    (
+        "plan",
+        [
+            "plan --site sites/moscow-bmstu.yaml",
+            "plan --site sites/moscow-bmstu.yaml --readings 24 --frame-axis east,north --criterion worst -o plan.svg",
+        ],
+    ),
+    (
+        "recertify",
+        [
+            "recertify passports/SPS-2/0017/moscow-bmstu-1.yaml angles.csv --number C-2027-0009 --issued 2027-11-02 \
+             --reason \"yearly\" --key factory.key --identity factory@example.org --trust allowed_signers --dry-run",
+            "recertify moscow-bmstu-1.yaml angles.csv --number C-2027-0009 --issued 2027-11-02 --reason \"yearly\" \
+             --key factory.key --identity factory@example.org --trust allowed_signers --out passports",
+        ],
+    ),
+    (
+        "history",
+        [
+            "history SPS-2/0017 --passports passports --trust allowed_signers",
+            "history SPS-2/0017 --passports passports --trust allowed_signers -o history.svg",
+        ],
+    ),
+    (
+        "diff",
+        [
+            "diff moscow-bmstu-1.yaml moscow-bmstu-2.yaml --trust allowed_signers",
+            "diff moscow-bmstu-1.yaml moscow-bmstu-2.yaml --trust allowed_signers --format json",
+        ],
+    ),
+    (
+        "export",
+        [
+            "export moscow-bmstu-1.yaml --to stand,site --out files --trust allowed_signers",
+            "export moscow-bmstu-1.yaml --to json --trust allowed_signers",
         ],
     ),
     ("simulate", ["simulate accuracy --trials 100000", "simulate convergence -o convergence.svg"]),

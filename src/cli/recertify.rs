@@ -4,7 +4,7 @@ use super::issue::read_site;
 use super::key_options::{self, signer_of};
 use super::output::{self, Format};
 use super::trust_options::{self, TrustOptions};
-use super::{Code, Failure, REFUSED, UNUSABLE};
+use super::{Code, Failure};
 use crate::batch::recertification::{AtSite, NotRecertified, Recertification};
 use crate::certification::Header;
 use crate::files;
@@ -106,7 +106,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let seal = signer.as_deref().map(|signer| Seal { signer, trust: Some(&trust) });
     let found = order.run(seal).map_err(|why| match why {
         NotRecertified::Unreadable(error) => Failure::unreadable(error),
-        why => Failure { code: if why.is_unusable() { UNUSABLE } else { REFUSED }, message: why.to_string() },
+        why if why.is_unusable() => Failure::unusable(why),
+        why => Failure::refused(why),
     })?;
     match options.format {
         Format::Json => output::json(&report::to_json(&found, options.dry_run))?,
