@@ -19,7 +19,7 @@ use geographiclib_rs::{Geodesic, InverseGeodesic};
 pub const ROTATION_RAD_PER_S: f64 = 7.292115e-5;
 
 /// Returns the Earth rate Ω, °/h.
-pub fn rotation_deg_per_h() -> f64 {
+pub(crate) fn rotation_deg_per_h() -> f64 {
     degrees_per_hour_from_radians_per_second(ROTATION_RAD_PER_S)
 }
 
@@ -65,7 +65,7 @@ fn rounded(value: f64, per_unit: f64) -> f64 {
 
 /// Returns the geodesic distance between two places, m, rounded to 1 µm
 /// ([Karney](crate::bibliography::Bibliography::Karney13)).
-pub fn distance_m(from: Place, to: Place) -> f64 {
+pub(crate) fn distance_m(from: Place, to: Place) -> f64 {
     let metres: f64 =
         Geodesic::wgs84().inverse(from.latitude_deg, from.longitude_deg, to.latitude_deg, to.longitude_deg);
     rounded(metres, 1e6)

@@ -55,7 +55,7 @@
 //! | [`calibration`] | from currents to parameters, their uncertainty, the fit | |
 //! | [`uncertainty`] | the budget of the uncertainty; 95 % intervals with `monte-carlo` | |
 //! | [`simulation`] | the paper's table and its Fig. 4 | `monte-carlo` |
-//! | [`selftest`] | the reference cases of the mathematics, found again on the user's own machine | `monte-carlo` |
+//! | `selftest` | the reference cases of the mathematics, found again on the user's own machine | `monte-carlo` |
 //! | [`trust`] | signatures, allowed signers, revocation: bytes and time in, a verdict out; private keys with `factory` | |
 //! | `document` | a signed text: split, checked, parsed, joined | |
 //! | [`revocation`] | the signed list of withdrawn passports | |
@@ -66,6 +66,7 @@
 //! | `plan` | the best positions to certify or to read, and their order | `factory` and `monte-carlo` |
 //! | `files`, [`signing`], [`folder`] | whole or not at all; key files and agents; a folder of passports | `factory` |
 //! | `batch` | many passports at once | `factory` |
+//! | [`interface`] | what programs in other languages call: `python`, `c` and `web` | |
 //! | [`report`] | what people read | `report` |
 //! | `schema` | JSON Schemas of the formats | `cli` |
 //! | `template` | commented files to begin with | `cli` |
@@ -112,6 +113,7 @@ pub(crate) mod files;
 pub mod folder;
 pub mod gyro;
 pub(crate) mod history;
+pub mod interface;
 pub mod laboratory;
 pub(crate) mod parallel;
 pub mod passport;
@@ -124,7 +126,7 @@ pub mod revocation;
 #[cfg(feature = "cli")]
 pub(crate) mod schema;
 #[cfg(feature = "monte-carlo")]
-pub mod selftest;
+pub(crate) mod selftest;
 #[cfg(feature = "factory")]
 pub mod signing;
 #[cfg(feature = "monte-carlo")]

@@ -44,7 +44,7 @@ record! {
 
 impl Identity {
     /// Returns the model and serial number as in the identifier of a passport: `<model>/<serial>`.
-    pub fn id(&self) -> String {
+    pub(crate) fn id(&self) -> String {
         format!("{}/{}", self.model, self.serial)
     }
 }

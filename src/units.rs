@@ -14,7 +14,7 @@ pub fn radians_from_arcseconds(arcseconds: f64) -> f64 {
 }
 
 /// Converts radians to arcseconds.
-pub fn arcseconds_from_radians(radians: f64) -> f64 {
+pub(crate) fn arcseconds_from_radians(radians: f64) -> f64 {
     radians * (648_000.0 / PI)
 }
 
@@ -24,7 +24,7 @@ pub fn radians_from_degrees(degrees: f64) -> f64 {
 }
 
 /// Converts radians to degrees.
-pub fn degrees_from_radians(radians: f64) -> f64 {
+pub(crate) fn degrees_from_radians(radians: f64) -> f64 {
     radians * (180.0 / PI)
 }
 

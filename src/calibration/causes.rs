@@ -149,7 +149,7 @@ impl Cause {
 
     /// Returns the unit in which the uncertainty is shown: arcsec, %, mA or deg/h; 1 for differences in units of their
     /// own uncertainty.
-    pub fn unit(self) -> &'static str {
+    pub(crate) fn unit(self) -> &'static str {
         match self {
             Self::Reading(..) | Self::Gain => "%",
             Self::Floor(..) | Self::Noise(..) | Self::Offset => "mA",

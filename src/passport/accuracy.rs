@@ -124,7 +124,7 @@ impl Stated {
     ///
     /// # Errors
     /// Returns [`NoAccuracy`] if the inputs are unusable or do not determine the parameters.
-    pub fn accuracy(
+    pub(crate) fn accuracy(
         &self,
         certificate: &Certificate,
         positions: &[CertifiedPosition],

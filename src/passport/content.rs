@@ -165,9 +165,6 @@ record! {
     }
 }
 
-/// Largest relative error |found/stated − 1| of a parameter in the self-check.
-pub(crate) const SELF_CHECK_LIMIT: f64 = 1e-9;
-
 /// Gyro of the self-check in every passport that this program issues. No two parameters are equal or opposite, so that
 /// software which exchanges or transposes any of them obtains wrong values. Earlier passports use the GVK-6 of the
 /// paper.
@@ -212,7 +209,7 @@ pub(crate) fn derive_from(geometry: &StandGeometry, site: &Site, gyro: &Paramete
     let matrices = coefficients.matrices.as_ref().map(MatrixRows::from_model);
     // Positions other than the paper's eight may not determine all parameters; laboratory software then cannot be
     // checked.
-    let determined = |check: &SelfCheck| matrices.is_some() || check.error(&coefficients) <= SELF_CHECK_LIMIT;
+    let determined = |check: &SelfCheck| matrices.is_some() || check.error(&coefficients) <= SelfCheck::LIMIT;
     let self_check = SelfCheck::of(gyro, &coefficients).filter(determined);
     Derived { earth, matrices, vectors, self_check }
 }
@@ -281,6 +278,9 @@ impl PositionVectors {
 }
 
 impl SelfCheck {
+    /// Largest relative error |found/stated − 1| of a parameter.
+    pub const LIMIT: f64 = 1e-9;
+
     /// Computes the exact currents of `gyro`; returns `None` if its K has no inverse.
     fn of(gyro: &Parameters, coefficients: &Coefficients) -> Option<Self> {
         let model = gyro.to_model();
@@ -317,20 +317,25 @@ impl SelfCheck {
             let meter = (&Laboratory::paper().meter).into();
             least_squares::solve(coefficients, &currents, &meter, Model::Paper).ok().map(|found| found.parameters)
         };
-        found.map_or(f64::INFINITY, |found| largest_relative_difference(&found, &self.parameters().to_model()))
+        // `f64::max` would ignore a NaN.
+        let worst = |errors: [f64; 8]| errors.into_iter().fold(0.0, |a, b| if b <= a || a.is_nan() { a } else { b });
+        found.map_or(f64::INFINITY, |found| worst(self.errors(&found)))
     }
-}
 
-fn largest_relative_difference(found: &GyroParameters, due: &GyroParameters) -> f64 {
-    let numbers = |gyro: &GyroParameters| {
-        let k = gyro.k_deg_per_h_per_ma;
-        let [x, y]: [f64; 2] = gyro.omega0_deg_per_h.into();
-        [k.m11, k.m12, k.m21, k.m22, x, y, gyro.omega_g_deg_per_h_per_g, gyro.omega_k_deg_per_h_per_g]
-    };
-    let relative = |(found, due): (f64, f64)| if due == 0.0 { found.abs() } else { (found / due - 1.0).abs() };
-    let differences = numbers(found).into_iter().zip(numbers(due)).map(relative);
-    // `f64::max` would ignore a NaN.
-    differences.fold(0.0, |worst, next| if next <= worst { worst } else { next })
+    /// Returns the relative error |found/stated − 1| of each parameter found from the currents: K_x, K_xy, K_yx, K_y,
+    /// ω_0x, ω_0y, ω_g, ω_k. Correct software has none above [`SelfCheck::LIMIT`].
+    pub fn errors(&self, found: &GyroParameters) -> [f64; 8] {
+        let numbers = |gyro: &GyroParameters| {
+            let k = gyro.k_deg_per_h_per_ma;
+            let [x, y]: [f64; 2] = gyro.omega0_deg_per_h.into();
+            [k.m11, k.m12, k.m21, k.m22, x, y, gyro.omega_g_deg_per_h_per_g, gyro.omega_k_deg_per_h_per_g]
+        };
+        let (found, due) = (numbers(found), numbers(&self.parameters().to_model()));
+        std::array::from_fn(|place| match (found[place], due[place]) {
+            (found, 0.0) => found.abs(),
+            (found, due) => (found / due - 1.0).abs(),
+        })
+    }
 }
 
 /// A document with an expiry date.

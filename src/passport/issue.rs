@@ -7,7 +7,7 @@ pub use refused::IssueRefused;
 use super::accuracy::Stated;
 use super::annotations::{self, absences};
 use super::content::{
-    Content, Header, PASSPORT_FORMAT, Predecessor, REFERENCE_GYRO, SELF_CHECK_LIMIT, derive_from, passport_id,
+    Content, Header, PASSPORT_FORMAT, Predecessor, REFERENCE_GYRO, SelfCheck, derive_from, passport_id,
 };
 use super::{NAMESPACE, read};
 use crate::calibration::prediction::{NoiseGrowth, noise_growth};
@@ -142,7 +142,7 @@ impl PreparedStand {
         let read_back = read_back(&payload, &content)?;
         if let Some(self_check) = &read_back.self_check {
             let error = self_check.error(&read_back.coefficients());
-            if error.is_nan() || error > SELF_CHECK_LIMIT {
+            if error.is_nan() || error > SelfCheck::LIMIT {
                 return Err(IssueRefused::SelfCheckFails { error, growth: site.uncertainty_growth() });
             }
         }

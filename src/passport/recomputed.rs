@@ -1,9 +1,7 @@
 //! Recomputation of every number of a passport that follows from its inputs, and comparison with the stated ones.
 
 use super::accuracy::Stated;
-use super::content::{
-    Content, Derived, PositionCurrents, PositionVectors, REFERENCE_GYRO, SELF_CHECK_LIMIT, SelfCheck, derive,
-};
+use super::content::{Content, Derived, PositionCurrents, PositionVectors, REFERENCE_GYRO, SelfCheck, derive};
 use crate::earth::{AZIMUTH_QUANTUM_DEG, LENGTH_QUANTUM_M};
 use crate::text::{Field, Node};
 
@@ -52,7 +50,7 @@ pub(crate) fn compare(content: &Content) -> Result<(), Vec<WrongNumber>> {
     // Consistent numbers are not enough: if the stated gyro is absurd, no software can recover its parameters.
     if let Some(self_check) = &content.self_check {
         let error = self_check.error(&content.coefficients());
-        if error.is_nan() || error > SELF_CHECK_LIMIT {
+        if error.is_nan() || error > SelfCheck::LIMIT {
             let field = "self_check (calibrated again, relative error)".to_owned();
             wrong.push(WrongNumber { field, stated: 0.0, computed: error });
         }

@@ -63,7 +63,7 @@ pub enum AlarmKind {
 
 impl AlarmKind {
     /// Returns the name of the kind, for programs.
-    pub fn key(self) -> &'static str {
+    pub(crate) fn key(self) -> &'static str {
         match self {
             Self::Forked => "forked",
             Self::DuplicateId => "duplicate_id",

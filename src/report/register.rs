@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 impl State {
     /// Returns the name of the state in words.
-    pub fn words(self) -> &'static str {
+    pub(crate) fn words(self) -> &'static str {
         match self {
             Self::InForce => "in force",
             Self::Expiring => "expiring",

@@ -12,32 +12,32 @@ pub(crate) mod regression;
 
 /// Published number and the one computed here.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Case {
+pub(crate) struct Case {
     /// Name of the example.
-    pub example: &'static str,
+    pub(crate) example: &'static str,
     /// Name of the quantity, with its unit.
-    pub quantity: String,
+    pub(crate) quantity: String,
     /// Source of the number: document, clause, table or equation.
-    pub source: &'static str,
+    pub(crate) source: &'static str,
     /// Published value.
-    pub expected: f64,
+    pub(crate) expected: f64,
     /// Largest permitted difference, in the unit of the quantity.
-    pub tolerance: f64,
+    pub(crate) tolerance: f64,
     /// Value computed here.
-    pub found: f64,
+    pub(crate) found: f64,
     /// Number of correct digits, −log₁₀ of the relative error; only for certified values.
-    pub digits: Option<f64>,
+    pub(crate) digits: Option<f64>,
 }
 
 impl Case {
     /// Returns `true` if the computed value is within the tolerance.
-    pub fn passed(&self) -> bool {
+    pub(crate) fn passed(&self) -> bool {
         (self.found - self.expected).abs() <= self.tolerance
     }
 }
 
 /// Runs the self-test and returns all its cases.
-pub fn run() -> Vec<Case> {
+pub(crate) fn run() -> Vec<Case> {
     let mut cases = gum::cases();
     cases.extend(monte_carlo::cases());
     cases.extend(regression::cases());

@@ -71,7 +71,7 @@ pub struct ConvergenceRow {
 
 impl Deviations {
     /// Returns the name of the distribution in results.
-    pub fn key(self) -> &'static str {
+    pub(crate) fn key(self) -> &'static str {
         match self {
             Self::Uniform => "uniform",
             Self::Corners => "corners",

@@ -33,7 +33,7 @@ pub fn stand(stream: &mut Stream, deviations: Deviations, limit_deg: f64) -> Vec
 }
 
 /// Draws a gyro whose parameters are uniform within the tolerance of its type.
-pub fn gyro(stream: &mut Stream, gyro_type: &GyroType) -> GyroParameters {
+pub(crate) fn gyro(stream: &mut Stream, gyro_type: &GyroType) -> GyroParameters {
     let nominal = gyro_type.nominal.to_model();
     let tolerance = &gyro_type.tolerance;
     let mut within_percent = |value: f64, percent: f64| value * (1.0 + stream.within(percent) / 100.0);

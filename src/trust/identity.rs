@@ -19,7 +19,7 @@ pub struct BadIdentity(String);
 ///
 /// # Errors
 /// Returns [`BadIdentity`] if a list of allowed signers would not read it as exactly one principal.
-pub fn check_identity(identity: &str) -> Result<(), BadIdentity> {
+pub(crate) fn check_identity(identity: &str) -> Result<(), BadIdentity> {
     let plain = |c: char| rule::allowed_in_string(c) && !c.is_whitespace() && !"\"',*?!#".contains(c);
     let good = !identity.is_empty()
         && identity.len() <= LONGEST_PATTERN

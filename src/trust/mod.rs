@@ -34,7 +34,8 @@ mod wire;
 pub(crate) use allowed_signers::TrustedKey;
 pub use allowed_signers::{AllowedSigners, NotAuthorised};
 pub use error::{KeyError, SignatureError};
-pub use identity::{BadIdentity, check_identity};
+pub use identity::BadIdentity;
+pub(crate) use identity::check_identity;
 pub use public_key::PublicKey;
 pub use revoked_keys::RevokedKeys;
 #[cfg(feature = "factory")]

@@ -52,7 +52,7 @@ pub struct ParameterBudget {
 impl ParameterBudget {
     /// Returns the expanded uncertainty: half the width of the interval that covers the parameter with probability
     /// `COVERAGE`.
-    pub fn expanded_uncertainty(&self) -> f64 {
+    pub(crate) fn expanded_uncertainty(&self) -> f64 {
         self.coverage_factor * self.standard_uncertainty
     }
 }

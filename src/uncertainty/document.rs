@@ -21,7 +21,7 @@ pub(crate) struct WholeDocument<'a> {
 
 /// Uncertainty budget: the key `budget` of `calibrate --format json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct BudgetDocument {
+pub(crate) struct BudgetDocument {
     /// Key of the method.
     pub(crate) method: &'static str,
     /// Sentence on the dominant contribution.
@@ -100,7 +100,7 @@ fn finite(value: f64) -> Option<f64> {
 
 impl BudgetDocument {
     /// Creates the document of a budget and the sentence on it.
-    pub fn new(budget: &Budget, sentence: Option<String>) -> Self {
+    pub(crate) fn new(budget: &Budget, sentence: Option<String>) -> Self {
         let covariance = budget.covariance();
         let parameters = budget.parameters.iter().map(|line| ParameterDocument {
             parameter: line.parameter.key(),

@@ -22,8 +22,6 @@ pub(crate) mod monte_carlo;
 
 pub use budget::{Budget, Contribution, ParameterBudget};
 #[cfg(feature = "monte-carlo")]
-pub use document::BudgetDocument;
-#[cfg(feature = "monte-carlo")]
 pub use engine::{Engine, ReadingShape};
 #[cfg(feature = "monte-carlo")]
 pub use entries::{Entry, EntryUncertainty};

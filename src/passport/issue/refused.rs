@@ -3,7 +3,7 @@
 use crate::coefficients::SingularPositions;
 use crate::document::SigningFailed;
 use crate::passport::accuracy::NoAccuracy;
-use crate::passport::content::{Dated, SELF_CHECK_LIMIT};
+use crate::passport::content::{Dated, SelfCheck};
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable};
 use crate::trust::{BadIdentity, SignatureError};
 use jiff::Timestamp;
@@ -76,9 +76,10 @@ pub enum IssueRefused {
     Uncalibratable,
     /// The self-check does not reproduce its own parameters.
     #[error(
-        "the self-check fails: the relative error of a parameter is {error:.1e} (limit {SELF_CHECK_LIMIT:e}); on this \
-         stand at this site the eight positions do not determine the gyro (the uncertainty of K grows as \
-         1/cos(latitude), here {growth:.4})"
+        "the self-check fails: the relative error of a parameter is {error:.1e} (limit {limit:e}); on this stand at this \
+         site the eight positions do not determine the gyro (the uncertainty of K grows as 1/cos(latitude), here \
+         {growth:.4})",
+        limit = SelfCheck::LIMIT
     )]
     SelfCheckFails {
         /// Largest relative error of a parameter.

@@ -13,9 +13,6 @@ pub enum Language {
 }
 
 impl Language {
-    /// All languages.
-    pub const ALL: [Self; 2] = [Self::English, Self::Russian];
-
     /// Returns the language tag used in HTML and on the command line (BCP 47).
     pub fn tag(self) -> &'static str {
         match self {
@@ -126,7 +123,7 @@ impl Languages {
     }
 
     /// Returns the first language: the language of the page and of its numbers.
-    pub fn first(&self) -> Language {
+    pub(crate) fn first(&self) -> Language {
         self.first
     }
 

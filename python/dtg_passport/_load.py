@@ -1,0 +1,269 @@
+"""Reading and verification of passports."""
+
+from __future__ import annotations
+
+import datetime
+import itertools
+import json
+import os
+import warnings
+from collections.abc import Iterable, Iterator
+
+from . import _dtg_passport
+from ._common import Path, named
+from ._passport import Passport, Refused, Verification, checks_of
+
+# Passports verified at a time by load_many: enough work for the threads, little memory.
+CHUNK = 512
+
+
+def _enquiry(
+    trust: Path | bytes,
+    serial: str | None,
+    at: tuple[float, float] | None,
+    time: str | datetime.date | None,
+    issuer: str | None,
+    revoked: Path | bytes | Iterable[Path | bytes],
+    register: Path | None,
+) -> _dtg_passport.Enquiry:
+    if isinstance(time, datetime.datetime):
+        time = time.isoformat(timespec="seconds")
+    elif isinstance(time, datetime.date):
+        time = time.isoformat()
+    if isinstance(revoked, (str, bytes, os.PathLike)):
+        revoked = (revoked,)
+    lists = [("revoked", one) if isinstance(one, bytes) else named(one) for one in revoked]
+    place = None if at is None else [float(degrees) for degrees in at]
+    question = json.dumps({"serial": serial, "at": place, "time": time, "issuer": issuer})
+    folder = None if register is None else os.fspath(register)
+    enquiry = _dtg_passport.Enquiry(_signers(trust), lists, question, folder)
+    for remark in enquiry.remarks():
+        warnings.warn(remark, stacklevel=3)
+    return enquiry
+
+
+def _signers(trust: Path | bytes) -> tuple[str, bytes]:
+    """Return the name and the content of allowed_signers, given as a path or as text.
+
+    Every line of it has the base64 of a key, which begins with AAAA after a space. No path of a file looks like that.
+    """
+    if isinstance(trust, bytes):
+        return "trust", trust
+    if isinstance(trust, str) and ("\n" in trust or " AAAA" in trust):
+        return "trust", trust.encode()
+    return named(trust)
+
+
+def _verification(path: str, answer: _dtg_passport.Answer) -> Verification:
+    content = answer.content()
+    passport = None if content is None else Passport(content, answer)
+    return Verification(path, answer.valid, answer.id, checks_of(answer), passport)
+
+
+def _passport(path: str, answer: _dtg_passport.Answer) -> Passport:
+    content = answer.content()
+    if content is None:
+        raise Refused(path, checks_of(answer))
+    return Passport(content, answer)
+
+
+def _answered(path: Path, enquiry: _dtg_passport.Enquiry) -> tuple[str, _dtg_passport.Answer]:
+    name = os.fspath(path)
+    [answer] = enquiry.verify_files([name], 1)
+    if isinstance(answer, OSError):
+        raise answer
+    return name, answer
+
+
+def load(
+    path: Path,
+    trust: Path | bytes,
+    *,
+    serial: str | None = None,
+    at: tuple[float, float] | None = None,
+    time: str | datetime.date | None = None,
+    issuer: str | None = None,
+    revoked: Path | bytes | Iterable[Path | bytes] = (),
+    register: Path | None = None,
+) -> Passport:
+    """Read a passport and verify it.
+
+    Parameters
+    ----------
+    path
+        Passport file.
+    trust
+        Trusted keys: the path of an OpenSSH allowed_signers file, or its text.
+    serial
+        Serial number of the stand, read from the stand. Without it, a passport of another stand is not noticed.
+    at
+        Place of the stand: latitude and longitude in degrees, north and east positive.
+    time
+        Time to verify for: RFC 3339, a UTC date, or a `datetime` with a time zone. Default: now.
+    issuer
+        Required issuer.
+    revoked
+        Revocation lists: paths (or bytes) of OpenSSH KRLs, lists of public keys, or lists of withdrawn passports.
+    register
+        Folder of passports: a passport that another one there supersedes is refused.
+
+    Returns
+    -------
+    Passport
+        The passport, which passed every check.
+
+    Raises
+    ------
+    Refused
+        If a check failed. `checks` states which, and why.
+    ValueError
+        If the trust, a revocation list or an argument cannot be used.
+    OSError
+        If a file cannot be read.
+
+    Examples
+    --------
+    >>> load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", serial="0018", time="2026-11-20")
+    Traceback (most recent call last):
+    ...
+    dtg_passport.Refused: passports/SPS-2/0017/moscow-bmstu-1.yaml: refused
+      stand (wrong_stand): the passport is for stand SPS-2 0017, not 0018; its deviations do not apply to stand 0018
+    """
+    return _passport(*_answered(path, _enquiry(trust, serial, at, time, issuer, revoked, register)))
+
+
+def loads(
+    data: bytes | str,
+    trust: Path | bytes,
+    *,
+    serial: str | None = None,
+    at: tuple[float, float] | None = None,
+    time: str | datetime.date | None = None,
+    issuer: str | None = None,
+    revoked: Path | bytes | Iterable[Path | bytes] = (),
+    register: Path | None = None,
+) -> Passport:
+    """Verify a passport that is in memory; all else as in `load`.
+
+    Parameters
+    ----------
+    data
+        Content of the passport file: its bytes, or the text of these bytes in UTF-8.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> data = Path("passports/SPS-2/0017/moscow-bmstu-1.yaml").read_bytes()
+    >>> loads(data, "docs/allowed_signers", time="2026-11-20").gravity  # m/s^2
+    9.81572205535764
+    """
+    enquiry = _enquiry(trust, serial, at, time, issuer, revoked, register)
+    name = "passport"
+    return _passport(name, enquiry.verify(name, data.encode() if isinstance(data, str) else data))
+
+
+def verify(
+    path: Path,
+    trust: Path | bytes,
+    *,
+    serial: str | None = None,
+    at: tuple[float, float] | None = None,
+    time: str | datetime.date | None = None,
+    issuer: str | None = None,
+    revoked: Path | bytes | Iterable[Path | bytes] = (),
+    register: Path | None = None,
+) -> Verification:
+    """Verify a passport and return every check, passed or not; parameters as in `load`.
+
+    Raises
+    ------
+    ValueError
+        If the trust, a revocation list or an argument cannot be used.
+    OSError
+        If a file cannot be read.
+
+    Examples
+    --------
+    >>> answer = verify("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2029-01-01")
+    >>> answer.valid
+    False
+    >>> [check.name for check in answer.checks if check.passed is False]
+    ['in_force']
+    """
+    return _verification(*_answered(path, _enquiry(trust, serial, at, time, issuer, revoked, register)))
+
+
+def load_many(
+    paths: Iterable[Path],
+    trust: Path | bytes,
+    *,
+    threads: int | None = None,
+    serial: str | None = None,
+    at: tuple[float, float] | None = None,
+    time: str | datetime.date | None = None,
+    issuer: str | None = None,
+    revoked: Path | bytes | Iterable[Path | bytes] = (),
+    register: Path | None = None,
+) -> Iterator[Passport]:
+    """Read and verify many passports on several threads; parameters as in `load`.
+
+    Parameters
+    ----------
+    paths
+        Passport files, as many as you like: only some hundreds are in memory at a time.
+    threads
+        Number of threads. Default: one for each processor. They do not hold Python's global lock.
+
+    Yields
+    ------
+    Passport
+        The passports, in the order of `paths`.
+
+    Raises
+    ------
+    Refused
+        At the first passport that failed a check, after those before it.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> paths = sorted(Path("passports/SPS-2/0017").glob("*-1.yaml"))
+    >>> [p.id for p in load_many(paths, "docs/allowed_signers", time="2026-11-20")]
+    ['SPS-2/0017/beijing-nim/1', 'SPS-2/0017/moscow-bmstu/1']
+    """
+    if threads is not None and threads < 1:
+        raise ValueError(f"threads: found {threads}, expected a number from 1")
+    # The trust is read at once, so that an error in it does not wait for the first passport.
+    return _each(paths, _enquiry(trust, serial, at, time, issuer, revoked, register), threads or 0)
+
+
+def _each(paths: Iterable[Path], enquiry: _dtg_passport.Enquiry, threads: int) -> Iterator[Passport]:
+    names = (os.fspath(path) for path in paths)
+    while chunk := list(itertools.islice(names, CHUNK)):
+        for name, answer in zip(chunk, enquiry.verify_files(chunk, threads)):
+            if isinstance(answer, OSError):
+                raise answer
+            yield _passport(name, answer)
+
+
+def load_unverified(path: Path) -> Passport:
+    """Read a passport without verifying it: anyone may have written its numbers. It warns every time.
+
+    Raises
+    ------
+    ValueError
+        If the file does not have the form of a passport.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> with warnings.catch_warnings(action="ignore"):
+    ...     load_unverified("docs/self_check.yaml").verified
+    False
+    """
+    name, data = named(path)
+    content = _dtg_passport.Content.unverified(name, data)
+    warnings.warn(f"{name}: NOT VERIFIED: the origin of these numbers is unknown", stacklevel=2)
+    import hashlib
+
+    return Passport(content, hashlib.sha256(data).hexdigest())

@@ -1,0 +1,425 @@
+"""The passport and its checks."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _dtg_passport
+from ._calibration import NAMES, Calibration, Parameters
+from ._common import Array, Path, array, named, optional
+
+UNITS: Mapping[str, str] = MappingProxyType(
+    {
+        "delta": "1",
+        "B": "deg/h",
+        "C": "deg/(h*g)",
+        "n2_inverse": "1/g",
+        "ij": "1",
+        "omega": "deg/h",
+        "n": "g",
+        "deviations": "arcsec",
+        "u_deviations": "arcsec",
+        "gravity": "m/s^2",
+    }
+)
+
+
+class Check(NamedTuple):
+    """Result of one check."""
+
+    name: str
+    """Name of the check, such as `signature`."""
+    passed: bool | None
+    """Whether the check passed, or None if it was not run."""
+    code: str
+    """Result as a code for programs, such as `altered`."""
+    detail: str
+    """Result as a sentence."""
+
+
+def checks_of(answer: _dtg_passport.Answer) -> tuple[Check, ...]:
+    """Return every check of an answer."""
+    return tuple(Check(*check) for check in answer.checks)
+
+
+class Verification(NamedTuple):
+    """Answer to the question whether a passport may be used."""
+
+    path: str
+    """Path of the file."""
+    valid: bool
+    """Whether every requested check passed."""
+    id: str | None
+    """Id of the passport, or None if the signature or the content is not correct."""
+    checks: tuple[Check, ...]
+    """Every check."""
+    passport: Passport | None
+    """The passport if every check passed, otherwise None."""
+
+
+class Refused(Exception):
+    """A passport that failed a check."""
+
+    __module__ = "dtg_passport"
+
+    path: str
+    """Path of the file."""
+    checks: tuple[Check, ...]
+    """Every check; those with `passed` False failed."""
+
+    def __init__(self, path: str, checks: tuple[Check, ...]) -> None:
+        super().__init__(path, checks)
+        self.path = path
+        self.checks = checks
+
+    def __str__(self) -> str:
+        failed = [f"  {check.name} ({check.code}): {check.detail}" for check in self.checks if check.passed is False]
+        return "\n".join([f"{self.path}: refused", *failed])
+
+
+class Position(NamedTuple):
+    """Coefficients and deviations of one position."""
+
+    n: Array
+    """Specific force along x and y, g, shape (2,)."""
+    omega: Array
+    """Earth rate along x and y, deg/h, shape (2,)."""
+    deviations: Array
+    """Certified deviations alpha, beta, gamma, arcsec, shape (3,)."""
+    u_deviations: Array
+    """Their standard uncertainties, arcsec, shape (3,); NaN where none is stated."""
+
+
+class SelfCheck(NamedTuple):
+    """Result of a self-check of laboratory software."""
+
+    passed: bool
+    """Whether every parameter agrees within `limit`."""
+    errors: Mapping[str, float]
+    """Relative error |found/stated - 1| of each parameter."""
+    limit: float
+    """Largest permitted error."""
+
+
+class Passport:
+    """A passport. Its numbers are those that were signed, to the last bit, and cannot be changed.
+
+    Arrays are float64 and read-only. What the passport does not state is NaN. Rows belong to the positions in the order
+    of `ij`.
+    """
+
+    __slots__ = ("_content", "_source")
+    __module__ = "dtg_passport"
+
+    _content: _dtg_passport.Content
+    _source: _dtg_passport.Answer | str
+
+    def __init__(self, content: _dtg_passport.Content, source: _dtg_passport.Answer | str) -> None:
+        """Passports are created by `load` and its siblings, from an answer or, unverified, with the SHA-256 alone."""
+        object.__setattr__(self, "_content", content)
+        object.__setattr__(self, "_source", source)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a passport cannot be changed: {name}")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"a passport cannot be changed: {name}")
+
+    @property
+    def id(self) -> str:
+        """Identifier: model, serial number, site and revision, separated by `/`."""
+        return self._content.id
+
+    @property
+    def sha256(self) -> str:
+        """SHA-256 of the whole file, in lower-case hexadecimal."""
+        return self._source if isinstance(self._source, str) else self._source.sha256
+
+    @property
+    def verified(self) -> bool:
+        """Whether the passport was verified; False only after `load_unverified`."""
+        return self._content.verified
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Every check that was run; empty after `load_unverified`."""
+        return () if isinstance(self._source, str) else checks_of(self._source)
+
+    @property
+    def delta(self) -> Array:
+        """Matrix Delta = n2_inverse @ n1 of the paper, eq. (13), shape (2, 2); NaN without the paper's eight positions."""
+        return self._array("delta", 2, 2)
+
+    @property
+    def B(self) -> Array:
+        """Matrix B of the paper, eq. (13), deg/h, shape (2, 2); NaN without the paper's eight positions."""
+        return self._array("B", 2, 2)
+
+    @property
+    def C(self) -> Array:
+        """Matrix C of the paper, eq. (15), deg/(h*g), shape (2, 2); NaN without the paper's eight positions."""
+        return self._array("C", 2, 2)
+
+    @property
+    def n2_inverse(self) -> Array:
+        """Inverse of n_2, 1/g, shape (2, 2); NaN without the paper's eight positions."""
+        return self._array("n2_inverse", 2, 2)
+
+    @property
+    def ij(self) -> Array:
+        """Indices i (frame) and j (platform) of the positions, counted from 1, shape (N, 2)."""
+        return self._array("ij", -1, 2)
+
+    @property
+    def n(self) -> Array:
+        """Specific force along x and y of the case in each position, g, shape (N, 2)."""
+        return self._array("n", -1, 2)
+
+    @property
+    def omega(self) -> Array:
+        """Earth rate along x and y of the case in each position, deg/h, shape (N, 2)."""
+        return self._array("omega", -1, 2)
+
+    @property
+    def deviations(self) -> Array:
+        """Certified deviations alpha, beta, gamma of each position, arcsec, shape (N, 3)."""
+        return self._array("deviations", -1, 3)
+
+    @property
+    def u_deviations(self) -> Array:
+        """Standard uncertainties of `deviations`, arcsec, shape (N, 3); NaN where none is stated."""
+        return self._array("u_deviations", -1, 3)
+
+    @property
+    def gravity(self) -> float:
+        """Local gravity to which g-sensitive drifts refer, m/s^2."""
+        return self._content.gravity
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        """Unit of every array and of `gravity`.
+
+        >>> from dtg_passport import load
+        >>> passport = load("docs/self_check.yaml", "docs/allowed_signers", time="2026-11-20")
+        >>> passport.units["C"]
+        'deg/(h*g)'
+        """
+        return UNITS
+
+    @property
+    def content(self) -> dict[str, Any]:
+        """All keys of the file but `signature`, as a new dictionary.
+
+        >>> from dtg_passport import load
+        >>> passport = load("docs/self_check.yaml", "docs/allowed_signers", time="2026-11-20")
+        >>> passport.content["passport"]["issuer"]
+        'examples@dtg-passport.test'
+        """
+        content: dict[str, Any] = json.loads(self._content.json())
+        return content
+
+    def _array(self, name: str, *shape: int) -> Array:
+        return array(self._content.array(name), *shape)
+
+    def at(self, i: int, j: int) -> Position:
+        """Return the coefficients and deviations of position (i, j).
+
+        Raises
+        ------
+        KeyError
+            If the passport has no such position.
+
+        Examples
+        --------
+        >>> from dtg_passport import load
+        >>> passport = load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2026-11-20")
+        >>> passport.at(1, 3).deviations
+        array([77.2, 40.6, 21.5])
+        """
+        [places] = np.nonzero((self.ij == (i, j)).all(axis=1))
+        if len(places) == 0:
+            raise KeyError(f"the passport has no position ({i}, {j})")
+        k = int(places[0])
+        return Position(self.n[k], self.omega[k], self.deviations[k], self.u_deviations[k])
+
+    def calibrate(
+        self,
+        currents: object,
+        *,
+        laboratory: Path | None = None,
+        gyro: Path | None = None,
+        method: str = "least-squares",
+    ) -> Calibration:
+        """Calibrate a gyro from its currents in every position.
+
+        Parameters
+        ----------
+        currents
+            Path of a CSV file, a DataFrame or a mapping of columns (`i`, `j`, `jx_ma`, `jy_ma`, and if present
+            `cycle`, `visit`, `time_s`), or an array of shape (N, 4) with rows i, j, jx_ma, jy_ma. Currents in mA.
+        laboratory
+            Path of a laboratory file, `dtg-laboratory/1`. Default: the paper's meter, 0.015 %.
+        gyro
+            Path of a gyro type file, `dtg-gyro/1`, for the verdict.
+        method
+            `least-squares`, `analytic` or `iterative`.
+
+        Returns
+        -------
+        Calibration
+            Parameters, their uncertainty, and the fit.
+
+        Raises
+        ------
+        ValueError
+            If the currents cannot be used, or do not determine the parameters; with the line and column.
+
+        Examples
+        --------
+        >>> from dtg_passport import load
+        >>> passport = load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2026-11-20")
+        >>> found = passport.calibrate("docs/currents.csv", gyro="docs/gvk-6.yaml")
+        >>> found.K.round(3)  # deg/(h*mA)
+        array([[94.994,  9.499],
+               [ 9.5  , 95.   ]])
+        >>> found.verdict["overall"]
+        'undecided'
+        """
+        files = [None if path is None else named(path) for path in (laboratory, gyro)]
+        text, covariance, remarks = self._content.calibrate(_csv(currents), method, *files)
+        return Calibration(json.loads(text), covariance, tuple(remarks))
+
+    def self_check(self, function: Callable[[Passport, Array], Calibration | Sequence[npt.ArrayLike]]) -> SelfCheck:
+        """Test laboratory software with the self-check of this passport.
+
+        Parameters
+        ----------
+        function
+            Software under test. It is called with the passport and currents, rows i, j, jx_ma, jy_ma of shape (N, 4),
+            and returns a Calibration, or the four parameters K (2, 2), omega_0 (2,), omega_g and omega_k.
+
+        Returns
+        -------
+        SelfCheck
+            `passed` is True if every parameter agrees with that of the passport within 1e-9 of itself.
+
+        Raises
+        ------
+        ValueError
+            If the passport has no self-check.
+
+        Examples
+        --------
+        >>> from dtg_passport import load
+        >>> passport = load("docs/self_check.yaml", "docs/allowed_signers", time="2026-11-20")
+        >>> passport.self_check(lambda passport, currents: passport.calibrate(currents, method="analytic")).passed
+        True
+        """
+        currents = self._array("self_check", -1, 4)
+        if len(currents) == 0:
+            raise ValueError("this passport has no self-check: its positions do not determine the eight parameters")
+        found = function(self, currents)
+        K, omega_0, omega_g, omega_k = found.parameters if isinstance(found, Calibration) else found
+        numbers = [np.asarray(part, dtype=np.float64).ravel() for part in (K, omega_0, omega_g, omega_k)]
+        if [len(part) for part in numbers] != [4, 2, 1, 1]:
+            raise ValueError("expected K of shape (2, 2), omega_0 of shape (2,), omega_g and omega_k")
+        errors, limit = self._content.self_check_errors(np.concatenate(numbers).tolist())
+        # A NaN is not within the limit.
+        return SelfCheck(all(error <= limit for error in errors), dict(zip(NAMES, errors)), limit)
+
+    def to_dataframe(self) -> Any:
+        """Return the positions as a pandas DataFrame with the index (i, j); units are in the names of the columns."""
+        pandas = optional("pandas", "pandas")
+        columns = {}
+        for name, unit, parts in (
+            ("angles", "deg", ("theta", "phi")),
+            ("deviations", "arcsec", ("alpha", "beta", "gamma")),
+            ("u_deviations", "arcsec", ("u_alpha", "u_beta", "u_gamma")),
+            ("n", "g", ("n_x", "n_y")),
+            ("omega", "deg_per_h", ("omega_x", "omega_y")),
+        ):
+            values = self._array(name, -1, len(parts))
+            columns.update({f"{part}_{unit}": values[:, place] for place, part in enumerate(parts)})
+        index = pandas.MultiIndex.from_arrays(self.ij.T.astype(int), names=["i", "j"])
+        return pandas.DataFrame(columns, index=index)
+
+    def to_xarray(self) -> Any:
+        """Return every array as an xarray Dataset; each variable has the attribute `units`."""
+        xarray = optional("xarray", "xarray")
+        matrix, axes, angles = ("row", "column"), ("position", "axis"), ("position", "angle")
+        dimensions = dict.fromkeys(("delta", "B", "C", "n2_inverse"), matrix)
+        dimensions |= dict.fromkeys(("n", "omega"), axes) | dict.fromkeys(("deviations", "u_deviations"), angles)
+        variables = {name: (of, getattr(self, name), {"units": UNITS[name]}) for name, of in dimensions.items()}
+        i, j = self.ij.T.astype(int)
+        coordinates = {
+            "i": ("position", i),
+            "j": ("position", j),
+            "axis": ["x", "y"],
+            "angle": ["alpha", "beta", "gamma"],
+        }
+        attributes = {"id": self.id, "sha256": self.sha256, "verified": int(self.verified), "gravity_m_per_s2": self.gravity}
+        return xarray.Dataset(variables, coordinates, attributes)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the certified deviations with their expanded uncertainties (k = 2), arcsec; return the matplotlib axes."""
+        pyplot = optional("matplotlib.pyplot", "plot")
+        ax = pyplot.subplots()[1] if ax is None else ax
+        places = np.arange(len(self.ij))
+        for part, (symbol, shift) in enumerate((("α", -0.25), ("β", 0.0), ("γ", 0.25))):
+            error = 2.0 * np.nan_to_num(self.u_deviations[:, part])
+            ax.bar(places + shift, self.deviations[:, part], 0.25, yerr=error, label=symbol)
+        ax.set_xticks(places, [f"({i:.0f}, {j:.0f})" for i, j in self.ij])
+        ax.set(xlabel="position (i, j)", ylabel="deviation, arcsec", title=f"{self.id}{self._mark}")
+        ax.legend()
+        return ax
+
+    @property
+    def _mark(self) -> str:
+        return "" if self.verified else " NOT VERIFIED"
+
+    def __repr__(self) -> str:
+        return f"<Passport {self.id}{self._mark}>"
+
+    def _repr_html_(self) -> str:
+        import html
+
+        content = self.content
+        header, certificate = content["passport"], content["certificate"]
+        verified = "all checks passed" if self.verified else "<strong>NOT VERIFIED</strong>"
+        head = "".join(f"<th>{name}</th>" for name in ("i", "j", "α, ″", "β, ″", "γ, ″"))
+        rows = [
+            "".join(f"<td>{number:g}</td>" for number in (*ij, *deviations))
+            for ij, deviations in zip(self.ij, self.deviations)
+        ]
+        table = "".join(f"<tr>{row}</tr>" for row in rows)
+        facts = (
+            f"issued {header['issued_at']} by {header['issuer']}",
+            f"certificate {certificate['number']} of {certificate['issued']}, {certificate['laboratory']}",
+            f"SHA-256 {self.sha256}",
+        )
+        words = "".join(f"<div>{html.escape(fact)}</div>" for fact in facts)
+        title = f"<strong>Passport {html.escape(self.id)}</strong>: {verified}"
+        return f"<div>{title}{words}<table><tr>{head}</tr>{table}</table></div>"
+
+
+def _csv(currents: object) -> tuple[str, bytes]:
+    """Return currents as a name and CSV, which the library reads with every check."""
+    if isinstance(currents, (str, os.PathLike)):
+        return named(currents)
+    if isinstance(currents, Mapping):
+        columns = [np.asarray(column).tolist() for column in currents.values()]
+        rows = [",".join(map(repr, row)) for row in zip(*columns, strict=True)]
+        return "currents", "\n".join([",".join(map(str, currents)), *rows, ""]).encode()
+    if hasattr(currents, "to_csv"):
+        return "currents", currents.to_csv(index=False).encode()
+    table = np.asarray(currents, dtype=np.float64)
+    if table.ndim != 2 or table.shape[1] != 4:
+        raise ValueError(f"currents: found an array of shape {table.shape}, expected (N, 4): i, j, jx_ma, jy_ma")
+    return "currents", _dtg_passport.currents_csv(table.tolist())

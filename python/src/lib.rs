@@ -1,0 +1,240 @@
+//! The compiled part of the Python module `dtg_passport`: converts types and calls `dtg_passport::interface`.
+
+use dtg_passport::folder::FileError;
+use dtg_passport::gyro::{GyroType, Parameters};
+use dtg_passport::interface::{self, Failed};
+use dtg_passport::jiff::Timestamp;
+use dtg_passport::laboratory::Laboratory;
+use dtg_passport::passport::{Content as Passport, SelfCheck, content_from_anyone};
+use pyo3::exceptions::{PyIsADirectoryError, PyOSError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use std::path::PathBuf;
+
+/// Name and content of a file.
+type File = (String, Vec<u8>);
+
+/// Name, result, code and detail of a check.
+type Check = (&'static str, Option<bool>, &'static str, String);
+
+fn failed(error: Failed) -> PyErr {
+    PyValueError::new_err(error.message)
+}
+
+/// Converts an error of a file to the subclass of OSError that Python users expect.
+fn os_error(py: Python, error: &FileError) -> PyErr {
+    match error {
+        FileError::Read { path, error: system } => {
+            let words = |number: i32| py.import("os")?.call_method1("strerror", (number,))?.extract::<String>();
+            match system.raw_os_error().and_then(|number| Some((number, words(number).ok()?))) {
+                Some((number, words)) => PyOSError::new_err((number, words, path.as_os_str().to_owned())),
+                None => PyOSError::new_err(error.to_string()),
+            }
+        }
+        FileError::Folder { .. } => PyIsADirectoryError::new_err(error.to_string()),
+        _ => PyOSError::new_err(error.to_string()),
+    }
+}
+
+/// Trusted keys and the question to verify passports for.
+#[pyclass(frozen)]
+struct Enquiry(interface::Enquiry);
+
+#[pymethods]
+impl Enquiry {
+    #[new]
+    fn new(py: Python, signers: File, revoked: Vec<File>, question: &str, register: Option<PathBuf>) -> PyResult<Self> {
+        let name = (signers.0.as_str(), signers.1.as_slice());
+        let enquiry = interface::Enquiry::new(name, &revoked, question, Timestamp::now()).map_err(failed)?;
+        match register {
+            Some(folder) => {
+                py.detach(|| enquiry.with_register(&folder)).map(Self).map_err(|error| os_error(py, &error))
+            }
+            None => Ok(Self(enquiry)),
+        }
+    }
+
+    fn remarks(&self) -> Vec<String> {
+        self.0.remarks().to_vec()
+    }
+
+    fn verify(&self, py: Python, file: &str, data: &[u8]) -> Answer {
+        Answer(py.detach(|| self.0.verify(file, data)))
+    }
+
+    /// Verifies files; the list has an OSError in place of the answer where a file cannot be read.
+    fn verify_files<'py>(
+        &self,
+        py: Python<'py>,
+        paths: Vec<PathBuf>,
+        threads: usize,
+    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let answers = py.detach(|| self.0.verify_files(&paths, threads));
+        let answers = answers.into_iter().map(|answer| match answer {
+            Ok(answer) => Ok(Bound::new(py, Answer(answer))?.into_any()),
+            Err(error) => Ok(os_error(py, &error).into_value(py).into_bound(py).into_any()),
+        });
+        answers.collect()
+    }
+}
+
+/// Answer on one passport.
+#[pyclass(frozen)]
+struct Answer(interface::Answer);
+
+#[pymethods]
+impl Answer {
+    #[getter]
+    fn sha256(&self) -> &str {
+        &self.0.sha256
+    }
+
+    #[getter]
+    fn id(&self) -> Option<&str> {
+        self.0.verification.id_from_anyone()
+    }
+
+    #[getter]
+    fn valid(&self) -> bool {
+        self.0.verification.valid()
+    }
+
+    #[getter]
+    fn checks(&self) -> Vec<Check> {
+        let checks = self.0.verification.checks().iter();
+        checks.map(|check| (check.name.as_str(), check.passed(), check.code.as_str(), check.detail.clone())).collect()
+    }
+
+    /// Returns the content if every check passed, otherwise None.
+    fn content(&self) -> Option<Content> {
+        let verification = &self.0.verification;
+        let passport = verification.content_from_anyone().filter(|_| verification.valid())?;
+        Some(Content { passport: passport.clone(), verified: true })
+    }
+}
+
+/// Content of a passport.
+#[pyclass(frozen)]
+struct Content {
+    passport: Passport,
+    verified: bool,
+}
+
+#[pymethods]
+impl Content {
+    /// Parses a passport without verifying it.
+    #[staticmethod]
+    fn unverified(file: &str, data: &[u8]) -> PyResult<Self> {
+        let passport = content_from_anyone(file, data).map_err(|error| failed(error.into()))?;
+        Ok(Self { passport, verified: false })
+    }
+
+    #[getter]
+    fn verified(&self) -> bool {
+        self.verified
+    }
+
+    #[getter]
+    fn id(&self) -> &str {
+        &self.passport.passport.id
+    }
+
+    #[getter]
+    fn gravity(&self) -> f64 {
+        self.passport.earth.gravity_m_per_s2
+    }
+
+    fn json(&self, py: Python) -> String {
+        py.detach(|| interface::content_json(&self.passport))
+    }
+
+    /// Returns an array as bytes, float64 row by row; empty for a self-check that the passport does not have.
+    fn array<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyBytes>> {
+        let numbers = self.numbers(name).ok_or_else(|| PyValueError::new_err(format!("no array {name}")))?;
+        let bytes: Vec<u8> = numbers.into_iter().flat_map(f64::to_ne_bytes).collect();
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    /// Returns the JSON of `calibrate`, the covariance (8, 8) as bytes, and remarks.
+    fn calibrate<'py>(
+        &self,
+        py: Python<'py>,
+        currents: File,
+        method: &str,
+        laboratory: Option<File>,
+        gyro: Option<File>,
+    ) -> PyResult<(String, Bound<'py, PyBytes>, Vec<String>)> {
+        let unreadable = |error: dtg_passport::text::Unreadable| failed(error.into());
+        let laboratory = laboratory.map(|(name, bytes)| Laboratory::from_yaml(&name, &bytes)).transpose();
+        let gyro = gyro.map(|(name, bytes)| GyroType::from_yaml(&name, &bytes)).transpose();
+        let (laboratory, gyro) = (laboratory.map_err(unreadable)?, gyro.map_err(unreadable)?);
+        let currents = (currents.0.as_str(), currents.1.as_slice());
+        let (passport, verified) = (&self.passport, self.verified);
+        let found = py
+            .detach(|| interface::calibrate(passport, verified, currents, method, laboratory.as_ref(), gyro.as_ref()));
+        let found = found.map_err(failed)?;
+        let covariance: Vec<u8> = found.covariance.into_iter().flatten().flat_map(f64::to_ne_bytes).collect();
+        Ok((found.json, PyBytes::new(py, &covariance), found.remarks))
+    }
+
+    /// Returns the relative error of each of the eight parameters found from the currents of the self-check, and the
+    /// limit.
+    fn self_check_errors(&self, found: [f64; 8]) -> PyResult<([f64; 8], f64)> {
+        let check = self.passport.self_check.as_ref();
+        let check = check.ok_or_else(|| PyValueError::new_err("this passport has no self-check"))?;
+        let [kx, kxy, kyx, ky, x, y, omega_g_deg_per_h_per_g, omega_k_deg_per_h_per_g] = found;
+        let found = Parameters {
+            k_deg_per_h_per_ma: [[kx, kxy], [kyx, ky]],
+            omega0_deg_per_h: [x, y],
+            omega_g_deg_per_h_per_g,
+            omega_k_deg_per_h_per_g,
+        };
+        Ok((check.errors(&found.to_model()), SelfCheck::LIMIT))
+    }
+}
+
+impl Content {
+    fn numbers(&self, name: &str) -> Option<Vec<f64>> {
+        const NOT_STATED: f64 = f64::NAN;
+        let Passport { positions, vectors, matrices, self_check, .. } = &self.passport;
+        let vector = |i, j| vectors.iter().find(|at| (at.i, at.j) == (i, j));
+        let pairs = positions.iter().map(|at| vector(at.i, at.j));
+        let matrix = matrices.as_ref();
+        let rows = match name {
+            "delta" => matrix.map(|m| m.delta),
+            "B" => matrix.map(|m| m.b_deg_per_h),
+            "C" => matrix.map(|m| m.c_deg_per_h_per_g),
+            "n2_inverse" => matrix.map(|m| m.n2_inverse),
+            "ij" => return Some(positions.iter().flat_map(|at| [f64::from(at.i), f64::from(at.j)]).collect()),
+            "angles" => return Some(positions.iter().flat_map(|at| [at.theta_deg, at.phi_deg]).collect()),
+            "n" => return Some(pairs.flat_map(|at| at.map_or([NOT_STATED; 2], |at| at.specific_force_g)).collect()),
+            "omega" => return Some(pairs.flat_map(|at| at.map_or([NOT_STATED; 2], |at| at.omega_deg_per_h)).collect()),
+            "deviations" => {
+                let each = positions.iter().flat_map(|at| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec]);
+                return Some(each.collect());
+            }
+            "u_deviations" => {
+                let each = positions.iter().flat_map(|at| [at.u_alpha_arcsec, at.u_beta_arcsec, at.u_gamma_arcsec]);
+                return Some(each.map(|u| u.unwrap_or(NOT_STATED)).collect());
+            }
+            "self_check" => {
+                let currents = self_check.iter().flat_map(|check| &check.currents);
+                return Some(currents.flat_map(|at| [f64::from(at.i), f64::from(at.j), at.jx_ma, at.jy_ma]).collect());
+            }
+            _ => return None,
+        };
+        Some(rows.unwrap_or([[NOT_STATED; 2]; 2]).concat())
+    }
+}
+
+/// Returns rows of i, j, jx_ma, jy_ma as CSV.
+#[pyfunction]
+fn currents_csv(rows: Vec<[f64; 4]>) -> Vec<u8> {
+    interface::currents_csv(&rows)
+}
+
+#[pymodule]
+mod _dtg_passport {
+    #[pymodule_export]
+    use super::{Answer, Content, Enquiry, currents_csv};
+}

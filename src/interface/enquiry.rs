@@ -1,0 +1,287 @@
+//! Whom to trust and what to ask, and the answer on each passport.
+
+use super::{Failed, Verdict, json};
+use crate::document::sha256_hex;
+use crate::earth::Place;
+#[cfg(feature = "factory")]
+use crate::files::{self, FileError};
+use crate::passport::{Question, Trust, Verification, verify};
+use crate::register::Register;
+use crate::revocation::{ListRefused, RevocationList, Series, claims_to_be_a_list};
+use crate::text::Unreadable;
+use crate::text::scalar::{day, impossible_date};
+#[cfg(feature = "factory")]
+use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
+use crate::trust::{AllowedSigners, RevokedKeys};
+use jiff::Timestamp;
+use jiff::civil::Date;
+use serde::Deserialize;
+#[cfg(feature = "factory")]
+use std::path::{Path, PathBuf};
+
+/// Trusted keys and the question to verify passports for.
+#[derive(Debug)]
+pub struct Enquiry {
+    trust: Trust,
+    question: Question,
+    register: Option<Register>,
+    remarks: Vec<String>,
+}
+
+/// Answer on one passport.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer {
+    /// Name of the file.
+    pub file: String,
+    /// Every check, and the content if all passed.
+    pub verification: Verification,
+    /// SHA-256 of the whole file, in lower-case hexadecimal.
+    pub sha256: String,
+}
+
+impl Answer {
+    /// Returns the verdict as JSON: `{file, valid, id, checks: [{name, passed, code, detail}]}`.
+    pub fn to_json(&self) -> String {
+        json(&Verdict::of(&self.file, &self.verification))
+    }
+}
+
+/// Question as JSON.
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields, default)]
+struct Asked {
+    time: Option<String>,
+    serial: Option<String>,
+    at: Option<[f64; 2]>,
+    issuer: Option<String>,
+    revoked: Vec<Listed>,
+}
+
+/// Revocation list as JSON: text, or bytes as a list of numbers.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Listed {
+    Text(String),
+    Bytes(Vec<u8>),
+}
+
+impl Enquiry {
+    /// Creates an enquiry that trusts `signers`, the name and content of an allowed_signers file.
+    ///
+    /// `revoked` are names and contents of revocation lists: OpenSSH KRLs, lists of public keys, lists of withdrawn
+    /// passports. `question` is JSON, `{time, serial, at: [latitude, longitude], issuer, revoked: [text or bytes, …]}`,
+    /// in which every key may be absent: `time` in RFC 3339 or as a UTC date, by default `now`; `at` in degrees.
+    ///
+    /// # Errors
+    /// Returns [`Failed`] if the question, the signers or a revocation list cannot be used.
+    pub fn new(
+        signers: (&str, &[u8]),
+        revoked: &[(String, Vec<u8>)],
+        question: &str,
+        now: Timestamp,
+    ) -> Result<Self, Failed> {
+        let asked: Asked = serde_json::from_str(question)
+            .map_err(|error| Failed::unusable(format!("the question is not usable JSON: {error}")))?;
+        let refuse = |key: &str, why: String| Failed::unusable(format!("{key}: expected {why}"));
+        let time = match &asked.time {
+            Some(text) => time(text).map_err(|form| refuse("time", format!("{form}; found {text:?}")))?,
+            None => Timestamp::from_second(now.as_second()).unwrap_or(now),
+        };
+        let place = asked.at.map(|[latitude, longitude]| place(latitude, longitude)).transpose();
+        let place = place.map_err(|why| Failed::unusable(format!("at: {why}")))?;
+        let listed = asked.revoked.into_iter().enumerate().map(|(index, list)| match list {
+            Listed::Text(text) => (format!("revoked[{index}]"), text.into_bytes()),
+            Listed::Bytes(bytes) => (format!("revoked[{index}]"), bytes),
+        });
+        let revoked: Vec<_> = revoked.iter().cloned().chain(listed).collect();
+        let (trust, remarks) = trust(signers, &revoked, time)?;
+        let question = Question { time, issuer: asked.issuer, serial: asked.serial, place };
+        Ok(Self { trust, question, register: None, remarks })
+    }
+
+    /// Adds the register of the passports in `folder`: superseded passports are refused, and the lists of withdrawn
+    /// passports found there count.
+    ///
+    /// # Errors
+    /// Returns an error if the folder cannot be read.
+    #[cfg(feature = "factory")]
+    pub fn with_register(self, folder: &Path) -> Result<Self, FileError> {
+        let asked = crate::register::Asked::at(self.question.time);
+        let threads = crate::parallel::processors();
+        let (register, trust) = crate::folder::register(folder, self.trust, &asked, threads)?;
+        let mut remarks = self.remarks;
+        remarks.extend(register.alarms.iter().map(ToString::to_string));
+        Ok(Self { trust, register: Some(register), remarks, ..self })
+    }
+
+    /// Returns whom the enquiry trusts.
+    pub fn trust(&self) -> &Trust {
+        &self.trust
+    }
+
+    /// Returns what the enquiry asks.
+    pub fn question(&self) -> &Question {
+        &self.question
+    }
+
+    /// Returns what the user should know about the revocation lists and the register, a sentence each.
+    pub fn remarks(&self) -> &[String] {
+        &self.remarks
+    }
+
+    /// Verifies the bytes of a passport; `file` is the file name in messages.
+    pub fn verify(&self, file: &str, bytes: &[u8]) -> Answer {
+        let verification = verify(file, bytes, &self.trust, &self.question);
+        let verification = match &self.register {
+            Some(register) => register.asked(verification, bytes),
+            None => verification,
+        };
+        Answer { file: file.to_owned(), verification, sha256: sha256_hex(bytes) }
+    }
+
+    /// Verifies files on up to `threads` threads (0: one for each processor); the answers are in the order of the
+    /// paths.
+    #[cfg(feature = "factory")]
+    pub fn verify_files(&self, paths: &[PathBuf], threads: usize) -> Vec<Result<Answer, FileError>> {
+        let threads = if threads == 0 { crate::parallel::processors() } else { threads };
+        crate::parallel::map(paths, threads, |path| {
+            // One byte above the size limit is enough to show that the file is not a passport.
+            let bytes = files::read_first(path, LARGEST_DOCUMENT_BYTES + 1)?;
+            Ok(self.verify(&name_of(path), &bytes))
+        })
+    }
+}
+
+/// Reason why there is no trust.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum NoTrust {
+    /// Signers or list of keys that cannot be read.
+    #[error(transparent)]
+    Unreadable(#[from] Unreadable),
+    /// List of withdrawn passports that is refused.
+    #[error(transparent)]
+    List(#[from] ListRefused),
+    /// List that another one continues, and that was not given.
+    #[error("{0}; specify that list too, with --revoked")]
+    Incomplete(String),
+}
+
+impl From<NoTrust> for Failed {
+    fn from(error: NoTrust) -> Self {
+        match error {
+            NoTrust::Unreadable(error) => error.into(),
+            other => Self::unusable(other),
+        }
+    }
+}
+
+/// Returns the trust in `signers` without what `revoked` revokes, and the alarms that do not prevent its use. The files
+/// are names and contents. Lists of withdrawn passports are verified at `time`; the newest list applies.
+pub(crate) fn trust(
+    signers: (&str, &[u8]),
+    revoked: &[(String, Vec<u8>)],
+    time: Timestamp,
+) -> Result<(Trust, Vec<String>), NoTrust> {
+    let mut trust = Trust::of(AllowedSigners::parse(signers.0, signers.1)?);
+    let (lists, keys): (Vec<_>, Vec<_>) = revoked.iter().partition(|(_, bytes)| claims_to_be_a_list(bytes));
+    for (name, bytes) in keys {
+        trust.revoked.push(RevokedKeys::parse(name, bytes)?);
+    }
+    let verified =
+        lists.iter().map(|(name, bytes)| RevocationList::verify(name, bytes, &trust.signers, &trust.revoked, time));
+    let series = Series::of(verified.collect::<Result<_, _>>()?);
+    if let Some(alarm) = series.alarms().iter().find(|alarm| alarm.is_unknown()) {
+        return Err(NoTrust::Incomplete(alarm.to_string()));
+    }
+    let contradictions = series.alarms().iter().filter(|alarm| alarm.is_contradiction());
+    let words = |alarm| format!("ALARM: {alarm}; passports withdrawn by any of the lists are treated as withdrawn");
+    let remarks = contradictions.map(words).collect();
+    trust.withdrawn = series;
+    Ok((trust, remarks))
+}
+
+/// Parses the time of a question.
+pub(crate) fn time(text: &str) -> Result<Timestamp, String> {
+    if let Ok(date) = date(text) {
+        return Ok(day(date).0);
+    }
+    if let Some(words) = impossible_date(text.get(..10).unwrap_or(text)) {
+        return Err(words);
+    }
+    match text.parse::<Timestamp>() {
+        Ok(time) if time.subsec_nanosecond() == 0 => Ok(time),
+        Ok(_) => Err("whole seconds, such as 2026-11-02T09:30:00Z".to_owned()),
+        Err(_) => Err("a time such as 2026-11-02T09:30:00Z, or a UTC date such as 2026-11-02".to_owned()),
+    }
+}
+
+/// Parses a date. A date with a time but no zone is rejected, because the time zone is unknown.
+pub(crate) fn date(text: &str) -> Result<Date, String> {
+    let date = text.parse::<Date>().ok().filter(|date| date.to_string() == text);
+    date.ok_or_else(|| impossible_date(text).unwrap_or_else(|| "a UTC date such as 2026-11-02".to_owned()))
+}
+
+/// Checks the place of a question, degrees.
+pub(crate) fn place(latitude_deg: f64, longitude_deg: f64) -> Result<Place, String> {
+    if !(-90.0..=90.0).contains(&latitude_deg) {
+        return Err(format!("latitude {latitude_deg}, expected -90 to 90"));
+    }
+    if !(-180.0..=180.0).contains(&longitude_deg) {
+        return Err(format!("longitude {longitude_deg}, expected -180 to 180"));
+    }
+    Ok(Place { latitude_deg, longitude_deg })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIGNERS: (&str, &[u8]) = ("allowed_signers", include_bytes!("../../docs/allowed_signers"));
+    const PASSPORT: &[u8] = include_bytes!("../../passports/SPS-2/0017/moscow-bmstu-1.yaml");
+
+    fn ask(question: &str) -> Result<Enquiry, Failed> {
+        Enquiry::new(SIGNERS, &[], question, "2026-11-20T00:00:00Z".parse().unwrap())
+    }
+
+    /// Expected: the codes of contract and `docs/commands.md` for each question.
+    #[test]
+    fn every_key_of_a_question_is_asked() {
+        for (question, code) in [
+            ("{}", "ok"),
+            (r#"{"time": null, "revoked": []}"#, "ok"),
+            (r#"{"time": "2024-01-01"}"#, "not_yet_valid"),
+            (r#"{"time": "2031-01-01T00:00:00Z"}"#, "expired"),
+            (r#"{"serial": "0018"}"#, "wrong_stand"),
+            (r#"{"issuer": "factory@example.org"}"#, "wrong_issuer"),
+            (r#"{"at": [39.9, 116.4]}"#, "wrong_place"),
+        ] {
+            let answer = ask(question).unwrap().verify("p.yaml", PASSPORT);
+            let checks = answer.verification.checks();
+            let worst =
+                checks.iter().find(|check| check.passed() != Some(true)).map_or("ok", |check| check.code.as_str());
+            assert_eq!(worst, code, "{question}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_asked_is_refused_with_its_key() {
+        for (question, words) in [
+            ("", "not usable JSON"),
+            (r#"{"times": "2026-11-20"}"#, "unknown field `times`"),
+            (r#"{"time": "tomorrow"}"#, "time: expected"),
+            (r#"{"time": "2026-11-20T10:00:00"}"#, "time: expected"),
+            (r#"{"time": "2026-11-20T10:00:00.5Z"}"#, "whole seconds"),
+            (r#"{"at": [91, 0]}"#, "latitude 91"),
+            (r#"{"at": [0, 181]}"#, "longitude 181"),
+            (r#"{"at": [1e999, 0]}"#, "JSON"),
+            (r#"{"at": [0]}"#, "JSON"),
+            (r#"{"revoked": ["rubbish"]}"#, "revoked[0]"),
+            (r#"{"revoked": [[83, 83, 72, 75, 82, 76, 10, 0]]}"#, "revoked[0]"),
+        ] {
+            let failed = ask(question).unwrap_err();
+            assert!(failed.to_string().contains(words), "{question}: {failed}");
+            let read: serde_json::Value = serde_json::from_str(&failed.to_json()).unwrap();
+            assert!(read["error"]["message"].as_str().unwrap().contains(words));
+        }
+    }
+}

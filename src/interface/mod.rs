@@ -1,0 +1,140 @@
+//! Interface for programs in other languages: bytes, text and JSON in; JSON and numbers out.
+//!
+//! The packages `python`, `c` and `web` only convert types and call this module, so that every language runs the same
+//! checks and computes the same numbers to the bit.
+//!
+//! * [`Enquiry`]: whom to trust and what to ask, and the verification of many passports.
+//! * [`calibrate`]: currents to the parameters of a gyro.
+//! * [`Failed`]: refusals as JSON.
+//!
+//! ```
+//! use dtg_passport::interface::{Enquiry, calibrate, content_json};
+//!
+//! let signers = include_bytes!("../../docs/allowed_signers");
+//! let bytes = include_bytes!("../../passports/SPS-2/0017/moscow-bmstu-1.yaml");
+//! let question = r#"{"time": "2026-11-20", "serial": "0017", "at": [55.7660, 37.6850]}"#;
+//! let enquiry = Enquiry::new(("allowed_signers", signers), &[], question, "2026-11-20T00:00:00Z".parse()?)?;
+//! let answer = enquiry.verify("moscow-bmstu-1.yaml", bytes);
+//! let passport = answer.verification.passport().ok_or_else(|| answer.to_json())?;
+//!
+//! assert!(content_json(passport.content()).contains("b_deg_per_h"));
+//! let currents = include_bytes!("../../docs/currents.csv");
+//! let found = calibrate(passport.content(), true, ("currents.csv", currents), "least-squares", None, None)?;
+//! assert!(found.json.contains("chi_square"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod calibrated;
+pub(crate) mod enquiry;
+
+pub use calibrated::{Calibrated, calibrate, currents_csv};
+pub use enquiry::{Answer, Enquiry};
+
+use crate::passport::{Content, Verification};
+use crate::text::{Problem, Unreadable, printable};
+use serde::Serialize;
+
+/// Refusal, or input that cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize)]
+#[error("{message}")]
+pub struct Failed {
+    /// Kind of failure: `refused` if a document or a result is refused; `unreadable` or `unusable` if an input cannot
+    /// be used.
+    pub code: &'static str,
+    /// Message, which may have several lines.
+    pub message: String,
+    problems: Vec<Place>,
+}
+
+/// Error in a file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+struct Place {
+    file: String,
+    line: Option<usize>,
+    column: Option<usize>,
+    message: String,
+}
+
+impl Failed {
+    pub(crate) fn refused(why: impl std::fmt::Display) -> Self {
+        Self { code: "refused", message: why.to_string(), problems: Vec::new() }
+    }
+
+    /// Creates the failure for an input that cannot be used.
+    pub fn unusable(why: impl std::fmt::Display) -> Self {
+        Self { code: "unusable", message: why.to_string(), problems: Vec::new() }
+    }
+
+    /// Returns the failure as JSON: `{"error": {code, message, problems: [{file, line, column, message}]}}`.
+    pub fn to_json(&self) -> String {
+        #[derive(Serialize)]
+        struct Document<'a> {
+            error: &'a Failed,
+        }
+        json(&Document { error: self })
+    }
+}
+
+impl From<Unreadable> for Failed {
+    fn from(error: Unreadable) -> Self {
+        let place = |problem: &Problem| Place {
+            file: error.name().to_owned(),
+            line: problem.location.map(|at| at.line),
+            column: problem.location.map(|at| at.column),
+            message: problem.to_string(),
+        };
+        let problems = error.problems().iter().map(place).collect();
+        Self { code: "unreadable", message: error.with_lines(""), problems }
+    }
+}
+
+/// Verdict on one file, as `verify` prints it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub(crate) struct Verdict {
+    /// Path of the file.
+    pub file: String,
+    /// `true` if every check passed.
+    pub valid: bool,
+    /// Id of the passport; null until the signature passes.
+    pub id: Option<String>,
+    /// All checks.
+    pub checks: Vec<CheckLine>,
+}
+
+/// Result of one check.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub(crate) struct CheckLine {
+    /// Name of the check.
+    pub name: &'static str,
+    /// `true` if the check passed, `false` if it failed; null if it was not run.
+    pub passed: Option<bool>,
+    /// Result of the check as a code, for programs.
+    pub code: &'static str,
+    /// Result of the check as a sentence, for people.
+    pub detail: String,
+}
+
+impl Verdict {
+    /// Creates the verdict of `verification` on the file `file`.
+    pub(crate) fn of(file: &str, verification: &Verification) -> Self {
+        let checks = verification.checks().iter().map(|check| CheckLine {
+            name: check.name.as_str(),
+            passed: check.passed(),
+            code: check.code.as_str(),
+            detail: check.detail.clone(),
+        });
+        let id = verification.id_from_anyone().map(str::to_owned);
+        Self { file: file.to_owned(), valid: verification.valid(), id, checks: checks.collect() }
+    }
+}
+
+/// Returns the content of a passport as JSON: the keys of the file without `signature`, and the same binary64 values.
+pub fn content_json(content: &Content) -> String {
+    json(content)
+}
+
+/// Returns a value as JSON with invisible characters escaped. The values of this module have only text keys and finite
+/// numbers, so writing cannot fail; if it did, the text would be empty and no reader would accept it.
+fn json(value: &impl Serialize) -> String {
+    printable::json(value).unwrap_or_default()
+}

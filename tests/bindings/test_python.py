@@ -1,0 +1,574 @@
+"""The Python module against PyYAML, NumPy, and the command line program."""
+
+from __future__ import annotations
+
+import csv
+import datetime
+import doctest
+import json
+import pickle
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import dtg_passport
+import numpy as np
+import pytest
+import yaml
+from conftest import PROJECT, SHIPPED, SIGNERS, TIME, Corpus, program
+
+PASSPORT = PROJECT / "passports/SPS-2/0017/moscow-bmstu-1.yaml"
+CURRENTS = PROJECT / "docs/currents.csv"
+
+
+def load(path: Path = PASSPORT, **asked: object) -> dtg_passport.Passport:
+    return dtg_passport.load(path, SIGNERS, **{"time": TIME, **asked})
+
+
+def signed(path: Path) -> dict:
+    """Return what PyYAML reads in the signed bytes."""
+    return yaml.load(path.read_bytes().partition(b"signature: |")[0], Loader=yaml.CSafeLoader)
+
+
+def bits(values: object) -> bytes:
+    return np.array(values, dtype=np.float64).tobytes()
+
+
+# --- What is read. ---
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_every_number_is_the_signed_one_to_the_last_bit(path: Path) -> None:
+    passport, content = load(path), signed(path)
+    matrices, positions = content["matrices"], content["positions"]
+    vectors = {(at["i"], at["j"]): at for at in content["vectors"]}
+    for name, key in (("delta", "delta"), ("B", "b_deg_per_h"), ("C", "c_deg_per_h_per_g"), ("n2_inverse", "n2_inverse")):
+        assert getattr(passport, name).tobytes() == bits(matrices[key])
+        assert getattr(passport, name).shape == (2, 2)
+    assert passport.ij.tobytes() == bits([[at["i"], at["j"]] for at in positions])
+    angles = ("alpha", "beta", "gamma")
+    assert passport.deviations.tobytes() == bits([[at[f"{angle}_arcsec"] for angle in angles] for at in positions])
+    u = [[at.get(f"u_{angle}_arcsec", np.nan) for angle in angles] for at in positions]
+    assert np.array_equal(passport.u_deviations, u, equal_nan=True)
+    rows = [vectors[at["i"], at["j"]] for at in positions]
+    assert passport.n.tobytes() == bits([at["specific_force_g"] for at in rows])
+    assert passport.omega.tobytes() == bits([at["omega_deg_per_h"] for at in rows])
+    assert passport.gravity == content["earth"]["gravity_m_per_s2"]
+    assert passport.content == content
+    # 1 == 1.0, so the types are compared apart.
+    assert json.dumps(passport.content) == json.dumps(content)
+    assert passport.id == content["passport"]["id"]
+
+
+def test_the_digest_is_that_of_the_whole_file() -> None:
+    out = subprocess.run(["sha256sum", PASSPORT], capture_output=True, text=True, check=True).stdout
+    assert load().sha256 == out.split()[0]
+
+
+def test_a_position_has_its_row() -> None:
+    passport = load()
+    for k, (i, j) in enumerate(passport.ij):
+        at = passport.at(int(i), int(j))
+        for row, whole in zip(at, (passport.n, passport.omega, passport.deviations, passport.u_deviations)):
+            assert row.tobytes() == whole[k].tobytes()
+    with pytest.raises(KeyError, match=r"no position \(3, 1\)"):
+        passport.at(3, 1)
+
+
+def test_what_is_not_stated_is_nan(corpus: Corpus, tmp_path: Path) -> None:
+    """A stand without the position (2, 4) and without uncertainties has no matrices."""
+    stand = yaml.safe_load((PROJECT / "passports/SPS-2/0017/stand.yaml").read_text())
+    stand["positions"] = [
+        {key: value for key, value in at.items() if not key.startswith("u_")}
+        for at in stand["positions"]
+        if (at["i"], at["j"]) != (2, 4)
+    ]
+    stand["certificate"] = {key: stand["certificate"][key] for key in ("number", "issued", "laboratory")}
+    (tmp_path / "stand.yaml").write_text(yaml.safe_dump(stand))
+    site = corpus.folder / "sites/site-60.yaml"
+    program("issue", tmp_path / "stand.yaml", "--site", site, "--key", corpus.folder / "key", "--identity",
+            "factory@example.org", "--out", tmp_path, "--issued-at", "2026-11-10T00:00:00Z")  # fmt: skip
+    [path] = tmp_path.glob("*/*/*-1.yaml")
+    passport = dtg_passport.load(path, corpus.signers, time=TIME)
+    for name in ("delta", "B", "C", "n2_inverse"):
+        assert getattr(passport, name).shape == (2, 2) and np.isnan(getattr(passport, name)).all()
+    assert passport.u_deviations.shape == (7, 3) and np.isnan(passport.u_deviations).all()
+    assert np.isfinite(passport.deviations).all() and "matrices" not in passport.content
+
+
+ARRAYS = ("delta", "B", "C", "n2_inverse", "ij", "n", "omega", "deviations", "u_deviations")
+
+
+def test_nothing_can_be_changed() -> None:
+    passport = load()
+    found = passport.calibrate(CURRENTS)
+    arrays = [getattr(passport, name) for name in ARRAYS] + list(passport.at(1, 1))
+    arrays += [found.K, found.omega_0, found.u.K, found.u.omega_0, found.covariance, found.residuals, found.ij]
+    for array in arrays:
+        assert array.dtype == np.float64 and not array.flags.writeable
+        # Neither the array nor anything that it is a view of can be made writeable.
+        base = array
+        while isinstance(base, np.ndarray):
+            with pytest.raises(ValueError):
+                base.flags.writeable = True
+            base = base.base
+        assert isinstance(base, bytes)
+        with pytest.raises(ValueError):
+            array[...] = 0.0
+    for thing, names in ((passport, [*ARRAYS, "id", "gravity", "new"]), (found, ["K", "u", "covariance", "new"])):
+        for name in names:
+            with pytest.raises(AttributeError):
+                setattr(thing, name, 1.0)
+            with pytest.raises(AttributeError):
+                delattr(thing, name)
+    with pytest.raises(TypeError):
+        passport.units["B"] = "rad/s"  # type: ignore[index]
+    passport.content["passport"]["issuer"] = "someone else"
+    assert passport.content["passport"]["issuer"] == "examples@dtg-passport.test"
+    found.document["results"][0]["omega_g_deg_per_h_per_g"] = 0.0
+    assert found.omega_g > 9
+
+
+# --- Who is believed. ---
+
+
+def test_every_altered_passport_is_refused_as_by_the_program(corpus: Corpus) -> None:
+    for path, due in zip(corpus.paths, corpus.verdicts):
+        answer = dtg_passport.verify(path, corpus.signers, time=TIME)
+        assert answer.valid == due["valid"] and answer.id == due["id"]
+        # The program prints the detail escaped, as this JSON does.
+        assert [check._asdict() for check in answer.checks] == due["checks"], path
+        assert (answer.passport is None) == (not due["valid"])
+
+
+def test_a_refusal_carries_the_checks(corpus: Corpus) -> None:
+    path = corpus.altered[0]
+    with pytest.raises(dtg_passport.Refused) as refused:
+        dtg_passport.load(path, corpus.signers, time=TIME)
+    assert refused.value.path == str(path)
+    assert [check._asdict() for check in refused.value.checks] == corpus.verdicts[200]["checks"]
+    again = pickle.loads(pickle.dumps(refused.value))
+    assert (again.path, again.checks, str(again)) == (refused.value.path, refused.value.checks, str(refused.value))
+
+
+@pytest.mark.parametrize(
+    ("asked", "code"),
+    [
+        ({"serial": "0018"}, "wrong_stand"),
+        ({"issuer": "factory@example.org"}, "wrong_issuer"),
+        ({"at": (39.9, 116.4)}, "wrong_place"),
+        ({"time": "2031-01-01"}, "expired"),
+        ({"time": datetime.date(2031, 1, 1)}, "expired"),
+        ({"time": datetime.datetime(2020, 1, 1, tzinfo=datetime.timezone.utc)}, "not_yet_valid"),
+    ],
+)
+def test_every_question_is_asked(asked: dict, code: str) -> None:
+    with pytest.raises(dtg_passport.Refused) as refused:
+        load(**asked)
+    assert code in [check.code for check in refused.value.checks]
+
+
+def test_good_questions_pass_every_check() -> None:
+    passport = load(serial="0017", issuer="examples@dtg-passport.test", at=(55.7660, 37.6850))
+    names = ["grammar", "signature", "schema", "signer", "revocation", "recomputed", "in_force", "issuer", "stand", "place"]
+    assert [check.name for check in passport.checks] == names
+    assert all(check.passed and check.code == "ok" for check in passport.checks) and passport.verified
+
+
+def test_trust_is_a_path_or_its_text(corpus: Corpus) -> None:
+    text = SIGNERS.read_text()
+    [line] = [line for line in text.splitlines() if line and not line.startswith("#")]
+    for trust in (SIGNERS, str(SIGNERS), text, text.encode(), line):
+        assert dtg_passport.load(PASSPORT, trust, time=TIME).verified
+    with pytest.raises(ValueError, match="allowed_signers|currents.csv"):
+        dtg_passport.load(PASSPORT, CURRENTS, time=TIME)
+    with pytest.raises(FileNotFoundError):
+        dtg_passport.load(PASSPORT, "nowhere", time=TIME)
+    with pytest.raises(dtg_passport.Refused, match="unknown_key"):
+        dtg_passport.load(PASSPORT, corpus.signers, time=TIME)
+
+
+def test_revocations_and_registers_count(corpus: Corpus, tmp_path: Path) -> None:
+    [old] = [path for path in corpus.good if path.parts[-2:] == ("0017", "site-60-1.yaml")]
+    key = corpus.folder / "key"
+    trust = ("--trust", corpus.signers, "--time", TIME)
+    who = ("--key", key, "--identity", "factory@example.org")
+    program("reissue", old, "--reason", "test", *who, *trust, "--out", tmp_path, "--issued-at", "2026-11-11T00:00:00Z",
+            "--site", corpus.folder / "sites/site-60.yaml")  # fmt: skip
+    (tmp_path / "SPS-2/0017/site-60-1.yaml").write_bytes(old.read_bytes())
+    assert dtg_passport.load(old, corpus.signers, time=TIME).verified
+    with pytest.raises(dtg_passport.Refused, match="superseded"):
+        dtg_passport.load(old, corpus.signers, time=TIME, register=tmp_path)
+
+    new = tmp_path / "SPS-2/0017/site-60-2.yaml"
+    assert dtg_passport.load(new, corpus.signers, time=TIME, register=tmp_path).verified
+    program("revoke", new, "--reason", "test", "--list", tmp_path, *who, *trust)
+    [withdrawn] = tmp_path.glob("revocation-*.yaml")
+    for revoked in (withdrawn, [str(withdrawn)], [withdrawn.read_bytes()]):
+        with pytest.raises(dtg_passport.Refused, match="passport_revoked"):
+            dtg_passport.load(new, corpus.signers, time="2027-11-20", revoked=revoked)
+    keys = f"{key}.pub"
+    with pytest.raises(dtg_passport.Refused, match="key_revoked"):
+        dtg_passport.load(new, corpus.signers, time=TIME, revoked=[keys])
+    with pytest.raises(ValueError, match="currents.csv"):
+        dtg_passport.load(new, corpus.signers, time=TIME, revoked=[CURRENTS])
+
+
+def test_an_unverified_passport_says_so() -> None:
+    with pytest.warns(UserWarning, match="NOT VERIFIED"):
+        passport = dtg_passport.load_unverified(PASSPORT)
+    assert not passport.verified and passport.checks == ()
+    assert "NOT VERIFIED" in repr(passport) and "NOT VERIFIED" in passport._repr_html_()
+    assert passport.B.tobytes() == load().B.tobytes() and passport.sha256 == load().sha256
+    assert "NOT VERIFIED" in repr(passport.calibrate(CURRENTS))
+    assert passport.calibrate(CURRENTS).document["passport_verified"] is False
+    with pytest.raises(ValueError, match="no signature"):
+        dtg_passport.load_unverified(CURRENTS)
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [
+        ({"at": (91.0, 0.0)}, "latitude 91"),
+        ({"at": (float("nan"), 0.0)}, "NaN|JSON"),
+        ({"time": "yesterday"}, "time: expected"),
+        ({"time": datetime.datetime(2026, 11, 20)}, "time: expected"),
+    ],
+)
+def test_what_cannot_be_asked_is_named(asked: dict, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        load(**asked)
+
+
+# --- Many at once. ---
+
+
+def test_many_come_in_order_and_stop_at_the_first_refused(corpus: Corpus) -> None:
+    for threads in (None, 1, 3):
+        many = dtg_passport.load_many(iter(corpus.good), corpus.signers, threads=threads, time=TIME)
+        assert iter(many) is many
+        one = dtg_passport.load(corpus.good[7], corpus.signers, time=TIME)
+        found = list(many)
+        assert [p.id for p in found] == [verdict["id"] for verdict in corpus.verdicts[:200]]
+        assert found[7].B.tobytes() == one.B.tobytes() and found[7].sha256 == one.sha256
+    broken = [*corpus.good[:5], corpus.altered[3], *corpus.good[5:]]
+    many = dtg_passport.load_many(broken, corpus.signers, time=TIME)
+    assert [next(many).id for _ in range(5)] == [verdict["id"] for verdict in corpus.verdicts[:5]]
+    with pytest.raises(dtg_passport.Refused) as refused:
+        next(many)
+    assert refused.value.path == str(corpus.altered[3])
+    missing = dtg_passport.load_many([corpus.good[0], "nowhere.yaml"], corpus.signers, time=TIME)
+    next(missing)
+    with pytest.raises(FileNotFoundError, match="nowhere.yaml"):
+        next(missing)
+    with pytest.raises(ValueError, match="threads"):
+        dtg_passport.load_many(corpus.good, corpus.signers, threads=0)
+    with pytest.raises(FileNotFoundError):
+        dtg_passport.load_many(corpus.good, "nowhere")
+
+
+def test_other_threads_run_meanwhile(corpus: Corpus) -> None:
+    """A thread that counts goes on while 2,000 passports are verified in one call."""
+    from dtg_passport._load import _enquiry
+
+    enquiry = _enquiry(corpus.signers, None, None, TIME, None, (), None)
+    ticks, done = 0, threading.Event()
+
+    def count() -> None:
+        nonlocal ticks
+        while not done.is_set():
+            ticks += 1
+            time.sleep(0.001)
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    time.sleep(0.01)
+    before = ticks
+    enquiry.verify_files([str(path) for path in corpus.good] * 10, 1)
+    during = ticks - before
+    done.set()
+    counter.join()
+    assert during > 10
+
+
+# --- Calibration. ---
+
+
+def fitted(passport: dtg_passport.Passport, rows: np.ndarray, u_ma: float) -> tuple[np.ndarray, np.ndarray, float]:
+    """Fit K J + omega_0 + omega_n n = omega_3 by NumPy: parameters, covariance, chi-square; u_ma of every current."""
+    current = {(int(i), int(j)): (jx, jy) for i, j, jx, jy in rows}
+    a, b = [], []
+    for (i, j), (c, d), omega in zip(passport.ij, passport.n, passport.omega):
+        jx, jy = current[int(i), int(j)]
+        a += [[jx, jy, 0, 0, 1, 0, c, -d], [0, 0, jx, jy, 0, 1, d, c]]
+        b += list(omega)
+    A, b_ = np.array(a), np.array(b)
+    x = np.linalg.lstsq(A, b_, rcond=None)[0]
+    # An error of the currents is an error of the rates by K: each pair of equations is whitened by it.
+    for _ in range(50):
+        W = np.kron(np.eye(len(passport.ij)), np.linalg.inv(x[:4].reshape(2, 2)) / u_ma)
+        x = np.linalg.lstsq(W @ A, W @ b_, rcond=None)[0]
+    W = np.kron(np.eye(len(passport.ij)), np.linalg.inv(x[:4].reshape(2, 2)) / u_ma)
+    residuals = W @ (A @ x - b_)
+    return x, np.linalg.inv(A.T @ W.T @ W @ A), float(residuals @ residuals)
+
+
+def eight(parameters: dtg_passport.Parameters) -> np.ndarray:
+    return np.array([*parameters.K.ravel(), *parameters.omega_0, parameters.omega_g, parameters.omega_k])
+
+
+@pytest.fixture
+def uncertain_meter_only(corpus: Corpus, tmp_path: Path) -> tuple[dtg_passport.Passport, Path]:
+    """A passport that states no uncertainty but those of zero, and a meter with the same error at every current."""
+    stand = yaml.safe_load((PROJECT / "passports/SPS-1/0203/stand.yaml").read_text())
+    stand["positions"] = [{key: at[key] for key in at if not key.startswith("u_")} for at in stand["positions"]]
+    stand["certificate"] = {key: stand["certificate"][key] for key in ("number", "issued", "laboratory")}
+    (tmp_path / "stand.yaml").write_text(yaml.safe_dump(stand))
+    site = 'format: "dtg-site/1"\nid: "bench"\nastronomic_latitude_deg: 55.7658\nlongitude_deg: 37.5\n'
+    (tmp_path / "bench.yaml").write_text(site)
+    program("issue", tmp_path / "stand.yaml", "--site", tmp_path / "bench.yaml", "--key", corpus.folder / "key",
+            "--identity", "factory@example.org", "--out", tmp_path, "--issued-at", "2026-11-10T00:00:00Z")  # fmt: skip
+    laboratory = tmp_path / "laboratory.yaml"
+    meter = "{range_ma: 1.0, reading_percent: 0.0, gain_percent: 0.0, offset_ma: 0.0, floor_ma: 2.0e-07}"
+    laboratory.write_text(f'format: "dtg-laboratory/1"\nmeter: {meter}\n')
+    [path] = tmp_path.glob("*/*/*-1.yaml")
+    return dtg_passport.load(path, corpus.signers, time=TIME), laboratory
+
+
+def test_least_squares_are_those_of_numpy(uncertain_meter_only: tuple[dtg_passport.Passport, Path]) -> None:
+    passport, laboratory = uncertain_meter_only
+    exact = np.array([[at["i"], at["j"], at["jx_ma"], at["jy_ma"]] for at in passport.content["self_check"]["currents"]])
+    noise = np.random.default_rng(5).normal(0.0, 2e-7, (len(exact), 2))
+    rows = exact + np.hstack([np.zeros((len(exact), 2)), noise])
+    found = passport.calibrate(rows, laboratory=laboratory)
+    x, covariance, chi_square = fitted(passport, rows, 2e-7)
+    u = np.sqrt(np.diag(covariance))
+    # The same least squares by other arithmetic. The noise is a millionth of the currents, so that whatever is of the
+    # second order in it cannot be seen.
+    assert np.max(np.abs(eight(found.parameters) - x) / u) < 1e-3
+    assert np.max(np.abs(eight(found.u) / u - 1)) < 1e-3
+    correlation = np.max(np.abs((found.covariance - covariance) / np.outer(u, u)))
+    assert correlation < 1e-3
+    assert found.chi_square == pytest.approx(chi_square, rel=1e-3) and found.dof == 2 * len(rows) - 8
+
+
+def test_the_documented_program_finds_the_same_gyro() -> None:
+    """docs/least_squares.py gives every reading the same weight: it agrees within the uncertainty."""
+    script = PROJECT / "docs/least_squares.py"
+    run = [sys.executable, script, PASSPORT, CURRENTS, SIGNERS, "examples@dtg-passport.test"]
+    printed = subprocess.run(run, capture_output=True, text=True, check=True, cwd=PROJECT / "docs").stdout
+    numbers = [float(word.strip(",;")) for word in printed.split() if word.strip(",;").replace(".", "", 1).isdigit()]
+    assert len(numbers) == 8
+    found = load().calibrate(CURRENTS)
+    assert np.all(np.abs(eight(found.parameters) - numbers) < 3 * eight(found.u))
+
+
+@pytest.mark.parametrize("method", ["least-squares", "analytic", "iterative"])
+def test_a_calibration_is_that_of_the_program(method: str) -> None:
+    options = ["--gyro", PROJECT / "docs/gvk-6.yaml", "--laboratory", PROJECT / "docs/laboratory.yaml"]
+    printed = program("calibrate", PASSPORT, CURRENTS, "--trust", SIGNERS, "--time", TIME, "--method", method, *options,
+                      "--format", "json")  # fmt: skip
+    found = load().calibrate(CURRENTS, gyro=options[1], laboratory=options[3], method=method)
+    assert found.document == json.loads(printed)
+    [result] = found.document["results"]
+    assert found.K.tobytes() == bits(result["k_deg_per_h_per_ma"])
+    assert found.u.K.tobytes() == bits(result["standard_uncertainty"]["k_deg_per_h_per_ma"])
+    assert np.allclose(np.sqrt(np.diag(found.covariance)), eight(found.u), rtol=1e-14)
+    assert found.verdict == json.loads(printed)["verdict"] and found.not_stated == ("latitude (latitude_arcsec)",)
+    residuals = result.get("residuals_deg_per_h", [])
+    assert found.residuals.tobytes() == bits([[at["x"], at["y"]] for at in residuals])
+    assert (found.chi_square, found.dof) == (result["chi_square"]["value"], result["chi_square"]["degrees_of_freedom"])
+
+
+def test_currents_come_in_every_form() -> None:
+    import pandas
+
+    passport, frame = load(), pandas.read_csv(CURRENTS, comment="#")
+    due = passport.calibrate(CURRENTS).document
+    with open(CURRENTS) as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    columns = {name: [float(row[name]) if name[0] == "j" and len(name) > 1 else int(row[name]) for row in rows] for name in rows[0]}
+    array = frame[["i", "j", "jx_ma", "jy_ma"]].to_numpy()
+    for currents in (str(CURRENTS), frame, columns, array, array.tolist(), array[::-1]):
+        assert passport.calibrate(currents).document == due
+    for currents in (array[:, :3], array[0], np.zeros((0, 4)), frame.drop(columns="jy_ma"), {"i": [1]}, array * np.nan):
+        with pytest.raises(ValueError):
+            passport.calibrate(currents)
+    with pytest.raises(ValueError, match="currents:4:5.*jx_ma"):
+        passport.calibrate(np.vstack([array[:2], [[1, 3, 5.0, 0.1]], array[3:]]))
+    with pytest.raises(ValueError, match="expected one of"):
+        passport.calibrate(CURRENTS, method="exact")
+    with pytest.raises(ValueError, match="laboratory|currents.csv"):
+        passport.calibrate(CURRENTS, laboratory=CURRENTS)
+
+
+def test_remarks_are_handed_on() -> None:
+    import pandas
+
+    frame = pandas.read_csv(CURRENTS, comment="#").assign(operator="N. N.")
+    assert any("operator" in remark for remark in load().calibrate(frame).remarks)
+
+
+# --- The self-check. ---
+
+
+def by_hand(passport: dtg_passport.Passport, currents: np.ndarray) -> tuple:
+    """The paper's analytic method, eq. (11), (13), (15), (16) and (8), in NumPy."""
+    current = {(int(i), int(j)): np.array([jx, jy]) for i, j, jx, jy in currents}
+    j1, j2 = (np.column_stack([current[i, 1] - current[i, 3], current[i, 2] - current[i, 4]]) for i in (1, 2))
+    K = passport.B @ np.linalg.inv(j1 - j2 @ passport.delta)
+    omega_n = passport.C - K @ j2 @ passport.n2_inverse
+    omega_g, omega_k = (omega_n[0, 0] + omega_n[1, 1]) / 2, (omega_n[1, 0] - omega_n[0, 1]) / 2
+    turn = np.array([[omega_g, -omega_k], [omega_k, omega_g]])
+    ij = [(int(i), int(j)) for i, j in passport.ij]
+    omega_0 = np.mean([w - K @ current[at] - turn @ n for at, w, n in zip(ij, passport.omega, passport.n)], axis=0)
+    return K, omega_0, omega_g, omega_k
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_correct_software_passes_the_self_check(path: Path) -> None:
+    passport = load(path)
+    assert passport.self_check(by_hand).passed
+    for method in ("analytic", "least-squares"):
+        assert passport.self_check(lambda p, currents: p.calibrate(currents, method=method)).passed
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda K, w, g, k: (K.T, w, g, k),
+        lambda K, w, g, k: (K, w[::-1], g, k),
+        lambda K, w, g, k: (K, w, g, -k),
+        lambda K, w, g, k: (K, w, k, g),
+        lambda K, w, g, k: (K * (1 + 2e-9), w, g, k),
+        lambda K, w, g, k: (K, w, float("nan"), k),
+        lambda K, w, g, k: (K, w, g, float("nan")),
+        lambda K, w, g, k: (K, w, g, float("inf")),
+    ],
+)
+def test_wrong_software_fails_the_self_check(wrong: object) -> None:
+    passport = load(PROJECT / "docs/self_check.yaml")
+    result = passport.self_check(lambda p, currents: wrong(*by_hand(p, currents)))  # type: ignore[operator]
+    assert not result.passed and result.limit == 1e-9 and set(result.errors) == {
+        "K_x", "K_xy", "K_yx", "K_y", "ω_0x", "ω_0y", "ω_g", "ω_k"}  # fmt: skip
+    with pytest.raises(ValueError, match="expected K"):
+        passport.self_check(lambda p, currents: (1.0, 2.0, 3.0, 4.0))
+
+
+# --- Tables, pictures, packages. ---
+
+
+def test_tables_have_the_numbers() -> None:
+    passport = load()
+    frame, dataset = passport.to_dataframe(), passport.to_xarray()
+    assert frame.loc[(1, 3), "gamma_arcsec"] == passport.at(1, 3).deviations[2]
+    assert frame[["omega_x_deg_per_h", "omega_y_deg_per_h"]].to_numpy().tobytes() == passport.omega.tobytes()
+    assert list(frame["theta_deg"]) == [0.0] * 4 + [90.0] * 4
+    for name, unit in passport.units.items():
+        if name in dataset:
+            assert dataset[name].values.tobytes() == getattr(passport, name).tobytes()
+            assert dataset[name].attrs["units"] == unit
+    assert set(dataset) == set(ARRAYS) - {"ij"}
+
+
+def test_pictures_show_the_numbers() -> None:
+    import matplotlib
+
+    matplotlib.use("Agg")
+    passport = load()
+    heights = np.array([bar.get_height() for bar in passport.plot().patches])
+    assert np.array_equal(heights.reshape(3, 8).T, passport.deviations)
+    found = passport.calibrate(CURRENTS)
+    lines = found.plot().get_lines()
+    assert any(np.array_equal(line.get_ydata(), found.residuals[:, 0]) for line in lines)
+
+
+def test_correlated_numbers_keep_the_covariance() -> None:
+    import uncertainties
+
+    found = load().calibrate(CURRENTS)
+    numbers = list(found.ufloats().values())
+    scale = np.outer(eight(found.u), eight(found.u))
+    difference = np.array(uncertainties.covariance_matrix(numbers)) - found.covariance
+    assert np.max(np.abs(difference / scale)) < 1e-9
+
+
+def test_html_is_escaped() -> None:
+    html = load()._repr_html_()
+    assert load().id in html and "all checks passed" in html and "<script" not in html
+    import xml.etree.ElementTree
+
+    xml.etree.ElementTree.fromstring(html)
+
+
+@pytest.mark.parametrize(
+    ("package", "call"),
+    [("pandas", "to_dataframe"), ("xarray", "to_xarray"), ("matplotlib", "plot")],
+)
+def test_a_missing_package_is_named(package: str, call: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    for module in [name for name in sys.modules if name.split(".")[0] == package]:
+        monkeypatch.delitem(sys.modules, module)
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(ImportError, match=f"{package} is not installed; install it with: pip install"):
+        getattr(load(), call)()
+
+
+def test_the_optional_packages_are_not_imported() -> None:
+    code = "import sys, dtg_passport; print([name for name in ('pandas', 'xarray', 'matplotlib', 'uncertainties') if name in sys.modules])"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"
+
+
+@pytest.mark.parametrize("name", ["dtg_passport", *dtg_passport.__all__])
+def test_examples_in_docstrings(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(PROJECT)
+    thing = getattr(dtg_passport, name, dtg_passport)
+    finder = doctest.DocTestFinder(recurse=isinstance(thing, type))
+    tests = finder.find(thing, name, module=False, globs=dict(vars(dtg_passport)))
+    runner = doctest.DocTestRunner()
+    for test in tests:
+        runner.run(test)
+    result = runner.summarize()
+    assert result.failed == 0
+    assert result.attempted > 0 or name not in ("load", "loads", "load_many", "verify", "Passport", "Calibration")
+
+
+def test_the_examples_of_the_guide(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(PROJECT)
+    result = doctest.testfile(str(PROJECT / "docs/python.md"), module_relative=False, encoding="utf-8")
+    assert result.failed == 0 and result.attempted > 10
+
+
+def test_every_public_thing_has_a_docstring() -> None:
+    for name in dtg_passport.__all__:
+        thing = getattr(dtg_passport, name)
+        assert thing.__doc__, name
+        for part, value in vars(thing).items() if isinstance(thing, type) else ():
+            if not part.startswith("_") and isinstance(value, property | type(lambda: 0)):
+                assert value.__doc__, f"{name}.{part}"
+
+
+def test_types_and_stubs_hold(tmp_path: Path) -> None:
+    """mypy --strict for the module and for a user; stubtest compares the stub with the compiled part."""
+    user = tmp_path / "user.py"
+    user.write_text(
+        "import dtg_passport, numpy, numpy.typing\n"
+        "p = dtg_passport.load('p', 't', at=(55.0, 37.0))\n"
+        "B: numpy.typing.NDArray[numpy.float64] = p.B\n"
+        "K, g = p.calibrate('c').K, p.calibrate('c').omega_g\n"
+        "g + 1.0, B @ K\n"
+        "for q in dtg_passport.load_many(['p'], 't', threads=2): q.id.upper()\n"
+    )
+    installed = Path(dtg_passport.__file__).parent
+    for check in (
+        ["mypy", "--strict", str(PROJECT / "python/dtg_passport")],
+        ["mypy", "--strict", str(user)],
+        ["mypy.stubtest", "dtg_passport._dtg_passport"],
+    ):
+        done = subprocess.run([sys.executable, "-m", *check], capture_output=True, text=True, cwd=tmp_path)
+        assert done.returncode == 0, done.stdout + done.stderr
+    assert (installed / "py.typed").exists() and (installed / "_dtg_passport.pyi").exists()
+    user.write_text("import dtg_passport\ndtg_passport.load('p', 't').B = 1\n")
+    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", str(user)], capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == 1 and 'read-only' in done.stdout, done.stdout
