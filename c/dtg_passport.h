@@ -1,0 +1,115 @@
+/* C interface of dtg-passport: verify a passport, read its numbers, calibrate a gyro.
+ *
+ * Written by cbindgen from c/src/lib.rs; do not edit. Text is UTF-8 and ends with a zero byte. Numbers are the signed
+ * ones, to the last bit. A function can be called from several threads at once, also with the same passport.
+ */
+
+#ifndef DTG_PASSPORT_H
+#define DTG_PASSPORT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/*
+ The call succeeded.
+ */
+#define DTG_OK 0
+
+/*
+ A check of the passport failed, or the readings do not give a result.
+ */
+#define DTG_REFUSED 1
+
+/*
+ An argument or a file cannot be used.
+ */
+#define DTG_UNUSABLE 2
+
+/*
+ Passport that passed every check; it does not change.
+ */
+typedef struct dtg_passport dtg_passport;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/*
+ Reads a passport and verifies it.
+
+ `question_json` is NULL or JSON, `{"time": "2026-11-20T00:00:00Z", "serial": "0017", "at": [55.7660, 37.6850],
+ "issuer": "…", "revoked": ["content of a revocation list", …]}`; every key may be absent. `time` is by default now,
+ `at` is latitude and longitude in degrees.
+
+ Returns DTG_OK and the passport in `*out`, to be freed with dtg_free; DTG_REFUSED if a check failed; DTG_UNUSABLE if
+ an argument, the question or a file cannot be used. `*out` is NULL unless DTG_OK is returned.
+
+ `report_json`, unless NULL, receives a text to be freed with dtg_string_free: `{"file", "valid", "id", "checks":
+ [{"name", "passed", "code", "detail"}, …]}`, or after DTG_UNUSABLE `{"error": {"code", "message", "problems":
+ [{"file", "line", "column", "message"}, …]}}`.
+ */
+int dtg_load(const char *path,
+             const char *allowed_signers_path,
+             const char *question_json,
+             dtg_passport **out,
+             char **report_json);
+
+/*
+ Copies a matrix row by row into `out`.
+
+ `key` is one of "delta", "b_deg_per_h", "c_deg_per_h_per_g", "n1", "n2", "n2_inverse", "omega1_deg_per_h",
+ "omega2_deg_per_h". Returns DTG_OK; DTG_REFUSED if the passport has no matrices, because its stand lacks one of the
+ paper's eight positions; DTG_UNUSABLE if the key is unknown or an argument is NULL.
+ */
+int dtg_matrix(const dtg_passport *passport,
+               const char *key,
+               double *out);
+
+/*
+ Returns the number of positions, or 0 if `passport` is NULL.
+ */
+size_t dtg_positions(const dtg_passport *passport);
+
+/*
+ Copies position `k`, counted from 0: its indices i and j, the specific force along x and y in g, and the Earth rate
+ along x and y in degrees per hour.
+
+ Returns DTG_OK, or DTG_UNUSABLE if there is no such position or an argument is NULL.
+ */
+int dtg_position(const dtg_passport *passport,
+                 size_t k,
+                 uint32_t *ij,
+                 double *n,
+                 double *omega);
+
+/*
+ Calibrates a gyro.
+
+ `currents` has `rows` rows of four numbers: i, j, and the currents along x and y in mA. `method` is NULL or
+ "least-squares", "analytic", "iterative". Uncertainties are those of the paper's meter, 0.015 % of the reading.
+
+ `result_json`, unless NULL, receives a text to be freed with dtg_string_free: the JSON of the command `calibrate`,
+ or `{"error": …}` as from dtg_load. Returns DTG_OK; DTG_REFUSED if the readings do not give a result; DTG_UNUSABLE if
+ an argument or a current cannot be used.
+ */
+int dtg_calibrate(const dtg_passport *passport,
+                  const double *currents,
+                  size_t rows,
+                  const char *method,
+                  char **result_json);
+
+/*
+ Frees a passport; NULL is allowed.
+ */
+void dtg_free(dtg_passport *passport);
+
+/*
+ Frees a text that this library returned; NULL is allowed.
+ */
+void dtg_string_free(char *text);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* DTG_PASSPORT_H */

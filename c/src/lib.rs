@@ -1,0 +1,251 @@
+//! C interface of dtg-passport. It only converts types and calls `dtg_passport::interface`; no panic crosses it.
+//!
+//! The comments of the functions are those of the header `dtg_passport.h`.
+
+use passports::interface::{Enquiry, Failed, calibrate, currents_csv};
+use passports::jiff::Timestamp;
+use passports::passport::Content;
+use passports::text::LARGEST_DOCUMENT_BYTES;
+use std::ffi::{CStr, CString, c_char, c_double, c_int};
+use std::fs::{self, File};
+use std::io::Read;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::ptr;
+
+/// The call succeeded.
+pub const DTG_OK: c_int = 0;
+/// A check of the passport failed, or the readings do not give a result.
+pub const DTG_REFUSED: c_int = 1;
+/// An argument or a file cannot be used.
+pub const DTG_UNUSABLE: c_int = 2;
+
+/// Number of bytes to read of allowed_signers: one more than the library accepts.
+const LARGEST_SIGNERS_BYTES: usize = (1 << 24) + 1;
+
+/// Passport that passed every check; it does not change.
+#[allow(non_camel_case_types)]
+pub struct dtg_passport {
+    content: Content,
+}
+
+/// Reads a passport and verifies it.
+///
+/// `question_json` is NULL or JSON, `{"time": "2026-11-20T00:00:00Z", "serial": "0017", "at": [55.7660, 37.6850],
+/// "issuer": "…", "revoked": ["content of a revocation list", …]}`; every key may be absent. `time` is by default now,
+/// `at` is latitude and longitude in degrees.
+///
+/// Returns DTG_OK and the passport in `*out`, to be freed with dtg_free; DTG_REFUSED if a check failed; DTG_UNUSABLE if
+/// an argument, the question or a file cannot be used. `*out` is NULL unless DTG_OK is returned.
+///
+/// `report_json`, unless NULL, receives a text to be freed with dtg_string_free: `{"file", "valid", "id", "checks":
+/// [{"name", "passed", "code", "detail"}, …]}`, or after DTG_UNUSABLE `{"error": {"code", "message", "problems":
+/// [{"file", "line", "column", "message"}, …]}}`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dtg_load(
+    path: *const c_char,
+    allowed_signers_path: *const c_char,
+    question_json: *const c_char,
+    out: *mut *mut dtg_passport,
+    report_json: *mut *mut c_char,
+) -> c_int {
+    // SAFETY: the caller passes NULL or pointers that are valid as the header states.
+    unsafe {
+        give(out, ptr::null_mut());
+        guarded(report_json, || {
+            if out.is_null() {
+                return Err(Failed::unusable("out is NULL"));
+            }
+            let (path, signers) = (file_name(path, "path")?, file_name(allowed_signers_path, "allowed_signers_path")?);
+            let question = if question_json.is_null() { "{}" } else { text(question_json, "question_json")? };
+            let signed = (&*signers.to_string_lossy(), &*read(signers, LARGEST_SIGNERS_BYTES)?);
+            let enquiry = Enquiry::new(signed, &[], question, Timestamp::now())?;
+            // One byte above the size limit is enough to show that the file is not a passport.
+            let answer = enquiry.verify(&path.to_string_lossy(), &read(path, LARGEST_DOCUMENT_BYTES + 1)?);
+            let Some(passport) = answer.verification.passport() else { return Ok((DTG_REFUSED, answer.to_json())) };
+            give(out, Box::into_raw(Box::new(dtg_passport { content: passport.content().clone() })));
+            Ok((DTG_OK, answer.to_json()))
+        })
+    }
+}
+
+/// Copies a matrix row by row into `out`.
+///
+/// `key` is one of "delta", "b_deg_per_h", "c_deg_per_h_per_g", "n1", "n2", "n2_inverse", "omega1_deg_per_h",
+/// "omega2_deg_per_h". Returns DTG_OK; DTG_REFUSED if the passport has no matrices, because its stand lacks one of the
+/// paper's eight positions; DTG_UNUSABLE if the key is unknown or an argument is NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dtg_matrix(passport: *const dtg_passport, key: *const c_char, out: *mut c_double) -> c_int {
+    // SAFETY: the caller passes NULL, or a passport of dtg_load, a text, and room for four numbers.
+    unsafe {
+        guarded(ptr::null_mut(), || {
+            let key = text(key, "key")?;
+            let (passport, out) = (given(passport, "passport")?, room(out, 4, "out")?);
+            let matrices = passport.content.matrices.as_ref();
+            let matrix = match key {
+                "delta" => matrices.map(|m| m.delta),
+                "b_deg_per_h" => matrices.map(|m| m.b_deg_per_h),
+                "c_deg_per_h_per_g" => matrices.map(|m| m.c_deg_per_h_per_g),
+                "n1" => matrices.map(|m| m.n1),
+                "n2" => matrices.map(|m| m.n2),
+                "n2_inverse" => matrices.map(|m| m.n2_inverse),
+                "omega1_deg_per_h" => matrices.map(|m| m.omega1_deg_per_h),
+                "omega2_deg_per_h" => matrices.map(|m| m.omega2_deg_per_h),
+                _ => return Err(Failed::unusable("unknown key of a matrix")),
+            };
+            let Some(matrix) = matrix else { return Ok((DTG_REFUSED, String::new())) };
+            out.copy_from_slice(&matrix.concat());
+            Ok((DTG_OK, String::new()))
+        })
+    }
+}
+
+/// Returns the number of positions, or 0 if `passport` is NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dtg_positions(passport: *const dtg_passport) -> usize {
+    // SAFETY: the caller passes NULL or a passport of dtg_load.
+    unsafe { passport.as_ref() }.map_or(0, |passport| passport.content.vectors.len())
+}
+
+/// Copies position `k`, counted from 0: its indices i and j, the specific force along x and y in g, and the Earth rate
+/// along x and y in degrees per hour.
+///
+/// Returns DTG_OK, or DTG_UNUSABLE if there is no such position or an argument is NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dtg_position(
+    passport: *const dtg_passport,
+    k: usize,
+    ij: *mut u32,
+    n: *mut c_double,
+    omega: *mut c_double,
+) -> c_int {
+    // SAFETY: the caller passes NULL, or a passport of dtg_load and room for two numbers each.
+    unsafe {
+        guarded(ptr::null_mut(), || {
+            let (ij, n, omega) = (room(ij, 2, "ij")?, room(n, 2, "n")?, room(omega, 2, "omega")?);
+            let position = given(passport, "passport")?.content.vectors.get(k);
+            let position = position.ok_or_else(|| Failed::unusable("k is not below dtg_positions"))?;
+            ij.copy_from_slice(&[position.i, position.j]);
+            n.copy_from_slice(&position.specific_force_g);
+            omega.copy_from_slice(&position.omega_deg_per_h);
+            Ok((DTG_OK, String::new()))
+        })
+    }
+}
+
+/// Calibrates a gyro.
+///
+/// `currents` has `rows` rows of four numbers: i, j, and the currents along x and y in mA. `method` is NULL or
+/// "least-squares", "analytic", "iterative". Uncertainties are those of the paper's meter, 0.015 % of the reading.
+///
+/// `result_json`, unless NULL, receives a text to be freed with dtg_string_free: the JSON of the command `calibrate`,
+/// or `{"error": …}` as from dtg_load. Returns DTG_OK; DTG_REFUSED if the readings do not give a result; DTG_UNUSABLE if
+/// an argument or a current cannot be used.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dtg_calibrate(
+    passport: *const dtg_passport,
+    currents: *const c_double,
+    rows: usize,
+    method: *const c_char,
+    result_json: *mut *mut c_char,
+) -> c_int {
+    // SAFETY: the caller passes NULL, or a passport of dtg_load, a text, and 4 · rows numbers.
+    unsafe {
+        guarded(result_json, || {
+            let passport = given(passport, "passport")?;
+            given(currents, "currents")?;
+            let method = if method.is_null() { "least-squares" } else { text(method, "method")? };
+            let numbers = rows.checked_mul(4).filter(|count| *count <= isize::MAX as usize / size_of::<c_double>());
+            let numbers = numbers.ok_or_else(|| Failed::unusable("rows is too large"))?;
+            let (rows, _) = std::slice::from_raw_parts(currents, numbers).as_chunks::<4>();
+            let csv = currents_csv(rows);
+            let found = calibrate(&passport.content, true, ("currents", &csv), method, None, None)?;
+            Ok((DTG_OK, found.json))
+        })
+    }
+}
+
+/// Frees a passport; NULL is allowed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dtg_free(passport: *mut dtg_passport) {
+    if !passport.is_null() {
+        // SAFETY: the caller passes a passport of dtg_load that was not freed.
+        drop(unsafe { Box::from_raw(passport) });
+    }
+}
+
+/// Frees a text that this library returned; NULL is allowed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dtg_string_free(text: *mut c_char) {
+    if !text.is_null() {
+        // SAFETY: the caller passes a text of this library that was not freed.
+        drop(unsafe { CString::from_raw(text) });
+    }
+}
+
+/// Runs `work`, hands out its text, and returns its code. A panic becomes DTG_UNUSABLE.
+unsafe fn guarded(json: *mut *mut c_char, work: impl FnOnce() -> Result<(c_int, String), Failed>) -> c_int {
+    let done = catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err(Failed::unusable("internal error")));
+    let (code, text) = done
+        .unwrap_or_else(|failed| (if failed.code == "refused" { DTG_REFUSED } else { DTG_UNUSABLE }, failed.to_json()));
+    // A text that the caller did not ask for would never be freed.
+    if !json.is_null() {
+        // SAFETY: `json` is valid. JSON has no zero byte.
+        unsafe { give(json, CString::new(text).map_or(ptr::null_mut(), CString::into_raw)) };
+    }
+    code
+}
+
+/// Stores a pointer, unless the caller did not ask for it.
+unsafe fn give<T>(place: *mut *mut T, value: *mut T) {
+    // SAFETY: `place` is NULL or valid.
+    if let Some(place) = unsafe { place.as_mut() } {
+        *place = value;
+    }
+}
+
+unsafe fn given<'a, T>(pointer: *const T, name: &str) -> Result<&'a T, Failed> {
+    // SAFETY: `pointer` is NULL or valid.
+    unsafe { pointer.as_ref() }.ok_or_else(|| Failed::unusable(format!("{name} is NULL")))
+}
+
+unsafe fn room<'a, T>(pointer: *mut T, length: usize, name: &str) -> Result<&'a mut [T], Failed> {
+    if pointer.is_null() {
+        return Err(Failed::unusable(format!("{name} is NULL")));
+    }
+    // SAFETY: the caller gives room for `length` numbers.
+    Ok(unsafe { std::slice::from_raw_parts_mut(pointer, length) })
+}
+
+unsafe fn text<'a>(pointer: *const c_char, name: &str) -> Result<&'a str, Failed> {
+    // SAFETY: `pointer` is NULL or a text that ends with a zero byte.
+    let text = unsafe { pointer.as_ref().map(|pointer| CStr::from_ptr(pointer)) };
+    let text = text.ok_or_else(|| Failed::unusable(format!("{name} is NULL")))?;
+    text.to_str().map_err(|_| Failed::unusable(format!("{name} is not UTF-8")))
+}
+
+/// Returns a path; outside Unix it must be UTF-8.
+unsafe fn file_name<'a>(pointer: *const c_char, name: &str) -> Result<&'a Path, Failed> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::ffi::OsStrExt;
+        // SAFETY: `pointer` is NULL or a text that ends with a zero byte.
+        let text = unsafe { pointer.as_ref().map(|pointer| CStr::from_ptr(pointer)) };
+        let text = text.ok_or_else(|| Failed::unusable(format!("{name} is NULL")))?;
+        Ok(Path::new(std::ffi::OsStr::from_bytes(text.to_bytes())))
+    }
+    #[cfg(not(unix))]
+    // SAFETY: as above.
+    Ok(Path::new(unsafe { text(pointer, name) }?))
+}
+
+/// Reads at most `limit` bytes of a file. A pipe is refused, because reading it might never end.
+fn read(path: &Path, limit: usize) -> Result<Vec<u8>, Failed> {
+    let failed = |error: std::io::Error| Failed::unusable(format!("{}: cannot be read: {error}", path.display()));
+    if !fs::metadata(path).map_err(failed)?.is_file() {
+        return Err(Failed::unusable(format!("{}: expected a file", path.display())));
+    }
+    let mut bytes = Vec::new();
+    File::open(path).map_err(failed)?.take(limit as u64).read_to_end(&mut bytes).map_err(failed)?;
+    Ok(bytes)
+}

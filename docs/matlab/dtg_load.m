@@ -1,0 +1,13 @@
+function p = dtg_load(passport, signers, varargin)
+% DTG_LOAD  Verify a passport and return its content. For MATLAB and for Octave 7 or later.
+%
+%   p = dtg_load(passport, signers)
+%   p = dtg_load(passport, signers, 'serial', '0017', 'at', '55.7660,37.6850', 'time', '2026-11-20')
+%
+% passport and signers are paths: of the passport and of the trusted keys (OpenSSH allowed_signers). Options are those
+% of the command `dtg-passport show`, which must be on the PATH: serial, at, time, issuer, revoked. The fields of p are
+% the keys of the passport; matrices are p.matrices.b_deg_per_h and so on.
+%
+% Errors: dtg:refused if a check failed, dtg:unusable if a file cannot be used, dtg:option for an unknown option.
+    p = jsondecode(dtg_run('show', passport, {}, signers, varargin));
+end

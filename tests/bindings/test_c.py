@@ -1,0 +1,179 @@
+"""The C library: header, examples, memory, threads, and the same answers as the program."""
+
+from __future__ import annotations
+
+import json
+import struct
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from conftest import PROJECT, SIGNERS, TIME, Corpus, program
+
+LIBRARIES = PROJECT / "target/debug"
+PASSPORT = PROJECT / "passports/SPS-2/0017/moscow-bmstu-1.yaml"
+QUESTION = json.dumps({"time": TIME})
+SANITIZERS = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+KEYS = ["delta", "b_deg_per_h", "c_deg_per_h_per_g", "n1", "n2", "n2_inverse", "omega1_deg_per_h", "omega2_deg_per_h"]
+
+
+def compiled(source: Path, to: Path, *options: str, static: bool = False) -> Path:
+    link = [str(LIBRARIES / "libdtg_passport.a"), "-lm", "-lpthread", "-ldl"]
+    if not static:
+        link = [f"-L{LIBRARIES}", f"-Wl,-rpath,{LIBRARIES}", "-ldtg_passport", "-lpthread"]
+    warnings = ["-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-g"]
+    subprocess.run(["gcc", *warnings, *options, str(source), f"-I{PROJECT / 'c'}", *link, "-o", str(to)], check=True)
+    return to
+
+
+@pytest.fixture(scope="session")
+def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("c")
+    return compiled(PROJECT / "tests/bindings/library.c", folder / "library", *SANITIZERS)
+
+
+def run(*command: object, given: str = "", accept: int = 0) -> str:
+    done = subprocess.run([*map(str, command)], input=given, capture_output=True, text=True)
+    assert done.returncode == accept, (command, done.stdout[-2000:], done.stderr[-4000:])
+    return done.stdout
+
+
+def test_the_header_is_what_cbindgen_writes(tmp_path: Path) -> None:
+    header = tmp_path / "dtg_passport.h"
+    cbindgen = PROJECT / "target/tools/bin/cbindgen"
+    config = PROJECT / "c/cbindgen.toml"
+    run(cbindgen, "--quiet", "--config", config, "--output", header, PROJECT / "c/src/lib.rs")
+    assert header.read_text() == (PROJECT / "c/dtg_passport.h").read_text(), f"write it anew: cp {header} c/"
+
+
+def test_the_header_is_good_c_and_c_plus_plus(tmp_path: Path) -> None:
+    for compiler, source in (("gcc", "a.c"), ("g++", "a.cpp")):
+        (tmp_path / source).write_text('#include "dtg_passport.h"\nint main(void) { dtg_free(0); return DTG_OK; }\n')
+        run(compiler, "-Wall", "-Wextra", "-Wpedantic", "-Werror", f"-I{PROJECT / 'c'}", tmp_path / source,
+            f"-L{LIBRARIES}", f"-Wl,-rpath,{LIBRARIES}", "-ldtg_passport", "-o", tmp_path / "a")  # fmt: skip
+        run(tmp_path / "a")
+
+
+def currents() -> str:
+    lines = (PROJECT / "docs/currents.csv").read_text().splitlines()
+    return "\n".join(line for line in lines if line[:1].isdigit())
+
+
+@pytest.mark.parametrize("how", ["sanitized", "static", "valgrind"])
+def test_the_example_calibrates(tmp_path: Path, how: str) -> None:
+    options = SANITIZERS if how == "sanitized" else []
+    example = compiled(PROJECT / "c/examples/calibrate.c", tmp_path / "calibrate", *options, static=how == "static")
+    before = ["valgrind", "--quiet", "--leak-check=full", "--error-exitcode=9"] if how == "valgrind" else []
+    printed = run(*before, example, PASSPORT, SIGNERS, QUESTION, given=currents())
+    decoder = json.JSONDecoder()
+    report, end = decoder.raw_decode(printed)
+    result, end = decoder.raw_decode(printed[end:].lstrip())
+    due = json.loads(program("verify", PASSPORT, "--trust", SIGNERS, "--time", TIME, "--format", "json"))
+    assert [report] == due
+    options = ["--trust", SIGNERS, "--time", TIME, "--method", "least-squares", "--format", "json"]
+    assert result == json.loads(program("calibrate", PASSPORT, PROJECT / "docs/currents.csv", *options))
+    # The paper's equation (13) in the example, and in the program.
+    analytic = program("calibrate", PASSPORT, PROJECT / "docs/currents.csv", *options[:5], "analytic", *options[6:])
+    K = np.array(json.loads(analytic)["results"][0]["k_deg_per_h_per_ma"]).ravel()
+    found = printed.splitlines()[-1].split()
+    assert found[4] == "deg/(h*mA)" and np.allclose([float(number) for number in found[:4]], K, rtol=0, atol=1e-6)
+
+    (tmp_path / "altered.yaml").write_bytes(PASSPORT.read_bytes().replace(b"serial", b"Serial", 1))
+    printed = run(*before, example, tmp_path / "altered.yaml", SIGNERS, QUESTION, accept=1)
+    assert json.loads(printed)["valid"] is False
+    for arguments in ((tmp_path, SIGNERS, QUESTION), (PASSPORT, tmp_path / "none", QUESTION), (PASSPORT, SIGNERS, "{")):
+        printed = run(*before, example, *arguments, accept=2)
+        assert json.loads(printed)["error"]["code"] in ("unusable", "unreadable")
+
+
+def test_what_cannot_be_used_is_refused_without_harm(library: Path) -> None:
+    assert run(library) == "misused\n"
+
+
+def test_threads_agree(library: Path) -> None:
+    assert run(library, "threads", PASSPORT, SIGNERS, QUESTION) == "threads agree\n"
+
+
+def test_every_question_is_asked() -> None:
+    """Each key of the question reaches the library; the codes are those of docs/commands.md."""
+    import ctypes
+
+    c = ctypes.CDLL(str(LIBRARIES / "libdtg_passport.so"))
+    text = lambda value: None if value is None else json.dumps(value).encode()
+    keys = (PROJECT / "tests/keys/examples.pub").read_text()
+    for question, code in (
+        ({"time": TIME, "serial": "0017", "at": [55.766, 37.685], "issuer": "examples@dtg-passport.test"}, "ok"),
+        ({"time": TIME, "serial": "0018"}, "wrong_stand"),
+        ({"time": TIME, "issuer": "x"}, "wrong_issuer"),
+        ({"time": TIME, "at": [0, 0]}, "wrong_place"),
+        ({"time": "2031-01-01T00:00:00Z"}, "expired"),
+        ({"time": TIME, "revoked": [keys]}, "key_revoked"),
+    ):
+        passport, report = ctypes.c_void_p(), ctypes.c_char_p()
+        paths = (str(PASSPORT).encode(), str(SIGNERS).encode())
+        got = c.dtg_load(*paths, text(question), ctypes.byref(passport), ctypes.byref(report))
+        codes = [check["code"] for check in json.loads(report.value)["checks"]]
+        assert code in codes and got == (0 if code == "ok" else 1) and bool(passport) == (got == 0)
+        c.dtg_string_free(report)
+        c.dtg_free(passport)
+
+
+def test_the_library_is_looked_for_by_its_name() -> None:
+    dynamic = run("readelf", "--dynamic", LIBRARIES / "libdtg_passport.so")
+    assert "soname: [libdtg_passport.so]" in dynamic
+
+
+def test_every_answer_and_number_is_that_of_the_program(library: Path, corpus: Corpus) -> None:
+    """Numbers against PyYAML's reading of the signed bytes, bit for bit."""
+    paths = "".join(f"{path}\n" for path in corpus.paths)
+    printed = run(library, corpus.signers, QUESTION, given=paths)
+    bits = lambda numbers: struct.pack(f"{len(numbers)}d", *numbers)
+    for path, due in zip(corpus.paths, corpus.verdicts):
+        head, printed = printed.split("\n", 1)
+        code, length = map(int, head.split())
+        report = printed.encode()[:length] if not printed[:length].isascii() else printed[:length].encode()
+        printed = printed[len(report.decode()) + 1 :]
+        assert json.loads(report) == due and code == (0 if due["valid"] else 1), path
+        numbers, printed = printed.split("end\n", 1)
+        if not due["valid"]:
+            assert numbers == ""
+            continue
+        content = yaml.load(path.read_bytes().partition(b"signature: |")[0], Loader=yaml.CSafeLoader)
+        rows = [[float.fromhex(number) for number in line.split()] for line in numbers.splitlines()]
+        for key, row in zip(KEYS, rows):
+            assert bits(row) == bits(sum(content["matrices"][key], []))
+        for at, row in zip(content["vectors"], rows[len(KEYS) :], strict=True):
+            assert bits(row) == bits([float(at["i"]), float(at["j"]), *at["specific_force_g"], *at["omega_deg_per_h"]])
+
+
+def test_octave_and_matlab_functions(tmp_path: Path) -> None:
+    """docs/matlab in Octave: numbers to one unit in the last place, which is what its jsondecode gives."""
+    due = yaml.safe_load(PASSPORT.read_bytes().partition(b"signature: |")[0])
+    options = ["--trust", SIGNERS, "--time", TIME, "--method", "least-squares", "--format", "json"]
+    calibrated = json.loads(program("calibrate", PASSPORT, PROJECT / "docs/currents.csv", *options))["results"][0]
+    rows = ";".join(currents().splitlines())
+    script = tmp_path / "test.m"
+    script.write_text(f"""
+        addpath('{PROJECT}/docs/matlab');
+        p = dtg_load('{PASSPORT}', '{SIGNERS}', 'serial', '0017', 'time', '{TIME}');
+        printf('%.17g ', p.matrices.b_deg_per_h', p.matrices.delta'); printf('\\n');
+        c = dtg_calibrate('{PASSPORT}', '{SIGNERS}', [{rows}], 'serial', '0017', 'time', '{TIME}');
+        printf('%.17g ', c.K', c.omega_0, c.omega_g, c.omega_k, c.u.K'); printf('\\n');
+        try, dtg_load('{PASSPORT}', '{SIGNERS}', 'serial', '0018', 'time', '{TIME}'); catch e, disp(e.identifier); end
+        try, dtg_load('{PASSPORT}', '{SIGNERS}', 'serail', '0017'); catch e, disp(e.identifier); end
+        try, dtg_load('it''s "no" $(file)', '{SIGNERS}'); catch e, disp(e.identifier); end
+    """)
+    import os
+
+    path = f"{Path(os.environ['DTG_PASSPORT']).parent}:{os.environ['PATH']}"
+    done = subprocess.run(["octave-cli", "--norc", "--quiet", str(script)], capture_output=True, text=True, env={**os.environ, "PATH": path})
+    assert done.returncode == 0, done.stderr
+    loaded, found, *refused = done.stdout.splitlines()
+    ulp = lambda printed, numbers: np.testing.assert_array_max_ulp(np.array(printed.split(), dtype=float), np.array(numbers), 1)
+    ulp(loaded, np.concatenate([np.ravel(due["matrices"][key]) for key in ("b_deg_per_h", "delta")]))
+    ulp(found, [*np.ravel(calibrated["k_deg_per_h_per_ma"]), *calibrated["omega0_deg_per_h"],
+                calibrated["omega_g_deg_per_h_per_g"], calibrated["omega_k_deg_per_h_per_g"],
+                *np.ravel(calibrated["standard_uncertainty"]["k_deg_per_h_per_ma"])])  # fmt: skip
+    assert refused == ["dtg:refused", "dtg:option", "dtg:unusable"]
