@@ -1,0 +1,87 @@
+// Verifies passports of gyro test stands, in browsers and in Node.js. No file is read and no network is used.
+//
+//     import { readFile } from "node:fs/promises";
+//     import { verify } from "./dtg_passport.mjs";
+//     const signers = await readFile("allowed_signers", "utf8");
+//     const { valid, id, checks } = await verify(await readFile("moscow-bmstu-1.yaml"), signers, { serial: "0017" });
+//
+// Every function takes the bytes of a passport (Uint8Array or ArrayBuffer), the text or bytes of an OpenSSH
+// allowed_signers file, and a question in which every key may be absent: `time` (text in RFC 3339, a UTC date, or a
+// Date; default: now), `serial`, `at: [latitude, longitude]` in degrees, `issuer`, and `revoked`, a list of revocation
+// lists as text or bytes. Input that cannot be used throws an Error whose `cause` is {code, message, problems}.
+
+const WASM = "@WASM@"; // base64 of the module, compressed with gzip
+
+let module;
+
+async function compiled() {
+    const compressed = Uint8Array.from(atob(WASM), (letter) => letter.charCodeAt(0));
+    const stream = new Blob([compressed]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return WebAssembly.compile(await new Response(stream).arrayBuffer());
+}
+
+const bytes = (data) => (typeof data === "string" ? new TextEncoder().encode(data) : new Uint8Array(data));
+
+function question({ time, serial, at, issuer, revoked = [] }) {
+    if (time instanceof Date) time = `${time.toISOString().slice(0, 19)}Z`;
+    const lists = revoked.map((list) => (typeof list === "string" ? list : Array.from(bytes(list))));
+    return JSON.stringify({ time, serial, at, issuer, revoked: lists });
+}
+
+/** Calls a function of a new instance of the module; returns its text. */
+async function call(name, passport, allowedSigners, asked = {}, currents = "") {
+    module ??= compiled();
+    const { exports } = await WebAssembly.instantiate(await module, {});
+    const parts = [passport, allowedSigners, question(asked), currents].map(bytes);
+    const places = parts.map((part) => exports.room(part.length));
+    const inputs = exports.room(4 * 2 * parts.length);
+    // Only now, because allocating can move the memory.
+    parts.forEach((part, index) => new Uint8Array(exports.memory.buffer, places[index], part.length).set(part));
+    const slices = new Uint32Array(exports.memory.buffer, inputs, 2 * parts.length);
+    slices.set(parts.flatMap((part, index) => [places[index], part.length]));
+    const found = exports[name](inputs, Math.floor(Date.now() / 1000));
+    const [start, length] = new Uint32Array(exports.memory.buffer, found, 2);
+    return new TextDecoder().decode(new Uint8Array(exports.memory.buffer, start, length));
+}
+
+/** Reads JSON of the module; throws if the input could not be used. */
+function parsed(text) {
+    const found = JSON.parse(text);
+    if (found.error) throw new Error(found.error.message, { cause: found.error });
+    return found;
+}
+
+const refused = (found) => Array.isArray(found.checks) && found.valid === false;
+
+function refuse({ id, checks }) {
+    const failed = checks.filter((check) => check.passed === false);
+    const words = failed.map(({ name, code, detail }) => `${name} (${code}): ${detail}`).join("\n");
+    return new Error(`refused: ${words}`, { cause: { valid: false, id, checks } });
+}
+
+/** Verifies a passport: {valid, id, checks: [{name, passed, code, detail}]}. */
+export async function verify(passport, allowedSigners, asked) {
+    const { valid, id, checks } = parsed(await call("verify", passport, allowedSigners, asked));
+    return { valid, id, checks };
+}
+
+/** Verifies a passport and returns its content: the keys of the file but `signature`. Throws if a check failed. */
+export async function content(passport, allowedSigners, asked) {
+    const found = parsed(await call("content", passport, allowedSigners, asked));
+    if (refused(found)) throw refuse(found);
+    return found;
+}
+
+/** Verifies a passport and returns it in printed form, one HTML document. Throws if the passport is not authentic. */
+export async function print(passport, allowedSigners, asked) {
+    const text = await call("print", passport, allowedSigners, asked);
+    if (text.startsWith("{")) throw refuse(parsed(text));
+    return text;
+}
+
+/** Verifies a passport and calibrates a gyro from currents as CSV: the JSON of `calibrate`. Throws if refused. */
+export async function calibrate(passport, allowedSigners, currents, asked) {
+    const found = parsed(await call("calibrated", passport, allowedSigners, asked, currents));
+    if (refused(found)) throw refuse(found);
+    return found;
+}

@@ -1,0 +1,88 @@
+//! WebAssembly of dtg-passport for browsers and Node.js. It only converts types and calls `dtg_passport::interface`.
+//!
+//! The module imports nothing. `dtg_passport.mjs` creates a new instance for every call, so memory is never given back,
+//! and nothing of one passport can reach the next.
+
+use dtg_passport::interface::{Answer, Enquiry, Failed, calibrate, content_json};
+use dtg_passport::jiff::Timestamp;
+use dtg_passport::report::{Language, Languages, PassportPage};
+
+/// Bytes in the memory of the module.
+#[repr(C)]
+pub struct Slice {
+    start: *const u8,
+    length: usize,
+}
+
+/// Inputs of every call; those that a call does not use are empty.
+#[repr(C)]
+pub struct Inputs {
+    passport: Slice,
+    signers: Slice,
+    question: Slice,
+    currents: Slice,
+}
+
+/// Returns room for `length` bytes, at an address that fits [`Inputs`].
+#[unsafe(no_mangle)]
+pub extern "C" fn room(length: usize) -> *mut u8 {
+    Box::leak(vec![0_u64; length.div_ceil(8)].into_boxed_slice()).as_mut_ptr().cast()
+}
+
+/// Verifies a passport; `now_s` is the time in seconds since 1970 UTC. Gives `{file, valid, id, checks}` or `{error}`.
+#[unsafe(no_mangle)]
+pub extern "C" fn verify(inputs: &Inputs, now_s: f64) -> *const Slice {
+    run(inputs, now_s, |_, answer| Ok(answer.to_json()))
+}
+
+/// Verifies a passport and gives its content as JSON, or the answer of [`verify`] if a check failed.
+#[unsafe(no_mangle)]
+pub extern "C" fn content(inputs: &Inputs, now_s: f64) -> *const Slice {
+    run(inputs, now_s, |_, answer| {
+        let passport = answer.verification.passport();
+        Ok(passport.map_or_else(|| answer.to_json(), |passport| content_json(passport.content())))
+    })
+}
+
+/// Verifies a passport and gives it in printed form, one HTML document in English; or the answer of [`verify`] if it is
+/// not authentic.
+#[unsafe(no_mangle)]
+pub extern "C" fn print(inputs: &Inputs, now_s: f64) -> *const Slice {
+    let bytes = inputs.passport.bytes();
+    run(inputs, now_s, |enquiry, answer| {
+        let page = PassportPage::of(bytes, enquiry.trust(), enquiry.question(), answer.verification.clone());
+        Ok(page.map_or_else(|_| answer.to_json(), |page| page.html(&Languages::from(Language::English))))
+    })
+}
+
+/// Verifies a passport and calibrates a gyro from currents as CSV, by least squares; or gives the answer of [`verify`]
+/// if a check failed.
+#[unsafe(no_mangle)]
+pub extern "C" fn calibrated(inputs: &Inputs, now_s: f64) -> *const Slice {
+    let currents = ("currents", inputs.currents.bytes());
+    run(inputs, now_s, |_, answer| match answer.verification.passport() {
+        None => Ok(answer.to_json()),
+        Some(passport) => Ok(calibrate(passport.content(), true, currents, "least-squares", None, None)?.json),
+    })
+}
+
+fn run(inputs: &Inputs, now_s: f64, give: impl FnOnce(&Enquiry, &Answer) -> Result<String, Failed>) -> *const Slice {
+    let found = || {
+        let question = std::str::from_utf8(inputs.question.bytes()).map_err(Failed::unusable)?;
+        let now = Timestamp::from_second(now_s as i64).map_err(Failed::unusable)?;
+        let enquiry = Enquiry::new(("allowed_signers", inputs.signers.bytes()), &[], question, now)?;
+        give(&enquiry, &enquiry.verify("passport", inputs.passport.bytes()))
+    };
+    let text: &'static str = Box::leak(found().unwrap_or_else(|failed| failed.to_json()).into_boxed_str());
+    Box::leak(Box::new(Slice { start: text.as_ptr(), length: text.len() }))
+}
+
+impl Slice {
+    fn bytes(&self) -> &[u8] {
+        if self.length == 0 {
+            return &[];
+        }
+        // SAFETY: `dtg_passport.mjs` writes addresses and lengths that it got from `room`.
+        unsafe { std::slice::from_raw_parts(self.start, self.length) }
+    }
+}

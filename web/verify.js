@@ -1,0 +1,119 @@
+// The page verify.html: reads files, calls the functions above, and shows their answers as text.
+
+const byId = (id) => document.getElementById(id);
+const dropped = {};
+
+/** Creates an element. Text of others is only ever text, never markup. */
+function element(name, text, ...children) {
+    const created = document.createElement(name);
+    if (text !== undefined) created.textContent = text;
+    created.append(...children);
+    return created;
+}
+
+function table(head, rows) {
+    const line = (cells, name) => element("tr", undefined, ...cells.map((cell) => element(name, String(cell))));
+    return element("table", undefined, element("thead", undefined, line(head, "th")),
+        element("tbody", undefined, ...rows.map((row) => line(row, "td"))));
+}
+
+const file = (id) => byId(id).files[0] ?? dropped[id];
+const read = async (blob) => (blob ? new Uint8Array(await blob.arrayBuffer()) : undefined);
+
+async function asked() {
+    const value = (id) => byId(id).value.trim() || undefined;
+    const place = [value("latitude"), value("longitude")];
+    if ((place[0] === undefined) !== (place[1] === undefined)) throw new Error("give latitude and longitude, or neither");
+    const at = place[0] === undefined ? undefined : place.map(Number);
+    if (at?.some(Number.isNaN)) throw new Error("latitude and longitude are numbers with a decimal point");
+    const revoked = await Promise.all([...byId("revoked").files].map(read));
+    return { serial: value("serial"), time: value("time"), at, revoked };
+}
+
+const shown = (rows) => rows.map((row) => row.join("  ")).join("\n");
+
+function numbers(found) {
+    const { matrices, vectors, positions } = found;
+    const parts = [element("h2", "Numbers")];
+    if (matrices) {
+        const rows = Object.entries(matrices).map(([key, rows]) => [key, shown(rows)]);
+        parts.push(table(["matrix", "rows"], rows));
+    }
+    const rows = vectors.map((at, index) => {
+        const { alpha_arcsec, beta_arcsec, gamma_arcsec } = positions[index];
+        return [at.i, at.j, alpha_arcsec, beta_arcsec, gamma_arcsec, ...at.specific_force_g, ...at.omega_deg_per_h];
+    });
+    parts.push(table(["i", "j", "α, ″", "β, ″", "γ, ″", "n_x, g", "n_y, g", "ω_x, °/h", "ω_y, °/h"], rows));
+    return parts;
+}
+
+function parameters({ results: [found] }) {
+    const rows = [];
+    const u = found.standard_uncertainty;
+    for (const [key, unit] of [["k_deg_per_h_per_ma", "°/(h·mA)"], ["omega0_deg_per_h", "°/h"],
+        ["omega_g_deg_per_h_per_g", "°/(h·g)"], ["omega_k_deg_per_h_per_g", "°/(h·g)"]]) {
+        rows.push([key, [found[key]].flat(2).join("  "), [u[key]].flat(2).join("  "), unit]);
+    }
+    const { value, degrees_of_freedom, probability } = found.chi_square;
+    return [element("h2", "Calibration by least squares"), table(["parameter", "value", "u (k = 1)", "unit"], rows),
+        element("p", `χ² ${value} with ${degrees_of_freedom} degrees of freedom, probability ${probability ?? "-"}`)];
+}
+
+function printed(html, id) {
+    const frame = element("iframe");
+    frame.title = "Printed passport";
+    frame.setAttribute("sandbox", "");
+    frame.srcdoc = html;
+    const link = element("a", "Save the printed passport");
+    link.href = URL.createObjectURL(new Blob([html], { type: "text/html" }));
+    link.download = `${id.replaceAll("/", "-")}.html`;
+    return [element("h2", "Printed passport"), element("p", undefined, link), frame];
+}
+
+async function answer() {
+    const passport = await read(file("passport"));
+    if (!passport) throw new Error("choose a passport");
+    const signersFile = await read(file("signers-file"));
+    const typed = byId("signers").value;
+    if (signersFile && typed.trim()) throw new Error("give the trusted keys as a file or as text, not both");
+    const signers = signersFile ?? typed;
+    const question = await asked();
+    const verdict = await verify(passport, signers, question);
+    const large = element("p", verdict.valid ? "VALID" : "REFUSED");
+    large.className = `answer ${verdict.valid ? "valid" : "refused"}`;
+    const mark = (passed) => (passed === null ? "not run" : passed ? "ok" : "FAILED");
+    const rows = verdict.checks.map((check) => [mark(check.passed), check.name, check.code, check.detail]);
+    const parts = [element("h2", "Answer"), large, element("p", verdict.id ?? "(id not verified)"),
+        table(["result", "check", "code", "detail"], rows)];
+    if (!verdict.valid) return parts;
+    parts.push(...numbers(await content(passport, signers, question)));
+    const currents = await read(file("currents"));
+    if (currents) parts.push(...parameters(await calibrate(passport, signers, currents, question)));
+    parts.push(...printed(await print(passport, signers, question), verdict.id));
+    return parts;
+}
+
+byId("question").addEventListener("submit", async (event) => {
+    event.preventDefault();
+    // An answer of before must not stand beside other files.
+    byId("result").replaceChildren();
+    let parts;
+    try {
+        parts = await answer();
+    } catch (error) {
+        parts = [element("h2", "No answer"), element("pre", error.message)];
+    }
+    byId("result").replaceChildren(...parts);
+});
+byId("question").addEventListener("input", () => byId("result").replaceChildren());
+
+document.addEventListener("dragover", (event) => event.preventDefault());
+document.addEventListener("drop", (event) => {
+    event.preventDefault();
+    for (const one of event.dataTransfer.files) {
+        const id = /\.ya?ml$/i.test(one.name) ? "passport" : /\.csv$/i.test(one.name) ? "currents" : "signers-file";
+        byId(id).value = "";
+        dropped[id] = one;
+    }
+    byId("question").requestSubmit();
+});
