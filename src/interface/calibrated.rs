@@ -4,7 +4,8 @@ use super::{Failed, json};
 use crate::calibration::mistake::Mistake;
 use crate::calibration::stated::temperature_remark;
 use crate::calibration::verdict::against_type;
-use crate::calibration::{self, CalibrationDocument, Method, Options, Parameter, Readings, Setup};
+use crate::calibration::{self, CalibrationDocument, Method, Options, Parameter, Readings, Setup, Subject};
+use crate::document::sha256_hex;
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
@@ -43,10 +44,12 @@ pub fn calibrate(
     let (paper, usual) = (Laboratory::paper(), GyroType::gvk_6());
     let laboratory = laboratory.unwrap_or(&paper);
     let stated = Setup::stated(&content.certificate, &content.positions, &content.site, laboratory);
-    let (setup, missing) = stated.map_err(Failed::refused)?;
+    let (setup, mut missing) = stated.map_err(Failed::refused)?;
+    let setup = setup.of_gyro(gyro_type.and_then(|gyro_type| gyro_type.noise.as_ref()));
     let readings = Readings::from_csv(name, currents, setup.coefficients(), laboratory.meter.range_ma)?;
     let options = Options { methods: vec![method], ..Options::default() };
     let calibration = calibration::calibrate(&setup, &readings, &options).map_err(Failed::refused)?;
+    missing.extend(calibration.noise_not_stated());
     if let Some(words) = calibration.meaningless() {
         return Err(Failed::refused(words));
     }
@@ -56,6 +59,9 @@ pub fn calibrate(
     };
     let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
     let mut document = CalibrationDocument::new(&content.passport.id, verified, gravity, &calibration, &missing);
+    let currents_sha256 = sha256_hex(currents);
+    let subject = Subject { currents_sha256, ..Subject::default() };
+    document.record(subject, &readings);
     let found = result.found(gravity.0, gravity.1.unwrap_or(0.0));
     let rate = content.earth.rate();
     document.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type, &usual.nominal.to_model());

@@ -86,7 +86,10 @@ static void misuse_of(dtg_passport *passport) {
     EXPECT(dtg_calibrate(passport, numbers, (size_t)-1, NULL, NULL) == DTG_UNUSABLE);
     EXPECT(dtg_calibrate(passport, numbers, 2, "exact", &text) == DTG_UNUSABLE && strstr(text, "expected one of"));
     dtg_string_free(text);
-    EXPECT(dtg_calibrate(passport, numbers, 2, NULL, &text) == DTG_UNUSABLE && strstr(text, "\"problems\""));
+    EXPECT(dtg_calibrate(passport, numbers, 2, NULL, &text) == DTG_REFUSED && strstr(text, "\"refused\""));
+    dtg_string_free(text);
+    numbers[2] = 1e9; /* mA, beyond the range of any meter */
+    EXPECT(dtg_calibrate(passport, numbers, 2, NULL, &text) == DTG_UNUSABLE && strstr(text, "\"column\""));
     dtg_string_free(text);
 }
 

@@ -73,7 +73,9 @@ def test_the_example_calibrates(tmp_path: Path, how: str) -> None:
     due = json.loads(program("verify", PASSPORT, "--trust", SIGNERS, "--time", TIME, "--format", "json"))
     assert [report] == due
     options = ["--trust", SIGNERS, "--time", TIME, "--method", "least-squares", "--format", "json"]
-    assert result == json.loads(program("calibrate", PASSPORT, PROJECT / "docs/currents.csv", *options))
+    calibrated = json.loads(program("calibrate", PASSPORT, PROJECT / "docs/currents.csv", *options))
+    # The SHA-256 of the currents is that of another text with the same numbers.
+    assert result | {"subject": None} == calibrated | {"subject": None}
     # The paper's equation (13) in the example, and in the program.
     analytic = program("calibrate", PASSPORT, PROJECT / "docs/currents.csv", *options[:5], "analytic", *options[6:])
     K = np.array(json.loads(analytic)["results"][0]["k_deg_per_h_per_ma"]).ravel()

@@ -376,7 +376,8 @@ def test_a_calibration_is_that_of_the_program(method: str) -> None:
     assert found.K.tobytes() == bits(result["k_deg_per_h_per_ma"])
     assert found.u.K.tobytes() == bits(result["standard_uncertainty"]["k_deg_per_h_per_ma"])
     assert np.allclose(np.sqrt(np.diag(found.covariance)), eight(found.u), rtol=1e-14)
-    assert found.verdict == json.loads(printed)["verdict"] and found.not_stated == ("latitude (latitude_arcsec)",)
+    assert found.verdict == json.loads(printed)["verdict"]
+    assert found.not_stated == tuple(json.loads(printed)["not_stated"]) and "latitude (latitude_arcsec)" in found.not_stated
     residuals = result.get("residuals_deg_per_h", [])
     assert found.residuals.tobytes() == bits([[at["x"], at["y"]] for at in residuals])
     assert (found.chi_square, found.dof) == (result["chi_square"]["value"], result["chi_square"]["degrees_of_freedom"])
@@ -386,13 +387,15 @@ def test_currents_come_in_every_form() -> None:
     import pandas
 
     passport, frame = load(), pandas.read_csv(CURRENTS, comment="#")
-    due = passport.calibrate(CURRENTS).document
+    # The SHA-256 is that of the file, or of the CSV that was made of the currents.
+    without = lambda found: {key: value for key, value in found.document.items() if key != "subject"}
+    due = without(passport.calibrate(CURRENTS))
     with open(CURRENTS) as file:
         rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
     columns = {name: [float(row[name]) if name[0] == "j" and len(name) > 1 else int(row[name]) for row in rows] for name in rows[0]}
     array = frame[["i", "j", "jx_ma", "jy_ma"]].to_numpy()
     for currents in (str(CURRENTS), frame, columns, array, array.tolist(), array[::-1]):
-        assert passport.calibrate(currents).document == due
+        assert without(passport.calibrate(currents)) == due
     for currents in (array[:, :3], array[0], np.zeros((0, 4)), frame.drop(columns="jy_ma"), {"i": [1]}, array * np.nan):
         with pytest.raises(ValueError):
             passport.calibrate(currents)
