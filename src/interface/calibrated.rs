@@ -63,7 +63,7 @@ pub fn calibrate(
     let subject = Subject { currents_sha256, ..Subject::default() };
     document.record(subject, &readings);
     let found = result.found(gravity.0, gravity.1.unwrap_or(0.0));
-    let rate = content.earth.rate();
+    let rate = content.earth.rate(&content.site);
     document.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type, &usual.nominal.to_model());
     document.verdict = gyro_type.map(|gyro_type| against_type(&found, gyro_type));
     let place = |index: usize| Parameter::EIGHT[index].place();
