@@ -218,6 +218,8 @@ pub(crate) fn site(id: &str, place: Option<Place>, height_m: Option<f64>) -> Str
          pillar_longitude_deg: …, position_u_m: 0.02}\n\
          # Standard uncertainties of the base as set up here: latitude; from the mark to the base; level per axis.\n\
          # uncertainty: {latitude_arcsec: 1.0, azimuth_arcsec: 30.0, level_arcsec: 5.0}\n\
+         # Azimuth of the frame's axis, clockwise from north, if it does not point east:\n\
+         # frame_axis_azimuth_deg: 90.0\n\
          # Change of the Earth-rate components that limits the distance from here at which the passport may be used:\n\
          # valid_within_deg_per_h: 0.001\n"
             .to_owned(),
