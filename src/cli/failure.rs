@@ -99,7 +99,7 @@ impl Failure {
         let verdict = verdict::Verdict::of(name, verification);
         let failed: Vec<_> = verdict.checks.iter().filter(|check| check.passed == Some(false)).collect();
         let kind = failed.first().map_or(REFUSAL, |check| check.code);
-        let place = |check: &&verdict::CheckLine| Place {
+        let place = |check: &&crate::interface::CheckLine| Place {
             file: name.to_owned(),
             line: None,
             column: None,
