@@ -60,7 +60,7 @@ const EAST_NORTH_UP: [&str; 3] = ["east", "north", "up"];
 
 impl Cause {
     /// Returns the name of the cause, including its position.
-    pub fn name(self) -> String {
+    pub(crate) fn name(self) -> String {
         match self {
             Self::Angle(index, angle) => format!("certified {} of {index}", ["alpha", "beta", "gamma"][angle]),
             Self::Return(index, axis) => format!("positioning in {index} about {}", XYZ[axis]),

@@ -78,7 +78,7 @@ pub struct CalibrationDocument {
 /// What was calibrated, by whom, when and from which file.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Subject {
+pub(crate) struct Subject {
     /// Serial number of the gyro.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub gyro_serial: Option<String>,

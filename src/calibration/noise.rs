@@ -25,7 +25,7 @@ pub enum NoiseSource {
 
 impl NoiseSource {
     /// Returns the name of the source in results.
-    pub fn key(self) -> &'static str {
+    pub(crate) fn key(self) -> &'static str {
         match self {
             Self::Stated => "stated",
             Self::Estimated => "estimated",

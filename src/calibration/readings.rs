@@ -52,7 +52,7 @@ pub struct PositionReadings {
 
 /// Visit that is left out of a calibration.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Exclusion {
+pub(crate) struct Exclusion {
     /// Index (i, j) of the position.
     pub index: PositionIndex,
     /// Number of the visit within its cycle and position.
@@ -65,8 +65,7 @@ pub struct Exclusion {
 
 /// Reason why a visit cannot be left out.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum NotExcluded {
+pub(crate) enum NotExcluded {
     /// No such visit.
     #[error("found no visit {visit} to position {index} to exclude")]
     Missing {
@@ -180,7 +179,7 @@ impl Readings {
     ///
     /// # Errors
     /// Returns [`NotExcluded`] if there is no such visit, or one in several cycles, or no other reading would be left.
-    pub fn exclude(&mut self, exclusion: Exclusion) -> Result<(), NotExcluded> {
+    pub(crate) fn exclude(&mut self, exclusion: Exclusion) -> Result<(), NotExcluded> {
         let Exclusion { index, visit, cycle, .. } = &exclusion;
         let (index, number, cycle) = (*index, *visit, *cycle);
         let is_it = |visit: &&Visit| visit.number == number && cycle.is_none_or(|cycle| visit.cycle == cycle);
@@ -208,12 +207,12 @@ impl Readings {
     }
 
     /// Returns the visits that were left out, with their reasons.
-    pub fn exclusions(&self) -> &[Exclusion] {
+    pub(crate) fn exclusions(&self) -> &[Exclusion] {
         &self.exclusions
     }
 
     /// Returns the positions of the coefficients without a reading.
-    pub fn left_out(&self) -> &[PositionIndex] {
+    pub(crate) fn left_out(&self) -> &[PositionIndex] {
         &self.left_out
     }
 

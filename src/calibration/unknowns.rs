@@ -21,7 +21,7 @@ pub enum Model {
 
 impl Model {
     /// Returns the name of the model in options and results.
-    pub fn key(self) -> &'static str {
+    pub(crate) fn key(self) -> &'static str {
         match self {
             Self::Paper | Self::Anisoelastic => "paper",
             Self::General => "general",

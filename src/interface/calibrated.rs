@@ -1,10 +1,11 @@
 //! Calibration with a passport: from currents as CSV to the JSON of `calibrate`.
 
 use super::{Failed, json};
+use crate::calibration::document::Subject;
 use crate::calibration::mistake::Mistake;
 use crate::calibration::stated::temperature_remark;
 use crate::calibration::verdict::against_type;
-use crate::calibration::{self, CalibrationDocument, Method, Options, Parameter, Readings, Setup, Subject};
+use crate::calibration::{self, CalibrationDocument, Method, Options, Parameter, Readings, Setup};
 use crate::document::sha256_hex;
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;

@@ -367,7 +367,7 @@ impl Unreadable {
     }
 
     /// Returns the name of the document.
-    pub fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         &self.name
     }
 

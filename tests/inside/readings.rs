@@ -1,7 +1,8 @@
 //! Currents in CSV: what is read, and every way in which a file is refused.
 
 use crate::inside::reference::*;
-use dtg_passport::calibration::{Exclusion, Readings, Setup};
+use dtg_passport::calibration::readings::Exclusion;
+use dtg_passport::calibration::{Readings, Setup};
 use dtg_passport::coefficients::PositionIndex;
 
 /// (file, what the message must say).
