@@ -106,7 +106,9 @@ pub(crate) fn nearest(path: &Path) -> Option<PathBuf> {
         let names =
             fs::read_dir(folder).ok()?.take(MOST_NAMES).filter_map(|entry| entry.ok()?.file_name().into_string().ok());
         let distance = |other: &String| strsim::damerau_levenshtein(&other.to_lowercase(), &name);
-        let most = name.chars().count() / 6 + 1;
+        // Of a name of one or two letters every other one is near.
+        let length = name.chars().count();
+        let most = if length < 3 { 0 } else { length / 6 + 1 };
         let (_, nearest) =
             names.map(|other| (distance(&other), other)).filter(|(distance, _)| *distance <= most).min()?;
         let found = there.join(nearest).join(parts.as_path());

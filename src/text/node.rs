@@ -92,6 +92,10 @@ pub(crate) fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unr
 /// spreadsheets write them.
 pub(crate) fn hand_written_text(name: &str, bytes: &[u8]) -> Result<String, Unreadable> {
     let bytes = bytes.strip_prefix(&[0xEF, 0xBB, 0xBF]).unwrap_or(bytes);
+    if bytes.len() > LARGEST_DOCUMENT_BYTES {
+        // It is refused, and no copy is made of it.
+        return plain_text(name, bytes).map(str::to_owned);
+    }
     let mut plain = Vec::with_capacity(bytes.len());
     for (index, &byte) in bytes.iter().enumerate() {
         if byte != b'\r' || bytes.get(index + 1) != Some(&b'\n') {
