@@ -47,6 +47,7 @@ mod reissue;
 mod repeats;
 #[cfg(feature = "monte-carlo")]
 mod robustness;
+#[cfg(feature = "monte-carlo")]
 mod runs;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod same_stand;
