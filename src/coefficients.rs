@@ -7,9 +7,11 @@
 
 use crate::attitude::{self, Deviation};
 use nalgebra::{Matrix2, Matrix3, Vector2};
+use serde::{Deserialize, Serialize};
 
 /// Index (i, j) of a position: frame index i and platform index j, both counted from 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PositionIndex {
     /// Frame index, from 1.
     pub i: u32,

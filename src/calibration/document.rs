@@ -3,15 +3,16 @@
 mod result;
 
 pub(crate) use result::{
-    ChangeDocument, ResidualDocument, ResultDocument, RowScatterDocument, ScatterDocument, StopRuleDocument,
-    UncertaintyDocument,
+    ChangeDocument, ResidualDocument, ResultDocument, RowScatterDocument, StopRuleDocument, UncertaintyDocument,
 };
 
 use super::mistake::Mistake;
 use super::readings::{Exclusion, Readings};
 use super::result::Calibration;
+use super::scatter::Scatter;
 use super::stated::NotStated;
 use super::verdict::{Found, Verdict};
+use crate::coefficients::PositionIndex;
 use crate::text::Unreadable;
 use crate::text::problem::Location;
 use serde::de::IgnoredAny;
@@ -30,7 +31,7 @@ pub struct CalibrationDocument {
     /// Standard uncertainty of g, m/s²; absent if it is not stated.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) gravity_u_m_per_s2: Option<f64>,
-    /// What was calibrated, by whom and from which file; absent in results of earlier versions.
+    /// Gyro, operator, conditions and file of currents; absent in results of earlier versions.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) subject: Option<Subject>,
     /// Visits that were left out, each with its reason.
@@ -38,7 +39,7 @@ pub struct CalibrationDocument {
     pub(crate) excluded: Vec<ExclusionDocument>,
     /// Positions of the passport without a reading.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    pub(crate) left_out: Vec<IndexDocument>,
+    pub(crate) left_out: Vec<PositionIndex>,
     /// Results, one for each method.
     pub(crate) results: Vec<ResultDocument>,
     /// Inputs whose uncertainty certificate, site and laboratory do not state; the result does not include it.
@@ -46,10 +47,10 @@ pub struct CalibrationDocument {
     pub(crate) not_stated: Vec<String>,
     /// Agreement of the visits of a position; present if there are several visits.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) scatter: Option<ScatterDocument>,
+    pub(crate) scatter: Option<Scatter>,
     /// Agreement of the turn-ons with the gyro type; present if there are several and the type states their noise.
     #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) turn_on_scatter: Option<ScatterDocument>,
+    pub(crate) turn_on_scatter: Option<Scatter>,
     /// Probability of a larger drift in time if there is none; present if the readings have times and none was fitted.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) drift_probability: Option<f64>,
@@ -75,14 +76,14 @@ pub struct CalibrationDocument {
     monte_carlo: (),
 }
 
-/// What was calibrated, by whom, when and from which file.
+/// Gyro, operator and conditions of a calibration, and the file of its currents.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Subject {
     /// Serial number of the gyro.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub gyro_serial: Option<String>,
-    /// Who took the readings.
+    /// Name of the operator who took the readings.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub operator: Option<String>,
     /// Day of the readings, YYYY-MM-DD.
@@ -110,16 +111,6 @@ pub(crate) struct ExclusionDocument {
     pub(crate) cycle: Option<u32>,
     /// Reason.
     pub(crate) why: String,
-}
-
-/// Index of a position.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct IndexDocument {
-    /// Frame index.
-    pub(crate) i: u32,
-    /// Platform index.
-    pub(crate) j: u32,
 }
 
 /// Skips the decisions in an earlier result, because they are made again.
@@ -153,8 +144,8 @@ impl CalibrationDocument {
             left_out: Vec::new(),
             results: calibration.results.iter().map(|result| ResultDocument::new(result, calibration)).collect(),
             not_stated: not_stated.iter().map(|what| what.words().to_owned()).collect(),
-            scatter: calibration.scatter.as_ref().map(ScatterDocument::new),
-            turn_on_scatter: calibration.turn_on_scatter.as_ref().map(ScatterDocument::new),
+            scatter: calibration.scatter,
+            turn_on_scatter: calibration.turn_on_scatter,
             drift_probability: calibration.drift_test.map(|test| test.probability),
             row_scatter: calibration.row_scatter.as_ref().map(RowScatterDocument::new),
             hint: calibration.hint.as_ref().map(ToString::to_string),
@@ -177,7 +168,7 @@ impl CalibrationDocument {
             why: why.clone(),
         });
         self.excluded = excluded.collect();
-        self.left_out = readings.left_out().iter().map(|index| IndexDocument { i: index.i, j: index.j }).collect();
+        self.left_out = readings.left_out().to_vec();
     }
 
     /// Returns the serial numbers of the two gyros if an earlier result is known to be that of another one.

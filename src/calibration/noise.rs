@@ -11,7 +11,7 @@ const MOST_STEPS: usize = 100;
 /// Largest relative distance of the sum of squares from its expectation at the noise found.
 const FOUND: f64 = 1e-9;
 
-/// Where a noise comes from.
+/// Source of a noise of the gyro.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NoiseSource {

@@ -34,7 +34,7 @@ pub(crate) struct Offsets {
     pub(crate) right: DVector<f64>,
 }
 
-/// What the differences between the visits to each position contain.
+/// Evaluation of the differences between the visits to each position.
 pub(crate) struct Differences {
     /// Rows for x, with unit covariance, and their right-hand side.
     rows: DMatrix<f64>,

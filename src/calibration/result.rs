@@ -16,6 +16,7 @@ use crate::coefficients::PositionIndex;
 use crate::gyro::GyroParameters;
 use crate::statistics::beta::f_larger;
 use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2};
+use serde::{Deserialize, Serialize};
 
 /// Method of calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -155,7 +156,8 @@ pub struct GMatrix {
 }
 
 /// F test whether the two parameters of the paper's g-sensitive drift are enough.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ModelTest {
     /// Ratio of mean squares: of what the further parameters explain to what they leave.
     pub f: f64,

@@ -13,6 +13,7 @@ use super::sensitivity::Sensitivity;
 use crate::statistics::distributions::chi_square_larger;
 use crate::statistics::scaled_f::{Part, ScaledF};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+use serde::{Deserialize, Serialize};
 
 /// Probability below which a scatter, larger or smaller, does not agree with what was stated.
 pub(crate) const IMPROBABLE: f64 = 0.001;
@@ -21,7 +22,8 @@ pub(crate) const IMPROBABLE: f64 = 0.001;
 const LEAST_DEG_PER_H: f64 = 1e-9;
 
 /// Scatter compared with what was stated.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Scatter {
     /// Sum of squares in units of the stated variance.
     pub chi_square: f64,

@@ -2,7 +2,7 @@
 
 use super::key_options::{self, signer_of};
 use super::output::{self, TableFormat};
-use super::{Code, Failure, REFUSED, UNUSABLE};
+use super::{Code, Failure, REFUSED, UNUSABLE, long_run};
 use crate::batch::shard::Shard;
 use crate::batch::{Batch, Event, Listener, Outcome};
 use crate::document::Signer;
@@ -14,7 +14,7 @@ use crate::report::issued::{Form, Report, Reports, Told, failure, warnings};
 use crate::text::{LARGEST_DOCUMENT_BYTES, shown};
 use crate::trust::{AllowedSigners, NotAuthorised, PublicKey};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use jiff::Timestamp;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -99,9 +99,7 @@ impl BatchOptions {
         trust: Option<&Trust>,
         work: impl FnOnce(&Batch, Listener),
     ) -> Result<Code, Failure> {
-        let cancel = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&cancel);
-        ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)).map_err(Failure::unusable)?;
+        let cancel = long_run::cancelled_by_ctrl_c()?;
         let batch = Batch {
             durability: self.durability(),
             seal: signer.map(|signer| Seal { signer, trust }),
@@ -132,10 +130,7 @@ impl Reporter {
             TableFormat::Json => Form::Json,
             TableFormat::Csv => Form::Csv,
         };
-        // indicatif draws on standard error, and only on a terminal.
-        let bar = ProgressBar::new(0);
-        let template = "{wide_bar} {human_pos} of {human_len} passports, {per_sec}, {eta} left";
-        bar.set_style(ProgressStyle::with_template(template).map_err(Failure::unusable)?);
+        let bar = long_run::bar(0, "{wide_bar} {human_pos} of {human_len} passports, {per_sec}, {eta} left")?;
         Ok(Self { reports: Reports::new(form), told: Told::default(), bar, code: 0, cancel, unwritten: None })
     }
 

@@ -50,7 +50,7 @@ pub(super) struct Past {
 impl Past {
     /// Reads and verifies a passport; it may have expired, which is reported.
     pub(super) fn read(path: &Path, trust: &Trust, question: &Question) -> Result<Self, Failure> {
-        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable)?;
+        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
         let name = name_of(path);
         let verification = verify(&name, &bytes, trust, question);
         let Some(content) = verification.content_even_if_expired().cloned() else {

@@ -101,7 +101,7 @@ impl Run<'_> {
     }
 
     fn failed(&mut self, code: Code, words: &str) {
-        output::say(words);
+        output::complain(words);
         self.code = self.code.max(code);
     }
 

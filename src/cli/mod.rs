@@ -20,6 +20,7 @@ mod init;
 mod issue;
 mod key_options;
 mod keygen;
+mod long_run;
 mod man;
 mod new;
 mod output;

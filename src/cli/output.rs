@@ -54,7 +54,7 @@ pub(super) fn json(value: &impl serde::Serialize) -> Result<(), Failure> {
 
 /// Writes a failure as JSON in place of a result. Errors are ignored, because the message and the exit code remain.
 pub(super) fn failure(failure: Failure) {
-    let _ = json(&failure.into_document());
+    let _ = json(&failure.failed.document());
 }
 
 /// Writes a result to a file. An existing file is replaced only on request.

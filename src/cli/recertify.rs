@@ -4,7 +4,7 @@ use super::issue::read_site;
 use super::key_options::{self, signer_of};
 use super::output::{self, Format};
 use super::trust_options::{self, TrustOptions};
-use super::{Code, Failure};
+use super::{Code, Failure, long_run};
 use crate::batch::recertification::{AtSite, NotRecertified, Recertification};
 use crate::certification::Header;
 use crate::files;
@@ -17,8 +17,6 @@ use clap::Args;
 use jiff::Timestamp;
 use jiff::civil::Date;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Recertify a stand: check it against its certificate, certify it again, and re-issue its passports in force
 ///
@@ -76,10 +74,8 @@ pub(super) struct Options {
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
-    let cancel = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&cancel);
-    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)).map_err(Failure::unusable)?;
-    let read = |path: &PathBuf| files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::unusable);
+    let cancel = long_run::cancelled_by_ctrl_c()?;
+    let read = |path: &PathBuf| files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file);
     let header = options
         .header
         .as_ref()

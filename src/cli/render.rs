@@ -1,12 +1,12 @@
 //! Verb `render`: the printed form of a verified passport.
 
-use super::failure::Body;
 use super::output::Format;
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, defaults, output, register};
 use crate::batch::paths::{self, Named};
 use crate::files::{self, FileError};
 use crate::folder::Folder;
+use crate::interface::Failed;
 use crate::report::page::{Language, Languages, PassportPage};
 use crate::report::{issued, style, verdict};
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
@@ -52,7 +52,7 @@ enum Each {
     Refused {
         file: String,
         #[serde(rename = "error")]
-        refusal: Body,
+        refusal: Failed,
     },
 }
 
@@ -135,7 +135,7 @@ fn each(options: &Options, write: impl Fn(&Path) -> Result<Rendered, Failure>) -
             Err(failure) => {
                 output::complain(&failure.message);
                 code = code.max(failure.code);
-                Each::Refused { file, refusal: failure.into_body() }
+                Each::Refused { file, refusal: failure.failed }
             }
         });
     }

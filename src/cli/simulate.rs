@@ -2,7 +2,7 @@
 
 use super::issue::{read_site, read_stand};
 use super::output::Format;
-use super::{Code, Failure, output};
+use super::{Code, Failure, long_run, output};
 use crate::calibration::Method;
 use crate::coefficients::EarthRate;
 use crate::files;
@@ -16,10 +16,7 @@ use crate::stand::{CertifiedPosition, LARGEST_DEVIATION_DEG};
 use crate::statistics::random::Run;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use clap::{Args, Subcommand, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Simulate calibrations: the paper's table and its Fig. 4
 #[derive(Args)]
@@ -216,13 +213,8 @@ fn watched<T>(
     simulate: impl FnOnce(&Run) -> T,
 ) -> Result<T, Failure> {
     let trials = arguments.trials.unwrap_or(default_trials);
-    let cancel = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&cancel);
-    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)).map_err(Failure::unusable)?;
-    // indicatif draws on standard error, and only on a terminal.
-    let bar = ProgressBar::new(trials.saturating_mul(rows));
-    let style = ProgressStyle::with_template("{wide_bar} {human_pos} of {human_len} trials, {eta} left");
-    bar.set_style(style.map_err(Failure::unusable)?);
+    let cancel = long_run::cancelled_by_ctrl_c()?;
+    let bar = long_run::bar(trials.saturating_mul(rows), long_run::TRIALS)?;
     let progress = |done: u64| bar.set_position(done);
     let mut run = Run { cancel: Some(&cancel), progress: Some(&progress), ..Run::new(trials, arguments.seed) };
     if let Some(threads) = arguments.threads {
@@ -230,8 +222,6 @@ fn watched<T>(
     }
     let result = simulate(&run);
     bar.finish_and_clear();
-    if cancel.load(Ordering::Relaxed) {
-        output::say("interrupted; the result is from the trials completed so far");
-    }
+    long_run::report_interruption(&cancel);
     Ok(result)
 }

@@ -1,6 +1,6 @@
 //! Options of `calibrate` for the uncertainty budget and the Monte Carlo method.
 
-use super::{Failure, output};
+use super::{Failure, long_run, output};
 use crate::calibration::{Calibration, Method, Model, Options as CalibrationOptions, Readings, Setup};
 use crate::gyro::Tolerance;
 use crate::report::{budget as budget_report, monte_carlo as monte_carlo_report, picture};
@@ -10,9 +10,8 @@ use crate::uncertainty::engine::{Engine, ReadingShape};
 use crate::uncertainty::monte_carlo::Trials;
 use crate::uncertainty::{Budget, MonteCarlo, monte_carlo};
 use clap::Args;
-use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
+use indicatif::HumanDuration;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
@@ -117,12 +116,8 @@ impl UncertaintyOptions {
     /// Runs the trials with a progress bar on a terminal. Ctrl-C ends them with the trials completed so far.
     fn trials(&self, setup: &Setup, readings: &Readings, budget: &Budget) -> Result<MonteCarlo, Failure> {
         let engine = Engine::new(setup, readings, budget.method, ReadingShape::Normal).map_err(Failure::refused)?;
-        let cancel = Arc::new(AtomicBool::new(false));
-        let flag = Arc::clone(&cancel);
-        ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)).map_err(Failure::unusable)?;
-        let bar = ProgressBar::new(self.trials.unwrap_or(0));
-        let style = ProgressStyle::with_template("{wide_bar} {human_pos} of {human_len} trials, {eta} left");
-        bar.set_style(style.map_err(Failure::unusable)?);
+        let cancel = long_run::cancelled_by_ctrl_c()?;
+        let bar = long_run::bar(self.trials.unwrap_or(0), long_run::TRIALS)?;
         let (start, told) = (Instant::now(), AtomicBool::new(false));
         let progress = |done: u64, due: u64| {
             bar.set_length(due);
@@ -146,9 +141,7 @@ impl UncertaintyOptions {
         if found.trials == 0 {
             return Err(Failure::refused("interrupted before the first trial was completed"));
         }
-        if cancel.load(Ordering::Relaxed) {
-            output::say("interrupted; the result is from the trials completed so far");
-        }
+        long_run::report_interruption(&cancel);
         Ok(found)
     }
 }

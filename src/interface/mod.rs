@@ -34,12 +34,17 @@ use crate::passport::{Content, Verification};
 use crate::text::{Problem, Unreadable, printable};
 use serde::Serialize;
 
+/// Codes of failures.
+pub(crate) const REFUSED: &str = "refused";
+pub(crate) const UNREADABLE: &str = "unreadable";
+pub(crate) const UNUSABLE: &str = "unusable";
+
 /// Refusal, or input that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize)]
 #[error("{message}")]
 pub struct Failed {
     /// Kind of failure: `refused` if a document or a result is refused; `unreadable` or `unusable` if an input cannot
-    /// be used.
+    /// be used. The program has further ones.
     pub code: &'static str,
     /// Message, which may have several lines.
     pub message: String,
@@ -48,43 +53,65 @@ pub struct Failed {
 
 /// Error in a file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-struct Place {
+pub(crate) struct Place {
     file: String,
     line: Option<usize>,
     column: Option<usize>,
     message: String,
 }
 
-impl Failed {
-    pub(crate) fn refused(why: impl std::fmt::Display) -> Self {
-        Self { code: "refused", message: why.to_string(), problems: Vec::new() }
+impl Place {
+    /// Creates the error of a whole file.
+    pub(crate) fn file(file: String, message: String) -> Self {
+        Self { file, line: None, column: None, message }
     }
 
-    /// Creates the failure for an input that cannot be used.
-    pub fn unusable(why: impl std::fmt::Display) -> Self {
-        Self { code: "unusable", message: why.to_string(), problems: Vec::new() }
-    }
-
-    /// Returns the failure as JSON: `{"error": {code, message, problems: [{file, line, column, message}]}}`.
-    pub fn to_json(&self) -> String {
-        #[derive(Serialize)]
-        struct Document<'a> {
-            error: &'a Failed,
-        }
-        json(&Document { error: self })
-    }
-}
-
-impl From<Unreadable> for Failed {
-    fn from(error: Unreadable) -> Self {
-        let place = |problem: &Problem| Place {
+    /// Returns the errors of a file with their lines.
+    pub(crate) fn each(error: &Unreadable) -> Vec<Self> {
+        let place = |problem: &Problem| Self {
             file: error.name().to_owned(),
             line: problem.location.map(|at| at.line),
             column: problem.location.map(|at| at.column),
             message: problem.to_string(),
         };
-        let problems = error.problems().iter().map(place).collect();
-        Self { code: "unreadable", message: error.with_lines(""), problems }
+        error.problems().iter().map(place).collect()
+    }
+}
+
+/// A failure as the JSON of what it ends.
+#[derive(Serialize)]
+pub(crate) struct FailedDocument<'a> {
+    error: &'a Failed,
+}
+
+impl Failed {
+    pub(crate) fn new(code: &'static str, message: String, problems: Vec<Place>) -> Self {
+        Self { code, message, problems }
+    }
+
+    pub(crate) fn refused(why: impl std::fmt::Display) -> Self {
+        Self::new(REFUSED, why.to_string(), Vec::new())
+    }
+
+    /// Creates the failure for an input that cannot be used.
+    pub fn unusable(why: impl std::fmt::Display) -> Self {
+        Self::new(UNUSABLE, why.to_string(), Vec::new())
+    }
+
+    /// Returns the failure as the JSON of what it ends.
+    pub(crate) fn document(&self) -> FailedDocument<'_> {
+        FailedDocument { error: self }
+    }
+
+    /// Returns the failure as JSON: `{"error": {code, message, problems: [{file, line, column, message}]}}`.
+    pub fn to_json(&self) -> String {
+        json(&self.document())
+    }
+}
+
+impl From<Unreadable> for Failed {
+    fn from(error: Unreadable) -> Self {
+        Self::new(UNREADABLE, error.with_lines(""), Place::each(&error))
     }
 }
 

@@ -96,10 +96,7 @@ pub(crate) fn decimals(u: f64) -> usize {
     if !(u.is_finite() && u > 0.0) {
         return 6;
     }
-    // The exponent of the value as printed with two digits, because 0.0996 rounds to 0.10.
-    let printed = format!("{u:.1e}");
-    let exponent = printed.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()).unwrap_or(0);
-    usize::try_from(1 - exponent).unwrap_or(0).min(12)
+    usize::try_from(1 - crate::text::number::exponent_as_printed(u, 2)).unwrap_or(0).min(12)
 }
 
 /// Formats a value with its sign; a value that rounds to zero has none.

@@ -14,6 +14,18 @@ pub(crate) fn decimal(value: f64) -> String {
     text
 }
 
+/// Returns the power of ten of the first digit of a value as printed with `digits` significant digits: that of 0.0996 is
+/// −2 with three digits, and −1 with two, because it rounds to 0.10.
+pub(crate) fn exponent_as_printed(value: f64, digits: i32) -> i32 {
+    let decimals = usize::try_from(digits - 1).unwrap_or(0);
+    exponent_of(&format!("{value:.decimals$e}"))
+}
+
+/// Returns the exponent of a number in scientific notation.
+pub(crate) fn exponent_of(scientific: &str) -> i32 {
+    scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
+}
+
 /// Writes a value as [`decimal`] does, in parts.
 pub(super) fn write(value: f64, mut push: impl FnMut(&str)) {
     debug_assert!(value.is_finite(), "only finite numbers are written");

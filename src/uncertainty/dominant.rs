@@ -164,9 +164,8 @@ fn rounded_down(value: f64) -> f64 {
 
 /// Returns 1.5e-1 as 0.15, and so on, unless the exponent is beyond ±4.
 fn plain(scientific: String) -> String {
-    match (scientific.parse::<f64>(), scientific.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()))
-    {
-        (Ok(value), Some(exponent @ -4..=4)) => format!("{value:.*}", usize::try_from(1 - exponent).unwrap_or(0)),
+    match (scientific.parse::<f64>(), crate::text::number::exponent_of(&scientific)) {
+        (Ok(value), exponent @ -4..=4) => format!("{value:.*}", usize::try_from(1 - exponent).unwrap_or(0)),
         _ => scientific,
     }
 }

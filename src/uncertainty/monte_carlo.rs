@@ -12,6 +12,7 @@ use crate::calibration::Method;
 use crate::calibration::parameter::Parameter;
 use crate::parallel;
 use crate::statistics::wide_random::WideRandom;
+use crate::text::number::exponent_as_printed;
 use nalgebra::DMatrix;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -342,10 +343,7 @@ pub(crate) fn tolerance(u: f64) -> f64 {
     if !(u.is_finite() && u > 0.0) {
         return f64::INFINITY;
     }
-    // The exponent of the value as printed: 0.0996 becomes 0.10.
-    let printed = format!("{u:.1e}");
-    let exponent = printed.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()).unwrap_or(0);
-    0.5 * libm::pow(10.0, f64::from(exponent - (DIGITS - 1)))
+    0.5 * libm::pow(10.0, f64::from(exponent_as_printed(u, DIGITS) - (DIGITS - 1)))
 }
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, StepChange};
 use crate::calibration::noise::{DriftNoise, NoiseSource};
 use crate::calibration::parameter::Parameter;
-use crate::calibration::result::{Calibration, MethodResult};
-use crate::calibration::scatter::{RowScatter, Scatter};
+use crate::calibration::result::{Calibration, MethodResult, ModelTest};
+use crate::calibration::scatter::RowScatter;
 use crate::calibration::unknowns::Model;
 use crate::calibration::verdict::Found;
 use crate::gyro::GyroParameters;
@@ -38,7 +38,7 @@ pub(crate) struct ResultDocument {
     pub(crate) g_matrix_deg_per_h_per_g: Option<[[f64; 3]; 2]>,
     /// F test whether the paper's model is enough; present with a larger one.
     #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) model_test: Option<ModelTestDocument>,
+    pub(crate) model_test: Option<ModelTest>,
     /// Linear drift of ω_0 in time, °/h per hour: [x, y]; ω_0 is then that at the mean time of the readings.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) drift_deg_per_h_per_h: Option<[f64; 2]>,
@@ -97,18 +97,6 @@ pub(crate) struct CycleDocument {
     pub(crate) cycle: u32,
     /// ω_0, °/h: [x, y].
     pub(crate) omega0_deg_per_h: [f64; 2],
-}
-
-/// F test whether the paper's model of the g-sensitive drift is enough.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ModelTestDocument {
-    /// Ratio of mean squares.
-    pub(crate) f: f64,
-    /// Number of further parameters, and degrees of freedom of the rest.
-    pub(crate) degrees_of_freedom: [usize; 2],
-    /// Probability of a larger ratio if the paper's model is enough.
-    pub(crate) probability: f64,
 }
 
 /// Noise of the gyro's drift: from visit to visit, and from one turn-on to the next.
@@ -215,20 +203,6 @@ pub(crate) struct ChiSquareDocument {
     pub(crate) uncertainty_degrees_of_freedom: Option<f64>,
 }
 
-/// Scatter of the visits of each position, compared with the stated one.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ScatterDocument {
-    /// Sum of squares in units of the stated variance.
-    pub(crate) chi_square: f64,
-    /// Degrees of freedom: two for each visit after a position's first.
-    pub(crate) degrees_of_freedom: usize,
-    /// Probability of more scatter if the stated variance is correct; close to 1 if there is less than stated.
-    pub(crate) probability: f64,
-    /// Factor by which the variance of a visit was enlarged.
-    pub(crate) variance_factor: f64,
-}
-
 /// Scatter of the rows of each visit, compared with the stated noise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -296,11 +270,7 @@ impl ResultDocument {
             omega_g_deg_per_h_per_g: result.value(Parameter::OmegaG),
             omega_k_deg_per_h_per_g: result.value(Parameter::OmegaK),
             g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows_of_three(&g.deg_per_h_per_g)),
-            model_test: result.model_test.map(|test| ModelTestDocument {
-                f: test.f,
-                degrees_of_freedom: test.degrees_of_freedom,
-                probability: test.probability,
-            }),
+            model_test: result.model_test,
             drift_deg_per_h_per_h: result.drift.map(|drift| drift.deg_per_h_per_h.into()),
             cycles: result
                 .cycles
@@ -363,13 +333,6 @@ impl ResultDocument {
 
 fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
-}
-
-impl ScatterDocument {
-    pub(super) fn new(scatter: &Scatter) -> Self {
-        let Scatter { chi_square, degrees_of_freedom, probability, variance_factor } = *scatter;
-        Self { chi_square, degrees_of_freedom, probability, variance_factor }
-    }
 }
 
 impl RowScatterDocument {

@@ -29,7 +29,7 @@ impl Number {
 
     /// Creates a number with `digits` significant digits.
     pub(crate) fn significant(value: f64, digits: i32) -> Self {
-        Self::to_place(value, rounded_exponent(value, digits) - digits + 1)
+        Self::to_place(value, number::exponent_as_printed(value, digits) - digits + 1)
     }
 
     /// Creates a number with `digits` significant digits, and a power of ten if it would otherwise have many zeros.
@@ -114,22 +114,12 @@ pub(crate) fn column(languages: &Languages, numbers: &[Option<Number>]) -> Vec<O
 
 /// Returns the place (power of ten) of the second significant digit of `u`, after rounding: 0.0996 becomes 0.10.
 fn place(u: f64) -> i32 {
-    if u > 0.0 && u.is_finite() { rounded_exponent(u, 2) - 1 } else { 0 }
+    if u > 0.0 && u.is_finite() { number::exponent_as_printed(u, 2) - 1 } else { 0 }
 }
 
 /// Returns the power of ten of the first significant digit.
 fn exponent(value: f64) -> i32 {
-    exponent_of(&format!("{value:e}"))
-}
-
-/// Returns the power of ten of the first significant digit after rounding to `digits` significant digits.
-fn rounded_exponent(value: f64, digits: i32) -> i32 {
-    let decimals = usize::try_from(digits - 1).unwrap_or(0);
-    exponent_of(&format!("{value:.decimals$e}"))
-}
-
-fn exponent_of(scientific: &str) -> i32 {
-    scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
+    number::exponent_of(&format!("{value:e}"))
 }
 
 /// Converts scientific notation with fewer decimals than its exponent to plain digits: `1.23e5` to `123000`.

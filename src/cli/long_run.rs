@@ -1,0 +1,31 @@
+//! Work that takes long: Ctrl-C asks it to stop, and a progress bar shows how far it is.
+
+use super::{Failure, output};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Progress of trials.
+pub(super) const TRIALS: &str = "{wide_bar} {human_pos} of {human_len} trials, {eta} left";
+
+/// Returns a flag that Ctrl-C sets; the work ends at the next point where nothing is left half done.
+pub(super) fn cancelled_by_ctrl_c() -> Result<Arc<AtomicBool>, Failure> {
+    let cancel = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&cancel);
+    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed)).map_err(Failure::unusable)?;
+    Ok(cancel)
+}
+
+/// Returns a bar on standard error; it is drawn only on a terminal.
+pub(super) fn bar(length: u64, template: &str) -> Result<ProgressBar, Failure> {
+    let bar = ProgressBar::new(length);
+    bar.set_style(ProgressStyle::with_template(template).map_err(Failure::unusable)?);
+    Ok(bar)
+}
+
+/// Reports that trials were interrupted.
+pub(super) fn report_interruption(cancel: &AtomicBool) {
+    if cancel.load(Ordering::Relaxed) {
+        output::say("interrupted; the result is from the trials completed so far");
+    }
+}
