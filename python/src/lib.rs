@@ -62,7 +62,7 @@ impl Enquiry {
         Answer(py.detach(|| self.0.verify(file, data)))
     }
 
-    /// Verifies files; the list has an OSError in place of the answer where a file cannot be read.
+    /// Verifies files. The list has one element for each file: its answer, or an OSError if it cannot be read.
     fn verify_files<'py>(
         &self,
         py: Python<'py>,

@@ -7,21 +7,17 @@ use super::simulate::{MethodName, read_gyro};
 use super::{Code, Failure, REFUSED, output, uncertainty};
 use crate::calibration::document::{CalibrationDocument, Subject};
 use crate::calibration::iterative::StopRule;
-use crate::calibration::mistake::Mistake;
-use crate::calibration::prediction::cost_of_missing;
 use crate::calibration::readings::Exclusion;
-use crate::calibration::stated::temperature_remark;
-use crate::calibration::verdict::{Decision, against_earlier, against_type};
-use crate::calibration::{self, Method, Model, Options as CalibrationOptions, Readings, Setup};
+use crate::calibration::verdict::Decision;
+use crate::calibration::{Method, Model, Options as CalibrationOptions, Readings};
 use crate::coefficients::PositionIndex;
 use crate::document::sha256_hex;
 use crate::files;
-use crate::gyro::GyroType;
+use crate::interface::calibrated::Prepared;
 use crate::laboratory::Laboratory;
 use crate::passport::{Content, Question, Trust, Verification};
 use crate::report::calibration as report;
 use crate::report::page::{CalibrationPage, PassportPage, UsedPassport};
-use crate::text::printable::printable;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use crate::uncertainty::document::WholeDocument;
 use clap::{Args, ValueEnum};
@@ -119,70 +115,25 @@ fn limit(text: &str) -> Result<f64, String> {
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let Read { content, bytes: passport, verification } = options.passport.read()?;
-    let verified = verification.is_some();
     let laboratory = read_laboratory(options.laboratory.as_deref())?;
     let gyro_type = read_gyro(options.gyro.as_deref())?;
     let previous = previous(options)?;
-    let earlier = previous.as_ref().and_then(CalibrationDocument::answer);
-    let stated = Setup::stated(&content.certificate, &content.positions, &content.site, &laboratory);
-    let (setup, mut missing) = stated.map_err(Failure::refused)?;
-    let setup = setup.of_gyro(gyro_type.as_ref().and_then(|gyro_type| gyro_type.noise.as_ref()));
     let bytes = files::read(&options.currents, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
     let name = name_of(&options.currents);
-    let readings = Readings::from_csv(&name, &bytes, setup.coefficients(), laboratory.meter.range_ma);
-    let mut readings = readings.map_err(Failure::unreadable)?;
-    exclude(options, &mut readings)?;
-    let subject = Subject {
-        gyro_serial: options.gyro_serial.clone(),
-        operator: options.operator.clone(),
-        date: options.date,
-        temperature_c: options.temperature_c,
-        currents_sha256: sha256_hex(&bytes),
-    };
-    if let Some([before, now]) = previous.as_ref().and_then(|document| document.another_gyro(&subject)) {
-        let words = format!("--previous is the result of gyro {}, not of {}", printable(before), printable(now));
-        return Err(Failure::refused(words));
-    }
-    if let Some(remark) = readings.remark() {
+    let prepared = Prepared::new(&content, &laboratory, gyro_type.as_ref(), (&name, &bytes));
+    let mut prepared = prepared.map_err(Failure::stopped)?;
+    exclude(options, &mut prepared.readings)?;
+    if let Some(remark) = prepared.readings.remark() {
         output::say(remark);
     }
-    let asked = CalibrationOptions {
-        methods: options.method.iter().copied().map(Method::from).collect(),
-        stop_rule: StopRule { delta1_percent: options.delta1_percent, delta2_deg_per_h: options.delta2_deg_per_h },
-        model: match options.model {
-            _ if options.anisoelasticity => Model::Anisoelastic,
-            ModelName::Paper => Model::Paper,
-            ModelName::General => Model::General,
-        },
-        drift: options.drift,
-    };
-    let calibration = calibration::calibrate(&setup, &readings, &asked).map_err(Failure::refused)?;
-    missing.extend(calibration.noise_not_stated());
-    if let Some(words) = calibration.meaningless() {
-        return Err(Failure::refused(words));
+    let asked = options.asked();
+    let done = prepared.run(&asked, verification.is_some(), options.subject(), previous.as_ref());
+    let done = done.map_err(Failure::stopped)?;
+    if let Some(warning) = &done.warning {
+        output::complain(&format!("WARNING: {warning}"));
     }
-    if let Some(remark) = temperature_remark(&content.certificate, &laboratory) {
-        output::complain(&format!("WARNING: {remark}"));
-    }
-    let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
-    let mut document = CalibrationDocument::new(&content.passport.id, verified, gravity, &calibration, &missing);
-    document.record(subject, &readings);
-    let Some(found) = document.answer() else {
-        let words: Vec<String> =
-            calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key())).collect();
-        return Err(Failure::refused(words.join("\n")));
-    };
-    // Without a type or an earlier result, the nominal values of the paper's gyro still reveal an error by a factor of
-    // a thousand.
-    let usual = earlier.map_or_else(|| GyroType::gvk_6().nominal.to_model(), |earlier| earlier.parameters);
-    let rate = content.earth.rate(&content.site);
-    let missing_cost = cost_of_missing(&setup, &readings, &found.parameters);
-    document.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type.as_ref(), &usual);
-    document.verdict = gyro_type.as_ref().map(|gyro_type| against_type(&found, gyro_type));
-    let judged_change = earlier.as_ref().zip(gyro_type.as_ref());
-    document.change = judged_change.map(|(earlier, gyro_type)| against_earlier(&found, earlier, gyro_type));
     let tolerance = gyro_type.as_ref().map(|gyro_type| &gyro_type.tolerance);
-    let uncertainty = options.uncertainty.find(&setup, &readings, &calibration, (&asked, tolerance))?;
+    let uncertainty = options.uncertainty.find(&done.setup, &done.readings, &done.calibration, (&asked, tolerance))?;
     if let Some(path) = &options.report {
         let page = CalibrationPage {
             passport: used(&content, &passport, verification.as_ref())?,
@@ -190,9 +141,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             currents: (&name, sha256_hex(&bytes)),
             gyro: gyro_type.as_ref(),
             laboratory: options.laboratory.is_some().then_some(&laboratory),
-            calibration: &calibration,
-            missing: &missing,
-            document: &document,
+            calibration: &done.calibration,
+            missing: &done.missing,
+            document: &done.document,
             budget: uncertainty.budget(),
             monte_carlo: uncertainty.monte_carlo(),
         };
@@ -202,29 +153,52 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     match options.format {
         Format::Json => {
             let (budget, monte_carlo) = uncertainty.documents();
-            output::json(&WholeDocument { calibration: &document, budget, monte_carlo })?;
+            output::json(&WholeDocument { calibration: &done.document, budget, monte_carlo })?;
         }
-        Format::Text => output::result(
-            &(report::text(
-                &calibration,
-                &report::Context {
-                    passport_id: &content.passport.id,
-                    passport_verified: verified,
-                    gravity_m_per_s2: gravity,
-                    missing: &missing,
-                    mistake: document.mistake.as_ref(),
-                    verdict: gyro_type
-                        .as_ref()
-                        .map(|gyro_type| gyro_type.r#type.as_str())
-                        .zip(document.verdict.as_ref()),
-                    change: earlier.as_ref().map(|earlier| (earlier, document.change.as_ref())),
-                    readings: Some((&readings, missing_cost)),
-                },
-            ) + &uncertainty.text()),
-        )?,
+        Format::Text => {
+            let (document, name) = (&done.document, gyro_type.as_ref().map(|gyro_type| gyro_type.r#type.as_str()));
+            let context = report::Context {
+                passport_id: &content.passport.id,
+                passport_verified: verification.is_some(),
+                gravity_m_per_s2: (document.gravity_m_per_s2, document.gravity_u_m_per_s2),
+                missing: &done.missing,
+                mistake: document.mistake.as_ref(),
+                verdict: name.zip(document.verdict.as_ref()),
+                change: done.earlier.as_ref().map(|earlier| (earlier, document.change.as_ref())),
+                readings: Some((&done.readings, done.cost_of_missing)),
+            };
+            output::result(&(report::text(&done.calibration, &context) + &uncertainty.text()))?;
+        }
     }
-    let failed = document.verdict.is_some_and(|verdict| verdict.overall == Decision::Fail);
+    let failed = done.document.verdict.is_some_and(|verdict| verdict.overall == Decision::Fail);
     Ok(if failed { REFUSED } else { 0 })
+}
+
+impl Options {
+    /// Returns how the library shall calibrate.
+    fn asked(&self) -> CalibrationOptions {
+        CalibrationOptions {
+            methods: self.method.iter().copied().map(Method::from).collect(),
+            stop_rule: StopRule { delta1_percent: self.delta1_percent, delta2_deg_per_h: self.delta2_deg_per_h },
+            model: match self.model {
+                _ if self.anisoelasticity => Model::Anisoelastic,
+                ModelName::Paper => Model::Paper,
+                ModelName::General => Model::General,
+            },
+            drift: self.drift,
+        }
+    }
+
+    /// Returns what was calibrated, and under which conditions.
+    fn subject(&self) -> Subject {
+        Subject {
+            gyro_serial: self.gyro_serial.clone(),
+            operator: self.operator.clone(),
+            date: self.date,
+            temperature_c: self.temperature_c,
+            currents_sha256: String::new(),
+        }
+    }
 }
 
 /// Returns the passport in the form that the report takes.

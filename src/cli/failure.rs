@@ -2,6 +2,7 @@
 
 use super::{Code, REFUSED, UNUSABLE};
 use crate::files::FileError;
+use crate::interface::calibrated::Stopped;
 use crate::interface::{self, CheckLine, Failed, Place};
 use crate::passport::Verification;
 use crate::report::{style, verdict};
@@ -58,6 +59,14 @@ impl Failure {
     pub(super) fn unreadable(error: Unreadable) -> Self {
         let failed = Failed::new(interface::UNREADABLE, error.to_string().trim_end().to_owned(), Place::each(&error));
         Self { message: error.with_lines(""), code: UNUSABLE, failed }
+    }
+
+    /// Creates the failure of a calibration.
+    pub(super) fn stopped(stopped: Stopped) -> Self {
+        match stopped {
+            Stopped::Unreadable(error) => Self::unreadable(error),
+            Stopped::Refused(why) => Self::refused(why),
+        }
     }
 
     /// Creates the failure for the passport `name`, which did not pass every check; `words` precede its verdict.

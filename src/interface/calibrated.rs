@@ -3,13 +3,15 @@
 use super::{Failed, json};
 use crate::calibration::document::Subject;
 use crate::calibration::mistake::Mistake;
-use crate::calibration::stated::temperature_remark;
-use crate::calibration::verdict::against_type;
-use crate::calibration::{self, CalibrationDocument, Method, Options, Parameter, Readings, Setup};
+use crate::calibration::prediction::cost_of_missing;
+use crate::calibration::stated::{NotStated, temperature_remark};
+use crate::calibration::verdict::{Found, against_earlier, against_type};
+use crate::calibration::{self, Calibration, CalibrationDocument, Method, Options, Parameter, Readings, Setup};
 use crate::document::sha256_hex;
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
+use crate::text::{Unreadable, printable};
 
 /// Result of a calibration by one method.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,37 +44,125 @@ pub fn calibrate(
     let known = Method::ALL.iter().copied().find(|known| known.key() == method);
     let names = Method::ALL.map(Method::key).join(", ");
     let method = known.ok_or_else(|| Failed::unusable(format!("method {method:?}, expected one of {names}")))?;
-    let (paper, usual) = (Laboratory::paper(), GyroType::gvk_6());
+    let paper = Laboratory::paper();
     let laboratory = laboratory.unwrap_or(&paper);
-    let stated = Setup::stated(&content.certificate, &content.positions, &content.site, laboratory);
-    let (setup, mut missing) = stated.map_err(Failed::refused)?;
-    let setup = setup.of_gyro(gyro_type.and_then(|gyro_type| gyro_type.noise.as_ref()));
-    let readings = Readings::from_csv(name, currents, setup.coefficients(), laboratory.meter.range_ma)?;
+    let prepared = Prepared::new(content, laboratory, gyro_type, (name, currents))?;
     let options = Options { methods: vec![method], ..Options::default() };
-    let calibration = calibration::calibrate(&setup, &readings, &options).map_err(Failed::refused)?;
-    missing.extend(calibration.noise_not_stated());
-    if let Some(words) = calibration.meaningless() {
-        return Err(Failed::refused(words));
-    }
-    let Some(result) = calibration.answer() else {
-        let words = calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key()));
-        return Err(Failed::refused(words.collect::<Vec<_>>().join("\n")));
-    };
-    let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
-    let mut document = CalibrationDocument::new(&content.passport.id, verified, gravity, &calibration, &missing);
-    let currents_sha256 = sha256_hex(currents);
-    let subject = Subject { currents_sha256, ..Subject::default() };
-    document.record(subject, &readings);
-    let found = result.found(gravity.0, gravity.1.unwrap_or(0.0));
-    let rate = content.earth.rate(&content.site);
-    document.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type, &usual.nominal.to_model());
-    document.verdict = gyro_type.map(|gyro_type| against_type(&found, gyro_type));
+    let mut remarks: Vec<String> = prepared.readings.remark().map(str::to_owned).into_iter().collect();
+    let done = prepared.run(&options, verified, Subject::default(), None)?;
+    remarks.extend(done.warning);
+    // The document has an answer, so the calibration has one.
+    let result = done.calibration.answer().ok_or_else(|| Failed::refused("no result"))?;
     let place = |index: usize| Parameter::EIGHT[index].place();
     let covariance = |row, column| result.covariance.get((place(row), place(column))).copied().unwrap_or(f64::NAN);
     let covariance = std::array::from_fn(|row| std::array::from_fn(|column| covariance(row, column)));
-    let remarks = readings.remark().map(str::to_owned).into_iter();
-    let remarks = remarks.chain(temperature_remark(&content.certificate, laboratory)).collect();
-    Ok(Calibrated { json: json(&document), covariance, remarks })
+    Ok(Calibrated { json: json(&done.document), covariance, remarks })
+}
+
+/// Reason why a calibration has no result.
+#[derive(Debug)]
+pub(crate) enum Stopped {
+    /// The currents cannot be read.
+    Unreadable(Unreadable),
+    /// The inputs do not give a result that could be used.
+    Refused(String),
+}
+
+impl From<Stopped> for Failed {
+    fn from(stopped: Stopped) -> Self {
+        match stopped {
+            Stopped::Unreadable(error) => error.into(),
+            Stopped::Refused(why) => Self::refused(why),
+        }
+    }
+}
+
+/// Inputs of a calibration with a passport, read and checked.
+pub(crate) struct Prepared<'a> {
+    content: &'a Content,
+    laboratory: &'a Laboratory,
+    gyro_type: Option<&'a GyroType>,
+    setup: Setup,
+    missing: Vec<NotStated>,
+    currents_sha256: String,
+    /// Readings, from which visits may still be excluded.
+    pub readings: Readings,
+}
+
+/// Calibration with a passport: the inputs as they were used, and what was found.
+pub(crate) struct Done {
+    pub setup: Setup,
+    pub readings: Readings,
+    pub calibration: Calibration,
+    /// Inputs whose uncertainty nobody states.
+    pub missing: Vec<NotStated>,
+    /// Result as `calibrate` writes it, with the verdict and the change.
+    pub document: CalibrationDocument,
+    /// Earlier result with which this one was compared.
+    pub earlier: Option<Found>,
+    /// Parameter that suffers most from positions without a reading, and the ratio of its uncertainty.
+    pub cost_of_missing: Option<(Parameter, f64)>,
+    /// Warning on the conditions in the laboratory.
+    pub warning: Option<String>,
+}
+
+impl<'a> Prepared<'a> {
+    /// Reads the currents, a CSV file given by its name and content, for the positions of a passport.
+    pub(crate) fn new(
+        content: &'a Content,
+        laboratory: &'a Laboratory,
+        gyro_type: Option<&'a GyroType>,
+        (name, currents): (&str, &[u8]),
+    ) -> Result<Self, Stopped> {
+        let stated = Setup::stated(&content.certificate, &content.positions, &content.site, laboratory);
+        let (setup, missing) = stated.map_err(|error| Stopped::Refused(error.to_string()))?;
+        let setup = setup.of_gyro(gyro_type.and_then(|gyro_type| gyro_type.noise.as_ref()));
+        let readings = Readings::from_csv(name, currents, setup.coefficients(), laboratory.meter.range_ma);
+        let readings = readings.map_err(Stopped::Unreadable)?;
+        let currents_sha256 = sha256_hex(currents);
+        Ok(Self { content, laboratory, gyro_type, setup, missing, currents_sha256, readings })
+    }
+
+    /// Calibrates the gyro. `subject` says which one and under which conditions; its SHA-256 is filled in here.
+    pub(crate) fn run(
+        self,
+        options: &Options,
+        verified: bool,
+        subject: Subject,
+        previous: Option<&CalibrationDocument>,
+    ) -> Result<Done, Stopped> {
+        let Self { content, laboratory, gyro_type, setup, mut missing, currents_sha256, readings } = self;
+        let subject = Subject { currents_sha256, ..subject };
+        if let Some([before, now]) = previous.and_then(|document| document.another_gyro(&subject)) {
+            let [before, now] = [before, now].map(printable::printable);
+            return Err(Stopped::Refused(format!("the previous result is that of gyro {before}, not of {now}")));
+        }
+        let calibration = calibration::calibrate(&setup, &readings, options);
+        let calibration = calibration.map_err(|error| Stopped::Refused(error.to_string()))?;
+        missing.extend(calibration.noise_not_stated());
+        if let Some(words) = calibration.meaningless() {
+            return Err(Stopped::Refused(words));
+        }
+        let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
+        let mut document = CalibrationDocument::new(&content.passport.id, verified, gravity, &calibration, &missing);
+        document.record(subject, &readings);
+        let Some(found) = document.answer() else {
+            let words = calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key()));
+            return Err(Stopped::Refused(words.collect::<Vec<_>>().join("\n")));
+        };
+        let earlier = previous.and_then(CalibrationDocument::answer);
+        // Without a type or an earlier result, the nominal values of the paper's gyro still reveal an error by a
+        // factor of a thousand.
+        let usual = earlier.as_ref().map_or_else(|| GyroType::gvk_6().nominal.to_model(), |found| found.parameters);
+        let rate = content.earth.rate(&content.site);
+        document.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type, &usual);
+        document.verdict = gyro_type.map(|gyro_type| against_type(&found, gyro_type));
+        let judged = earlier.as_ref().zip(gyro_type);
+        document.change = judged.map(|(earlier, gyro_type)| against_earlier(&found, earlier, gyro_type));
+        let cost_of_missing = cost_of_missing(&setup, &readings, &found.parameters);
+        let warning = temperature_remark(&content.certificate, laboratory);
+        Ok(Done { setup, readings, calibration, missing, document, earlier, cost_of_missing, warning })
+    }
 }
 
 /// Returns rows of i, j, J_x, J_y (mA) as the CSV that [`calibrate`] reads, each number to its last bit.

@@ -24,7 +24,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod calibrated;
+pub(crate) mod calibrated;
 pub(crate) mod enquiry;
 
 pub use calibrated::{Calibrated, calibrate, currents_csv};

@@ -464,6 +464,10 @@ fn figures_of_coverage() {
         print(&format!("{noise} deg/h, estimated from 3 visits"), found);
         assert!(found.iter().all(|share| (share - 95.0).abs() < 1.0), "{noise}: {found:?}");
     }
+    // Neither stated nor shown, the noise is missing from the intervals, which the result says.
+    let found = coverage(0.002, 0.0, false, 1, 1, 101);
+    print("0.002 deg/h, not stated, one visit", found);
+    assert!(found.iter().all(|share| *share < 90.0), "{found:?}");
     let found = coverage(0.002, 0.01, false, 3, 1, 200);
     print("turn-ons of 0.01 deg/h, estimated from 3 cycles", found);
     assert!(found.iter().all(|share| (share - 95.0).abs() < 1.0), "{found:?}");
