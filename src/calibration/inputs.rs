@@ -1,6 +1,7 @@
 //! Inputs of a calibration: the coefficients, and the standard uncertainties of everything behind them.
 
 use super::readings::Readings;
+use super::result::Calibration;
 use crate::attitude::{self, Deviation};
 use crate::coefficients::{Coefficients, EIGHT_POSITIONS, EarthRate, Position, SingularPositions, StandGeometry};
 use crate::gyro::GyroNoise;
@@ -207,6 +208,17 @@ impl Setup {
     pub(crate) fn of_gyro(mut self, noise: Option<&GyroNoise>) -> Self {
         self.uncertainty.visit_deg_per_h = noise.and_then(|noise| noise.visit_deg_per_h);
         self.uncertainty.turn_on_deg_per_h = noise.and_then(|noise| noise.turn_on_deg_per_h);
+        self
+    }
+
+    /// Returns the setup with the noises that a calibration used, stated or estimated.
+    pub(crate) fn with_noise_of(mut self, calibration: &Calibration) -> Self {
+        self.uncertainty.visit_deg_per_h = Some(calibration.visit_noise.deg_per_h);
+        self.uncertainty.turn_on_deg_per_h = Some(calibration.turn_on_noise.deg_per_h);
+        let meter = &mut self.uncertainty.meter;
+        if let Some(rows) = calibration.row_scatter.filter(|_| meter.noise_ma == 0.0) {
+            meter.noise_ma = rows.standard_deviation_ma;
+        }
         self
     }
 

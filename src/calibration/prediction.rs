@@ -5,11 +5,12 @@ use super::inputs::{MeterUncertainty, Setup};
 use super::least_squares;
 use super::parameter::Parameter;
 use super::procedure::{Options, calibrate};
-use super::readings::Readings;
-use super::result::{Method, MethodResult};
+use super::readings::{Reading, Readings, Visit};
+use super::result::{Calibration, Method, MethodResult};
 use crate::attitude::Deviation;
-use crate::coefficients::{EarthRate, Position, StandGeometry};
+use crate::coefficients::{EarthRate, Position, PositionIndex, StandGeometry};
 use crate::gyro::GyroParameters;
+use nalgebra::Vector2;
 
 /// Returns the result of `method` for the exact currents of `gyro`, or `None` if the method gives no result.
 ///
@@ -37,6 +38,60 @@ pub(crate) fn cost_of_missing(setup: &Setup, readings: &Readings, gyro: &GyroPar
         Some((parameter, rest.standard_uncertainty(parameter)? / all.standard_uncertainty(parameter)?))
     };
     Parameter::EIGHT.into_iter().filter_map(ratio).max_by(|(_, one), (_, other)| one.total_cmp(other))
+}
+
+/// Single further visit that would reduce the uncertainty of a parameter most.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct FurtherVisit {
+    /// Position to visit.
+    pub index: PositionIndex,
+    /// Ratio of the standard uncertainty of the parameter with that visit to the one without it.
+    pub ratio: f64,
+}
+
+/// Returns the position of the passport whose further visit, in the last turn-on, would reduce the standard uncertainty
+/// of `parameter` most; the visits so far are those of `readings`, and `calibration` is their result.
+///
+/// Returns `None` if no least-squares result can be predicted.
+pub(crate) fn best_further_visit(
+    setup: &Setup,
+    readings: &Readings,
+    (calibration, gyro): (&Calibration, &GyroParameters),
+    (parameter, options): (Parameter, &Options),
+) -> Option<FurtherVisit> {
+    let setup = setup.clone().with_noise_of(calibration);
+    let options = Options { methods: vec![Method::LeastSquares], ..options.clone() };
+    let positions = &setup.coefficients().positions;
+    let exact: Option<Vec<_>> = positions.iter().map(|at| Some((at.index, gyro.currents_ma(at)?))).collect();
+    let exact = exact?;
+    let current_of = |index| exact.iter().find(|(known, _)| *known == index).map(|(_, current_ma)| *current_ma);
+    let mut rows = Vec::new();
+    for position in readings.positions() {
+        let current_ma = current_of(position.index)?;
+        for Visit { cycle, number, each_ma, time_s, .. } in &position.visits {
+            let row = Reading {
+                cycle: *cycle,
+                visit: Some(*number),
+                time_s: *time_s,
+                ..Reading::new(position.index, current_ma)
+            };
+            rows.extend(each_ma.iter().map(|_| row));
+        }
+    }
+    let u = |rows: &[Reading]| {
+        let readings = Readings::of_rows(setup.coefficients(), rows).ok()?;
+        calibrate(&setup, &readings, &options).ok()?.answer()?.standard_uncertainty(parameter)
+    };
+    let (cycle, after) = (rows.iter().map(|row| row.cycle).max(), rows.iter().filter_map(|row| row.visit).max());
+    let time_s = rows.iter().filter_map(|row| row.time_s).reduce(f64::max);
+    let now = u(&rows)?;
+    let with = |&(index, current_ma): &(PositionIndex, Vector2<f64>)| {
+        rows.push(Reading { cycle: cycle?, visit: Some(after? + 1), time_s, ..Reading::new(index, current_ma) });
+        let ratio = u(&rows).map(|u| u / now);
+        rows.pop();
+        Some(FurtherVisit { index, ratio: ratio? })
+    };
+    exact.iter().filter_map(with).min_by(|one, other| one.ratio.total_cmp(&other.ratio))
 }
 
 /// Ratios of standard uncertainties on a stand to those on the ideal stand with the same positions at the same site.

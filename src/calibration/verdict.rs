@@ -71,6 +71,15 @@ pub struct ParameterVerdict {
     pub specific_risk: f64,
 }
 
+impl Verdict {
+    /// Returns the parameter whose uncertainty takes most of its tolerance.
+    pub(crate) fn least_certain(&self) -> Option<Parameter> {
+        let share = |line: &&ParameterVerdict| line.expanded_uncertainty / line.tolerance;
+        let worst = self.parameters.iter().max_by(|one, other| share(one).total_cmp(&share(other)))?;
+        Parameter::EIGHT.into_iter().find(|parameter| parameter.key() == worst.parameter)
+    }
+}
+
 impl ParameterVerdict {
     /// Returns `true` if more than half of the variance comes from the local g.
     pub(crate) fn is_mostly_from_gravity(&self) -> bool {

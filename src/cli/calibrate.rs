@@ -166,6 +166,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
                 verdict: name.zip(document.verdict.as_ref()),
                 change: done.earlier.as_ref().map(|earlier| (earlier, document.change.as_ref())),
                 readings: Some((&done.readings, done.cost_of_missing)),
+                further: done.further,
             };
             output::result(&(report::text(&done.calibration, &context) + &uncertainty.text()))?;
         }

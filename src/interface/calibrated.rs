@@ -3,9 +3,9 @@
 use super::{Failed, json};
 use crate::calibration::document::Subject;
 use crate::calibration::mistake::Mistake;
-use crate::calibration::prediction::cost_of_missing;
+use crate::calibration::prediction::{FurtherVisit, best_further_visit, cost_of_missing};
 use crate::calibration::stated::{NotStated, temperature_remark};
-use crate::calibration::verdict::{Found, against_earlier, against_type};
+use crate::calibration::verdict::{Found, Verdict, against_earlier, against_type};
 use crate::calibration::{self, Calibration, CalibrationDocument, Method, Options, Parameter, Readings, Setup};
 use crate::document::sha256_hex;
 use crate::gyro::GyroType;
@@ -102,6 +102,8 @@ pub(crate) struct Done {
     pub earlier: Option<Found>,
     /// Parameter that suffers most from positions without a reading, and the ratio of its uncertainty.
     pub cost_of_missing: Option<(Parameter, f64)>,
+    /// Parameter whose uncertainty takes most of its tolerance, and the single visit that would reduce it most.
+    pub further: Option<(Parameter, FurtherVisit)>,
     /// Warning on the conditions in the laboratory.
     pub warning: Option<String>,
 }
@@ -160,8 +162,12 @@ impl<'a> Prepared<'a> {
         let judged = earlier.as_ref().zip(gyro_type);
         document.change = judged.map(|(earlier, gyro_type)| against_earlier(&found, earlier, gyro_type));
         let cost_of_missing = cost_of_missing(&setup, &readings, &found.parameters);
+        let further = document.verdict.as_ref().and_then(Verdict::least_certain).and_then(|parameter| {
+            let result = (&calibration, &found.parameters);
+            Some((parameter, best_further_visit(&setup, &readings, result, (parameter, options))?))
+        });
         let warning = temperature_remark(&content.certificate, laboratory);
-        Ok(Done { setup, readings, calibration, missing, document, earlier, cost_of_missing, warning })
+        Ok(Done { setup, readings, calibration, missing, document, earlier, cost_of_missing, further, warning })
     }
 }
 

@@ -5,6 +5,7 @@ use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::mistake::Mistake;
 use crate::calibration::noise::NoiseSource;
 use crate::calibration::parameter::Parameter;
+use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
@@ -35,7 +36,12 @@ pub(crate) struct Context<'a> {
     pub change: Option<(&'a Found, Option<&'a Verdict>)>,
     /// Readings, and the parameter that suffers most from positions without a reading, with the ratio of its uncertainty.
     pub readings: Option<(&'a Readings, Option<(Parameter, f64)>)>,
+    /// Parameter whose uncertainty takes most of its tolerance, and the further visit that would reduce it most.
+    pub further: Option<(Parameter, FurtherVisit)>,
 }
+
+/// Least effect of a further visit that is worth the time, percent of the standard uncertainty.
+const LEAST_EFFECT_PERCENT: f64 = 1.0;
 
 /// Returns the whole result: parameters, fit, verdict, and errors that the residuals do not show.
 pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
@@ -63,6 +69,15 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
         let _ = writeln!(out, "\nComparison with gyro type {name}, with expanded uncertainty U = {COVERAGE_FACTOR} u;");
         let _ = writeln!(out, "g-sensitive drifts refer to the g of the type, {} m/s²:", verdict.gravity_m_per_s2);
         verdict_table(&mut out, verdict, "nominal", "deviation");
+    }
+    if let Some((parameter, FurtherVisit { index, ratio })) = context.further {
+        let (symbol, percent) = (parameter.symbol(), 100.0 * (1.0 - ratio));
+        let effect = match percent < LEAST_EFFECT_PERCENT {
+            true => format!("No single further visit would reduce it by {LEAST_EFFECT_PERCENT} %."),
+            false => format!("A further visit to position {index} would reduce it most, by {percent:.0} %."),
+        };
+        let words = format!("The uncertainty of {symbol} takes most of its tolerance. {effect}");
+        columns::paragraph(&mut out, "  ", &words);
     }
     if let Some((earlier, verdict)) = context.change {
         change(&mut out, calibration, context.gravity_m_per_s2, earlier, verdict);

@@ -137,6 +137,7 @@ fn scatter_is_judged_in_both_tails() {
         verdict: None,
         change: None,
         readings: None,
+        further: None,
         mistake: None,
     };
     let with = |visit_ma: f64, row_ma: f64| {
@@ -244,6 +245,7 @@ fn too_few_readings_to_judge() {
         verdict: None,
         change: None,
         readings: None,
+        further: None,
         mistake: None,
     };
     let text = report::text(&found, &context);

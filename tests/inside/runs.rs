@@ -3,6 +3,7 @@
 use crate::inside::reference::*;
 use dtg_passport::calibration::noise::NoiseSource;
 use dtg_passport::calibration::parameter::Parameter;
+use dtg_passport::calibration::prediction::best_further_visit;
 use dtg_passport::calibration::readings::Reading;
 use dtg_passport::calibration::{
     Calibration, InputUncertainty, Method, MethodResult, Model, NoLeastSquares, Options, Readings, Setup, calibrate,
@@ -408,6 +409,49 @@ fn a_position_that_could_not_be_reached() {
     let found = calibrate(&setup, &readings, &options).unwrap();
     let words = found.refused[0].1.to_string();
     assert!(words.contains("these positions cannot") && words.contains("G_"), "{words}");
+}
+
+/// Expected: the information matrix M = Σ F′ C⁻¹ F, once with one visit of each position and once with two of one.
+#[test]
+fn the_further_visit_that_helps_most_is_named() {
+    let mut u = InputUncertainty::of_meter(paper_meter());
+    u.visit_deg_per_h = Some(EQUAL_NOISE_DEG_PER_H);
+    let setup = with_uncertainty(&drawn_stand(&mut Stream::new(31), 3.0), LATITUDE_DEG, u);
+    let gyro = gvk_6();
+    let exact = currents(&setup, &gyro);
+    let information = |visits: &[f64]| {
+        let mut sum = DMatrix::zeros(8, 8);
+        for ((at, j), visits) in setup.coefficients().positions.iter().zip(&exact).zip(visits) {
+            let [x, y] = [at.specific_force_g.x, at.specific_force_g.y];
+            let f = DMatrix::from_row_slice(
+                2,
+                8,
+                &[j.x, j.y, 0.0, 0.0, 1.0, 0.0, x, -y, 0.0, 0.0, j.x, j.y, 0.0, 1.0, y, x],
+            );
+            let meter = Matrix2::from_diagonal(&j.map(|j| setup.uncertainty().meter.own_variance_ma2(j)));
+            let k = gyro.k_deg_per_h_per_ma;
+            let c = k * meter * k.transpose() + Matrix2::identity() * (EQUAL_NOISE_DEG_PER_H.powi(2) / visits);
+            let weight = c.try_inverse().unwrap();
+            sum += f.transpose() * DMatrix::from_column_slice(2, 2, weight.as_slice()) * f;
+        }
+        sum.try_inverse().unwrap()
+    };
+    let readings = readings(&setup, &exact);
+    let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
+    let calibration = calibrate(&setup, &readings, &options).unwrap();
+    let before = information(&[1.0; 8]);
+    for (place, parameter) in Parameter::EIGHT.into_iter().enumerate() {
+        let ratios: Vec<f64> = (0..8)
+            .map(|again| {
+                let visits: Vec<f64> = (0..8).map(|at| if at == again { 2.0 } else { 1.0 }).collect();
+                (information(&visits)[(place, place)] / before[(place, place)]).sqrt()
+            })
+            .collect();
+        let due = (0..8).min_by(|one, other| ratios[*one].total_cmp(&ratios[*other])).unwrap();
+        let found = best_further_visit(&setup, &readings, (&calibration, &gyro), (parameter, &options)).unwrap();
+        assert_eq!(found.index, setup.coefficients().positions[due].index, "{parameter:?}: {ratios:?}");
+        assert!((found.ratio - ratios[due]).abs() < 1e-9, "{parameter:?}: {} {}", found.ratio, ratios[due]);
+    }
 }
 
 /// Share of calibrations, in percent, whose 95 % interval covers the true value, for each parameter: gyro noise `visit`
