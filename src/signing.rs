@@ -189,6 +189,12 @@ fn refuse_exposed(_: &Path) -> Result<(), KeyFileError> {
     Ok(())
 }
 
+/// Returns what protects a new private key on this system, if that is not the key file's own mode.
+pub(crate) fn protection_remark(path: &Path) -> Option<String> {
+    let words = "Windows protects the private key only by the permissions of its folder; to restrict them, run";
+    cfg!(windows).then(|| format!("{words} `icacls {} /inheritance:r /grant:r \"%USERNAME%:R\"`", shown(path)))
+}
+
 /// Returns the line of allowed_signers that trusts `key` as `identity` for passports and their revocation lists.
 ///
 /// # Errors

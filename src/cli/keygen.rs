@@ -75,6 +75,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         Some(path) => output::say(&format!("{wrote}; appended the line of the key to {}", shown(path))),
         None => output::say(&format!("{wrote}; add this line to allowed_signers:")),
     }
+    if let Some(remark) = signing::protection_remark(&options.key) {
+        output::complain(&format!("WARNING: {remark}"));
+    }
     match options.format {
         Format::Text if appended_to.is_none() => output::result(&format!("{line}\n"))?,
         Format::Text => {}

@@ -49,7 +49,7 @@ use std::time::Instant;
 
 /// Signed passports that let a low-cost test stand calibrate a dynamically tuned gyro as well as an expensive one.
 #[derive(Parser)]
-#[command(name = "dtg-passport", version, max_term_width = 100)]
+#[command(name = "dtg-passport", bin_name = "dtg-passport", version, max_term_width = 100)]
 struct Cli {
     #[command(subcommand)]
     verb: Verb,

@@ -40,7 +40,7 @@ pub(super) fn own(text: &str) -> Result<(), Failure> {
     let mut stdout = anstream::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         // The reader closed the pipe; that is not an error.
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        Err(error) if files::is_closed_pipe(&error) => Ok(()),
         Err(error) => Err(Failure::unusable(format!("standard output: {}", files::reason(&error)))),
         Ok(()) => Ok(()),
     }

@@ -1,12 +1,16 @@
 //! File access: files are read completely up to a limit, and written completely or not at all.
 //!
 //! * [`leftovers`]: temporary files that killed runs left behind.
+//! * `platform`: what differs between Unix and Windows.
 //! * [`together`]: several files, all or none.
 //! * [`walk`]: the files under a folder.
 
 pub(crate) mod leftovers;
+mod platform;
 pub(crate) mod together;
 pub(crate) mod walk;
+
+pub(crate) use platform::{is_closed_pipe, sync_folder, wait_for_turn};
 
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, shown};
 use std::fs::{self, File, TryLockError};
@@ -165,10 +169,15 @@ pub(crate) fn read_first(path: &Path, limit: usize) -> Result<Vec<u8>, FileError
 
 fn read_first_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(), FileError> {
     let failed = |error| FileError::Read { path: path.to_owned(), error };
-    let file = open(path).map_err(failed)?;
+    let folder = || FileError::Folder { path: path.to_owned() };
+    let file = match platform::open(path) {
+        // Windows does not open folders.
+        Err(_) if path.is_dir() => return Err(folder()),
+        opened => opened.map_err(failed)?,
+    };
     let found = file.metadata().map_err(failed)?;
     if found.is_dir() {
-        return Err(FileError::Folder { path: path.to_owned() });
+        return Err(folder());
     }
     if !found.is_file() {
         return Err(FileError::Special { path: path.to_owned() });
@@ -179,22 +188,6 @@ fn read_first_into(bytes: &mut Vec<u8>, path: &Path, limit: usize) -> Result<(),
     bytes.reserve_exact(length.saturating_add(1));
     file.take(limit as u64).read_to_end(bytes).map_err(failed)?;
     Ok(())
-}
-
-/// Opens a file without waiting, because a pipe without a writer would block its reader indefinitely. The kind of file
-/// is then read from the open file, so that it cannot be exchanged in between.
-#[cfg(unix)]
-fn open(path: &Path) -> io::Result<File> {
-    use rustix::fs::OFlags;
-    use std::os::unix::fs::OpenOptionsExt;
-    let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
-    File::options().read(true).custom_flags(flags.bits().cast_signed()).open(path)
-}
-
-/// Opens a file.
-#[cfg(not(unix))]
-fn open(path: &Path) -> io::Result<File> {
-    File::open(path)
 }
 
 /// Permission to read a new file.
@@ -290,12 +283,6 @@ pub(crate) fn rewrite(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     write(&target, bytes, Access::Shared, Durability::Named, persist, true)
 }
 
-/// Waits until no other run holds the lock of a folder, and locks it until the returned file is dropped. Returns `None`
-/// if the file system cannot lock folders.
-pub(crate) fn wait_for_turn(folder: &Path) -> Option<File> {
-    File::open(folder).ok().filter(|folder| folder.lock().is_ok())
-}
-
 fn write(
     path: &Path,
     bytes: &[u8],
@@ -378,31 +365,8 @@ fn taken_away(error: &io::Error) -> bool {
 fn builder(access: Access) -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(leftovers::PREFIX).suffix(leftovers::SUFFIX);
-    #[cfg(unix)]
     if access == Access::Shared {
-        use std::os::unix::fs::PermissionsExt;
-        // The umask restricts this mode; without it only the user could read the file.
-        builder.permissions(fs::Permissions::from_mode(0o666));
+        platform::readable_by_all(&mut builder);
     }
-    #[cfg(not(unix))]
-    let _ = access;
     builder
-}
-
-/// Syncs the names in a folder to disk, so that a power failure does not lose them.
-///
-/// # Errors
-/// Returns an I/O error if the folder cannot be opened or synced.
-#[cfg(unix)]
-pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {
-    File::open(folder)?.sync_all()
-}
-
-/// Does nothing, because on this system names need no sync.
-///
-/// # Errors
-/// Never returns an error.
-#[cfg(not(unix))]
-pub fn sync_folder(_: &Path) -> io::Result<()> {
-    Ok(())
 }

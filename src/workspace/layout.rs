@@ -11,6 +11,9 @@ const FOLDERS: [&str; 4] = ["stands", "sites", "readings", "passports"];
 
 const GITIGNORE: &str = "# Private keys stay on the machine that signs.\n*.key\n";
 
+const GITATTRIBUTES: &str =
+    "# Passports are signed byte for byte: git must not change their line ends.\n*.yaml -text\n";
+
 /// Reason why a workspace was not made.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum NotMade {
@@ -33,6 +36,7 @@ pub(crate) fn make(root: &Path, identity: Option<&str>, force: bool) -> Result<V
     let written = [
         (root.join(WORKSPACE_FILE), settings(identity)?),
         (root.join(".gitignore"), GITIGNORE.to_owned()),
+        (root.join(".gitattributes"), GITATTRIBUTES.to_owned()),
         (root.join("README.md"), read_me()),
     ];
     for (path, _) in written.iter().filter(|_| !force) {
@@ -164,7 +168,16 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let root = folder.path().join("a/b");
         make(&root, Some("factory@example.org"), false).unwrap();
-        let due = [".gitignore", "README.md", "dtg-passport.toml", "passports", "readings", "sites", "stands"];
+        let due = [
+            ".gitattributes",
+            ".gitignore",
+            "README.md",
+            "dtg-passport.toml",
+            "passports",
+            "readings",
+            "sites",
+            "stands",
+        ];
         assert_eq!(files(&root), due);
         let workspace = Workspace::read(&root).unwrap();
         assert_eq!(workspace.identity.as_deref(), Some("factory@example.org"));

@@ -6,10 +6,14 @@
 //! sums and the program's version are shown as `[sha256]` and `[version]`, for they change with the text of a passport.
 //!
 //! `TRANSCRIPTS=write cargo test --test cli transcripts` writes what comes back into the transcripts: read the difference.
+//!
+//! `tests/windows/run` plays them with the program for Windows, which `DTG_PASSPORT_FOLDER` then names by the folder of
+//! a `dtg-passport` that starts it. What comes back may differ in `\` for `/`, and under the headings that
+//! `tests/windows/differences.md` lists with the reason.
 
 use crate::programs;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// A test for each transcript, so that they run side by side and have names; and one that none is left out.
@@ -64,6 +68,9 @@ fn is_what_comes_back(file: &str) {
     let path = programs::project("tests/cmd").join(file);
     let told = fs::read_to_string(&path).unwrap();
     let played = play(&told);
+    if std::env::var_os(FOLDER).is_some() {
+        return compare_for_windows(file, &told, &played);
+    }
     if played == told {
         return;
     }
@@ -76,6 +83,46 @@ fn is_what_comes_back(file: &str) {
     let different = (1..).zip(pairs).find(|(_, (told, played))| told != played);
     let (number, (told, played)) = different.expect("a line that differs, or the end of one of the two");
     panic!("{}:{number}\n  told:   {told}\n  played: {played}", path.display());
+}
+
+/// Variable with the folder of the program, where it is not the one that cargo built.
+const FOLDER: &str = "DTG_PASSPORT_FOLDER";
+
+/// Fails unless exactly those headings differ that `tests/windows/differences.md` lists.
+fn compare_for_windows(file: &str, told: &str, played: &str) {
+    let parts = |text: &str| {
+        let text = text.replace(r"\\", "/").replace('\\', "/");
+        let mut parts = vec![(String::new(), String::new())];
+        let mut in_block = false;
+        // What `keygen` says on Windows alone.
+        for line in text.lines().filter(|line| !line.contains("Windows protects the private key only by")) {
+            in_block ^= line.starts_with("```");
+            if !in_block && line.starts_with('#') {
+                parts.push((line.trim_start_matches(['#', ' ']).to_owned(), String::new()));
+            }
+            let (_, part) = parts.last_mut().unwrap();
+            *part += &format!("{line}\n");
+        }
+        parts
+    };
+    let differences = fs::read_to_string(programs::project("tests/windows/differences.md")).unwrap();
+    let (mut unexpected, mut same) = (String::new(), 0);
+    for ((heading, told), (_, played)) in parts(told).into_iter().zip(parts(played)) {
+        let listed = differences.contains(&format!("| `{file}#{heading}` |"));
+        same += usize::from(told == played);
+        match (told == played, listed) {
+            (true, true) => unexpected += &format!("{file}#{heading}: listed, but equal\n"),
+            (false, false) => {
+                let lines = told.lines().zip(played.lines()).filter(|(told, played)| told != played);
+                let lines: String =
+                    lines.map(|(told, played)| format!("  told:   {told}\n  played: {played}\n")).collect();
+                unexpected += &format!("{file}#{heading}: differs\n{lines}");
+            }
+            _ => {}
+        }
+    }
+    println!("{file}: {same} headings equal");
+    assert!(unexpected.is_empty(), "{unexpected}");
 }
 
 /// The transcript with what comes back now.
@@ -117,8 +164,9 @@ impl Stage {
     }
 
     fn run(&self, command: &str) -> String {
-        let program = Path::new(env!("CARGO_BIN_EXE_dtg-passport")).parent().unwrap();
-        let path = std::env::join_paths([program, Path::new("/usr/bin"), Path::new("/bin")]).unwrap();
+        let built = || Path::new(env!("CARGO_BIN_EXE_dtg-passport")).parent().unwrap().to_owned();
+        let program = std::env::var_os(FOLDER).map_or_else(built, PathBuf::from);
+        let path = std::env::join_paths([program.as_path(), Path::new("/usr/bin"), Path::new("/bin")]).unwrap();
         let output = Command::new("sh")
             .args(["-c", command])
             .current_dir(self.folder.path())
