@@ -68,6 +68,7 @@
 //! | `batch` | many passports at once | `factory` |
 //! | [`interface`] | what programs in other languages call: `python`, `c` and `web` | |
 //! | [`report`] | what people read | `report` |
+//! | `dcc` | Digital Calibration Certificates of PTB, of a stand and of a gyro | `cli` |
 //! | `schema` | JSON Schemas of the formats | `cli` |
 //! | `template` | commented files to begin with | `cli` |
 //! | `workspace` | a folder that states key, trust and folders; what it holds | `cli` |
@@ -103,6 +104,8 @@ pub mod certification;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod coefficients;
+#[cfg(feature = "cli")]
+pub(crate) mod dcc;
 #[cfg(feature = "cli")]
 pub(crate) mod demonstration;
 pub(crate) mod document;

@@ -1,8 +1,11 @@
-//! Verb `export`: verified passports in other forms: stand and site files again, and JSON.
+//! Verb `export`: verified passports in other forms: stand and site files again, JSON, and a DCC.
 
+use super::administrative::{AdministrativeFile, DCC_IS_NOT_SIGNED};
+use super::render::{Written, languages};
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, REFUSED, UNUSABLE, output};
 use crate::batch::paths::{self, Named};
+use crate::dcc;
 use crate::document::sha256_hex;
 use crate::folder::search;
 use crate::passport::export::{site_file, stand_file};
@@ -18,10 +21,11 @@ use std::path::{Path, PathBuf};
 /// Number of passports that are verified at a time.
 const AT_ONCE: usize = 256;
 
-/// Export verified passports: the stand and site files again, or JSON for other programs
+/// Export verified passports: the stand and site files again, JSON, or a Digital Calibration Certificate
 ///
 /// PASSPORT is a file, a quoted pattern, or a folder; a - reads a list of paths from standard input. Files are written
-/// to DIR/<model>/<serial>/stand.yaml, DIR/<site id>.yaml and DIR/<model>/<serial>/<site id>-<revision>.json.
+/// to DIR/<model>/<serial>/stand.yaml, DIR/<site id>.yaml, DIR/<model>/<serial>/<site id>-<revision>.json and
+/// DIR/<number of the certificate>.xml.
 #[derive(Args)]
 pub(super) struct Options {
     /// Passports
@@ -35,6 +39,12 @@ pub(super) struct Options {
     /// Folder to write to [default: the current folder; JSON goes to standard output, one line for each passport]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Administrative data of the DCC that no passport states (dtg-dcc/1); `new dcc` writes a template
+    #[arg(long, value_name = "FILE")]
+    administrative: Option<PathBuf>,
+    /// Languages of the DCC: en, ru, or en,ru for both [default: the language in FILE, or en]
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "LANGUAGE")]
+    lang: Vec<Written>,
     /// Replace existing files
     #[arg(long)]
     force: bool,
@@ -48,11 +58,18 @@ enum Form {
     Site,
     /// Passport with its checks, as JSON
     Json,
+    /// Digital Calibration Certificate of PTB, 3.3.0, with the signed passport in it
+    Dcc,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
+    if !options.to.contains(&Form::Dcc) && (options.administrative.is_some() || !options.lang.is_empty()) {
+        return Err(Failure::usage("--administrative and --lang are for a DCC; add --to dcc, or omit them"));
+    }
     let (trust, question) = options.trust.load()?;
-    let mut run = Run { options, trust, question, written: HashMap::new(), code: 0, next: Vec::new() };
+    let administrative = AdministrativeFile::read(options.administrative.as_deref())?;
+    let written = HashMap::new();
+    let mut run = Run { options, trust, question, administrative, written, code: 0, next: Vec::new() };
     let mut list = std::io::stdin().lock();
     for named in paths::named(&options.passports, &mut list) {
         match named {
@@ -69,6 +86,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         }
     }
     run.chunk()?;
+    if options.to.contains(&Form::Dcc) && !run.written.is_empty() {
+        output::say(DCC_IS_NOT_SIGNED);
+    }
     Ok(run.code)
 }
 
@@ -88,6 +108,7 @@ struct Run<'a> {
     options: &'a Options,
     trust: Trust,
     question: Question,
+    administrative: AdministrativeFile,
     /// SHA-256 of the files written so far, and the passports that they come from.
     written: HashMap<PathBuf, (String, PathBuf)>,
     code: Code,
@@ -134,13 +155,13 @@ impl Run<'_> {
         let json = if to(Form::Json) && !unread { Some(json()?) } else { None };
         let passport = verification.passport();
         let content = passport.as_ref().map(|passport| passport.content());
-        let files = content.map_or_else(|| Ok(Vec::new()), |content| self.files(content, json.as_deref()));
+        let files = content.map_or_else(|| Ok(Vec::new()), |content| self.files(content, &bytes, json.as_deref()));
         let line = json.filter(|_| self.options.out.is_none());
         Ok(Exported { path: path.to_owned(), verification, files, line, unread })
     }
 
     /// Returns the files of a verified passport.
-    fn files(&self, content: &Content, json: Option<&str>) -> Result<Vec<(PathBuf, String)>, Unreadable> {
+    fn files(&self, content: &Content, bytes: &[u8], json: Option<&str>) -> Result<Vec<(PathBuf, String)>, Unreadable> {
         let root = self.options.out.as_deref().unwrap_or(Path::new(""));
         let folder = root.join(content.stand.model.as_str()).join(content.stand.serial.as_str());
         let mut files = Vec::new();
@@ -153,6 +174,12 @@ impl Run<'_> {
         if let Some(json) = json.filter(|_| self.options.out.is_some()) {
             let name = format!("{}-{}.json", content.site.id, content.passport.revision);
             files.push((folder.join(name), json.to_owned()));
+        }
+        if self.options.to.contains(&Form::Dcc) {
+            let lang = (!self.options.lang.is_empty()).then(|| languages(&self.options.lang));
+            let dcc = dcc::of_stand(content, bytes, self.administrative.content(), lang.as_ref());
+            let dcc = dcc.map_err(|problems| self.administrative.refuse(problems))?;
+            files.push((root.join(dcc.file_name()), dcc.xml));
         }
         Ok(files)
     }
@@ -168,7 +195,8 @@ impl Run<'_> {
         let files = match files {
             Ok(files) => files,
             Err(error) => {
-                self.failed(REFUSED, &format!("{}: {error}; nothing was exported", shown(path)));
+                let lines = error.with_lines("");
+                self.failed(REFUSED, &format!("nothing was exported from {}\n{lines}", shown(path)));
                 return Ok(());
             }
         };

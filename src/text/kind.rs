@@ -16,6 +16,8 @@ pub(crate) enum Kind {
     Gyro,
     /// Laboratory file.
     Laboratory,
+    /// Administrative file of a DCC.
+    Dcc,
     /// Passport.
     Passport,
     /// Signed list of withdrawn passports.
@@ -43,11 +45,12 @@ pub(crate) enum Kind {
 }
 
 /// Formats of YAML documents.
-const FORMATS: [(&str, Kind); 6] = [
+const FORMATS: [(&str, Kind); 7] = [
     ("dtg-stand/1", Kind::Stand),
     ("dtg-site/1", Kind::Site),
     ("dtg-gyro/1", Kind::Gyro),
     ("dtg-laboratory/1", Kind::Laboratory),
+    ("dtg-dcc/1", Kind::Dcc),
     ("dtg-passport/1", Kind::Passport),
     ("dtg-revocation/1", Kind::RevocationList),
 ];
@@ -114,6 +117,7 @@ impl Kind {
             Self::Site => "a site file (dtg-site/1)",
             Self::Gyro => "a gyro type (dtg-gyro/1)",
             Self::Laboratory => "a laboratory file (dtg-laboratory/1)",
+            Self::Dcc => "an administrative file (dtg-dcc/1)",
             Self::Passport => "a passport (dtg-passport/1)",
             Self::RevocationList => "a list of withdrawn passports (dtg-revocation/1)",
             Self::Angles => "a table of angles (CSV)",
@@ -136,6 +140,7 @@ impl Kind {
             Self::PrivateKey => "give it with --key, and keep it secret",
             Self::Gyro => "give it with --gyro",
             Self::Laboratory => "give it with --laboratory",
+            Self::Dcc => "give it with --administrative",
             Self::Workbook => "export the table as CSV",
             Self::Html | Self::Pdf => "give the file from which it was made",
             _ => "check the order of the arguments",

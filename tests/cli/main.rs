@@ -8,6 +8,7 @@ mod fixtures;
 mod programs;
 
 mod certify;
+mod dcc;
 mod export;
 mod history;
 #[cfg(unix)]

@@ -1,0 +1,240 @@
+//! Administrative file (`dtg-dcc/1`): what a DCC must state and neither a passport nor a calibration contains.
+// `record!` declares public types.
+#![allow(unreachable_pub)]
+
+use super::countries::is_country;
+use crate::report::Language;
+use crate::text::sink::Sink;
+use crate::text::{Field, Node, Path, Problems, Unreadable, record, yaml};
+use jiff::civil::Date;
+
+/// Value of `format` in an administrative file.
+pub(crate) const DCC_FORMAT: &str = "dtg-dcc/1";
+
+/// Place of the measurements, in the words of the DCC.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, schemars::JsonSchema)]
+#[schemars(rename_all = "camelCase")]
+pub enum Location {
+    /// Permanent laboratory.
+    Laboratory,
+    /// Premises of the customer.
+    Customer,
+    /// Branch of the laboratory.
+    LaboratoryBranch,
+    /// Branch of the customer.
+    CustomerBranch,
+    /// Another place.
+    Other,
+}
+
+impl Location {
+    const ALL: [Self; 5] =
+        [Self::Laboratory, Self::Customer, Self::LaboratoryBranch, Self::CustomerBranch, Self::Other];
+
+    /// Returns the value of `location`, which is also that of `dcc:performanceLocation`.
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Laboratory => "laboratory",
+            Self::Customer => "customer",
+            Self::LaboratoryBranch => "laboratoryBranch",
+            Self::CustomerBranch => "customerBranch",
+            Self::Other => "other",
+        }
+    }
+}
+
+impl Field for Location {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        let found = Self::ALL.into_iter().find(|one| matches!(node, Node::Text(text) if text == one.word()));
+        if found.is_none() {
+            problems.at(at, node.describe(), Self::expected(""), "");
+        }
+        found
+    }
+
+    fn expected(_: &str) -> String {
+        "\"laboratory\", \"customer\", \"laboratoryBranch\", \"customerBranch\" or \"other\"".to_owned()
+    }
+
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.text(self.word());
+    }
+}
+
+/// Language of a DCC by its code in ISO 639-1; the program's own words exist in these.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, schemars::JsonSchema)]
+#[schemars(rename_all = "lowercase")]
+pub enum Written {
+    /// English.
+    En,
+    /// Russian.
+    Ru,
+}
+
+impl From<Written> for Language {
+    fn from(written: Written) -> Self {
+        match written {
+            Written::En => Self::English,
+            Written::Ru => Self::Russian,
+        }
+    }
+}
+
+impl Field for Written {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        let found = [Self::En, Self::Ru]
+            .into_iter()
+            .find(|one| matches!(node, Node::Text(text) if text == Language::from(*one).tag()));
+        if found.is_none() {
+            problems.at(at, node.describe(), Self::expected(""), "");
+        }
+        found
+    }
+
+    fn expected(_: &str) -> String {
+        "\"en\" or \"ru\" (ISO 639-1), the languages in which this program writes".to_owned()
+    }
+
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.text(Language::from(*self).tag());
+    }
+}
+
+record! {
+    /// Name and address of the laboratory or of the customer.
+    pub struct Contact {
+        /// Name; omit it if the passport states it.
+        pub name: Option<String>,
+        /// Town; required for the customer, and for the laboratory unless the passport states its address.
+        pub city: Option<String>,
+        /// Street.
+        pub street: Option<String>,
+        /// Number of the house.
+        pub street_no: Option<String>,
+        /// Postcode.
+        pub post_code: Option<String>,
+        /// Post office box.
+        pub post_office_box: Option<String>,
+        /// State or region.
+        pub state: Option<String>,
+        /// Country: two capital letters of ISO 3166-1.
+        pub country: Option<String>,
+        /// E-mail address.
+        pub email: Option<String>,
+        /// Telephone number.
+        pub phone: Option<String>,
+    }
+}
+
+record! {
+    /// Days of the measurements.
+    pub struct Performed {
+        /// First day.
+        pub from: Option<Date>,
+        /// Last day.
+        pub to: Option<Date>,
+    }
+}
+
+record! {
+    /// Administrative data of a Digital Calibration Certificate (`dtg-dcc/1`). A key that is absent is needed unless
+    /// the passport, or the calibration of the gyro, states the same; the program names all that are missing.
+    pub struct Administrative {
+        /// Always "dtg-dcc/1".
+        pub format: String,
+        /// Country in which the certificate is issued: two capital letters of ISO 3166-1.
+        pub country: Option<String>,
+        /// Mandatory language of the certificate, "en" or "ru"; if absent, the first of `--lang`.
+        pub language: Option<Written>,
+        /// Place of the measurements: "laboratory", "customer", "laboratoryBranch", "customerBranch" or "other".
+        pub location: Option<Location>,
+        /// Calibration laboratory.
+        pub laboratory: Option<Contact>,
+        /// Customer.
+        pub customer: Option<Contact>,
+        /// Names of the responsible persons, besides the one who authorised the certificate.
+        pub responsible: Option<Vec<String>>,
+        /// Days of the measurements; may be absent if the passport states the day.
+        pub performed: Option<Performed>,
+        /// Number of the certificate: required for a gyro; that of a stand is in its passport.
+        pub number: Option<String>,
+        /// Date of issue of the certificate of a gyro; that of a stand is in its passport.
+        pub issued: Option<Date>,
+        /// Method of measurement, if the passport states none.
+        pub method: Option<String>,
+        /// Temperature during the measurements, if the passport states none.
+        pub temperature_c: Option<f64>,
+        /// Whether the traceability that the certificate states is a chain of calibrations to the SI.
+        pub traceable: Option<bool>,
+    }
+}
+
+impl Administrative {
+    /// Reads a `dtg-dcc/1` file; `name` is the file name in messages.
+    ///
+    /// # Errors
+    /// Returns [`Unreadable`] with the line, column and field of every error.
+    pub(crate) fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
+        yaml::read_document(name, bytes, DCC_FORMAT, |file: &Self, problems| file.check(problems))
+    }
+
+    fn check(&self, problems: &mut Problems) {
+        let at = Path::Root;
+        check_country(self.country.as_deref(), &at, problems);
+        for (key, contact) in [("laboratory", &self.laboratory), ("customer", &self.customer)] {
+            let at = at.key(key);
+            if let Some(contact) = contact {
+                check_country(contact.country.as_deref(), &at, problems);
+                contact.texts().for_each(|(key, text)| check_text(text, &at.key(key), problems));
+            }
+        }
+        let responsible = at.key("responsible");
+        if self.responsible.as_ref().is_some_and(Vec::is_empty) {
+            problems.at(&responsible, "an empty list", "at least one name", "omit the key if there is none");
+        }
+        for (index, name) in self.responsible.iter().flatten().enumerate() {
+            check_text(Some(name), &responsible.item(index), problems);
+        }
+        check_text(self.number.as_deref(), &at.key("number"), problems);
+        check_text(self.method.as_deref(), &at.key("method"), problems);
+        problems.within(&at.key("temperature_c"), self.temperature_c, -90.0, 100.0);
+        if let Some(Performed { from: Some(from), to: Some(to) }) = self.performed
+            && to < from
+        {
+            let expected = format!("a date on or after from, {from}");
+            problems.at(&at.key("performed").key("to"), to.to_string(), expected, "");
+        }
+    }
+}
+
+impl Contact {
+    fn texts(&self) -> impl Iterator<Item = (&'static str, Option<&str>)> {
+        [
+            ("name", &self.name),
+            ("city", &self.city),
+            ("street", &self.street),
+            ("street_no", &self.street_no),
+            ("post_code", &self.post_code),
+            ("post_office_box", &self.post_office_box),
+            ("state", &self.state),
+            ("email", &self.email),
+            ("phone", &self.phone),
+        ]
+        .into_iter()
+        .map(|(key, text)| (key, text.as_deref()))
+    }
+}
+
+fn check_country(code: Option<&str>, at: &Path, problems: &mut Problems) {
+    if let Some(code) = code.filter(|code| !is_country(code)) {
+        let expected = "a country code of ISO 3166-1, two capital letters such as \"DE\"";
+        problems.at(&at.key("country"), format!("{code:?}"), expected, "");
+    }
+}
+
+/// The schema of the DCC has no empty texts.
+fn check_text(text: Option<&str>, at: &Path, problems: &mut Problems) {
+    if text.is_some_and(|text| text.trim().is_empty()) {
+        problems.at(at, "only spaces", "text", "enter text, or omit the key");
+    }
+}

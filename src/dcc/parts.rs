@@ -1,0 +1,244 @@
+//! Elements that every DCC has: texts, quantities, and the administrative data.
+
+use super::administrative::Contact;
+use super::facts::{Facts, stated};
+use super::words;
+use super::xml::Element;
+use crate::report::Languages;
+use crate::report::page::language::Text;
+use base64ct::{Base64, Encoding};
+
+/// Version of the schema.
+const SCHEMA_VERSION: &str = "3.3.0";
+
+/// Database of the vocabularies that `refType` uses.
+const VOCABULARIES: &str = "https://digilab.ptb.de/dkd/refType/vocab/";
+
+/// D-SI units (SI Brochure; "D-SI", doi 10.5281/zenodo.3522631).
+pub(super) mod units {
+    pub(in crate::dcc) const ONE: &str = r"\one";
+    pub(in crate::dcc) const DEGREE: &str = r"\degree";
+    pub(in crate::dcc) const ARCSECOND: &str = r"\arcsecond";
+    pub(in crate::dcc) const CELSIUS: &str = r"\degreecelsius";
+}
+
+/// Returns an element with a text in every language of the DCC.
+pub(super) fn in_words(name: &'static str, text: Text, languages: &Languages) -> Element {
+    filled(name, text, &[], languages)
+}
+
+/// Returns an element with a text in every language of the DCC, with values in it.
+pub(super) fn filled(name: &'static str, text: Text, values: &[(&str, &str)], languages: &Languages) -> Element {
+    let content = |language: crate::report::Language| {
+        Element::text("dcc:content", text.filled(language, values)).with("lang", language.tag())
+    };
+    Element::new(name).and(languages.iter().map(content))
+}
+
+/// Returns an element with a text of others, whose language is not known. Allowed next to a `dcc:name`, and in one.
+pub(super) fn plain(name: &'static str, text: &str) -> Element {
+    Element::new(name).and(Element::text("dcc:content", text))
+}
+
+/// Returns a number with its unit and, if stated, its standard uncertainty.
+pub(super) fn real(value: f64, unit: &str, standard_uncertainty: Option<f64>) -> Element {
+    let uncertainty = standard_uncertainty.map(|u| {
+        Element::new("si:measurementUncertaintyUnivariate")
+            .and(Element::new("si:standardMU").and(Element::number("si:valueStandardMU", u)))
+    });
+    Element::new("si:real").and(Element::number("si:value", value)).and(Element::text("si:unit", unit)).and(uncertainty)
+}
+
+/// Returns numbers with their unit and, if any is stated, their standard uncertainties (NaN where one is not).
+pub(super) fn reals(values: &[f64], unit: &str, standard_uncertainties: &[Option<f64>]) -> Element {
+    let stated = standard_uncertainties.iter().any(Option::is_some);
+    let uncertainty = stated.then(|| {
+        let each = standard_uncertainties.iter().map(|u| u.unwrap_or(f64::NAN));
+        let list = Element::numbers("si:valueStandardMUXMLList", each);
+        Element::new("si:measurementUncertaintyUnivariateXMLList").and(Element::new("si:standardMUXMLList").and(list))
+    });
+    Element::new("si:realListXMLList")
+        .and(Element::numbers("si:valueXMLList", values.iter().copied()))
+        .and(Element::text("si:unitXMLList", unit))
+        .and(uncertainty)
+}
+
+/// Returns a quantity: its kind in PTB's vocabulary, its name and its value.
+pub(super) fn quantity(kind: Option<&str>, name: Element, value: Element) -> Element {
+    let quantity = Element::new("dcc:quantity").and(name).and(value);
+    match kind {
+        Some(kind) => quantity.with("refType", kind),
+        None => quantity,
+    }
+}
+
+/// Returns a statement: its name, its content as it is stated, and other elements that follow a declaration.
+pub(super) fn statement(name: Text, declaration: Option<&str>, languages: &Languages) -> Element {
+    Element::new("dcc:statement")
+        .and(in_words("dcc:name", name, languages))
+        .and(stated(declaration).map(|text| plain("dcc:declaration", text)))
+}
+
+/// Returns an identification: who assigned it, its value and its name.
+pub(super) fn identification(issuer: &str, value: &str, name: Text, languages: &Languages) -> Element {
+    Element::new("dcc:identification")
+        .and(Element::text("dcc:issuer", issuer))
+        .and(Element::text("dcc:value", value))
+        .and(in_words("dcc:name", name, languages))
+}
+
+/// Returns the content of `dcc:hashType`: a document by its name, identifier and SHA-256.
+pub(super) fn hashed(name: &'static str, what: Text, id: &str, sha256: &str, languages: &Languages) -> Element {
+    Element::new(name)
+        .and(in_words("dcc:referral", what, languages))
+        .and(Element::text("dcc:referralID", id))
+        .and(Element::text("dcc:procedure", "SHA-256"))
+        .and(Element::text("dcc:value", sha256))
+}
+
+/// Returns a file in base64.
+pub(super) fn file(
+    name: &'static str,
+    [title, description]: [Element; 2],
+    (file_name, mime_type, bytes): (&str, &str, &[u8]),
+) -> Element {
+    Element::new(name)
+        .and(title)
+        .and(description)
+        .and(Element::text("dcc:fileName", file_name))
+        .and(Element::text("dcc:mimeType", mime_type))
+        .and(Element::text("dcc:dataBase64", Base64::encode_string(bytes)))
+}
+
+/// Returns this program. The release has a letter before the numbers, as PTB's rules demand.
+pub(super) fn software(name: &'static str) -> Element {
+    let version = env!("CARGO_PKG_VERSION").split(['-', '+']).next().unwrap_or_default();
+    let program = Element::new("dcc:software")
+        .and(plain("dcc:name", "dtg-passport"))
+        .and(Element::text("dcc:release", format!("v{version}")))
+        .and(Element::text("dcc:type", "application"));
+    Element::new(name).and(program)
+}
+
+/// Returns a method by name and description, as `dcc:usedMethods`.
+pub(super) fn methods(each: impl IntoIterator<Item = (Element, Element)>) -> Element {
+    let method = |(name, description)| {
+        Element::new("dcc:usedMethod").with("refType", "basic_calibrationMethod").and([name, description])
+    };
+    Element::new("dcc:usedMethods").and(each.into_iter().map(method))
+}
+
+/// Returns the temperature during the measurements, as `dcc:influenceConditions`.
+pub(super) fn conditions(temperature_c: f64, languages: &Languages) -> Element {
+    let name = || in_words("dcc:name", words::TEMPERATURE, languages);
+    let temperature = quantity(Some("basic_measuredValue"), name(), real(temperature_c, units::CELSIUS, None));
+    let condition = Element::new("dcc:influenceCondition")
+        .with("refType", "basic_temperature")
+        .and(name())
+        .and(Element::new("dcc:data").and(temperature));
+    Element::new("dcc:influenceConditions").and(condition)
+}
+
+/// Parts of the administrative data that differ between a stand and a gyro.
+pub(super) struct Subject {
+    /// Identifications of the certificate besides its number.
+    pub identifications: Vec<Element>,
+    /// Earlier report, if there is one.
+    pub previous_report: Option<Element>,
+    /// Calibrated item.
+    pub item: Element,
+    /// Accreditation of the laboratory.
+    pub accreditation: Option<String>,
+    /// Statements on the whole certificate.
+    pub statements: Vec<Element>,
+}
+
+/// Returns a whole DCC.
+pub(super) fn certificate(facts: &Facts, subject: Subject, results: Vec<Element>, document: Element) -> String {
+    Element::new("dcc:digitalCalibrationCertificate")
+        .with("xmlns:dcc", "https://ptb.de/dcc")
+        .with("xmlns:si", "https://ptb.de/si")
+        .with("xmlns:xsi", "http://www.w3.org/2001/XMLSchema-instance")
+        .with("xsi:schemaLocation", format!("https://ptb.de/dcc https://ptb.de/dcc/v{SCHEMA_VERSION}/dcc.xsd"))
+        .with("schemaVersion", SCHEMA_VERSION)
+        .and(administrative_data(facts, subject))
+        .and(Element::new("dcc:measurementResults").and(results))
+        .and(document)
+        .document()
+}
+
+fn administrative_data(facts: &Facts, subject: Subject) -> Element {
+    let core = core_data(facts, subject.identifications, subject.previous_report);
+    let statements = (!subject.statements.is_empty()).then(|| Element::new("dcc:statements").and(subject.statements));
+    Element::new("dcc:administrativeData")
+        .and(software("dcc:dccSoftware"))
+        .and(vocabularies(&facts.languages))
+        .and(core)
+        .and(Element::new("dcc:items").and(subject.item))
+        .and(laboratory(facts, subject.accreditation.as_deref()))
+        .and(persons(facts))
+        .and(contact("dcc:customer", &facts.customer, None))
+        .and(statements)
+}
+
+fn vocabularies(languages: &Languages) -> Element {
+    let vocabulary = |name, namespace| {
+        Element::new("dcc:refTypeDefinition")
+            .and(in_words("dcc:name", name, languages))
+            .and(Element::text("dcc:namespace", namespace))
+            .and(Element::text("dcc:link", VOCABULARIES))
+    };
+    Element::new("dcc:refTypeDefinitions")
+        .and(vocabulary(words::BASIC_TERMS, "basic"))
+        .and(vocabulary(words::MATH_TERMS, "math"))
+}
+
+fn core_data(facts: &Facts, identifications: Vec<Element>, previous_report: Option<Element>) -> Element {
+    let [begin, end] = facts.performed;
+    let used = facts.languages.iter().map(|language| Element::text("dcc:usedLangCodeISO639_1", language.tag()));
+    Element::new("dcc:coreData")
+        .and(Element::text("dcc:countryCodeISO3166_1", &facts.country))
+        .and(used)
+        .and(Element::text("dcc:mandatoryLangCodeISO639_1", facts.mandatory.tag()))
+        .and(Element::text("dcc:uniqueIdentifier", &facts.number))
+        .and((!identifications.is_empty()).then(|| Element::new("dcc:identifications").and(identifications)))
+        .and(facts.received.map(|day| Element::text("dcc:receiptDate", day)))
+        .and(Element::text("dcc:beginPerformanceDate", begin))
+        .and(Element::text("dcc:endPerformanceDate", end))
+        .and(Element::text("dcc:performanceLocation", facts.location.word()))
+        .and(facts.issued.map(|day| Element::text("dcc:issueDate", day)))
+        .and(previous_report)
+}
+
+fn laboratory(facts: &Facts, accreditation: Option<&str>) -> Element {
+    Element::new("dcc:calibrationLaboratory")
+        .and(stated(accreditation).map(|code| Element::text("dcc:calibrationLaboratoryCode", code)))
+        .and(contact("dcc:contact", &facts.laboratory, facts.address.as_deref()))
+}
+
+/// Returns name and address; `further` is an address in free text.
+fn contact(name: &'static str, contact: &Contact, further: Option<&str>) -> Element {
+    let text = |element, text: &Option<String>| stated(text.as_deref()).map(|text| Element::text(element, text));
+    let location = Element::new("dcc:location")
+        .and(text("dcc:street", &contact.street))
+        .and(text("dcc:streetNo", &contact.street_no))
+        .and(text("dcc:postOfficeBox", &contact.post_office_box))
+        .and(text("dcc:postCode", &contact.post_code))
+        .and(text("dcc:city", &contact.city))
+        .and(text("dcc:state", &contact.state))
+        .and(text("dcc:countryCode", &contact.country))
+        .and(further.map(|further| plain("dcc:further", further)));
+    Element::new(name)
+        .and(contact.name.as_deref().map(|name| plain("dcc:name", name)))
+        .and(text("dcc:eMail", &contact.email))
+        .and(text("dcc:phone", &contact.phone))
+        .and(location)
+}
+
+fn persons(facts: &Facts) -> Element {
+    let person =
+        |name: &str| Element::new("dcc:respPerson").and(Element::new("dcc:person").and(plain("dcc:name", name)));
+    let signer = facts.main_signer.iter().map(|name| person(name).and(Element::text("dcc:mainSigner", "true")));
+    let others = facts.responsible.iter().map(|name| person(name));
+    Element::new("dcc:respPersons").and(signer.chain(others))
+}

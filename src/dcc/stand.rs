@@ -1,0 +1,161 @@
+//! DCC of a stand's calibration certificate, from its verified passport.
+
+use super::facts::{Facts, Known, stated};
+use super::parts::{self, Subject, in_words, plain, quantity, real, reals, units};
+use super::words;
+use super::xml::Element;
+use super::{Administrative, Dcc};
+use crate::document::sha256_hex;
+use crate::passport::Content;
+use crate::report::Languages;
+use crate::report::page::language::Text;
+use crate::stand::{CertifiedPosition, Datum};
+use crate::text::Problems;
+
+/// Returns the DCC of the certificate in a verified passport; `bytes` is the signed file, which the DCC contains.
+///
+/// # Errors
+/// Returns every missing key and every contradiction, by their paths in the administrative file.
+pub(crate) fn of_stand(
+    content: &Content,
+    bytes: &[u8],
+    administrative: Option<&Administrative>,
+    lang: Option<&Languages>,
+) -> Result<Dcc, Problems> {
+    let facts = Facts::collect(&known(content), administrative, lang)?;
+    let languages = &facts.languages;
+    let id = &content.passport.id;
+    let predecessor = content.passport.reissued_from.as_ref();
+    let subject = Subject {
+        identifications: vec![parts::identification("manufacturer", id, words::PASSPORT_ID, languages)],
+        previous_report: predecessor
+            .map(|from| parts::hashed("dcc:previousReport", words::PREDECESSOR, &from.id, &from.sha256, languages)),
+        item: item(content, languages),
+        accreditation: content.certificate.accreditation.clone(),
+        statements: statements(content, &facts),
+    };
+    let sha256 = sha256_hex(bytes);
+    let note = [("id", id.as_str()), ("sha256", sha256.as_str())];
+    let file_name = format!("{}-{}.yaml", content.site.id, content.passport.revision);
+    let document = parts::file(
+        "dcc:document",
+        [
+            in_words("dcc:name", words::PASSPORT, languages),
+            parts::filled("dcc:description", words::PASSPORT_NOTE, &note, languages),
+        ],
+        (&file_name, "application/yaml", bytes),
+    );
+    let xml = parts::certificate(&facts, subject, vec![result(content, &facts)], document);
+    Ok(Dcc { number: facts.number, xml })
+}
+
+fn known(content: &Content) -> Known<'_> {
+    let certificate = &content.certificate;
+    Known {
+        number: Some(&certificate.number),
+        received: certificate.received,
+        performed: certificate.performed,
+        issued: Some(certificate.issued),
+        laboratory: Some(&certificate.laboratory),
+        address: certificate.address.as_deref(),
+        authorized_by: certificate.authorized_by.as_deref(),
+        customer: content.stand.customer.as_deref(),
+        method: certificate.method.as_deref(),
+        traceability: certificate.traceability.as_deref(),
+        temperature_c: certificate.temperature_c,
+    }
+}
+
+fn item(content: &Content, languages: &Languages) -> Element {
+    let stand = &content.stand;
+    let name = stated(stand.name.as_deref()).unwrap_or(stand.model.as_str());
+    let manufacturer = stated(stand.manufacturer.as_deref());
+    let serial = parts::identification("manufacturer", stand.serial.as_str(), words::SERIAL, languages);
+    let configuration = stated(stand.configuration.as_deref())
+        .map(|text| parts::identification("manufacturer", text, words::CONFIGURATION, languages));
+    let identifications =
+        Element::new("dcc:identifications").and(serial.with("refType", "basic_serialNumber")).and(configuration);
+    Element::new("dcc:item")
+        .and(plain("dcc:name", name))
+        .and(manufacturer.map(|name| Element::new("dcc:manufacturer").and(plain("dcc:name", name))))
+        .and(Element::text("dcc:model", &stand.model))
+        .and(identifications)
+}
+
+fn statements(content: &Content, facts: &Facts) -> Vec<Element> {
+    let languages = &facts.languages;
+    let certificate = &content.certificate;
+    let traceability = stated(certificate.traceability.as_deref()).map(|text| {
+        Element::new("dcc:statement")
+            .with("refType", "basic_metrologicallyTraceable")
+            .and(in_words("dcc:name", words::TRACEABILITY, languages))
+            .and(facts.traceable.map(|traceable| Element::text("dcc:traceable", traceable)))
+            .and(plain("dcc:declaration", text))
+    });
+    let valid_until = certificate.valid_until.map(|day| {
+        parts::statement(words::VALID_UNTIL, certificate.valid_until_basis.as_deref(), languages)
+            .and(Element::text("dcc:date", day))
+    });
+    let range = certificate.temperature_range_c.map(|[low, high]| {
+        let limit = |kind, name, value| {
+            quantity(Some(kind), in_words("dcc:name", name, languages), real(value, units::CELSIUS, None))
+        };
+        let data = [limit("math_minimum", words::LOWEST, low), limit("math_maximum", words::HIGHEST, high)];
+        parts::statement(words::TEMPERATURE_RANGE, None, languages).and(Element::new("dcc:data").and(data))
+    });
+    let Datum { level, azimuth, gyro_seat } =
+        content.datum.clone().unwrap_or(Datum { level: None, azimuth: None, gyro_seat: None });
+    let surfaces = [(words::LEVEL, level), (words::AZIMUTH, azimuth), (words::SEAT, gyro_seat)];
+    let surfaces = surfaces.into_iter().filter_map(|(name, surface)| {
+        stated(surface.as_deref()).map(|surface| parts::statement(name, Some(surface), languages))
+    });
+    let shared = [
+        (words::REPEATABILITY, certificate.repeatability_arcsec),
+        (words::COMMON_PLATFORM, certificate.common_platform_arcsec),
+        (words::COMMON_BASE, certificate.common_base_arcsec),
+    ];
+    let shared = shared.into_iter().filter_map(|(name, value)| {
+        let value = quantity(None, in_words("dcc:name", name, languages), real(value?, units::ARCSECOND, None));
+        Some(parts::statement(name, None, languages).and(Element::new("dcc:data").and(value)))
+    });
+    traceability.into_iter().chain(valid_until).chain(range).chain(surfaces).chain(shared).collect()
+}
+
+fn result(content: &Content, facts: &Facts) -> Element {
+    let languages = &facts.languages;
+    let method = (in_words("dcc:name", words::METHOD, languages), plain("dcc:description", &facts.method));
+    let list = Element::new("dcc:list").and(quantities(&content.positions, languages));
+    let result = Element::new("dcc:result")
+        .with("refType", "basic_measurementResult")
+        .and(in_words("dcc:name", words::POSITIONS, languages))
+        .and(in_words("dcc:description", words::POSITIONS_NOTE, languages))
+        .and(Element::new("dcc:data").and(list));
+    Element::new("dcc:measurementResult")
+        .and(in_words("dcc:name", words::STAND_RESULT, languages))
+        .and(parts::methods([method]))
+        .and(parts::software("dcc:usedSoftware"))
+        .and(parts::conditions(facts.temperature_c, languages))
+        .and(Element::new("dcc:results").and(result))
+}
+
+/// Returns one quantity for each column of the positions, its values in the order of the passport.
+fn quantities(positions: &[CertifiedPosition], languages: &Languages) -> Vec<Element> {
+    let column = |kind: Option<&str>, name: Text, unit: &str, value: fn(&CertifiedPosition) -> f64| {
+        let values: Vec<f64> = positions.iter().map(value).collect();
+        quantity(kind, in_words("dcc:name", name, languages), reals(&values, unit, &[]))
+    };
+    let measured = |name: Text, value: fn(&CertifiedPosition) -> (f64, Option<f64>)| {
+        let (values, u): (Vec<f64>, Vec<Option<f64>>) = positions.iter().map(value).unzip();
+        let name = in_words("dcc:name", name, languages);
+        quantity(Some("basic_measuredValue"), name, reals(&values, units::ARCSECOND, &u))
+    };
+    vec![
+        column(None, words::INDEX_I, units::ONE, |at| f64::from(at.i)),
+        column(None, words::INDEX_J, units::ONE, |at| f64::from(at.j)),
+        column(Some("basic_nominalValue"), words::THETA, units::DEGREE, |at| at.theta_deg),
+        column(Some("basic_nominalValue"), words::PHI, units::DEGREE, |at| at.phi_deg),
+        measured(words::ALPHA, |at| (at.alpha_arcsec, at.u_alpha_arcsec)),
+        measured(words::BETA, |at| (at.beta_arcsec, at.u_beta_arcsec)),
+        measured(words::GAMMA, |at| (at.gamma_arcsec, at.u_gamma_arcsec)),
+    ]
+}

@@ -1,0 +1,62 @@
+//! Words of the program in a DCC, in every language.
+
+use crate::report::page::language::texts;
+
+texts! {
+    BASIC_TERMS { en: "Basic terms of metrology", ru: "Основные метрологические термины" }
+    MATH_TERMS { en: "Terms of mathematics", ru: "Математические термины" }
+    TEMPERATURE { en: "Temperature during the measurements", ru: "Температура при измерениях" }
+    SERIAL { en: "Serial number", ru: "Заводской номер" }
+    CONFIGURATION { en: "Configuration", ru: "Исполнение" }
+    PASSPORT_ID { en: "Identifier of the signed passport", ru: "Обозначение подписанного паспорта" }
+    PREDECESSOR { en: "Signed passport that was re-issued", ru: "Перевыпущенный подписанный паспорт" }
+    TRACEABILITY { en: "Traceability", ru: "Прослеживаемость" }
+    VALID_UNTIL { en: "Valid until (inclusive)", ru: "Действителен по (включительно)" }
+    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Температура применения" }
+    LOWEST { en: "Lowest temperature", ru: "Наименьшая температура" }
+    HIGHEST { en: "Highest temperature", ru: "Наибольшая температура" }
+    LEVEL { en: "Datum surface for levelling", ru: "Базовая поверхность для горизонтирования" }
+    AZIMUTH { en: "Datum surface for north alignment", ru: "Базовая поверхность для ориентирования на север" }
+    SEAT { en: "Gyro seat", ru: "Посадочная поверхность гироскопа" }
+    REPEATABILITY {
+        en: "Repeatability of positioning: standard deviation of one visit, per axis",
+        ru: "Повторяемость положений: стандартное отклонение одной установки, по осям"
+    }
+    COMMON_PLATFORM {
+        en: "Standard uncertainty common to all positions, per axis of the platform",
+        ru: "Стандартная неопределённость, общая для всех положений, по осям платформы"
+    }
+    COMMON_BASE {
+        en: "Standard uncertainty common to all positions, per axis of the base",
+        ru: "Стандартная неопределённость, общая для всех положений, по осям основания"
+    }
+    METHOD { en: "Method of measurement", ru: "Методика измерений" }
+    STAND_RESULT {
+        en: "Deviations of the stand’s positions",
+        ru: "Отклонения положений стенда"
+    }
+    POSITIONS { en: "Positions and their deviations", ru: "Положения и их отклонения" }
+    POSITIONS_NOTE {
+        en: "Position (i, j): frame angle θ about ξ, then platform angle φ about the spin axis. α, β, γ are the \
+             deviations of the actual from the nominal orientation about the axes x, y, z of the platform. Standard \
+             uncertainties (k = 1) are the own part of each position; those common to all positions are statements.",
+        ru: "Положение (i, j): угол рамки θ вокруг ξ, затем угол платформы φ вокруг оси собственного вращения. α, β, \
+             γ — отклонения реальной ориентации от номинальной вокруг осей x, y, z платформы. Стандартные \
+             неопределённости (k = 1) — собственная составляющая каждого положения; общие для всех положений \
+             приведены отдельно."
+    }
+    INDEX_I { en: "Frame index i", ru: "Индекс рамки i" }
+    INDEX_J { en: "Platform index j", ru: "Индекс платформы j" }
+    THETA { en: "Frame angle θ", ru: "Угол рамки θ" }
+    PHI { en: "Platform angle φ", ru: "Угол платформы φ" }
+    ALPHA { en: "Deviation α", ru: "Отклонение α" }
+    BETA { en: "Deviation β", ru: "Отклонение β" }
+    GAMMA { en: "Deviation γ", ru: "Отклонение γ" }
+    PASSPORT { en: "Signed passport of the stand", ru: "Подписанный паспорт стенда" }
+    PASSPORT_NOTE {
+        en: "Passport {id}, byte for byte; SHA-256 {sha256}. This DCC is not signed, the passport in it is: save the \
+             passport and verify it.",
+        ru: "Паспорт {id}, байт в байт; SHA-256 {sha256}. Сам этот сертификат не подписан, подписан вложенный паспорт: \
+             его следует сохранить и проверить."
+    }
+}

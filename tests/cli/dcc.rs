@@ -1,0 +1,485 @@
+//! Digital Calibration Certificates: valid by PTB's rules, read back bit for bit by another program, and refused with every
+//! missing or contradicting key.
+
+use crate::programs;
+use base64ct::{Base64, Encoding};
+use roxmltree::{Document, Node};
+use serde_json::Value;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+pub const MOSCOW: &str = "passports/SPS-2/0017/moscow-bmstu-1.yaml";
+const EVERY: [&str; 3] =
+    [MOSCOW, "passports/SPS-2/0017/beijing-nim-1.yaml", "passports/SPS-1/0203/moscow-bmstu-1.yaml"];
+
+/// Complete administrative file for every example passport; each line can be left out by its key.
+const ADMINISTRATIVE: &str = r#"format: "dtg-dcc/1"
+country: "RU"
+language: "en"
+location: "laboratory"
+laboratory: {city: "Moscow", street: "Example street", street_no: "1", post_code: "105005", country: "RU", email: "a@example.org"}
+customer: {name: "A customer", city: "Kazan"}
+responsible: ["A. Person", "B. Person"]
+performed: {from: "2026-10-20", to: "2026-10-30"}
+"#;
+
+/// Runs the program in `folder`: exit code, standard output, standard error.
+pub fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+    command.args(arguments).current_dir(folder).stdin(Stdio::null());
+    let output = command.output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+/// Exports `passport` with the administrative text, to `out` in `folder`: exit code, standard error.
+fn export(folder: &Path, passport: &str, administrative: &str, more: &[&str]) -> (i32, String) {
+    fs::write(folder.join("dcc.yaml"), administrative).unwrap();
+    let passport = programs::project(passport);
+    let signers = programs::project("docs/allowed_signers");
+    let mut arguments = vec!["export", passport.to_str().unwrap(), "--trust", signers.to_str().unwrap()];
+    arguments.extend(["--time", "2026-11-20", "--to", "dcc", "--out", "out", "--administrative", "dcc.yaml"]);
+    arguments.extend(more);
+    let (code, stdout, said) = run(folder, &arguments);
+    assert_eq!(stdout, "");
+    (code, said)
+}
+
+/// Returns the only file in `out`, and removes it.
+fn taken(folder: &Path) -> String {
+    let files: Vec<_> = fs::read_dir(folder.join("out")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let [file] = &files[..] else { panic!("{files:?}") };
+    let text = fs::read_to_string(file).unwrap();
+    fs::remove_file(file).unwrap();
+    text
+}
+
+/// Returns what PTB's rules and units find, and what PyDCC reads; PTB's schema too, where `DCC_XSD` names its folder.
+pub fn judged(files: &[&Path]) -> Vec<Value> {
+    let mut python = programs::python();
+    python.arg(programs::project("tests/readers/certificates.py"));
+    match std::env::var_os("DCC_XSD") {
+        Some(folder) => {
+            python.arg("--xsd").arg(folder);
+        }
+        None => {
+            // Unlike a print, this is shown of tests that pass, too.
+            let words =
+                "\nNOT CHECKED AGAINST THE XSD: DCC_XSD does not name the folder of PTB's schemas (docs/dcc.md)\n";
+            std::io::stderr().write_all(words.as_bytes()).unwrap();
+        }
+    }
+    python.args(files);
+    let Value::Array(judged) = serde_json::from_str(&programs::output(python)).unwrap() else { panic!() };
+    judged
+}
+
+/// Fails unless PTB has nothing to object.
+pub fn assert_good(judged: &Value, xml: &str) {
+    assert_eq!(judged["findings"], Value::Array(Vec::new()), "{xml}");
+    assert_eq!(judged["invalid_units"], Value::Array(Vec::new()));
+    // Information that some elements are there: the rules were applied.
+    assert!(judged["rules"].as_u64().unwrap() >= 3, "{judged}");
+    if std::env::var_os("DCC_XSD").is_some() {
+        assert_eq!(judged["schema"], Value::Array(Vec::new()), "{xml}");
+    }
+    assert_eq!(misplaced(xml), Vec::<String>::new());
+}
+
+/// Children of an element in their order: `?` may be absent, `*` and `+` may be repeated. Source: PTB's schema of the
+/// DCC 3.3.0 and of D-SI 2.2.1, as far as this program writes it.
+const CHILDREN: [(&str, &str); 49] = [
+    ("digitalCalibrationCertificate", "administrativeData measurementResults document"),
+    (
+        "administrativeData",
+        "dccSoftware refTypeDefinitions coreData items calibrationLaboratory respPersons customer statements?",
+    ),
+    ("dccSoftware", "software+"),
+    ("usedSoftware", "software+"),
+    ("software", "name release type"),
+    ("refTypeDefinitions", "refTypeDefinition+"),
+    ("refTypeDefinition", "name namespace link"),
+    (
+        "coreData",
+        "countryCodeISO3166_1 usedLangCodeISO639_1+ mandatoryLangCodeISO639_1 uniqueIdentifier identifications? \
+                  receiptDate? beginPerformanceDate endPerformanceDate performanceLocation issueDate? previousReport?",
+    ),
+    ("identifications", "identification+"),
+    ("identification", "issuer value name"),
+    ("previousReport", "referral referralID procedure value"),
+    ("certificate", "referral referralID procedure value"),
+    ("items", "item"),
+    ("item", "name manufacturer? model? identifications"),
+    ("manufacturer", "name"),
+    ("calibrationLaboratory", "calibrationLaboratoryCode? contact"),
+    ("contact", "name eMail? phone? location"),
+    ("customer", "name eMail? phone? location"),
+    ("location", "street? streetNo? postOfficeBox? postCode? city? state? countryCode? further?"),
+    ("respPersons", "respPerson+"),
+    ("respPerson", "person mainSigner?"),
+    ("person", "name"),
+    ("statements", "statement+"),
+    ("statement", "name traceable? declaration? date? data?"),
+    ("measurementResults", "measurementResult+"),
+    (
+        "measurementResult",
+        "name usedMethods usedSoftware measuringEquipments? influenceConditions results measurementMetaData?",
+    ),
+    ("usedMethods", "usedMethod+"),
+    ("usedMethod", "name description"),
+    ("measuringEquipments", "measuringEquipment+"),
+    ("measuringEquipment", "name certificate? manufacturer? model? identifications"),
+    ("influenceConditions", "influenceCondition+"),
+    ("influenceCondition", "name data"),
+    ("results", "result+"),
+    ("result", "name description? data"),
+    ("data", "quantity* list* byteData*"),
+    ("list", "quantity+"),
+    ("quantity", "name real? realListXMLList? measurementMetaData?"),
+    ("measurementMetaData", "metaData+"),
+    ("metaData", "name declaration? conformityXMLList? data?"),
+    ("real", "value unit measurementUncertaintyUnivariate?"),
+    ("realListXMLList", "valueXMLList unitXMLList measurementUncertaintyUnivariateXMLList?"),
+    ("measurementUncertaintyUnivariate", "standardMU"),
+    ("standardMU", "valueStandardMU"),
+    ("measurementUncertaintyUnivariateXMLList", "standardMUXMLList"),
+    ("standardMUXMLList", "valueStandardMUXMLList"),
+    ("document", "name description fileName mimeType dataBase64"),
+    ("byteData", "name description fileName mimeType dataBase64"),
+    ("declaration", "content+"),
+    ("further", "content+"),
+];
+
+/// Returns every element with other children than [`CHILDREN`] states; elements of texts are `content`, all others have
+/// text alone.
+fn misplaced(xml: &str) -> Vec<String> {
+    let document = Document::parse(xml).unwrap();
+    let mut wrong = Vec::new();
+    for element in document.descendants().filter(Node::is_element) {
+        let children: Vec<&str> =
+            element.children().filter(Node::is_element).map(|child| child.tag_name().name()).collect();
+        let name = element.tag_name().name();
+        let is_text = ["name", "description", "referral"].contains(&name);
+        let rule = CHILDREN.iter().find(|(parent, _)| *parent == name).map(|(_, rule)| *rule);
+        let rule = rule.unwrap_or(if is_text { "content+" } else { "" });
+        let mut rest = &children[..];
+        let mut fits = true;
+        for one in rule.split_ascii_whitespace() {
+            let name = one.trim_end_matches(['?', '*', '+']);
+            let most = if one.ends_with(['*', '+']) { usize::MAX } else { 1 };
+            let least = usize::from(!one.ends_with(['?', '*']));
+            let count = rest.iter().take(most).take_while(|child| **child == name).count();
+            fits &= count >= least;
+            rest = &rest[count..];
+        }
+        let text = element.text().unwrap_or_default();
+        fits &= rest.is_empty() && (!children.is_empty() || !text.is_empty() && text == text.trim());
+        if !fits {
+            wrong.push(format!("{name}: {children:?}"));
+        }
+    }
+    wrong
+}
+
+/// Returns the bits of a number as the reader in Python prints them.
+pub fn bits(value: &Value) -> Value {
+    Value::String(format!("{:016x}", value.as_f64().unwrap().to_bits()))
+}
+
+/// Expected: PTB's Schematron, its units, its schema where it is at hand, and the numbers of the signed passports, read by
+/// PyDCC from the DCC and by serde_json from the export as JSON.
+#[test]
+fn every_example_is_valid_and_reads_back_bit_for_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut files = Vec::new();
+    for (index, passport) in EVERY.iter().enumerate() {
+        for lang in ["en", "ru", "en,ru"] {
+            let (code, said) = export(folder.path(), passport, ADMINISTRATIVE, &["--lang", lang]);
+            assert_eq!(code, 0, "{said}");
+            assert!(said.contains("the DCC is not signed"), "{said}");
+            let xml = taken(folder.path());
+            let languages: Vec<_> = if lang == "ru" { vec!["ru", "en"] } else { lang.split(',').collect() };
+            for used in &languages {
+                assert!(xml.contains(&format!("<dcc:usedLangCodeISO639_1>{used}</dcc:usedLangCodeISO639_1>")));
+            }
+            assert_eq!(xml.matches("<dcc:usedLangCodeISO639_1>").count(), languages.len());
+            let file = folder.path().join(format!("{index}-{lang}.xml"));
+            fs::write(&file, &xml).unwrap();
+            files.push((file, passport, xml));
+        }
+    }
+    let judged = judged(&files.iter().map(|(file, ..)| file.as_path()).collect::<Vec<_>>());
+    assert_eq!(judged.len(), files.len());
+    for (judged, (_, passport, xml)) in judged.iter().zip(&files) {
+        assert_good(judged, xml);
+        let signed = fs::read(programs::project(passport)).unwrap();
+        let document = Document::parse(xml).unwrap();
+        let base64 = document.descendants().find(|node| node.has_tag_name(("https://ptb.de/dcc", "dataBase64")));
+        assert_eq!(Base64::decode_vec(base64.unwrap().text().unwrap()).unwrap(), signed, "{passport}");
+        let signers = programs::project("docs/allowed_signers");
+        let path = programs::project(passport);
+        let arguments = ["show", path.to_str().unwrap(), "--trust", signers.to_str().unwrap(), "--time", "2026-11-20"];
+        let (_, shown, _) = run(folder.path(), &[&arguments[..], &["--format", "json"]].concat());
+        let shown: Value = serde_json::from_str(&shown).unwrap();
+        assert_eq!(judged["number"], shown["certificate"]["number"]);
+        assert_eq!(judged["laboratory"], shown["certificate"]["laboratory"]);
+        assert_eq!(judged["day"], "2026-10-30");
+        let columns = [
+            ("i", None, r"\one"),
+            ("j", None, r"\one"),
+            ("theta_deg", None, r"\degree"),
+            ("phi_deg", None, r"\degree"),
+            ("alpha_arcsec", Some("u_alpha_arcsec"), r"\arcsecond"),
+            ("beta_arcsec", Some("u_beta_arcsec"), r"\arcsecond"),
+            ("gamma_arcsec", Some("u_gamma_arcsec"), r"\arcsecond"),
+        ];
+        let results = judged["results"].as_array().unwrap();
+        assert_eq!(results.len(), columns.len());
+        for (found, (key, u, unit)) in results.iter().zip(columns) {
+            let column = |key: &str| -> Vec<Value> {
+                shown["positions"].as_array().unwrap().iter().map(|at| bits(&at[key])).collect()
+            };
+            assert_eq!(found["values"], Value::Array(column(key)), "{passport} {key}");
+            assert_eq!(found["u"], u.map_or(Value::Null, |u| Value::Array(column(u))), "{passport} {key}");
+            assert_eq!(found["unit"], unit);
+        }
+    }
+}
+
+/// What is not stated is NaN in the list, or the list is absent; other positions and free texts of the passport go
+/// through as they are. Expected: the stand file that was signed.
+#[test]
+fn an_odd_passport_goes_through_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let stand = r#"format: "dtg-stand/1"
+stand: {manufacturer: "<A> & ]]> \"B\" 'C'", model: "M", serial: "1", name: " </dcc:content><x/> ", customer: "<!--"}
+certificate:
+  number: " № 1/<2>&3 "
+  issued: "2026-11-05"
+  received: "2026-10-01"
+  laboratory: "&lt; &amp; &#0;"
+  address: "<?xml?> 中文"
+  authorized_by: "D"
+  accreditation: "<E>"
+positions:
+  - {i: 3, j: 7, theta_deg: -12.5, phi_deg: 1.0e-05, alpha_arcsec: 0.1, beta_arcsec: -0.0, gamma_arcsec: 1.0e+05, u_alpha_arcsec: 0.30000000000000004}
+  - {i: 3, j: 8, theta_deg: 33.3, phi_deg: 77.7, alpha_arcsec: 5.0e-324, beta_arcsec: 1, gamma_arcsec: -161999.99999999997}
+"#;
+    fs::write(folder.path().join("stand.yaml"), stand).unwrap();
+    fs::copy(programs::project("tests/keys/examples"), folder.path().join("key")).unwrap();
+    assert!(Command::new("chmod").arg("600").arg(folder.path().join("key")).status().unwrap().success());
+    let site = programs::project("sites/moscow-bmstu.yaml");
+    let (code, _, said) = run(
+        folder.path(),
+        &[
+            "issue",
+            "stand.yaml",
+            "--site",
+            site.to_str().unwrap(),
+            "--key",
+            "key",
+            "--identity",
+            "examples@dtg-passport.test",
+            "--issued-at",
+            "2026-11-09T09:00:00Z",
+            "--allow-uncalibratable",
+        ],
+    );
+    assert_eq!(code, 0, "{said}");
+    let passport = folder.path().join("passports/M/1/moscow-bmstu-1.yaml");
+    let administrative = r#"format: "dtg-dcc/1"
+country: "CN"
+language: "ru"
+location: "customerBranch"
+laboratory: {name: "&lt; &amp; &#0;"}
+customer: {city: "]]>", post_office_box: "<&>", state: "'\""}
+responsible: ["D", "E", "E"]
+performed: {from: "2026-10-20", to: "2026-10-20"}
+method: "<script>alert(1)</script>"
+temperature_c: -1.5
+"#;
+    let (code, said) = export(folder.path(), passport.to_str().unwrap(), administrative, &[]);
+    assert_eq!(code, 0, "{said}");
+    assert!(folder.path().join("out/_ 1__2__3.xml").is_file(), "{said}");
+    let xml = taken(folder.path());
+    let file = folder.path().join("odd.xml");
+    fs::write(&file, &xml).unwrap();
+    let judged = &judged(&[&file])[0];
+    assert_good(judged, &xml);
+    assert_eq!((&judged["number"], &judged["laboratory"]), (&"№ 1/<2>&3".into(), &"&lt; &amp; &#0;".into()));
+    let alpha = &judged["results"][4];
+    assert_eq!(alpha["values"], serde_json::json!([bits(&0.1.into()), bits(&5e-324.into())]));
+    assert_eq!(alpha["u"][0], bits(&0.300_000_000_000_000_04.into()));
+    assert!(f64::from_bits(u64::from_str_radix(alpha["u"][1].as_str().unwrap(), 16).unwrap()).is_nan());
+    assert_eq!(judged["results"][5]["u"], Value::Null);
+    let document = Document::parse(&xml).unwrap();
+    let texts: Vec<&str> = document.descendants().filter(Node::is_element).filter_map(|node| node.text()).collect();
+    for text in
+        ["<A> & ]]> \"B\" 'C'", "</dcc:content><x/>", "<!--", "<?xml?> 中文", "<E>", "<script>alert(1)</script>", "'\""]
+    {
+        assert!(texts.contains(&text), "{text}: {xml}");
+    }
+    // The person who authorised the certificate is the main signer; each name is there once.
+    let persons: Vec<_> = document.descendants().filter(|node| node.tag_name().name() == "respPerson").collect();
+    assert_eq!(persons.len(), 2);
+    assert_eq!(persons[0].descendants().filter(|node| node.tag_name().name() == "mainSigner").count(), 1);
+    let signed = fs::read(&passport).unwrap();
+    let base64 = document.descendants().find(|node| node.tag_name().name() == "dataBase64").unwrap();
+    assert_eq!(Base64::decode_vec(base64.text().unwrap()).unwrap(), signed);
+}
+
+/// The checks above can fail: PTB's rules and the table of elements, each with one change.
+#[test]
+fn an_altered_dcc_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, said) = export(folder.path(), MOSCOW, ADMINISTRATIVE, &["--lang", "en,ru"]);
+    assert_eq!(code, 0, "{said}");
+    let good = taken(folder.path());
+    let (code, _) = export(folder.path(), MOSCOW, ADMINISTRATIVE, &["--lang", "en,ru"]);
+    assert_eq!((code, taken(folder.path())), (0, good.clone()), "the same input gives the same bytes");
+    let rules = [
+        ("<dcc:release>v0", "<dcc:release>0"),
+        ("<dcc:countryCodeISO3166_1>RU", "<dcc:countryCodeISO3166_1>XX"),
+        ("<dcc:content lang=\"ru\">", "<dcc:content lang=\"de\">"),
+        ("-48.9 77.2", "-48.9  77.2"),
+        ("<dcc:beginPerformanceDate>2026-10-20", "<dcc:beginPerformanceDate>2026-11-20"),
+    ];
+    let mut files = Vec::new();
+    for (number, (from, to)) in rules.iter().enumerate() {
+        assert!(good.contains(from), "{from}");
+        let file = folder.path().join(format!("altered-{number}.xml"));
+        fs::write(&file, good.replacen(from, to, 1)).unwrap();
+        files.push(file);
+    }
+    let unit = folder.path().join("unit.xml");
+    fs::write(&unit, good.replace(r"\arcsecond", r"\standardgravity")).unwrap();
+    files.push(unit);
+    let judged = judged(&files.iter().map(|file| file.as_path()).collect::<Vec<_>>());
+    for (judged, rule) in judged.iter().zip(rules) {
+        assert_ne!(judged["findings"], Value::Array(Vec::new()), "{rule:?}");
+    }
+    assert_eq!(judged[5]["invalid_units"], serde_json::json!([r"\standardgravity"]));
+    let issue = "      <dcc:issueDate>2026-11-02</dcc:issueDate>\n";
+    let begin = "      <dcc:beginPerformanceDate>2026-10-20</dcc:beginPerformanceDate>\n";
+    for altered in [
+        good.replace(issue, "").replace(begin, &format!("{issue}{begin}")),
+        good.replace(begin, ""),
+        good.replace("dcc:model>", "dcc:modell>"),
+        good.replace("<dcc:model>SPS-2", "<dcc:model> SPS-2"),
+        good.replace("<dcc:type>application</dcc:type>", "<dcc:type></dcc:type>"),
+    ] {
+        assert_ne!(altered, good);
+        assert!(!misplaced(&altered).is_empty());
+    }
+}
+
+/// Every key that is missing is named with the element that needs it, all at once, and nothing is written.
+#[test]
+fn everything_that_is_missing_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let needs = [
+        ("country", "coreData/countryCodeISO3166_1"),
+        ("location", "coreData/performanceLocation"),
+        ("laboratory.city", "calibrationLaboratory/contact/location"),
+        ("customer.name", "customer/name"),
+        ("customer.city", "customer/location"),
+        ("responsible", "respPersons/respPerson"),
+        ("performed.from", "coreData/beginPerformanceDate"),
+        ("performed.to", "coreData/endPerformanceDate"),
+    ];
+    // SPS-1's passport does not state the day of measurement.
+    let (code, said) = export(folder.path(), EVERY[2], "format: \"dtg-dcc/1\"\n", &[]);
+    assert_eq!(code, 1, "{said}");
+    for (key, element) in needs {
+        let line = said
+            .lines()
+            .find(|line| line.contains(&format!(" {key}: missing")))
+            .unwrap_or_else(|| panic!("{key}: {said}"));
+        assert!(line.contains(element), "{line}");
+    }
+    assert_eq!(said.matches(": missing").count(), needs.len(), "{said}");
+    assert!(!folder.path().join("out").exists());
+    for (key, _) in needs {
+        let first = key.split('.').next().unwrap();
+        let without: String =
+            ADMINISTRATIVE.lines().filter(|line| !line.starts_with(first)).map(|line| format!("{line}\n")).collect();
+        let (code, said) = export(folder.path(), EVERY[2], &without, &[]);
+        assert_eq!(code, 1, "{said}");
+        assert!(said.contains(&format!(" {key}: missing")), "{said}");
+        let others = needs.iter().filter(|(other, _)| other.split('.').next() != Some(first));
+        others.for_each(|(other, _)| assert!(!said.contains(&format!(" {other}: missing")), "{said}"));
+        assert!(!folder.path().join("out").exists());
+    }
+    // Without any file, and where the passport states the day.
+    let signers = programs::project("docs/allowed_signers");
+    let passport = programs::project(MOSCOW);
+    let arguments = ["export", passport.to_str().unwrap(), "--trust", signers.to_str().unwrap(), "--to", "dcc"];
+    let (code, _, said) = run(folder.path(), &[&arguments[..], &["--time", "2026-11-20", "--out", "out"]].concat());
+    assert_eq!((code, said.matches(": missing").count()), (1, 6), "{said}");
+}
+
+/// Nothing in the file may contradict the signed passport.
+#[test]
+fn what_contradicts_the_passport_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let with = |from: &str, to: &str| {
+        assert!(ADMINISTRATIVE.contains(from));
+        ADMINISTRATIVE.replace(from, to)
+    };
+    let stated = [
+        ("number", format!("{ADMINISTRATIVE}number: \"C-2026-0143\"\n")),
+        ("issued", format!("{ADMINISTRATIVE}issued: \"2026-11-03\"\n")),
+        ("method", format!("{ADMINISTRATIVE}method: \"another\"\n")),
+        ("temperature_c", format!("{ADMINISTRATIVE}temperature_c: 20.1\n")),
+        ("laboratory.name", with("{city: \"Moscow\"", "{name: \"Another\", city: \"Moscow\"")),
+        // The passport states 2026-10-29, and that the certificate was issued on 2026-11-02.
+        ("performed", with("2026-10-30", "2026-10-28")),
+        ("performed.to", with("2026-10-30", "2026-11-03")),
+    ];
+    for (key, administrative) in stated {
+        let (code, said) = export(folder.path(), MOSCOW, &administrative, &[]);
+        assert_eq!(code, 1, "{said}");
+        assert!(said.contains(&format!(" {key}: found ")), "{key}: {said}");
+        assert!(!folder.path().join("out").exists());
+    }
+    // What is the same contradicts nothing.
+    let same = format!(
+        "{ADMINISTRATIVE}number: \"C-2026-0142\"\nissued: \"2026-11-02\"\ntemperature_c: 20\ntraceable: true\n"
+    );
+    let (code, said) = export(folder.path(), MOSCOW, &same, &[]);
+    assert_eq!(code, 0, "{said}");
+    assert!(taken(folder.path()).contains("<dcc:traceable>true</dcc:traceable>"));
+}
+
+/// A file that cannot be one is refused with its lines, and an altered passport exports nothing.
+#[test]
+fn bad_input_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (from, to, found) in [
+        ("\"RU\"\nlang", "\"XX\"\nlang", "country: found \"XX\""),
+        ("\"RU\"\nlang", "\"ru\"\nlang", "country: found \"ru\""),
+        ("\"en\"", "\"de\"", "language: found"),
+        ("\"laboratory\"\n", "\"home\"\n", "location: found"),
+        ("A customer", "\u{1F600}", "U+1F600"),
+        ("A customer", "\u{202E}abc", "U+202E"),
+        ("A customer", "a\0b", "U+0000"),
+        ("A customer", "  ", "customer.name: found only spaces"),
+        ("[\"A. Person\", \"B. Person\"]", "[]", "responsible: found an empty list"),
+        ("2026-10-20", "2026-10-31", "performed.to: found"),
+        ("country: \"RU\"\nlang", "country: \"RU\"\nport: 1\nlang", "unknown key \"port\""),
+    ] {
+        assert!(ADMINISTRATIVE.contains(from), "{from}");
+        let (code, said) = export(folder.path(), MOSCOW, &ADMINISTRATIVE.replacen(from, to, 1), &[]);
+        assert_eq!(code, 2, "{said}");
+        assert!(said.contains(found) && said.contains("dcc.yaml:"), "{found}: {said}");
+        assert!(!folder.path().join("out").exists());
+    }
+    let altered = fs::read_to_string(programs::project(MOSCOW)).unwrap().replacen("12.4", "12.5", 1);
+    let passport = folder.path().join("altered.yaml");
+    fs::write(&passport, altered).unwrap();
+    let (code, said) = export(folder.path(), passport.to_str().unwrap(), ADMINISTRATIVE, &[]);
+    assert_eq!(code, 1, "{said}");
+    assert!(said.contains("nothing was exported") && !folder.path().join("out").exists(), "{said}");
+}
