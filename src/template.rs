@@ -267,11 +267,40 @@ seating_arcsec:                      # of the gyro on the platform
 # temperature_c: 21.0
 "#;
 
+/// Administrative data of a Digital Calibration Certificate.
+pub(crate) const DCC: &str = r#"# Administrative data of a Digital Calibration Certificate (dtg-dcc/1): what PTB's format demands and no passport states.
+# Replace every CHANGE; delete the lines that do not apply. What the passport states is not repeated here.
+format: "dtg-dcc/1"
+country: "DE"                        # CHANGE; where the certificate is issued: two letters of ISO 3166-1
+language: "en"                       # the mandatory language: en or ru
+location: "laboratory"               # where it was measured: laboratory, customer, laboratoryBranch, customerBranch, other
+laboratory:
+  city: "CHANGE"
+  # name: "CHANGE"                   # for a gyro, unless its laboratory file states it
+  # street: "CHANGE"
+  # street_no: "1"
+  # post_code: "00000"
+  # country: "DE"
+  # email: "laboratory@example.org"
+  # phone: "+00 000 0000"
+customer:
+  name: "CHANGE"
+  city: "CHANGE"
+responsible: ["CHANGE"]              # besides the person who authorised the certificate
+# performed: {from: "2026-01-01", to: "2026-01-02"}    # if the passport does not state the day, or it was several
+# method: "CHANGE"                   # if the passport states none
+# temperature_c: 20.0                # if the passport states none
+# traceable: true                    # the certificate's traceability is a chain of calibrations to the SI
+# number: "G-0000"                   # of the certificate of a gyro; that of a stand is in its passport
+# issued: "2026-01-03"
+"#;
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::calibration::Readings;
     use crate::certification::{AngleReadings, Header};
+    use crate::dcc::Administrative;
     use crate::laboratory::Laboratory;
     use crate::site::Site;
     use crate::stand::{CertifiedPosition, Stand};
@@ -299,6 +328,7 @@ mod tests {
     fn gyro_laboratory_and_site_pass_their_readers() {
         assert_eq!(GyroType::from_yaml("gyro.yaml", GYRO.as_bytes()).unwrap().nominal, GyroType::gvk_6().nominal);
         Laboratory::from_yaml("laboratory.yaml", LABORATORY.as_bytes()).unwrap();
+        Administrative::from_yaml("dcc.yaml", DCC.as_bytes()).unwrap();
         let read = |text: &str| Site::from_yaml("here.yaml", text.as_bytes()).unwrap();
         read(&site("here", None, None));
         // Expected: normal gravity of WGS 84 at 45° on the ellipsoid (NIMA TR8350.2, Somigliana), 9.80619769 m/s².
@@ -330,5 +360,8 @@ mod tests {
         Site::from_yaml("here.yaml", text.as_bytes()).unwrap();
         Laboratory::from_yaml("laboratory.yaml", uncommented(LABORATORY).as_bytes()).unwrap();
         GyroType::from_yaml("gyro.yaml", uncommented(GYRO).as_bytes()).unwrap();
+        let dcc = uncommented(DCC);
+        let read = Administrative::from_yaml("dcc.yaml", dcc.as_bytes()).unwrap();
+        assert!(read.traceable == Some(true) && read.issued.is_some(), "{dcc}");
     }
 }

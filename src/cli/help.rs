@@ -1,6 +1,7 @@
 //! Help: the command line as declared, with examples and exit codes for each verb, and the version.
 
 use super::Cli;
+use crate::dcc::DCC_FORMAT;
 use crate::gyro::GYRO_FORMAT;
 use crate::laboratory::LABORATORY_FORMAT;
 use crate::passport::content::PASSPORT_FORMAT;
@@ -134,7 +135,7 @@ const EXAMPLES: [(&str, [&str; 2]); 24] = [
         "export",
         [
             "export moscow-bmstu-1.yaml --to stand,site --out files --trust allowed_signers",
-            "export moscow-bmstu-1.yaml --to json --trust allowed_signers",
+            "export moscow-bmstu-1.yaml --to dcc --administrative dcc.yaml --trust allowed_signers",
         ],
     ),
     ("simulate", ["simulate accuracy --trials 100000", "simulate convergence -o convergence.svg"]),
@@ -180,7 +181,8 @@ fn long_version() -> &'static str {
             _ => String::new(),
         };
         let formats =
-            [STAND_FORMAT, SITE_FORMAT, GYRO_FORMAT, LABORATORY_FORMAT, PASSPORT_FORMAT, REVOCATION_FORMAT].join(", ");
+            [STAND_FORMAT, SITE_FORMAT, GYRO_FORMAT, LABORATORY_FORMAT, DCC_FORMAT, PASSPORT_FORMAT, REVOCATION_FORMAT]
+                .join(", ");
         format!("{}{commit}\nformats {formats}", env!("CARGO_PKG_VERSION"))
     })
 }

@@ -52,6 +52,8 @@ enum Kind {
     Readings,
     /// Currents for `calibrate` (CSV)
     Currents,
+    /// Administrative data of a Digital Calibration Certificate (dtg-dcc/1)
+    Dcc,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -88,6 +90,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         Kind::Currents => template::currents(positions).map_err(Failure::refused)?,
         Kind::Gyro => template::GYRO.to_owned(),
         Kind::Laboratory => template::LABORATORY.to_owned(),
+        Kind::Dcc => template::DCC.to_owned(),
         Kind::Site => template::site(&site_id(options.file.as_deref())?, options.at, options.height_m),
     };
     let Some(path) = &options.file else { return output::own(&text).map(|()| 0) };

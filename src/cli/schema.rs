@@ -10,6 +10,7 @@ enum Kind {
     Site,
     Gyro,
     Laboratory,
+    Dcc,
     Passport,
     Revocation,
 }
@@ -39,6 +40,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         Kind::Site => ("site", schema::site()),
         Kind::Gyro => ("gyro", schema::gyro()),
         Kind::Laboratory => ("laboratory", schema::laboratory()),
+        Kind::Dcc => ("dcc", schema::dcc()),
         Kind::Passport => ("passport", schema::passport()),
         Kind::Revocation => ("revocation", schema::revocation()),
     };

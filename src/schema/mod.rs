@@ -4,6 +4,7 @@ mod reference;
 
 pub(crate) use reference::tables;
 
+use crate::dcc::{Administrative, DCC_FORMAT};
 use crate::gyro::{GYRO_FORMAT, GyroType};
 use crate::laboratory::{LABORATORY_FORMAT, Laboratory};
 use crate::passport::Content;
@@ -32,6 +33,11 @@ pub(crate) fn gyro() -> Schema {
 /// Returns the JSON Schema of a laboratory.
 pub(crate) fn laboratory() -> Schema {
     with_format(schema_for!(Laboratory), LABORATORY_FORMAT)
+}
+
+/// Returns the JSON Schema of an administrative file.
+pub(crate) fn dcc() -> Schema {
+    with_format(schema_for!(Administrative), DCC_FORMAT)
 }
 
 /// Returns the JSON Schema of a passport with its signature. Text that fits the schema need not be a valid passport:

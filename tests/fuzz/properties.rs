@@ -12,6 +12,7 @@ use dtg_passport::calibration::document::CalibrationDocument;
 use dtg_passport::calibration::{Options, Readings, Setup, calibrate};
 use dtg_passport::certification::{AngleReadings, Header, certify};
 use dtg_passport::coefficients::PositionIndex;
+use dtg_passport::dcc::Administrative;
 use dtg_passport::document::{SignedText, join};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
@@ -35,11 +36,12 @@ pub struct Target {
 }
 
 /// Every reader.
-pub const TARGETS: [Target; 18] = [
+pub const TARGETS: [Target; 19] = [
     Target { name: "stand", reads: stand },
     Target { name: "site", reads: site },
     Target { name: "gyro", reads: gyro },
     Target { name: "laboratory", reads: laboratory },
+    Target { name: "dcc", reads: dcc },
     Target { name: "header", reads: header },
     Target { name: "issue", reads: issue },
     Target { name: "content", reads: content },
@@ -137,6 +139,10 @@ fn gyro(bytes: &[u8]) -> bool {
 
 fn laboratory(bytes: &[u8]) -> bool {
     document(bytes, Laboratory::from_yaml)
+}
+
+fn dcc(bytes: &[u8]) -> bool {
+    document(bytes, Administrative::from_yaml)
 }
 
 fn header(bytes: &[u8]) -> bool {
