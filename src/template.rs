@@ -271,9 +271,9 @@ seating_arcsec:                      # of the gyro on the platform
 pub(crate) const DCC: &str = r#"# Administrative data of a Digital Calibration Certificate (dtg-dcc/1): what PTB's format demands and no passport states.
 # Replace every CHANGE; delete the lines that do not apply. What the passport states is not repeated here.
 format: "dtg-dcc/1"
-country: "DE"                        # CHANGE; where the certificate is issued: two letters of ISO 3166-1
+# country: "DE"                      # CHANGE; where the certificate is issued: two letters of ISO 3166-1
 language: "en"                       # the mandatory language: en or ru
-location: "laboratory"               # where it was measured: laboratory, customer, laboratoryBranch, customerBranch, other
+# location: "laboratory"             # CHANGE; of the measurements: laboratory, customer, laboratoryBranch, customerBranch, other
 laboratory:
   city: "CHANGE"
   # name: "CHANGE"                   # for a gyro, unless its laboratory file states it

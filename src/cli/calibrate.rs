@@ -1,5 +1,6 @@
 //! Verb `calibrate`: the gyro's parameters from a passport and currents.
 
+use super::administrative::AdministrativeFile;
 use super::output::Format;
 use super::render::{Written, languages};
 use super::show::{PassportOptions, Read};
@@ -11,6 +12,7 @@ use crate::calibration::readings::Exclusion;
 use crate::calibration::verdict::Decision;
 use crate::calibration::{Method, Model, Options as CalibrationOptions, Readings};
 use crate::coefficients::PositionIndex;
+use crate::dcc::{self, Calibrated};
 use crate::document::sha256_hex;
 use crate::files;
 use crate::interface::calibrated::Prepared;
@@ -83,7 +85,13 @@ pub(super) struct Options {
     /// Report to write, for paper, screen and phone, with fields for handwritten signatures
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// Report languages; the first sets the number format: en, ru, or en,ru for both side by side
+    /// Digital Calibration Certificate of the gyro to write; needs --gyro-serial, --administrative and a verified passport
+    #[arg(long, value_name = "FILE.xml", conflicts_with_all = ["no_verify", "anisoelasticity", "drift"])]
+    dcc: Option<PathBuf>,
+    /// Administrative data of --dcc (dtg-dcc/1); `new dcc` writes a template
+    #[arg(long, value_name = "FILE", requires = "dcc")]
+    administrative: Option<PathBuf>,
+    /// Languages of --report and --dcc; the first sets the number format: en, ru, or en,ru for both side by side
     #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
     lang: Vec<Written>,
     /// Output format
@@ -126,6 +134,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if let Some(remark) = prepared.readings.remark() {
         output::say(remark);
     }
+    let administrative = AdministrativeFile::read(options.administrative.as_deref())?;
     let asked = options.asked();
     let done = prepared.run(&asked, verification.is_some(), options.subject(), previous.as_ref());
     let done = done.map_err(Failure::stopped)?;
@@ -134,6 +143,11 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     let tolerance = gyro_type.as_ref().map(|gyro_type| &gyro_type.tolerance);
     let uncertainty = options.uncertainty.find(&done.setup, &done.readings, &done.calibration, (&asked, tolerance))?;
+    if let Some(path) = &options.dcc {
+        let laboratory = options.laboratory.is_some().then_some(&laboratory);
+        let calibrated = Calibrated::new(&content, &sha256_hex(&passport), laboratory, gyro_type.as_ref(), &done);
+        write_dcc(options, path, &calibrated.map_err(Failure::refused)?, &administrative)?;
+    }
     if let Some(path) = &options.report {
         let page = CalibrationPage {
             passport: used(&content, &passport, verification.as_ref())?,
@@ -200,6 +214,24 @@ impl Options {
             currents_sha256: String::new(),
         }
     }
+}
+
+/// Writes the gyro's certificate.
+fn write_dcc(
+    options: &Options,
+    path: &Path,
+    calibrated: &Calibrated,
+    administrative: &AdministrativeFile,
+) -> Result<(), Failure> {
+    let dcc = dcc::of_gyro(calibrated, administrative.content(), Some(&languages(&options.lang)));
+    let dcc = dcc.map_err(|problems| {
+        let refused = administrative.refuse(problems);
+        Failure { code: REFUSED, ..Failure::unreadable(refused) }
+    })?;
+    output::file(path, &dcc.xml, options.uncertainty.force)?;
+    output::say(&format!("wrote {}", shown(path)));
+    output::say("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");
+    Ok(())
 }
 
 /// Returns the passport in the form that the report takes.

@@ -208,7 +208,8 @@ impl Administrative {
 }
 
 impl Contact {
-    fn texts(&self) -> impl Iterator<Item = (&'static str, Option<&str>)> {
+    /// Returns the texts with their keys, without the country.
+    pub(super) fn texts(&self) -> impl Iterator<Item = (&'static str, Option<&str>)> {
         [
             ("name", &self.name),
             ("city", &self.city),

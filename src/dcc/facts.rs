@@ -7,9 +7,16 @@ use crate::text::{Path, Problems};
 use jiff::civil::Date;
 use std::fmt::Display;
 
+/// Word of the template where the user has to enter a value.
+const UNCHANGED: &str = "CHANGE";
+
 /// Facts that a passport or a calibration states.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Known<'a> {
+    /// What states these facts, for messages.
+    pub source: &'static str,
+    /// Serial number of the item, if an option must state it.
+    pub serial: Option<Option<&'a str>>,
     /// Number of the certificate.
     pub number: Option<&'a str>,
     /// Day on which the item was received.
@@ -28,6 +35,8 @@ pub(super) struct Known<'a> {
     pub customer: Option<&'a str>,
     /// Method of measurement.
     pub method: Option<&'a str>,
+    /// `true` if the method needs no statement, because it is a calculation of this program.
+    pub method_is_known: bool,
     /// Statement of traceability.
     pub traceability: Option<&'a str>,
     /// Temperature during the measurements, °C.
@@ -56,7 +65,7 @@ pub(super) struct Facts {
     pub main_signer: Option<String>,
     /// Other responsible persons.
     pub responsible: Vec<String>,
-    pub method: String,
+    pub method: Option<String>,
     pub temperature_c: f64,
     pub traceable: Option<bool>,
 }
@@ -71,7 +80,8 @@ impl Facts {
         file: Option<&Administrative>,
         lang: Option<&Languages>,
     ) -> Result<Self, Problems> {
-        let mut collector = Collector { problems: Problems::new() };
+        let mut collector = Collector { source: known.source, problems: Problems::new() };
+        collector.refuse_unchanged(file);
         let facts = collector.facts(known, file, lang);
         match facts {
             Some(facts) if collector.problems.is_empty() => Ok(facts),
@@ -86,6 +96,7 @@ pub(super) fn stated(text: Option<&str>) -> Option<&str> {
 }
 
 struct Collector {
+    source: &'static str,
     problems: Problems,
 }
 
@@ -110,7 +121,7 @@ impl Collector {
             &at,
             "location",
             location,
-            "where it was measured, such as \"laboratory\"",
+            "the place of the measurements, such as \"laboratory\"",
             "coreData/performanceLocation",
         );
         let address = stated(known.address);
@@ -127,7 +138,8 @@ impl Collector {
         let persons = (main_signer.is_some() || !responsible.is_empty()).then_some(());
         let persons = self.need(&at, "responsible", persons, "a list of names", "respPersons/respPerson/person/name");
         let method = self.agreed(&at, "method", stated(known.method), file.and_then(|f| stated(f.method.as_deref())));
-        let method = self.need(&at, "method", method, "the method of measurement", "measurementResult/usedMethods");
+        let needed = if known.method_is_known { Some(method) } else { method.map(Some) };
+        let method = self.need(&at, "method", needed, "the method of measurement", "measurementResult/usedMethods");
         let temperature = file.and_then(|file| file.temperature_c);
         let temperature = self.agreed(&at, "temperature_c", known.temperature_c, temperature);
         let temperature = self.need(
@@ -137,6 +149,9 @@ impl Collector {
             "the temperature during the measurements, in degrees Celsius",
             "measurementResult/influenceConditions",
         );
+        if let Some(serial) = known.serial {
+            self.need(&at, "--gyro-serial", stated(serial), "the serial number of the gyro", "item/identifications");
+        }
         let traceable = file.and_then(|file| file.traceable);
         if traceable == Some(true) && stated(known.traceability).is_none() {
             let expected = "absent, because the certificate states no traceability";
@@ -160,10 +175,29 @@ impl Collector {
             customer: customer?,
             main_signer,
             responsible,
-            method: method?.to_owned(),
+            method: method?.map(str::to_owned),
             temperature_c: temperature?,
             traceable,
         })
+    }
+
+    /// Refuses values that the template leaves to the user: they are no facts.
+    fn refuse_unchanged(&mut self, file: Option<&Administrative>) {
+        let root = Path::Root;
+        let mut refuse = |at: &Path, text: Option<&str>| {
+            if text.is_some_and(|text| text.trim() == UNCHANGED) {
+                self.problems.at(at, format!("{UNCHANGED:?}"), "your value", "replace the word from the template");
+            }
+        };
+        for (key, contact) in file.iter().flat_map(|f| [("laboratory", &f.laboratory), ("customer", &f.customer)]) {
+            let at = root.key(key);
+            contact.iter().flat_map(Contact::texts).for_each(|(key, text)| refuse(&at.key(key), text));
+        }
+        let at = root.key("responsible");
+        let names = file.iter().flat_map(|file| file.responsible.iter().flatten());
+        names.enumerate().for_each(|(index, name)| refuse(&at.item(index), Some(name)));
+        let method = file.and_then(|file| file.method.as_deref());
+        refuse(&root.key("method"), method);
     }
 
     /// Returns a required value, or records that its key is missing and the element of the DCC that needs it.
@@ -178,7 +212,7 @@ impl Collector {
     fn agreed<T: PartialEq + Display>(&mut self, at: &Path, key: &str, known: Option<T>, file: Option<T>) -> Option<T> {
         match (known, file) {
             (Some(known), Some(file)) if known != file => {
-                let expected = format!("{known}, which is stated elsewhere already");
+                let expected = format!("{known}, as {} states", self.source);
                 self.problems.at(&at.key(key), file.to_string(), expected, "delete it");
                 Some(known)
             }
@@ -197,7 +231,7 @@ impl Collector {
         let (from, to) = (from?, to?);
         let includes = known.performed.is_none_or(|day| (from..=to).contains(&day));
         if let Some(day) = known.performed.filter(|_| !includes) {
-            let expected = format!("days that include {day}, the day of measurement that is stated elsewhere already");
+            let expected = format!("days that include {day}, the day of measurement that {} states", self.source);
             self.problems.at(&at, format!("{from} to {to}"), expected, "");
         }
         if let Some(received) = known.received.filter(|received| from < *received) {

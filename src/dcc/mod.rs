@@ -3,6 +3,7 @@
 //! * `administrative`: the file `dtg-dcc/1` with what a DCC must state and no passport contains.
 //! * `countries`: codes of ISO 3166-1.
 //! * `facts`: the facts that every DCC states, and what is missing of them.
+//! * `gyro`: the certificate of a gyro, with decisions on conformity.
 //! * `parts`: elements that every DCC has; the order in the code is that of the schema.
 //! * `stand`: the certificate of a stand, with its signed passport inside.
 //! * `words`: words of the program, in every language.
@@ -13,12 +14,14 @@
 mod administrative;
 mod countries;
 mod facts;
+mod gyro;
 mod parts;
 mod stand;
 pub(crate) mod words;
 mod xml;
 
 pub(crate) use administrative::{Administrative, DCC_FORMAT};
+pub(crate) use gyro::{Calibrated, of_gyro};
 pub(crate) use stand::of_stand;
 
 use crate::text::Identifier;

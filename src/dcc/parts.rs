@@ -20,6 +20,11 @@ pub(super) mod units {
     pub(in crate::dcc) const DEGREE: &str = r"\degree";
     pub(in crate::dcc) const ARCSECOND: &str = r"\arcsecond";
     pub(in crate::dcc) const CELSIUS: &str = r"\degreecelsius";
+    pub(in crate::dcc) const M_PER_S2: &str = r"\metre\second\tothe{-2}";
+    pub(in crate::dcc) const DEG_PER_H: &str = r"\degree\hour\tothe{-1}";
+    pub(in crate::dcc) const DEG_PER_H_PER_MA: &str = r"\degree\hour\tothe{-1}\milli\ampere\tothe{-1}";
+    /// There is no unit of the standard gravity, so drifts per g are converted to this.
+    pub(in crate::dcc) const DEG_PER_H_PER_M_PER_S2: &str = r"\degree\hour\tothe{-1}\metre\tothe{-1}\second\tothe{2}";
 }
 
 /// Returns an element with a text in every language of the DCC.
@@ -51,6 +56,16 @@ pub(super) fn real(value: f64, unit: &str, standard_uncertainty: Option<f64>) ->
 
 /// Returns numbers with their unit and, if any is stated, their standard uncertainties (NaN where one is not).
 pub(super) fn reals(values: &[f64], unit: &str, standard_uncertainties: &[Option<f64>]) -> Element {
+    labelled(None, values, unit, standard_uncertainties)
+}
+
+/// Returns numbers as [`reals`] does, with their labels, separated by spaces.
+pub(super) fn labelled(
+    labels: Option<&str>,
+    values: &[f64],
+    unit: &str,
+    standard_uncertainties: &[Option<f64>],
+) -> Element {
     let stated = standard_uncertainties.iter().any(Option::is_some);
     let uncertainty = stated.then(|| {
         let each = standard_uncertainties.iter().map(|u| u.unwrap_or(f64::NAN));
@@ -58,6 +73,7 @@ pub(super) fn reals(values: &[f64], unit: &str, standard_uncertainties: &[Option
         Element::new("si:measurementUncertaintyUnivariateXMLList").and(Element::new("si:standardMUXMLList").and(list))
     });
     Element::new("si:realListXMLList")
+        .and(labels.map(|labels| Element::text("si:labelXMLList", labels)))
         .and(Element::numbers("si:valueXMLList", values.iter().copied()))
         .and(Element::text("si:unitXMLList", unit))
         .and(uncertainty)
@@ -120,23 +136,26 @@ pub(super) fn software(name: &'static str) -> Element {
     Element::new(name).and(program)
 }
 
-/// Returns a method by name and description, as `dcc:usedMethods`.
-pub(super) fn methods(each: impl IntoIterator<Item = (Element, Element)>) -> Element {
-    let method = |(name, description)| {
-        Element::new("dcc:usedMethod").with("refType", "basic_calibrationMethod").and([name, description])
-    };
-    Element::new("dcc:usedMethods").and(each.into_iter().map(method))
+/// Returns a method by its name, its description and a link.
+pub(super) fn method(name: Element, description: Element, link: Option<&str>) -> Element {
+    Element::new("dcc:usedMethod")
+        .with("refType", "basic_calibrationMethod")
+        .and(name)
+        .and(description)
+        .and(link.map(|link| Element::text("dcc:link", link)))
 }
 
-/// Returns the temperature during the measurements, as `dcc:influenceConditions`.
-pub(super) fn conditions(temperature_c: f64, languages: &Languages) -> Element {
-    let name = || in_words("dcc:name", words::TEMPERATURE, languages);
-    let temperature = quantity(Some("basic_measuredValue"), name(), real(temperature_c, units::CELSIUS, None));
-    let condition = Element::new("dcc:influenceCondition")
+/// Returns the temperature during the measurements.
+pub(super) fn temperature(temperature_c: f64, languages: &Languages) -> Element {
+    condition(words::TEMPERATURE, real(temperature_c, units::CELSIUS, None), languages)
         .with("refType", "basic_temperature")
-        .and(name())
-        .and(Element::new("dcc:data").and(temperature));
-    Element::new("dcc:influenceConditions").and(condition)
+}
+
+/// Returns a condition of the measurements by its name and value.
+pub(super) fn condition(name: Text, value: Element, languages: &Languages) -> Element {
+    let name = || in_words("dcc:name", name, languages);
+    let value = quantity(Some("basic_measuredValue"), name(), value);
+    Element::new("dcc:influenceCondition").and(name()).and(Element::new("dcc:data").and(value))
 }
 
 /// Parts of the administrative data that differ between a stand and a gyro.
@@ -154,7 +173,7 @@ pub(super) struct Subject {
 }
 
 /// Returns a whole DCC.
-pub(super) fn certificate(facts: &Facts, subject: Subject, results: Vec<Element>, document: Element) -> String {
+pub(super) fn certificate(facts: &Facts, subject: Subject, results: Vec<Element>, document: Option<Element>) -> String {
     Element::new("dcc:digitalCalibrationCertificate")
         .with("xmlns:dcc", "https://ptb.de/dcc")
         .with("xmlns:si", "https://ptb.de/si")

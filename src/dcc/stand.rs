@@ -45,13 +45,14 @@ pub(crate) fn of_stand(
         ],
         (&file_name, "application/yaml", bytes),
     );
-    let xml = parts::certificate(&facts, subject, vec![result(content, &facts)], document);
+    let xml = parts::certificate(&facts, subject, vec![result(content, &facts)], Some(document));
     Ok(Dcc { number: facts.number, xml })
 }
 
 fn known(content: &Content) -> Known<'_> {
     let certificate = &content.certificate;
     Known {
+        source: "the passport",
         number: Some(&certificate.number),
         received: certificate.received,
         performed: certificate.performed,
@@ -63,6 +64,7 @@ fn known(content: &Content) -> Known<'_> {
         method: certificate.method.as_deref(),
         traceability: certificate.traceability.as_deref(),
         temperature_c: certificate.temperature_c,
+        ..Known::default()
     }
 }
 
@@ -123,7 +125,9 @@ fn statements(content: &Content, facts: &Facts) -> Vec<Element> {
 
 fn result(content: &Content, facts: &Facts) -> Element {
     let languages = &facts.languages;
-    let method = (in_words("dcc:name", words::METHOD, languages), plain("dcc:description", &facts.method));
+    let methods = facts.method.iter().map(|text| {
+        parts::method(in_words("dcc:name", words::METHOD, languages), plain("dcc:description", text), None)
+    });
     let list = Element::new("dcc:list").and(quantities(&content.positions, languages));
     let result = Element::new("dcc:result")
         .with("refType", "basic_measurementResult")
@@ -132,9 +136,9 @@ fn result(content: &Content, facts: &Facts) -> Element {
         .and(Element::new("dcc:data").and(list));
     Element::new("dcc:measurementResult")
         .and(in_words("dcc:name", words::STAND_RESULT, languages))
-        .and(parts::methods([method]))
+        .and(Element::new("dcc:usedMethods").and(methods))
         .and(parts::software("dcc:usedSoftware"))
-        .and(parts::conditions(facts.temperature_c, languages))
+        .and(Element::new("dcc:influenceConditions").and(parts::temperature(facts.temperature_c, languages)))
         .and(Element::new("dcc:results").and(result))
 }
 

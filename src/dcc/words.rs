@@ -59,4 +59,41 @@ texts! {
         ru: "Паспорт {id}, байт в байт; SHA-256 {sha256}. Сам этот сертификат не подписан, подписан вложенный паспорт: \
              его следует сохранить и проверить."
     }
+    STAND { en: "Test stand with certified deviations", ru: "Испытательный стенд с аттестованными отклонениями" }
+    GYRO { en: "Dynamically tuned gyro", ru: "Динамически настраиваемый гироскоп" }
+    GRAVITY { en: "Local gravity", ru: "Местное ускорение свободного падения" }
+    MODEL {
+        en: "Drift model of a dynamically tuned gyro, fitted to its torquer currents in the positions of the stand, \
+             with the certified deviations and the Earth-rate vectors of the stand’s passport.",
+        ru: "Модель дрейфа динамически настраиваемого гироскопа по токам датчиков момента в положениях стенда с \
+             учётом аттестованных отклонений и угловой скорости Земли из паспорта стенда."
+    }
+    PARAMETERS_NOTE {
+        en: "Standard uncertainties (k = 1). The g-sensitive drifts refer to 1 m/s² instead of the local g; their \
+             uncertainties include that of the local g.",
+        ru: "Стандартные неопределённости (k = 1). Составляющие дрейфа, зависящие от g, отнесены к 1 м/с², а не к \
+             местному g; в их неопределённость входит неопределённость местного g."
+    }
+    SCALE_FACTORS { en: "Scale factors K_x, K_xy, K_yx, K_y", ru: "Масштабные коэффициенты K_x, K_xy, K_yx, K_y" }
+    CONSTANT_DRIFT { en: "Constant drift ω_0x, ω_0y", ru: "Постоянная составляющая дрейфа ω_0x, ω_0y" }
+    G_DRIFT { en: "g-sensitive drift ω_g, ω_k", ru: "Составляющие дрейфа, зависящие от g: ω_g, ω_k" }
+    CONFORMITY { en: "Conformity with gyro type {type}", ru: "Соответствие типу {type}" }
+    RULE {
+        en: "Guarded acceptance with a guard band equal to the expanded uncertainty U = 2u (JCGM 106, 8.3): pass or \
+             fail. Where the uncertainty does not permit this decision, the decision by simple acceptance is \
+             conditional.",
+        ru: "Приёмка с защитной полосой, равной расширенной неопределённости U = 2u (JCGM 106, 8.3). Если \
+             неопределённость не позволяет принять решение, решение при простой приёмке условное."
+    }
+    DECISIONS { en: "Decisions on conformity, in the order of the values", ru: "Решения о соответствии в порядке значений" }
+    LOWER_LIMIT { en: "Lower limit of the tolerance", ru: "Нижняя граница допуска" }
+    UPPER_LIMIT { en: "Upper limit of the tolerance", ru: "Верхняя граница допуска" }
+    NOT_STATED {
+        en: "Not stated, and not included in any uncertainty",
+        ru: "Не указано и не учтено в неопределённости"
+    }
+    NOT_SIGNED {
+        en: "This DCC is not signed. The passport of the stand is signed; its SHA-256 is given with the equipment.",
+        ru: "Этот сертификат не подписан. Подписан паспорт стенда, его SHA-256 указана при средствах калибровки."
+    }
 }

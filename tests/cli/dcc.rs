@@ -91,7 +91,7 @@ pub fn assert_good(judged: &Value, xml: &str) {
 /// Children of an element in their order: `?` may be absent, `*` and `+` may be repeated. Source: PTB's schema of the
 /// DCC 3.3.0 and of D-SI 2.2.1, as far as this program writes it.
 const CHILDREN: [(&str, &str); 49] = [
-    ("digitalCalibrationCertificate", "administrativeData measurementResults document"),
+    ("digitalCalibrationCertificate", "administrativeData measurementResults document?"),
     (
         "administrativeData",
         "dccSoftware refTypeDefinitions coreData items calibrationLaboratory respPersons customer statements?",
@@ -121,14 +121,14 @@ const CHILDREN: [(&str, &str); 49] = [
     ("respPerson", "person mainSigner?"),
     ("person", "name"),
     ("statements", "statement+"),
-    ("statement", "name traceable? declaration? date? data?"),
+    ("statement", "name traceable? reference? declaration? date? conformity? data?"),
     ("measurementResults", "measurementResult+"),
     (
         "measurementResult",
-        "name usedMethods usedSoftware measuringEquipments? influenceConditions results measurementMetaData?",
+        "name description? usedMethods usedSoftware measuringEquipments? influenceConditions results measurementMetaData?",
     ),
     ("usedMethods", "usedMethod+"),
-    ("usedMethod", "name description"),
+    ("usedMethod", "name description link?"),
     ("measuringEquipments", "measuringEquipment+"),
     ("measuringEquipment", "name certificate? manufacturer? model? identifications"),
     ("influenceConditions", "influenceCondition+"),
@@ -141,7 +141,7 @@ const CHILDREN: [(&str, &str); 49] = [
     ("measurementMetaData", "metaData+"),
     ("metaData", "name declaration? conformityXMLList? data?"),
     ("real", "value unit measurementUncertaintyUnivariate?"),
-    ("realListXMLList", "valueXMLList unitXMLList measurementUncertaintyUnivariateXMLList?"),
+    ("realListXMLList", "labelXMLList? valueXMLList unitXMLList measurementUncertaintyUnivariateXMLList?"),
     ("measurementUncertaintyUnivariate", "standardMU"),
     ("standardMU", "valueStandardMU"),
     ("measurementUncertaintyUnivariateXMLList", "standardMUXMLList"),
@@ -482,4 +482,208 @@ fn bad_input_is_refused() {
     let (code, said) = export(folder.path(), passport.to_str().unwrap(), ADMINISTRATIVE, &[]);
     assert_eq!(code, 1, "{said}");
     assert!(said.contains("nothing was exported") && !folder.path().join("out").exists(), "{said}");
+}
+
+/// Administrative file of the gyro's certificate.
+const OF_GYRO: &str = r#"format: "dtg-dcc/1"
+country: "RU"
+language: "en"
+location: "laboratory"
+number: "G-7"
+issued: "2026-11-20"
+laboratory: {city: "Moscow"}
+customer: {name: "A customer", city: "Kazan"}
+responsible: ["A. Person"]
+method: "procedure <7> & 8"
+"#;
+
+/// Calibrates the example gyro, and writes `gyro.xml` in `folder`: exit code, JSON result, standard error.
+fn calibrate(folder: &Path, administrative: &str, gyro: Option<&str>, more: &[&str]) -> (i32, Value, String) {
+    fs::write(folder.join("dcc.yaml"), administrative).unwrap();
+    let file = |path: &str| programs::project(path).into_os_string().into_string().unwrap();
+    let mut arguments = vec!["calibrate".to_owned(), file(MOSCOW), file("docs/currents.csv")];
+    arguments.extend(["--trust".to_owned(), file("docs/allowed_signers")]);
+    arguments.extend(["--laboratory".to_owned(), file("docs/laboratory.yaml")]);
+    if let Some(gyro) = gyro {
+        fs::write(folder.join("gyro.yaml"), gyro).unwrap();
+        arguments.extend(["--gyro", "gyro.yaml"].map(str::to_owned));
+    }
+    let options = "--time 2026-11-20 --format json --dcc gyro.xml --administrative dcc.yaml --force";
+    arguments.extend(options.split(' ').map(str::to_owned));
+    arguments.extend(more.iter().map(|&option| option.to_owned()));
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let (code, stdout, said) = run(folder, &arguments);
+    (code, serde_json::from_str(&stdout).unwrap_or(Value::Null), said)
+}
+
+const KNOWN: [&str; 6] = ["--gyro-serial", "7 <b>", "--date", "2026-11-19", "--temperature-c", "21.5"];
+
+fn number(bits: &Value) -> f64 {
+    f64::from_bits(u64::from_str_radix(bits.as_str().unwrap(), 16).unwrap())
+}
+
+/// Expected: PTB's rules, the JSON result of the same calibration, and its decisions. Drifts per g are compared with the
+/// quotient by the passport's g, their uncertainties with the law of propagation.
+#[test]
+fn a_gyro_has_its_certificate_with_decisions() {
+    let folder = tempfile::tempdir().unwrap();
+    let gvk_6 = fs::read_to_string(programs::project("docs/gvk-6.yaml")).unwrap();
+    let gyros = [
+        None,
+        Some(gvk_6.clone()),
+        // Far from the type: fail. At the limit: the decision is conditional.
+        Some(gvk_6.replace("[95, 9.5], [9.5, 95]", "[95.2, 9.5], [9.5, 95.048]")),
+        Some(gvk_6.replace("omega0_deg_per_h: 0.01", "omega0_deg_per_h: 0.0001")),
+    ];
+    let mut files = Vec::new();
+    for (index, gyro) in gyros.iter().enumerate() {
+        let lang = ["en", "en,ru"][index % 2];
+        let (code, result, said) =
+            calibrate(folder.path(), OF_GYRO, gyro.as_deref(), &[&KNOWN[..], &["--lang", lang]].concat());
+        assert_eq!(code, i32::from(index == 2), "{said}");
+        assert!(said.contains("wrote gyro.xml") && said.contains("not signed"), "{said}");
+        let file = folder.path().join(format!("{index}.xml"));
+        fs::rename(folder.path().join("gyro.xml"), &file).unwrap();
+        let xml = fs::read_to_string(&file).unwrap();
+        files.push((file, result, xml));
+    }
+    let mut seen = std::collections::BTreeSet::new();
+    let judged = judged(&files.iter().map(|(file, ..)| file.as_path()).collect::<Vec<_>>());
+    for (judged, (_, result, xml)) in judged.iter().zip(&files) {
+        assert_good(judged, xml);
+        assert_eq!(
+            (&judged["number"], &judged["day"], &judged["laboratory"]),
+            (&"G-7".into(), &"2026-11-19".into(), &"Lab".into())
+        );
+        let best = result["results"].as_array().unwrap().last().unwrap();
+        assert_eq!(best["method"], "least-squares");
+        let [k, omega_0, drift] = [0, 1, 2].map(|place| &judged["results"][place]);
+        let rows = |value: &Value| {
+            Value::Array(value.as_array().unwrap().iter().flat_map(|row| row.as_array().unwrap()).map(bits).collect())
+        };
+        let list = |value: &Value| Value::Array(value.as_array().unwrap().iter().map(bits).collect());
+        let u = &best["standard_uncertainty"];
+        assert_eq!((&k["values"], &k["u"]), (&rows(&best["k_deg_per_h_per_ma"]), &rows(&u["k_deg_per_h_per_ma"])));
+        assert_eq!(
+            (&omega_0["values"], &omega_0["u"]),
+            (&list(&best["omega0_deg_per_h"]), &list(&u["omega0_deg_per_h"]))
+        );
+        let g = result["gravity_m_per_s2"].as_f64().unwrap();
+        let u_g = result["gravity_u_m_per_s2"].as_f64().unwrap();
+        for (place, key) in ["omega_g_deg_per_h_per_g", "omega_k_deg_per_h_per_g"].iter().enumerate() {
+            let (value, u) = (best[key].as_f64().unwrap(), u[key].as_f64().unwrap());
+            assert!((number(&drift["values"][place]) * g / value - 1.0).abs() < 1e-15);
+            let expected = (u * u + (value * u_g / g).powi(2)).sqrt() / g;
+            assert!((number(&drift["u"][place]) / expected - 1.0).abs() < 1e-12);
+        }
+        let document = Document::parse(xml).unwrap();
+        let texts = |name: &str| -> Vec<&str> {
+            let named = document.descendants().filter(|node| node.tag_name().name() == name);
+            named.filter_map(|node| node.text()).collect()
+        };
+        let sum = |file: &str| {
+            let output = Command::new("sha256sum").arg(programs::project(file)).output().unwrap().stdout;
+            String::from_utf8(output).unwrap()[..64].to_owned()
+        };
+        assert!(texts("value").contains(&sum(MOSCOW).as_str()) && texts("value").contains(&"7 <b>"), "{xml}");
+        assert_eq!(texts("referralID"), ["SPS-2/0017/moscow-bmstu/1"]);
+        assert_eq!(texts("reference"), [sum("docs/currents.csv")]);
+        assert!(texts("content").contains(&"procedure <7> & 8"));
+        let Some(verdict) = result.get("verdict") else {
+            assert!(texts("conformity").is_empty() && texts("conformityXMLList").is_empty());
+            continue;
+        };
+        let decision = |key: &str| {
+            let rows = verdict["parameters"].as_array().unwrap();
+            let row = rows.iter().find(|row| row["parameter"] == key).unwrap();
+            match (row["guarded"].as_str().unwrap(), row["simple"].as_str().unwrap()) {
+                ("undecided", "pass") => "conditionalPass",
+                ("undecided", "fail") => "conditionalFail",
+                (guarded, _) => {
+                    if guarded == "pass" {
+                        "pass"
+                    } else {
+                        "fail"
+                    }
+                }
+            }
+        };
+        let keys = ["k_x k_xy k_yx k_y", "omega_0x omega_0y", "omega_g omega_k"];
+        let expected = keys.map(|keys| keys.split(' ').map(decision).collect::<Vec<_>>().join(" "));
+        assert_eq!(texts("conformityXMLList"), expected);
+        assert_eq!(texts("labelXMLList"), keys);
+        seen.extend(expected.iter().flat_map(|decisions| decisions.split(' ')).map(str::to_owned));
+        let overall = texts("conformity")[0];
+        match verdict["overall"].as_str().unwrap() {
+            "undecided" => assert!(overall.starts_with("conditional"), "{overall}"),
+            decided => assert_eq!(overall, decided),
+        }
+        // A value is between the limits, in its own unit, if simple acceptance passes it.
+        let lists = texts("valueXMLList");
+        for (group, keys) in keys.iter().enumerate() {
+            let numbers =
+                |place: usize| lists[3 * group + place].split(' ').map(|number| number.parse::<f64>().unwrap());
+            for (((value, lower), upper), key) in numbers(0).zip(numbers(1)).zip(numbers(2)).zip(keys.split(' ')) {
+                let simple = ["pass", "conditionalPass"].contains(&decision(key));
+                assert_eq!((lower..=upper).contains(&value), simple, "{key}: {lower} {value} {upper}");
+            }
+        }
+    }
+    assert_eq!(Vec::from_iter(seen), ["conditionalFail", "conditionalPass", "fail", "pass"]);
+}
+
+/// Everything that is missing for a gyro is named, and what is no result of this gyro gets no certificate.
+#[test]
+fn a_gyro_without_facts_or_result_has_no_certificate() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, _, said) = calibrate(folder.path(), "format: \"dtg-dcc/1\"\n", None, &[]);
+    assert_eq!(code, 1, "{said}");
+    let missing = [
+        "country",
+        "location",
+        "number",
+        "performed.from",
+        "performed.to",
+        "laboratory.city",
+        "customer.name",
+        "customer.city",
+        "responsible",
+        "temperature_c",
+        "--gyro-serial",
+    ];
+    for key in missing {
+        assert!(said.contains(&format!(" {key}: missing")), "{key}: {said}");
+    }
+    assert_eq!(said.matches(": missing").count(), missing.len(), "{said}");
+    let refused: [(&str, &str, &[&str], i32, &str); 6] = [
+        ("", "", &["--no-verify"], 2, "--no-verify"),
+        ("", "", &["--drift"], 2, "--drift"),
+        ("", "", &["--model", "general"], 1, "the paper's model"),
+        ("{city", "{name: \"Another\", city", &[], 1, "laboratory.name: found Another"),
+        ("method", "temperature_c: 22\nmethod", &[], 1, "temperature_c: found 22"),
+        ("method", "performed: {from: \"2026-11-20\"}\nmethod", &[], 1, "performed: found 2026-11-20 to 2026-11-19"),
+    ];
+    for (from, to, more, expected, words) in refused {
+        let administrative = OF_GYRO.replacen(from, to, 1);
+        let (code, _, said) = calibrate(folder.path(), &administrative, None, &[&KNOWN[..], more].concat());
+        assert_eq!(code, expected, "{said}");
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    // Readings of which one is far from the others.
+    let currents = fs::read_to_string(programs::project("docs/currents.csv")).unwrap();
+    let (at, row) = currents.lines().enumerate().filter(|(_, line)| line.starts_with("1,")).last().unwrap();
+    let (head, last) = row.rsplit_once(',').unwrap();
+    let wrong = format!("{head},{}", last.parse::<f64>().unwrap() + 0.01);
+    let lines: Vec<&str> =
+        currents.lines().enumerate().map(|(n, line)| if n == at { wrong.as_str() } else { line }).collect();
+    fs::write(folder.path().join("wrong.csv"), lines.join("\n")).unwrap();
+    fs::write(folder.path().join("dcc.yaml"), OF_GYRO).unwrap();
+    let [passport, signers] =
+        [MOSCOW, "docs/allowed_signers"].map(|path| programs::project(path).into_os_string().into_string().unwrap());
+    let arguments = ["calibrate", &passport, "wrong.csv", "--trust", &signers, "--time", "2026-11-20"];
+    let dcc = ["--dcc", "gyro.xml", "--administrative", "dcc.yaml"];
+    let (code, _, said) = run(folder.path(), &[&arguments[..], &dcc, &KNOWN].concat());
+    assert_eq!(code, 1, "{said}");
+    assert!(said.contains("no DCC was written"), "{said}");
+    assert!(!folder.path().join("gyro.xml").exists());
 }

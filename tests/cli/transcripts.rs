@@ -44,6 +44,7 @@ transcripts! {
     bad_input: "bad-input.md",
     batch: "batch.md",
     calibrate: "calibrate.md",
+    dcc: "dcc.md",
     demo: "demo.md",
     good: "good.md",
     hostile_folder: "hostile-folder.md",

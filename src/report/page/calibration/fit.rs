@@ -191,7 +191,8 @@ fn explained(explanation: &Explanation, language: Language) -> String {
     }
 }
 
-fn not_stated(what: NotStated) -> Text {
+/// Returns the name of an input without a stated uncertainty.
+pub(crate) fn not_stated(what: NotStated) -> Text {
     match what {
         NotStated::Angles => texts::NOT_STATED_ANGLES,
         NotStated::Return => texts::NOT_STATED_RETURN,

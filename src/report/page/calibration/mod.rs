@@ -16,6 +16,8 @@ mod parameters;
 mod subject;
 mod uncertainty;
 
+pub(crate) use fit::not_stated;
+
 use super::language::{Language, Languages, Text};
 use super::parts;
 use super::passport::PassportPage;

@@ -1,0 +1,265 @@
+//! DCC of a gyro: parameters, their standard uncertainties, and the decisions of its type.
+
+use super::facts::{Facts, Known, stated};
+use super::parts::{self, Subject, filled, in_words, plain, quantity, real, units};
+use super::words;
+use super::xml::Element;
+use super::{Administrative, Dcc};
+use crate::calibration::document::{ExclusionDocument, Subject as GyroSubject};
+use crate::calibration::parameter::Parameter;
+use crate::calibration::verdict::{Decision, Found, ParameterVerdict, Verdict};
+use crate::calibration::{Method, Model};
+use crate::gyro::GyroType;
+use crate::interface::calibrated::Done;
+use crate::laboratory::Laboratory;
+use crate::passport::Content;
+use crate::report::Languages;
+use crate::report::page::calibration::not_stated;
+use crate::report::page::language::Text;
+use crate::report::page::texts::calibration as texts;
+use crate::text::Problems;
+
+/// Publication of the drift model and of the equations.
+const PAPER: &str = "https://doi.org/10.18698/2308-6033-2017-10-1691";
+
+/// Identifier of the decision rule, to which every decision refers.
+const RULE_ID: &str = "decision_rule";
+
+/// Calibration of a gyro with a verified passport, fit for a certificate.
+pub(crate) struct Calibrated<'a> {
+    content: &'a Content,
+    passport_sha256: String,
+    laboratory: Option<&'a Laboratory>,
+    done: &'a Done,
+    /// Gyro, day and conditions of the calibration.
+    subject: &'a GyroSubject,
+    method: Method,
+    /// Adopted result, drifts per local g.
+    found: Found,
+    /// Type of the gyro, and the decisions for it.
+    judged: Option<(&'a GyroType, &'a Verdict)>,
+}
+
+impl<'a> Calibrated<'a> {
+    /// Takes a calibration with the passport `content`, of which `passport_sha256` is the SHA-256, for a certificate.
+    /// The laboratory is `None` if no file states it.
+    ///
+    /// # Errors
+    /// Returns the reason if the result is not that of the gyro, or has other parameters than a certificate states.
+    pub(crate) fn new(
+        content: &'a Content,
+        passport_sha256: &str,
+        laboratory: Option<&'a Laboratory>,
+        gyro_type: Option<&'a GyroType>,
+        done: &'a Done,
+    ) -> Result<Self, &'static str> {
+        let document = &done.document;
+        if document.hint.is_some() || document.mistake.is_some() {
+            return Err("no DCC was written, because the result is not that of this gyro; omit --dcc to see why");
+        }
+        let answer = done.calibration.answer().filter(|answer| answer.model == Model::Paper && answer.drift.is_none());
+        let (Some(answer), Some(found), Some(subject)) = (answer, document.answer(), &document.subject) else {
+            return Err("no DCC was written: it states the parameters of the paper's model; omit --model, or --dcc");
+        };
+        let judged = gyro_type.zip(document.verdict.as_ref());
+        let passport_sha256 = passport_sha256.to_owned();
+        Ok(Self { content, passport_sha256, laboratory, done, subject, method: answer.method, found, judged })
+    }
+}
+
+/// Returns the DCC of a gyro.
+///
+/// # Errors
+/// Returns every missing key and every contradiction, by their paths in the administrative file.
+pub(crate) fn of_gyro(
+    calibrated: &Calibrated,
+    administrative: Option<&Administrative>,
+    lang: Option<&Languages>,
+) -> Result<Dcc, Problems> {
+    let known = Known {
+        source: "the calibration",
+        serial: Some(calibrated.subject.gyro_serial.as_deref()),
+        performed: calibrated.subject.date,
+        laboratory: calibrated.laboratory.and_then(|laboratory| laboratory.name.as_deref()),
+        temperature_c: calibrated.subject.temperature_c.or(calibrated.laboratory.and_then(|file| file.temperature_c)),
+        method_is_known: true,
+        ..Known::default()
+    };
+    let facts = Facts::collect(&known, administrative, lang)?;
+    let subject = Subject {
+        identifications: Vec::new(),
+        previous_report: None,
+        item: item(calibrated, &facts.languages),
+        accreditation: None,
+        statements: statements(calibrated, &facts.languages),
+    };
+    let xml = parts::certificate(&facts, subject, vec![result(calibrated, &facts)], None);
+    Ok(Dcc { number: facts.number, xml })
+}
+
+fn item(calibrated: &Calibrated, languages: &Languages) -> Element {
+    let serial = stated(calibrated.subject.gyro_serial.as_deref()).map(|serial| {
+        parts::identification("manufacturer", serial, words::SERIAL, languages).with("refType", "basic_serialNumber")
+    });
+    let model = calibrated.judged.and_then(|(gyro_type, _)| stated(Some(gyro_type.r#type.as_str())));
+    Element::new("dcc:item")
+        .and(in_words("dcc:name", words::GYRO, languages))
+        .and(model.map(|model| Element::text("dcc:model", model)))
+        .and(Element::new("dcc:identifications").and(serial))
+}
+
+fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
+    let conformity = calibrated.judged.map(|(gyro_type, verdict)| {
+        let name = [("type", gyro_type.r#type.as_str())];
+        Element::new("dcc:statement")
+            .with("id", RULE_ID)
+            .with("refType", "basic_conformity")
+            .and(filled("dcc:name", words::CONFORMITY, &name, languages))
+            .and(in_words("dcc:declaration", words::RULE, languages))
+            .and(Element::text("dcc:conformity", overall(verdict)))
+    });
+    let currents = Element::new("dcc:statement")
+        .and(in_words("dcc:name", texts::CURRENTS_SHA256, languages))
+        .and(Element::text("dcc:reference", &calibrated.subject.currents_sha256));
+    let excluded = calibrated.done.document.excluded.iter().map(|ExclusionDocument { i, j, visit, cycle, why }| {
+        let visit = format!("{i}, {j}, {visit}, {}: {why}", cycle.unwrap_or(1));
+        parts::statement(texts::EXCLUDED, Some(&visit), languages)
+    });
+    let missing = calibrated.done.missing.iter().map(|what| {
+        Element::new("dcc:statement").and(in_words("dcc:name", words::NOT_STATED, languages)).and(in_words(
+            "dcc:declaration",
+            not_stated(*what),
+            languages,
+        ))
+    });
+    conformity.into_iter().chain([currents]).chain(excluded).chain(missing).collect()
+}
+
+/// Returns the decision by guarded acceptance. Where it is not determined, the one by simple acceptance is conditional
+/// (ILAC-G8:09/2019, 4.2.3).
+fn decided(row: &ParameterVerdict) -> &'static str {
+    match (row.guarded, row.simple) {
+        (Decision::Pass, _) => "pass",
+        (Decision::Fail, _) => "fail",
+        (Decision::Undecided, Decision::Pass) => "conditionalPass",
+        (Decision::Undecided, _) => "conditionalFail",
+    }
+}
+
+fn overall(verdict: &Verdict) -> &'static str {
+    match verdict.overall {
+        Decision::Pass => "pass",
+        Decision::Fail => "fail",
+        Decision::Undecided if verdict.parameters.iter().all(|row| row.simple == Decision::Pass) => "conditionalPass",
+        Decision::Undecided => "conditionalFail",
+    }
+}
+
+fn result(calibrated: &Calibrated, facts: &Facts) -> Element {
+    let languages = &facts.languages;
+    let method = match calibrated.method {
+        Method::Analytic => texts::ANALYTIC,
+        Method::Iterative => texts::ITERATIVE,
+        Method::LeastSquares => texts::LEAST_SQUARES_NAME,
+    };
+    let own = parts::method(
+        in_words("dcc:name", method, languages),
+        in_words("dcc:description", words::MODEL, languages),
+        Some(PAPER),
+    );
+    let stated = facts.method.as_deref().map(|text| {
+        parts::method(in_words("dcc:name", words::METHOD, languages), plain("dcc:description", text), None)
+    });
+    let list = Element::new("dcc:list").and(quantities(calibrated, languages));
+    let result = Element::new("dcc:result")
+        .with("refType", "basic_measurementResult")
+        .and(in_words("dcc:name", texts::PARAMETERS, languages))
+        .and(in_words("dcc:description", words::PARAMETERS_NOTE, languages))
+        .and(Element::new("dcc:data").and(list));
+    let gravity_u_m_per_s2 = calibrated.content.site.gravity_u_m_per_s2();
+    let gravity = real(calibrated.found.gravity_m_per_s2, units::M_PER_S2, gravity_u_m_per_s2);
+    let conditions =
+        [parts::temperature(facts.temperature_c, languages), parts::condition(words::GRAVITY, gravity, languages)];
+    Element::new("dcc:measurementResult")
+        .and(in_words("dcc:name", texts::TITLE, languages))
+        .and(in_words("dcc:description", words::NOT_SIGNED, languages))
+        .and(Element::new("dcc:usedMethods").and(own).and(stated))
+        .and(parts::software("dcc:usedSoftware"))
+        .and(Element::new("dcc:measuringEquipments").and(equipment(calibrated, languages)))
+        .and(Element::new("dcc:influenceConditions").and(conditions))
+        .and(Element::new("dcc:results").and(result))
+}
+
+/// Returns the stand, with its passport by identifier and SHA-256.
+fn equipment(calibrated: &Calibrated, languages: &Languages) -> Element {
+    let Content { stand, passport, .. } = calibrated.content;
+    let manufacturer = stated(stand.manufacturer.as_deref());
+    let serial = parts::identification("manufacturer", stand.serial.as_str(), words::SERIAL, languages);
+    Element::new("dcc:measuringEquipment")
+        .and(in_words("dcc:name", words::STAND, languages))
+        .and(parts::hashed("dcc:certificate", words::PASSPORT, &passport.id, &calibrated.passport_sha256, languages))
+        .and(manufacturer.map(|name| Element::new("dcc:manufacturer").and(plain("dcc:name", name))))
+        .and(Element::text("dcc:model", &stand.model))
+        .and(Element::new("dcc:identifications").and(serial.with("refType", "basic_serialNumber")))
+}
+
+/// Returns K, ω_0 and the g-sensitive drifts, each with its decisions. The drifts are per m/s², because there is no unit
+/// of the local g.
+fn quantities(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
+    use Parameter::{Kx, Kxy, Ky, Kyx, Omega0x, Omega0y, OmegaG, OmegaK};
+    let per_m_per_s2 = calibrated.found.at_gravity(1.0);
+    let group = |name: Text, parameters: &[Parameter], unit: &str| {
+        let values = per_m_per_s2.parameters.to_vector();
+        let value = |parameter: &Parameter| values[parameter.place()];
+        let u = |parameter: &Parameter| Some(per_m_per_s2.standard_uncertainty[parameter.place()]);
+        let labels = parameters.iter().map(|parameter| parameter.key()).collect::<Vec<_>>().join(" ");
+        let each: Vec<f64> = parameters.iter().map(value).collect();
+        let uncertainties: Vec<_> = parameters.iter().map(u).collect();
+        let list = parts::labelled(Some(&labels), &each, unit, &uncertainties);
+        let decisions = calibrated.judged.map(|judged| decisions(judged, parameters, unit, languages));
+        quantity(Some("basic_measuredValue"), in_words("dcc:name", name, languages), list).and(decisions)
+    };
+    vec![
+        group(words::SCALE_FACTORS, &[Kx, Kxy, Kyx, Ky], units::DEG_PER_H_PER_MA),
+        group(words::CONSTANT_DRIFT, &[Omega0x, Omega0y], units::DEG_PER_H),
+        group(words::G_DRIFT, &[OmegaG, OmegaK], units::DEG_PER_H_PER_M_PER_S2),
+    ]
+}
+
+/// Returns the decisions on parameters and the limits of their tolerances, in their order and unit.
+fn decisions(
+    (_, verdict): (&GyroType, &Verdict),
+    parameters: &[Parameter],
+    unit: &str,
+    languages: &Languages,
+) -> Element {
+    let rows = parameters.iter().filter_map(|one| verdict.parameters.iter().find(|row| row.parameter == one.key()));
+    let rows: Vec<_> = rows.collect();
+    let each: Vec<&str> = rows.iter().map(|row| decided(row)).collect();
+    let limit = |kind, name, sign: f64| {
+        let values: Vec<f64> = rows.iter().map(|row| limit_of(row, sign, verdict.gravity_m_per_s2)).collect();
+        quantity(Some(kind), in_words("dcc:name", name, languages), parts::labelled(None, &values, unit, &[]))
+    };
+    let limits = [
+        limit("basic_toleranceLimitLower", words::LOWER_LIMIT, -1.0),
+        limit("basic_toleranceLimitUpper", words::UPPER_LIMIT, 1.0),
+    ];
+    let decision = Element::new("dcc:metaData")
+        .with("refId", RULE_ID)
+        .with("refType", "basic_conformity")
+        .and(in_words("dcc:name", words::DECISIONS, languages))
+        .and(Element::text("dcc:conformityXMLList", each.join(" ")))
+        .and(Element::new("dcc:data").and(limits));
+    Element::new("dcc:measurementMetaData").and(decision)
+}
+
+/// Returns a limit of the tolerance in the unit of the DCC: scale factors have tolerances in percent, and drifts per g
+/// are converted with the g of the type.
+fn limit_of(row: &ParameterVerdict, sign: f64, gravity_m_per_s2: f64) -> f64 {
+    let tolerance = match row.unit {
+        "%" => row.reference_value.abs() * row.tolerance / 100.0,
+        _ => row.tolerance,
+    };
+    let per_g = [Parameter::OmegaG, Parameter::OmegaK].iter().any(|one| one.key() == row.parameter);
+    (row.reference_value + sign * tolerance) / if per_g { gravity_m_per_s2 } else { 1.0 }
+}
