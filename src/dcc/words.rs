@@ -74,8 +74,8 @@ texts! {
         ru: "Стандартные неопределённости (k = 1). Составляющие дрейфа, зависящие от g, отнесены к 1 м/с², а не к \
              местному g; в их неопределённость входит неопределённость местного g."
     }
-    SCALE_FACTORS { en: "Scale factors K_x, K_xy, K_yx, K_y", ru: "Масштабные коэффициенты K_x, K_xy, K_yx, K_y" }
-    CONSTANT_DRIFT { en: "Constant drift ω_0x, ω_0y", ru: "Постоянная составляющая дрейфа ω_0x, ω_0y" }
+    SCALE_FACTORS { en: "Scale factors K", ru: "Масштабные коэффициенты K" }
+    CONSTANT_DRIFT { en: "Constant drift ω_0", ru: "Постоянная составляющая дрейфа ω_0" }
     G_DRIFT { en: "g-sensitive drift ω_g, ω_k", ru: "Составляющие дрейфа, зависящие от g: ω_g, ω_k" }
     CONFORMITY { en: "Conformity with gyro type {type}", ru: "Соответствие типу {type}" }
     RULE {
