@@ -79,7 +79,7 @@ certificate:
   number: "C-0000"                   # CHANGE; a number is never used for other angles
   issued: "2026-01-01"               # CHANGE; UTC date, as year, month, day
   # performed: "2025-12-20"
-  # valid_until: "2027-12-31"        # the last day; without it the user decides when to recertify
+  # valid_until: "2027-12-31"        # inclusive; without it the user decides when to recertify
   # valid_until_basis: "agreed with the customer"
   laboratory: "CHANGE"
   # address: "…"

@@ -51,12 +51,14 @@ pub(crate) fn sin_cos_of_degrees(degrees: f64) -> (f64, f64) {
     (sin + 0.0, cos + 0.0)
 }
 
-/// Returns a unit in its printed form: one solidus, with brackets around a compound denominator (SI Brochure, 5.1).
+/// Returns a unit in its printed form: `°`, powers raised, one solidus, with brackets around a compound denominator (SI
+/// Brochure, 5.1).
 /// Keys of files and `unit` values in JSON do not change.
 pub(crate) fn printed(unit: &str) -> String {
+    let unit = unit.replace("deg/", "°/").replace("^2", "²");
     match unit.split_once('/') {
         Some((above, below)) if below.contains('/') => format!("{above}/({})", below.replace('/', "·")),
-        _ => unit.to_owned(),
+        _ => unit,
     }
 }
 
@@ -66,7 +68,7 @@ mod tests {
 
     #[test]
     fn a_printed_unit_has_one_solidus() {
-        let cases = [("%", "%"), ("deg/h", "deg/h"), ("deg/h/mA", "deg/(h·mA)"), ("deg/h/g^2", "deg/(h·g^2)")];
+        let cases = [("%", "%"), ("deg/h", "°/h"), ("deg/h/mA", "°/(h·mA)"), ("deg/h/g^2", "°/(h·g²)")];
         for (unit, due) in cases {
             assert_eq!(printed(unit), due);
         }

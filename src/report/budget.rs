@@ -58,7 +58,7 @@ fn row(part: &Contribution) -> Vec<String> {
     let size = if low < 0.99 * high { format!("{low:.2} to {high:.2}") } else { short(high) };
     vec![
         part.cause.kind(),
-        format!("{size} {}", part.cause.unit()),
+        format!("{size} {}", printed(part.cause.unit())),
         part.inputs.to_string(),
         format!("{:.1e}", part.contribution),
         format!("{:.2}", 100.0 * part.share),

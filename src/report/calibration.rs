@@ -145,7 +145,7 @@ fn beyond_the_paper(out: &mut String, answer: &MethodResult) {
         let u = answer.standard_uncertainty(Parameter::Omega0x).unwrap_or(0.0);
         let digits = columns::decimals(u);
         let (omega0, cycle) = (at.omega0_deg_per_h, at.cycle);
-        let _ = writeln!(out, "  turn-on {cycle}: ω_0 = ({:.digits$}, {:.digits$}) deg/h", omega0.x, omega0.y);
+        let _ = writeln!(out, "  turn-on {cycle}: ω_0 = ({:.digits$}, {:.digits$}) °/h", omega0.x, omega0.y);
     }
     if !answer.cycles.is_empty() {
         columns::paragraph(out, "  ", "ω_0 is the mean of the turn-ons; u is that of the long-term mean.");
@@ -154,7 +154,7 @@ fn beyond_the_paper(out: &mut String, answer: &MethodResult) {
         for (axis, name) in ["x", "y"].into_iter().enumerate() {
             let (value, u) = (drift.deg_per_h_per_h[axis], drift.standard_uncertainty_deg_per_h_per_h[axis]);
             let digits = columns::decimals(u);
-            let _ = writeln!(out, "  drift in time about {name}: {value:.digits$} deg/h per hour, u = {u:.digits$}");
+            let _ = writeln!(out, "  drift in time about {name}: {value:.digits$} °/h per hour, u = {u:.digits$}");
         }
         columns::paragraph(out, "  ", "ω_0 is that at the mean time of the readings.");
     }
@@ -189,7 +189,7 @@ fn methods(out: &mut String, calibration: &Calibration) {
         let rest_n = iteration.remainder_omega_n_deg_per_h_per_g.abs().max();
         let words = format!(
             "iterative: spectral radius {:.4}; {predicted} steps predicted, {} taken; remaining error at most \
-             {rest:.1e} deg/(h·mA) in K and {rest_n:.1e} deg/(h·g) in omega_n.",
+             {rest:.1e} °/(h·mA) in K and {rest_n:.1e} °/(h·g) in omega_n.",
             iteration.spectral_radius, iteration.steps
         );
         columns::paragraph(out, "  ", &words);
@@ -254,7 +254,7 @@ fn residuals(out: &mut String, answer: &MethodResult) {
             row
         })
         .collect();
-    columns::table(out, &["i", "j", "x, deg/h", "y, deg/h", "x / u", "y / u"], &rows);
+    columns::table(out, &["i", "j", "x, °/h", "y, °/h", "x / u", "y / u"], &rows);
 }
 
 fn scatter(out: &mut String, calibration: &Calibration) {
@@ -280,14 +280,14 @@ fn scatter(out: &mut String, calibration: &Calibration) {
     let each = [("visit to visit", &calibration.visit_noise), ("turn-on to turn-on", &calibration.turn_on_noise)];
     for (between, noise) in each.into_iter().filter(|(_, noise)| noise.source == NoiseSource::Estimated) {
         let words = format!(
-            "Noise of the gyro from {between}, estimated: {:.1e} deg/h ({} degrees of freedom).",
+            "Noise of the gyro from {between}, estimated: {:.1e} °/h ({} degrees of freedom).",
             noise.deg_per_h, noise.degrees_of_freedom
         );
         columns::paragraph(out, "  ", &words);
     }
     if let Some(test) = calibration.drift_test.filter(|test| test.is_significant()) {
         let words = format!(
-            "WARNING: the residuals show a drift of ω_0 in time, ({:+.1e}, {:+.1e}) deg/h per hour, which is not fitted \
+            "WARNING: the residuals show a drift of ω_0 in time, ({:+.1e}, {:+.1e}) °/h per hour, which is not fitted \
              (probability of a larger one: {}). Fit it with --drift.",
             test.drift_deg_per_h_per_h.x,
             test.drift_deg_per_h_per_h.y,

@@ -39,10 +39,10 @@ fn wrapped(out: &mut String, indent: usize, words: &str) {
 
 /// Splits a text into words; a unit belongs to the word of its number.
 fn unbroken(text: &str) -> Vec<String> {
-    const UNITS: [&str; 9] = ["%", "arcsec", "deg", "deg/h", "mA", "uA", "m", "m/s2", "m/s²"];
+    const UNITS: [&str; 9] = ["%", "arcsec", "deg", "°/h", "mA", "uA", "m", "m/s2", "m/s²"];
     let mut words: Vec<String> = Vec::new();
     for word in text.split(' ') {
-        let is_unit = UNITS.contains(&word.trim_end_matches([',', ';', '.', ':', ')'])) || word.starts_with("deg/(");
+        let is_unit = UNITS.contains(&word.trim_end_matches([',', ';', '.', ':', ')'])) || word.starts_with("°/(");
         match words.last_mut().filter(|last| is_unit && last.ends_with(|c: char| c.is_ascii_digit())) {
             Some(number) => *number += &format!(" {word}"),
             None => words.push(word.to_owned()),
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_number_stays_with_its_unit() {
-        assert_eq!(unbroken("is 2 deg/(h·mA); a 5 % b"), ["is", "2 deg/(h·mA);", "a", "5 %", "b"]);
+        assert_eq!(unbroken("is 2 °/(h·mA); a 5 % b"), ["is", "2 °/(h·mA);", "a", "5 %", "b"]);
         let mut out = String::new();
         paragraph(&mut out, "", &format!("{}0.13 %", "word ".repeat(19)));
         assert_eq!(out.lines().last(), Some("0.13 %"));

@@ -162,10 +162,10 @@ fn site(out: &mut String, content: &Content) {
     option(out, "source", site.source.as_ref());
     heading(out, "Earth at the site");
     line(out, "astronomic latitude, deg", earth.latitude_deg);
-    line(out, "horizontal rate, deg/h", earth.horizontal_deg_per_h);
-    line(out, "vertical rate, deg/h", earth.vertical_deg_per_h);
+    line(out, "horizontal rate, °/h", earth.horizontal_deg_per_h);
+    line(out, "vertical rate, °/h", earth.vertical_deg_per_h);
     line(out, "gravity, m/s²", earth.gravity_m_per_s2);
-    let radius = format!("{:.0} (Earth rate within {} deg/h)", earth.valid_radius_m, earth.valid_within_deg_per_h);
+    let radius = format!("{:.0} (Earth rate within {} °/h)", earth.valid_radius_m, earth.valid_within_deg_per_h);
     line(out, "validity radius, m", radius);
     option(out, "azimuth of mark, deg", earth.azimuth_deg);
     option(out, "u of azimuth, arcsec", earth.azimuth_u_arcsec);
@@ -184,19 +184,19 @@ fn matrices(out: &mut String, content: &Content) {
     };
     let rows = [
         row("Delta", "1", &m.delta),
-        row("B", "deg/h", &m.b_deg_per_h),
-        row("C", "deg/(h·g)", &m.c_deg_per_h_per_g),
+        row("B", "°/h", &m.b_deg_per_h),
+        row("C", "°/(h·g)", &m.c_deg_per_h_per_g),
         row("n_1", "1", &m.n1),
         row("n_2", "1", &m.n2),
         row("n_2^-1", "1", &m.n2_inverse),
-        row("omega_31", "deg/h", &m.omega1_deg_per_h),
-        row("omega_32", "deg/h", &m.omega2_deg_per_h),
+        row("omega_31", "°/h", &m.omega1_deg_per_h),
+        row("omega_32", "°/h", &m.omega2_deg_per_h),
     ];
     columns::table(out, &["", "unit", "11", "12", "21", "22"], &rows);
 }
 
 fn vectors(out: &mut String, content: &Content) {
-    heading(out, "Specific force in g and Earth rate in deg/h along the case axes, eq. (5)");
+    heading(out, "Specific force in g and Earth rate in °/h along the case axes, eq. (5)");
     let rows = content.vectors.iter().map(|at| {
         let [nx, ny] = at.specific_force_g;
         let [wx, wy] = at.omega_deg_per_h;
@@ -232,15 +232,15 @@ fn accuracy(out: &mut String, content: &Content) {
         let percent = 100.0 * k[row][column] / nominal[row][column].abs();
         let percent = if percent.is_finite() { format!("{percent:.4}") } else { String::new() };
         let limit = if row == column { gyro.tolerance.k_main_percent } else { gyro.tolerance.k_cross_percent };
-        vec![name.to_owned(), format!("{:.6} deg/(h·mA)", k[row][column]), percent, format!("{limit} %")]
+        vec![name.to_owned(), format!("{:.6} °/(h·mA)", k[row][column]), percent, format!("{limit} %")]
     });
     let tolerance = &gyro.tolerance;
     let [x, y] = u.omega0_deg_per_h;
     let drifts = [
-        ("omega_0x", x, "deg/h", tolerance.omega0_deg_per_h),
-        ("omega_0y", y, "deg/h", tolerance.omega0_deg_per_h),
-        ("omega_g", u.omega_g_deg_per_h_per_g, "deg/(h·g)", tolerance.omega_g_deg_per_h_per_g),
-        ("omega_k", u.omega_k_deg_per_h_per_g, "deg/(h·g)", tolerance.omega_k_deg_per_h_per_g),
+        ("omega_0x", x, "°/h", tolerance.omega0_deg_per_h),
+        ("omega_0y", y, "°/h", tolerance.omega0_deg_per_h),
+        ("omega_g", u.omega_g_deg_per_h_per_g, "°/(h·g)", tolerance.omega_g_deg_per_h_per_g),
+        ("omega_k", u.omega_k_deg_per_h_per_g, "°/(h·g)", tolerance.omega_k_deg_per_h_per_g),
     ];
     let drifts = drifts.map(|(name, u, unit, limit)| {
         vec![name.to_owned(), format!("{u:.6} {unit}"), String::new(), format!("{limit} {unit}")]
@@ -258,9 +258,9 @@ fn self_check(out: &mut String, content: &Content) {
         .map(|at| vec![at.i.to_string(), at.j.to_string(), format!("{:.9}", at.jx_ma), format!("{:.9}", at.jy_ma)]);
     columns::table(out, &["i", "j", "J_x", "J_y"], &rows.collect::<Vec<_>>());
     let [[kx, kxy], [kyx, ky]] = check.k_deg_per_h_per_ma;
-    line(out, "K, deg/(h·mA)", format!("[[{kx}, {kxy}], [{kyx}, {ky}]]"));
+    line(out, "K, °/(h·mA)", format!("[[{kx}, {kxy}], [{kyx}, {ky}]]"));
     let [x, y] = check.omega0_deg_per_h;
-    line(out, "omega_0, deg/h", format!("[{x}, {y}]"));
-    line(out, "omega_g, deg/(h·g)", check.omega_g_deg_per_h_per_g);
-    line(out, "omega_k, deg/(h·g)", check.omega_k_deg_per_h_per_g);
+    line(out, "omega_0, °/h", format!("[{x}, {y}]"));
+    line(out, "omega_g, °/(h·g)", check.omega_g_deg_per_h_per_g);
+    line(out, "omega_k, °/(h·g)", check.omega_k_deg_per_h_per_g);
 }

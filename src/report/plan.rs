@@ -132,9 +132,9 @@ fn common_errors(out: &mut String, plan: &Plan) {
     out.push_str(
         "\nErrors that all positions share: largest change of a parameter in % of its tolerance, largest residual\n",
     );
-    let mut names = vec!["error", "size", "change, %", "residual, deg/h"];
+    let mut names = vec!["error", "size", "change, %", "residual, °/h"];
     if plan.paper.is_some() {
-        names.extend(["paper: change, %", "residual, deg/h"]);
+        names.extend(["paper: change, %", "residual, °/h"]);
     }
     let cells = |effect: &Effect| {
         // Rounding leaves about 1e-15.
@@ -207,7 +207,7 @@ fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
         remarks.push("Four positions leave no degrees of freedom: the fit cannot be tested.".to_owned());
     }
     remarks.push(format!(
-        "In this order an ω_0 that rises by {DRIFT_DEG_PER_H} deg/h on both axes during the run changes no parameter by \
+        "In this order an ω_0 that rises by {DRIFT_DEG_PER_H} °/h on both axes during the run changes no parameter by \
          more than {} % of its tolerance.",
         percent(DRIFT_DEG_PER_H * plan.order.largest_over_tolerance)
     ));

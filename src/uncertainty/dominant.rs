@@ -122,7 +122,7 @@ fn amount(line: &ParameterBudget, u: f64) -> String {
 
 /// Returns the measure that reduces the uncertainty of an input to `limit`, in its unit.
 fn what_to_do(cause: Cause, limit: f64) -> String {
-    let to = format!("{} {}", two_digits(limit), cause.unit());
+    let to = format!("{} {}", two_digits(limit), printed(cause.unit()));
     match cause {
         Cause::Seat(axis) => format!(
             "seat the gyro with an uncertainty of {to} about {}",

@@ -250,5 +250,5 @@ fn too_few_readings_to_judge() {
     };
     let text = report::text(&found, &context);
     assert!(text.contains("The fit cannot be tested") && !text.contains("chi-square"), "{text}");
-    assert!(!text.contains("x, deg/h"), "{text}");
+    assert!(!text.contains("x, °/h"), "{text}");
 }

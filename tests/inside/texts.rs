@@ -40,3 +40,53 @@ fn every_text_is_in_its_own_language_with_the_same_values() {
     }
     assert!(count > 150, "{count} texts");
 }
+
+/// Words of the glossary's predecessors, by language: `en` or `ru`, a forbidden wording (`*` stands for any ending), and
+/// the term to use. A line may end with texts that are allowed to use it.
+const NEVER: &str = include_str!("never.txt");
+
+/// Returns `true` if `text` contains the words of `pattern`, in any case.
+fn says(text: &str, pattern: &str) -> bool {
+    let words = |text: &str| -> Vec<String> {
+        let parts = text.split(|c: char| !(c.is_alphanumeric() || "*_-/№°″".contains(c)));
+        parts.filter(|word| !word.is_empty()).map(str::to_lowercase).collect()
+    };
+    let (text, pattern) = (words(text), words(pattern));
+    let alike = |word: &String, due: &String| match due.strip_suffix('*') {
+        Some(stem) => word.starts_with(stem),
+        None => word == due,
+    };
+    text.windows(pattern.len()).any(|at| at.iter().zip(&pattern).all(|(word, due)| alike(word, due)))
+}
+
+/// Returns the rules for a language: forbidden wording, term, and texts that may use it.
+fn never(language: &str) -> Vec<(&'static str, &'static str, Vec<&'static str>)> {
+    let lines = NEVER.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let rules = lines.map(|line| line.split('|').map(str::trim).collect::<Vec<_>>());
+    let of = |rule: Vec<&'static str>| {
+        let but = rule.get(3).map_or_else(Vec::new, |names| names.split_whitespace().collect());
+        (rule[0] == language).then(|| (rule[1], rule[2], but))
+    };
+    rules.filter_map(of).collect()
+}
+
+#[test]
+fn one_term_for_each_concept() {
+    assert!(says("The last days of it", "last day*") && !says("at last, daylight", "last day"));
+    assert!(says("Столб, отмеченный", "столб") && !says("столбец x", "столб"));
+    let mut wrong = Vec::new();
+    for (table, texts) in texts::TABLES {
+        for (name, text) in texts {
+            for (language, said) in [("en", text.en), ("ru", text.ru)] {
+                let said = without_names(said).replace('\u{a0}', " ");
+                for (pattern, term, but) in never(language) {
+                    let name = format!("{table}::{name}");
+                    if says(&said, pattern) && !but.contains(&name.as_str()) {
+                        wrong.push(format!("{name}: {pattern:?} in {said:?}; write {term:?}"));
+                    }
+                }
+            }
+        }
+    }
+    assert_eq!(wrong, Vec::<String>::new());
+}

@@ -1,6 +1,6 @@
 //! Record of a certification, which the laboratory keeps ([ISO/IEC
 //! 17025:2017](crate::bibliography::Bibliography::Iso17025), 7.5.1): readings, exclusions, tests, components and budget of
-//! the uncertainty, the change since the last certificate, and signature lines.
+//! the uncertainty, the change since the previous certificate, and signature lines.
 //!
 //! * `evidence`: readings, exclusions, components, tests.
 //! * `change`: comparison with the last certificate.

@@ -1,5 +1,6 @@
 //! Languages of a page, and texts in each of them.
 
+use super::spacing::spaced;
 use maud::{Markup, html};
 
 /// A language of the pages.
@@ -32,12 +33,17 @@ pub(crate) struct Text {
 }
 
 impl Text {
-    /// Returns the text in `language`.
+    /// Returns the text in `language` as the table has it.
     pub(crate) fn of(&self, language: Language) -> &'static str {
         match language {
             Language::English => self.en,
             Language::Russian => self.ru,
         }
+    }
+
+    /// Returns the text in `language` with its non-breaking spaces.
+    pub(crate) fn words(&self, language: Language) -> String {
+        spaced(self.of(language))
     }
 
     /// Returns the text in `language` with every `{name}` replaced by its value.
@@ -46,14 +52,14 @@ impl Text {
             Piece::Words(words) => words,
             Piece::Name(name) => values.iter().find(|(key, _)| *key == name).map_or("", |(_, value)| value),
         };
-        pieces(self.of(language)).into_iter().map(piece).collect()
+        pieces(&self.words(language)).into_iter().map(piece).collect()
     }
 
     /// Returns the text in `language` with every `{name}` replaced by an element of the page.
     pub(crate) fn marked_up(&self, language: Language, values: &[(&str, Markup)]) -> Markup {
         let value = |name: &str| values.iter().find(|(key, _)| *key == name).map(|(_, value)| value);
         html! {
-            @for piece in pieces(self.of(language)) {
+            @for piece in pieces(&self.words(language)) {
                 @match piece {
                     Piece::Words(words) => (words),
                     Piece::Name(name) => @if let Some(value) = value(name) { (value) },
@@ -157,7 +163,7 @@ impl Languages {
 
     /// Returns plain text for places without markup, such as the words of a picture: `north / север`.
     pub(crate) fn plain(&self, text: Text) -> String {
-        self.plain_with(|language| text.of(language).to_owned())
+        self.plain_with(|language| text.words(language))
     }
 
     /// Returns plain text as `plain` does, from words that `say` makes for each language.
@@ -168,7 +174,7 @@ impl Languages {
 
     /// Writes the text within a line, one language after the other.
     pub(crate) fn inline(&self, text: Text) -> Markup {
-        self.inline_with(|language| text.of(language).to_owned())
+        self.inline_with(|language| text.words(language))
     }
 
     /// Writes words as `inline` does; `say` makes them for each language.
@@ -184,7 +190,7 @@ impl Languages {
 
     /// Writes the name of a row or column, or a heading: the second language smaller, below the first.
     pub(crate) fn label(&self, text: Text) -> Markup {
-        self.label_with(|language| text.of(language).to_owned())
+        self.label_with(|language| text.words(language))
     }
 
     /// Writes a name as `label` does; `say` makes it for each language.
@@ -200,7 +206,7 @@ impl Languages {
 
     /// Writes a paragraph in each language, side by side if there is room.
     pub(crate) fn paragraph(&self, text: Text) -> Markup {
-        self.paragraph_with(|language| html! { (text.of(language)) })
+        self.paragraph_with(|language| html! { (text.words(language)) })
     }
 
     /// Writes a paragraph as `paragraph` does; `say` makes it for each language.

@@ -7,6 +7,7 @@
 //! * [`number`]: numbers formatted for people.
 //! * [`parts`]: tables, figures, forms.
 //! * [`code`]: QR codes.
+//! * [`spacing`]: non-breaking spaces.
 //! * [`shell`]: the enclosing HTML document, its style and its running heads.
 //! * [`passport`]: the printed passport.
 
@@ -19,6 +20,7 @@ pub(crate) mod number;
 pub(crate) mod parts;
 pub(crate) mod passport;
 pub(crate) mod shell;
+pub(crate) mod spacing;
 pub(crate) mod texts;
 
 pub use calibration::{CalibrationPage, UsedPassport};

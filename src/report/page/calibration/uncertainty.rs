@@ -153,7 +153,7 @@ fn cause(cause: Cause, language: Language) -> String {
         let axes = [texts::ABOUT_EAST, texts::ABOUT_NORTH, texts::ABOUT_UP];
         axes.get(axis).map_or("", |axis| axis.of(language))
     };
-    let plain = |text: Text| text.of(language).to_owned();
+    let plain = |text: Text| text.words(language);
     match cause {
         Cause::Angle(..) => plain(texts::CAUSE_ANGLE),
         Cause::Return(..) => plain(texts::CAUSE_RETURN),

@@ -28,7 +28,7 @@ pub(crate) fn verdict(page: &PassportPage, languages: &Languages) -> Markup {
 pub(crate) fn headline(page: &PassportPage, language: Language) -> String {
     let failed: Vec<&str> = failed(page).map(|check| reason(check.code).of(language)).collect();
     if failed.is_empty() {
-        return texts::IN_FORCE.of(language).to_owned();
+        return texts::IN_FORCE.words(language);
     }
     format!("{}: {}", texts::NOT_TO_BE_USED.of(language), failed.join(", "))
 }
@@ -91,7 +91,7 @@ fn name(check: CheckName) -> Text {
 fn words(page: &PassportPage, check: &Check, language: Language) -> String {
     let content = &page.content;
     let issuer = content.passport.issuer.as_str();
-    let plain = |text: Text| text.of(language).to_owned();
+    let plain = |text: Text| text.words(language);
     match check.name {
         CheckName::Grammar => plain(texts::GRAMMAR_OK),
         CheckName::Signature => plain(texts::SIGNATURE_OK),
@@ -120,8 +120,8 @@ fn revocation(page: &PassportPage, language: Language) -> String {
             let (sequence, time) = (list.sequence.to_string(), time_text(language, list.issued_at));
             texts::REVOCATION_LIST.filled(language, &[("sequence", &sequence), ("time", &time)])
         }
-        None if page.trust.revoked.is_empty() => texts::REVOCATION_NO_LIST.of(language).to_owned(),
-        None => texts::REVOCATION_KEYS_ONLY.of(language).to_owned(),
+        None if page.trust.revoked.is_empty() => texts::REVOCATION_NO_LIST.words(language),
+        None => texts::REVOCATION_KEYS_ONLY.words(language),
     }
 }
 

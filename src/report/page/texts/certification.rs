@@ -83,7 +83,7 @@ texts! {
     }
     WARNINGS { en: "Warnings of the program", ru: "Предупреждения программы (на английском языке)" }
 
-    CHANGE { en: "Change since the last certificate", ru: "Изменение с\u{a0}прошлой калибровки" }
+    CHANGE { en: "Change since the previous certificate", ru: "Изменение с\u{a0}прошлой калибровки" }
     NOT_COMPARED {
         en: "The readings were not compared with an earlier certificate.",
         ru: "Показания не сравнивались с\u{a0}прежним сертификатом."
