@@ -121,6 +121,7 @@ struct Reporter {
     code: Code,
     cancel: Arc<AtomicBool>,
     unwritten: Option<Failure>,
+    out: fn(&str) -> Result<(), Failure>,
 }
 
 impl Reporter {
@@ -131,7 +132,8 @@ impl Reporter {
             TableFormat::Csv => Form::Csv,
         };
         let bar = long_run::bar(0, "{wide_bar} {human_pos} of {human_len} passports, {per_sec}, {eta} left")?;
-        Ok(Self { reports: Reports::new(form), told: Told::default(), bar, code: 0, cancel, unwritten: None })
+        let out = if form == Form::Text { output::text } else { output::result };
+        Ok(Self { reports: Reports::new(form), told: Told::default(), bar, code: 0, cancel, unwritten: None, out })
     }
 
     fn hear(&mut self, event: Event) {
@@ -172,7 +174,7 @@ impl Reporter {
         if text.is_empty() || self.unwritten.is_some() {
             return;
         }
-        if let Err(failure) = self.bar.suspend(|| output::result(text)) {
+        if let Err(failure) = self.bar.suspend(|| (self.out)(text)) {
             self.unwritten = Some(failure);
             self.cancel.store(true, Ordering::Relaxed);
         }

@@ -182,7 +182,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
                 readings: Some((&done.readings, done.cost_of_missing)),
                 further: done.further,
             };
-            output::result(&(report::text(&done.calibration, &context) + &uncertainty.text()))?;
+            output::text(&(report::text(&done.calibration, &context) + &uncertainty.text()))?;
         }
     }
     let failed = done.document.verdict.is_some_and(|verdict| verdict.overall == Decision::Fail);

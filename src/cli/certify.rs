@@ -124,7 +124,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             let shown = certified.as_ref().filter(|_| options.output.is_some()).map(report::certification);
             let compared = comparison.as_ref().map(report::comparison);
             let texts: Vec<String> = shown.into_iter().chain(compared).collect();
-            output::result(&texts.join("\n"))?;
+            output::text(&texts.join("\n"))?;
         }
     }
     Ok(if comparison.is_some_and(|comparison| !comparison.same_stand) { REFUSED } else { 0 })

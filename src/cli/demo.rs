@@ -32,7 +32,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let folder = options.out.clone().unwrap_or_else(demonstration::free_folder);
     let mut steps = Vec::new();
     let passed = demonstration::run(&folder, trust_options::now(), &mut |line| match options.format {
-        Format::Text => output::result(&format!("{line}\n")).is_ok(),
+        Format::Text => output::text(&format!("{line}\n")).is_ok(),
         Format::Json => {
             steps.push(style::plain(line));
             true

@@ -35,7 +35,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let found = Differences::of(&a.content, &b.content);
     match options.format {
         Format::Json => output::json(&difference::to_json(a.side(), b.side(), &found))?,
-        Format::Text => output::result(&difference::text(a.side(), b.side(), &found))?,
+        Format::Text => output::text(&difference::text(a.side(), b.side(), &found))?,
     }
     Ok(0)
 }

@@ -65,7 +65,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     match options.format {
         Format::Json => output::json(&report::to_json(&history))?,
-        Format::Text => output::result(&report::text(&history))?,
+        Format::Text => output::text(&report::text(&history))?,
     }
     Ok(if register.is_incomplete() { UNUSABLE } else { 0 })
 }

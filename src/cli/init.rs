@@ -26,7 +26,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         error => Failure::usage(error),
     })?;
     let lines: String = made.iter().map(|path| format!("{}\n", shown(path))).collect();
-    output::result(&lines)?;
+    output::text(&lines)?;
     let (key, signers) = (options.folder.join("factory.key"), options.folder.join("allowed_signers"));
     let identity = options.identity.as_deref().unwrap_or("WHO");
     output::say(&format!(

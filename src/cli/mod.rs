@@ -114,6 +114,7 @@ pub fn main() -> ExitCode {
         Err(code) => return code,
     };
     output::set_quiet(cli.quiet);
+    output::fit_to_terminal();
     if cli.verbose {
         added.iter().for_each(|option| output::say(&format!("uses {option}")));
     }

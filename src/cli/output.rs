@@ -2,12 +2,13 @@
 
 use super::Failure;
 use crate::files;
-use crate::report::style;
+use crate::report::{columns, style};
 use crate::text::printable::{self, printable};
 use clap::ValueEnum;
 use std::io::{self, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
+use terminal_size::Width;
 
 /// The form of a result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -27,6 +28,21 @@ pub(super) enum TableFormat {
     Json,
     /// CSV for spreadsheets
     Csv,
+}
+
+/// Writes a result for people; in a terminal no line is wider than the terminal.
+pub(super) fn text(text: &str) -> Result<(), Failure> {
+    match terminal_size::terminal_size_of(io::stdout()) {
+        Some(_) => result(&columns::fitted(text, columns::width())),
+        None => result(text),
+    }
+}
+
+/// Makes the texts for people as wide as the terminal, if standard output is one.
+pub(super) fn fit_to_terminal() {
+    if let Some((Width(width), _)) = terminal_size::terminal_size_of(io::stdout()) {
+        columns::set_width(width.into());
+    }
 }
 
 /// Writes a result. Control characters are escaped, except line feeds and emphasis.
@@ -77,8 +93,16 @@ pub(super) fn say(words: &str) {
     }
 }
 
+/// Beginning of every message.
+const NAME: &str = "dtg-passport: ";
+
 /// Writes a message about a failure. Errors are ignored, because there is nowhere left to report them.
 pub(super) fn complain(words: &str) {
     let lines: Vec<String> = words.trim_end().split('\n').map(printable).collect();
-    let _ = writeln!(io::stderr().lock(), "dtg-passport: {}", lines.join("\n              "));
+    let text = format!("{NAME}{}\n", lines.join(&format!("\n{:1$}", "", NAME.len())));
+    let text = match terminal_size::terminal_size_of(io::stderr()) {
+        Some((Width(width), _)) => columns::hanging(&text, NAME.len(), width.into()),
+        None => text,
+    };
+    let _ = io::stderr().lock().write_all(text.as_bytes());
 }

@@ -120,7 +120,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     match options.format {
         Format::Json => output::json(&PlanDocument::from(&found))?,
-        Format::Text => output::result(&report::text(&found, site.id.as_str(), of_site))?,
+        Format::Text => output::text(&report::text(&found, site.id.as_str(), of_site))?,
     }
     Ok(0)
 }

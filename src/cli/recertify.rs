@@ -107,7 +107,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     })?;
     match options.format {
         Format::Json => output::json(&report::to_json(&found, options.dry_run))?,
-        Format::Text => output::result(&report::text(&found, options.dry_run))?,
+        Format::Text => output::text(&report::text(&found, options.dry_run))?,
     }
     let mut told = Told::default();
     for issued in found.new_passports() {

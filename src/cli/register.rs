@@ -72,7 +72,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         By::Issuer => register.passports.sort_by(|a, b| a.issuer.cmp(&b.issuer)),
     }
     match options.format {
-        TableFormat::Text => output::result(&report::text(&register))?,
+        TableFormat::Text => output::text(&report::text(&register))?,
         TableFormat::Json => output::json(&register)?,
         TableFormat::Csv => output::result(&report::csv(&register))?,
     }

@@ -74,7 +74,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             let written = Written { file: name_of(&path), sequence: list.sequence, revoked: ids, passports: count };
             output::json(&written)?;
         }
-        Format::Text => output::result(&format!("revoked    passports in all: {count}  {}\n", shown(&path)))?,
+        Format::Text => output::text(&format!("revoked    passports in all: {count}  {}\n", shown(&path)))?,
     }
     Ok(0)
 }

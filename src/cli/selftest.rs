@@ -18,7 +18,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let cases = selftest::run();
     match options.format {
         Format::Json => output::json(&report::to_json(&cases))?,
-        Format::Text => output::result(&report::text(&cases))?,
+        Format::Text => output::text(&report::text(&cases))?,
     }
     Ok(if cases.iter().all(selftest::Case::passed) { 0 } else { REFUSED })
 }

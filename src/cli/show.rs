@@ -76,7 +76,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let Read { content, verification, .. } = options.passport.read()?;
     match options.format {
         Format::Json => output::json(&content.write())?,
-        Format::Text => output::result(&passport_table::text(&content, verification.is_some()))?,
+        Format::Text => output::text(&passport_table::text(&content, verification.is_some()))?,
     }
     Ok(0)
 }

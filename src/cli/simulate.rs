@@ -172,7 +172,7 @@ fn run_accuracy(arguments: &AccuracyArguments) -> Result<Code, Failure> {
     let found = watched(&arguments.run, TRIALS, 1, |run| accuracy(&options, run))?;
     match arguments.run.format {
         Format::Json => output::json(&found)?,
-        Format::Text => output::result(&table::accuracy(&found))?,
+        Format::Text => output::text(&table::accuracy(&found))?,
     }
     Ok(0)
 }
@@ -192,7 +192,7 @@ fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
     }
     match arguments.run.format {
         Format::Json => output::json(&found)?,
-        Format::Text => output::result(&table::convergence(&found))?,
+        Format::Text => output::text(&table::convergence(&found))?,
     }
     Ok(0)
 }

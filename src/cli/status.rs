@@ -38,7 +38,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let status = status(workspace, trust.as_ref(), time, parallel::processors()).map_err(Failure::file)?;
     match options.format {
         Format::Json => output::json(&status)?,
-        Format::Text => output::result(&status.text())?,
+        Format::Text => output::text(&status.text())?,
     }
     Ok(match (status.is_incomplete(), status.needs_attention()) {
         (true, _) => UNUSABLE,

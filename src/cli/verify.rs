@@ -60,7 +60,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     match options.format {
         Format::Json => output::json(&verdicts)?,
-        Format::Text => output::result(&verdict::text(&verdicts))?,
+        Format::Text => output::text(&verdict::text(&verdicts))?,
     }
     Ok(code)
 }

@@ -139,6 +139,9 @@ pub(crate) struct CheckLine {
     pub code: &'static str,
     /// Result of the check as a sentence, for people.
     pub detail: String,
+    /// `false` if the check had nothing to check, because the question was not asked.
+    #[serde(skip)]
+    pub asked: bool,
 }
 
 impl Verdict {
@@ -149,6 +152,7 @@ impl Verdict {
             passed: check.passed(),
             code: check.code.as_str(),
             detail: check.detail.clone(),
+            asked: check.was_asked(),
         });
         let id = verification.id_from_anyone().map(str::to_owned);
         Self { file: file.to_owned(), valid: verification.valid(), id, checks: checks.collect() }

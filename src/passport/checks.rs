@@ -138,10 +138,18 @@ pub struct Check {
     pub detail: String,
 }
 
+/// Detail of the check of revocations if there is no list to check.
+pub(super) const NO_LIST: &str = "no revocation list was given (--revoked)";
+
 impl Check {
     /// Creates the result of a check, with `detail` as a single printable line.
     pub(crate) fn new(name: CheckName, code: Code, detail: impl Display) -> Self {
         Self { name, code, detail: printable(detail) }
+    }
+
+    /// Returns `false` if there was nothing to check, because the question was not asked.
+    pub(crate) fn was_asked(&self) -> bool {
+        self.detail != NO_LIST
     }
 
     /// Returns whether the check passed, or `None` if it was not run.

@@ -4,7 +4,7 @@
 //! anywhere. It parses no content before the signature is verified, and computes nothing before the signer is trusted,
 //! because anyone can sign a file that is expensive to compute.
 
-use super::checks::{Check, CheckName, Code};
+use super::checks::{Check, CheckName, Code, NO_LIST};
 use super::content::{Content, Dated, PASSPORT_FORMAT};
 use super::{NAMESPACE, place, read, recomputed};
 use crate::coefficients::Coefficients;
@@ -308,7 +308,7 @@ impl Run {
         let detail = match (trust.withdrawn.newest(), trust.revoked.is_empty()) {
             (Some(list), _) => format!("not withdrawn: list {} of {} does not list it", list.sequence, list.issued_at),
             (None, false) => "the signing key is not revoked; no list of withdrawn passports was given".to_owned(),
-            (None, true) => "no revocation list was given (--revoked)".to_owned(),
+            (None, true) => NO_LIST.to_owned(),
         };
         self.note(CheckName::Revocation, Code::Ok, detail);
         true

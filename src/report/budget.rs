@@ -55,7 +55,7 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
 
 fn row(part: &Contribution) -> Vec<String> {
     let [low, high] = part.standard_uncertainty.map(|u| part.cause.shown(u));
-    let size = if low < 0.99 * high { format!("{low:.2} to {high:.2}") } else { short(high) };
+    let size = if low < 0.99 * high { format!("{low:.2}–{high:.2}") } else { short(high) };
     vec![
         part.cause.kind(),
         format!("{size} {}", printed(part.cause.unit())),

@@ -1,4 +1,4 @@
-//! Result of a calibration as text, for a terminal of 100 columns.
+//! Result of a calibration as text: the decision, the parameters and the fit come first, the evidence below.
 
 use crate::calibration::diagnosis::CANNOT_TELL;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
@@ -12,7 +12,7 @@ use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, Found, Verdict, change_in_uncertainties};
 use crate::calibration::{Calibration, MethodResult, Readings};
 use crate::report::page::Language;
-use crate::report::{columns, mistake};
+use crate::report::{columns, mistake, style};
 use crate::text::printable::printable;
 use crate::units::printed;
 use std::fmt::Write;
@@ -43,14 +43,10 @@ pub(crate) struct Context<'a> {
 /// Least effect of a further visit that is worth the time, percent of the standard uncertainty.
 const LEAST_EFFECT_PERCENT: f64 = 1.0;
 
-/// Returns the whole result: parameters, fit, verdict, and errors that the residuals do not show.
+/// Returns the whole result: decision, parameters, fit; then methods, residuals, comparisons, and errors that the
+/// residuals do not show.
 pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
     let mut out = String::new();
-    let state = if context.passport_verified { "verified" } else { "NOT VERIFIED" };
-    let _ = writeln!(out, "Calibrated with passport {} ({state})", context.passport_id);
-    let (gravity, u) = context.gravity_m_per_s2;
-    let u = u.map_or_else(String::new, |u| format!(" (u {u})"));
-    let _ = writeln!(out, "g-sensitive drifts refer to local g, {gravity} m/s²{u}. u: standard uncertainty (k = 1).");
     if calibration.hint.is_some() || !calibration.settled {
         let words = "WARNING: the readings are not consistent with this stand. The parameters are not valid until the \
                      cause has been found (see below).";
@@ -59,16 +55,32 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
     if let Some(mistake) = context.mistake {
         columns::paragraph(&mut out, "", &format!("WARNING: {}", mistake::words(mistake, Language::English)));
     }
+    if let Some((name, verdict)) = context.verdict {
+        let (style, words) = headline(name, verdict);
+        let _ = writeln!(out, "{}", style(&words));
+    }
+    let state = if context.passport_verified { "verified" } else { "NOT VERIFIED" };
+    let _ = writeln!(out, "Calibrated with passport {} ({state})", context.passport_id);
+    let gravity = match context.gravity_m_per_s2 {
+        (gravity, Some(u)) => format!("{gravity:.0$} m/s² (u {u:.0$})", columns::decimals(u)),
+        (gravity, None) => format!("{gravity} m/s²"),
+    };
+    let words = format!("g-sensitive drifts refer to local g, {gravity}. u: standard uncertainty (k = 1).");
+    columns::paragraph(&mut out, "", &words);
     if let Some((readings, cost)) = context.readings {
         left_out(&mut out, readings, cost);
     }
-    parameters(&mut out, calibration);
-    methods(&mut out, calibration);
+    parameters(&mut out, calibration, context.verdict.map(|(_, verdict)| verdict));
+    if let Some(answer) = calibration.answer() {
+        beyond_the_paper(&mut out, answer);
+    }
     fit(&mut out, calibration, context.missing);
+    methods(&mut out, calibration);
+    residuals(&mut out, calibration);
     if let Some((name, verdict)) = context.verdict {
         let _ = writeln!(out, "\nComparison with gyro type {name}, with expanded uncertainty U = {COVERAGE_FACTOR} u;");
         let _ = writeln!(out, "g-sensitive drifts refer to the g of the type, {} m/s²:", verdict.gravity_m_per_s2);
-        verdict_table(&mut out, verdict, "nominal", "deviation");
+        verdict_table(&mut out, verdict, "minus nominal");
     }
     if let Some((parameter, FurtherVisit { index, ratio })) = context.further {
         let (symbol, percent) = (parameter.symbol(), 100.0 * (1.0 - ratio));
@@ -104,14 +116,45 @@ fn left_out(out: &mut String, readings: &Readings, cost: Option<(Parameter, f64)
     }
 }
 
-fn parameters(out: &mut String, calibration: &Calibration) {
-    let Some(answer) = calibration.answer() else { return };
-    let others: Vec<&MethodResult> =
-        calibration.results.iter().filter(|result| result.method != answer.method).collect();
-    let mut names = vec!["".to_owned(), "unit".to_owned(), answer.method.key().to_owned(), "u".to_owned()];
-    for other in &others {
-        names.extend([other.method.key().to_owned(), "diff. / u".to_owned()]);
+/// Returns the decision for the type in one line, and its emphasis: which parameters pass, fail and are undecided.
+fn headline(name: &str, verdict: &Verdict) -> (fn(&str) -> String, String) {
+    let of = |decision: Decision| -> Vec<&str> {
+        let rows = verdict.parameters.iter().filter(|row| row.guarded == decision);
+        rows.map(|row| symbol_of(row.parameter)).collect()
+    };
+    let (passed, all) = (of(Decision::Pass).len(), verdict.parameters.len());
+    let mut words = format!("gyro type {}: {passed} of {all} parameters pass", printable(name));
+    for (what, which) in [("fail", of(Decision::Fail)), ("undecided", of(Decision::Undecided))] {
+        if !which.is_empty() {
+            let _ = write!(words, "; {what}: {}", which.join(", "));
+        }
     }
+    let (style, mark): (fn(&str) -> String, _) = match verdict.overall {
+        Decision::Pass => (style::good, style::PASSED),
+        Decision::Fail => (style::bad, style::FAILED),
+        Decision::Undecided => (style::heading, style::NOT_ASKED),
+    };
+    (style, format!("{mark} {}  {words}", word(verdict.overall).to_uppercase()))
+}
+
+fn word(decision: Decision) -> &'static str {
+    match decision {
+        Decision::Pass => "pass",
+        Decision::Fail => "FAIL",
+        Decision::Undecided => "undecided",
+    }
+}
+
+/// Returns the symbol of a parameter from its key, or the key itself if no parameter has it.
+fn symbol_of(key: &'static str) -> &'static str {
+    Parameter::NINE.into_iter().find(|parameter| parameter.key() == key).map_or(key, Parameter::symbol)
+}
+
+/// Writes the adopted values with their uncertainties, and the decision for each if there is a type.
+fn parameters(out: &mut String, calibration: &Calibration, verdict: Option<&Verdict>) {
+    let Some(answer) = calibration.answer() else { return };
+    let mut names = vec!["", "unit", answer.method.key(), "u"];
+    names.extend(verdict.map(|_| "decision"));
     let rows: Vec<Vec<String>> = answer
         .model
         .parameters()
@@ -122,21 +165,35 @@ fn parameters(out: &mut String, calibration: &Calibration) {
             let digits = columns::decimals(u);
             let mut row = vec![parameter.symbol().to_owned(), printed(parameter.unit())];
             row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
-            for other in &others {
-                row.push(other.value(parameter).map_or_else(String::new, |value| format!("{value:.digits$}")));
-                let off = other.from_least_squares.and_then(|all| all.get(parameter.place()).copied());
-                row.push(off.map_or_else(String::new, |off| format!("{off:+.1}")));
-            }
+            let decided = verdict.iter().flat_map(|verdict| &verdict.parameters);
+            let decided = decided.filter(|row| row.parameter == parameter.key());
+            row.extend(decided.map(|row| word(row.guarded).to_owned()));
             Some(row)
         })
         .collect();
     let _ = writeln!(out);
-    columns::table(out, &names.iter().map(String::as_str).collect::<Vec<_>>(), &rows);
-    if !others.is_empty() {
-        let words =
-            "diff. / u: difference from the first column, in units of the standard uncertainty of that difference.";
-        columns::paragraph(out, "  ", words);
-    }
+    columns::table(out, &names, &rows);
+}
+
+/// Writes the values of the other methods next to the adopted ones.
+fn comparison(out: &mut String, answer: &MethodResult, others: &[&MethodResult]) {
+    let mut names = vec!["", answer.method.key()];
+    names.extend(others.iter().flat_map(|other| [other.method.key(), "diff. / u"]));
+    let row = |parameter: &Parameter| {
+        let (value, u) = (answer.value(*parameter)?, answer.standard_uncertainty(*parameter)?);
+        let digits = columns::decimals(u);
+        let mut row = vec![parameter.symbol().to_owned(), format!("{value:.digits$}")];
+        for other in others {
+            row.push(other.value(*parameter).map_or_else(String::new, |value| format!("{value:.digits$}")));
+            let off = other.from_least_squares.and_then(|all| all.get(parameter.place()).copied());
+            row.push(off.map_or_else(String::new, |off| format!("{off:+.1}")));
+        }
+        Some(row)
+    };
+    let rows: Vec<Vec<String>> = answer.model.parameters().iter().filter_map(row).collect();
+    columns::table(out, &names, &rows);
+    let words = "diff. / u: difference from the first column, in units of the standard uncertainty of that difference.";
+    columns::paragraph(out, "  ", words);
 }
 
 /// Writes ω_0 of each turn-on, the drift in time, and the test whether a larger model is needed.
@@ -176,8 +233,14 @@ fn beyond_the_paper(out: &mut String, answer: &MethodResult) {
 }
 
 fn methods(out: &mut String, calibration: &Calibration) {
-    if let Some(answer) = calibration.answer() {
-        beyond_the_paper(out, answer);
+    let Some(answer) = calibration.answer() else { return };
+    let others: Vec<&MethodResult> =
+        calibration.results.iter().filter(|result| result.method != answer.method).collect();
+    if !(others.is_empty() && calibration.refused.is_empty()) {
+        let _ = writeln!(out, "\nMethods:");
+    }
+    if !others.is_empty() {
+        comparison(out, answer, &others);
     }
     for result in &calibration.results {
         let Some(iteration) = &result.iteration else { continue };
@@ -202,7 +265,7 @@ fn methods(out: &mut String, calibration: &Calibration) {
 fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
     let Some(answer) = calibration.answer() else { return };
     if answer.chi_square.judges() {
-        residuals(out, answer);
+        chi_square(out, answer);
     } else {
         let words = "The fit cannot be tested: there are as many unknowns as readings (0 degrees of freedom), so any \
                      readings would fit. Measure more positions.";
@@ -227,7 +290,7 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
     }
 }
 
-fn residuals(out: &mut String, answer: &MethodResult) {
+fn chi_square(out: &mut String, answer: &MethodResult) {
     let chi_square = &answer.chi_square;
     let _ = writeln!(
         out,
@@ -243,6 +306,12 @@ fn residuals(out: &mut String, answer: &MethodResult) {
         );
         columns::paragraph(out, "  ", &words);
     }
+}
+
+/// Writes the residuals of the adopted result, if there are more readings than unknowns.
+fn residuals(out: &mut String, calibration: &Calibration) {
+    let Some(answer) = calibration.answer().filter(|answer| answer.chi_square.judges()) else { return };
+    let _ = writeln!(out, "\nResiduals:");
     let rows: Vec<Vec<String>> = answer
         .residuals
         .iter()
@@ -316,14 +385,8 @@ fn agreement(what: &str, found: &Scatter, less: &str) -> String {
     )
 }
 
-/// Appends the lines of a verdict; `reference` and `deviation` are the headings of the values compared with and of the
-/// differences.
-fn verdict_table(out: &mut String, verdict: &Verdict, reference: &str, deviation: &str) {
-    let decision = |decision: Decision| match decision {
-        Decision::Pass => "pass",
-        Decision::Fail => "FAIL",
-        Decision::Undecided => "undecided",
-    };
+/// Appends the lines of a verdict; `deviation` is the heading of the differences.
+fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
     let rows: Vec<Vec<String>> = verdict
         .parameters
         .iter()
@@ -331,22 +394,21 @@ fn verdict_table(out: &mut String, verdict: &Verdict, reference: &str, deviation
             let digits = columns::decimals(row.expanded_uncertainty / COVERAGE_FACTOR);
             let places = columns::decimals(row.standard_uncertainty);
             vec![
-                row.parameter.to_owned(),
-                format!("{:.places$}", row.reference_value),
+                symbol_of(row.parameter).to_owned(),
                 format!("{:.places$}", row.value),
                 format!("{:+.digits$}", row.deviation),
                 format!("{:.digits$}", row.expanded_uncertainty),
                 format!("{}", row.tolerance),
                 printed(row.unit),
-                decision(row.simple).to_owned(),
+                word(row.simple).to_owned(),
                 columns::probability(row.specific_risk),
-                decision(row.guarded).to_owned(),
+                word(row.guarded).to_owned(),
             ]
         })
         .collect();
-    let names = ["", reference, "result", deviation, "U", "tolerance", "unit", "simple", "risk", "guarded"];
+    let names = ["", "result", deviation, "U", "tolerance", "unit", "simple", "risk", "guarded"];
     columns::table(out, &names, &rows);
-    let _ = writeln!(out, "  Overall, by guarded acceptance: {}", decision(verdict.overall).to_uppercase());
+    let _ = writeln!(out, "  Overall, by guarded acceptance: {}", word(verdict.overall).to_uppercase());
     if verdict.overall == Decision::Undecided {
         columns::paragraph(out, "  ", "undecided: the uncertainty does not permit a decision.");
     }
@@ -354,7 +416,7 @@ fn verdict_table(out: &mut String, verdict: &Verdict, reference: &str, deviation
         let words = format!(
             "local g contributes most of U of {}: {:.1e} {}; to reduce it, measure gravity or state the height of the \
              site.",
-            row.parameter,
+            symbol_of(row.parameter),
             row.expanded_uncertainty_from_gravity.unwrap_or(0.0),
             printed(row.unit),
         );
@@ -385,6 +447,6 @@ fn change(
     if let Some(verdict) = verdict {
         let _ =
             writeln!(out, "Change compared with the tolerance of the type, which the paper states as an instability:");
-        verdict_table(out, verdict, "previous", "change");
+        verdict_table(out, verdict, "minus previous");
     }
 }

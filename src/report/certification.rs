@@ -4,7 +4,7 @@ use crate::certification::comparison::{Comparison, Test};
 use crate::certification::components::{Common, Variance};
 use crate::certification::suspects::{AXES, WorsePosition};
 use crate::certification::{Certification, NotCertified};
-use crate::report::columns;
+use crate::report::{columns, style};
 use crate::statistics::outlier::Bartlett;
 use crate::text::{Field, Node};
 use serde_json::{Value, json};
@@ -194,14 +194,12 @@ fn tests(out: &mut String, found: &Certification) {
 /// Returns a check run as text.
 pub(crate) fn comparison(found: &Comparison) -> String {
     let mut out = String::new();
-    let _ = writeln!(
-        out,
-        "Check against certificate {}, {} {}: {}",
-        found.certificate,
-        found.runs,
-        if found.runs == 1 { "run" } else { "runs" },
-        if found.same_stand { "THE SAME STAND" } else { "NOT AS CERTIFIED" }
-    );
+    let answer = match found.same_stand {
+        true => style::good(&format!("{} THE SAME STAND", style::PASSED)),
+        false => style::bad(&format!("{} NOT AS CERTIFIED", style::FAILED)),
+    };
+    let runs = if found.runs == 1 { "run" } else { "runs" };
+    let _ = writeln!(out, "{answer}  check against certificate {}, {} {runs}", found.certificate, found.runs);
     for words in &found.words {
         columns::paragraph(&mut out, "  ", &format!("{words}."));
     }
@@ -213,7 +211,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
             columns::probability(test.probability)
         )
     };
-    let _ = writeln!(out, "\nPositions relative to each other: {}", line(&found.all));
+    let _ = writeln!(out, "\nPositions relative to each other (p: probability): {}", line(&found.all));
     let rows: Vec<Vec<String>> = found
         .positions
         .iter()
@@ -228,7 +226,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
             row
         })
         .collect();
-    let names = ["i", "j", "x, arcsec", "u", "y, arcsec", "u", "z, arcsec", "u", "chi-square", "probability", ""];
+    let names = ["i", "j", "x, arcsec", "u", "y, arcsec", "u", "z, arcsec", "u", "chi-square", "p", ""];
     columns::table(&mut out, &names, &rows);
     let turned = |turn: &[f64; 3]| turn.map(|value| format!("{value:+.2}")).join(", ");
     let judged = found.common.test.as_ref().map_or_else(|_| "not tested".to_owned(), line);

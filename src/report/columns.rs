@@ -1,37 +1,107 @@
-//! Text in columns, at most 100 characters wide.
+//! Text in columns that fits the terminal. Where there is none, lines have at most 100 characters.
 
 use super::style;
 use crate::text::printable;
 use std::fmt::Write;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Width of the terminal. Only a word or a row that cannot be broken is wider.
-pub(crate) const COLUMNS: usize = 100;
+/// Width of a paragraph; longer lines are hard to read.
+const TEXT_COLUMNS: usize = 100;
+
+/// Width of a terminal on which nothing is made narrower still.
+const LEAST_COLUMNS: usize = 40;
+
+/// Width of the terminal, characters.
+static COLUMNS: AtomicUsize = AtomicUsize::new(TEXT_COLUMNS);
+
+/// Sets the width of the terminal, once, before anything is written.
+pub(crate) fn set_width(columns: usize) {
+    COLUMNS.store(columns.max(LEAST_COLUMNS), Ordering::Relaxed);
+}
+
+/// Returns the width of the terminal.
+pub(crate) fn width() -> usize {
+    COLUMNS.load(Ordering::Relaxed)
+}
 
 /// Appends a paragraph with `indent` before every line.
 pub(crate) fn paragraph(out: &mut String, indent: &str, words: &str) {
     out.push_str(indent);
-    wrapped(out, indent.chars().count(), words);
+    let indent = indent.chars().count();
+    wrapped(out, indent, indent, words, width().min(TEXT_COLUMNS));
 }
 
 /// Appends a name padded to `name_columns` and its value. Further lines of the value align with its beginning.
 pub(crate) fn named(out: &mut String, name: &str, name_columns: usize, value: &str) {
     let _ = write!(out, "  {name:<name_columns$}");
-    wrapped(out, 2 + name_columns, value);
+    wrapped(out, 2 + name_columns, 2 + name_columns, value, width().min(TEXT_COLUMNS));
 }
 
-/// Appends words from column `indent` on, broken at spaces, but not between a number and its unit.
-fn wrapped(out: &mut String, indent: usize, words: &str) {
-    let mut column = indent;
+/// Indent that a continued line keeps in any case, so that no text from elsewhere can look like a line of the program.
+const LEAST_INDENT: usize = 2;
+
+/// Returns the text with every line broken that is wider than `columns`. A line continues below its last column, or
+/// further left if a word needs the room.
+pub(crate) fn fitted(text: &str, columns: usize) -> String {
+    let mut out = String::with_capacity(text.len());
+    for line in text.lines() {
+        let words = line.trim_start_matches(' ');
+        let (indent, shown) = (line.len() - words.len(), shown_columns(words));
+        let at = last_column(line, columns / 2);
+        if indent + shown <= columns {
+            out.push_str(line);
+            out.push('\n');
+        } else if LEAST_INDENT + shown <= columns && at == indent {
+            let _ = writeln!(out, "{:1$}{words}", "", columns - shown);
+        } else {
+            out.push_str(&line[..at]);
+            let column = shown_columns(&line[..at]);
+            wrapped(&mut out, column, column.max(LEAST_INDENT), &line[at..], columns);
+        }
+    }
+    out
+}
+
+/// Returns the text with every line broken that is wider than `columns`; lines continue `indent` characters from the
+/// left.
+pub(crate) fn hanging(text: &str, indent: usize, columns: usize) -> String {
+    let mut out = String::with_capacity(text.len());
+    for line in text.lines() {
+        let at = line.char_indices().nth(indent).map_or(line.len(), |(at, _)| at);
+        out.push_str(&line[..at]);
+        wrapped(&mut out, indent, indent, &line[at..], columns);
+    }
+    out
+}
+
+/// Returns the place in bytes after the last gap of two spaces or more that ends within `most` characters.
+fn last_column(line: &str, most: usize) -> usize {
+    let after_gap = |at: &usize| line[..*at].ends_with("  ") && shown_columns(&line[..*at]) <= most;
+    line.match_indices(|c| c != ' ').map(|(at, _)| at).rfind(after_gap).unwrap_or(0)
+}
+
+/// Returns the columns that a text takes in a terminal: none for emphasis, two for East Asian characters.
+fn shown_columns(text: &str) -> usize {
+    let wide = |c| matches!(c, '\u{3001}'..='\u{30FF}' | '\u{4E00}'..='\u{9FFF}' | '\u{AC00}'..='\u{D7A3}' | '\u{FF01}'..='\u{FF5E}');
+    style::plain(text).chars().map(|c| if wide(c) { 2 } else { 1 }).sum()
+}
+
+/// Appends words from `column` on, broken at spaces before `columns`, but not between a number and its unit. Further lines
+/// begin at `indent`, or further left if a word needs the room.
+fn wrapped(out: &mut String, mut column: usize, indent: usize, words: &str, columns: usize) {
     for (index, word) in unbroken(words).iter().enumerate() {
-        let width = word.chars().count();
-        if index > 0 && column + 1 + width > COLUMNS {
-            let _ = write!(out, "\n{:indent$}", "");
-            column = indent;
+        let width = shown_columns(word);
+        let below = indent.min(columns.saturating_sub(width).max(LEAST_INDENT));
+        if column + usize::from(index > 0) + width > columns && (index > 0 || below < column) {
+            column = below;
+            out.truncate(out.trim_end_matches(' ').len());
+            let _ = write!(out, "\n{:column$}", "");
         } else if index > 0 {
             out.push(' ');
             column += 1;
         }
-        out.push_str(word);
+        // The non-breaking spaces of pages have done their work in `unbroken`.
+        out.push_str(&word.replace('\u{A0}', " "));
         column += width;
     }
     out.push('\n');
@@ -51,21 +121,97 @@ fn unbroken(text: &str) -> Vec<String> {
     words
 }
 
-/// Appends a table. Columns are as wide as their widest cell, numbers are right-aligned.
+/// Appends a table. Columns are as wide as their widest cell; numbers are aligned at their decimal points, words on the
+/// left. If the terminal is too narrow, headings take several lines; columns that still have no room follow below, with
+/// the headings of the rows again.
 pub(crate) fn table(out: &mut String, names: &[&str], rows: &[Vec<String>]) {
-    let width = |column: usize| {
-        let cells = rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count());
-        cells.chain([names[column].chars().count()]).max().unwrap_or(0)
+    let all: Vec<Vec<String>> = (0..names.len())
+        .map(|place| aligned(rows.iter().map(|row| row.get(place).map_or("", String::as_str)).collect()))
+        .collect();
+    let mut headings: Vec<Vec<String>> = names.iter().map(|name| vec![(*name).to_owned()]).collect();
+    let needed = |headings: &[Vec<String>]| {
+        headings.iter().zip(&all).map(|(heading, cells)| 2 + widest(heading).max(widest(cells))).sum::<usize>()
     };
-    let widths: Vec<usize> = (0..names.len()).map(width).collect();
-    let line = |cells: &mut dyn Iterator<Item = &str>| {
-        let padded: Vec<String> = cells.zip(&widths).map(|(cell, &width)| format!("{cell:>width$}")).collect();
-        format!("  {}", padded.join("  ")).trim_end().to_owned()
-    };
-    let _ = writeln!(out, "{}", style::faint(&line(&mut names.iter().copied())));
-    for row in rows {
-        let _ = writeln!(out, "{}", line(&mut row.iter().map(String::as_str)));
+    if needed(&headings) > width() {
+        headings = names.iter().zip(&all).map(|(name, cells)| stacked(name, widest(cells))).collect();
     }
+    let lines = headings.iter().map(Vec::len).max().unwrap_or(0);
+    let columns: Vec<Vec<String>> =
+        headings.into_iter().zip(all).map(|(heading, cells)| column(heading, lines, cells)).collect();
+    let heads = if names.starts_with(&["i", "j"]) { 2 + usize::from(names.get(2) == Some(&"angle")) } else { 1 };
+    let mut next = heads.min(columns.len());
+    loop {
+        let end = end_of_part(names, &columns, heads, next);
+        let part: Vec<&Vec<String>> = columns.iter().take(heads).chain(&columns[next..end]).collect();
+        for line in 0..lines + rows.len() {
+            let cells: Vec<&str> = part.iter().map(|column| column[line].as_str()).collect();
+            let words = format!("  {}", cells.join("  ")).trim_end().to_owned();
+            if line >= lines {
+                let _ = writeln!(out, "{words}");
+            } else if !words.is_empty() {
+                let _ = writeln!(out, "{}", style::faint(&words));
+            }
+        }
+        next = end;
+        if next >= columns.len() {
+            break;
+        }
+    }
+}
+
+/// Returns the end of the columns from `next` on that fit beside the first `heads`; at least one does. A column `u` is
+/// never parted from its value.
+fn end_of_part(names: &[&str], columns: &[Vec<String>], heads: usize, next: usize) -> usize {
+    let needed = |column: &Vec<String>| 2 + widest(column);
+    let mut free = width().saturating_sub(columns.iter().take(heads).map(needed).sum());
+    let mut end = next;
+    while let Some(needed) = columns.get(end).map(needed).filter(|needed| *needed <= free || end == next) {
+        free = free.saturating_sub(needed);
+        end += 1;
+    }
+    let belongs = |name: &&str| matches!(*name, "u" | "U" | "diff. / u");
+    if names.get(end).is_some_and(belongs) && end > next + 1 { end - 1 } else { end }
+}
+
+fn widest(cells: &[String]) -> usize {
+    cells.iter().map(|cell| shown_columns(cell)).max().unwrap_or(0)
+}
+
+/// Returns a heading in lines that are as narrow as its cells, or as its longest word.
+fn stacked(name: &str, columns: usize) -> Vec<String> {
+    let columns = name.split(' ').map(shown_columns).max().unwrap_or(0).max(columns);
+    let mut lines: Vec<String> = Vec::new();
+    for word in name.split(' ') {
+        match lines.last_mut().filter(|line| shown_columns(line) + 1 + shown_columns(word) <= columns) {
+            Some(line) => *line += &format!(" {word}"),
+            None => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+/// Returns the cells of a column; plain numbers end with spaces so that their decimal points are in one line.
+fn aligned(cells: Vec<&str>) -> Vec<String> {
+    let decimals = |cell: &str| cell.find('.').map_or(0, |point| cell.len() - point);
+    let plain = |cell: &&str| cell.chars().all(|c| c.is_ascii_digit() || "+-.".contains(c));
+    let most = if cells.iter().all(plain) { cells.iter().map(|cell| decimals(cell)).max().unwrap_or(0) } else { 0 };
+    let missing = |cell: &str| if cell.is_empty() { 0 } else { most.saturating_sub(decimals(cell)) };
+    cells.iter().map(|cell| format!("{cell}{:1$}", "", missing(cell))).collect()
+}
+
+/// Returns a column, padded to one width: its heading in `lines` lines, then its cells; numbers are on the right.
+fn column(heading: Vec<String>, lines: usize, cells: Vec<String>) -> Vec<String> {
+    let is_word =
+        |cell: &String| !cell.is_empty() && !cell.starts_with(|c: char| c.is_ascii_digit() || "+-<.".contains(c));
+    let words = cells.iter().any(is_word);
+    let above = std::iter::repeat_n(String::new(), lines - heading.len());
+    let column: Vec<String> = above.chain(heading).chain(cells).collect();
+    let width = widest(&column);
+    let padded = column.into_iter().map(|cell| {
+        let space = " ".repeat(width - shown_columns(&cell));
+        if words { cell + &space } else { space + &cell }
+    });
+    padded.collect()
 }
 
 /// Returns a row of CSV according to RFC 4180, but with a line feed as its end; every cell is text on one line.
@@ -157,6 +303,42 @@ mod tests {
     fn nothing_is_wider_than_a_terminal() {
         let mut out = String::new();
         paragraph(&mut out, "  ", &"word ".repeat(100));
-        assert!(out.lines().all(|line| line.chars().count() <= COLUMNS && line.starts_with("  ")));
+        assert!(out.lines().all(|line| line.chars().count() <= TEXT_COLUMNS && line.starts_with("  ")));
+    }
+
+    #[test]
+    fn a_line_continues_below_its_last_column() {
+        let due = "  ok  name  some words\n            and more\nshort\n";
+        assert_eq!(fitted("  ok  name  some words and more\nshort\n", 26), due);
+        // A word that needs the room begins further left, and a line that fits without its indent is moved.
+        assert_eq!(fitted("  a  b 0123456789abcdef\n", 18), "  a  b\n  0123456789abcdef\n");
+        assert_eq!(fitted("  a   b   0123456789abcdef\n", 18), "  a   b\n  0123456789abcdef\n");
+        assert_eq!(fitted("        0123456789abcdef\n", 18), "  0123456789abcdef\n");
+        // However long, no word begins a line.
+        assert_eq!(fitted("a 0123456789abcdef\n", 10), "a\n  0123456789abcdef\n");
+        let bold = style::heading("two words");
+        assert_eq!(fitted(&format!("{bold} more"), 9), format!("{bold}\n  more\n"));
+    }
+
+    #[test]
+    fn numbers_are_aligned_at_their_points() {
+        let rows = [["K_x", "94.99", "0.011", "pass"], ["ω_0", "-3", "0.0034", "undecided"]];
+        let rows: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(ToString::to_string).collect()).collect();
+        let mut out = String::new();
+        table(&mut out, &["", "value", "u", "decision"], &rows);
+        let lines: Vec<String> = style::plain(&out).lines().map(str::to_owned).collect();
+        assert_eq!(lines[1..], ["  K_x  94.99  0.011   pass", "  ω_0  -3     0.0034  undecided"]);
+        assert_eq!(lines[0], "       value       u  decision");
+    }
+
+    #[test]
+    fn what_has_no_room_follows_below() {
+        let names = ["i", "j", "a", "u", "b", "u"];
+        let columns: Vec<Vec<String>> = names.iter().map(|name| vec![(*name).to_owned(), "1".repeat(15)]).collect();
+        // 100 columns hold five of 17; the fifth would be b without its u.
+        assert_eq!(end_of_part(&names, &columns, 2, 2), 4);
+        assert_eq!(end_of_part(&names, &columns, 2, 4), 6);
+        assert_eq!(stacked("paper: change, %", 9), ["paper:", "change, %"]);
+        assert_eq!(stacked("u", 9), ["u"]);
     }
 }

@@ -1,38 +1,44 @@
 //! Chart of the certified deviations in block characters: sign and size of α, β, γ at each position on a common scale.
 
-use super::style;
+use super::{columns, style};
 use crate::stand::CertifiedPosition;
 use std::fmt::Write;
 
-/// Characters of a bar on each side of the axis; each character is two halves.
+/// Largest number of characters of a bar on each side of the axis; each character is two halves.
 const SIDE: usize = 14;
 
-/// Appends a line for every position with a bar for each of α, β, γ, all to one scale.
+/// Smallest number of characters for which a bar shows anything.
+const LEAST_SIDE: usize = 4;
+
+/// Appends a line for every position with a bar for each of α, β, γ, all to one scale; nothing if the terminal has no
+/// room for bars.
 pub(crate) fn picture(out: &mut String, positions: &[CertifiedPosition]) {
     let angles = |at: &CertifiedPosition| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec];
     let largest = positions.iter().flat_map(angles).fold(0.0, |largest: f64, angle| largest.max(angle.abs()));
-    if largest == 0.0 {
+    // Beside the bars a line has the indices, three axes and two gaps.
+    let side = (columns::width().saturating_sub(8 + 3 + 4) / 6).min(SIDE);
+    if largest == 0.0 || side < LEAST_SIDE {
         return;
     }
-    let names = ["alpha", "beta", "gamma"].map(|name| format!("{name:^width$}", width = 2 * SIDE + 1));
+    let names = ["alpha", "beta", "gamma"].map(|name| format!("{name:^width$}", width = 2 * side + 1));
     let _ = writeln!(out, "{}", style::faint(format!("  i  j  {}", names.join("  ")).trim_end()));
     for at in positions {
-        let bars = angles(at).map(|angle| bar(angle / largest));
+        let bars = angles(at).map(|angle| bar(angle / largest, side));
         let _ = writeln!(out, "{}", format!("{:>3}{:>3}  {}", at.i, at.j, bars.join("  ")).trim_end());
     }
     let _ = writeln!(out, "  the longest bar is {largest} arcsec; bars to the left are negative");
 }
 
-/// Returns a bar for a value from -1 to 1, around the axis in its middle.
-fn bar(part: f64) -> String {
-    let halves = (part.abs() * (2 * SIDE) as f64).round() as usize;
+/// Returns a bar for a value from -1 to 1, around the axis in its middle, with `side` characters on each side.
+fn bar(part: f64, side: usize) -> String {
+    let halves = (part.abs() * (2 * side) as f64).round() as usize;
     let whole = "█".repeat(halves / 2);
     let half = |character| if halves % 2 == 1 { character } else { "" };
     let (left, right) = match part < 0.0 {
         true => (format!("{}{whole}", half("▐")), String::new()),
         false => (String::new(), format!("{whole}{}", half("▌"))),
     };
-    format!("{left:>SIDE$}│{right:<SIDE$}")
+    format!("{left:>side$}│{right:<side$}")
 }
 
 #[cfg(test)]
@@ -42,12 +48,12 @@ mod tests {
     #[test]
     fn a_bar_is_as_long_as_its_part() {
         let blank = " ".repeat(SIDE);
-        assert_eq!(bar(0.0), format!("{blank}│{blank}"));
-        assert_eq!(bar(1.0), format!("{blank}│{}", "█".repeat(SIDE)));
-        assert_eq!(bar(-1.0), format!("{}│{blank}", "█".repeat(SIDE)));
+        assert_eq!(bar(0.0, SIDE), format!("{blank}│{blank}"));
+        assert_eq!(bar(1.0, SIDE), format!("{blank}│{}", "█".repeat(SIDE)));
+        assert_eq!(bar(-1.0, SIDE), format!("{}│{blank}", "█".repeat(SIDE)));
         // 0.35 of 28 halves is 9.8, five blocks; 0.32 is 8.96, four and a half.
-        assert_eq!(bar(-0.35).trim(), "█████│");
-        assert_eq!(bar(0.32).trim(), "│████▌");
-        assert_eq!(bar(-0.32).trim(), "▐████│");
+        assert_eq!(bar(-0.35, SIDE).trim(), "█████│");
+        assert_eq!(bar(0.32, SIDE).trim(), "│████▌");
+        assert_eq!(bar(-0.32, SIDE).trim(), "▐████│");
     }
 }

@@ -23,6 +23,15 @@ pub(crate) fn bad(words: &str) -> String {
     styled(AnsiColor::Red.on_default().bold(), words)
 }
 
+/// Mark of what passed, as on paper.
+pub(crate) const PASSED: &str = "●";
+
+/// Mark of what was not asked, or cannot be decided.
+pub(crate) const NOT_ASKED: &str = "○";
+
+/// Mark of what failed.
+pub(crate) const FAILED: &str = "✕";
+
 /// ANSI codes used here, without the escape character; [`outgoing`] lets no other code pass.
 const CODES: [&str; 5] = ["[0m", "[1m", "[2m", "[31m", "[32m"];
 

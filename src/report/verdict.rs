@@ -2,29 +2,56 @@
 
 use super::style;
 pub(crate) use crate::interface::Verdict;
+use crate::passport::CheckName;
 use crate::text::Printable;
 use std::fmt::Write;
 
-/// Returns a line for each file, and below it a line for each of its checks.
+/// Checks that are run only if they are asked for.
+const ON_REQUEST: [CheckName; 4] = [CheckName::Issuer, CheckName::Stand, CheckName::Place, CheckName::Register];
+
+/// Returns the answer for each file, what it is based on, and a line for each of its checks.
 pub(crate) fn text(verdicts: &[Verdict]) -> String {
     let mut text = String::new();
     for verdict in verdicts {
-        let answer = if verdict.valid { style::good("VALID") } else { style::bad("REFUSED") };
+        let answer = match verdict.valid {
+            true => style::good(&format!("{} VALID", style::PASSED)),
+            false => style::bad(&format!("{} REFUSED", style::FAILED)),
+        };
         let id = verdict.id.as_deref().unwrap_or("(id not verified)");
         let _ = writeln!(text, "{answer}  {id}  {}", Printable(&verdict.file));
+        let _ = writeln!(text, "  {}", counts(verdict));
         for check in &verdict.checks {
             let mark = match check.passed {
-                Some(true) => style::good("ok    "),
-                Some(false) => style::bad("FAILED"),
-                None => "-     ".to_owned(),
+                Some(true) if !check.asked => format!("{} not asked", style::NOT_ASKED),
+                Some(true) => style::good(&format!("{} passed   ", style::PASSED)),
+                Some(false) => style::bad(&format!("{} FAILED   ", style::FAILED)),
+                None => "- not run  ".to_owned(),
             };
             let _ = writeln!(
                 text,
                 "  {mark}  {:<10}  {}",
                 check.name,
-                check.detail.replace('\n', "\n                      ")
+                check.detail.replace('\n', "\n                           ")
             );
         }
     }
     text
+}
+
+/// Returns how many checks were made, how many were not run, and which were not asked for.
+fn counts(verdict: &Verdict) -> String {
+    let checked = verdict.checks.iter().filter(|check| check.asked && check.passed.is_some()).count();
+    let not_run = verdict.checks.iter().filter(|check| check.passed.is_none()).count();
+    let idle = verdict.checks.iter().filter(|check| !check.asked).map(|check| check.name);
+    let absent = ON_REQUEST.iter().map(|name| name.as_str());
+    let absent = absent.filter(|name| verdict.checks.iter().all(|check| check.name != *name));
+    let not_asked: Vec<&str> = idle.chain(absent).collect();
+    let mut words = format!("{checked} checked");
+    if not_run > 0 {
+        let _ = write!(words, ", {not_run} not run");
+    }
+    if !not_asked.is_empty() {
+        let _ = write!(words, ", {} not asked: {}", not_asked.len(), not_asked.join(", "));
+    }
+    words
 }

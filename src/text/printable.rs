@@ -11,9 +11,9 @@ use std::fmt::{self, Display, Formatter, Write};
 use std::path::{self, Path};
 
 /// Returns `true` for the characters that the program writes beyond those of signed texts: superscripts, subscripts,
-/// bars, and the replacement character for invalid bytes.
+/// bars, marks of results, and the replacement character for invalid bytes.
 fn drawn(c: char) -> bool {
-    matches!(c, '\u{2070}'..='\u{209C}' | '\u{2500}'..='\u{259F}' | '\u{FFFD}')
+    matches!(c, '\u{2070}'..='\u{209C}' | '\u{2500}'..='\u{25FF}' | '\u{2715}' | '\u{FFFD}')
 }
 
 /// Returns `true` if a character is shown unescaped: it is visible, stands alone, and reverses no text.

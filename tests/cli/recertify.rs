@@ -269,7 +269,7 @@ fn a_passport_is_enough_for_a_check() {
     let altered = fs::read_to_string(factory.path(HERE)).unwrap().replacen("gamma_arcsec: ", "gamma_arcsec: 1", 1);
     fs::write(factory.path("altered.yaml"), altered).unwrap();
     let (code, stdout, said) = factory.run(&format!("certify new.csv --against altered.yaml {TRUST}"));
-    assert!(code == 1 && stdout.is_empty() && said.contains("FAILED  signature"), "{said}");
+    assert!(code == 1 && stdout.is_empty() && said.contains("FAILED     signature"), "{said}");
 }
 
 /// `certify --force` keeps the stand file that it replaces.

@@ -1,6 +1,8 @@
-//! What a terminal gets and a pipe does not: emphasis, and never where NO_COLOR is set. The terminal is a real one, of
-//! util-linux's `script`.
+//! What a terminal gets and a pipe does not: emphasis, never where NO_COLOR is set, and lines that fit. The terminal is a
+//! real one, of util-linux's `script`.
 
+use std::collections::BTreeSet;
+use std::path::Path;
 use std::process::Command;
 
 const SHOW: [&str; 4] = ["show", "passports/SPS-2/0017/moscow-bmstu-1.yaml", "--trust", "docs/allowed_signers"];
@@ -40,4 +42,85 @@ fn no_line_is_wider_than_100_columns() {
     let text = String::from_utf8(piped.stdout).expect("UTF-8");
     let widest = text.lines().map(|line| line.chars().count()).max();
     assert!(widest.is_some_and(|columns| (60..=100).contains(&columns)), "{widest:?}");
+}
+
+const TRUST: &str = "--trust docs/allowed_signers --time 2026-11-20";
+const CALIBRATE: &str = "docs/currents.csv --laboratory docs/laboratory.yaml --gyro docs/gvk-6.yaml";
+
+/// Returns one command line or more of every verb whose result people read; `FOLDER` is an empty folder.
+fn command_lines() -> Vec<String> {
+    let passport = "passports/SPS-2/0017/moscow-bmstu-1.yaml";
+    let key = "--key FOLDER/key --identity factory@example.org";
+    vec![
+        format!("verify {passport} passports/SPS-1/0203/beijing-nim-1.yaml {TRUST} --serial 0017 --at 40.2,116.2"),
+        format!("verify {passport} {TRUST} --register passports"),
+        format!("show {passport} {TRUST}"),
+        format!("calibrate {passport} {CALIBRATE} {TRUST}"),
+        format!(
+            "calibrate {passport} {CALIBRATE} {TRUST} --budget --monte-carlo --trials 20000 --method least-squares"
+        ),
+        format!("register passports {TRUST}"),
+        format!("history SPS-2/0017 --passports passports {TRUST}"),
+        format!("diff {passport} passports/SPS-2/0017/beijing-nim-1.yaml {TRUST}"),
+        "plan --site sites/moscow-bmstu.yaml --stand passports/SPS-2/0017/stand.yaml".to_owned(),
+        "certify docs/angles.csv --stand docs/header.yaml -o FOLDER/COLUMNS.yaml".to_owned(),
+        "certify docs/check.csv --against passports/SPS-2/0017/stand.yaml".to_owned(),
+        "init FOLDER/COLUMNS".to_owned(),
+        "status --workspace FOLDER/COLUMNS --time 2026-11-20".to_owned(),
+        format!(
+            "issue passports/SPS-2/0017/stand.yaml --site sites/moscow-bmstu.yaml {key} --out FOLDER/COLUMNS/out --issued-at 2026-11-09"
+        ),
+        "simulate accuracy --trials 2000".to_owned(),
+        "simulate convergence --trials 200 --limits-deg 1,15".to_owned(),
+        "selftest".to_owned(),
+        "show a/passport/that/is/not/there/and-whose-name-is-so-long-that-the-message-fills-a-line.yaml".to_owned()
+            + " --trust docs/allowed_signers",
+    ]
+}
+
+/// Returns a name for files of the run with `columns`.
+fn with_width(columns: usize) -> String {
+    format!("w{columns}w")
+}
+
+/// Returns the lines that a terminal of `columns` gets. Progress bars overwrite their own line, and are left out.
+fn lines_at(columns: usize, command_line: &str, folder: &Path) -> Vec<String> {
+    let arguments =
+        command_line.replace("FOLDER", &folder.display().to_string()).replace("COLUMNS", &with_width(columns));
+    let command = format!("stty rows 50 columns {columns}; '{}' {arguments}", program());
+    let mut script = Command::new("script");
+    script.args(["--quiet", "--return", "--command", &command, "/dev/null"]).env("TERM", "xterm").env("NO_COLOR", "1");
+    let output = script.output().expect("`script` of util-linux runs");
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    let last =
+        |line: &str| line.rsplit(['\r', '\u{1b}']).next().unwrap_or_default().trim_start_matches("[2K").to_owned();
+    text.lines().map(|line| last(line.trim_end_matches('\r'))).collect()
+}
+
+/// The words of a text, without bars.
+fn words(lines: &[String]) -> BTreeSet<&str> {
+    let words = lines.iter().flat_map(|line| line.split_whitespace());
+    words.filter(|word| !word.contains(|c| matches!(c, '\u{2500}'..='\u{259F}'))).collect()
+}
+
+#[test]
+fn every_line_fits_the_terminal_and_no_word_is_broken() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let keygen = ["keygen", "key", "--identity", "factory@example.org", "--no-passphrase"];
+    let made = Command::new(program()).args(keygen).current_dir(&folder).output().expect("the program runs");
+    assert!(made.status.success());
+    for command_line in command_lines() {
+        let wide = lines_at(400, &command_line, folder.path());
+        assert!(wide.iter().any(|line| !line.is_empty()), "{command_line}");
+        for columns in [80, 160] {
+            let lines = lines_at(columns, &command_line, folder.path());
+            // A single word may be longer than a line.
+            let long = lines.iter().filter(|line| line.chars().count() > columns && line.trim().contains(' '));
+            let long: Vec<_> = long.collect();
+            assert!(long.is_empty(), "{command_line}, {columns} columns: {long:#?}");
+            let (found, due, own) = (words(&lines), words(&wide), with_width(columns));
+            let broken: Vec<_> = found.difference(&due).filter(|word| !word.contains(&own)).collect();
+            assert!(broken.is_empty(), "{command_line}, {columns} columns: {broken:?}");
+        }
+    }
 }
