@@ -15,6 +15,7 @@ use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
 use crate::statistics::beta::f_larger;
 use crate::statistics::least_squares::Factorised;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use std::fmt::{self, Display, Formatter};
 
 /// Reason why readings were not compared with a certificate.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -74,8 +75,8 @@ pub struct CommonTurn {
     /// Rotation of the base about east, north, up, arcsec; what cannot be distinguished from the platform is in
     /// `platform_arcsec`.
     pub base_arcsec: [f64; 3],
-    /// Test of the common rotation against the variation between runs, or the reason why that is unknown, in words.
-    pub test: Result<Test, &'static str>,
+    /// Test of the common rotation against the variation between runs; `None` if that is unknown.
+    pub test: Option<Test>,
 }
 
 /// Comparison of a check run with a certificate.
@@ -93,8 +94,94 @@ pub struct Comparison {
     pub common: CommonTurn,
     /// `true` if the stand has not changed: all positions repeat and agree, and no common rotation is significant.
     pub same_stand: bool,
-    /// Sentences that give the reasons and the limits of the result.
+    /// Reasons and limits of the result.
+    pub(crate) findings: Vec<Finding>,
+    /// The findings in words, a sentence each.
     pub words: Vec<String>,
+}
+
+/// Reason for the result of a comparison, or a limit of it. Displayed, it is an English sentence without a full stop;
+/// `report` has the words of other languages.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Finding {
+    /// Most positions have changed.
+    AnotherStand,
+    /// Position that has changed relative to the others.
+    Changed(ComparedPosition),
+    /// Significant change that is not that of a single position.
+    ChangedTogether,
+    /// Change that is slightly larger than chance explains.
+    Slightly,
+    /// Significant rotation common to all positions.
+    Rotated,
+    /// Common rotation that is slightly larger than chance explains.
+    RotatedSlightly,
+    /// Rotation of the stand as a whole, which was not tested.
+    NotTested(Untested),
+    /// Angles without a stated uncertainty.
+    TreatedAsExact,
+    /// Readings that are those of the certificate.
+    SameReadings,
+}
+
+/// Reason why the rotation of the stand as a whole was not tested.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Untested {
+    /// Variation between the check runs that is unknown.
+    Variation,
+    /// One check run, and a certificate without the number of its runs.
+    NumberOfRuns,
+    /// Certificate without the common parts of the uncertainty.
+    CommonParts,
+}
+
+impl Display for Finding {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::AnotherStand => {
+                "no half of the positions agree with each other; this is another stand or another certificate"
+            }
+            Self::Changed(ComparedPosition { index, turn_arcsec: [x, y, z], .. }) => {
+                return write!(
+                    f,
+                    "position {index} has changed: {x:+.2}, {y:+.2}, {z:+.2} arcsec about x, y, z relative to the other \
+                     positions"
+                );
+            }
+            Self::ChangedTogether => "the positions have changed by more than stated; no single position stands out",
+            Self::Slightly => {
+                "the differences of the positions are slightly larger than chance explains; measure another run"
+            }
+            Self::Rotated => {
+                "all positions have rotated together; a datum surface has changed (gyro seat, level or azimuth), not \
+                 single positions"
+            }
+            Self::RotatedSlightly => {
+                "the common rotation of all positions is slightly larger than chance explains; measure more runs"
+            }
+            Self::NotTested(why) => return write!(f, "rotation of the stand as a whole was not tested: {why}"),
+            Self::TreatedAsExact => {
+                "the certificate does not state the uncertainty of all angles (u_alpha_arcsec etc.); these angles were \
+                 treated as exact, so differences appear more significant than they are"
+            }
+            Self::SameReadings => {
+                "the certificate was computed from these readings, so they do not show the present state of the stand"
+            }
+        })
+    }
+}
+
+impl Display for Untested {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Variation => "the variation between the check runs is unknown",
+            Self::NumberOfRuns => {
+                "one run does not show the variation between set-ups, and the certificate does not state the number of \
+                 runs behind its common_*; measure two runs or more"
+            }
+            Self::CommonParts => "the certificate does not state common_platform_arcsec and common_base_arcsec",
+        })
+    }
 }
 
 /// Differences between check and certificate as rotations of the case, with their standard uncertainties and the design
@@ -138,9 +225,10 @@ pub fn compare(
         .collect();
     let runs = readings.runs().len();
     let between = Between::new(&certificate.certificate, runs, again);
-    let between = between.as_ref().map_err(|why| *why);
-    let common = differences.common(&repeating, certificate, between).ok_or(NotCompared::TooFewPositions)?;
-    let moved = common.test.is_ok_and(|test| test.probability < OUTLIER);
+    let common = differences.common(&repeating, certificate, between.as_ref().ok());
+    let common = common.ok_or(NotCompared::TooFewPositions)?;
+    let untested = between.err().or(common.test.is_none().then_some(Untested::CommonParts));
+    let moved = common.test.is_some_and(|test| test.probability < OUTLIER);
     let same_stand = repeating.len() == places.len() && all.probability >= OUTLIER && !moved;
     let mut found = Comparison {
         certificate: certificate.certificate.number.clone(),
@@ -149,20 +237,18 @@ pub fn compare(
         positions,
         common,
         same_stand,
+        findings: Vec::new(),
         words: Vec::new(),
     };
-    found.words = words(&found, moved);
+    found.findings = findings(&found, moved, untested);
     if certificate.positions.iter().any(|at| certified_u_arcsec(at).is_none()) {
-        let missing = "the certificate does not state the uncertainty of all angles (u_alpha_arcsec etc.); these \
-                       angles were treated as exact, so differences appear more significant than they are";
-        found.words.push(missing.to_owned());
+        found.findings.push(Finding::TreatedAsExact);
     }
     let evidence = certificate.certificate.evidence.as_ref();
     if evidence.is_some_and(|evidence| readings.sha256() == Some(&evidence.readings_sha256)) {
-        let same = "the certificate was computed from these readings, so they do not show the present state of the \
-                    stand";
-        found.words.push(same.to_owned());
+        found.findings.push(Finding::SameReadings);
     }
+    found.words = found.findings.iter().map(ToString::to_string).collect();
     Ok(found)
 }
 
@@ -303,20 +389,12 @@ impl Differences {
     }
 
     /// Returns the rotation common to the `repeating` positions (to all if none repeat), with its test.
-    fn common(
-        &self,
-        repeating: &[usize],
-        certificate: &Stand,
-        between: Result<&Between, &'static str>,
-    ) -> Option<CommonTurn> {
+    fn common(&self, repeating: &[usize], certificate: &Stand, between: Option<&Between>) -> Option<CommonTurn> {
         let every: Vec<usize> = (0..certificate.positions.len()).collect();
         let (shared, r_inverse, _) = self.shared(if repeating.is_empty() { &every } else { repeating })?;
         let base = &self.base_axes * shared.rows(3, shared.len() - 3);
         let certificate = &certificate.certificate;
-        let test = between.and_then(|between| {
-            let test = self.common_test(&shared, &r_inverse, certificate, between);
-            test.ok_or("the certificate does not state common_platform_arcsec and common_base_arcsec")
-        });
+        let test = between.and_then(|between| self.common_test(&shared, &r_inverse, certificate, between));
         Some(CommonTurn {
             platform_arcsec: [shared[0], shared[1], shared[2]],
             base_arcsec: [base[0], base[1], base[2]],
@@ -367,13 +445,13 @@ impl Between {
     /// Returns the variation of the check itself if it has several runs, else that of the certificate's readings.
     ///
     /// # Errors
-    /// Returns the reason, in words, if neither shows it.
-    fn new(certificate: &Certificate, runs: usize, again: Option<&Certification>) -> Result<Self, &'static str> {
+    /// Returns the reason if neither shows it.
+    fn new(certificate: &Certificate, runs: usize, again: Option<&Certification>) -> Result<Self, Untested> {
         let evidence = certificate.evidence.as_ref().map(|evidence| f64::from(evidence.runs));
         let degrees_of_freedom = |runs: f64| 3.0 * (runs - 1.0);
         let of_certificate = evidence.map_or(f64::INFINITY, degrees_of_freedom);
         if runs > 1 {
-            let components = &again.ok_or("the variation between the check runs is unknown")?.components;
+            let components = &again.ok_or(Untested::Variation)?.components;
             let runs = runs as f64;
             return Ok(Self {
                 runs,
@@ -382,10 +460,7 @@ impl Between {
                 degrees_of_freedom: degrees_of_freedom(runs).min(of_certificate),
             });
         }
-        let evidence = evidence.ok_or(
-            "one run does not show the variation between set-ups, and the certificate does not state the number of \
-             runs behind its common_*; measure two runs or more",
-        )?;
+        let evidence = evidence.ok_or(Untested::NumberOfRuns)?;
         let of_one_run = |common: Option<f64>, on: ActsOn| {
             let of_mean = square(common.unwrap_or(0.0)) - certificate.type_b_arcsec2(on);
             of_mean.max(0.0) * evidence
@@ -407,49 +482,21 @@ fn own_variance(turn: &Turn, u_arcsec: &Vector3<f64>) -> Vector3<f64> {
     })
 }
 
-fn words(found: &Comparison, moved: bool) -> Vec<String> {
-    let mut said = Vec::new();
-    let out: Vec<&ComparedPosition> = found.positions.iter().filter(|at| !at.repeats).collect();
-    if !out.is_empty() && out.len() == found.positions.len() {
-        said.push(
-            "no half of the positions agree with each other; this is another stand or another certificate".to_owned(),
-        );
-    } else {
-        for at in &out {
-            let [x, y, z] = at.turn_arcsec;
-            let index = at.index;
-            said.push(format!(
-                "position {index} has changed: {x:+.2}, {y:+.2}, {z:+.2} arcsec about x, y, z relative \
-                 to the other positions"
-            ));
-        }
-        if out.is_empty() && found.all.probability < OUTLIER {
-            said.push("the positions have changed by more than stated; no single position stands out".to_owned());
-        } else if out.is_empty() && found.all.probability < STRAGGLER {
-            said.push(
-                "the differences of the positions are slightly larger than chance explains; measure another \
-                       run"
-                .to_owned(),
-            );
-        }
+fn findings(found: &Comparison, moved: bool, untested: Option<Untested>) -> Vec<Finding> {
+    let mut findings: Vec<Finding> =
+        found.positions.iter().filter(|at| !at.repeats).copied().map(Finding::Changed).collect();
+    if !findings.is_empty() && findings.len() == found.positions.len() {
+        findings = vec![Finding::AnotherStand];
+    } else if findings.is_empty() && found.all.probability < OUTLIER {
+        findings.push(Finding::ChangedTogether);
+    } else if findings.is_empty() && found.all.probability < STRAGGLER {
+        findings.push(Finding::Slightly);
     }
     if moved {
-        said.push(
-            "all positions have rotated together; a datum surface has changed (gyro seat, level or azimuth), not \
-             single positions"
-                .to_owned(),
-        );
-    } else {
-        match found.common.test {
-            Err(why) => said.push(format!("rotation of the stand as a whole was not tested: {why}")),
-            Ok(test) if test.probability < STRAGGLER => {
-                said.push(
-                    "the common rotation of all positions is slightly larger than chance explains; measure more runs"
-                        .to_owned(),
-                );
-            }
-            Ok(_) => {}
-        }
+        findings.push(Finding::Rotated);
+    } else if found.common.test.is_some_and(|test| test.probability < STRAGGLER) {
+        findings.push(Finding::RotatedSlightly);
     }
-    said
+    findings.extend(untested.map(Finding::NotTested));
+    findings
 }

@@ -3,6 +3,7 @@
 //! * `header`: the stand file before the measurement.
 //! * `readings`: the angles read, with every position in every run.
 //! * `components`: variance components (the positions' own scatter, and the part common to a run).
+//! * `remark`: remarks for the signatory.
 //! * `suspects`: positions that scatter more (Cochran), outliers (Grubbs), and runs that agree too well.
 //! * `comparison`: comparison of a later check run with the certificate.
 //! * `document`: the stand file as text, with comments on the origin of its numbers.
@@ -15,12 +16,14 @@ mod deletion;
 pub(crate) mod document;
 pub(crate) mod header;
 pub(crate) mod readings;
+pub(crate) mod remark;
 pub(crate) mod suspects;
 
 pub use comparison::{CommonTurn, ComparedPosition, Comparison, NotCompared, Test, compare};
 use components::{Common, Components, Variance};
 pub use header::{Header, NominalPosition};
 pub use readings::{AngleReadings, NotBalanced};
+use remark::Remark;
 use suspects::Suspects;
 
 use crate::calibration::inputs::Turn;
@@ -122,7 +125,9 @@ pub struct Certification {
     pub(crate) components: Components,
     /// Positions that scatter more than the others, outliers, and runs that agree too well.
     pub(crate) suspects: Suspects,
-    /// Warnings for the signatory of the certificate, a sentence each.
+    /// Remarks for the signatory of the certificate.
+    pub(crate) remarks: Vec<Remark>,
+    /// The remarks in words, a sentence each.
     pub warnings: Vec<String>,
 }
 
@@ -188,11 +193,12 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
         excluded: Some(readings.excluded().to_vec()).filter(|excluded| !excluded.is_empty()),
     };
     certificate.evidence = readings.sha256().map(of_readings);
-    let mut warnings = suspects.warnings(runs);
-    warnings.extend(remarks(&components, runs.len(), &stand.positions));
-    warnings.extend(stand::remarks::of(&stand.certificate, &stand.positions));
+    let mut remarks = suspects.remarks(runs);
+    remarks.extend(remarks_on(&components, runs.len(), &stand.positions));
+    remarks.extend(stand::remarks::of(&stand.certificate, &stand.positions).into_iter().map(Remark::Odd));
+    let warnings = remarks.iter().map(ToString::to_string).collect();
     let (runs, repeated_rows) = (runs.to_vec(), readings.repeated_rows());
-    Ok(Certification { stand, runs, repeated_rows, components, suspects, warnings })
+    Ok(Certification { stand, runs, repeated_rows, components, suspects, remarks, warnings })
 }
 
 /// Replaces the angles of excluded readings by their predictions from all other readings (Yates' missing-plot
@@ -334,38 +340,18 @@ fn freedom(value: f64) -> f64 {
     (value * 10.0).round().max(1.0) / 10.0
 }
 
-fn remarks(components: &Components, runs: usize, positions: &[CertifiedPosition]) -> Vec<String> {
-    let mut said = Vec::new();
+fn remarks_on(components: &Components, runs: usize, positions: &[CertifiedPosition]) -> Vec<Remark> {
+    let mut remarks = Vec::new();
     if runs < ENOUGH_RUNS {
-        let freedom = 3 * (runs - 1);
-        // GUM (JCGM 100), E.4.3: the relative standard deviation of s is about 1/√(2ν).
-        let doubt = 100.0 / (2.0 * freedom as f64).sqrt();
-        said.push(format!(
-            "{runs} runs are few: the common part of a run has only {freedom} degrees of freedom, so its uncertainty \
-             has an uncertainty of {doubt:.0} %; measure five runs or more"
-        ));
+        remarks.push(Remark::FewRuns { runs, degrees_of_freedom: 3 * (runs - 1) });
     }
-    match components.base_axes {
-        3 => {}
-        0 => said.push(
-            "in these positions a rotation of the base cannot be distinguished from one of the platform; \
-             common_base_arcsec is absent, and common_platform_arcsec includes both"
-                .to_owned(),
-        ),
-        axes => said.push(format!(
-            "in these positions only {axes} of the three axes of the base can be distinguished from the platform; \
-             common_platform_arcsec includes the rest"
-        )),
+    if components.base_axes < 3 {
+        remarks.push(Remark::BaseAxes(components.base_axes));
     }
-    let largest = positions
-        .iter()
-        .flat_map(|at| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec])
-        .fold(0.0, |a, b| f64::max(a, b.abs()));
-    if largest < 0.5 {
-        said.push(format!(
-            "no angle is larger than {largest:.2} arcsec; check that the angles are in arcseconds, not \
-             degrees"
-        ));
+    let angles = positions.iter().flat_map(|at| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec]);
+    let largest_arcsec = angles.fold(0.0, |a, b| f64::max(a, b.abs()));
+    if largest_arcsec < 0.5 {
+        remarks.push(Remark::SmallAngles(largest_arcsec));
     }
-    said
+    remarks
 }

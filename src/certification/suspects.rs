@@ -2,6 +2,7 @@
 
 use super::components::{Components, Variance};
 use super::deletion::Deletion;
+use super::remark::Remark;
 use super::{AngleReadings, Header};
 use crate::coefficients::PositionIndex;
 use crate::statistics::outlier::{Bartlett, bartlett, bonferroni_student, cochran_probability};
@@ -72,10 +73,6 @@ pub(crate) struct Suspects {
 }
 
 /// Returns a probability as text; the smallest numbers of the computer are not zero.
-fn probability(p: f64) -> String {
-    if p < 1e-99 { "below 1e-99".to_owned() } else { format!("{p:.2e}") }
-}
-
 impl Suspects {
     pub(crate) fn of(header: &Header, readings: &AngleReadings, components: &Components) -> Self {
         let outliers = outliers(header, readings, components);
@@ -95,61 +92,21 @@ impl Suspects {
         }
     }
 
-    /// Returns a sentence for each suspect position, reading or run.
-    pub(crate) fn warnings(&self, runs: &[u32]) -> Vec<String> {
-        let mut said = Vec::new();
-        for worse in &self.worse {
-            said.push(format!(
-                "{}: the standard deviation of position {} is {:.1} times the pooled one (Cochran's test: probability \
-                 {}); its uncertainty is computed from its own readings, that of the others without it",
-                grade(worse.probability),
-                worse.index,
-                worse.ratio,
-                probability(worse.probability)
-            ));
-        }
-        for out in &self.outliers {
-            let line = out.line.map_or_else(String::new, |line| format!(" (line {line} of the readings)"));
-            said.push(format!(
-                "{}: position {}, run {}{line}, differs by {:+.2} arcsec from the other runs about {} (Grubbs' test: \
-                 probability {}); it was not excluded; measure it again, or omit the run",
-                grade(out.probability),
-                out.index,
-                out.run,
-                out.residual_arcsec,
-                AXES[out.axis],
-                probability(out.probability)
-            ));
-        }
+    /// Returns a remark for each suspect position, reading or run.
+    pub(crate) fn remarks(&self, runs: &[u32]) -> Vec<Remark> {
+        let mut remarks: Vec<Remark> = self.worse.iter().copied().map(Remark::Worse).collect();
+        remarks.extend(self.outliers.iter().copied().map(Remark::Outlier));
         if let ([one, other], false) = (runs, self.outliers.is_empty()) {
-            said.push(format!("two runs do not show whether run {one} or run {other} is wrong; measure a third run"));
+            remarks.push(Remark::TwoRuns(*one, *other));
         }
         if !self.outliers.is_empty() && self.worse.is_empty() {
-            said.push(
-                "because a reading is suspect, single positions were not compared, and all positions state the pooled \
-                 standard deviation"
-                    .to_owned(),
-            );
+            remarks.push(Remark::NotCompared);
         }
-        for (one, other) in &self.twins {
-            said.push(format!(
-                "runs {one} and {other} agree more than 30 times better than other runs; check whether one is a copy \
-                 of the other"
-            ));
-        }
-        if let Some(test) = self.axes.filter(|test| test.probability < OUTLIER) {
-            said.push(format!(
-                "the variances about x, y and z differ (Bartlett's test: probability {}); repeatability_arcsec is \
-                 their root mean square, which is too large for one axis and too small for another",
-                probability(test.probability)
-            ));
-        }
-        said
+        remarks.extend(self.twins.iter().map(|(one, other)| Remark::Twins(*one, *other)));
+        let axes = self.axes.filter(|test| test.probability < OUTLIER);
+        remarks.extend(axes.map(|test| Remark::AxesDiffer(test.probability)));
+        remarks
     }
-}
-
-fn grade(probability: f64) -> &'static str {
-    if probability < OUTLIER { "outlier" } else { "straggler" }
 }
 
 fn groups(variances: &[Variance]) -> Vec<(f64, f64)> {

@@ -264,6 +264,7 @@ impl Draft {
         let gyro = GyroType::gvk_6().nominal.to_model();
         let noise = noise_growth(&positions, content.earth.rate(&content.site), &gyro, meter);
         let odd = stand::remarks::of(&content.certificate, &content.positions);
+        let odd = odd.iter().map(ToString::to_string).collect();
         Remarks { noise, uncertainty_growth: content.site.uncertainty_growth(), odd, absences: absences(content) }
     }
 }

@@ -1,4 +1,4 @@
-//! Uncertainty budget as text, for a terminal of 100 columns.
+//! Uncertainty budget as text.
 
 use crate::report::columns;
 use crate::uncertainty::Budget;

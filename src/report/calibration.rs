@@ -186,7 +186,7 @@ fn comparison(out: &mut String, answer: &MethodResult, others: &[&MethodResult])
         for other in others {
             row.push(other.value(*parameter).map_or_else(String::new, |value| format!("{value:.digits$}")));
             let off = other.from_least_squares.and_then(|all| all.get(parameter.place()).copied());
-            row.push(off.map_or_else(String::new, |off| format!("{off:+.1}")));
+            row.push(off.map_or_else(String::new, |off| columns::signed(off, 1)));
         }
         Some(row)
     };
@@ -318,8 +318,8 @@ fn residuals(out: &mut String, calibration: &Calibration) {
         .map(|residual| {
             let (value, normalised) = (residual.residual_deg_per_h, residual.normalised);
             let mut row = vec![residual.index.i.to_string(), residual.index.j.to_string()];
-            row.extend([value.x, value.y].map(|x| format!("{x:+.5}")));
-            row.extend([normalised.x, normalised.y].map(|x| format!("{x:+.1}")));
+            row.extend([value.x, value.y].map(|x| columns::signed(x, 5)));
+            row.extend([normalised.x, normalised.y].map(|x| columns::signed(x, 1)));
             row
         })
         .collect();
@@ -396,7 +396,7 @@ fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
             vec![
                 symbol_of(row.parameter).to_owned(),
                 format!("{:.places$}", row.value),
-                format!("{:+.digits$}", row.deviation),
+                columns::signed(row.deviation, digits),
                 format!("{:.digits$}", row.expanded_uncertainty),
                 format!("{}", row.tolerance),
                 printed(row.unit),
@@ -437,7 +437,7 @@ fn change(
         .iter()
         .zip(change)
         .filter(|(_, change)| change.is_finite())
-        .map(|(parameter, change)| format!("{} {change:+.1}", parameter.symbol()))
+        .map(|(parameter, change)| format!("{} {}", parameter.symbol(), columns::signed(change, 1)))
         .collect();
     let _ = writeln!(
         out,

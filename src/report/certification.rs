@@ -88,7 +88,7 @@ fn comparison_json(found: &Comparison) -> Value {
         "common": {
             "platform_arcsec": found.common.platform_arcsec,
             "base_arcsec": found.common.base_arcsec,
-            "test": found.common.test.as_ref().ok().map(test_json),
+            "test": found.common.test.as_ref().map(test_json),
         },
         "words": found.words,
     })
@@ -135,7 +135,7 @@ pub(crate) fn certification(found: &Certification) -> String {
     columns::table(&mut out, &names, &rows);
     components(&mut out, found);
     tests(&mut out, found);
-    for warning in &found.warnings {
+    for warning in &found.remarks {
         columns::paragraph(&mut out, "", &format!("WARNING: {warning}."));
     }
     out
@@ -200,7 +200,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
     };
     let runs = if found.runs == 1 { "run" } else { "runs" };
     let _ = writeln!(out, "{answer}  check against certificate {}, {} {runs}", found.certificate, found.runs);
-    for words in &found.words {
+    for words in &found.findings {
         columns::paragraph(&mut out, "  ", &format!("{words}."));
     }
     let line = |test: &Test| {
@@ -229,7 +229,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
     let names = ["i", "j", "x, arcsec", "u", "y, arcsec", "u", "z, arcsec", "u", "chi-square", "p", ""];
     columns::table(&mut out, &names, &rows);
     let turned = |turn: &[f64; 3]| turn.map(|value| format!("{value:+.2}")).join(", ");
-    let judged = found.common.test.as_ref().map_or_else(|_| "not tested".to_owned(), line);
+    let judged = found.common.test.as_ref().map_or_else(|| "not tested".to_owned(), line);
     let words = format!(
         "Common rotation, arcsec: platform {} about x, y, z, base {} about east, north, up; {judged}",
         turned(&found.common.platform_arcsec),

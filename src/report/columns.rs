@@ -309,7 +309,7 @@ mod tests {
     #[test]
     fn a_line_continues_below_its_last_column() {
         let due = "  ok  name  some words\n            and more\nshort\n";
-        assert_eq!(fitted("  ok  name  some words and more\nshort\n", 26), due);
+        assert_eq!(fitted("  ok  name  some words and more\nshort\n", 25), due);
         // A word that needs the room begins further left, and a line that fits without its indent is moved.
         assert_eq!(fitted("  a  b 0123456789abcdef\n", 18), "  a  b\n  0123456789abcdef\n");
         assert_eq!(fitted("  a   b   0123456789abcdef\n", 18), "  a   b\n  0123456789abcdef\n");

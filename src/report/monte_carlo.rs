@@ -1,4 +1,4 @@
-//! Result of a Monte Carlo run as text, for a terminal of 100 columns.
+//! Result of a Monte Carlo run as text.
 
 use crate::report::columns;
 use crate::uncertainty::MonteCarlo;

@@ -1,4 +1,4 @@
-//! Passport in a terminal: aligned tables of at most 100 columns, units in the headings.
+//! Passport in a terminal: aligned tables, units in the headings.
 
 use crate::passport::Content;
 use crate::passport::content::Rows;

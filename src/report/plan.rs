@@ -1,4 +1,4 @@
-//! A plan as text, for a terminal of 100 columns.
+//! A plan as text.
 
 use super::columns;
 use crate::calibration::parameter::Parameter;

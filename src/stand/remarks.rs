@@ -1,6 +1,8 @@
 //! Remarks on unusual values in a certificate, which are possible and therefore not refused, but usually errors.
 
 use super::{Certificate, CertifiedPosition};
+use crate::coefficients::PositionIndex;
+use std::fmt::{self, Display, Formatter};
 
 /// Usual temperatures of a room in which stands are measured and used, °C.
 const ROOM_C: std::ops::RangeInclusive<f64> = 0.0..=45.0;
@@ -14,16 +16,50 @@ const FAR_OUT: f64 = 20.0;
 /// Size below which an angle is never unusual, arcsec.
 const SMALL_ARCSEC: f64 = 60.0;
 
-/// Returns a sentence for each unusual value in a certificate and its positions.
-pub(crate) fn of(certificate: &Certificate, positions: &[CertifiedPosition]) -> Vec<String> {
-    let mut said = temperatures(certificate);
+/// Unusual value in a certificate. Displayed, it is a sentence without a full stop.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Odd {
+    /// Angle (0, 1, 2 for α, β, γ) that is far larger than `usual_arcsec`, the larger angles of the other positions.
+    FarAngle { angle: usize, index: PositionIndex, arcsec: f64, usual_arcsec: f64 },
+    /// Temperature that no laboratory has; `key` states it.
+    Temperature { key: &'static str, celsius: f64 },
+    /// Temperature of the measurement outside the certified range.
+    OutsideRange { celsius: f64, range: [f64; 2] },
+}
+
+impl Display for Odd {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Self::FarAngle { angle, index, arcsec, usual_arcsec } => write!(
+                f,
+                "{}_arcsec of position {index} is {arcsec}, more than {FAR_OUT} times the {usual_arcsec} of the \
+                 other positions; check the digits, the unit and the position",
+                ["alpha", "beta", "gamma"][*angle]
+            ),
+            Self::Temperature { key, celsius } => {
+                let (low, high) = (ROOM_C.start(), ROOM_C.end());
+                write!(f, "{key} is {celsius} deg C, outside the usual room temperature of {low} to {high} deg C")?;
+                let from_kelvin = celsius - ZERO_CELSIUS_K;
+                if ROOM_C.contains(&from_kelvin) {
+                    write!(f, "; in kelvin it would be {from_kelvin:.2} deg C")?;
+                }
+                Ok(())
+            }
+            Self::OutsideRange { celsius, range: [low, high] } => write!(
+                f,
+                "temperature_c is {celsius} deg C, but temperature_range_c is {low} to {high} deg C; the deviations were \
+                 measured outside the certified range"
+            ),
+        }
+    }
+}
+
+/// Returns the unusual values in a certificate and its positions.
+pub(crate) fn of(certificate: &Certificate, positions: &[CertifiedPosition]) -> Vec<Odd> {
+    let mut found = temperatures(certificate);
     type Angle = fn(&CertifiedPosition) -> f64;
-    let angles: [(&str, Angle); 3] = [
-        ("alpha_arcsec", |at| at.alpha_arcsec),
-        ("beta_arcsec", |at| at.beta_arcsec),
-        ("gamma_arcsec", |at| at.gamma_arcsec),
-    ];
-    for (key, angle) in angles {
+    let angles: [Angle; 3] = [|at| at.alpha_arcsec, |at| at.beta_arcsec, |at| at.gamma_arcsec];
+    for (number, angle) in angles.into_iter().enumerate() {
         let mut sizes: Vec<f64> = positions.iter().map(|at| angle(at).abs()).collect();
         sizes.sort_by(f64::total_cmp);
         // Large angles in more than a quarter of the positions may be a property of the stand.
@@ -31,45 +67,27 @@ pub(crate) fn of(certificate: &Certificate, positions: &[CertifiedPosition]) -> 
             continue;
         };
         let odd = |at: &&CertifiedPosition| angle(at).abs() > f64::max(SMALL_ARCSEC, FAR_OUT * usual);
-        said.extend(positions.iter().filter(odd).map(|at| {
-            format!(
-                "{key} of position {} is {}, more than {FAR_OUT} times the {usual} of the other positions; check the \
-                 digits, the unit and the position",
-                at.index(),
-                angle(at)
-            )
-        }));
+        let far = |at: &CertifiedPosition| Odd::FarAngle {
+            angle: number,
+            index: at.index(),
+            arcsec: angle(at),
+            usual_arcsec: usual,
+        };
+        found.extend(positions.iter().filter(odd).map(far));
     }
-    said
+    found
 }
 
-fn temperatures(certificate: &Certificate) -> Vec<String> {
+fn temperatures(certificate: &Certificate) -> Vec<Odd> {
     let range = certificate.temperature_range_c;
-    let kelvin = |value: f64| {
-        let celsius = value - ZERO_CELSIUS_K;
-        if ROOM_C.contains(&celsius) { format!("; in kelvin it would be {celsius:.2} deg C") } else { String::new() }
-    };
-    let mut said = Vec::new();
-    let ends = range.map(|[low, high]| [("temperature_range_c", low), ("temperature_range_c", high)]);
-    let measured = certificate.temperature_c.map(|value| ("temperature_c", value));
-    for (key, value) in
-        measured.into_iter().chain(ends.into_iter().flatten()).filter(|(_, value)| !ROOM_C.contains(value))
-    {
-        let (low, high) = (ROOM_C.start(), ROOM_C.end());
-        said.push(format!(
-            "{key} is {value} deg C, outside the usual room temperature of {low} to {high} deg C{}",
-            kelvin(value)
-        ));
-    }
-    if let (Some(value), Some([low, high])) = (certificate.temperature_c, range)
-        && !(low..=high).contains(&value)
-    {
-        said.push(format!(
-            "temperature_c is {value} deg C, but temperature_range_c is {low} to {high} deg C; the deviations were \
-             measured outside the certified range"
-        ));
-    }
-    said
+    let measured = certificate.temperature_c.map(|celsius| ("temperature_c", celsius));
+    let ends = range.into_iter().flatten().map(|celsius| ("temperature_range_c", celsius));
+    let unusual = measured.into_iter().chain(ends).filter(|(_, celsius)| !ROOM_C.contains(celsius));
+    let mut found: Vec<Odd> = unusual.map(|(key, celsius)| Odd::Temperature { key, celsius }).collect();
+    let outside =
+        certificate.temperature_c.zip(range).filter(|(celsius, [low, high])| !(low..=high).contains(&celsius));
+    found.extend(outside.map(|(celsius, range)| Odd::OutsideRange { celsius, range }));
+    found
 }
 
 #[cfg(all(test, feature = "factory"))]
@@ -81,7 +99,7 @@ mod tests {
     fn said_of(from: &str, to: &str) -> Vec<String> {
         assert!(STAND.contains(from));
         let stand = Stand::from_yaml("stand.yaml", STAND.replace(from, to).as_bytes()).unwrap();
-        super::of(&stand.certificate, &stand.positions)
+        super::of(&stand.certificate, &stand.positions).iter().map(ToString::to_string).collect()
     }
 
     #[test]
@@ -91,7 +109,7 @@ mod tests {
             [include_str!("../../passports/SPS-1/0203/stand.yaml"), include_str!("../../tests/cmd/files/stand.yaml")]
         {
             let stand = Stand::from_yaml("stand.yaml", stand.as_bytes()).unwrap();
-            assert_eq!(super::of(&stand.certificate, &stand.positions), Vec::<String>::new());
+            assert_eq!(super::of(&stand.certificate, &stand.positions), []);
         }
     }
 
@@ -113,6 +131,6 @@ mod tests {
         // Half of the positions, as on a stand whose frame is not perpendicular to its axis.
         let mut stand = Stand::from_yaml("stand.yaml", STAND.as_bytes()).unwrap();
         stand.positions[4..].iter_mut().for_each(|at| at.gamma_arcsec += 5400.0);
-        assert_eq!(super::of(&stand.certificate, &stand.positions), Vec::<String>::new());
+        assert_eq!(super::of(&stand.certificate, &stand.positions), []);
     }
 }

@@ -163,3 +163,59 @@ fn a_gross_reading_does_not_accuse_the_good_ones() {
         }
     }
 }
+
+/// Returns the numbers in a text, with decimal points.
+#[cfg(feature = "report")]
+fn numbers(text: &str) -> Vec<String> {
+    let text = text.replace('\u{2212}', "-").replace(',', ".");
+    let parts = text.split(|c: char| !(c.is_ascii_digit() || c == '.')).map(|part| part.trim_matches('.').to_owned());
+    let mut numbers: Vec<String> = parts.filter(|part| !part.is_empty()).collect();
+    numbers.sort();
+    numbers
+}
+
+#[test]
+#[cfg(feature = "report")]
+fn a_remark_says_the_same_in_both_languages() {
+    use crate::inside::language::{LATIN_IN_RUSSIAN, cyrillic, latin_words};
+    use dtg_passport::certification::remark::Remark;
+    use dtg_passport::certification::suspects::{Outlier, WorsePosition};
+    use dtg_passport::coefficients::PositionIndex;
+    use dtg_passport::report::page::Language;
+    use dtg_passport::report::page::certification::remarks::words;
+    use dtg_passport::stand::remarks::Odd;
+    let index = PositionIndex { i: 2, j: 3 };
+    let outlier = |line| Outlier { index, run: 4, line, axis: 1, residual_arcsec: -14.25, probability: 2.5e-3 };
+    let remarks = [
+        Remark::Worse(WorsePosition { index, place: 6, ratio: 2.25, probability: 0.031 }),
+        Remark::Outlier(outlier(None)),
+        Remark::Outlier(outlier(Some(17))),
+        Remark::TwoRuns(1, 2),
+        Remark::NotCompared,
+        Remark::Twins(3, 5),
+        Remark::AxesDiffer(0.0021),
+        Remark::FewRuns { runs: 3, degrees_of_freedom: 6 },
+        Remark::BaseAxes(0),
+        Remark::BaseAxes(2),
+        Remark::SmallAngles(0.42),
+        Remark::Odd(Odd::FarAngle { angle: 0, index, arcsec: 67833.0, usual_arcsec: 64.3 }),
+        Remark::Odd(Odd::Temperature { key: "temperature_c", celsius: 293.15 }),
+        Remark::Odd(Odd::OutsideRange { celsius: 25.5, range: [18.0, 22.0] }),
+    ];
+    for remark in &remarks {
+        let [en, ru] = [Language::English, Language::Russian].map(|language| words(remark, language));
+        assert!(!en.chars().any(cyrillic) && ru.chars().any(cyrillic), "{en}\n{ru}");
+        assert!(latin_words(&ru).all(|word| LATIN_IN_RUSSIAN.contains(&word)), "{ru}");
+        assert!([&en, &ru].iter().all(|said| said.ends_with('.') && !said.contains(['{', '}'])), "{en}\n{ru}");
+        // Spelt-out numbers aside, the values are those of both.
+        let least = match remark {
+            Remark::Twins(..) | Remark::BaseAxes(_) => Vec::new(),
+            _ => numbers(&en),
+        };
+        let ru = numbers(&ru);
+        assert!(least.iter().all(|number| ru.contains(number)), "{en}: {ru:?}");
+    }
+    // Expected: 1/√(2·6) = 0.2887 (GUM, E.4.3).
+    assert!(words(&remarks[7], Language::Russian).contains("29\u{a0}%"));
+    assert!(words(&remarks[1], Language::Russian).contains("\u{2212}14,25″"));
+}

@@ -7,6 +7,7 @@
 
 mod change;
 mod evidence;
+pub(crate) mod remarks;
 
 use super::language::{Languages, Text};
 use super::parts::{field, fields, heading, section as part};

@@ -7,6 +7,7 @@
 //! * [`absences`]: inputs that a passport does not state, and the effect of each.
 //! * [`calibration`]: the report of a calibration.
 //! * [`certification`]: the record of a certification.
+//! * `remarks`: remarks on a certification.
 //! * [`pictures`]: words in pictures, and their descriptions.
 
 #[cfg(test)]
@@ -20,15 +21,17 @@ pub(crate) mod checks;
 pub(crate) mod passport;
 pub(crate) mod pictures;
 pub(crate) mod record;
+pub(crate) mod remarks;
 
 /// Every table with its name.
 #[cfg(test)]
-pub(crate) const TABLES: [(&str, &[(&str, Text)]); 9] = [
+pub(crate) const TABLES: [(&str, &[(&str, Text)]); 10] = [
     ("units", units::ALL),
     ("words", words::ALL),
     ("checks", checks::ALL),
     ("passport", passport::ALL),
     ("record", record::ALL),
+    ("remarks", remarks::ALL),
     ("absences", absences::ALL),
     ("calibration", calibration::ALL),
     ("certification", certification::ALL),

@@ -1,7 +1,7 @@
 //! Change of the stand since its last certificate.
 
-use super::CertificationPage;
-use super::evidence::{in_english, numbers};
+use super::evidence::numbers;
+use super::{CertificationPage, remarks};
 use crate::certification::comparison::{Comparison, Test};
 use crate::passport::difference::NumberDifference;
 use crate::report::page::language::Languages;
@@ -25,15 +25,19 @@ fn compared(comparison: &Comparison, changes: &[NumberDifference], languages: &L
     html! {
         div class=(class) {
             p.headline { (languages.label_with(|language| verdict.filled(language, &number))) }
-            @if !comparison.words.is_empty() {
-                (in_english(&comparison.words))
+            @if !comparison.findings.is_empty() {
+                ul {
+                    @for found in &comparison.findings {
+                        li { (languages.label_with(|language| remarks::finding(found, language))) }
+                    }
+                }
             }
         }
         (heading(languages, texts::ROTATIONS))
         (rotations(comparison, languages))
         (fields([
             field(languages, texts::ALL_TOGETHER, Some(test(&comparison.all, languages))),
-            field(languages, texts::COMMON_TURN, comparison.common.test.as_ref().ok().map(|of| test(of, languages))),
+            field(languages, texts::COMMON_TURN, comparison.common.test.as_ref().map(|of| test(of, languages))),
         ]))
         p { (languages.label_with(|language| texts::CHANGE_CAPTION.filled(language, &number))) }
         (table(changes, languages))

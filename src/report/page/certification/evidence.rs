@@ -1,6 +1,6 @@
 //! Evidence for a certificate: readings, exclusions, components of the uncertainty, tests.
 
-use super::CertificationPage;
+use super::{CertificationPage, remarks};
 use crate::certification::components::{Common, Variance};
 use crate::certification::suspects::AXES;
 use crate::report::page::language::{Languages, Text};
@@ -159,17 +159,16 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
     let body = html! {
         (numbers(languages, headings.into(), names, &columns, texts::TESTS))
         (languages.paragraph(texts::TESTS_NOTE))
-        @if !page.certification.warnings.is_empty() {
+        @if !page.certification.remarks.is_empty() {
             (heading(languages, texts::WARNINGS))
-            (in_english(&page.certification.warnings))
+            ul {
+                @for remark in &page.certification.remarks {
+                    li { (languages.label_with(|language| remarks::words(remark, language))) }
+                }
+            }
         }
     };
     part(languages, "tests", "5", texts::TESTS, &body)
-}
-
-/// Writes sentences that the program has in English only.
-pub(super) fn in_english(sentences: &[String]) -> Markup {
-    html! { ul { @for sentence in sentences { li { span.given lang="en" { (sentence) "." } } } } }
 }
 
 /// Writes a table of numbers with one row heading; a missing number is a dash.

@@ -81,7 +81,7 @@ texts! {
         ru: "Вероятность случайно получить столь же большое значение. Менее 5\u{a0}%\u{a0}— квазивыброс, менее \
              1\u{a0}%\u{a0}— выброс. По критериям ничего не исключается."
     }
-    WARNINGS { en: "Warnings of the program", ru: "Предупреждения программы (на английском языке)" }
+    WARNINGS { en: "Warnings of the program", ru: "Предупреждения программы" }
 
     CHANGE { en: "Change since the previous certificate", ru: "Изменение с\u{a0}прошлой калибровки" }
     NOT_COMPARED {

@@ -1,0 +1,114 @@
+//! Remarks for the signatory of a certificate, as values. Displayed, a remark is an English sentence without a full stop:
+//! the wording of the comments in a stand file. `report` has the words of other languages.
+
+use super::suspects::{AXES, OUTLIER, Outlier, WorsePosition};
+use crate::stand::remarks::Odd;
+use std::fmt::{self, Display, Formatter};
+
+/// A remark on readings or on the certificate made of them.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Remark {
+    /// Position that scatters more than the others.
+    Worse(WorsePosition),
+    /// Reading that differs from those of the other runs.
+    Outlier(Outlier),
+    /// Suspect reading in one of two runs, which do not show which one is wrong.
+    TwoRuns(u32, u32),
+    /// Single positions that were not compared, because a reading is suspect.
+    NotCompared,
+    /// Two runs that agree too well.
+    Twins(u32, u32),
+    /// Variances about x, y and z that differ, with the probability of Bartlett's test.
+    AxesDiffer(f64),
+    /// Number of runs that is small, and the degrees of freedom of the common part.
+    FewRuns { runs: usize, degrees_of_freedom: usize },
+    /// Number of axes of the base, 0 to 2, about which a rotation can be distinguished from one of the platform.
+    BaseAxes(usize),
+    /// Largest angle, arcsec, if it is suspiciously small.
+    SmallAngles(f64),
+    /// Unusual value in the certificate.
+    Odd(Odd),
+}
+
+impl Remark {
+    /// Returns the relative standard uncertainty, in percent, of a standard deviation with `degrees_of_freedom`.
+    ///
+    /// GUM ([JCGM 100](crate::bibliography::Bibliography::Gum)), E.4.3: about 1/√(2ν).
+    pub(crate) fn doubt_percent(degrees_of_freedom: usize) -> f64 {
+        100.0 / (2.0 * degrees_of_freedom as f64).sqrt()
+    }
+}
+
+impl Display for Remark {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Self::Worse(WorsePosition { index, ratio, probability: p, .. }) => write!(
+                f,
+                "{}: the standard deviation of position {index} is {ratio:.1} times the pooled one (Cochran's test: \
+                 probability {}); its uncertainty is computed from its own readings, that of the others without it",
+                grade(*p),
+                probability(*p)
+            ),
+            Self::Outlier(out) => {
+                let line = out.line.map_or_else(String::new, |line| format!(" (line {line} of the readings)"));
+                write!(
+                    f,
+                    "{}: position {}, run {}{line}, differs by {:+.2} arcsec from the other runs about {} (Grubbs' test: \
+                     probability {}); it was not excluded; measure it again, or omit the run",
+                    grade(out.probability),
+                    out.index,
+                    out.run,
+                    out.residual_arcsec,
+                    AXES[out.axis],
+                    probability(out.probability)
+                )
+            }
+            Self::TwoRuns(one, other) => {
+                write!(f, "two runs do not show whether run {one} or run {other} is wrong; measure a third run")
+            }
+            Self::NotCompared => f.write_str(
+                "because a reading is suspect, single positions were not compared, and all positions state the pooled \
+                 standard deviation",
+            ),
+            Self::Twins(one, other) => write!(
+                f,
+                "runs {one} and {other} agree more than 30 times better than other runs; check whether one is a copy of \
+                 the other"
+            ),
+            Self::AxesDiffer(p) => write!(
+                f,
+                "the variances about x, y and z differ (Bartlett's test: probability {}); repeatability_arcsec is their \
+                 root mean square, which is too large for one axis and too small for another",
+                probability(*p)
+            ),
+            Self::FewRuns { runs, degrees_of_freedom } => write!(
+                f,
+                "{runs} runs are few: the common part of a run has only {degrees_of_freedom} degrees of freedom, so its \
+                 uncertainty has an uncertainty of {:.0} %; measure five runs or more",
+                Self::doubt_percent(*degrees_of_freedom)
+            ),
+            Self::BaseAxes(0) => f.write_str(
+                "in these positions a rotation of the base cannot be distinguished from one of the platform; \
+                 common_base_arcsec is absent, and common_platform_arcsec includes both",
+            ),
+            Self::BaseAxes(axes) => write!(
+                f,
+                "in these positions only {axes} of the three axes of the base can be distinguished from the platform; \
+                 common_platform_arcsec includes the rest"
+            ),
+            Self::SmallAngles(largest_arcsec) => write!(
+                f,
+                "no angle is larger than {largest_arcsec:.2} arcsec; check that the angles are in arcseconds, not degrees"
+            ),
+            Self::Odd(odd) => odd.fmt(f),
+        }
+    }
+}
+
+fn probability(p: f64) -> String {
+    if p < 1e-99 { "below 1e-99".to_owned() } else { format!("{p:.2e}") }
+}
+
+fn grade(probability: f64) -> &'static str {
+    if probability < OUTLIER { "outlier" } else { "straggler" }
+}

@@ -1,0 +1,132 @@
+//! Texts of the remarks on a certification, and of the findings of a comparison with the last certificate.
+
+use super::texts;
+
+texts! {
+    OUTLIER { en: "Outlier", ru: "Выброс" }
+    STRAGGLER { en: "Straggler", ru: "Квазивыброс" }
+    WORSE {
+        en: "{grade}: the standard deviation of position {index} is {ratio} times the pooled one (Cochran’s test, \
+             p = {p}). Its uncertainty is computed from its own readings, that of the others without it.",
+        ru: "{grade}: стандартное отклонение положения {index} в {ratio} раза больше объединённого (критерий Кохрена, \
+             p = {p}). Неопределённость этого положения вычислена по его показаниям, остальных — без него."
+    }
+    OUTLIER_READING {
+        en: "{grade}: position {index}, run {run} differs by {residual}″ about {axis} from the other runs (Grubbs’ test, \
+             p = {p}). The reading was not excluded.",
+        ru: "{grade}: положение {index}, серия {run}, отличие от других серий {residual}″ вокруг {axis} (критерий \
+             Граббса, p = {p}). Показание не исключено."
+    }
+    OUTLIER_IN_LINE {
+        en: "{grade}: position {index}, run {run} (line {line} of the readings) differs by {residual}″ about {axis} from \
+             the other runs (Grubbs’ test, p = {p}). The reading was not excluded.",
+        ru: "{grade}: положение {index}, серия {run} (строка {line} файла показаний), отличие от других серий \
+             {residual}″ вокруг {axis} (критерий Граббса, p = {p}). Показание не исключено."
+    }
+    TWO_RUNS {
+        en: "Two runs do not show whether run {one} or run {other} is wrong; a third run is needed.",
+        ru: "По двум сериям нельзя установить, какая из них ошибочна, {one} или {other}; требуется третья серия."
+    }
+    NOT_COMPARED {
+        en: "Because a reading is suspect, single positions were not compared; all positions state the pooled standard \
+             deviation.",
+        ru: "Из-за сомнительного показания отдельные положения не сравнивались; для всех положений указано объединённое \
+             стандартное отклонение."
+    }
+    TWINS {
+        en: "Runs {one} and {other} agree more than 30 times better than other runs; one may be a copy of the other.",
+        ru: "Серии {one} и {other} согласуются более чем в 30 раз лучше остальных; возможно, одна из них — копия другой."
+    }
+    AXES_DIFFER {
+        en: "The variances about x, y and z differ (Bartlett’s test, p = {p}). The repeatability is their root mean \
+             square.",
+        ru: "Дисперсии вокруг x, y и z различаются (критерий Бартлетта, p = {p}). В качестве повторяемости указано их \
+             среднее квадратическое значение."
+    }
+    FEW_RUNS {
+        en: "The common part of a run is estimated from {runs} runs with {freedom} degrees of freedom; its uncertainty has \
+             an uncertainty of {doubt} %. Five runs or more are recommended.",
+        ru: "Общая составляющая серии оценена по сериям в числе {runs} (число степеней свободы {freedom}); её \
+             неопределённость известна с погрешностью {doubt} %. Рекомендуется не менее пяти серий."
+    }
+    BASE_NOT_SEEN {
+        en: "In these positions a rotation of the base cannot be distinguished from one of the platform; the common part \
+             of the platform includes both.",
+        ru: "В этих положениях поворот основания неотличим от поворота платформы; общая составляющая платформы включает \
+             оба."
+    }
+    BASE_IN_PART {
+        en: "In these positions rotations of the base can be distinguished from those of the platform about {axes} of \
+             three axes only; the common part of the platform includes the rest.",
+        ru: "В этих положениях поворот основания отличим от поворота платформы не по всем трём осям (число осей {axes}); \
+             остальное включено в общую составляющую платформы."
+    }
+    SMALL_ANGLES {
+        en: "No angle is larger than {largest}″; the angles may be in degrees instead of arcseconds.",
+        ru: "Ни один угол не превышает {largest}″; возможно, углы указаны в градусах, а не в секундах."
+    }
+    FAR_ANGLE {
+        en: "{angle} of position {index} is {value}″; the angles of the other positions are up to {usual}″.",
+        ru: "Угол {angle} положения {index} равен {value}″; у остальных положений — не более {usual}″."
+    }
+    TEMPERATURE {
+        en: "A temperature of {value} °C is unusual for a laboratory.",
+        ru: "Температура {value} °C необычна для лаборатории."
+    }
+    OUTSIDE_RANGE {
+        en: "The temperature of {value} °C is outside the certified range of {low} °C to {high} °C.",
+        ru: "Температура {value} °C вне диапазона, указанного в сертификате: от {low} до {high} °C."
+    }
+
+    ANOTHER_STAND {
+        en: "No half of the positions agree with each other; this is another stand or another certificate.",
+        ru: "Согласуется менее половины положений: стенд или сертификат другой."
+    }
+    POSITION_CHANGED {
+        en: "Position {index} has changed relative to the other positions: {x}″, {y}″, {z}″ about x, y, z.",
+        ru: "Положение {index} изменилось относительно остальных: {x}″, {y}″, {z}″ вокруг x, y, z."
+    }
+    CHANGED_TOGETHER {
+        en: "The positions have changed by more than stated; no single position stands out.",
+        ru: "Положения изменились больше, чем указано; ни одно из них не выделяется."
+    }
+    CHANGED_SLIGHTLY {
+        en: "The differences of the positions are slightly larger than chance explains; another run is needed.",
+        ru: "Различия положений несколько больше случайных; требуется ещё одна серия."
+    }
+    ROTATED {
+        en: "All positions have rotated together: a datum surface has changed (gyro seat, level or azimuth), not single \
+             positions.",
+        ru: "Все положения повернулись одинаково: изменились не отдельные положения, а базовая поверхность (посадочная, \
+             для горизонтирования или ориентирования)."
+    }
+    ROTATED_SLIGHTLY {
+        en: "The common rotation of all positions is slightly larger than chance explains; more runs are needed.",
+        ru: "Общий поворот всех положений несколько больше случайного; требуются дополнительные серии."
+    }
+    NOT_TESTED_VARIATION {
+        en: "Rotation of the stand as a whole was not tested: the variation between the runs is unknown.",
+        ru: "Общий поворот стенда не проверен: изменчивость от серии к серии неизвестна."
+    }
+    NOT_TESTED_RUNS {
+        en: "Rotation of the stand as a whole was not tested: one run does not show the variation between set-ups, and the \
+             certificate does not state its number of runs.",
+        ru: "Общий поворот стенда не проверен: одна серия не показывает изменчивости между установками стенда, а число \
+             серий в сертификате не указано."
+    }
+    NOT_TESTED_COMMON_PARTS {
+        en: "Rotation of the stand as a whole was not tested: the certificate does not state the common parts of the \
+             uncertainty.",
+        ru: "Общий поворот стенда не проверен: общие составляющие неопределённости в сертификате не указаны."
+    }
+    TREATED_AS_EXACT {
+        en: "The certificate does not state the uncertainty of all angles; these were treated as exact, so differences \
+             appear more significant than they are.",
+        ru: "Неопределённость некоторых углов в сертификате не указана; эти углы приняты точными, поэтому значимость \
+             различий завышена."
+    }
+    SAME_READINGS {
+        en: "The certificate was computed from these readings; they do not show the present state of the stand.",
+        ru: "Сертификат вычислен по этим же показаниям; о нынешнем состоянии стенда они не свидетельствуют."
+    }
+}
