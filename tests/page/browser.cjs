@@ -68,10 +68,12 @@ function said() {
     sections: all("h2 .number").map(text),
     headings: all("h1, h2, h3, caption").map((heading) => heading.textContent),
     blocks: all("p, dt, dd, th, td, caption, h1, h2, h3, li")
-      .filter((block) => !block.closest(".unseen, .save, svg") && !block.querySelector("sub, sup, p, .pad, .unseen"))
+      .filter((block) => !block.closest(".unseen, .save, .screen, svg, tfoot") && !block.querySelector("sub, sup, p, .pad, .unseen"))
       .map((block) => block.textContent),
     annex: document.querySelector("pre").textContent,
     download: { name: link.download, address: link.href },
+    checked: document.querySelector(".checked")?.textContent ?? "",
+    greens: all(".passed").map(text),
     headline: document.querySelector(".headline").textContent,
     refused: document.querySelector(".verdict.refused") !== null,
   };
@@ -122,6 +124,49 @@ function crowded() {
   return found;
 }
 
+/** Type that is too small in print: 8 pt, in pictures and in the annex 6.5 pt, indices 5 pt. */
+function small() {
+  const found = new Set();
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    const parent = node.parentElement;
+    if (!node.data.trim() || parent.closest("title, desc, .unseen") || parent.getClientRects().length === 0) continue;
+    const text = parent.closest("text");
+    const scale = text ? text.getScreenCTM().a : 1;
+    const points = 0.75 * scale * parseFloat(getComputedStyle(parent).fontSize);
+    const least = parent.closest("sub, sup, .index") ? 5 : text || parent.closest("pre") ? 6.5 : 8;
+    if (points < least - 0.01) found.add(`${points.toFixed(2)} pt, not ${least}: ${node.data.trim().slice(0, 30)}`);
+  }
+  return [...found];
+}
+
+/** Decimal marks of a column that are not one below the other: x of the end of the whole part of each number. */
+function misaligned() {
+  const found = [];
+  for (const table of document.querySelectorAll("table.numbers")) {
+    const columns = new Map();
+    for (const cell of table.querySelectorAll("tbody td")) {
+      const data = cell.querySelectorAll(":scope > data");
+      const own = [...cell.childNodes].filter((node) => node.nodeType === Node.TEXT_NODE && node.data.trim());
+      if (data.length !== 1 || own.length > 0) continue;
+      const text = data[0].firstChild;
+      const whole = text.data.search(/[.,]|\u202f[·×]/);
+      const range = document.createRange();
+      range.setStart(text, 0);
+      range.setEnd(text, whole < 0 ? text.data.length : whole);
+      const column = columns.get(cell.cellIndex) ?? [];
+      column.push([range.getBoundingClientRect().right, text.data]);
+      columns.set(cell.cellIndex, column);
+    }
+    for (const [index, column] of columns) {
+      const [first, named] = column[0];
+      const off = column.find(([x]) => Math.abs(x - first) > 0.6);
+      if (off) found.push(`column ${index} of ${table.className}: ${off[1]} is off ${named} by ${(off[0] - first).toFixed(1)}`);
+    }
+  }
+  return found;
+}
+
 async function look(browser, folder, name) {
   const file = path.join(folder, `${name}.html`);
   const address = `file://${file}`;
@@ -155,6 +200,7 @@ async function look(browser, folder, name) {
   await page.setViewportSize({ width: Math.floor((180 / 25.4) * 96), height: 1000 });
   result.unfit.print = await page.evaluate(unfit);
   result.crowded.print = await page.evaluate(crowded);
+  result.print = { small: await page.evaluate(small), misaligned: await page.evaluate(misaligned) };
   await page.pdf({ path: path.join(folder, `${name}.pdf`), preferCSSPageSize: true });
   await page.close();
   const report = await new HtmlValidate(RULES).validateString(html);

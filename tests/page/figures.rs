@@ -1,9 +1,9 @@
 //! What is drawn in the report of a calibration, read off by the marks of its axes, against the result of the same run for
 //! programs.
 
-use crate::picture::{Axis, end, middle, number, of_class, reach, row, svgs};
+use crate::picture::{Axis, end, number, of_class, reach, svgs};
 use crate::programs;
-use roxmltree::{Document, Node};
+use roxmltree::Document;
 use serde_json::Value;
 use std::process::Command;
 use std::sync::LazyLock;
@@ -43,70 +43,81 @@ fn figure(name: &str) -> &'static str {
     &page[from..from + page[from..].find(end).unwrap() + end.len()]
 }
 
+/// The tables of a class, with the strips in their cells.
+fn table(class: &str) -> Vec<&'static str> {
+    let (page, end) = (&CALIBRATED.0, "</table>");
+    let begins =
+        page.match_indices(&format!("<table class=\"numbers {class}\"")).map(|(from, _)| from).collect::<Vec<_>>();
+    begins.into_iter().map(|from| &page[from..from + page[from..].find(end).unwrap() + end.len()]).collect()
+}
+
 fn get(value: &Value, key: &str) -> f64 {
     value[key].as_f64().unwrap()
 }
 
 #[test]
 fn residuals_are_where_their_axes_say() {
-    let page = Document::parse(figure("residuals")).unwrap();
+    let page = Document::parse(table("residuals")[0]).unwrap();
     let result = &CALIBRATED.1["results"][2];
     assert_eq!(result["method"], "least-squares");
     let residuals = result["residuals_deg_per_h"].as_array().unwrap();
-    for (panel, (key, key_u)) in svgs(&page).into_iter().zip([("x", "u_x"), ("y", "u_y")]) {
-        let axis = Axis::along_x(panel);
-        let (bars, limits) = (of_class(panel, "bar"), of_class(panel, "limits"));
-        assert_eq!((bars.len(), limits.len()), (8, 8));
-        for ((at, bar), limits) in residuals.iter().zip(bars).zip(limits) {
+    let strips = of_class(page.root(), "strip");
+    assert_eq!((residuals.len(), strips.len()), (8, 18));
+    for (column, (key, key_u)) in [("x", "u_x"), ("y", "u_y")].into_iter().enumerate() {
+        let axis = Axis::along_x(strips[16 + column]);
+        for (line, at) in residuals.iter().enumerate() {
+            let strip = strips[2 * line + column];
             let (value, u) = (get(at, key), get(at, key_u));
-            axis.says(end(bar, value), value);
+            axis.says(end(of_class(strip, "bar")[0], value), value);
+            let limits = of_class(strip, "limits")[0];
             axis.says(end(limits, -1.0), -2.0 * u);
             axis.says(end(limits, 1.0), 2.0 * u);
-            assert_eq!(row(panel, middle(bar)), (format!("({}, {})", at["i"], at["j"]), vec![value]));
         }
     }
 }
 
+/// The tables of the result and of its change since the earlier one: in each row the strip is drawn to the axis below, where
+/// the numbers of the result are, and the row's numbers are those.
 #[test]
 fn verdict_and_change_are_where_their_axes_say() {
-    for (name, key) in [("tolerances", "verdict"), ("changes", "change")] {
-        let page = Document::parse(figure(name)).unwrap();
-        let svg = svgs(&page)[0];
-        let axis = Axis::along_x(svg);
-        for (line, due) in of_class(svg, "limit").into_iter().zip([-100.0, 100.0]) {
-            axis.says(number(line, "x1"), due);
-        }
+    let tables = table("result");
+    assert_eq!(tables.len(), 2);
+    for (table, key) in tables.into_iter().zip(["verdict", "change"]) {
+        let page = Document::parse(table).unwrap();
+        let strips = of_class(page.root(), "strip");
         let lines = CALIBRATED.1[key]["parameters"].as_array().unwrap();
-        let whiskers = of_class(svg, "whisker");
-        assert_eq!((lines.len(), whiskers.len()), (8, 8));
-        for (line, whisker) in lines.iter().zip(whiskers) {
+        assert_eq!((lines.len(), strips.len()), (8, 9));
+        let axis = Axis::along_x(strips[8]);
+        let rows = page.descendants().filter(|node| node.has_tag_name("tr")).skip(1);
+        for ((line, row), strip) in lines.iter().zip(rows).zip(&strips) {
             let (deviation, expanded) = (get(line, "deviation"), get(line, "expanded_uncertainty"));
             let percent = |value: f64| 100.0 * value / get(line, "tolerance");
-            let [from, to] = reach(whisker);
+            for (limit, due) in of_class(*strip, "limit").into_iter().zip([-100.0, 100.0]) {
+                axis.says(number(limit, "x1"), due);
+            }
+            let [from, to] = reach(of_class(*strip, "whisker")[0]);
             axis.says(from, percent(deviation - expanded));
             axis.says(to, percent(deviation + expanded));
-            let y: f64 = whisker.attribute("d").unwrap().split([',', 'H']).nth(1).unwrap().parse().unwrap();
-            let symbol = line["parameter"].as_str().unwrap().replace("omega_", "ω").replace("k_", "K");
-            assert_eq!(row(svg, y), (symbol, vec![deviation, expanded]));
+            let values: Vec<f64> = row
+                .descendants()
+                .filter(|node| node.has_tag_name("data"))
+                .map(|node| node.attribute("value").unwrap().parse().unwrap())
+                .collect();
+            assert!(values.contains(&deviation) && values.contains(&expanded), "{line}: {values:?}");
             // The band of guarded acceptance, and the mark of what was decided with it.
-            let in_row = |node: &Node| (middle(*node) - y).abs() < 0.2;
-            let band = of_class(svg, "limits").into_iter().find(in_row);
+            let band = of_class(*strip, "limits");
             let accepted = get(line, "tolerance") - expanded;
-            assert_eq!(band.is_some(), accepted > 0.0, "{line}");
-            if let Some(band) = band {
-                axis.says(end(band, 1.0), percent(accepted));
+            assert_eq!(!band.is_empty(), accepted > 0.0, "{line}");
+            if let Some(band) = band.first() {
+                axis.says(end(*band, 1.0), percent(accepted));
             }
-            let circle = |class: &str| {
-                let all = of_class(svg, class).into_iter();
-                all.filter(|node| node.has_tag_name("circle")).find(|node| (number(*node, "cy") - y).abs() < 0.2)
-            };
-            let (mark, other) = match line["guarded"].as_str().unwrap() {
-                "pass" => (circle("mark").unwrap(), circle("site")),
-                "undecided" => (circle("site").unwrap(), circle("mark")),
+            let (class, other) = match line["guarded"].as_str().unwrap() {
+                "pass" => ("mark", "site"),
+                "undecided" => ("site", "mark"),
                 decision => panic!("{decision} is not the example's"),
             };
-            axis.says(number(mark, "cx"), percent(deviation));
-            assert!(other.is_none());
+            axis.says(number(of_class(*strip, class)[0], "cx"), percent(deviation));
+            assert!(of_class(*strip, other).is_empty());
         }
     }
 }

@@ -73,6 +73,12 @@ fn no_words_of_a_picture_lie_on_others() {
     all_pages().for_each(|page| page.nothing("crowded"));
 }
 
+/// In print: nothing below 8 pt, 6.5 pt in pictures and in the annex; decimal marks of a column one below the other.
+#[test]
+fn print_is_large_enough_and_columns_align() {
+    all_pages().for_each(|page| page.nothing("print"));
+}
+
 #[test]
 fn nothing_is_asked_of_the_network_and_no_script_runs() {
     for page in all_pages() {

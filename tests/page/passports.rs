@@ -127,6 +127,36 @@ fn the_verdict_is_large() {
     }
 }
 
+/// What was not asked is said so: no case has a list of withdrawals or a register, and only some ask for issuer, stand and place.
+#[test]
+fn what_was_not_asked_is_not_called_passed() {
+    for (case, found) in PASSPORTS.each() {
+        let tables = found["said"]["tables"].as_array().unwrap();
+        let english = case.languages.iter().next() == Some(Language::English);
+        let head = if english { "Check" } else { "Проверка" };
+        let table = tables.iter().find(|table| strings(&table["heads"])[0].starts_with(head)).unwrap();
+        let states: Vec<&str> =
+            table["rows"].as_array().unwrap().iter().map(|row| row[1]["text"].as_str().unwrap()).collect();
+        assert_eq!(states.len(), 11, "{}", case.name);
+        let not_asked = |place: usize| states[place].starts_with("○ ");
+        let question = &case.question;
+        let due =
+            [(4, true), (7, question.issuer.is_none()), (8, question.serial.is_none()), (9, question.place.is_none())];
+        for (place, due) in due.into_iter().chain([(10, true)]).chain([0, 1, 2, 3, 5, 6].map(|place| (place, false))) {
+            assert_eq!(not_asked(place), due, "{}: check {place}: {}", case.name, states[place]);
+        }
+        let count = |mark: &str| states.iter().filter(|state| state.starts_with(mark)).count();
+        let line = found["said"]["checked"].as_str().unwrap();
+        let words = if english { ["passed", "not asked"] } else { ["пройдено", "не запрошено"] };
+        for (mark, word) in ["● ", "○ "].into_iter().zip(words) {
+            let counted = if english { format!("{} {word}", count(mark)) } else { format!("{word} {}", count(mark)) };
+            assert!(line.contains(&counted), "{}: {counted} in {line}", case.name);
+            assert_eq!(line.matches(mark.trim()).count(), count(mark), "{}: {line}", case.name);
+        }
+        assert!(found["said"]["greens"].as_array().unwrap().iter().all(|green| !green.as_str().unwrap().contains('○')));
+    }
+}
+
 /// A passport without a self-check has no currents, and its page names none.
 #[test]
 fn a_caption_names_the_columns_that_there_are() {

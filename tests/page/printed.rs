@@ -46,11 +46,15 @@ fn six_sheets_of_a4_at_most_in_one_language() {
         let sheets: usize = page.info("Pages").parse().unwrap();
         println!("{:<20} {sheets} sheets", page.name);
         assert_eq!(page.info("Page size"), "594.96 x 841.92 pts (A4)", "{}", page.name);
-        // Twenty-four positions have three times the numbers and pictures.
-        let most = match (page.name.contains("many"), page.languages.single()) {
+        // Twenty-four positions have three times the numbers and pictures. `full` and `elsewhere` have all that a file can
+        // state, and a reason of half a page; `hostile` has names of 500 characters; `whole` has a budget, a Monte Carlo
+        // and an earlier result.
+        let long = ["full", "elsewhere", "hostile", "whole"].iter().any(|long| page.name.starts_with(long));
+        let most = match (page.name.contains("many") || long, page.languages.single()) {
             (false, true) => 6,
-            (true, true) => 9,
-            (_, false) => 10,
+            (true, true) => 8,
+            (false, false) => 10,
+            (true, false) => 11,
         };
         assert!(sheets <= most, "{}: {sheets} sheets", page.name);
     }
@@ -121,6 +125,40 @@ fn no_heading_is_parted_from_what_it_heads() {
             let heading =
                 headings.iter().find(|heading| **heading == last || (last.len() > 12 && heading.ends_with(&last)));
             assert_eq!(heading, None, "{}, sheet {}", page.name, index + 1);
+        }
+    }
+}
+
+/// Every font of the print is within the file, so it prints the same everywhere.
+#[test]
+fn fonts_are_embedded() {
+    for page in all_pages() {
+        let mut pdffonts = programs::on_path("pdffonts");
+        pdffonts.arg(page.pdf());
+        let fonts = programs::output(pdffonts);
+        let fonts: Vec<&str> = fonts.lines().skip(2).collect();
+        assert!(fonts.len() >= 3, "{}: {fonts:?}", page.name);
+        for font in fonts {
+            // name, type, encoding, embedded, subset, Unicode, object.
+            let embedded = font.split_whitespace().rev().nth(4);
+            assert_eq!(embedded, Some("yes"), "{}: {font}", page.name);
+        }
+    }
+}
+
+/// No sheet but the last holds only a tail: its lowest word is below the upper third.
+#[test]
+fn no_sheet_is_nearly_empty() {
+    for page in all_pages() {
+        let mut pdftotext = programs::on_path("pdftotext");
+        pdftotext.args(["-enc", "UTF-8", "-bbox"]).arg(page.pdf()).arg("-");
+        let text = programs::output(pdftotext);
+        let sheets: Vec<&str> = text.split("<page ").skip(1).collect();
+        for (index, sheet) in sheets.iter().enumerate().take(sheets.len() - 1) {
+            let ends = sheet.split("yMax=\"").skip(1).filter_map(|rest| rest.split('"').next()?.parse::<f64>().ok());
+            // The foot of the sheet is in its margin of 14 mm.
+            let lowest = ends.filter(|end| *end < 842.0 - 40.0).fold(0.0, f64::max);
+            assert!(lowest > 842.0 / 3.0, "{}, sheet {}: {lowest} pt", page.name, index + 1);
         }
     }
 }

@@ -82,8 +82,11 @@ def uncertainty(result, path):
         return at(result, (*head, "expanded_uncertainty")) / 2
     if path[0] == "budget" and last == "value":
         return at(result, (*head, "standard_uncertainty"))
-    if path[0] == "budget" and last in ("expanded_uncertainty", "contribution"):
+    if path[0] == "budget" and last == "expanded_uncertainty":
         return at(result, path)
+    if path[0] == "budget" and last == "contribution":
+        # The digits of the combined uncertainty of the parameter, whatever its own size.
+        return at(result, (*path[:3], "standard_uncertainty"))
     if path[0] == "monte_carlo" and (last == "mean" or "symmetric_interval" in path):
         return at(result, (*path[:3], "standard_uncertainty"))
     return None
@@ -127,6 +130,13 @@ class Report:
             # What is missing is stated as at most so much.
             size = abs(value) if any(str(key).startswith("remainder") for key in path) else value
             self.known.setdefault(size, []).append(path)
+        for part in ("verdict", "change"):
+            lines = (result.get(part) or {}).get("parameters", [])
+            # Expanded uncertainties of the values, and how many of how many pass.
+            for line in lines:
+                self.known.setdefault(2 * line["standard_uncertainty"], []).append(())
+            self.known.setdefault(sum(line["guarded"] == "pass" for line in lines), []).append(())
+            self.known.setdefault(len(lines), []).append(())
         for value in files:
             self.known.setdefault(value, []).append(())
         self.derived = list(derived(result.get("budget")))
@@ -170,7 +180,8 @@ class Report:
 
     def tables(self):
         found = [self.table(table) for table in self.said["tables"]]
-        if "parameters" not in found or "residuals" not in found:
+        due = {"parameters", "residuals", *(part for part in ("verdict", "change") if self.result.get(part))}
+        if not due <= set(found):
             self.wrong.append(f"tables are missing: {found}")
 
     def table(self, table):
@@ -180,7 +191,7 @@ class Report:
             return self.parameters(heads, table)
         if heads[:2] == ["i", "j"]:
             return self.residuals(table)
-        if len(heads) == 8 and heads[3] == "U":
+        if len(heads) == 10:
             return self.verdict(table)
         return table["caption"]
 
@@ -254,24 +265,32 @@ class Report:
         for row, line in zip(table["rows"], due):
             if [row[0]["text"], row[1]["text"]] != [str(line["i"]), str(line["j"])]:
                 self.wrong.append(f"a row of residuals is out of order: {row}")
-            for key, cell in zip(("x", "u_x", "y", "u_y"), row[2:]):
+            for key, cell in zip(("x", "u_x", "y", "u_y"), [*row[2:4], *row[5:7]]):
                 self.cell(f"residual {key} of ({line['i']}, {line['j']})", cell, line[key], line[f"u_{key[-1]}"])
         return "residuals"
 
     def verdict(self, table):
-        part = "change" if table["heads"][2].startswith(("Change", "Изменение")) else "verdict"
+        part = "change" if table["heads"][4].startswith(("Change", "Изменение")) else "verdict"
         for row, line in zip(table["rows"], self.result[part]["parameters"], strict=True):
-            name = row[0]["text"]
+            name = row[0]["text"].split(",")[0]
             if name != symbol_of(line["parameter"]):
                 self.wrong.append(f"{part}: {name} stands in the row of {line['parameter']}")
+            u = line["standard_uncertainty"]
+            self.cell(f"{part}, {name}, value", row[1], line["value"], u)
+            self.cell(f"{part}, {name}, U of the value", row[2], 2 * u, u)
+            self.cell(f"{part}, {name}, reference", row[3], line["reference_value"], u)
             u = line["expanded_uncertainty"] / 2
-            self.cell(f"{part}, {name}, deviation", row[2], line["deviation"], u)
-            self.cell(f"{part}, {name}, U", row[3], line["expanded_uncertainty"], u)
-            self.cell(f"{part}, {name}, tolerance", row[4], line["tolerance"])
-            if row[6]["values"]:
-                self.cell(f"{part}, {name}, risk", row[6], line["specific_risk"])
-            elif not row[6]["text"].startswith("<") or line["specific_risk"] >= 1e-6:
-                self.wrong.append(f"{part}, {name}: risk {row[6]['text']}, and {line['specific_risk']} in the result")
+            self.cell(f"{part}, {name}, deviation", row[4], line["deviation"], u)
+            self.cell(f"{part}, {name}, U", row[5], line["expanded_uncertainty"], u)
+            self.cell(f"{part}, {name}, tolerance", row[6], line["tolerance"])
+            for column, key in ((8, "guarded"), (9, "simple")):
+                mark = {"pass": "●", "undecided": "○", "fail": "✕"}[line[key]]
+                if not row[column]["text"].startswith(mark):
+                    self.wrong.append(f"{part}, {name}: {row[column]['text']}, and {line[key]} in the result")
+            if row[9]["values"]:
+                self.cell(f"{part}, {name}, risk", row[9], line["specific_risk"])
+            elif "<" not in row[9]["text"] or line["specific_risk"] >= 1e-6:
+                self.wrong.append(f"{part}, {name}: risk {row[9]['text']}, and {line['specific_risk']} in the result")
         return part
 
 

@@ -10,15 +10,14 @@ mod evidence;
 pub(crate) mod remarks;
 
 use super::language::{Languages, Text};
-use super::parts::{field, fields, heading, section as part};
+use super::parts::{contents, data_address, field, fields, heading, section as part, verbatim};
 use super::passport::{characteristics, general};
 use super::shell::{Margins, document};
 use super::texts::{calibration as calibration_texts, certification as texts, passport as passport_texts};
 use crate::certification::{Certification, Comparison};
 use crate::passport::difference::NumberDifference;
-use crate::report::picture;
-use base64ct::{Base64, Encoding};
 use maud::{Markup, html};
+use std::path::Path;
 
 /// Certification with everything that its record states.
 #[derive(Debug, Clone)]
@@ -31,6 +30,17 @@ pub(crate) struct CertificationPage<'a> {
     pub change: Option<(&'a Comparison, Vec<NumberDifference>)>,
 }
 
+/// Anchor and heading of each section of the record.
+const SECTIONS: [(&str, Text); 7] = [
+    ("subject", texts::SUBJECT),
+    ("readings", texts::READINGS),
+    ("result", texts::RESULT),
+    ("uncertainty", texts::UNCERTAINTY),
+    ("tests", texts::TESTS),
+    ("change", texts::CHANGE),
+    ("annex", texts::ANNEX),
+];
+
 impl CertificationPage<'_> {
     /// Returns the record as one self-contained HTML document.
     pub(crate) fn html(&self, languages: &Languages) -> String {
@@ -42,6 +52,11 @@ impl CertificationPage<'_> {
         };
         let title = format!("{} {number}", languages.plain(texts::TITLE));
         document(languages, &title, &margins, &self.body(languages))
+    }
+
+    /// Returns the name of the file of readings without its folder.
+    fn readings_name(&self) -> &str {
+        Path::new(self.readings.0).file_name().and_then(|name| name.to_str()).unwrap_or(self.readings.0)
     }
 
     /// Returns the SHA-256 of the file of readings.
@@ -57,6 +72,7 @@ impl CertificationPage<'_> {
                 h1 { (stand.certificate.number) }
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
+            (contents(languages, texts::SAVE, (&data_address("text/csv", self.readings.1), self.readings_name()), &SECTIONS))
             main {
                 (part(languages, "subject", "1", texts::SUBJECT, &html! {
                     (general::stand(&stand.stand, languages))
@@ -80,29 +96,21 @@ impl CertificationPage<'_> {
         let body = html! {
             (characteristics::positions(positions, languages))
             (languages.paragraph(passport_texts::DEVIATIONS_NOTE))
-            (super::parts::figure(
-                languages,
-                "deviations",
-                &picture::deviations::deviations(languages, positions),
-                texts::FIGURE_DEVIATIONS,
-            ))
         };
         part(languages, "result", "3", texts::RESULT, &body)
     }
 
     /// Writes the file of readings verbatim.
     fn annex(&self, languages: &Languages) -> Markup {
-        let (name, bytes) = self.readings;
-        let address = format!("data:text/csv;base64,{}", Base64::encode_string(bytes));
+        let (_, bytes) = self.readings;
         let number = &self.certification.stand.certificate.number;
         let body = html! {
-            (languages.paragraph(texts::ANNEX_NOTE))
-            p.save { a href=(address) download=(name) { (languages.inline(texts::SAVE)) } }
-            pre lang="" translate="no" tabindex="0" aria-labelledby="annex-heading" {
-                (String::from_utf8_lossy(bytes).replace("\r\n", "\n"))
-            }
-            p.end { (languages.label_with(|language| texts::END.filled(language, &[("number", number)]))) }
-        };
+                    (languages.paragraph(texts::ANNEX_NOTE))
+                    div.file {
+        (verbatim("", &String::from_utf8_lossy(bytes).replace("\r\n", "\n")))
+                    p.end { (languages.label_with(|language| texts::END.filled(language, &[("number", number)]))) }
+                }
+                };
         part(languages, "annex", "", texts::ANNEX, &body)
     }
 }
@@ -116,7 +124,7 @@ fn signatures(languages: &Languages) -> Markup {
     ];
     let signature = |who: Text| {
         html! {
-            div.part {
+            div.part.pen {
                 (heading(languages, who))
                 (fields(names.map(|name| field(languages, name, None))))
             }

@@ -13,6 +13,9 @@ pub(crate) const THIN_BLANK: char = '\u{202F}';
 /// Non-breaking space, between a number and its unit.
 pub(crate) const BLANK: char = '\u{00A0}';
 
+/// Sign before a power of ten.
+const TIMES: char = '\u{00B7}';
+
 /// A number of a document, and its printed digits.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Number {
@@ -50,6 +53,12 @@ impl Number {
         Self { value, digits: without_minus_zero(digits) }
     }
 
+    /// Creates a number with the shortest decimal, but at most `decimals` decimals.
+    pub(crate) fn at_most(value: f64, decimals: usize) -> Self {
+        let exact = Self::exact(value);
+        if exact.decimals() > decimals { Self::fixed(value, decimals) } else { exact }
+    }
+
     /// Creates the number of a standard uncertainty: two significant digits, or a plain 0.
     pub(crate) fn uncertainty(u: f64) -> Self {
         Self::to_place(u, place(u))
@@ -61,8 +70,13 @@ impl Number {
         if u > 0.0 { Self::to_place(value, place(u)) } else { Self::exact(value) }
     }
 
+    /// Returns the place (power of ten) of the second significant digit of `u`.
+    pub(crate) fn place_of(u: f64) -> i32 {
+        place(u)
+    }
+
     /// Creates a number rounded to a multiple of 10 to the power `place`.
-    fn to_place(value: f64, place: i32) -> Self {
+    pub(crate) fn to_place(value: f64, place: i32) -> Self {
         if place <= 0 {
             return Self::fixed(value, place.unsigned_abs() as usize);
         }
@@ -84,7 +98,8 @@ impl Number {
 
     /// Returns the number of printed decimals.
     pub(crate) fn decimals(&self) -> usize {
-        self.digits.split_once('.').map_or(0, |(_, decimals)| decimals.len())
+        let decimals = self.digits.split_once('.').map_or("", |(_, decimals)| decimals);
+        decimals.chars().take_while(char::is_ascii_digit).count()
     }
 
     /// Writes the number as an element that carries the value itself for programs, in the notation of signed documents.
@@ -92,13 +107,10 @@ impl Number {
         html! { data value=(number::decimal(self.value)) { (self.text(languages.first())) } }
     }
 
-    /// Writes the number as `markup` does, with room for `decimals` decimals, so that the decimal marks of a
-    /// column align.
-    pub(crate) fn aligned(&self, languages: &Languages, decimals: usize) -> Markup {
-        let own = self.decimals();
-        // The excess of the column's longest number: decimals, spaces between their groups, the decimal mark.
-        let zeros = |decimals: usize| localised(&format!("{:.decimals$}", 0.0), languages.first());
-        let missing: String = zeros(decimals.max(own)).chars().skip(zeros(own).chars().count()).collect();
+    /// Writes the number as `markup` does, and after it invisible characters that make its tail as long as `longest`, so
+    /// that the decimal marks of a column align.
+    fn aligned(&self, languages: &Languages, longest: &Tail) -> Markup {
+        let missing = longest.beyond(&Tail::of(&self.text(languages.first())));
         html! {
             (self.markup(languages))
             @if !missing.is_empty() { span.pad aria-hidden="true" { (missing) } }
@@ -106,10 +118,55 @@ impl Number {
     }
 }
 
+/// What follows the decimal mark of a printed number: the mark itself, digits, spaces between their groups, and a power
+/// of ten.
+#[derive(Debug, Clone, Default)]
+struct Tail {
+    marks: usize,
+    digits: usize,
+    spaces: usize,
+    power: String,
+}
+
+impl Tail {
+    fn of(text: &str) -> Self {
+        let power = text.find([TIMES]).map_or(text.len(), |at| at - THIN_BLANK.len_utf8());
+        let (mantissa, power) = text.split_at(power);
+        let decimals = mantissa.split_once(['.', ',']).map(|(_, decimals)| decimals);
+        let count = |of: fn(char) -> bool| decimals.map_or(0, |decimals| decimals.chars().filter(|c| of(*c)).count());
+        Self {
+            marks: usize::from(decimals.is_some()),
+            digits: count(|c| c.is_ascii_digit()),
+            spaces: count(|c| c == THIN_BLANK),
+            power: power.to_owned(),
+        }
+    }
+
+    /// Returns the longest of each part.
+    fn or_longer(self, other: Self) -> Self {
+        let longer = if other.power.chars().count() > self.power.chars().count() { other.power } else { self.power };
+        Self {
+            marks: self.marks.max(other.marks),
+            digits: self.digits.max(other.digits),
+            spaces: self.spaces.max(other.spaces),
+            power: longer,
+        }
+    }
+
+    /// Returns characters as wide as what this tail has beyond `own`. Digits have one width, and so have both marks.
+    fn beyond(&self, own: &Self) -> String {
+        let mut missing = ".".repeat(self.marks - own.marks) + &"0".repeat(self.digits - own.digits);
+        missing.extend(std::iter::repeat_n(THIN_BLANK, self.spaces - own.spaces));
+        missing.extend(self.power.chars().skip(own.power.chars().count()));
+        missing
+    }
+}
+
 /// Writes a column of numbers with aligned decimal marks.
 pub(crate) fn column(languages: &Languages, numbers: &[Option<Number>]) -> Vec<Option<Markup>> {
-    let decimals = numbers.iter().flatten().map(Number::decimals).max().unwrap_or(0);
-    numbers.iter().map(|number| number.as_ref().map(|number| number.aligned(languages, decimals))).collect()
+    let tails = numbers.iter().flatten().map(|number| Tail::of(&number.text(languages.first())));
+    let longest = tails.fold(Tail::default(), Tail::or_longer);
+    numbers.iter().map(|number| number.as_ref().map(|number| number.aligned(languages, &longest))).collect()
 }
 
 /// Returns the place (power of ten) of the second significant digit of `u`, after rounding: 0.0996 becomes 0.10.
@@ -155,7 +212,7 @@ pub(crate) fn localised(ascii: &str, language: Language) -> String {
         grouped(&mut out, decimals, 0);
     }
     if let Some(exponent) = exponent {
-        out += &format!("{THIN_BLANK}\u{00B7}{THIN_BLANK}10");
+        out += &format!("{THIN_BLANK}{TIMES}{THIN_BLANK}10");
         out.extend(exponent.chars().filter_map(superscript));
     }
     out
@@ -221,6 +278,18 @@ mod tests {
         assert_eq!(english(&Number::significant(0.000_123_456, 3)), "0.000_123");
         assert_eq!(english(&Number::scientific(4.649e-9, 2)), "4.6_·_10⁻⁹");
         assert_eq!(english(&Number::scientific(0.0464, 2)), "0.046");
+    }
+
+    /// By hand: the longest tail has five decimals in two groups and a power of ten.
+    #[test]
+    fn tails_of_a_column_become_equally_long() {
+        let longest = ["0,000\u{202f}12", "3,4\u{202f}·\u{202f}10⁻⁵", "7"].map(Tail::of);
+        let longest = longest.into_iter().fold(Tail::default(), Tail::or_longer);
+        let missing = |text: &str| longest.beyond(&Tail::of(text)).replace(THIN_BLANK, "_");
+        assert_eq!(missing("0,000\u{202f}12"), "_·_10⁻⁵");
+        assert_eq!(missing("0,0012"), "0__·_10⁻⁵");
+        assert_eq!(missing("3,4\u{202f}·\u{202f}10⁻⁵"), "0000_");
+        assert_eq!(missing("7"), ".00000__·_10⁻⁵");
     }
 
     #[test]

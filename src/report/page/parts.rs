@@ -3,6 +3,7 @@
 use super::language::{Language, Languages, Text};
 use super::number::{BLANK, Number};
 use super::texts::{units, words};
+use base64ct::{Base64, Encoding};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use jiff::tz::TimeZone;
@@ -62,6 +63,21 @@ pub(crate) fn fields(fields: impl IntoIterator<Item = Markup>) -> Markup {
     html! { dl.fields { @for field in fields { (field) } } }
 }
 
+/// Writes a band of cells, each a name, a value in large letters, and words about it.
+pub(crate) fn band(languages: &Languages, cells: [(Text, Markup, Markup); 4]) -> Markup {
+    html! {
+        dl.band {
+            @for (name, value, words) in cells {
+                div {
+                    dt { (languages.label(name)) }
+                    dd.large { (value) }
+                    dd { (words) }
+                }
+            }
+        }
+    }
+}
+
 /// Writes a number and its unit without a line break between them.
 pub(crate) fn quantity(languages: &Languages, number: &Number, unit: Text) -> Markup {
     html! { span.quantity { (number.markup(languages)) (unit_after(languages, unit)) } }
@@ -109,13 +125,42 @@ pub(crate) fn symbol_and_unit(languages: &Languages, symbol: &Markup, unit: Text
     html! { (symbol) "," (BLANK) (languages.label(unit)) }
 }
 
-/// Writes a picture with its caption; `id` is its name in the style sheet. The picture contains its own description for
+/// Writes a picture with its caption, which the style sheet numbers; `id` is its name there. The picture contains its own description for
 /// screen readers.
 pub(crate) fn figure(languages: &Languages, id: &str, drawing: &Markup, caption: Text) -> Markup {
     html! {
         figure id={ "figure-" (id) } {
             (drawing)
-            figcaption { (languages.label(caption)) }
+            figcaption data-word=(languages.spoken(words::FIGURE)) { (languages.label(caption)) }
+        }
+    }
+}
+
+/// Writes a text verbatim; the style sheet numbers its lines, and marks where a line goes on.
+pub(crate) fn verbatim(lang: &str, text: &str) -> Markup {
+    html! {
+        pre lang=(lang) translate="no" tabindex="0" aria-labelledby="annex-heading" {
+            @for line in text.split_inclusive('\n') { span.l { (line) } }
+        }
+    }
+}
+
+/// Returns the address of a file that the page itself contains.
+pub(crate) fn data_address(kind: &str, bytes: &[u8]) -> String {
+    format!("data:{kind};base64,{}", Base64::encode_string(bytes))
+}
+
+/// Writes what only a screen needs: the file to save, and links to the sections.
+pub(crate) fn contents(
+    languages: &Languages,
+    save: Text,
+    (address, name): (&str, &str),
+    sections: &[(&str, Text)],
+) -> Markup {
+    html! {
+        nav.screen aria-label=(languages.spoken(words::CONTENTS)) {
+            ol { @for (id, heading) in sections { li { a href={ "#" (id) } { (languages.inline(*heading)) } } } }
+            a.button href=(address) download=(name) { (languages.inline(save)) }
         }
     }
 }
@@ -131,6 +176,10 @@ pub(crate) struct Table {
     pub headings: Vec<Markup>,
     /// Cells of each row.
     pub rows: Vec<Vec<Markup>>,
+    /// Rows with which a group begins; a rule separates them from the row before.
+    pub starts: Vec<usize>,
+    /// Cells below the rows, such as the axes of strips. Most tables have none.
+    pub foot: Vec<Markup>,
     /// Number of cells at the beginning of a row that are row headings.
     pub row_headings: usize,
     /// CSS class: `numbers` for columns of numbers, `form` for rows to fill in by hand.
@@ -160,13 +209,16 @@ impl Table {
                         }
                     }
                     tbody {
-                        @for row in &self.rows {
-                            tr {
+                        @for (place, row) in self.rows.iter().enumerate() {
+                            tr class=[self.starts.contains(&place).then_some("start")] {
                                 @for (index, cell) in row.iter().enumerate() {
                                     @if index < self.row_headings { th scope="row" { (cell) } } @else { td { (cell) } }
                                 }
                             }
                         }
+                    }
+                    @if !self.foot.is_empty() {
+                        tfoot aria-hidden="true" { tr { @for cell in &self.foot { td { (cell) } } } }
                     }
                 }
             }

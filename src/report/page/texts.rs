@@ -67,6 +67,8 @@ pub(crate) mod words {
 
     texts! {
         EMPTY { en: "empty field, to be filled in by hand", ru: "пустое поле, заполняется от руки" }
+        CONTENTS { en: "Contents", ru: "Содержание" }
+        FIGURE { en: "Figure", ru: "Рисунок" }
         YES { en: "yes", ru: "да" }
         NO { en: "no", ru: "нет" }
         NORTH { en: "north", ru: "север" }

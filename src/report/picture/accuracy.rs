@@ -12,7 +12,7 @@ use crate::report::page::texts::{pictures as texts, units};
 use maud::{Markup, html};
 
 const PANEL_PIXELS: u32 = 330;
-const WIDTH: f64 = 440.0;
+const WIDTH: f64 = 460.0;
 const BARS: [f64; 2] = [44.0, 300.0];
 const TOP: f64 = 12.0;
 const ROW: f64 = 17.0;

@@ -80,6 +80,40 @@ pub(crate) fn panels(columns: u32, width: u32, drawings: &[Markup], legend: &Mar
     }
 }
 
+/// Draws a strip for the cell of a table. The row's other cells have its numbers, so screen readers skip it.
+pub(crate) fn strip([width, height]: Point, drawing: &Markup) -> Markup {
+    html! {
+        svg class="picture strip" viewBox={ "0 0 " (coordinate(width)) " " (coordinate(height)) } aria-hidden="true" {
+            (drawing)
+        }
+    }
+}
+
+/// Draws the axis below the strips of a column: round values with their numbers, each followed by `unit`.
+pub(crate) fn strip_axis(languages: &Languages, scale: &Scale, width: f64, unit: &str) -> Markup {
+    const HALF_LETTER: f64 = 3.2;
+    let ticks = Ticks::along(scale, languages.first());
+    let drawing = html! {
+        @for value in &ticks.values {
+            @let (x, text) = (scale.place(*value), ticks.text(*value, languages.first()) + unit);
+            @let half = HALF_LETTER * text.chars().count() as f64;
+            // A long number at the end would be cut off.
+            @if x > half && x < width - half {
+                (line([x, 0.0], [x, 4.0], "grid"))
+                (words([x, 14.0], Anchor::Middle, "small", &text))
+            }
+        }
+    };
+    strip([width, 17.0], &drawing)
+}
+
+/// Draws an interval with its ends marked, `half` high.
+pub(crate) fn whisker(from: f64, to: f64, y: f64, half: f64) -> Markup {
+    let [x1, x2, above, below] = [from, to, y - half, y + half].map(coordinate);
+    let middle = coordinate(y);
+    html! { path.whisker d={ "M" (x1) "," (middle) "H" (x2) "M" (x1) "," (above) "V" (below) "M" (x2) "," (above) "V" (below) } {} }
+}
+
 /// Draws a legend: a sample of each mark, and its meaning.
 pub(crate) fn legend(languages: &Languages, entries: &[(Markup, Text)]) -> Markup {
     html! {

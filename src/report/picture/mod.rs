@@ -3,6 +3,7 @@
 //! Each picture is a function of the content and of the languages of the page. All pictures are readable in black and
 //! white, describe themselves to screen readers, and take their colours from the page.
 //!
+//! * [`stand`]: the stand with its parts, axes and angles named.
 //! * [`positions`]: the positions of the stand, drawn.
 //! * [`deviations`]: α, β and γ of every position.
 //! * [`vectors`]: Earth rate and specific force, compared with the nominal ones.
@@ -28,6 +29,7 @@ pub(crate) mod plan;
 pub(crate) mod positions;
 pub(crate) mod residuals;
 pub(crate) mod simulation;
+pub(crate) mod stand;
 pub(crate) mod tolerances;
 pub(crate) mod vectors;
 

@@ -180,8 +180,7 @@ fn latitude_deg(content: &Content) -> f64 {
 }
 
 fn short(value: f64) -> Number {
-    let exact = Number::exact(value);
-    if exact.decimals() > MOST_DECIMALS { Number::fixed(value, MOST_DECIMALS) } else { exact }
+    Number::at_most(value, MOST_DECIMALS)
 }
 
 fn in_words(language: Language, content: &Content) -> String {

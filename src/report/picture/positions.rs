@@ -6,8 +6,8 @@
 //! [the paper](crate::bibliography::Bibliography::Tang17), fig. 2 and 3.
 
 use super::drawing::{Anchor, Panel, Point, arrow, label, legend, line, panels, polygon, words};
-use super::label::{Area, width};
-use crate::attitude::{self, PAPER_FRAME_AXIS_AZIMUTH_DEG};
+use super::label::Area;
+use crate::attitude::{self, Deviation};
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::Number;
 use crate::report::page::texts::{pictures as texts, words as compass};
@@ -19,8 +19,8 @@ use nalgebra::{Matrix3, Vector3};
 /// Pixels that a panel needs for readable letters.
 const PANEL_PIXELS: u32 = 155;
 const COLUMNS: u32 = 4;
-const SIZE: Point = [210.0, 232.0];
-/// Centre of the stand on the drawing, and length of its unit.
+const SIZE: Point = [210.0, 222.0];
+/// Centre of the stand on a drawing, and length of its unit.
 const CENTRE: Point = [106.0, 108.0];
 const UNIT: f64 = 55.0;
 
@@ -29,72 +29,89 @@ const VIEW_EAST_OF_SOUTH_DEG: f64 = 34.0;
 const VIEW_ABOVE_DEG: f64 = 24.0;
 
 /// Dimensions of the frame in units of the stand: half its length along ξ and across, half the thickness of its bars.
-const FRAME_HALF: [f64; 2] = [0.98, 0.86];
-const BAR_HALF: f64 = 0.07;
+pub(super) const FRAME_HALF: [f64; 2] = [0.98, 0.86];
+pub(super) const BAR_HALF: f64 = 0.07;
 /// Radius of the platform, radius of the gyro, height of the gyro.
-const PLATFORM: f64 = 0.66;
-const GYRO: f64 = 0.34;
-const GYRO_HEIGHT: f64 = 0.46;
+pub(super) const PLATFORM: f64 = 0.66;
+pub(super) const GYRO: f64 = 0.34;
+pub(super) const GYRO_HEIGHT: f64 = 0.46;
 /// Distance of the posts from the centre, and height of the frame's axis above the base.
 const POST: f64 = 1.16;
-const AXIS_HEIGHT: f64 = 1.32;
+pub(super) const AXIS_HEIGHT: f64 = 1.32;
 /// Length of the drawn axes.
-const AXIS: f64 = 1.27;
+pub(super) const AXIS: f64 = 1.27;
 
 /// Draws `positions` of a stand or of a passport: any number of them, at any angles. The frame's axis points to the
 /// azimuth `frame_axis_azimuth_deg`.
 pub(crate) fn positions(languages: &Languages, positions: &[CertifiedPosition], frame_axis_azimuth_deg: f64) -> Markup {
     let base = attitude::base(frame_axis_azimuth_deg);
-    let drawings: Vec<Markup> = positions.iter().map(|at| position(languages, at, &base)).collect();
-    let points_east = frame_axis_azimuth_deg == PAPER_FRAME_AXIS_AZIMUTH_DEG;
-    panels(COLUMNS, PANEL_PIXELS, &drawings, &key(languages, points_east))
+    let factor = exaggeration(positions);
+    let drawings: Vec<Markup> = positions.iter().map(|at| position(languages, at, &base, factor)).collect();
+    panels(COLUMNS, PANEL_PIXELS, &drawings, &key(languages, factor))
 }
 
-fn key(languages: &Languages, points_east: bool) -> Markup {
-    let (frame, base) = match points_east {
-        true => (texts::FRAME, texts::BASE_AXES),
-        false => (texts::FRAME_OF_ROTATED_BASE, texts::NORTH_AND_UP),
-    };
+fn key(languages: &Languages, factor: f64) -> Markup {
     let stroke = |class: &str| arrow([2.0, 7.0], [26.0, 7.0], class);
     let swatch = |class: &str| polygon(&[[4.0, 2.0], [24.0, 2.0], [24.0, 12.0], [4.0, 12.0]], class);
     let entries = [
         (stroke("axis"), texts::CASE_AXES),
         (line([2.0, 7.0], [26.0, 7.0], "ideal"), texts::CASE_AXES_IDEAL),
-        (swatch("solid frame s2"), frame),
+        (swatch("solid frame s2"), texts::FRAME),
         (swatch("solid platform s1"), texts::PLATFORM),
-        (stroke("base-axis"), base),
     ];
-    legend(languages, &entries)
+    html! {
+        (legend(languages, &entries))
+        @if factor > 1.0 {
+            p.legend {
+                (languages.label_with(|language| {
+                    texts::EXAGGERATED.filled(language, &[("factor", &Number::exact(factor).text(language))])
+                }))
+            }
+        }
+    }
+}
+
+/// Returns the power of ten by which the deviations are exaggerated: the largest that keeps them below 15°.
+fn exaggeration(positions: &[CertifiedPosition]) -> f64 {
+    const LARGEST_ARCSEC: f64 = 15.0 * 3600.0;
+    let all = positions.iter().flat_map(|at| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec]);
+    let largest = all.fold(0.0, |most, value: f64| f64::max(most, value.abs()));
+    let factors = [1000.0, 100.0, 10.0];
+    factors.into_iter().find(|factor| largest > 0.0 && factor * largest <= LARGEST_ARCSEC).unwrap_or(1.0)
 }
 
 /// The view: two directions of the drawing plane and the direction towards the viewer, each east, north, up.
-struct View {
+pub(super) struct View {
     right: Vector3<f64>,
     up: Vector3<f64>,
     towards: Vector3<f64>,
+    /// Place of the origin on the drawing, and length of its unit.
+    centre: Point,
+    unit: f64,
 }
 
 impl View {
-    fn new() -> Self {
+    pub(super) fn new(centre: Point, unit: f64) -> Self {
         let (sa, ca) = sin_cos_of_degrees(VIEW_EAST_OF_SOUTH_DEG);
         let (se, ce) = sin_cos_of_degrees(VIEW_ABOVE_DEG);
         let towards = Vector3::new(sa * ce, -ca * ce, se);
-        Self { right: Vector3::new(ca, sa, 0.0), up: Vector3::new(-sa * se, ca * se, ce), towards }
+        Self { right: Vector3::new(ca, sa, 0.0), up: Vector3::new(-sa * se, ca * se, ce), towards, centre, unit }
     }
 
     /// Returns the place on the drawing of a point, given east, north and up.
-    fn point(&self, at: &Vector3<f64>) -> Point {
-        [CENTRE[0] + UNIT * self.right.dot(at), CENTRE[1] - UNIT * self.up.dot(at)]
+    pub(super) fn point(&self, at: &Vector3<f64>) -> Point {
+        [self.centre[0] + self.unit * self.right.dot(at), self.centre[1] - self.unit * self.up.dot(at)]
     }
 
-    /// Draws the visible faces of a box, given by its `centre` and three half edges.
+    /// Draws the visible faces of a box, given by its `centre` and three half edges. Each pair of faces has its shade,
+    /// at any angle; the faces across the last half edge are the lightest.
     fn cuboid(&self, centre: &Vector3<f64>, half: &[Vector3<f64>; 3], class: &str) -> Markup {
         let faces = [(0, 1, 2), (1, 2, 0), (2, 0, 1)].map(|(normal, one, other)| {
             let out = half[normal] * if half[normal].dot(&self.towards) < 0.0 { -1.0 } else { 1.0 };
             let (one, other) = (half[one], half[other]);
             let corners = [one + other, one - other, -one - other, other - one];
             let points = corners.map(|corner| self.point(&(centre + out + corner)));
-            polygon(&points, &format!("solid {class} {}", shade(&out)))
+            polygon(&points, &format!("solid {class} s{}", 3 - normal))
         });
         html! { @for face in faces { (face) } }
     }
@@ -102,7 +119,7 @@ impl View {
     /// Draws a circle around `centre`, seen as an ellipse; its long axis is perpendicular to the circle's normal.
     fn circle(&self, centre: &Vector3<f64>, normal: &Vector3<f64>, radius: f64, class: &str) -> Markup {
         let ([x, y], tilt) = (self.point(centre), self.tilt_deg(normal));
-        let (major, minor) = (radius * UNIT, radius * UNIT * normal.dot(&self.towards).abs());
+        let (major, minor) = (radius * self.unit, radius * self.unit * normal.dot(&self.towards).abs());
         html! {
             ellipse class=(class) rx={ (format!("{major:.1}")) } ry={ (format!("{minor:.1}")) }
                 transform={ (format!("translate({x:.1} {y:.1}) rotate({tilt:.1})")) } {}
@@ -131,35 +148,31 @@ impl View {
             (polygon(&edge, &format!("{class} s3 inner")))
             (line(edge[0], edge[1], "edge"))
             (line(edge[2], edge[3], "edge"))
-            (self.circle(&near, &axis, radius, &format!("solid {class} {}", shade(&axis))))
+            (self.circle(&near, &axis, radius, &format!("solid {class} s1")))
         }
     }
 }
 
-/// Returns the shade of a face; light comes from above.
-fn shade(normal: &Vector3<f64>) -> &'static str {
-    let normal = normal.normalize();
-    match normal {
-        n if n.z.abs() > 0.7 => "s1",
-        n if n.y.abs() > n.x.abs() => "s2",
-        _ => "s3",
-    }
-}
-
-fn position(languages: &Languages, at: &CertifiedPosition, base_axes: &Matrix3<f64>) -> Markup {
+fn position(languages: &Languages, at: &CertifiedPosition, base_axes: &Matrix3<f64>, factor: f64) -> Markup {
     let name = format!("position-{}-{}", at.i, at.j);
     let panel = Panel { name: &name, languages, size: SIZE };
     let position = at.to_model();
     let designed = attitude::nominal(at.theta_deg, at.phi_deg) * base_axes;
-    let real = attitude::actual(at.theta_deg, at.phi_deg, &position.deviation) * base_axes;
+    let turned = |deviation: &Deviation| attitude::actual(at.theta_deg, at.phi_deg, deviation) * base_axes;
+    let Deviation { alpha_rad, beta_rad, gamma_rad } = position.deviation;
+    let drawn = Deviation { alpha_rad: factor * alpha_rad, beta_rad: factor * beta_rad, gamma_rad: factor * gamma_rad };
+    let (true_axes, real) = (turned(&position.deviation), turned(&drawn));
     let frame = attitude::nominal(at.theta_deg, 0.0) * base_axes;
-    let view = View::new();
-    let (base, words) = base(&view, base_axes, languages);
-    let drawing =
-        [heading(at, languages), base, stand(&view, base_axes, &frame, &real), axes(&view, &designed, &real, words)];
+    let view = View::new(CENTRE, UNIT);
+    let drawing = [
+        heading(at, languages),
+        plate(&view, base_axes),
+        stand(&view, base_axes, &frame, &real),
+        axes(&view, &designed, &real),
+    ];
     panel.svg(
         |language| texts::POSITION_TITLE.filled(language, &[("index", &position.index.to_string())]),
-        |language| in_words(language, at, &real),
+        |language| in_words(language, at, &true_axes),
         &drawing,
     )
 }
@@ -174,40 +187,16 @@ fn heading(at: &CertifiedPosition, languages: &Languages) -> Markup {
     }
 }
 
-/// Draws the base plate with north and up, and returns it with the areas of their words.
-fn base(view: &View, base_axes: &Matrix3<f64>, languages: &Languages) -> (Markup, Vec<Area>) {
-    let floor = -AXIS_HEIGHT;
+/// Draws the plate that carries the posts, with its upper side at the foot of the axes.
+pub(super) fn plate(view: &View, base_axes: &Matrix3<f64>) -> Markup {
+    const HALF: f64 = 0.045;
     let [xi, eta, _] = rows(base_axes);
-    let plate = [xi * 1.56, eta * 0.9, Vector3::new(0.0, 0.0, 0.045)];
-    let corners = [[-1.43, -0.76], [-1.43, 0.76], [1.43, -0.76], [1.43, 0.76]];
-    let corners = corners.map(|[along, across]| xi * along + eta * across + Vector3::new(0.0, 0.0, floor));
-    let left = |corner: &Vector3<f64>| view.right.dot(corner);
-    // The arrows begin at the left corner of the plate, where the stand does not hide them.
-    let corner = corners.into_iter().min_by(|one, other| left(one).total_cmp(&left(other))).unwrap_or_default();
-    let (north, up) = (corner + Vector3::new(0.0, 1.0, 0.0), corner + Vector3::new(0.0, 0.0, 0.7));
-    let [north_x, north_y] = view.point(&north);
-    let [up_x, up_y] = view.point(&up);
-    let (north_word, up_word) = (texts::NORTH_LETTER.of(languages.first()), texts::UP.of(languages.first()));
-    let (north_baseline, up_baseline) = (north_y - 3.0, up_y - 5.0);
-    let line =
-        |left: f64, right: f64, baseline: f64| Area { low: [left, baseline - 10.0], high: [right, baseline + 3.0] };
-    let half = 0.5 * width(up_word);
-    let words_at = vec![
-        line(north_x - 7.0 - width(north_word), north_x - 5.0, north_baseline),
-        line(up_x - half, up_x + half, up_baseline),
-    ];
-    let drawing = html! {
-        (view.cuboid(&Vector3::new(0.0, 0.0, floor - 0.045), &plate, "base"))
-        (arrow(view.point(&corner), [north_x, north_y], "base-axis"))
-        (arrow(view.point(&corner), [up_x, up_y], "base-axis"))
-        (words([north_x - 5.0, north_baseline], Anchor::End, "small", north_word))
-        (words([up_x, up_baseline], Anchor::Middle, "small", up_word))
-    };
-    (drawing, words_at)
+    let half = [xi * 1.56, eta * 0.9, Vector3::new(0.0, 0.0, HALF)];
+    view.cuboid(&Vector3::new(0.0, 0.0, -AXIS_HEIGHT - HALF), &half, "base")
 }
 
 /// Draws posts, frame, platform and gyro from back to front; planes across ξ separate them.
-fn stand(view: &View, base_axes: &Matrix3<f64>, frame: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
+pub(super) fn stand(view: &View, base_axes: &Matrix3<f64>, frame: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
     let [_, eta, _] = rows(base_axes);
     let [xi, across, out] = rows(frame);
     let [_, _, spin] = rows(real);
@@ -236,7 +225,7 @@ fn stand(view: &View, base_axes: &Matrix3<f64>, frame: &Matrix3<f64>, real: &Mat
     html! {
         (post(-near_end)) (side(-near_end)) (crossbar(-nearer))
         @if !gyro_is_near { (gyro) }
-        (view.circle(&centre, &spin, PLATFORM, &format!("solid platform {}", shade(&spin))))
+        (view.circle(&centre, &spin, PLATFORM, "solid platform s1"))
         (platform_mark(view, real))
         (crossbar(nearer)) (side(near_end)) (post(near_end))
         (line(view.point(&(xi * -1.42)), view.point(&(xi * -1.1)), "axle"))
@@ -251,9 +240,8 @@ fn platform_mark(view: &View, real: &Matrix3<f64>) -> Markup {
     html! { @for sign in [-1.0, 1.0] { (view.circle(&(x * (sign * 0.5)), &spin, 0.055, "pin")) } }
 }
 
-/// Draws the case axes: nominal (thin) and actual, z from the end of the gyro. Their letters avoid the words at `taken`
-/// and each other.
-fn axes(view: &View, designed: &Matrix3<f64>, real: &Matrix3<f64>, taken: Vec<Area>) -> Markup {
+/// Draws the case axes: nominal (thin) and actual, z from the end of the gyro. Their letters avoid each other.
+fn axes(view: &View, designed: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
     let one = |direction: &Vector3<f64>, designed: &Vector3<f64>, from: f64| {
         html! {
             (line(view.point(&(designed * from)), view.point(&(designed * AXIS)), "ideal"))
@@ -262,7 +250,7 @@ fn axes(view: &View, designed: &Matrix3<f64>, real: &Matrix3<f64>, taken: Vec<Ar
     };
     let (directions, [x0, y0, z0]) = (rows(real), rows(designed));
     let [x, y, z] = &directions;
-    let mut taken = taken;
+    let mut taken = Vec::new();
     let letters = ["x", "y", "z"].into_iter().zip(&directions).map(|(name, direction)| {
         let [x, y] = letter(view, direction, &taken);
         taken.push(about_letter([x, y]));
@@ -278,7 +266,7 @@ fn axes(view: &View, designed: &Matrix3<f64>, real: &Matrix3<f64>, taken: Vec<Ar
 /// Returns the place of an axis letter: beyond the arrow head, even if the axis points at the viewer, or next to it if
 /// words are there.
 fn letter(view: &View, direction: &Vector3<f64>, taken: &[Area]) -> Point {
-    const GAPS: [f64; 2] = [9.0, 14.0];
+    const GAPS: [f64; 2] = [10.0, 15.0];
     const TURNS_DEG: [f64; 7] = [0.0, 45.0, -45.0, 90.0, -90.0, 135.0, -135.0];
     let ([cx, cy], [x, y]) = (CENTRE, view.point(&(direction * AXIS)));
     let length = libm::hypot(x - cx, y - cy);
@@ -296,11 +284,11 @@ fn letter(view: &View, direction: &Vector3<f64>, taken: &[Area]) -> Point {
 
 /// Returns the area that the letter of an axis covers.
 fn about_letter([x, y]: Point) -> Area {
-    Area { low: [x - 4.6, y - 8.0], high: [x + 4.6, y + 7.2] }
+    Area { low: [x - 5.4, y - 9.2], high: [x + 5.4, y + 8.2] }
 }
 
 /// Returns the axes of the case or of the base, each east, north, up: the rows of the matrix.
-fn rows(matrix: &Matrix3<f64>) -> [Vector3<f64>; 3] {
+pub(super) fn rows(matrix: &Matrix3<f64>) -> [Vector3<f64>; 3] {
     [0, 1, 2].map(|row| matrix.row(row).transpose())
 }
 

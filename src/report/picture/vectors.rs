@@ -1,6 +1,5 @@
-//! Earth rate and specific force in the case axes at every position, compared with those of an ideal stand: projections
-//! onto the gyro's x-y plane ([the paper](crate::bibliography::Bibliography::Tang17), eq. (5)), and the differences, to
-//! a scale of their own.
+//! Earth rate and specific force in the case axes at every position, as differences from those of an ideal stand, in the
+//! gyro's x-y plane ([the paper](crate::bibliography::Bibliography::Tang17), eq. (5)).
 
 use super::drawing::{
     Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading, label, legend, line, mark, panels, power,
@@ -35,33 +34,24 @@ impl Pair {
     }
 }
 
-/// The quantity shown in a pair of pictures.
+/// The quantity shown in a picture.
 struct Subject {
     name: &'static str,
-    vectors: Text,
-    differences: Text,
+    title: Text,
     unit: Text,
     pairs: Vec<Pair>,
 }
 
-/// Draws ω_3 and n of every position, as the passport states them, against those at the nominal angles.
+/// Draws ω_3 and n of every position, as the passport states them, minus those at the nominal angles.
 pub(crate) fn vectors(languages: &Languages, content: &Content) -> Markup {
     let subjects = subjects(content);
-    let drawings: Vec<Markup> = subjects
-        .iter()
-        .flat_map(|subject| [vectors_of(languages, subject), differences_of(languages, subject)])
-        .collect();
+    let drawings: Vec<Markup> = subjects.iter().map(|subject| differences_of(languages, subject)).collect();
     panels(COLUMNS, PANEL_PIXELS, &drawings, &key(languages))
 }
 
 fn key(languages: &Languages) -> Markup {
-    let ideal = html! { (line([1.0, 7.0], [22.0, 7.0], "ideal")) (mark([23.0, 7.0], 1, "mark-open")) };
     let marks = html! { (mark([5.0, 7.0], 1, "mark")) (mark([14.0, 7.0], 2, "mark")) (mark([23.0, 7.0], 3, "mark")) };
-    let entries = [
-        (arrow([2.0, 7.0], [26.0, 7.0], "real"), texts::VECTOR_REAL),
-        (ideal, texts::VECTOR_IDEAL),
-        (marks, texts::VECTOR_MARKS),
-    ];
+    let entries = [(arrow([2.0, 7.0], [26.0, 7.0], "real"), texts::VECTOR_DIFFERENCE), (marks, texts::VECTOR_MARKS)];
     legend(languages, &entries)
 }
 
@@ -79,20 +69,8 @@ fn subjects(content: &Content) -> [Subject; 2] {
     });
     let (rates, forces) = each.unzip();
     [
-        Subject {
-            name: "earth-rate",
-            vectors: texts::EARTH_RATE,
-            differences: texts::EARTH_RATE_DIFFERENCE,
-            unit: units::DEG_PER_H,
-            pairs: rates,
-        },
-        Subject {
-            name: "specific-force",
-            vectors: texts::SPECIFIC_FORCE,
-            differences: texts::SPECIFIC_FORCE_DIFFERENCE,
-            unit: units::G,
-            pairs: forces,
-        },
+        Subject { name: "earth-rate", title: texts::EARTH_RATE_DIFFERENCE, unit: units::DEG_PER_H, pairs: rates },
+        Subject { name: "specific-force", title: texts::SPECIFIC_FORCE_DIFFERENCE, unit: units::G, pairs: forces },
     ]
 }
 
@@ -140,69 +118,36 @@ impl Plane {
             }
             (rectangle(FIELD[0], FIELD[1], "frame-line", None))
             (label([right, bottom + 27.0], Anchor::End, "", &html! { tspan.letter { "x" } ", " (unit) }))
-            (words([left + 5.0, top + 13.0], Anchor::Start, "letter", "y"))
+            (label([left + 5.0, top + 13.0], Anchor::Start, "", &html! { tspan.letter { "y" } ", " (unit) }))
         }
     }
-}
-
-fn vectors_of(languages: &Languages, subject: &Subject) -> Markup {
-    let plane = Plane::about(subject.pairs.iter().flat_map(|pair| [pair.real, pair.ideal]));
-    let origin = plane.point([0.0, 0.0]);
-    let mut tips = Vec::new();
-    let mut lines = Vec::new();
-    let mut drawing = vec![plane.grid(languages, subject.unit)];
-    for pair in &subject.pairs {
-        let (real, ideal) = (plane.point(pair.real), plane.point(pair.ideal));
-        drawing.push(html! {
-            (line(origin, ideal, "ideal"))
-            (arrow(origin, real, "real"))
-            (mark(ideal, pair.index.i, "mark-open"))
-        });
-        lines.extend(along(origin, real));
-        tips.push((real, pair.index));
-    }
-    finished(languages, subject, subject.vectors, "vectors", drawing, (&tips, &lines), |pair| pair.real)
 }
 
 fn differences_of(languages: &Languages, subject: &Subject) -> Markup {
     let plane = Plane::about(subject.pairs.iter().map(Pair::difference));
     let origin = plane.point([0.0, 0.0]);
-    let mut tips = Vec::new();
-    let mut lines = Vec::new();
-    let mut drawing = vec![plane.grid(languages, subject.unit)];
-    for pair in &subject.pairs {
-        let tip = plane.point(pair.difference());
-        drawing.push(arrow(origin, tip, "real"));
-        lines.extend(along(origin, tip));
-        tips.push((tip, pair.index));
-    }
-    finished(languages, subject, subject.differences, "differences", drawing, (&tips, &lines), Pair::difference)
-}
-
-/// Returns the finished panel: marks and labels at the tips, the heading, and the numbers in words.
-fn finished(
-    languages: &Languages,
-    subject: &Subject,
-    title: Text,
-    part: &str,
-    mut drawing: Vec<Markup>,
-    (tips, lines): (&[(Point, PositionIndex)], &[Point]),
-    value: impl Fn(&Pair) -> [f64; 2],
-) -> Markup {
-    let name = format!("{}-{part}", subject.name);
-    drawing.push(html! { @for (at, index) in tips { (mark(*at, index.i, "mark")) } });
+    let tips: Vec<(Point, PositionIndex)> =
+        subject.pairs.iter().map(|pair| (plane.point(pair.difference()), pair.index)).collect();
+    let lines: Vec<Point> = tips.iter().flat_map(|(tip, _)| along(origin, *tip)).collect();
     let named: Vec<(Point, String)> =
         tips.iter().map(|(at, index)| (*at, format!("{},{}", index.i, index.j))).collect();
     let [[left, top], _] = FIELD;
-    let axis = labels::Area { low: [left, top], high: [left + 16.0, top + 18.0] };
+    let axis = labels::Area { low: [left, top], high: [left + 86.0, top + 18.0] };
     let field = labels::Area { low: FIELD[0], high: FIELD[1] };
-    drawing.push(labels::place(&labels::together(&named), &[axis], lines, &field));
-    let (title_lines, more) = heading(languages, [2.0, 13.0], title);
+    let (title_lines, more) = heading(languages, [2.0, 13.0], subject.title);
+    let moved = html! {
+        g transform={ "translate(0 " (more) ")" } {
+            (plane.grid(languages, subject.unit))
+            @for (tip, _) in &tips { (arrow(origin, *tip, "real")) }
+            @for (tip, index) in &tips { (mark(*tip, index.i, "mark")) }
+            (labels::place(&labels::together(&named), &[axis], &lines, &field))
+        }
+    };
+    let name = format!("{}-differences", subject.name);
     let panel = Panel { name: &name, languages, size: [SIZE[0], SIZE[1] + more] };
-    let moved = html! { g transform={ "translate(0 " (more) ")" } { @for part in &drawing { (part) } } };
     panel.svg(
-        |language| title.of(language).to_owned(),
-        |language| in_words(language, subject, &value),
+        |language| subject.title.of(language).to_owned(),
+        |language| in_words(language, subject),
         &[title_lines, moved],
     )
 }
@@ -218,9 +163,9 @@ fn along(from: Point, to: Point) -> Vec<Point> {
     (1..steps).map(at).collect()
 }
 
-fn in_words(language: Language, subject: &Subject, value: impl Fn(&Pair) -> [f64; 2]) -> String {
+fn in_words(language: Language, subject: &Subject) -> String {
     let each = subject.pairs.iter().map(|pair| {
-        let [x, y] = value(pair).map(|value| Number::significant(value, 5).text(language));
+        let [x, y] = pair.difference().map(|value| Number::significant(value, 5).text(language));
         texts::VECTOR_IN_WORDS.filled(language, &[("index", &pair.index.to_string()), ("x", &x), ("y", &y)])
     });
     let list = each.collect::<Vec<_>>().join("; ");

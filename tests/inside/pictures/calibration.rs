@@ -1,9 +1,10 @@
 //! Pictures of a calibration.
 
-use crate::inside::picture::{Axis, both, english, number, of_class, svgs, tip, whole};
+use crate::inside::picture::{Axis, both, end, english, number, of_class, svgs, tip, whole};
 use dtg_passport::calibration::document::{CalibrationDocument, ResultDocument};
 use dtg_passport::calibration::verdict::{Decision, ParameterVerdict, Verdict};
-use dtg_passport::report::picture::{convergence, residuals, tolerances};
+use dtg_passport::report::picture::tolerances::Strips;
+use dtg_passport::report::picture::{convergence, residuals};
 use roxmltree::Document;
 
 /// A result as a file holds it, its numbers made up: two positions, and three steps that fall by 1000 and by 100.
@@ -28,23 +29,19 @@ fn made_up_result() -> ResultDocument {
 
 #[test]
 fn residuals_stand_within_limits_of_two_uncertainties() {
-    let text = whole(&[residuals::residuals(&both(), &made_up_result())]);
-    let page = Document::parse(&text).unwrap();
-    let panels = svgs(&page);
-    // The first of y, 0.002, gives the scale.
-    let scale = number(of_class(panels[1], "bar")[0], "width") / 0.002;
-    for (panel, rows) in panels.into_iter().zip([[(0.001, 0.0015), (-0.003, 0.001)], [(-0.002, 0.001), (0.0, 0.0005)]])
-    {
-        let zero = number(of_class(panel, "zero")[0], "x1");
-        for (index, (value, u)) in rows.into_iter().enumerate() {
-            let (bar, limits) = (of_class(panel, "bar")[index], of_class(panel, "limits")[index]);
-            let left = f64::min(zero, zero + scale * value);
-            assert!(
-                (number(bar, "x") - left).abs() < 0.2 && (number(bar, "width") - scale * f64::abs(value)).abs() < 0.2
-            );
-            assert!((number(limits, "x") - (zero - 2.0 * scale * u)).abs() < 0.2);
-            assert!((number(limits, "width") - 4.0 * scale * u).abs() < 0.2);
-        }
+    let result = made_up_result();
+    let bars = residuals::Bars::of(&result);
+    let axis = whole(&[bars.axis(&english())]);
+    let axis = Document::parse(&axis).unwrap();
+    let axis = Axis::along_x(axis.root_element());
+    for (value, u) in [(0.001, 0.0015), (-0.003, 0.001), (-0.002, 0.001), (0.0, 0.0005)] {
+        let text = whole(&[bars.bar((value, Some(u)))]);
+        let page = Document::parse(&text).unwrap();
+        let (bar, limits) = (of_class(page.root(), "bar")[0], of_class(page.root(), "limits")[0]);
+        axis.says(number(of_class(page.root(), "zero")[0], "x1"), 0.0);
+        axis.says(end(bar, value), value);
+        axis.says(end(limits, -1.0), -2.0 * u);
+        axis.says(end(limits, 1.0), 2.0 * u);
     }
 }
 
@@ -72,47 +69,56 @@ fn row(
     }
 }
 
+/// The strips of a verdict, each as a document, and the axis below them.
+fn strips(parameters: Vec<ParameterVerdict>) -> (Vec<String>, String) {
+    let verdict = Verdict { overall: Decision::Fail, gravity_m_per_s2: 9.8, parameters };
+    let strips = Strips::of(&verdict);
+    let each = verdict.parameters.iter().map(|row| whole(&[strips.strip(row)])).collect();
+    (each, whole(&[strips.axis(&english())]))
+}
+
 /// Ten tolerances off to the right, and nine to the left, where the axis ends at four.
 #[test]
 fn an_arrow_points_to_what_the_axis_does_not_reach() {
-    let parameters = vec![row("k_x", 0.5, 0.02, 0.05, Decision::Fail), row("k_y", -0.45, 0.02, 0.05, Decision::Fail)];
-    let verdict = Verdict { overall: Decision::Fail, gravity_m_per_s2: 9.8, parameters };
-    let text = whole(&[tolerances::tolerances(&english(), "tolerances", &verdict)]);
-    let page = Document::parse(&text).unwrap();
-    let svg = svgs(&page)[0];
-    let axis = Axis::along_x(svg);
-    let tips: Vec<f64> = of_class(svg, "meridian").into_iter().map(|arrow| tip(arrow)[0]).collect();
-    assert_eq!(tips.len(), 2);
-    axis.says(tips[0], 400.0);
-    axis.says(tips[1], -400.0);
-    assert!(of_class(svg, "whisker").is_empty());
-    assert!(text.contains("data-value=\"0.5\"") && text.contains("data-value=\"-0.45\""));
+    let (drawn, axis) =
+        strips(vec![row("k_x", 0.5, 0.02, 0.05, Decision::Fail), row("k_y", -0.45, 0.02, 0.05, Decision::Fail)]);
+    let axis = Document::parse(&axis).unwrap();
+    let axis = Axis::along_x(axis.root_element());
+    for (text, due) in drawn.iter().zip([400.0, -400.0]) {
+        let page = Document::parse(text).unwrap();
+        let [arrow] = of_class(page.root(), "meridian")[..] else { panic!("{text}") };
+        axis.says(tip(arrow)[0], due);
+        assert!(of_class(page.root(), "whisker").is_empty());
+    }
 }
 
 #[test]
 fn parameters_stand_where_they_are_in_their_tolerance() {
-    let parameters = vec![
+    let (drawn, axis) = strips(vec![
         row("k_x", 0.01, 0.02, 0.05, Decision::Pass),
         row("k_y", -0.045, 0.02, 0.05, Decision::Undecided),
         row("k_xy", 0.7, 0.1, 0.5, Decision::Fail),
         row("k_yx", 0.1, 0.1, 0.0, Decision::Fail),
-    ];
-    let verdict = Verdict { overall: Decision::Fail, gravity_m_per_s2: 9.8, parameters };
-    let text = whole(&[tolerances::tolerances(&both(), "tolerances", &verdict)]);
-    let page = Document::parse(&text).unwrap();
-    let svg = svgs(&page)[0];
-    let limits: Vec<f64> = of_class(svg, "limit").into_iter().map(|line| number(line, "x1")).collect();
-    let (zero, unit) = (0.5 * (limits[0] + limits[1]), 0.5 * (limits[1] - limits[0]));
-    // A disc that passes at a fifth of its tolerance, a ring that is undecided at nine tenths.
-    let disc = of_class(svg, "mark").into_iter().find(|node| node.has_tag_name("circle")).unwrap();
-    let ring = of_class(svg, "site")[0];
-    assert!((number(disc, "cx") - (zero + 0.2 * unit)).abs() < 0.2);
-    assert!((number(ring, "cx") - (zero - 0.9 * unit)).abs() < 0.2);
+    ]);
+    let axis = Document::parse(&axis).unwrap();
+    let axis = Axis::along_x(axis.root_element());
+    let pages: Vec<Document> = drawn.iter().map(|text| Document::parse(text).unwrap()).collect();
+    for page in &pages {
+        for (line, due) in of_class(page.root(), "limit").into_iter().zip([-100.0, 100.0]) {
+            axis.says(number(line, "x1"), due);
+        }
+    }
+    // A disc that passes at a fifth of its tolerance, a ring that is undecided at nine tenths, a cross at seven fifths.
+    axis.says(number(of_class(pages[0].root(), "mark")[0], "cx"), 20.0);
+    axis.says(number(of_class(pages[1].root(), "site")[0], "cx"), -90.0);
+    let cross = of_class(pages[2].root(), "mark")[0];
+    assert!(cross.has_tag_name("polygon"));
     // Guarded acceptance of the first: three fifths of the tolerance either way; a tolerance of 0 has no picture.
-    let guarded = of_class(svg, "limits");
-    assert_eq!((guarded.len(), of_class(svg, "whisker").len()), (3, 3));
-    assert!((number(guarded[0], "width") - 2.0 * 0.6 * unit).abs() < 0.2);
-    assert!(text.contains("Kyx") && text.contains("undecided") && text.contains("не определено"));
+    let guarded = of_class(pages[0].root(), "limits")[0];
+    axis.says(number(guarded, "x"), -60.0);
+    axis.says(number(guarded, "x") + number(guarded, "width"), 60.0);
+    let drawn = ["limits", "whisker", "mark"].map(|class| of_class(pages[3].root(), class).len());
+    assert_eq!(drawn, [0, 0, 0]);
 }
 
 #[test]

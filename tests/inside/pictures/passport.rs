@@ -1,14 +1,15 @@
 //! Pictures of a passport.
 
 use crate::inside::fixtures;
-use crate::inside::picture::{ROUNDING, both, english, number, of_class, svgs, tip, whole};
+use crate::inside::picture::{Axis, ROUNDING, both, english, number, of_class, reach, svgs, tip, whole};
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::accuracy::Stated;
 use dtg_passport::passport::content::Content;
 use dtg_passport::passport::issue::{Issue, draft};
 use dtg_passport::report::page::{Language, Languages};
-use dtg_passport::report::picture::{accuracy, deviations, place, positions, vectors};
+use dtg_passport::report::picture::deviations::Bars;
+use dtg_passport::report::picture::{accuracy, place, positions, stand, vectors};
 use dtg_passport::site::Site;
 use dtg_passport::stand::{CertifiedPosition, Stand};
 use roxmltree::{Document, Node};
@@ -31,8 +32,8 @@ fn all_pictures(languages: &Languages, content: &Content) -> String {
     let gravity = content.earth.gravity_m_per_s2;
     let stated = content.accuracy.as_ref().unwrap();
     let pictures = [
+        stand::stand(languages, 90.0),
         positions::positions(languages, &content.positions, 90.0),
-        deviations::deviations(languages, &content.positions),
         vectors::vectors(languages, content),
         place::place(languages, content),
         accuracy::accuracy(languages, stated, gravity),
@@ -167,13 +168,22 @@ fn the_frames_axis_points_to_its_azimuth() {
     let (sin, cos) = libm::sincos(30_f64.to_radians());
     same(axes_at(30.0, &first, middle)[0][0], combination(&[(sin, e), (cos, n)]));
     for azimuth_deg in [0.0, 30.0, 90.0, 250.0] {
-        let text = whole(&[positions::positions(&english(), &first, azimuth_deg)]);
+        let text = whole(&[stand::stand(&english(), azimuth_deg)]);
         let page = Document::parse(&text).unwrap();
-        let arrow = of_class(page.root(), "base-axis")[0];
-        let shaft = arrow.children().find(|node| node.has_tag_name("line")).unwrap();
-        let ([x, y], [x1, y1]) = (tip(arrow), [number(shaft, "x1"), number(shaft, "y1")]);
-        // The arrow is one unit long, an axis 1.27.
-        same([1.27 * (x - x1), 1.27 * (y - y1)], n);
+        let along = |arrow: Node| {
+            let shaft = arrow.children().find(|node| node.has_tag_name("line")).unwrap();
+            let ([x, y], [x1, y1]) = (tip(arrow), [number(shaft, "x1"), number(shaft, "y1")]);
+            [x - x1, y - y1]
+        };
+        // The arrows of east, north and up do not turn; they are one unit of 46 long, an axis of the positions 1.27 of 55.
+        let scale = 46.0 / (1.27 * 55.0);
+        for (arrow, expected) in of_class(page.root(), "meridian").into_iter().zip([e, n, u]) {
+            same(along(arrow), expected.map(|part| scale * part));
+        }
+        // ξ turns with the base: it is 0.65 units of 86 long.
+        let (sin, cos) = libm::sincos(f64::to_radians(azimuth_deg));
+        let scale = 0.65 * 86.0 / (1.27 * 55.0);
+        same(along(of_class(page.root(), "base-axis")[0]), combination(&[(scale * sin, e), (scale * cos, n)]));
     }
 }
 
@@ -183,46 +193,54 @@ fn any_number_of_positions_at_any_angles() {
         let stand: Vec<CertifiedPosition> = (0..count)
             .map(|k| position(3 + k / 6, 1 + k % 6, [f64::from(37 * k), f64::from(61 * k)], [1.0; 3]))
             .collect();
-        let text = whole(&[positions::positions(&both(), &stand, 90.0), deviations::deviations(&both(), &stand)]);
+        let text = whole(&[positions::positions(&both(), &stand, 90.0)]);
         let page = Document::parse(&text).unwrap();
-        assert_eq!(svgs(&page).len(), count as usize + 3);
-        assert_eq!(of_class(page.root(), "bar").len(), 3 * count as usize + 1, "and one in the legend");
-        assert!(of_class(page.root(), "whisker").is_empty(), "no uncertainty is stated");
+        assert_eq!(svgs(&page).len(), count as usize);
+        let text = whole(&[Bars::of(&stand).bar((1.0, None))]);
+        assert!(!text.contains("whisker"), "no uncertainty is stated");
+    }
+}
+
+/// By hand: 90.4″ is the largest deviation, a hundred times that is 2.5°, a thousand times 25°; 20° is drawn as it is.
+#[test]
+fn small_deviations_are_exaggerated_and_labelled_so() {
+    let factor = |deviation_deg: f64| {
+        let stand = [position(1, 1, [0.0, 0.0], [0.0, 0.0, deviation_deg])];
+        let text = whole(&[positions::positions(&english(), &stand, 90.0)]);
+        let page = Document::parse(&text).unwrap();
+        let label = page.descendants().filter_map(|node| node.text()).find_map(|text| text.split_once('×'));
+        let drawn: Vec<[f64; 2]> = of_class_of(svgs(&page)[0], "axis");
+        (label.map(|(_, factor)| factor.to_owned()), drawn)
+    };
+    assert_eq!(factor(90.4 / 3600.0).0.as_deref(), Some("100."));
+    assert_eq!(factor(20.0).0, None);
+    // Drawn where the deviation is a hundred times as large.
+    let ((_, small), (_, large)) = (factor(0.15), factor(15.001));
+    for (one, other) in small.into_iter().zip(large) {
+        same(one, other);
     }
 }
 
 #[test]
 fn bars_are_as_long_as_deviations_are_large() {
     let (content, _) = passport(fixtures::ARC_MINUTES, fixtures::SITE);
-    let text = whole(&[deviations::deviations(&english(), &content.positions)]);
-    let page = Document::parse(&text).unwrap();
-    type Of = fn(&CertifiedPosition) -> (f64, f64);
-    let angles: [Of; 3] = [
-        |at| (at.alpha_arcsec, at.u_alpha_arcsec.unwrap()),
-        |at| (at.beta_arcsec, at.u_beta_arcsec.unwrap()),
-        |at| (at.gamma_arcsec, at.u_gamma_arcsec.unwrap()),
-    ];
     // The largest one, β of (1, 4), gives the scale: 90.4.
-    let panels = svgs(&page);
-    let scale = number(of_class(panels[1], "bar")[3], "width") / 90.4;
+    let bars = Bars::of(&content.positions);
+    let drawn = |value: f64, u: f64| {
+        let text = whole(&[bars.bar((value, Some(u)))]);
+        let page = Document::parse(&text).unwrap();
+        let (bar, zero) = (of_class(page.root(), "bar")[0], of_class(page.root(), "zero")[0]);
+        (number(bar, "x"), number(bar, "width"), number(zero, "x1"), reach(of_class(page.root(), "whisker")[0]))
+    };
+    let scale = drawn(-90.4, 1.2).1 / 90.4;
     assert!(scale > 0.3, "{scale}");
-    for (panel, of) in panels.into_iter().zip(angles) {
-        let zero = number(of_class(panel, "zero")[0], "x1");
-        let (bars, whiskers) = (of_class(panel, "bar"), of_class(panel, "whisker"));
-        assert_eq!((bars.len(), whiskers.len()), (8, 8));
-        for ((at, bar), whisker) in content.positions.iter().zip(bars).zip(whiskers) {
-            let (value, u) = of(at);
-            let (x, width) = (number(bar, "x"), number(bar, "width"));
-            let end = if value > 0.0 { x + width } else { x };
-            assert!((end - zero - scale * value).abs() < 0.3, "{value}: from {zero} to {end}");
-            let path = whisker.attribute("d").unwrap();
-            let [from, to] = ['M', 'H'].map(|letter| {
-                let rest = &path[path.find(letter).unwrap() + 1..];
-                rest.split([',', 'M']).next().unwrap().parse::<f64>().unwrap()
-            });
-            assert!((to - from - scale * 4.0 * u).abs() < 0.3, "plus and minus 2u of {u}: from {from} to {to}");
-            assert!((0.5 * (from + to) - end).abs() < 0.3);
-        }
+    for at in &content.positions {
+        let (value, u) = (at.alpha_arcsec, at.u_alpha_arcsec.unwrap());
+        let (x, width, zero, [from, to]) = drawn(value, u);
+        let end = if value > 0.0 { x + width } else { x };
+        assert!((end - zero - scale * value).abs() < 0.3, "{value}: from {zero} to {end}");
+        assert!((to - from - scale * 4.0 * u).abs() < 0.3, "plus and minus 2u of {u}: from {from} to {to}");
+        assert!((0.5 * (from + to) - end).abs() < 0.3);
     }
 }
 
@@ -245,22 +263,15 @@ fn ideal_vectors_are(content: &Content, rates: [[f64; 2]; 8]) {
     let text = whole(&[vectors::vectors(&english(), content)]);
     let page = Document::parse(&text).unwrap();
     let panels = svgs(&page);
-    let real = |index: usize| (content.vectors[index].omega_deg_per_h, content.vectors[index].specific_force_g);
-    for (panel, ideal, is_rate) in [(panels[0], rates, true), (panels[2], forces, false)] {
-        let middle_of = |node: Node| match node.tag_name().name() {
-            "circle" => [number(node, "cx"), number(node, "cy")],
-            _ => [0, 1].map(|k| number(node, ["x", "y"][k]) + 0.5 * number(node, ["width", "height"][k])),
-        };
-        let open: Vec<[f64; 2]> = of_class(panel, "mark-open").into_iter().map(middle_of).collect();
+    assert_eq!(panels.len(), 2);
+    for (panel, ideal, is_rate) in [(panels[0], rates, true), (panels[1], forces, false)] {
+        let (along_x, along_y) = (Axis::along_x(panel), Axis::along_y(panel));
         let tips: Vec<[f64; 2]> = of_class(panel, "real").into_iter().map(tip).collect();
-        assert_eq!((open.len(), tips.len()), (8, 8));
-        let middle = [0, 1].map(|k| 0.5 * (open[4][k] + open[6][k]));
-        let scale = (open[5][0] - middle[0]) / ideal[5][0];
-        for (index, ideal) in ideal.iter().enumerate() {
-            same(open[index], [middle[0] + scale * ideal[0], middle[1] - scale * ideal[1]]);
-            let (rate, force) = real(index);
-            let [x, y] = if is_rate { rate } else { force };
-            same(tips[index], [middle[0] + scale * x, middle[1] - scale * y]);
+        assert_eq!(tips.len(), 8);
+        for ((at, ideal), tip) in content.vectors.iter().zip(ideal).zip(tips) {
+            let real = if is_rate { at.omega_deg_per_h } else { at.specific_force_g };
+            along_x.says(tip[0], real[0] - ideal[0]);
+            along_y.says(tip[1], real[1] - ideal[1]);
         }
     }
 }
@@ -336,7 +347,7 @@ fn every_number_is_the_files() {
         let text = all_pictures(&both(), &content);
         let page = Document::parse(&text).unwrap();
         let printed: Vec<&str> = page.descendants().filter_map(|node| node.attribute("data-value")).collect();
-        assert!(printed.len() > 30);
+        assert!(printed.len() >= 8, "{printed:?}");
         let words: BTreeSet<&str> = file.split(|c: char| !"+-.e".contains(c) && !c.is_ascii_digit()).collect();
         for value in printed {
             assert!(words.contains(value), "{value} is not in the file");

@@ -87,8 +87,12 @@ pub fn words(text: Node) -> String {
     text.descendants().filter(Node::is_text).filter_map(|node| node.text()).collect()
 }
 
+/// Returns the number of a mark; one in degrees in arcseconds.
 fn said(text: Node) -> Option<f64> {
-    words(text).replace('\u{2212}', "-").replace('\u{202f}', "").replace(',', ".").parse().ok()
+    let words = words(text);
+    let (words, factor) = words.strip_suffix('°').map_or((words.as_str(), 1.0), |degrees| (degrees, 3600.0));
+    let number: Option<f64> = words.replace('\u{2212}', "-").replace('\u{202f}', "").replace(',', ".").parse().ok();
+    number.map(|number| factor * number)
 }
 
 /// Returns the power of ten that is factored out of the numbers of a picture's axes.

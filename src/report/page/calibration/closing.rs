@@ -2,9 +2,8 @@
 
 use super::CalibrationPage;
 use crate::report::page::language::{Languages, Text};
-use crate::report::page::parts::{field, fields, heading, section as part};
+use crate::report::page::parts::{field, fields, heading, section as part, verbatim};
 use crate::report::page::texts::calibration as texts;
-use base64ct::{Base64, Encoding};
 use maud::{Markup, html};
 use serde::Serialize;
 use serde_json::Serializer;
@@ -26,30 +25,34 @@ pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup 
 fn signature(languages: &Languages, who: Text) -> Markup {
     let names = [texts::POST_AND_NAME, texts::SIGNATURE, texts::DATE, texts::STAMP];
     html! {
-        div.part {
+        div.part.pen {
             (heading(languages, who))
             (fields(names.map(|name| field(languages, name, None))))
         }
     }
 }
 
-fn annex(page: &CalibrationPage, languages: &Languages) -> Markup {
+/// Returns the result as JSON, a key on each line.
+pub(super) fn json(page: &CalibrationPage) -> String {
     // Every number of a result is finite, and its keys are strings. So this JSON can always be written.
     let mut json = Vec::new();
     let mut writer = Serializer::with_formatter(&mut json, Lines { depth: 0 });
-    let json = match page.result().serialize(&mut writer) {
+    match page.result().serialize(&mut writer) {
         Ok(()) => String::from_utf8(json).unwrap_or_default() + "\n",
         Err(_) => String::new(),
-    };
-    let address = format!("data:application/json;base64,{}", Base64::encode_string(json.as_bytes()));
+    }
+}
+
+fn annex(page: &CalibrationPage, languages: &Languages) -> Markup {
     let body = html! {
-        (languages.paragraph(texts::ANNEX_NOTE))
-        p.save { a href=(address) download="calibration.json" { (languages.inline(texts::SAVE)) } }
-        pre lang="en" translate="no" tabindex="0" aria-labelledby="annex-heading" { (json) }
-        p.end {
-            (languages.label_with(|language| texts::END.filled(language, &[("id", &page.content().passport.id)])))
-        }
-    };
+            (languages.paragraph(texts::ANNEX_NOTE))
+            div.file {
+    (verbatim("en", &json(page)))
+            p.end {
+                (languages.label_with(|language| texts::END.filled(language, &[("id", &page.content().passport.id)])))
+            }
+            }
+        };
     part(languages, "annex", "", texts::ANNEX, &body)
 }
 

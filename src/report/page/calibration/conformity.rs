@@ -1,56 +1,158 @@
-//! Comparison of the parameters with the type's tolerance, and their change since an earlier result.
+//! The result: every parameter with its expanded uncertainty, within the tolerance of the type if one was specified, and
+//! its change since an earlier result.
 
+use super::parameters::{self, uncertainties, values};
 use super::{CalibrationPage, Section};
 use crate::calibration::parameter::Parameter;
-use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
-use crate::report::page::language::{Languages, Text};
-use crate::report::page::number::Number;
-use crate::report::page::parts::{Table, figure, heading, quantity, symbol};
+use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, ParameterVerdict, Verdict};
+use crate::gyro::GyroType;
+use crate::report::page::language::{Language, Languages, Text};
+use crate::report::page::number::{Number, column};
+use crate::report::page::parts::{Table, heading, quantity, symbol};
 use crate::report::page::texts::{calibration as texts, units};
-use crate::report::picture::tolerances::{decision, parameter_of, printed, tolerances, unit_of};
+use crate::report::picture::accuracy::unit;
+use crate::report::picture::tolerances::{Strips, decision, key, parameter_of, printed, unit_of};
 use maud::{Markup, html};
 
 /// Limit below which a risk is not printed as a number.
 const LEAST_RISK: f64 = 1e-6;
 
-pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let Some((gyro, verdict)) = page.judged() else { return html! {} };
+pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
+    let adopted = page.adopted();
     let body = html! {
+        @match page.judged() {
+            Some((gyro, verdict)) => (compared(page, gyro, verdict, languages)),
+            None => (alone(page, languages)),
+        }
+        @if let Some(result) = adopted { (parameters::beyond_the_eight(result, languages)) }
+        @if let Some(change) = &page.result().change {
+            (heading(languages, texts::CHANGE))
+            (table(languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY]))
+        }
+    };
+    page.section(languages, Section::Result, &body)
+}
+
+fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, languages: &Languages) -> Markup {
+    html! {
         p { (languages.inline_with(|language| texts::CONFORMITY.filled(language, &[("type", &gyro.r#type)]))) }
         (table(languages, verdict, texts::VERDICT_CAPTION, [texts::NOMINAL, texts::DEVIATION]))
+        (key(languages))
         (languages.paragraph(texts::RISK_NOTE))
         @for row in verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()) {
             (from_gravity(page, row, languages))
         }
-        (figure(languages, "tolerances", &tolerances(languages, "tolerances", verdict), texts::TOLERANCES_CAPTION))
-        @if let Some(change) = &page.result().change {
-            (heading(languages, texts::CHANGE))
-            (table(languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY]))
-            (figure(languages, "changes", &tolerances(languages, "changes", change), texts::CHANGES_CAPTION))
-        }
+    }
+}
+
+/// Writes how many parameters pass, and which are undecided or fail.
+pub(super) fn counted(verdict: &Verdict, languages: &Languages) -> Markup {
+    let of = |decision: Decision| verdict.parameters.iter().filter(move |row| row.guarded == decision);
+    let names = |decision: Decision| {
+        let names: Vec<Markup> = of(decision).map(parameter).collect();
+        html! { @for (place, name) in names.iter().enumerate() { @if place > 0 { ", " } (name) } }
     };
-    page.section(languages, Section::Conformity, texts::TOLERANCES, &body)
+    let values = [("passed", html! { (of(Decision::Pass).count()) }), ("all", html! { (verdict.parameters.len()) })];
+    let rest = [(Decision::Undecided, texts::ARE_UNDECIDED), (Decision::Fail, texts::FAIL)];
+    languages.paragraph_with(|language| {
+        html! {
+            (texts::PASSED.marked_up(language, &values))
+            @for (decision, text) in rest.iter().filter(|(decision, _)| of(*decision).count() > 0) {
+                (text.marked_up(language, &[("names", names(*decision))]))
+            }
+            "."
+        }
+    })
+}
+
+/// Writes the parameters without a type: values and expanded uncertainties.
+fn alone(page: &CalibrationPage, languages: &Languages) -> Markup {
+    let Some(result) = page.adopted() else { return html! {} };
+    let (values, us) = (values(result), uncertainties(&result.standard_uncertainty));
+    let found = Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| !values[parameter.place()].is_nan());
+    let found: Vec<(Parameter, f64, f64)> =
+        found.map(|parameter| (parameter, values[parameter.place()], us[parameter.place()])).collect();
+    let value = column(languages, &found.iter().map(|(_, x, u)| Some(Number::measured(*x, *u))).collect::<Vec<_>>());
+    let u = column(languages, &found.iter().map(|(.., u)| Some(Number::uncertainty(*u))).collect::<Vec<_>>());
+    let rows = found.iter().zip(value).zip(u).map(|(((parameter, ..), value), u)| {
+        let name = name_of(parameter.symbol());
+        vec![name, value.unwrap_or_default(), u.unwrap_or_default(), languages.inline(unit(*parameter))]
+    });
+    let headings = vec![
+        languages.label(texts::PARAMETER),
+        languages.label(texts::FOUND),
+        symbol("u", ""),
+        languages.label(texts::UNIT),
+    ];
+    let table = Table {
+        caption: Some(languages.label(texts::RESULT_CAPTION)),
+        headings,
+        rows: rows.collect(),
+        row_headings: 1,
+        class: "numbers narrow",
+        ..Table::default()
+    };
+    table.markup(languages.spoken(texts::RESULT_CAPTION))
 }
 
 fn table(languages: &Languages, verdict: &Verdict, caption: Text, [reference, deviation]: [Text; 2]) -> Markup {
-    let headings = [
-        texts::PARAMETER,
-        reference,
-        texts::FOUND,
-        deviation,
-        texts::EXPANDED_SHORT,
-        texts::TOLERANCE,
-        texts::UNIT,
-        texts::SIMPLE,
-        texts::RISK,
-        texts::GUARDED,
+    let rows = &verdict.parameters;
+    let strips = Strips::of(verdict);
+    let numbers = |number: &dyn Fn(&ParameterVerdict) -> Number| {
+        column(languages, &rows.iter().map(|row| Some(number(row))).collect::<Vec<_>>())
+    };
+    let each = |cell: &dyn Fn(&ParameterVerdict) -> Markup| rows.iter().map(|row| Some(cell(row))).collect();
+    let with_unit = |row: &ParameterVerdict| {
+        let unit = parameter_of(row).map_or(units::PERCENT, unit);
+        html! { (parameter(row)) ", " (languages.spoken(unit)) }
+    };
+    let known = rows.iter().map(|row| (row.specific_risk >= LEAST_RISK).then(|| probability_number(row.specific_risk)));
+    let risks = column(languages, &known.collect::<Vec<_>>()).into_iter().zip(rows);
+    let risks = risks.map(|(number, row)| {
+        let risk = number.unwrap_or_else(|| probability(languages, row.specific_risk));
+        Some(html! { (mark_of(languages, row.simple)) " " (risk) })
+    });
+    let risks = risks.collect();
+    let tolerances = numbers(&|row| Number::exact(row.tolerance)).into_iter().zip(rows);
+    let tolerances = tolerances.map(|(number, row)| {
+        Some(html! { (number.unwrap_or_default()) " " span.unit { (languages.spoken(unit_of(row))) } })
+    });
+    let tolerances = tolerances.collect();
+    let columns: [(Text, Vec<Option<Markup>>); 9] = [
+        (texts::FOUND, numbers(&|row| Number::measured(row.value, row.standard_uncertainty))),
+        (
+            texts::PLUS_MINUS,
+            numbers(&|row| Number::measured(COVERAGE_FACTOR * row.standard_uncertainty, row.standard_uncertainty)),
+        ),
+        (reference, numbers(&|row| Number::measured(row.reference_value, row.standard_uncertainty))),
+        (deviation, numbers(&|row| printed(row).0)),
+        (texts::PLUS_MINUS, numbers(&|row| printed(row).1)),
+        (texts::TOLERANCE, tolerances),
+        (texts::IN_TOLERANCE, each(&|row| strips.strip(row))),
+        (texts::GUARDED, each(&|row| decided(languages, row.guarded))),
+        (texts::SIMPLE, risks),
     ];
+    let cells =
+        |place: usize| columns.iter().map(move |(_, cells)| cells.get(place).cloned().flatten().unwrap_or_default());
+    let headings = std::iter::once(texts::PARAMETER).chain(columns.iter().map(|(heading, _)| *heading));
+    let foot = (0..=columns.len()).map(|place| {
+        if place == 7 {
+            strips.axis(languages)
+        } else {
+            html! {}
+        }
+    });
     let table = Table {
         caption: Some(languages.label(caption)),
-        headings: headings.map(|text| languages.label(text)).into(),
-        rows: verdict.parameters.iter().map(|row| cells(languages, row)).collect(),
+        headings: headings.map(|text| languages.label(text)).collect(),
+        rows: rows
+            .iter()
+            .enumerate()
+            .map(|(place, row)| std::iter::once(with_unit(row)).chain(cells(place)).collect())
+            .collect(),
+        foot: foot.collect(),
         row_headings: 1,
-        class: "numbers",
+        class: "numbers result",
         ..Table::default()
     };
     table.markup(languages.spoken(caption))
@@ -70,42 +172,45 @@ fn from_gravity(page: &CalibrationPage, row: &ParameterVerdict, languages: &Lang
 
 /// Returns the symbol of the parameter of `row`.
 fn parameter(row: &ParameterVerdict) -> Markup {
-    let name = parameter_of(row).map_or(row.parameter, Parameter::symbol);
+    name_of(parameter_of(row).map_or(row.parameter, Parameter::symbol))
+}
+
+fn name_of(name: &str) -> Markup {
     let (letter, index) = name.split_once('_').unwrap_or((name, ""));
     symbol(letter, index)
 }
 
-fn cells(languages: &Languages, row: &ParameterVerdict) -> Vec<Markup> {
-    let (deviation, expanded) = printed(row);
-    let decided = |found: Decision| {
-        let words = languages.label(decision(found));
-        match found {
-            Decision::Pass => html! { span.passed { (words) } },
-            Decision::Undecided => words,
-            Decision::Fail => html! { strong.failed { (words) } },
-        }
-    };
-    vec![
-        parameter(row),
-        Number::measured(row.reference_value, row.standard_uncertainty).markup(languages),
-        Number::measured(row.value, row.standard_uncertainty).markup(languages),
-        deviation.markup(languages),
-        expanded.markup(languages),
-        Number::exact(row.tolerance).markup(languages),
-        languages.inline(unit_of(row)),
-        decided(row.simple),
-        probability(languages, row.specific_risk),
-        decided(row.guarded),
-    ]
+/// Writes the mark of a decision; screen readers say the word.
+fn mark_of(languages: &Languages, found: Decision) -> Markup {
+    let (class, mark) = mark(found);
+    html! { span class=(class) { (mark) span.unseen { " " (languages.spoken(decision(found))) } } }
+}
+
+/// Writes a decision with its mark.
+fn decided(languages: &Languages, found: Decision) -> Markup {
+    let (class, mark) = mark(found);
+    html! { span class=(class) { (mark) " " (languages.label(decision(found))) } }
+}
+
+fn mark(found: Decision) -> (&'static str, &'static str) {
+    match found {
+        Decision::Pass => ("state passed", "●"),
+        Decision::Undecided => ("state", "○"),
+        Decision::Fail => ("state failed", "✕"),
+    }
 }
 
 /// Writes a probability with two digits, or as less than `LEAST_RISK`.
 pub(super) fn probability(languages: &Languages, p: f64) -> Markup {
     if p < LEAST_RISK {
         let limit = Number::scientific(LEAST_RISK, 1);
-        return languages
-            .inline_with(|language| texts::BELOW.filled(language, &[("limit", &limit.text(languages.first()))]));
+        return languages.inline_with(|language: Language| {
+            texts::BELOW.filled(language, &[("limit", &limit.text(languages.first()))])
+        });
     }
-    let number = if p < 0.01 { Number::scientific(p, 2) } else { Number::fixed(p, 2) };
-    number.markup(languages)
+    probability_number(p).markup(languages)
+}
+
+fn probability_number(p: f64) -> Number {
+    if p < 0.01 { Number::scientific(p, 2) } else { Number::fixed(p, 2) }
 }

@@ -10,14 +10,14 @@ use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{self, Number};
-use crate::report::page::parts::{Table, field, fields, figure, heading, quantity, symbol, symbol_and_unit};
+use crate::report::page::parts::{Table, field, fields, heading, quantity, symbol, symbol_and_unit};
+use crate::report::page::passport::characteristics::starts;
 use crate::report::page::texts::{calibration as texts, units};
-use crate::report::picture::residuals::residuals;
+use crate::report::picture::residuals::{AXES, Bars, key};
 use maud::{Markup, html};
 
 pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let results = &page.result().results;
-    let answer = results.iter().find(|result| result.method == "least-squares").or(results.last());
+    let answer = page.adopted();
     let fit = html! {
         @if let Some(hint) = &page.calibration.hint { (what_may_be_wrong(hint, languages)) }
         @if let Some(result) = answer {
@@ -28,7 +28,7 @@ pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup 
                 (chi_square(result, languages))
                 (scatter(page, languages))
                 (table(result, languages))
-                (figure(languages, "residuals", &residuals(languages, result), texts::RESIDUALS_FIGURE))
+                (key(languages))
             }
         }
     };
@@ -42,8 +42,8 @@ pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup 
         }
     };
     html! {
-        (page.section(languages, Section::Fit, texts::FIT, &fit))
-        (page.section(languages, Section::Blind, texts::BLIND, &blind))
+        (page.section(languages, Section::Fit, &fit))
+        (page.section(languages, Section::Blind, &blind))
     }
 }
 
@@ -128,13 +128,16 @@ fn agreement(found: &Scatter, what: Text, languages: &Languages) -> Markup {
 
 fn table(result: &ResultDocument, languages: &Languages) -> Markup {
     let residuals = &result.residuals_deg_per_h;
-    type Of = fn(&ResidualDocument) -> (f64, Option<f64>);
-    let axes: [Of; 2] = [|at| (at.x, at.u_x), |at| (at.y, at.u_y)];
-    let columns = axes.into_iter().flat_map(|of| {
+    let bars = Bars::of(result);
+    let columns = AXES.into_iter().flat_map(|(_, of)| {
         let value = |at: &ResidualDocument| Some(Number::measured(of(at).0, of(at).1.unwrap_or(0.0)));
         let u = |at: &ResidualDocument| of(at).1.map(Number::uncertainty);
         let column = |numbers: Vec<Option<Number>>| number::column(languages, &numbers);
-        [column(residuals.iter().map(value).collect()), column(residuals.iter().map(u).collect())]
+        [
+            column(residuals.iter().map(value).collect()),
+            column(residuals.iter().map(u).collect()),
+            residuals.iter().map(|at| Some(bars.bar(of(at)))).collect(),
+        ]
     });
     let columns: Vec<Vec<Option<Markup>>> = columns.collect();
     let rows = residuals.iter().enumerate().map(|(row, at)| {
@@ -142,16 +145,27 @@ fn table(result: &ResultDocument, languages: &Languages) -> Markup {
         [html! { (at.i) }, html! { (at.j) }].into_iter().chain(cells).collect()
     });
     let mut headings = vec![symbol("i", ""), symbol("j", "")];
-    for axis in ["x", "y"] {
+    for (axis, _) in AXES {
         headings.push(symbol_and_unit(languages, &symbol(axis, ""), units::DEG_PER_H));
         headings.push(symbol_and_unit(languages, &symbol("u", axis), units::DEG_PER_H));
+        headings.push(html! {});
     }
+    // Every third column from the fifth on is of bars.
+    let axis = |place: usize| {
+        if place >= 4 && place % 3 == 1 {
+            bars.axis(languages)
+        } else {
+            html! {}
+        }
+    };
     let table = Table {
         caption: Some(languages.label(texts::RESIDUALS_CAPTION)),
         headings,
         rows: rows.collect(),
+        foot: (0..8).map(axis).collect(),
+        starts: starts(residuals.iter().map(|at| at.i)),
         row_headings: 2,
-        class: "numbers",
+        class: "numbers residuals",
         ..Table::default()
     };
     table.markup(languages.spoken(texts::RESIDUALS_CAPTION))

@@ -2,11 +2,11 @@
 //!
 //! The numbers are those of [`CalibrationDocument`], which `calibrate --format json` writes; the annex is that file.
 //!
-//! * `subject`: gyro, stand, passport and its verification, currents, laboratory.
-//! * `parameters`: parameters by every method.
-//! * `conformity`: comparison with the gyro type, and with an earlier result.
+//! * `conformity`: the result, compared with the gyro type and with an earlier result.
 //! * `fit`: chi-square, residuals, possible causes of disagreement, errors that the residuals do not show.
 //! * `uncertainty`: budget and Monte Carlo.
+//! * `parameters`: parameters by every method.
+//! * `subject`: gyro, stand, passport and its verification, currents, laboratory.
 //! * `closing`: signatures, and the annex.
 
 mod closing;
@@ -23,7 +23,7 @@ use super::parts;
 use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use super::texts::calibration as texts;
-use crate::calibration::document::CalibrationDocument;
+use crate::calibration::document::{CalibrationDocument, ResultDocument};
 use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{Decision, Verdict};
 use crate::calibration::{Calibration, Method};
@@ -34,6 +34,7 @@ use crate::report::mistake;
 use crate::uncertainty::{Budget, MonteCarlo};
 use jiff::Timestamp;
 use maud::{Markup, html};
+use std::path::Path;
 
 /// The passport used for a calibration.
 #[derive(Debug, Clone)]
@@ -69,30 +70,42 @@ impl UsedPassport<'_> {
 /// A numbered section of the report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Section {
-    Subject,
-    Parameters,
-    Conformity,
+    Result,
     Fit,
     Blind,
     Budget,
     MonteCarlo,
+    Methods,
+    Subject,
 }
 
 impl Section {
     /// All sections, in the order of the page.
     const ALL: [Self; 7] =
-        [Self::Subject, Self::Parameters, Self::Conformity, Self::Fit, Self::Blind, Self::Budget, Self::MonteCarlo];
+        [Self::Result, Self::Fit, Self::Blind, Self::Budget, Self::MonteCarlo, Self::Methods, Self::Subject];
+
+    fn heading(self) -> Text {
+        match self {
+            Self::Result => texts::RESULT,
+            Self::Fit => texts::FIT,
+            Self::Blind => texts::BLIND,
+            Self::Budget => texts::BUDGET,
+            Self::MonteCarlo => texts::MONTE_CARLO,
+            Self::Methods => texts::METHODS,
+            Self::Subject => texts::SUBJECT,
+        }
+    }
 
     /// Returns the anchor of the section in the HTML document.
     fn id(self) -> &'static str {
         match self {
-            Self::Subject => "subject",
-            Self::Parameters => "parameters",
-            Self::Conformity => "conformity",
+            Self::Result => "result",
             Self::Fit => "fit",
             Self::Blind => "blind",
             Self::Budget => "budget",
             Self::MonteCarlo => "monte-carlo",
+            Self::Methods => "methods",
+            Self::Subject => "subject",
         }
     }
 }
@@ -143,21 +156,35 @@ impl CalibrationPage<'_> {
         self.document
     }
 
-    /// Returns a section with its number. Only the sections that this report contains are numbered.
-    fn section(&self, languages: &Languages, section: Section, heading: Text, body: &Markup) -> Markup {
-        let there = Section::ALL.into_iter().filter(|one| match one {
-            Section::Conformity => self.judged().is_some(),
+    /// Returns the sections that this report contains.
+    fn sections(&self) -> impl Iterator<Item = Section> {
+        Section::ALL.into_iter().filter(|one| match one {
             Section::Budget => self.budget.is_some(),
             Section::MonteCarlo => self.monte_carlo.is_some(),
-            Section::Subject | Section::Parameters | Section::Fit | Section::Blind => true,
-        });
-        let number = 1 + there.take_while(|one| *one != section).count();
-        parts::section(languages, section.id(), &number.to_string(), heading, body)
+            Section::Result | Section::Fit | Section::Blind | Section::Methods | Section::Subject => true,
+        })
+    }
+
+    /// Returns a section with its number. Only the sections that this report contains are numbered.
+    fn section(&self, languages: &Languages, section: Section, body: &Markup) -> Markup {
+        let number = 1 + self.sections().take_while(|one| *one != section).count();
+        parts::section(languages, section.id(), &number.to_string(), section.heading(), body)
     }
 
     /// Returns the gyro type and the verdict against it, or `None` if no type was specified.
     fn judged(&self) -> Option<(&GyroType, &Verdict)> {
         self.gyro.zip(self.result().verdict.as_ref())
+    }
+
+    /// Returns the adopted result: that of least squares, otherwise the last.
+    fn adopted(&self) -> Option<&ResultDocument> {
+        let results = &self.result().results;
+        results.iter().find(|result| result.method == Method::LeastSquares.key()).or(results.last())
+    }
+
+    /// Returns the name of the currents file without its folder.
+    fn currents_name(&self) -> &str {
+        Path::new(self.currents.0).file_name().and_then(|name| name.to_str()).unwrap_or(self.currents.0)
     }
 
     fn verified(&self) -> bool {
@@ -175,13 +202,20 @@ impl CalibrationPage<'_> {
                 h1 { (self.gyro.map_or(self.content().passport.id.as_str(), |gyro| gyro.r#type.as_str())) }
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
+            (parts::contents(
+                languages,
+                texts::SAVE,
+                (&parts::data_address("application/json", closing::json(self).as_bytes()), "calibration.json"),
+                &self.sections().map(|one| (one.id(), one.heading())).chain([("annex", texts::ANNEX)]).collect::<Vec<_>>(),
+            ))
             main {
                 (self.headlines(languages))
-                (subject::section(self, languages))
-                (parameters::section(self, languages))
-                (conformity::sections(self, languages))
+                (subject::band(self, languages))
+                (conformity::section(self, languages))
                 (fit::sections(self, languages))
                 (uncertainty::sections(self, languages))
+                (parameters::section(self, languages))
+                (subject::section(self, languages))
                 (closing::sections(self, languages))
             }
         }
@@ -214,7 +248,8 @@ impl CalibrationPage<'_> {
             Decision::Fail => ("verdict refused", texts::CONFORMS_NOT),
         };
         let name = |language: Language| text.filled(language, &[("type", &gyro.r#type)]);
-        boxed(class, languages.label_with(name), languages.paragraph(texts::RULE))
+        let words = html! { (conformity::counted(verdict, languages)) (languages.paragraph(texts::RULE)) };
+        boxed(class, languages.label_with(name), words)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Table of the parameters by every method.
+//! Parameters by every method, and what the methods say besides: steps, matrices, drift in time.
 
 use super::{CalibrationPage, Section, method};
 use crate::calibration::document::{ResultDocument, UncertaintyDocument};
@@ -7,22 +7,20 @@ use crate::calibration::parameter::Parameter;
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{field, fields, figure, heading, quantity, symbol};
-use crate::report::page::passport::numbers::parameters;
+use crate::report::page::passport::numbers::{Cell, parameters};
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::convergence::convergence;
 use maud::{Markup, html};
+
+/// Share of a standard uncertainty below which a remaining error is not printed as a number.
+const NEGLIGIBLE: f64 = 1e-3;
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
     let results = &page.result().results;
     let body = html! {
         (table(page, languages))
         @if results.iter().any(|result| result.from_least_squares.is_some()) { (languages.paragraph(texts::OFF_BY_NOTE)) }
-        @for result in results {
-            (anisoelasticity(result, languages))
-            (general(result, languages))
-            (changing(result, languages))
-            (iteration(result, languages))
-        }
+        @for result in results { (iteration(result, languages)) }
         @for (refused, _) in &page.calibration.refused {
             (languages.paragraph_with(|language| {
                 let name = method(refused.key()).of(language);
@@ -30,7 +28,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
             }))
         }
     };
-    page.section(languages, Section::Parameters, texts::PARAMETERS, &body)
+    page.section(languages, Section::Methods, &body)
 }
 
 fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -39,15 +37,10 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     let rows = results.iter().rev().flat_map(|result| {
         let (values, u) = (values(result), uncertainties(&result.standard_uncertainty));
         let cells = |number: &dyn Fn(Parameter) -> Number| {
-            Parameter::AS_IN_THE_PAPER.map(|parameter| {
-                // The general model has no ω_g and ω_k.
-                let found = !values[parameter.place()].is_nan();
-                if found {
-                    number(parameter).markup(languages)
-                } else {
-                    html! { "–" }
-                }
-            })
+            // The general model has no ω_g and ω_k.
+            let found = |parameter: &Parameter| !values[parameter.place()].is_nan();
+            Parameter::AS_IN_THE_PAPER
+                .map(|parameter| Some(parameter).filter(found).map_or_else(Cell::none, |at| Cell::Number(number(at))))
         };
         let name = match result.method.as_str() {
             "least-squares" => texts::LEAST_SQUARES,
@@ -66,8 +59,13 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     parameters(languages, caption, rows.collect()).markup(languages.spoken(texts::PARAMETERS_CAPTION))
 }
 
+/// Writes the terms of a model that goes beyond the eight parameters.
+pub(super) fn beyond_the_eight(result: &ResultDocument, languages: &Languages) -> Markup {
+    html! { (anisoelasticity(result, languages)) (general(result, languages)) (changing(result, languages)) }
+}
+
 /// Returns the eight parameters in the order of [`Parameter::EIGHT`].
-fn values(result: &ResultDocument) -> [f64; 8] {
+pub(super) fn values(result: &ResultDocument) -> [f64; 8] {
     let [[kx, kxy], [kyx, ky]] = result.k_deg_per_h_per_ma;
     let [w0x, w0y] = result.omega0_deg_per_h;
     let [wg, wk] = [result.omega_g_deg_per_h_per_g, result.omega_k_deg_per_h_per_g].map(|w| w.unwrap_or(f64::NAN));
@@ -75,7 +73,7 @@ fn values(result: &ResultDocument) -> [f64; 8] {
 }
 
 /// Returns the standard uncertainties of the eight parameters in the order of `Parameter::EIGHT`.
-fn uncertainties(u: &UncertaintyDocument) -> [f64; 8] {
+pub(super) fn uncertainties(u: &UncertaintyDocument) -> [f64; 8] {
     let [[kx, kxy], [kyx, ky]] = u.k_deg_per_h_per_ma;
     let [w0x, w0y] = u.omega0_deg_per_h;
     let [wg, wk] = [u.omega_g_deg_per_h_per_g, u.omega_k_deg_per_h_per_g].map(|w| w.unwrap_or(f64::NAN));
@@ -155,9 +153,15 @@ fn changing(result: &ResultDocument, languages: &Languages) -> Markup {
 fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
     let Some((radius, steps)) = result.spectral_radius.zip(result.iterations) else { return html! {} };
     let largest = |rows: [[f64; 2]; 2]| rows.into_iter().flatten().fold(0.0, |most, x: f64| f64::max(most, x.abs()));
-    let missing = |rows: Option<[[f64; 2]; 2]>, unit| {
-        rows.map(|rows| quantity(languages, &Number::scientific(largest(rows), 2), unit))
+    let smallest = |rows: [[f64; 2]; 2]| rows.into_iter().flatten().fold(f64::INFINITY, f64::min);
+    // What is far below the uncertainty is rounding, not a result.
+    let missing = |rows: Option<[[f64; 2]; 2]>, u: f64, unit| {
+        rows.map(largest).map(|most| match most < NEGLIGIBLE * u {
+            true => languages.inline(texts::NEGLIGIBLE),
+            false => quantity(languages, &Number::scientific(most, 2), unit),
+        })
     };
+    let us = &result.standard_uncertainty;
     let whole = |steps: u32| html! { data value=(steps) { (steps) } };
     let predicted = match result.iterations_predicted {
         Some(steps) => whole(steps),
@@ -175,12 +179,12 @@ fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
             field(
                 languages,
                 texts::REMAINDER_K,
-                missing(result.remainder_k_deg_per_h_per_ma, units::DEG_PER_H_PER_MA),
+                missing(result.remainder_k_deg_per_h_per_ma, smallest(us.k_deg_per_h_per_ma), units::DEG_PER_H_PER_MA),
             ),
             field(
                 languages,
                 texts::REMAINDER_OMEGA,
-                missing(result.remainder_omega_n_deg_per_h_per_g, units::DEG_PER_H_PER_G),
+                missing(result.remainder_omega_n_deg_per_h_per_g, us.omega_g_deg_per_h_per_g.unwrap_or(0.0), units::DEG_PER_H_PER_G),
             ),
         ]))
         @if let Some(drawing) = convergence(languages, result) {

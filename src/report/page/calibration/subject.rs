@@ -6,7 +6,7 @@ use crate::laboratory::Laboratory;
 use crate::passport::accuracy::StatedLaboratory;
 use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
-use crate::report::page::parts::{field, fields, given, heading, quantity, symbol, time, wide_field};
+use crate::report::page::parts::{self, blank, field, fields, given, heading, quantity, symbol, time, wide_field};
 use crate::report::page::passport::{accuracy, checks};
 use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units};
 use maud::{Markup, html};
@@ -19,7 +19,35 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
         (heading(languages, texts::LABORATORY))
         (laboratory(page, languages))
     };
-    page.section(languages, Section::Subject, texts::SUBJECT, &body)
+    page.section(languages, Section::Subject, &body)
+}
+
+/// Writes which gyro was calibrated on which stand, on whose word, and from which file.
+pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
+    let content = page.content();
+    let subject = page.result().subject.as_ref();
+    let serial = subject.and_then(|subject| subject.gyro_serial.as_deref());
+    let date = subject.and_then(|subject| subject.date).map(|date| given(&date.to_string()));
+    let stand = html! { (given(content.stand.model.as_str())) " №\u{a0}" (given(content.stand.serial.as_str())) };
+    let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
+    let verified = match &page.passport {
+        UsedPassport::Verified(_) => html! { (languages.inline(texts::TIME)) " " (time(languages, page.time)) },
+        UsedPassport::NotVerified { .. } => html! { span.failed { (languages.inline(texts::NOT_VERIFIED)) } },
+    };
+    let certificate = html! { p { (given(&content.passport.id)) } p { (verified) } };
+    parts::band(
+        languages,
+        [
+            (
+                texts::SERIAL,
+                serial.map_or_else(|| blank(languages), given),
+                html! { @if let Some(date) = date { p { (languages.inline(texts::MEASURED)) ": " (date) } } },
+            ),
+            (texts::STAND, stand, html! { p { (given(site)) } }),
+            (passport_texts::WORD, given(&content.certificate.number), certificate),
+            (texts::CURRENTS, given(page.currents_name()), html! { p { "SHA-256 " code { (page.currents.1) } } }),
+        ],
+    )
 }
 
 fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -62,7 +90,7 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
                 Some(given(content.site.name.as_deref().unwrap_or(content.site.id.as_str()))),
             ),
             field(languages, texts::TIME, Some(time(languages, page.time))),
-            field(languages, texts::CURRENTS, Some(given(page.currents.0))),
+            field(languages, texts::CURRENTS, Some(given(page.currents_name()))),
             wide_field(languages, texts::CURRENTS_SHA256, Some(html! { code { (page.currents.1) } })),
         ]
         .into_iter()

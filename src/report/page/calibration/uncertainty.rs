@@ -6,7 +6,7 @@ use crate::calibration::parameter::Parameter;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{BLANK, Number};
 use crate::report::page::parts::symbol;
-use crate::report::page::passport::numbers::parameters;
+use crate::report::page::passport::numbers::{Cell, parameters};
 use crate::report::page::texts::{calibration as texts, units, words};
 use crate::report::picture::accuracy::unit as parameter_unit;
 use crate::uncertainty::budget::{Contribution, ParameterBudget};
@@ -26,13 +26,13 @@ pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup 
         @if let Some(budget) = page.budget {
             @let tolerance = page.gyro.map(|gyro| &gyro.tolerance);
             @let worst = if tolerance.is_some() { texts::BUDGET_WORST } else { texts::BUDGET_WORST_OF_SIZE };
-            (page.section(languages, Section::Budget, texts::BUDGET, &html! {
+            (page.section(languages, Section::Budget, &html! {
                 @if let Some(remedy) = Dominant::of(budget, tolerance) { (sentences(&remedy, worst, languages)) }
                 (budget_table(budget, languages))
             }))
         }
         @if let Some(found) = page.monte_carlo {
-            (page.section(languages, Section::MonteCarlo, texts::MONTE_CARLO, &monte_carlo(found, languages)))
+            (page.section(languages, Section::MonteCarlo, &monte_carlo(found, languages)))
         }
     }
 }
@@ -74,36 +74,37 @@ fn sentences(remedy: &Dominant, worst: Text, languages: &Languages) -> Markup {
 /// Returns one table of all parameters: a row for each kind of input, the largest first, then the totals.
 fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
     let line = |parameter: Parameter| budget.parameters.iter().find(|line| line.parameter == parameter);
-    let each = |cell: &dyn Fn(&ParameterBudget) -> Markup| {
-        Parameter::AS_IN_THE_PAPER.map(|parameter| line(parameter).map(cell).unwrap_or_default())
+    let each = |cell: &dyn Fn(&ParameterBudget) -> Cell| {
+        Parameter::AS_IN_THE_PAPER.map(|parameter| line(parameter).map_or_else(Cell::none, cell))
     };
-    let mut rows: Vec<(Markup, [Markup; 8])> = kinds(budget)
+    let mut rows: Vec<(Markup, [Cell; 8])> = kinds(budget)
         .into_iter()
         .map(|kind| {
             let contribution = |line: &ParameterBudget| {
                 let part = line.contributions.iter().find(|part| part.cause.kind() == kind.cause.kind());
+                let place = Number::place_of(line.standard_uncertainty);
                 part.filter(|part| part.share > LEAST_SHARE)
-                    .map_or_else(|| html! { "–" }, |part| Number::scientific(part.contribution, 2).markup(languages))
+                    .map_or_else(Cell::none, |part| Cell::Number(Number::to_place(part.contribution, place)))
             };
             (input(kind, languages), each(&contribution))
         })
         .collect();
     rows.push((
         html! { strong { (languages.label(texts::COMBINED)) } },
-        each(&|line| html! { strong { (Number::uncertainty(line.standard_uncertainty).markup(languages)) } }),
+        each(&|line| Cell::Number(Number::uncertainty(line.standard_uncertainty))),
     ));
     rows.push((
         languages.label(texts::EFFECTIVE_FREEDOM),
         each(&|line| match line.effective_degrees_of_freedom {
-            known if known > MANY => html! { "∞" },
+            known if known > MANY => Cell::Words(html! { "∞" }),
             // Rounding to tens would print a number that differs from the one in the result.
-            known if known >= 10.0 => Number::fixed(known, 0).markup(languages),
-            known => Number::significant(known, 2).markup(languages),
+            known if known >= 10.0 => Cell::Number(Number::fixed(known, 0)),
+            known => Cell::Number(Number::significant(known, 2)),
         }),
     ));
     rows.push((
         languages.label(texts::EXPANDED),
-        each(&|line| Number::uncertainty(line.expanded_uncertainty()).markup(languages)),
+        each(&|line| Cell::Number(Number::uncertainty(line.expanded_uncertainty()))),
     ));
     let caption = Some(languages.label(texts::BUDGET_CAPTION));
     parameters(languages, caption, rows).markup(languages.spoken(texts::BUDGET_CAPTION))
@@ -178,23 +179,22 @@ fn cause(cause: Cause, language: Language) -> String {
 
 fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
     let line = |parameter: Parameter| found.parameters.iter().find(|line| line.parameter == parameter);
-    let each = |cell: &dyn Fn(&Distribution) -> Markup| {
-        Parameter::AS_IN_THE_PAPER.map(|parameter| line(parameter).map(cell).unwrap_or_default())
+    let each = |cell: &dyn Fn(&Distribution) -> Cell| {
+        Parameter::AS_IN_THE_PAPER.map(|parameter| line(parameter).map_or_else(Cell::none, cell))
     };
-    let measured =
-        |value: f64, line: &Distribution| Number::measured(value, line.standard_uncertainty).markup(languages);
+    let measured = |value: f64, line: &Distribution| Cell::Number(Number::measured(value, line.standard_uncertainty));
     let rows = vec![
         (languages.label(texts::MEAN), each(&|line| measured(line.mean, line))),
-        (symbol("u", ""), each(&|line| Number::uncertainty(line.standard_uncertainty).markup(languages))),
+        (symbol("u", ""), each(&|line| Cell::Number(Number::uncertainty(line.standard_uncertainty)))),
         (languages.label(texts::LOWER), each(&|line| measured(line.symmetric[0], line))),
         (languages.label(texts::UPPER), each(&|line| measured(line.symmetric[1], line))),
         (
             languages.label(texts::FIRST_ORDER),
             each(&|line| match line.first_order.valid {
-                Some(true) => languages.label(words::YES),
-                Some(false) => languages.label(words::NO),
+                Some(true) => Cell::Words(languages.label(words::YES)),
+                Some(false) => Cell::Words(languages.label(words::NO)),
                 // There were too few trials to decide.
-                None => html! { "–" },
+                None => Cell::none(),
             }),
         ),
     ];

@@ -32,7 +32,7 @@ pub(super) fn readings(page: &CertificationPage, languages: &Languages) -> Marku
     };
     let body = html! {
         (fields([
-            field(languages, texts::FILE, Some(given(page.readings.0))),
+            field(languages, texts::FILE, Some(given(page.readings_name()))),
             field(languages, texts::RUNS, Some(html! { (runs.len()) " (" (runs.join(", ")) ")" })),
             field(languages, texts::POSITIONS, Some(html! { (certification.stand.positions.len()) })),
             field(languages, texts::REPEATED, Some(html! { (certification.repeated_rows) })),

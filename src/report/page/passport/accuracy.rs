@@ -2,7 +2,7 @@
 
 use super::PassportPage;
 use super::figures::{Slot, figure};
-use super::numbers::{numbers_of, parameters};
+use super::numbers::{Cell, numbers_of, parameters};
 use crate::passport::accuracy::{Accuracy, StatedLaboratory};
 use crate::passport::annotations::{Absence, absent};
 use crate::report::page::language::{Languages, Text};
@@ -93,9 +93,9 @@ fn uncertainties(accuracy: &Accuracy, languages: &Languages) -> Markup {
         (tolerance.omega_g_deg_per_h_per_g, units::DEG_PER_H_PER_G),
         (tolerance.omega_k_deg_per_h_per_g, units::DEG_PER_H_PER_G),
     ];
-    let nominal = numbers_of(&accuracy.gyro.nominal).map(|value| Number::exact(value).markup(languages));
-    let us = numbers_of(&accuracy.standard_uncertainty).map(|u| Number::uncertainty(u).markup(languages));
-    let limits = limits.map(|(limit, unit)| quantity(languages, &Number::exact(limit), unit));
+    let nominal = numbers_of(&accuracy.gyro.nominal).map(|value| Cell::Number(Number::exact(value)));
+    let us = numbers_of(&accuracy.standard_uncertainty).map(|u| Cell::Number(Number::uncertainty(u)));
+    let limits = limits.map(|(limit, unit)| Cell::Words(quantity(languages, &Number::exact(limit), unit)));
     let rows = vec![
         (languages.label(texts::NOMINAL), nominal),
         (symbol("u", ""), us),

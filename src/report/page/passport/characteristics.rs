@@ -8,6 +8,7 @@ use crate::report::page::parts::{
     Table, blank, field, fields, given, heading, quantity, section as part, symbol, symbol_and_unit, wide_field,
 };
 use crate::report::page::texts::{passport as texts, units};
+use crate::report::picture::deviations::{ANGLES, Bars};
 use crate::site::{Earth, Site};
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Datum, Excluded, TypeB};
 use crate::units::ARCSECONDS_PER_DEGREE;
@@ -20,7 +21,6 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
         (positions(&content.positions, languages))
         (languages.paragraph(texts::DEVIATIONS_NOTE))
         (figure(Slot::Positions, content, languages))
-        (figure(Slot::Deviations, content, languages))
         (heading(languages, texts::COMMON))
         (common(&content.certificate, languages))
         (heading(languages, texts::DATUM))
@@ -28,37 +28,33 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
         (heading(languages, texts::SITE))
         (place(&content.site, languages))
         (heading(languages, texts::EARTH))
-        div.with-figure {
+        // Without a mark the map would show the radius alone.
+        @if content.earth.azimuth_deg.is_some() {
+            div.with-figure {
+                (the_earth(&content.site, &content.earth, languages))
+                (figure(Slot::Radius, content, languages))
+            }
+        } @else {
             (the_earth(&content.site, &content.earth, languages))
-            (figure(Slot::Radius, content, languages))
         }
     };
     part(languages, "characteristics", "2", texts::CHARACTERISTICS, &body)
 }
 
+/// Writes the deviations with their bars.
 pub(crate) fn positions(positions: &[CertifiedPosition], languages: &Languages) -> Markup {
-    type Angle = (fn(&CertifiedPosition) -> f64, fn(&CertifiedPosition) -> Option<f64>);
-    let angles: [Angle; 3] = [
-        (|at| at.alpha_arcsec, |at| at.u_alpha_arcsec),
-        (|at| at.beta_arcsec, |at| at.u_beta_arcsec),
-        (|at| at.gamma_arcsec, |at| at.u_gamma_arcsec),
-    ];
-    let value = |at: &CertifiedPosition, (value, u): Angle| match u(at) {
-        Some(u) => Number::measured(value(at), u),
-        None => Number::exact(value(at)),
+    let bars = Bars::of(positions);
+    let numbers = |number: &dyn Fn(&CertifiedPosition) -> Option<Number>| {
+        column(languages, &positions.iter().map(number).collect::<Vec<_>>())
     };
-    let mut columns: Vec<Vec<Option<Markup>>> = vec![
-        column(languages, &positions.iter().map(|at| Some(Number::exact(at.theta_deg))).collect::<Vec<_>>()),
-        column(languages, &positions.iter().map(|at| Some(Number::exact(at.phi_deg))).collect::<Vec<_>>()),
-    ];
-    for angle in angles {
-        let values: Vec<_> = positions.iter().map(|at| Some(value(at, angle))).collect();
-        let us: Vec<_> = positions.iter().map(|at| (angle.1)(at).map(Number::uncertainty)).collect();
-        columns.push(column(languages, &values));
-        columns.push(column(languages, &us));
+    let mut columns =
+        vec![numbers(&|at| Some(Number::exact(at.theta_deg))), numbers(&|at| Some(Number::exact(at.phi_deg)))];
+    for (_, of) in ANGLES {
+        columns.push(numbers(&|at| Some(Number::measured(of(at).0, of(at).1.unwrap_or(0.0)))));
+        columns.push(numbers(&|at| of(at).1.map(Number::uncertainty)));
+        columns.push(positions.iter().map(|at| Some(bars.bar(of(at)))).collect());
     }
-    let freedom: Vec<_> = positions.iter().map(|at| at.degrees_of_freedom.map(Number::exact)).collect();
-    columns.push(column(languages, &freedom));
+    columns.push(numbers(&|at| at.degrees_of_freedom.map(Number::exact)));
     let rows = positions.iter().enumerate().map(|(row, at)| {
         let cells = columns.iter().map(|column| match column.get(row).cloned().flatten() {
             Some(number) => number,
@@ -66,24 +62,42 @@ pub(crate) fn positions(positions: &[CertifiedPosition], languages: &Languages) 
         });
         [html! { (at.i) }, html! { (at.j) }].into_iter().chain(cells).collect()
     });
+    // Every third column from the seventh on is of bars.
+    let axis = |place: usize| {
+        if place >= 6 && place.is_multiple_of(3) {
+            bars.axis(languages)
+        } else {
+            html! {}
+        }
+    };
     let table = Table {
         caption: Some(languages.label(texts::DEVIATIONS_CAPTION)),
         headings: headings(languages),
         rows: rows.collect(),
+        starts: starts(positions.iter().map(|at| at.i)),
+        foot: (0..14).map(axis).collect(),
         row_headings: 2,
-        class: "numbers",
+        class: "numbers deviations",
         ..Table::default()
     };
-    table.markup(languages.spoken(texts::DEVIATIONS_CAPTION))
+    html! { (table.markup(languages.spoken(texts::DEVIATIONS_CAPTION))) (bars.key(languages)) }
+}
+
+/// Returns the rows in which the first index of the positions changes.
+pub(crate) fn starts(indices: impl Iterator<Item = u32>) -> Vec<usize> {
+    let indices: Vec<u32> = indices.collect();
+    let changed = indices.windows(2).enumerate().filter(|(_, pair)| pair[0] != pair[1]);
+    changed.map(|(row, _)| row + 1).collect()
 }
 
 fn headings(languages: &Languages) -> Vec<Markup> {
     let with = |symbol: Markup, unit| symbol_and_unit(languages, &symbol, unit);
     let mut headings = vec![symbol("i", ""), symbol("j", "")];
     headings.extend(["θ", "φ"].map(|name| with(symbol(name, ""), units::DEGREES)));
-    for name in ["α", "β", "γ"] {
+    for (name, _) in ANGLES {
         headings.push(with(symbol(name, ""), units::ARCSEC));
         headings.push(with(html! { i { "u" } "(" i { (name) } ")" }, units::ARCSEC));
+        headings.push(html! {});
     }
     headings.push(symbol("ν", ""));
     headings
@@ -148,6 +162,7 @@ pub(crate) fn datum(datum: Option<&Datum>, languages: &Languages) -> Markup {
 
 fn place(site: &Site, languages: &Languages) -> Markup {
     let degrees = |value: f64| quantity(languages, &Number::exact(value), units::DEGREES);
+    let latitude_u = site.uncertainty.as_ref().and_then(|base| base.latitude_arcsec);
     let arcsec = |value: f64| quantity(languages, &Number::exact(value), units::ARCSEC);
     let u = |u: f64| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
     let base = site.uncertainty.as_ref();
@@ -165,8 +180,10 @@ fn place(site: &Site, languages: &Languages) -> Markup {
         site.frame_axis_azimuth_deg.map(|azimuth_deg| field(languages, texts::FRAME_AXIS, Some(degrees(azimuth_deg))));
     // A site states one of the two latitudes, never both.
     let latitude = match site.astronomic_latitude_deg {
-        Some(astronomic) => field(languages, texts::ASTRONOMIC_LATITUDE, Some(degrees(astronomic))),
-        None => field(languages, texts::LATITUDE, site.latitude_deg.map(degrees)),
+        Some(astronomic) => {
+            field(languages, texts::ASTRONOMIC_LATITUDE, Some(angle(astronomic, latitude_u, languages)))
+        }
+        None => field(languages, texts::LATITUDE, site.latitude_deg.map(|value| angle(value, latitude_u, languages))),
     };
     html! {
         (fields([
@@ -186,6 +203,15 @@ fn place(site: &Site, languages: &Languages) -> Markup {
         ]))
         (mark(site, languages))
     }
+}
+
+/// Writes an angle in degrees to the digits of its uncertainty, or to a tenth of a metre on the ground.
+fn angle(degrees: f64, u_arcsec: Option<f64>, languages: &Languages) -> Markup {
+    let number = match u_arcsec {
+        Some(u) if u > 0.0 => Number::measured(degrees, u / ARCSECONDS_PER_DEGREE),
+        _ => Number::at_most(degrees, 6),
+    };
+    quantity(languages, &number, units::DEGREES)
 }
 
 fn gravity_measured(site: &Site, languages: &Languages) -> Option<Markup> {
@@ -229,10 +255,11 @@ fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
             (symbol("u", "")) " " (quantity(languages, &Number::uncertainty(u), units::ARCSEC))
         },
         None => html! {
-            (quantity(languages, &Number::exact(azimuth), units::DEGREES)) ", " (symbol("u", "")) " " (blank(languages))
+            (angle(azimuth, None, languages)) ", " (symbol("u", "")) " " (blank(languages))
         },
     });
-    let latitude = quantity(languages, &Number::exact(earth.latitude_deg), units::DEGREES);
+    let latitude_u = site.uncertainty.as_ref().and_then(|base| base.latitude_arcsec);
+    let latitude = angle(earth.latitude_deg, latitude_u, languages);
     fields([
         field(languages, texts::EARTH_RATE, Some(rate(earth.rate_deg_per_h))),
         field(languages, texts::EARTH_LATITUDE, Some(latitude)),

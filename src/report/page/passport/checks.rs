@@ -10,16 +10,102 @@ use crate::report::page::parts::{Table, date_text, time_text};
 use crate::report::page::texts::checks as texts;
 use maud::{Markup, html};
 
-/// Writes the verdict in large letters, and the time of the verification.
-pub(crate) fn verdict(page: &PassportPage, languages: &Languages) -> Markup {
-    let good = page.verification.valid();
-    let when = if good { texts::ALL_PASSED } else { texts::GENUINE };
+/// Every check, in the order of the report.
+const CHECKS: [CheckName; 11] = [
+    CheckName::Grammar,
+    CheckName::Signature,
+    CheckName::Schema,
+    CheckName::Signer,
+    CheckName::Revocation,
+    CheckName::Recomputed,
+    CheckName::InForce,
+    CheckName::Issuer,
+    CheckName::Stand,
+    CheckName::Place,
+    CheckName::Register,
+];
+
+/// The result of a check on a page. What was not asked is neither passed nor failed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum State {
+    Passed,
+    NotAsked,
+    Failed,
+}
+
+impl State {
+    const ALL: [Self; 3] = [Self::Passed, Self::NotAsked, Self::Failed];
+
+    /// Returns the result of the check `name`. Without any list, nothing was asked about a withdrawal.
+    fn of(page: &PassportPage, name: CheckName) -> Self {
+        let check = page.verification.checks().iter().find(|check| check.name == name);
+        let no_list = page.trust.revoked.is_empty() && page.trust.withdrawn.newest().is_none();
+        match check.and_then(Check::passed) {
+            Some(true) if name == CheckName::Revocation && no_list => Self::NotAsked,
+            Some(true) => Self::Passed,
+            Some(false) => Self::Failed,
+            None => Self::NotAsked,
+        }
+    }
+
+    /// Writes the mark of this result.
+    fn mark(self) -> Markup {
+        let (class, mark) = match self {
+            Self::Passed => ("state passed", "●"),
+            Self::NotAsked => ("state", "○"),
+            Self::Failed => ("state failed", "✕"),
+        };
+        html! { span class=(class) aria-hidden="true" { (mark) } }
+    }
+
+    fn word(self) -> Text {
+        match self {
+            Self::Passed => texts::PASSED,
+            Self::NotAsked => texts::NOT_ASKED,
+            Self::Failed => texts::FAILED,
+        }
+    }
+
+    /// Writes the mark and its word.
+    fn named(self, languages: &Languages) -> Markup {
+        html! { (self.mark()) " " (languages.label(self.word())) }
+    }
+}
+
+/// Writes every check as a mark with its name, and the number of checks with each result.
+pub(crate) fn line(page: &PassportPage, languages: &Languages) -> Markup {
+    let count = |state| CHECKS.into_iter().filter(|name| State::of(page, *name) == state).count();
+    let counted = |language: Language| {
+        let [passed, not_asked, failed] = State::ALL.map(|state| count(state).to_string());
+        let text = if failed == "0" { texts::COUNTED } else { texts::COUNTED_FAILED };
+        let time = time_text(language, page.question.time);
+        let values = [("time", time.as_str()), ("passed", &passed), ("not_asked", &not_asked), ("failed", &failed)];
+        text.filled(language, &values)
+    };
     html! {
-        div.verdict.refused[!good] {
-            p.headline { (languages.label_with(|language| headline(page, language))) }
-            (languages.paragraph_with(|language| {
-                html! { (when.filled(language, &[("time", &time_text(language, page.question.time))])) }
-            }))
+        (languages.paragraph_with(|language| html! { (counted(language)) }))
+        ul.marks {
+            @for check in CHECKS {
+                @let state = State::of(page, check);
+                li {
+                    (state.mark()) " " (languages.inline(name(check)))
+                    span.unseen { ": " (languages.spoken(state.word())) }
+                }
+            }
+        }
+    }
+}
+
+/// Writes why the passport may not be used, in large letters; nothing if it may.
+pub(crate) fn refusal(page: &PassportPage, languages: &Languages) -> Markup {
+    html! {
+        @if !page.verification.valid() {
+            div.verdict.refused {
+                p.headline { (languages.label_with(|language| headline(page, language))) }
+                (languages.paragraph_with(|language| {
+                    html! { (texts::GENUINE.filled(language, &[("time", &time_text(language, page.question.time))])) }
+                }))
+            }
         }
     }
 }
@@ -53,23 +139,24 @@ fn reason(code: Code) -> Text {
 pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
     let caption = languages
         .label_with(|language| texts::CAPTION.filled(language, &[("time", &time_text(language, page.question.time))]));
-    let rows = page.verification.checks().iter().map(|check| {
-        let result = match check.passed() {
-            Some(true) => html! { span.passed { (languages.label(texts::PASSED)) } },
-            Some(false) => html! { strong.failed { (languages.label(texts::FAILED)) } },
-            None => languages.label(texts::NOT_RUN),
+    let rows = CHECKS.into_iter().map(|check| {
+        let state = State::of(page, check);
+        let found = page.verification.checks().iter().find(|one| one.name == check);
+        let words = |language| match (state, found) {
+            (State::NotAsked, _) | (_, None) => absent(check).words(language),
+            (_, Some(found)) => words(page, found, language),
         };
-        vec![languages.label(name(check.name)), result, languages.label_with(|language| words(page, check, language))]
+        vec![languages.label(name(check)), state.named(languages), languages.label_with(words)]
     });
     let table = Table {
-        caption: Some(caption),
         headings: [texts::CHECK, texts::RESULT, texts::FOUND].map(|text| languages.label(text)).into(),
         rows: rows.collect(),
         row_headings: 1,
         class: "checks",
         ..Table::default()
     };
-    table.markup(languages.spoken(texts::CHECK))
+    // Not a caption, which some browsers part from its table in print.
+    html! { p { (caption) } (table.markup(languages.spoken(texts::CHECK))) }
 }
 
 fn name(check: CheckName) -> Text {
@@ -85,6 +172,18 @@ fn name(check: CheckName) -> Text {
         CheckName::Stand => texts::STAND,
         CheckName::Place => texts::PLACE,
         CheckName::Register => texts::REGISTER,
+    }
+}
+
+/// Returns what was not given for a check that was not asked.
+fn absent(check: CheckName) -> Text {
+    match check {
+        CheckName::Revocation => texts::REVOCATION_NO_LIST,
+        CheckName::Issuer => texts::ISSUER_NOT_ASKED,
+        CheckName::Stand => texts::STAND_NOT_ASKED,
+        CheckName::Place => texts::PLACE_NOT_ASKED,
+        CheckName::Register => texts::REGISTER_NOT_ASKED,
+        _ => texts::NOT_RUN,
     }
 }
 
@@ -120,7 +219,6 @@ fn revocation(page: &PassportPage, language: Language) -> String {
             let (sequence, time) = (list.sequence.to_string(), time_text(language, list.issued_at));
             texts::REVOCATION_LIST.filled(language, &[("sequence", &sequence), ("time", &time)])
         }
-        None if page.trust.revoked.is_empty() => texts::REVOCATION_NO_LIST.words(language),
         None => texts::REVOCATION_KEYS_ONLY.words(language),
     }
 }

@@ -10,10 +10,10 @@ use maud::{Markup, html};
 /// A picture's place on the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Slot {
+    /// The stand with its parts, axes and angles.
+    Stand,
     /// Stand in each position.
     Positions,
-    /// Certified deviations.
-    Deviations,
     /// Validity radius around the site.
     Radius,
     /// Earth-rate vectors, compared with those at the nominal orientation.
@@ -25,13 +25,14 @@ pub(super) enum Slot {
 /// Writes the picture for `slot` with its caption, or nothing if the passport lacks its data.
 pub(super) fn figure(slot: Slot, content: &Content, languages: &Languages) -> Markup {
     let (id, drawing, caption) = match slot {
+        Slot::Stand => {
+            let azimuth_deg = content.site.frame_axis_azimuth_deg();
+            ("stand", picture::stand::stand(languages, azimuth_deg), texts::FIGURE_STAND)
+        }
         Slot::Positions => {
             let azimuth_deg = content.site.frame_axis_azimuth_deg();
             let drawing = picture::positions::positions(languages, &content.positions, azimuth_deg);
             ("positions", drawing, texts::FIGURE_POSITIONS)
-        }
-        Slot::Deviations => {
-            ("deviations", picture::deviations::deviations(languages, &content.positions), texts::FIGURE_DEVIATIONS)
         }
         Slot::Radius => ("radius", picture::place::place(languages, content), texts::FIGURE_RADIUS),
         Slot::EarthRate => ("vectors", picture::vectors::vectors(languages, content), texts::FIGURE_VECTORS),

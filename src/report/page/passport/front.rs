@@ -1,23 +1,96 @@
-//! First page: identification of the passport, its signer and signing time, the result of verification, and the SHA-256
-//! to compare.
+//! First page: what the passport is for, until when it is in force, where, on whose word, and how to check it.
 
+use super::figures::{Slot, figure};
 use super::{PassportPage, checks};
 use crate::report::page::code;
 use crate::report::page::language::Languages;
-use crate::report::page::parts::{date, field, fields, given, time, wide_field};
-use crate::report::page::texts::{passport as texts, words};
+use crate::report::page::number::Number;
+use crate::report::page::parts::{band, date, field, fields, given, quantity, time, wide_field};
+use crate::report::page::texts::{calibration, checks as check_texts, passport as texts, record, units, words};
 use maud::{Markup, html};
+
+/// Writes the head of the page: kind of the document, the stand, and the id.
+pub(super) fn title(page: &PassportPage, languages: &Languages) -> Markup {
+    let stand = &page.content.stand;
+    let name = stand.name.as_deref().map_or_else(|| languages.inline(record::TEST_STAND), given);
+    html! {
+        header.title {
+            p.kind { (languages.label(texts::TITLE)) }
+            h1 { (name) " " (given(stand.model.as_str())) " №\u{a0}" (given(stand.serial.as_str())) }
+            p.subject { (given(&page.content.passport.id)) }
+        }
+    }
+}
 
 pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let heading = "verification-heading";
     html! {
         section id="verification" aria-labelledby=(heading) {
             h2.unseen id=(heading) { (languages.label(texts::FRONT)) }
-            (checks::verdict(page, languages))
+            (checks::refusal(page, languages))
+            (answers(page, languages))
+            div.front {
+                (figure(Slot::Stand, &page.content, languages))
+                (proof(page, languages))
+            }
+            div.checked { (checks::line(page, languages)) }
             (signed(page, languages))
             (predecessor(page, languages))
-            (sum(page, languages))
-            (checks::table(page, languages))
+        }
+    }
+}
+
+/// Writes whether the passport is in force, where it may be used, on whose word, and how to check it.
+fn answers(page: &PassportPage, languages: &Languages) -> Markup {
+    let content = &page.content;
+    let (site, certificate) = (&content.site, &content.certificate);
+    let valid = page.verification.valid();
+    let status = if valid { check_texts::IN_FORCE } else { check_texts::NOT_TO_BE_USED };
+    let status = html! {
+        @if valid { p.headline { (languages.label(status)) } } @else { span.failed { (languages.label(status)) } }
+    };
+    let until = match content.last_day() {
+        Some((day, _)) => {
+            html! { p.large { (languages.inline(texts::UNTIL)) " " (date(languages, day)) } p { (languages.label(texts::INCLUSIVE)) } }
+        }
+        None => html! { p { (languages.label(texts::NO_END)) } },
+    };
+    let degrees = |value: f64| quantity(languages, &Number::exact(value), units::DEGREES);
+    let latitude = site.latitude_deg.or(site.astronomic_latitude_deg).unwrap_or(content.earth.latitude_deg);
+    let whither = if site.longitude_deg.is_some() { texts::AROUND } else { texts::AROUND_PARALLEL };
+    let place = html! {
+        p { (languages.label(whither)) }
+        p { (degrees(latitude)) @if let Some(longitude) = site.longitude_deg { ", " (degrees(longitude)) } }
+        p { (given(site.id.as_str())) }
+    };
+    let word = html! {
+        p { (given(&certificate.laboratory)) }
+        p { (languages.inline(texts::SIGNED_BY)) " " (given(&content.passport.issuer)) }
+    };
+    let radius = quantity(languages, &Number::fixed(content.earth.valid_radius_m, 0), units::METRES);
+    band(
+        languages,
+        [
+            (texts::STATUS, status, until),
+            (texts::WHERE, radius, place),
+            (texts::WORD, given(&certificate.number), word),
+            (texts::CHECKING, html! { "SHA-256" }, html! { p { (languages.label(texts::CHECKING_HOW)) } }),
+        ],
+    )
+}
+
+/// Writes the SHA-256 as a QR code and as text, next to the fields for signature and stamp.
+fn proof(page: &PassportPage, languages: &Languages) -> Markup {
+    let names = [calibration::POST_AND_NAME, calibration::SIGNATURE, calibration::DATE, calibration::STAMP];
+    html! {
+        div.proof {
+            @if let Some(picture) = code::picture(&page.sha256, languages.spoken(texts::CODE)) { (picture) }
+            (fields(names.map(|name| field(languages, name, None))))
+            div.sum {
+                p.sum-name { (languages.label(texts::SHA256)) }
+                p.sha256 { code { (page.sha256) } }
+                (languages.paragraph(texts::PAPER_IS_NOT_SIGNED))
+            }
         }
     }
 }
@@ -25,11 +98,9 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
 fn signed(page: &PassportPage, languages: &Languages) -> Markup {
     let header = &page.content.passport;
     fields([
-        field(languages, texts::ID, Some(given(&header.id))),
         field(languages, texts::REVISION, Some(html! { (header.revision) })),
         field(languages, texts::ISSUED, Some(time(languages, header.issued_at))),
         field(languages, texts::VALID_UNTIL, header.valid_until.map(|day| date(languages, day))),
-        field(languages, texts::ISSUER, Some(given(&header.issuer))),
         field(languages, texts::ISSUED_WITH, header.issued_with.as_deref().map(given)),
         wide_field(languages, texts::KEY, Some(html! { code { (page.key.fingerprint()) } })),
     ])
@@ -45,18 +116,4 @@ fn predecessor(page: &PassportPage, languages: &Languages) -> Markup {
         wide_field(languages, texts::REISSUE_CHANGED, Some(given(&old.changed))),
         wide_field(languages, texts::REISSUED_SHA256, Some(html! { code { (old.sha256) } })),
     ])
-}
-
-/// Writes the SHA-256 as text, in groups, and as a QR code.
-fn sum(page: &PassportPage, languages: &Languages) -> Markup {
-    html! {
-        div.sum {
-            @if let Some(picture) = code::picture(&page.sha256, languages.spoken(texts::CODE)) { (picture) }
-            div {
-                p.sum-name { (languages.label(texts::SHA256)) }
-                p.sha256 { code { (page.sha256) } }
-                (languages.paragraph(texts::PAPER_IS_NOT_SIGNED))
-            }
-        }
-    }
 }

@@ -73,7 +73,9 @@ fn left_to_the_laboratory(languages: &Languages) -> Markup {
         record::SIGNATURE,
     ];
     html! {
-        (heading(languages, record::LEFT_TO_THE_LABORATORY))
-        (fields(empty.map(|name| field(languages, name, None))))
+        div.pen {
+            (heading(languages, record::LEFT_TO_THE_LABORATORY))
+            (fields(empty.map(|name| field(languages, name, None))))
+        }
     }
 }

@@ -24,9 +24,10 @@ pub(super) mod general;
 pub(super) mod numbers;
 mod record;
 
-use super::language::Languages;
+use super::language::{Languages, Text};
+use super::parts::{contents, data_address};
 use super::shell::{Margins, document};
-use super::texts::passport as texts;
+use super::texts::{passport as texts, record as record_texts};
 use crate::document::sha256_hex;
 use crate::passport::{Content, Question, Trust, Verification, verify};
 use crate::register::Register;
@@ -44,6 +45,16 @@ pub struct PassportPage<'a> {
     content: Content,
     key: PublicKey,
 }
+
+/// Anchor and heading of each section of the page.
+const SECTIONS: [(&str, Text); 6] = [
+    ("general", texts::GENERAL),
+    ("characteristics", texts::CHARACTERISTICS),
+    ("numbers", texts::NUMBERS),
+    ("accuracy", texts::ACCURACY),
+    ("record", record_texts::RECORD),
+    ("annex", texts::ANNEX),
+];
 
 impl<'a> PassportPage<'a> {
     /// Verifies the bytes of a passport, and with `register` also whether another passport supersedes it. `name` is the
@@ -137,11 +148,8 @@ impl<'a> PassportPage<'a> {
 
     fn body(&self, languages: &Languages) -> Markup {
         html! {
-            header.title {
-                p.kind { (languages.label(texts::TITLE)) }
-                h1 { (self.content.passport.id) }
-                p.subject { (languages.label(texts::SUBTITLE)) }
-            }
+            (front::title(self, languages))
+            (contents(languages, texts::SAVE, (&data_address("application/yaml", self.text.as_bytes()), &self.file_name()), &SECTIONS))
             main {
                 (front::section(self, languages))
                 (general::section(self, languages))

@@ -1,6 +1,7 @@
 //! Numbers that a calibration uses: matrices, vectors, the self-check.
 
 use super::PassportPage;
+use super::characteristics::starts;
 use super::figures::{Slot, figure};
 use crate::gyro::Parameters;
 use crate::passport::Content;
@@ -90,6 +91,7 @@ fn formulas(languages: &Languages) -> Markup {
 
 fn vectors(content: &Content, languages: &Languages) -> Markup {
     let currents = content.self_check.as_ref().map(|check| &check.currents);
+    let starts = starts(content.vectors.iter().map(|at| at.i));
     let rows = content.vectors.iter().map(|at| {
         let [nx, ny] = at.specific_force_g;
         let [wx, wy] = at.omega_deg_per_h;
@@ -110,20 +112,60 @@ fn vectors(content: &Content, languages: &Languages) -> Markup {
     }
     let caption_text = if currents.is_some() { texts::VECTORS_CAPTION } else { texts::VECTORS_ALONE_CAPTION };
     let caption = Some(languages.label(caption_text));
-    let table =
-        Table { caption, headings, rows: rows.collect(), row_headings: 2, class: "numbers", ..Table::default() };
+    let table = Table {
+        caption,
+        headings,
+        rows: rows.collect(),
+        starts,
+        row_headings: 2,
+        class: "numbers",
+        ..Table::default()
+    };
     table.markup(languages.spoken(caption_text))
 }
 
 fn self_check(check: &SelfCheck, languages: &Languages) -> Markup {
-    let values = numbers_of(&check.parameters()).map(|value| Number::exact(value).markup(languages));
+    let values = numbers_of(&check.parameters()).map(|value| Cell::Number(Number::exact(value)));
     let rows = vec![(languages.label(texts::VALUE), values)];
     parameters(languages, None, rows).markup(languages.spoken(texts::SELF_CHECK))
 }
 
+/// A cell of a table of parameters.
+#[derive(Debug, Clone)]
+pub(crate) enum Cell {
+    /// A number; its decimal mark aligns with those of the column.
+    Number(Number),
+    /// Anything else.
+    Words(Markup),
+}
+
+impl Cell {
+    /// Returns the cell of a quantity that there is not.
+    pub(crate) fn none() -> Self {
+        Self::Words(html! { "–" })
+    }
+}
+
 /// Returns a table of the eight parameters of a gyro in the paper's groups, one row for each quantity. Cells have the
 /// order of [`numbers_of`].
-pub(crate) fn parameters(languages: &Languages, caption: Option<Markup>, rows: Vec<(Markup, [Markup; 8])>) -> Table {
+pub(crate) fn parameters(languages: &Languages, caption: Option<Markup>, rows: Vec<(Markup, [Cell; 8])>) -> Table {
+    let aligned = |place: usize| {
+        let numbers = rows.iter().map(|(_, cells)| match &cells[place] {
+            Cell::Number(number) => Some(number.clone()),
+            Cell::Words(_) => None,
+        });
+        column(languages, &numbers.collect::<Vec<_>>())
+    };
+    let columns: Vec<_> = (0..8).map(aligned).collect();
+    let cell = |row: usize, place: usize, cell: &Cell| match cell {
+        Cell::Words(words) => words.clone(),
+        Cell::Number(_) => columns[place][row].clone().unwrap_or_default(),
+    };
+    let rows = rows.iter().enumerate().map(|(row, (name, cells))| {
+        let cells = cells.iter().enumerate().map(|(place, of)| cell(row, place, of));
+        std::iter::once(name.clone()).chain(cells).collect()
+    });
+    let rows: Vec<Vec<Markup>> = rows.collect();
     let groups = [texts::SCALE_FACTORS_MAIN, texts::SCALE_FACTORS_CROSS, texts::DRIFT_CONSTANT, texts::DRIFT_G];
     let columns = [
         ("K", "x", units::DEG_PER_H_PER_MA),
@@ -140,9 +182,10 @@ pub(crate) fn parameters(languages: &Languages, caption: Option<Markup>, rows: V
         caption,
         groups: groups.map(|name| (2, languages.label(name))).into(),
         headings: std::iter::once(html! {}).chain(columns).collect(),
-        rows: rows.into_iter().map(|(name, cells)| std::iter::once(name).chain(cells).collect()).collect(),
+        rows,
         row_headings: 1,
         class: "numbers parameters",
+        ..Table::default()
     }
 }
 

@@ -12,13 +12,14 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let form = |heading, headings: &[Text], rows| table(languages, heading, headings, rows);
     let words = |heading_text, names: &[Text]| {
         html! {
-            div.part {
+            div.part.pen {
                 (heading(languages, heading_text))
                 (fields(names.iter().map(|name| field(languages, *name, None))))
             }
         }
     };
     let body = html! {
+        p.save { (languages.inline(texts::ON_PAPER)) }
         (completeness(page, languages))
         (words(texts::WARRANTY, &[
             texts::SERVICE_LIFE, texts::STORAGE_LIFE, texts::WARRANTY_PERIOD, texts::WARRANTY_TERMS,
@@ -28,7 +29,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
             (certificate(page, languages, texts::PACKING, texts::PACKING_WORDS))
             (certificate(page, languages, texts::ACCEPTANCE, texts::ACCEPTANCE_WORDS))
         }
-        div.statement { (languages.paragraph(texts::VALID_WHEN_SIGNED)) }
+        div.statement.pen { (languages.paragraph(texts::VALID_WHEN_SIGNED)) }
         (words(texts::STORAGE, &[texts::STORAGE_CONDITIONS, texts::TRANSPORT_CONDITIONS]))
         (form(
             texts::MOVEMENT,
@@ -39,8 +40,8 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
         div.statement { (languages.paragraph(texts::AFTER_A_MOVE)) }
         (form(texts::NOTES, &[texts::DATE, texts::NOTE, texts::WHO], empty(2, 3)))
         div.pair {
-            div.part { (heading(languages, texts::DISPOSAL)) (lines(languages)) }
-            div.part { (heading(languages, texts::SPECIAL)) (lines(languages)) }
+            div.part.pen { (heading(languages, texts::DISPOSAL)) (lines(languages)) }
+            div.part.pen { (heading(languages, texts::SPECIAL)) (lines(languages)) }
         }
     };
     part(languages, "record", "5", texts::RECORD, &body)
@@ -57,7 +58,7 @@ fn lines(languages: &Languages) -> Markup {
 fn table(languages: &Languages, name: Text, headings: &[Text], rows: Vec<Vec<Markup>>) -> Markup {
     let headings = headings.iter().map(|text| languages.label(*text)).collect();
     let table = Table { headings, rows, class: "form", ..Table::default() };
-    html! { div.part { (heading(languages, name)) (table.markup(languages.spoken(name))) } }
+    html! { div.part.pen { (heading(languages, name)) (table.markup(languages.spoken(name))) } }
 }
 
 fn completeness(page: &PassportPage, languages: &Languages) -> Markup {
@@ -77,7 +78,7 @@ fn certificate(page: &PassportPage, languages: &Languages, name: Text, words: Te
     let values = [("model", given(stand.model.as_str())), ("serial", given(stand.serial.as_str()))];
     let names = [texts::ORGANISATION, texts::WHO, texts::DATE, texts::STAMP];
     html! {
-        div.part {
+        div.part.pen {
             (heading(languages, name))
             (languages.paragraph_with(|language| words.marked_up(language, &values)))
             (fields(names.map(|name| field(languages, name, None))))

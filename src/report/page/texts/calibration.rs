@@ -117,6 +117,18 @@ texts! {
     }
 
     PARAMETERS { en: "Parameters", ru: "Параметры" }
+    RESULT { en: "Result", ru: "Результат" }
+    RESULT_CAPTION {
+        en: "Parameters with their standard uncertainty u (k\u{a0}=\u{a0}1); drifts refer to local g",
+        ru: "Параметры и\u{a0}их стандартная неопределённость u (k\u{a0}=\u{a0}1); составляющие дрейфа отнесены к\u{a0}местному g"
+    }
+    PASSED { en: "{passed} of {all} parameters pass", ru: "Соответствуют допускам {passed} из {all} параметров" }
+    ARE_UNDECIDED { en: "; undecided: {names}", ru: "; не определено: {names}" }
+    FAIL { en: "; fail: {names}", ru: "; не соответствуют: {names}" }
+    PLUS_MINUS { en: "± U", ru: "± U" }
+    IN_TOLERANCE { en: "% of the tolerance", ru: "% допуска" }
+    METHODS { en: "Methods and convergence", ru: "Методы и\u{a0}сходимость" }
+    NEGLIGIBLE { en: "negligible, below a thousandth of u", ru: "пренебрежимо мала, менее тысячной доли u" }
     PARAMETERS_CAPTION {
         en: "Values, each with its standard uncertainty u (k\u{a0}=\u{a0}1) below it; drifts refer to local g",
         ru: "Значения и под ними стандартная неопределённость u (k\u{a0}=\u{a0}1); составляющие дрейфа отнесены к \
@@ -171,7 +183,7 @@ texts! {
     UNIT { en: "Unit", ru: "Единица" }
     NOMINAL { en: "Nominal", ru: "Номинальное значение" }
     EARLIER { en: "Previous", ru: "Предыдущее значение" }
-    FOUND { en: "Result", ru: "Полученное значение" }
+    FOUND { en: "Value", ru: "Значение" }
     FROM_GRAVITY {
         en: "Local gravity, with an uncertainty of {u}, contributes {gravity} to U of {parameter}. To reduce this, \
              measure gravity or state the height in the site file.",
@@ -181,10 +193,8 @@ texts! {
     DEVIATION { en: "Deviation", ru: "Отклонение" }
     CHANGED_BY { en: "Change", ru: "Изменение" }
     TOLERANCE { en: "Tolerance", ru: "Допуск" }
-    EXPANDED_SHORT { en: "U", ru: "U" }
-    SIMPLE { en: "Simple acceptance", ru: "Простая приёмка" }
+    SIMPLE { en: "Simple acceptance, risk", ru: "Простая приёмка, риск" }
     GUARDED { en: "Guarded acceptance", ru: "С\u{a0}защитной полосой" }
-    RISK { en: "Specific risk", ru: "Риск" }
     RISK_NOTE {
         en: "Simple acceptance: no guard band. Guarded acceptance: undecided where the uncertainty does not permit a \
              decision. Specific risk: probability that the decision by simple acceptance is wrong.",
@@ -193,9 +203,6 @@ texts! {
              ошибочно."
     }
     BELOW { en: "< {limit}", ru: "< {limit}" }
-    TOLERANCES { en: "Parameters relative to their tolerances", ru: "Параметры в\u{a0}сравнении с\u{a0}допусками" }
-    TOLERANCES_CAPTION { en: "Deviations as fractions of their tolerances", ru: "Отклонения в\u{a0}долях допуска" }
-    CHANGES_CAPTION { en: "Changes relative to the tolerances", ru: "Изменения в\u{a0}сравнении с\u{a0}допусками" }
 
     FIT { en: "Goodness of fit", ru: "Согласие показаний с\u{a0}моделью" }
     CHI_SQUARE { en: "Chi-square", ru: "Хи-квадрат" }
@@ -254,7 +261,6 @@ texts! {
         en: "Residuals of the equations and their standard uncertainties",
         ru: "Остатки уравнений и\u{a0}их стандартные неопределённости"
     }
-    RESIDUALS_FIGURE { en: "Residuals and their limits", ru: "Остатки и\u{a0}их границы" }
     HINT { en: "Possible causes", ru: "Возможные причины" }
     HINT_EXCHANGED {
         en: "The readings of positions {one} and {other} may be exchanged.",

@@ -34,7 +34,6 @@ texts! {
     REASON { en: "Reason", ru: "Причина" }
 
     RESULT { en: "Certified deviations", ru: "Аттестованные отклонения" }
-    FIGURE_DEVIATIONS { en: "Figure 1. Certified deviations.", ru: "Рисунок 1. Аттестованные отклонения." }
 
     UNCERTAINTY { en: "Uncertainty", ru: "Неопределённость" }
     BUDGET { en: "Budget of the certificate (k\u{a0}=\u{a0}1)", ru: "Бюджет неопределённости сертификата (k\u{a0}=\u{a0}1)" }

@@ -10,8 +10,17 @@ texts! {
     PASSED { en: "passed", ru: "пройдена" }
     FAILED { en: "FAILED", ru: "НЕ ПРОЙДЕНА" }
 
+    NOT_ASKED { en: "not asked", ru: "не запрошена" }
+    COUNTED {
+        en: "Checks as of {time}: {passed} passed, {not_asked} not asked.",
+        ru: "Проверки на {time}: пройдено {passed}, не запрошено {not_asked}."
+    }
+    COUNTED_FAILED {
+        en: "Checks as of {time}: {passed} passed, {not_asked} not asked, {failed} failed.",
+        ru: "Проверки на {time}: пройдено {passed}, не запрошено {not_asked}, не пройдено {failed}."
+    }
+
     IN_FORCE { en: "In force", ru: "Действует" }
-    ALL_PASSED { en: "All checks passed as of {time}.", ru: "Все проверки пройдены на {time}." }
     NOT_TO_BE_USED { en: "Not to be used", ru: "Не применять" }
     GENUINE {
         en: "The passport is authentic, but must not be used as of {time}, or not at this place.",
@@ -81,12 +90,14 @@ texts! {
     }
     ISSUER { en: "Issuer", ru: "Выдавшая организация" }
     ISSUER_OK { en: "issued by {issuer}, as required", ru: "выдан {issuer}, как требовалось" }
+    ISSUER_NOT_ASKED { en: "no issuer was required", ru: "выдавшая организация не задана" }
     STAND { en: "Stand", ru: "Стенд" }
     STAND_OK { en: "for stand {serial}, as required", ru: "относится к стенду {serial}, как требовалось" }
     STAND_WRONG {
         en: "for stand {serial}, not {asked}; its deviations do not apply to that stand",
         ru: "относится к стенду {serial}, а не к {asked}; отклонения другого стенда неприменимы"
     }
+    STAND_NOT_ASKED { en: "no serial number was given", ru: "заводской номер не задан" }
     PLACE { en: "Place", ru: "Место" }
     PLACE_OK {
         en: "{distance}\u{a0}m from the site; validity radius {radius}\u{a0}m",
@@ -97,6 +108,7 @@ texts! {
         ru: "{distance}\u{a0}м от места установки; радиус применимости {radius}\u{a0}м; следует запросить перевыпуск \
              для этого места"
     }
+    PLACE_NOT_ASKED { en: "no place was given", ru: "место не задано" }
     REGISTER { en: "Register", ru: "Реестр" }
     REGISTER_OK {
         en: "no passport in the specified folder supersedes it",
@@ -110,5 +122,6 @@ texts! {
         en: "unknown: a file in the specified folder is damaged or missing",
         ru: "неизвестно: в указанной папке повреждён или отсутствует файл"
     }
+    REGISTER_NOT_ASKED { en: "no folder of passports was given", ru: "папка с паспортами не задана" }
     NOT_RUN { en: "not run", ru: "не проводилась" }
 }

@@ -4,14 +4,27 @@ use super::texts;
 
 texts! {
     TITLE { en: "Passport of a test stand", ru: "Паспорт испытательного стенда" }
-    SUBTITLE {
-        en: "Two-axis test stand for dynamically tuned gyros (DTG): certified deviations of its positions, and data \
-             for calibrating gyros at the site",
-        ru: "Двухосный поворотный стенд для динамически настраиваемых гироскопов (ДНГ): аттестованные отклонения \
-             положений и данные для калибровки гироскопов в месте установки"
-    }
     MARGIN_PASSPORT { en: "Passport {stand}/{site}, revision {revision}", ru: "Паспорт {stand}/{site}, редакция {revision}" }
     MARGIN_SHA256 { en: "SHA-256 of the signed file {sha256}", ru: "SHA-256 подписанного файла {sha256}" }
+
+    STATUS { en: "Status", ru: "Состояние" }
+    UNTIL { en: "until", ru: "по" }
+    INCLUSIVE { en: "inclusive", ru: "включительно" }
+    NO_END { en: "no expiry date is stated", ru: "срок действия не указан" }
+    WHERE { en: "Place of use: within", ru: "Место применения: в\u{a0}радиусе" }
+    AROUND { en: "of latitude and longitude", ru: "от места с\u{a0}широтой и\u{a0}долготой" }
+    AROUND_PARALLEL { en: "north or south of latitude", ru: "к\u{a0}северу и\u{a0}югу от широты" }
+    WORD { en: "On the word of certificate", ru: "Основание: сертификат калибровки" }
+    SIGNED_BY { en: "signed by", ru: "подписал" }
+    CHECKING { en: "How to check", ru: "Как проверить" }
+    CHECKING_HOW {
+        en: "of the file: scan the code and compare, or run dtg-passport verify",
+        ru: "файла: считать код и\u{a0}сравнить или выполнить dtg-passport verify"
+    }
+    FIGURE_STAND {
+        en: "The stand: its axes and angles, for θ\u{a0}=\u{a0}40° and φ\u{a0}=\u{a0}35°, the frame’s axis ξ as at this site.",
+        ru: "Оси и\u{a0}углы стенда при θ\u{a0}=\u{a0}40° и\u{a0}φ\u{a0}=\u{a0}35°, ось рамки ξ\u{a0}— как в\u{a0}месте установки."
+    }
 
     FRONT { en: "Identity and verification", ru: "Идентификация и\u{a0}проверка" }
     ID { en: "Passport", ru: "Паспорт" }
@@ -87,10 +100,9 @@ texts! {
              разряда."
     }
     FIGURE_POSITIONS {
-        en: "Figure 1. The stand in its positions (i, j), viewed from above and south-south-east.",
-        ru: "Рисунок 1. Стенд в положениях (i, j), вид с юго-юго-востока и сверху."
+        en: "The stand in its positions (i, j), viewed from above and south-south-east.",
+        ru: "Стенд в положениях (i, j), вид с юго-юго-востока и сверху."
     }
-    FIGURE_DEVIATIONS { en: "Figure 2. Certified deviations.", ru: "Рисунок 2. Аттестованные отклонения." }
     COMMON {
         en: "Uncertainty common to all positions (k\u{a0}=\u{a0}1)",
         ru: "Неопределённость, общая для всех положений (k\u{a0}=\u{a0}1)"
@@ -150,7 +162,7 @@ texts! {
     }
     AZIMUTH { en: "Astronomic azimuth of the mark", ru: "Астрономический азимут пункта" }
 
-    FIGURE_RADIUS { en: "Figure 3. Area of validity of the passport.", ru: "Рисунок 3. Область применимости паспорта." }
+    FIGURE_RADIUS { en: "Area of validity of the passport.", ru: "Область применимости паспорта." }
 
     NUMBERS { en: "Calibration data", ru: "Данные для калибровки" }
     MATRICES { en: "Matrices", ru: "Матрицы" }
@@ -176,9 +188,8 @@ texts! {
         ru: "Перегрузка n и угловая скорость Земли ω в осях корпуса гироскопа и токи J контрольного примера"
     }
     FIGURE_VECTORS {
-        en: "Figure 4. Earth rate and specific force in case axes, and their differences from those of an ideal stand.",
-        ru: "Рисунок 4. Угловая скорость Земли и перегрузка в осях корпуса гироскопа и их отличие от значений для \
-             идеального стенда."
+        en: "Earth rate and specific force in case axes: differences from those of an ideal stand.",
+        ru: "Угловая скорость Земли и\u{a0}перегрузка в\u{a0}осях корпуса: отличия от значений для идеального стенда."
     }
     SELF_CHECK { en: "Self-check", ru: "Контрольный пример" }
     SELF_CHECK_NOTE {
@@ -216,8 +227,8 @@ texts! {
         ru: "Не указана: паспорт выдан без указания типа гироскопа и измерителя тока."
     }
     FIGURE_ACCURACY {
-        en: "Figure 5. Uncertainties relative to the tolerances.",
-        ru: "Рисунок 5. Неопределённости в сравнении с допусками."
+        en: "Uncertainties relative to the tolerances.",
+        ru: "Неопределённости в сравнении с допусками."
     }
     GYRO_TYPE { en: "Gyro type", ru: "Тип гироскопа" }
     GYRO_GRAVITY { en: "g to which its drifts refer", ru: "g составляющих дрейфа" }

@@ -11,6 +11,20 @@ texts! {
     WEST_LETTER { en: "W", ru: "З" }
     UP { en: "up", ru: "верх" }
 
+    STAND_TITLE { en: "Stand with its parts, axes and angles", ru: "Стенд: части, оси и\u{a0}углы" }
+    STAND_DESCRIPTION {
+        en: "The frame turns by θ about its axis ξ, which points to the azimuth {azimuth}°. The platform turns by φ \
+             in the frame. It carries the gyro, whose spin axis is z; two pins lie along x.",
+        ru: "Рамка поворачивается на угол θ вокруг оси ξ, азимут которой {azimuth}°. Платформа поворачивается в рамке \
+             на угол φ и несёт гироскоп с осью собственного вращения z; два штифта расположены вдоль x."
+    }
+    PART_FRAME { en: "frame", ru: "рамка" }
+    PART_PLATFORM { en: "platform", ru: "платформа" }
+    PART_PINS { en: "two pins along x", ru: "два штифта по x" }
+    PART_GYRO { en: "gyro, spin axis z", ru: "гироскоп" }
+    PART_BASE { en: "base", ru: "основание" }
+    PART_AXIS { en: "axis ξ, azimuth {azimuth}°", ru: "ось ξ, азимут {azimuth}°" }
+
     POSITION_TITLE { en: "Position {index} of the stand", ru: "Положение {index} стенда" }
     POSITION_DESCRIPTION {
         en: "Frame angle θ\u{a0}=\u{a0}{theta}°, platform angle φ\u{a0}=\u{a0}{phi}°. Certified directions of the case \
@@ -24,24 +38,13 @@ texts! {
         en: "case axes, nominal, where the difference is visible",
         ru: "те же оси, номинальные (где отличие заметно)"
     }
-    FRAME {
-        en: "frame, rotated by θ about east (ξ)",
-        ru: "рамка, повёрнута на угол θ вокруг направления на восток (ξ)"
-    }
-    FRAME_OF_ROTATED_BASE { en: "frame, rotated by θ about its axis ξ", ru: "рамка, повёрнута на угол θ вокруг своей оси ξ" }
+    FRAME { en: "frame, rotated by θ about its axis ξ", ru: "рамка, повёрнута на угол θ вокруг своей оси ξ" }
+    EXAGGERATED { en: "Deviations are drawn ×{factor}.", ru: "Отклонения увеличены в\u{a0}{factor} раз." }
     PLATFORM {
         en: "platform with the gyro, rotated by φ about z; its two pins are along x",
         ru: "платформа с гироскопом, повёрнута на угол φ вокруг z; два штифта направлены по x"
     }
-    NORTH_AND_UP { en: "north and up (ζ)", ru: "север и\u{a0}верх (ζ)" }
-    BASE_AXES { en: "base axes: north (η) and up (ζ)", ru: "оси основания: север (η) и верх (ζ)" }
 
-    DEVIATIONS_TITLE { en: "Certified deviations {angle} about {axis}", ru: "Аттестованные отклонения {angle} вокруг {axis}" }
-    DEVIATION_IN_WORDS { en: "position {index}: {value}″", ru: "положение {index}: {value}″" }
-    DEVIATION_WITH_U_IN_WORDS {
-        en: "position {index}: {value}″, u\u{a0}=\u{a0}{u}″",
-        ru: "положение {index}: {value}″, u\u{a0}=\u{a0}{u}″"
-    }
     DEVIATION_BAR {
         en: "certified deviations α, β, γ about x, y, z of the platform",
         ru: "аттестованные отклонения α, β, γ вокруг осей x, y, z платформы"
@@ -52,14 +55,11 @@ texts! {
     }
     DEVIATION_NO_U { en: "the certificate gives no uncertainty", ru: "неопределённость в\u{a0}сертификате не указана" }
 
-    EARTH_RATE { en: "Earth rate ω₃ along x and y", ru: "Угловая скорость Земли ω₃ по x и\u{a0}y" }
     EARTH_RATE_DIFFERENCE { en: "ω₃: actual minus nominal", ru: "Отклонение ω₃ от номинальной" }
-    SPECIFIC_FORCE { en: "Specific force n along x and y", ru: "Перегрузка n по x и\u{a0}y" }
     SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus nominal", ru: "Отклонение n от номинальной" }
     VECTOR_IN_WORDS { en: "position {index}: x {x}, y {y}", ru: "положение {index}: x {x}, y {y}" }
     VECTORS_DESCRIPTION { en: "In {unit}: {list}.", ru: "В {unit}: {list}." }
-    VECTOR_REAL { en: "actual orientation, as certified", ru: "реальная ориентация (аттестованная)" }
-    VECTOR_IDEAL { en: "ideal stand, without deviations", ru: "идеальный стенд, без отклонений" }
+    VECTOR_DIFFERENCE { en: "actual minus ideal stand", ru: "отличие от идеального стенда" }
     VECTOR_MARKS {
         en: "one symbol for each frame index i; labels are i,j",
         ru: "для каждого индекса рамки i свой знак; подписи\u{a0}— i,j"
@@ -104,22 +104,12 @@ texts! {
         en: "expanded uncertainty U\u{a0}=\u{a0}2u",
         ru: "расширенная неопределённость U\u{a0}=\u{a0}2u"
     }
-    RESIDUALS_TITLE { en: "Residuals along {axis} and their limits", ru: "Остатки по оси {axis} и\u{a0}их границы" }
-    RESIDUAL_IN_WORDS {
-        en: "position {index}: {value}, u\u{a0}=\u{a0}{u}",
-        ru: "положение {index}: {value}, u\u{a0}=\u{a0}{u}"
-    }
     RESIDUAL { en: "residual of an equation after the fit", ru: "остаток уравнения после оценивания" }
     RESIDUAL_LIMITS {
         en: "limits ±2u, with u the standard uncertainty of the residual",
         ru: "границы ±2u, где u\u{a0}— стандартная неопределённость остатка"
     }
 
-    TOLERANCES_TITLE { en: "Parameters relative to their tolerances", ru: "Параметры в\u{a0}сравнении с\u{a0}допуском" }
-    TOLERANCE_IN_WORDS {
-        en: "{parameter}: deviation {deviation}, U\u{a0}=\u{a0}{expanded}, tolerance ±{tolerance} {unit}: {decision}",
-        ru: "{parameter}: отклонение {deviation}, U\u{a0}=\u{a0}{expanded}, допуск ±{tolerance} {unit}: {decision}"
-    }
     TOLERANCES_WHISKER {
         en: "expanded uncertainty ±U, U\u{a0}=\u{a0}2u",
         ru: "расширенная неопределённость ±U, U\u{a0}=\u{a0}2u"

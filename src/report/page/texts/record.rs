@@ -14,6 +14,10 @@ texts! {
     SIGNATURE { en: "Signature", ru: "Подпись" }
 
     RECORD { en: "Record of the stand", ru: "Учёт изделия" }
+    ON_PAPER {
+        en: "The forms of this section are filled in by hand on the printed passport.",
+        ru: "Формы этого раздела заполняют от\u{a0}руки в\u{a0}отпечатанном паспорте."
+    }
     COMPLETENESS { en: "Completeness", ru: "Комплектность" }
     DESIGNATION { en: "Designation", ru: "Обозначение" }
     ITEM { en: "Item", ru: "Наименование" }

@@ -1,0 +1,148 @@
+//! The stand in one large drawing with its parts, axes and angles named; the small pictures of the positions leave the
+//! names out. The frame's axis points to its azimuth at the site.
+
+use super::drawing::{Anchor, Panel, Point, arrow, line, list, panels, words};
+use super::label::width;
+use super::positions::{AXIS, AXIS_HEIGHT, GYRO, GYRO_HEIGHT, View, plate, rows, stand as parts};
+use crate::attitude;
+use crate::report::page::language::Languages;
+use crate::report::page::number::Number;
+use crate::report::page::texts::{pictures as texts, words as compass};
+use maud::{Markup, html};
+use nalgebra::Vector3;
+
+const PANEL_PIXELS: u32 = 300;
+const SIZE: Point = [500.0, 316.0];
+const CENTRE: Point = [262.0, 148.0];
+const UNIT: f64 = 86.0;
+
+/// Place and unit of the three directions east, north and up.
+const COMPASS: Point = [40.0, 284.0];
+const COMPASS_UNIT: f64 = 46.0;
+
+/// Angles of the drawing: large enough for their arcs, and no position of a stand.
+const THETA_DEG: f64 = 40.0;
+const PHI_DEG: f64 = 35.0;
+
+/// Radius of the arc of θ and its distance from the centre; radius of the arc of φ, between platform and frame.
+const THETA_ARC: f64 = 0.62;
+const THETA_AT: f64 = 1.32;
+const PHI_ARC: f64 = 0.75;
+
+/// Draws the stand; its frame's axis ξ points to the azimuth `frame_axis_azimuth_deg`.
+pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Markup {
+    let view = View::new(CENTRE, UNIT);
+    let base = attitude::base(frame_axis_azimuth_deg);
+    let turned = |theta_deg: f64, phi_deg: f64| attitude::nominal(theta_deg, phi_deg) * base;
+    let (frame, platform) = (turned(THETA_DEG, 0.0), turned(THETA_DEG, PHI_DEG));
+    let ([xi, across, _], [x, y, z]) = (rows(&frame), rows(&platform));
+    let axle = xi * -THETA_AT;
+    let theta = |share: f64| axle + rows(&turned(share * THETA_DEG, 0.0))[1] * THETA_ARC;
+    let phi = |share: f64| rows(&turned(THETA_DEG, share * PHI_DEG))[0] * PHI_ARC;
+    let axis = |direction: &Vector3<f64>, from: f64| {
+        arrow(view.point(&(direction * from)), view.point(&(direction * AXIS)), "axis")
+    };
+    let azimuth = Number::exact(frame_axis_azimuth_deg).text(languages.first());
+    let values = [("azimuth", azimuth.as_str())];
+    let named = [
+        (texts::PART_FRAME, across * 0.8 + xi * 0.4),
+        (texts::PART_PLATFORM, (y - x) * 0.42),
+        (texts::PART_PINS, x * -0.5),
+        (texts::PART_GYRO, z * GYRO_HEIGHT),
+        (texts::PART_BASE, Vector3::new(1.0, 0.1, -AXIS_HEIGHT)),
+        (texts::PART_AXIS, xi * 1.75),
+    ];
+    let named = named.map(|(text, at)| (text.filled(languages.first(), &values), view.point(&at)));
+    let drawing = [
+        plate(&view, &base),
+        parts(&view, &base, &frame, &platform),
+        line(view.point(&(xi * -1.1)), view.point(&(xi * -1.6)), "axle"),
+        arrow(view.point(&(xi * 1.1)), view.point(&(xi * 1.75)), "base-axis"),
+        axis(&x, GYRO),
+        axis(&y, GYRO),
+        axis(&z, GYRO_HEIGHT),
+        arc(&view, &theta, Some(axle)),
+        arc(&view, &phi, None),
+        letters(
+            &view,
+            &[("x", x * 1.37), ("y", y * 1.37), ("z", z * 1.37), ("θ", theta_letter(&theta)), ("φ", phi(0.5) * 1.2)],
+        ),
+        compass_rose(languages),
+        leaders(&named),
+    ];
+    let panel = Panel { name: "stand", languages, size: SIZE };
+    let svg = panel.svg(
+        |language| texts::STAND_TITLE.of(language).to_owned(),
+        |language| {
+            texts::STAND_DESCRIPTION
+                .filled(language, &[("azimuth", &Number::exact(frame_axis_azimuth_deg).text(language))])
+        },
+        &drawing,
+    );
+    panels(1, PANEL_PIXELS, &[svg], &html! {})
+}
+
+/// Returns the place of the letter θ: outside the middle of its arc.
+fn theta_letter(theta: &impl Fn(f64) -> Vector3<f64>) -> Vector3<f64> {
+    let middle = theta(0.5);
+    middle + (middle - 0.5 * (theta(0.0) + theta(1.0))).normalize() * 0.14
+}
+
+/// Draws the arc of an angle with a head at its end, and from `corner` the two sides of the angle.
+fn arc(view: &View, at: &impl Fn(f64) -> Vector3<f64>, corner: Option<Vector3<f64>>) -> Markup {
+    const STEPS: u32 = 14;
+    let points: Vec<Point> = (0..STEPS).map(|step| view.point(&at(f64::from(step) / f64::from(STEPS)))).collect();
+    let last = points.last().copied().unwrap_or_default();
+    html! {
+        @if let Some(corner) = corner {
+            @for end in [at(0.0), at(1.0)] { (line(view.point(&corner), view.point(&end), "ideal")) }
+        }
+        polyline.dimension points=(list(&points)) {}
+        (arrow(last, view.point(&at(1.0)), "dimension-arrow"))
+    }
+}
+
+fn letters(view: &View, letters: &[(&str, Vector3<f64>)]) -> Markup {
+    html! {
+        @for (letter, at) in letters {
+            @let [x, y] = view.point(at);
+            (words([x, y + 4.0], Anchor::Middle, "letter", letter))
+        }
+    }
+}
+
+/// Draws east, north and up, as the view shows them.
+fn compass_rose(languages: &Languages) -> Markup {
+    let view = View::new(COMPASS, COMPASS_UNIT);
+    let named = [compass::EAST, compass::NORTH, texts::UP];
+    let directions = [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().zip(named);
+    html! {
+        @for (direction, name) in directions {
+            @let [x, y] = view.point(&(direction * 1.1));
+            (arrow(COMPASS, view.point(&direction), "meridian"))
+            (words([x, y + if direction.z > 0.0 { 0.0 } else { 6.0 }], if direction.z > 0.0 { Anchor::Middle } else { Anchor::Start }, "", name.of(languages.first())))
+        }
+    }
+}
+
+/// Writes the names of parts in a column on either side, with a line from each to its part.
+fn leaders(named: &[(String, Point)]) -> Markup {
+    const GAP: f64 = 20.0;
+    const TOP: f64 = 30.0;
+    const EDGE: f64 = 4.0;
+    let mut sorted: Vec<&(String, Point)> = named.iter().collect();
+    sorted.sort_by(|(_, one), (_, other)| one[1].total_cmp(&other[1]));
+    let mut next = [TOP, TOP];
+    let places = sorted.into_iter().map(|(name, at)| {
+        let right = usize::from(at[0] > CENTRE[0]);
+        let y = at[1].max(next[right]);
+        next[right] = y + GAP;
+        let (x, anchor, end) = match right {
+            0 => (EDGE, Anchor::Start, EDGE + 1.14 * width(name) + 3.0),
+            _ => (SIZE[0] - EDGE, Anchor::End, SIZE[0] - EDGE - 1.14 * width(name) - 3.0),
+        };
+        html! { (line([end, y], *at, "leader")) (words([x, y + 4.0], anchor, "", name)) }
+    });
+    let places: Vec<Markup> = places.collect();
+    html! { @for place in &places { (place) } }
+}
