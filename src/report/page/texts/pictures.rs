@@ -13,8 +13,8 @@ texts! {
 
     STAND_TITLE { en: "Stand with its parts, axes and angles", ru: "Стенд: части, оси и\u{a0}углы" }
     STAND_DESCRIPTION {
-        en: "The frame turns by θ about its axis ξ, which points to the azimuth {azimuth}°. The platform turns by φ \
-             in the frame. It carries the gyro, whose spin axis is z; two pins lie along x.",
+        en: "The frame is rotated by θ about its axis ξ, which points to the azimuth {azimuth}°, the platform by φ \
+             in the frame. The platform carries the gyro, whose spin axis is z; two pins lie along x.",
         ru: "Рамка поворачивается на угол θ вокруг оси ξ, азимут которой {azimuth}°. Платформа поворачивается в рамке \
              на угол φ и несёт гироскоп с осью собственного вращения z; два штифта расположены вдоль x."
     }
