@@ -113,6 +113,30 @@ fn the_text_is_complete_in_print() {
     }
 }
 
+/// No line of the annex is cut, or painted a second time in part.
+#[test]
+fn every_line_of_the_annex_is_whole() {
+    for page in all_pages() {
+        let said = &page.found["said"];
+        let Some(annex) = said["annex"].as_str().filter(|annex| !annex.is_empty()) else { continue };
+        let known = packed(annex) + &strings(&said["blocks"]).into_iter().map(packed).collect::<String>();
+        let margins: Vec<String> = strings(&said["margins"]).into_iter().map(packed).collect();
+        let sheets = page.sheets("-raw").join("\n");
+        let mut checked = 0;
+        for line in sheets.lines().skip_while(|line| !line.starts_with("# Passport of")) {
+            let text = packed(line.trim_start_matches(|c: char| c.is_ascii_digit() || c == '↳'));
+            let is_margin = margins.iter().any(|margin| margin.contains(&text) || text.contains(margin));
+            let is_number_of_sheet = line.split('/').all(|part| part.trim().parse::<u32>().is_ok());
+            if is_margin || is_number_of_sheet {
+                continue;
+            }
+            assert!(known.contains(&text), "{}: {line:?} is no part of the annex", page.name);
+            checked += 1;
+        }
+        assert!(checked > 100, "{}: only {checked} lines", page.name);
+    }
+}
+
 /// No heading and no caption is the last thing on a sheet.
 #[test]
 fn no_heading_is_parted_from_what_it_heads() {
