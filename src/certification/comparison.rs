@@ -7,7 +7,8 @@
 //! bad.
 
 use super::components::{RunModel, Variance, case_turn, turns_at};
-use super::suspects::{OUTLIER, STRAGGLER};
+use super::finding::{Finding, Untested, findings};
+use super::suspects::OUTLIER;
 use super::{AngleReadings, Certification, Header};
 use crate::calibration::inputs::Turn;
 use crate::coefficients::PositionIndex;
@@ -15,7 +16,6 @@ use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
 use crate::statistics::beta::f_larger;
 use crate::statistics::least_squares::Factorised;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use std::fmt::{self, Display, Formatter};
 
 /// Reason why readings were not compared with a certificate.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -98,90 +98,6 @@ pub struct Comparison {
     pub(crate) findings: Vec<Finding>,
     /// The findings in words, a sentence each.
     pub words: Vec<String>,
-}
-
-/// Reason for the result of a comparison, or a limit of it. Displayed, it is an English sentence without a full stop;
-/// `report` has the words of other languages.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Finding {
-    /// Most positions have changed.
-    AnotherStand,
-    /// Position that has changed relative to the others.
-    Changed(ComparedPosition),
-    /// Significant change that is not that of a single position.
-    ChangedTogether,
-    /// Change that is slightly larger than chance explains.
-    Slightly,
-    /// Significant rotation common to all positions.
-    Rotated,
-    /// Common rotation that is slightly larger than chance explains.
-    RotatedSlightly,
-    /// Rotation of the stand as a whole, which was not tested.
-    NotTested(Untested),
-    /// Angles without a stated uncertainty.
-    TreatedAsExact,
-    /// Readings that are those of the certificate.
-    SameReadings,
-}
-
-/// Reason why the rotation of the stand as a whole was not tested.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Untested {
-    /// Variation between the check runs that is unknown.
-    Variation,
-    /// One check run, and a certificate without the number of its runs.
-    NumberOfRuns,
-    /// Certificate without the common parts of the uncertainty.
-    CommonParts,
-}
-
-impl Display for Finding {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::AnotherStand => {
-                "no half of the positions agree with each other; this is another stand or another certificate"
-            }
-            Self::Changed(ComparedPosition { index, turn_arcsec: [x, y, z], .. }) => {
-                return write!(
-                    f,
-                    "position {index} has changed: {x:+.2}, {y:+.2}, {z:+.2} arcsec about x, y, z relative to the other \
-                     positions"
-                );
-            }
-            Self::ChangedTogether => "the positions have changed by more than stated; no single position stands out",
-            Self::Slightly => {
-                "the differences of the positions are slightly larger than chance explains; measure another run"
-            }
-            Self::Rotated => {
-                "all positions have rotated together; a datum surface has changed (gyro seat, level or azimuth), not \
-                 single positions"
-            }
-            Self::RotatedSlightly => {
-                "the common rotation of all positions is slightly larger than chance explains; measure more runs"
-            }
-            Self::NotTested(why) => return write!(f, "rotation of the stand as a whole was not tested: {why}"),
-            Self::TreatedAsExact => {
-                "the certificate does not state the uncertainty of all angles (u_alpha_arcsec etc.); these angles were \
-                 treated as exact, so differences appear more significant than they are"
-            }
-            Self::SameReadings => {
-                "the certificate was computed from these readings, so they do not show the present state of the stand"
-            }
-        })
-    }
-}
-
-impl Display for Untested {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::Variation => "the variation between the check runs is unknown",
-            Self::NumberOfRuns => {
-                "one run does not show the variation between set-ups, and the certificate does not state the number of \
-                 runs behind its common_*; measure two runs or more"
-            }
-            Self::CommonParts => "the certificate does not state common_platform_arcsec and common_base_arcsec",
-        })
-    }
 }
 
 /// Differences between check and certificate as rotations of the case, with their standard uncertainties and the design
@@ -480,23 +396,4 @@ fn own_variance(turn: &Turn, u_arcsec: &Vector3<f64>) -> Vector3<f64> {
         let part = turn.axes[angle] * u_arcsec[angle];
         sum + part.component_mul(&part)
     })
-}
-
-fn findings(found: &Comparison, moved: bool, untested: Option<Untested>) -> Vec<Finding> {
-    let mut findings: Vec<Finding> =
-        found.positions.iter().filter(|at| !at.repeats).copied().map(Finding::Changed).collect();
-    if !findings.is_empty() && findings.len() == found.positions.len() {
-        findings = vec![Finding::AnotherStand];
-    } else if findings.is_empty() && found.all.probability < OUTLIER {
-        findings.push(Finding::ChangedTogether);
-    } else if findings.is_empty() && found.all.probability < STRAGGLER {
-        findings.push(Finding::Slightly);
-    }
-    if moved {
-        findings.push(Finding::Rotated);
-    } else if found.common.test.is_some_and(|test| test.probability < STRAGGLER) {
-        findings.push(Finding::RotatedSlightly);
-    }
-    findings.extend(untested.map(Finding::NotTested));
-    findings
 }

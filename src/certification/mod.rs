@@ -6,6 +6,7 @@
 //! * `remark`: remarks for the signatory.
 //! * `suspects`: positions that scatter more (Cochran), outliers (Grubbs), and runs that agree too well.
 //! * `comparison`: comparison of a later check run with the certificate.
+//! * `finding`: reasons for the result of that comparison, and its limits.
 //! * `document`: the stand file as text, with comments on the origin of its numbers.
 //!
 //! The model and the meaning of each number are described in docs/certification.md.
@@ -14,6 +15,7 @@ pub(crate) mod comparison;
 pub(crate) mod components;
 mod deletion;
 pub(crate) mod document;
+pub(crate) mod finding;
 pub(crate) mod header;
 pub(crate) mod readings;
 pub(crate) mod remark;

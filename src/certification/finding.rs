@@ -1,0 +1,109 @@
+//! Findings of a comparison: reasons for its result, and its limits.
+
+use super::comparison::{ComparedPosition, Comparison};
+use super::suspects::{OUTLIER, STRAGGLER};
+use std::fmt::{self, Display, Formatter};
+
+/// Reason for the result of a comparison, or a limit of it. Displayed, it is an English sentence without a full stop;
+/// `report` has the words of other languages.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Finding {
+    /// Most positions have changed.
+    AnotherStand,
+    /// Position that has changed relative to the others.
+    Changed(ComparedPosition),
+    /// Significant change that is not that of a single position.
+    ChangedTogether,
+    /// Change that is slightly larger than chance explains.
+    Slightly,
+    /// Significant rotation common to all positions.
+    Rotated,
+    /// Common rotation that is slightly larger than chance explains.
+    RotatedSlightly,
+    /// Rotation of the stand as a whole, which was not tested.
+    NotTested(Untested),
+    /// Angles without a stated uncertainty.
+    TreatedAsExact,
+    /// Readings that are those of the certificate.
+    SameReadings,
+}
+
+/// Reason why the rotation of the stand as a whole was not tested.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Untested {
+    /// Variation between the check runs that is unknown.
+    Variation,
+    /// One check run, and a certificate without the number of its runs.
+    NumberOfRuns,
+    /// Certificate without the common parts of the uncertainty.
+    CommonParts,
+}
+
+impl Display for Finding {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::AnotherStand => {
+                "no half of the positions agree with each other; this is another stand or another certificate"
+            }
+            Self::Changed(ComparedPosition { index, turn_arcsec: [x, y, z], .. }) => {
+                return write!(
+                    f,
+                    "position {index} has changed: {x:+.2}, {y:+.2}, {z:+.2} arcsec about x, y, z relative to the other \
+                     positions"
+                );
+            }
+            Self::ChangedTogether => "the positions have changed by more than stated; no single position stands out",
+            Self::Slightly => {
+                "the differences of the positions are slightly larger than chance explains; measure another run"
+            }
+            Self::Rotated => {
+                "all positions have rotated together; a datum surface has changed (gyro seat, level or azimuth), not \
+                 single positions"
+            }
+            Self::RotatedSlightly => {
+                "the common rotation of all positions is slightly larger than chance explains; measure more runs"
+            }
+            Self::NotTested(why) => return write!(f, "rotation of the stand as a whole was not tested: {why}"),
+            Self::TreatedAsExact => {
+                "the certificate does not state the uncertainty of all angles (u_alpha_arcsec etc.); these angles were \
+                 treated as exact, so differences appear more significant than they are"
+            }
+            Self::SameReadings => {
+                "the certificate was computed from these readings, so they do not show the present state of the stand"
+            }
+        })
+    }
+}
+
+impl Display for Untested {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Variation => "the variation between the check runs is unknown",
+            Self::NumberOfRuns => {
+                "one run does not show the variation between set-ups, and the certificate does not state the number of \
+                 runs behind its common_*; measure two runs or more"
+            }
+            Self::CommonParts => "the certificate does not state common_platform_arcsec and common_base_arcsec",
+        })
+    }
+}
+
+/// Returns the findings of a comparison; `moved` states that the common rotation is significant.
+pub(super) fn findings(found: &Comparison, moved: bool, untested: Option<Untested>) -> Vec<Finding> {
+    let mut findings: Vec<Finding> =
+        found.positions.iter().filter(|at| !at.repeats).copied().map(Finding::Changed).collect();
+    if !findings.is_empty() && findings.len() == found.positions.len() {
+        findings = vec![Finding::AnotherStand];
+    } else if findings.is_empty() && found.all.probability < OUTLIER {
+        findings.push(Finding::ChangedTogether);
+    } else if findings.is_empty() && found.all.probability < STRAGGLER {
+        findings.push(Finding::Slightly);
+    }
+    if moved {
+        findings.push(Finding::Rotated);
+    } else if found.common.test.is_some_and(|test| test.probability < STRAGGLER) {
+        findings.push(Finding::RotatedSlightly);
+    }
+    findings.extend(untested.map(Finding::NotTested));
+    findings
+}
