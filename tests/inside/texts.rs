@@ -1,8 +1,14 @@
 //! The table of texts: no Russian in English, no English in Russian, the same values in both.
 
 use crate::inside::language::{LATIN_IN_RUSSIAN, cyrillic, latin_words};
+use dtg_passport::report::page::language::Text;
 use dtg_passport::report::page::texts;
 use std::collections::BTreeSet;
+
+/// All tables of texts: those of pages, and of digital certificates.
+fn tables() -> impl Iterator<Item = (&'static str, &'static [(&'static str, Text)])> {
+    texts::TABLES.into_iter().chain([("dcc", dtg_passport::dcc::words::ALL)])
+}
 
 /// The names in braces.
 fn names(text: &str) -> BTreeSet<&str> {
@@ -16,8 +22,7 @@ fn without_names(text: &str) -> String {
 #[test]
 fn every_text_is_in_its_own_language_with_the_same_values() {
     let mut count = 0;
-    let certificates = ("dcc", dtg_passport::dcc::words::ALL);
-    for (table, texts) in texts::TABLES.into_iter().chain([certificates]) {
+    for (table, texts) in tables() {
         for (name, text) in texts {
             count += 1;
             let (en, ru) = (without_names(text.en), without_names(text.ru));
@@ -75,7 +80,7 @@ fn one_term_for_each_concept() {
     assert!(says("The last days of it", "last day*") && !says("at last, daylight", "last day"));
     assert!(says("Столб, отмеченный", "столб") && !says("столбец x", "столб"));
     let mut wrong = Vec::new();
-    for (table, texts) in texts::TABLES {
+    for (table, texts) in tables() {
         for (name, text) in texts {
             for (language, said) in [("en", text.en), ("ru", text.ru)] {
                 let said = without_names(said).replace('\u{a0}', " ");
