@@ -124,7 +124,8 @@ fn every_line_of_the_annex_is_whole() {
             strings(&said["margins"]).into_iter().map(packed).filter(|m| !m.is_empty()).collect();
         let sheets = page.sheets("-raw").join("\n");
         let mut checked = 0;
-        for line in sheets.lines().skip_while(|line| !line.starts_with("# Passport of")) {
+        let is_start = |line: &str| !line.trim().is_empty() && annex.starts_with(line.trim_end());
+        for line in sheets.lines().skip_while(|line| !is_start(line)) {
             let text = packed(line.trim_start_matches(|c: char| c.is_ascii_digit() || c == '↳'));
             let is_margin = margins.iter().any(|margin| margin.contains(&text) || text.contains(margin));
             let is_number_of_sheet = line.split('/').all(|part| part.trim().parse::<u32>().is_ok());
@@ -134,7 +135,7 @@ fn every_line_of_the_annex_is_whole() {
             assert!(known.contains(&text), "{}: {line:?} is no part of the annex", page.name);
             checked += 1;
         }
-        assert!(checked > 100, "{}: only {checked} lines", page.name);
+        assert!(checked > 40, "{}: only {checked} lines", page.name);
     }
 }
 
