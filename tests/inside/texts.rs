@@ -5,9 +5,17 @@ use dtg_passport::report::page::language::Text;
 use dtg_passport::report::page::texts;
 use std::collections::BTreeSet;
 
+type Table = (&'static str, &'static [(&'static str, Text)]);
+
+/// Texts of digital certificates, which only the program has.
+#[cfg(feature = "cli")]
+const CERTIFICATES: &[Table] = &[("dcc", dtg_passport::dcc::words::ALL)];
+#[cfg(not(feature = "cli"))]
+const CERTIFICATES: &[Table] = &[];
+
 /// All tables of texts: those of pages, and of digital certificates.
-fn tables() -> impl Iterator<Item = (&'static str, &'static [(&'static str, Text)])> {
-    texts::TABLES.into_iter().chain([("dcc", dtg_passport::dcc::words::ALL)])
+fn tables() -> impl Iterator<Item = Table> {
+    texts::TABLES.into_iter().chain(CERTIFICATES.iter().copied())
 }
 
 /// The names in braces.
