@@ -33,7 +33,7 @@ pub(crate) enum Finding {
 pub(crate) enum Untested {
     /// Variation between the check runs that is unknown.
     Variation,
-    /// One check run, and a certificate without the number of its runs.
+    /// Check of a single run against a certificate that does not state its number of runs.
     NumberOfRuns,
     /// Certificate without the common parts of the uncertainty.
     CommonParts,

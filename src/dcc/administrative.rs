@@ -164,7 +164,7 @@ record! {
         pub method: Option<String>,
         /// Temperature during the measurements, if the passport states none.
         pub temperature_c: Option<f64>,
-        /// Whether the traceability that the certificate states is a chain of calibrations to the SI.
+        /// True if the traceability that the certificate states is a chain of calibrations to the SI.
         pub traceable: Option<bool>,
     }
 }

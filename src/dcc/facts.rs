@@ -13,7 +13,7 @@ const UNCHANGED: &str = "CHANGE";
 /// Facts that a passport or a calibration states.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Known<'a> {
-    /// What states these facts, for messages.
+    /// Source of these facts, as named in messages.
     pub source: &'static str,
     /// Serial number of the item, if an option must state it.
     pub serial: Option<Option<&'a str>>,

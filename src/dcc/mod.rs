@@ -9,7 +9,7 @@
 //! * `words`: words of the program, in every language.
 //! * `xml`: elements and their text.
 //!
-//! The same input gives the same bytes: nothing depends on the clock.
+//! A DCC depends only on its inputs, not on the clock, so the same input gives the same bytes.
 
 mod administrative;
 mod countries;
@@ -36,8 +36,8 @@ pub(crate) struct Dcc {
 }
 
 impl Dcc {
-    /// Returns the name of the file: the number of the certificate, with `_` in place of characters that no name of a
-    /// file should have.
+    /// Returns the file name: the number of the certificate, with `_` instead of each character that is unsuitable in a
+    /// file name.
     pub(crate) fn file_name(&self) -> String {
         const LONGEST: usize = 100;
         let safe = |c: char| if c.is_alphanumeric() || " ._-".contains(c) { c } else { '_' };

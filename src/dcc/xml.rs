@@ -69,7 +69,7 @@ impl Element {
     }
 }
 
-/// One element where any number of them may be added.
+/// Yields the element itself, so that [`Element::and`] accepts a single element.
 impl IntoIterator for Element {
     type Item = Self;
     type IntoIter = std::iter::Once<Self>;

@@ -1,7 +1,7 @@
 //! File access: files are read completely up to a limit, and written completely or not at all.
 //!
 //! * [`leftovers`]: temporary files that killed runs left behind.
-//! * `platform`: what differs between Unix and Windows.
+//! * `platform`: operations that differ between Unix and Windows.
 //! * [`together`]: several files, all or none.
 //! * [`walk`]: the files under a folder.
 

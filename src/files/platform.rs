@@ -1,4 +1,4 @@
-//! What differs between Unix and Windows.
+//! File operations that differ between Unix and Windows.
 
 use std::fs::File;
 use std::io;
@@ -46,7 +46,7 @@ mod system {
     const IN_USE: [i32; 2] = [5, 32];
     /// Windows' `ERROR_PIPE_NOT_CONNECTED`, which the standard library gives no kind.
     const PIPE_NOT_CONNECTED: i32 = 233;
-    /// Number and length of the waits for another run: a minute. A folder that cannot be written is waited for as long.
+    /// Number and length of the waits for another run, one minute in all.
     const WAITS: u32 = 1200;
     const WAIT: Duration = Duration::from_millis(50);
 
@@ -61,7 +61,7 @@ mod system {
         error.kind() == io::ErrorKind::BrokenPipe || error.raw_os_error() == Some(PIPE_NOT_CONNECTED)
     }
 
-    // Windows locks no folders; a file that nobody else can open serves instead.
+    // Windows cannot lock a folder. A file opened for exclusive use serves as the lock.
     pub(crate) fn wait_for_turn(folder: &Path) -> Option<File> {
         let path = folder.join(format!("{}lock{}", leftovers::PREFIX, leftovers::SUFFIX));
         for _ in 0..WAITS {

@@ -85,7 +85,7 @@ pub(crate) fn outgoing(text: &str, codes: &[&str]) -> String {
     shown
 }
 
-/// Returns a value as JSON, with its strings unchanged and invisible characters as `\uXXXX`.
+/// Returns a value as JSON, with invisible characters in its strings as `\uXXXX`.
 ///
 /// # Errors
 /// Returns an error if the value cannot be written as JSON.
