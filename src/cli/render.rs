@@ -4,13 +4,14 @@ use super::output::Format;
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, defaults, output, register};
 use crate::batch::paths::{self, Named};
+pub(super) use crate::dcc::Written;
 use crate::files::{self, FileError};
 use crate::folder::Folder;
 use crate::interface::Failed;
 use crate::report::page::{Language, Languages, PassportPage};
 use crate::report::{issued, style, verdict};
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -62,23 +63,6 @@ struct Rendered {
     page: String,
     #[serde(flatten)]
     verdict: verdict::Verdict,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Written {
-    /// English
-    En,
-    /// Russian
-    Ru,
-}
-
-impl From<Written> for Language {
-    fn from(written: Written) -> Self {
-        match written {
-            Written::En => Self::English,
-            Written::Ru => Self::Russian,
-        }
-    }
 }
 
 /// Returns the languages of a page: English if none is specified.

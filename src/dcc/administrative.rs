@@ -61,8 +61,8 @@ impl Field for Location {
     }
 }
 
-/// Language of a DCC by its code in ISO 639-1; the program's own words exist in these.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, schemars::JsonSchema)]
+/// Language of a page or a DCC by its code in ISO 639-1, in files and options.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum, schemars::JsonSchema)]
 #[schemars(rename_all = "lowercase")]
 pub enum Written {
     /// English.
