@@ -9,7 +9,7 @@ use super::sensitivity::Sensitivity;
 use super::unknowns::Model;
 use crate::coefficients::PositionIndex;
 use crate::units::arcseconds_from_radians;
-use nalgebra::{Matrix2, Matrix2x3, Vector2, Vector3};
+use nalgebra::{Matrix2, Vector2};
 use std::fmt;
 
 /// Probability of chi-square below which a fit is examined. A correct calibration is therefore examined with this
@@ -156,7 +156,7 @@ fn single_positions(setup: &Setup, data: &Data, model: Model, suspects: &[usize]
         }
         let at = &setup.coefficients().positions[place];
         let misclosure = fit.unknowns.misclosure(at, &data.currents_ma[place]);
-        let turns = turns(&Sensitivity::new(setup, &fit.unknowns), place);
+        let turns = Sensitivity::new(setup, &fit.unknowns).to_case_turns(place);
         // Smallest rotation δ with S δ = misclosure: S' (S S')⁻¹ misclosure.
         let angle = (turns * turns.transpose())
             .try_inverse()
@@ -172,12 +172,6 @@ fn single_positions(setup: &Setup, data: &Data, model: Model, suspects: &[usize]
     possible.collect()
 }
 
-/// Returns the sensitivity of the misclosure of a position to rotations of the case about x, y, z, °/h per radian.
-fn turns(sensitivity: &Sensitivity, place: usize) -> Matrix2x3<f64> {
-    let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-    Matrix2x3::from_columns(&axes.map(|axis| sensitivity.to_case_turn(place, &axis)))
-}
-
 fn chi_square(setup: &Setup, data: &Data, model: Model) -> Option<ChiSquare> {
     let fit = data.fit(setup, model).ok().filter(|fit| fit.settled)?;
     let found = ChiSquare::new(propagation::chi_square(setup, &fit, data));
@@ -191,7 +185,7 @@ fn size_arcsec(setup: &Setup, fit: &Fit, chi_square: &ChiSquare) -> f64 {
         .whitening
         .iter()
         .enumerate()
-        .map(|(place, whiten)| (whiten * turns(&sensitivity, place)).norm_squared())
+        .map(|(place, whiten)| (whiten * sensitivity.to_case_turns(place)).norm_squared())
         .sum();
     let rows = 2 * fit.whitening.len();
     let excess = (chi_square.value / chi_square.degrees_of_freedom as f64 - 1.0).max(0.0);

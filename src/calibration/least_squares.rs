@@ -31,7 +31,7 @@ const SINGULAR: f64 = 1e6;
 const LARGEST_NUMBER_OF_STEPS: usize = 30;
 
 /// Length of the last step, as a fraction of the solution's own uncertainty, below which the fit is settled.
-const SETTLED: f64 = 1e-6;
+pub(crate) const SETTLED: f64 = 1e-6;
 
 /// Parameters by weighted least squares.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -189,15 +189,27 @@ impl Fit {
         own_covariance: impl Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>,
     ) -> Result<Self, NoLeastSquares> {
         let problem = Problem { coefficients, currents_ma, model, offsets, own_covariance };
-        let start = problem.first()?;
-        if let Some(fit) = problem.settle(start.clone()) {
-            return Ok(fit);
+        problem.fit(problem.first()?)
+    }
+
+    /// Fits the same parameters again after a change of weights or offsets, from this solution on.
+    pub(crate) fn again(
+        &self,
+        coefficients: &Coefficients,
+        currents_ma: &[Vector2<f64>],
+        offsets: &Offsets,
+        own_covariance: impl Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>,
+    ) -> Result<Self, NoLeastSquares> {
+        let problem = Problem { coefficients, currents_ma, model: self.of, offsets, own_covariance };
+        let mut start = Solution { unknowns: self.unknowns, changing: self.changing.clone() };
+        if start.changing.len() != offsets.columns() {
+            start.changing = vec![0.0; offsets.columns()];
+            problem.offsets_determined(&self.currents_ma)?;
         }
-        // No gyro gives such readings. One step with the measured currents as regressors is the best available fit.
-        let (step, mut fit) = problem.step(&start, Regressors::Read).ok_or(NoLeastSquares::NotUsable)?;
-        problem.advance(&mut fit, &step.0);
-        fit.settled = false;
-        Ok(fit)
+        match problem.settle(start) {
+            Some(fit) if self.settled => Ok(fit),
+            _ => problem.fit(problem.first()?),
+        }
     }
 
     pub(crate) fn solution(&self) -> LeastSquaresSolution {
@@ -216,6 +228,12 @@ impl Fit {
         let rows = r_inverse.rows(r_inverse.nrows() - 2, 2);
         let covariance = Matrix2::from_fn(|row, column| rows.row(row).dot(&rows.row(column)));
         offsets.drift.then_some((Vector2::new(x, y), covariance))
+    }
+
+    /// Returns the standard uncertainties of the offsets from the own parts of the positions, °/h or °/h².
+    pub(crate) fn own_uncertainties_of_offsets(&self) -> impl Iterator<Item = f64> {
+        let r_inverse = self.model.r_inverse();
+        (self.of.columns()..r_inverse.nrows()).map(|row| r_inverse.row(row).norm())
     }
 
     /// Returns the unwhitened equations, with the rows and columns of the offsets.
@@ -268,10 +286,10 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
             let (found, expected) = (self.currents_ma.len(), positions.len());
             return Err(NoLeastSquares::WrongNumberOfCurrents { found, expected });
         }
-        let scaled: Vec<_> = self.currents_ma.iter().map(|current| current / unit_ma).collect();
         if self.offsets.columns() > 0 {
-            self.offsets_determined(whole_design(positions, &scaled, self.model, self.offsets))?;
+            self.offsets_determined(self.currents_ma)?;
         }
+        let scaled: Vec<_> = self.currents_ma.iter().map(|current| current / unit_ma).collect();
         let design = design(positions, &scaled, self.model);
         let model = Factorised::new(design.clone()).ok().filter(|model| model.condition_bound() <= LARGEST_CONDITION);
         match model {
@@ -309,14 +327,19 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
     }
 
     /// Checks that no offset is mixed with another unknown. How well each is known, its uncertainty tells.
-    fn offsets_determined(&self, mut design: DMatrix<f64>) -> Result<(), NoLeastSquares> {
+    fn offsets_determined(&self, currents_ma: &[Vector2<f64>]) -> Result<(), NoLeastSquares> {
+        let mut design = whole_design(&self.coefficients.positions, currents_ma, self.model, self.offsets);
         // Rows of differences are in units of their uncertainty, which has no place here; columns have different units.
         let first = 2 * self.coefficients.positions.len();
         let largest = design.rows_range(first..).amax();
         if largest > 0.0 {
             design.rows_range_mut(first..).unscale_mut(largest);
         }
-        let found = condition(&scaled_columns(design), SINGULAR).ok_or(NoLeastSquares::NotUsable)?;
+        let design = scaled_columns(design);
+        if Factorised::new(design.clone()).is_ok_and(|model| model.condition_bound() <= SINGULAR) {
+            return Ok(());
+        }
+        let found = condition(&design, SINGULAR).ok_or(NoLeastSquares::NotUsable)?;
         if found.undetermined.is_empty() {
             return Ok(());
         }
@@ -330,6 +353,18 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         let turn_ons = (0..turn_ons).flat_map(|_| [Parameter::TurnOn(0), Parameter::TurnOn(1)]);
         let drift = self.offsets.drift.then_some([Parameter::Drift(0), Parameter::Drift(1)]);
         self.model.parameters().iter().copied().chain(turn_ons).chain(drift.into_iter().flatten()).collect()
+    }
+
+    /// Returns the fit that steps from `start` lead to.
+    fn fit(&self, start: Solution) -> Result<Fit, NoLeastSquares> {
+        if let Some(fit) = self.settle(start.clone()) {
+            return Ok(fit);
+        }
+        // No gyro gives such readings. One step with the measured currents as regressors is the best available fit.
+        let (step, mut fit) = self.step(&start, Regressors::Read).ok_or(NoLeastSquares::NotUsable)?;
+        self.advance(&mut fit, &step.0);
+        fit.settled = false;
+        Ok(fit)
     }
 
     /// Iterates from `start` until a step is negligible, or returns `None` if the steps do not converge.

@@ -1,8 +1,7 @@
 //! Noise of the gyro's own drift: from visit to visit, and from one turn-on to the next; stated by its type, or estimated
 //! from repeated visits and cycles.
 
-use super::offsets::{Differences, Offsets};
-use super::readings::Readings;
+use super::offsets::{Condensed, Differences};
 use nalgebra::Matrix2;
 
 /// Steps of the search for the noise of a visit.
@@ -61,39 +60,40 @@ impl DriftNoise {
 /// Mandel](crate::bibliography::Bibliography::PauleMandel82)); and their degrees of freedom.
 ///
 /// `known` returns the covariance of the other errors of a visit, by the indices of position and visit. The result is
-/// `None` if no position has two visits.
+/// `None` if the differences have no degrees of freedom.
 pub(crate) fn of_visits(
-    offsets: &Offsets,
-    readings: &Readings,
+    differences: &Differences,
     k: &Matrix2<f64>,
     known: impl Fn(usize, usize) -> Matrix2<f64>,
 ) -> Option<(f64, usize)> {
-    let with = |variance: f64| {
-        offsets.differences(readings, k, |place, visit| known(place, visit) + Matrix2::from_diagonal_element(variance))
-    };
-    let excess = |found: Differences| found.chi_square / found.degrees_of_freedom as f64 - 1.0;
-    let alone = offsets.differences(readings, k, |_, _| Matrix2::identity())?;
+    let alone = differences.condensed(k, |_, _| Matrix2::identity())?;
     let degrees_of_freedom = alone.degrees_of_freedom;
     if degrees_of_freedom == 0 {
         return None;
     }
+    // The inverse of the sum of squares is nearly linear in the variance; it is exactly so if all visits are alike.
+    let excess = |found: Condensed| 1.0 - degrees_of_freedom as f64 / found.chi_square;
+    let with = |variance: f64| {
+        differences
+            .condensed(k, |place, visit| known(place, visit) + Matrix2::from_diagonal_element(variance))
+            .map(excess)
+    };
     // With this variance alone the sum is as expected; other errors can only make the variance smaller.
     let (mut low, mut high) = (0.0, alone.chi_square / degrees_of_freedom as f64);
-    let none = with(0.0).map(excess);
+    let none = with(0.0);
     if high == 0.0 || none.is_some_and(|excess| excess <= 0.0) {
         return Some((0.0, degrees_of_freedom));
     }
-    let mut above = none.unwrap_or(f64::INFINITY);
-    let mut below = with(high).map_or(0.0, excess);
-    // Regula falsi, with the other end halved when the same end moves twice (Illinois); bisection from an infinite end.
+    let mut above = none.unwrap_or(1.0);
+    let mut below = with(high).unwrap_or(0.0);
+    // Regula falsi, with the other end halved when the same end moves twice (Illinois).
     let mut last = 0_i8;
     for _ in 0..MOST_STEPS {
         if below.abs() < FOUND {
             return Some((high.sqrt(), degrees_of_freedom));
         }
-        let share = if above.is_finite() { above / (above - below) } else { 0.5 };
-        let middle = low + share * (high - low);
-        let found = with(middle).map_or(f64::INFINITY, excess);
+        let middle = low + above / (above - below) * (high - low);
+        let found = with(middle).unwrap_or(1.0);
         if found.abs() < FOUND {
             return Some((middle.sqrt(), degrees_of_freedom));
         }

@@ -8,11 +8,12 @@
 
 use super::readings::{PositionReadings, Readings, Visit};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+use std::ops::{AddAssign, SubAssign};
 
 /// Seconds in an hour.
 const SECONDS_PER_HOUR: f64 = 3600.0;
 
-/// Eigenvalue, relative to the largest, below which differences of visits do not determine a combination of x.
+/// Eigenvalue, relative to the largest, below which differences of visits do not determine a combination of a_v.
 const UNDETERMINED: f64 = 1e-12;
 
 /// Mean of a_v below which visits to a position are balanced.
@@ -32,16 +33,6 @@ pub(crate) struct Offsets {
     /// Rows for x from the differences of visits, with unit covariance, and their right-hand side.
     pub(crate) rows: DMatrix<f64>,
     pub(crate) right: DVector<f64>,
-}
-
-/// Evaluation of the differences between the visits to each position.
-pub(crate) struct Differences {
-    /// Rows for x, with unit covariance, and their right-hand side.
-    rows: DMatrix<f64>,
-    right: DVector<f64>,
-    /// Sum of squares that no x explains, in units of the covariance of visits.
-    pub(crate) chi_square: f64,
-    pub(crate) degrees_of_freedom: usize,
 }
 
 impl Offsets {
@@ -127,73 +118,139 @@ impl Offsets {
         })
     }
 
-    /// Takes over what differences between visits say of x; returns `false` if they said the same before.
-    pub(crate) fn with(&mut self, differences: &Differences) -> bool {
-        let changed = (&self.rows, &self.right) != (&differences.rows, &differences.right);
-        (self.rows, self.right) = (differences.rows.clone(), differences.right.clone());
-        changed
-    }
-
-    /// Evaluates the differences between visits; `k` is K, and `covariance` returns the covariance of the errors of a
-    /// visit (°/h)², 2×2, by the indices of position and visit.
-    ///
-    /// Returns `None` if no position has two visits, or a covariance has no inverse.
-    pub(crate) fn differences(
-        &self,
-        readings: &Readings,
-        k: &Matrix2<f64>,
-        covariance: impl Fn(usize, usize) -> Matrix2<f64>,
-    ) -> Option<Differences> {
-        let columns = self.columns();
-        let (mut normal, mut right) = (DMatrix::zeros(columns, columns), DVector::zeros(columns));
-        let (mut squares, mut differences) = (0.0, 0);
-        for (place, at) in readings.positions().iter().enumerate().filter(|(_, at)| at.visits.len() > 1) {
-            differences += 2 * (at.visits.len() - 1);
-            // Mean of the visits with their weights, for the misclosure (last column) and each column of x.
-            let mut weight = Matrix2::zeros();
-            let mut sum = DMatrix::zeros(2, columns + 1);
-            let mut each = Vec::with_capacity(at.visits.len());
-            for (number, visit) in at.visits.iter().enumerate() {
-                let own = covariance(place, number).try_inverse()?;
-                let mut row = DMatrix::zeros(2, columns + 1);
-                for (term, a) in self.of_visit(visit).into_iter().enumerate() {
-                    row[(0, 2 * term)] = a;
-                    row[(1, 2 * term + 1)] = a;
-                }
-                row.column_mut(columns).copy_from(&(k * (at.mean_ma - visit.mean_ma)));
-                weight += own;
-                sum += own * &row;
-                each.push((own, row));
-            }
-            let mean = weight.try_inverse()? * sum;
-            for (own, row) in &each {
-                let row = row - &mean;
-                let weighted = own * &row;
-                let all = row.transpose() * weighted;
-                normal += all.view((0, 0), (columns, columns));
-                right += all.view((0, columns), (columns, 1));
-                squares += all[(columns, columns)];
-            }
-        }
-        (differences > 0).then(|| condensed(normal, &right, squares, differences))
+    /// Takes over what differences between visits say of x.
+    pub(crate) fn with(&mut self, found: Condensed) {
+        (self.rows, self.right) = (found.rows, found.right);
     }
 }
 
-/// Condenses normal equations into rows of unit covariance; combinations that they do not determine have none.
-fn condensed(normal: DMatrix<f64>, right: &DVector<f64>, squares: f64, differences: usize) -> Differences {
-    let columns = normal.nrows();
-    if columns == 0 {
-        let (rows, right) = (DMatrix::zeros(0, 0), DVector::zeros(0));
-        return Differences { rows, right, chi_square: squares, degrees_of_freedom: differences };
+/// Differences between the visits to each position.
+pub(crate) struct Differences {
+    /// Number of elements of a_v.
+    terms: usize,
+    /// Orthonormal combinations of a_v that the differences determine (terms × combinations); `None` if they determine
+    /// every element.
+    determined: Option<DMatrix<f64>>,
+    /// Indices of the positions with several visits, and their visits.
+    positions: Vec<(usize, Vec<Departure>)>,
+    /// Number of differences, two for each visit after the first to its position.
+    count: usize,
+}
+
+/// Departure of a visit from the mean of the visits to its position.
+struct Departure {
+    /// Combinations of a_v.
+    combinations: Vec<f64>,
+    current_ma: Vector2<f64>,
+}
+
+/// What the differences between visits say of x.
+pub(crate) struct Condensed {
+    /// Rows for x, with unit covariance, and their right-hand side.
+    rows: DMatrix<f64>,
+    right: DVector<f64>,
+    /// Sum of squares that no x explains, in units of the covariance of visits.
+    pub(crate) chi_square: f64,
+    pub(crate) degrees_of_freedom: usize,
+}
+
+impl Differences {
+    /// Returns the differences between visits, or `None` if no position has two.
+    pub(crate) fn new(readings: &Readings, offsets: &Offsets) -> Option<Self> {
+        let terms = offsets.terms();
+        let mut positions = Vec::new();
+        let (mut products, mut count) = (DMatrix::zeros(terms, terms), 0);
+        for (place, at) in readings.positions().iter().enumerate().filter(|(_, at)| at.visits.len() > 1) {
+            count += 2 * (at.visits.len() - 1);
+            let mean = offsets.mean(at);
+            let departures = at.visits.iter().map(|visit| {
+                let combinations = offsets.of_visit(visit).iter().zip(&mean).map(|(a, mean)| a - mean).collect();
+                Departure { combinations, current_ma: visit.mean_ma - at.mean_ma }
+            });
+            let departures: Vec<Departure> = departures.collect();
+            for Departure { combinations, .. } in &departures {
+                for (row, a) in combinations.iter().enumerate() {
+                    for (column, b) in combinations.iter().enumerate() {
+                        products[(row, column)] += a * b;
+                    }
+                }
+            }
+            positions.push((place, departures));
+        }
+        let determined = determined(products);
+        if let Some(determined) = &determined {
+            for departure in positions.iter_mut().flat_map(|(_, departures)| departures) {
+                let each = DVector::from_column_slice(&departure.combinations);
+                departure.combinations = determined.tr_mul(&each).data.into();
+            }
+        }
+        (count > 0).then_some(Self { terms, determined, positions, count })
     }
-    let eigen = normal.symmetric_eigen();
-    let largest = eigen.eigenvalues.max();
-    let known: Vec<usize> =
-        (0..columns).filter(|place| eigen.eigenvalues[*place] > UNDETERMINED * largest.max(0.0)).collect();
-    let root = |row: usize| eigen.eigenvalues[known[row]].sqrt();
-    let rows =
-        DMatrix::from_fn(known.len(), columns, |row, column| root(row) * eigen.eigenvectors[(column, known[row])]);
-    let right = DVector::from_fn(known.len(), |row, _| eigen.eigenvectors.column(known[row]).dot(right) / root(row));
-    let chi_square = (squares - right.norm_squared()).max(0.0);
-    Differences { rows, right, chi_square, degrees_of_freedom: differences - known.len() }
+
+    /// Returns what the differences say of x; `k` is K, and `covariance` returns the covariance of the errors of a visit,
+    /// (°/h)², 2×2, by the indices of position and visit. The result is `None` if a covariance has no inverse.
+    ///
+    /// The mean of the visits to a position is not known. With weights W_v = C_v⁻¹, its best value leaves of Σ a W b, for
+    /// any two columns a and b, Σ a W b − (Σ a W) (Σ W)⁻¹ (Σ W b).
+    pub(crate) fn condensed(
+        &self,
+        k: &Matrix2<f64>,
+        covariance: impl Fn(usize, usize) -> Matrix2<f64>,
+    ) -> Option<Condensed> {
+        let combinations = self.determined.as_ref().map_or(self.terms, DMatrix::ncols);
+        let columns = 2 * combinations;
+        let (mut normal, mut right) = (DMatrix::zeros(columns, columns), DVector::zeros(columns));
+        let mut squares = 0.0;
+        let mut weighted = vec![Matrix2::zeros(); combinations];
+        for (place, departures) in &self.positions {
+            weighted.fill(Matrix2::zeros());
+            let (mut weight, mut weighted_rate) = (Matrix2::zeros(), Vector2::zeros());
+            for (visit, Departure { combinations, current_ma }) in departures.iter().enumerate() {
+                let own = covariance(*place, visit).try_inverse()?;
+                let rate = -(k * current_ma);
+                let own_rate = own * rate;
+                weight += own;
+                weighted_rate += own_rate;
+                squares += rate.dot(&own_rate);
+                for (row, a) in combinations.iter().enumerate() {
+                    weighted[row] += own * *a;
+                    right.fixed_rows_mut::<2>(2 * row).add_assign(own_rate * *a);
+                    for (column, b) in combinations.iter().enumerate().take(row + 1) {
+                        normal.fixed_view_mut::<2, 2>(2 * row, 2 * column).add_assign(own * (a * b));
+                    }
+                }
+            }
+            let covariance = weight.try_inverse()?;
+            let mean = covariance * weighted_rate;
+            squares -= weighted_rate.dot(&mean);
+            for (row, of_row) in weighted.iter().enumerate() {
+                right.fixed_rows_mut::<2>(2 * row).sub_assign(of_row * mean);
+                for (column, of_column) in weighted.iter().enumerate().take(row + 1) {
+                    normal.fixed_view_mut::<2, 2>(2 * row, 2 * column).sub_assign(of_row * covariance * of_column);
+                }
+            }
+        }
+        // Rows L' of unit covariance for normal equations L L' x = right; only the lower triangle is read.
+        let lower = normal.cholesky()?.unpack();
+        lower.solve_lower_triangular_mut(&mut right);
+        let rows = match &self.determined {
+            Some(determined) => determined.kronecker(&Matrix2::identity()) * lower,
+            None => lower,
+        }
+        .transpose();
+        let chi_square = (squares - right.norm_squared()).max(0.0);
+        Some(Condensed { rows, right, chi_square, degrees_of_freedom: self.count - columns })
+    }
+}
+
+/// Returns the eigenvectors of a sum of products (terms × combinations) whose eigenvalues are not negligible, or `None` if
+/// none is.
+fn determined(products: DMatrix<f64>) -> Option<DMatrix<f64>> {
+    if products.is_empty() {
+        return None;
+    }
+    let eigen = products.symmetric_eigen();
+    let least = UNDETERMINED * eigen.eigenvalues.max().max(0.0);
+    let known: Vec<usize> = (0..eigen.eigenvalues.len()).filter(|place| eigen.eigenvalues[*place] > least).collect();
+    (known.len() < eigen.eigenvalues.len()).then(|| eigen.eigenvectors.select_columns(&known))
 }

@@ -4,8 +4,8 @@ use super::analytic::{self, AnalyticMap, NoAnalyticSolution};
 use super::diagnosis;
 use super::inputs::Setup;
 use super::iterative::{self, NoIterativeSolution, StopRule};
-use super::least_squares::{Fit, NoLeastSquares};
-use super::offsets::Offsets;
+use super::least_squares::{Fit, NoLeastSquares, SETTLED};
+use super::offsets::{Differences, Offsets};
 use super::parameter::Parameter;
 use super::propagation::{Propagation, chi_square, covariance, standard_deviations};
 use super::readings::Readings;
@@ -82,17 +82,20 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
         hint,
     };
     let closed = options.model != Model::General && !options.drift && data.offsets.are_balanced();
-    let paper = if fit.of == Model::Paper { fit.clone() } else { data.fit(setup, Model::Paper)? };
-    let of_the_paper = Evaluation::new(setup, &data, &paper);
+    let paper = if fit.of == Model::Paper { None } else { Some(data.fit(setup, Model::Paper)?) };
+    let paper = paper.as_ref().map(|paper| Evaluation::new(setup, &data, paper));
+    let of_the_paper = paper.as_ref().unwrap_or(&evaluation);
+    let of_closed = of_the_paper.closed();
     for &method in &options.methods {
         let result = match method {
             Method::Analytic | Method::Iterative if !closed => Err(MethodRefusal::NotThisModel),
-            Method::Analytic => of_the_paper.analytic().map_err(MethodRefusal::from),
-            Method::Iterative => of_the_paper.iterative(&options.stop_rule),
+            Method::Analytic => of_the_paper.analytic(of_closed.as_ref()).map_err(MethodRefusal::from),
+            Method::Iterative => of_the_paper.iterative(of_closed.as_ref(), &options.stop_rule),
             Method::LeastSquares => match &refused {
                 Some(refusal) => Err(refusal.clone().into()),
                 None => {
-                    let model_test = ModelTest::new(setup, &data, [&paper, &fit]);
+                    let model_test =
+                        paper.as_ref().and_then(|paper| ModelTest::new(&paper.chi_square, &evaluation.chi_square));
                     Ok(MethodResult { model_test, ..evaluation.least_squares() })
                 }
             },
@@ -195,9 +198,11 @@ impl Observation {
         let mut fit = data.fit(setup, model)?;
         data.offsets = Offsets::new(readings, options.drift);
         let stated = data.repeats.clone();
-        let mut seen = data.repeats.observe(setup, readings, &mut data.offsets, &fit);
+        let differences = Differences::new(readings, &data.offsets);
+        let differences = differences.as_ref();
+        let mut seen = data.repeats.observe(setup, readings, differences, &mut data.offsets, &fit);
         if data.repeats != stated || data.offsets.columns() > 0 {
-            fit = data.fit(setup, model)?;
+            fit = data.fit_again(setup, &fit)?;
         }
         // Differences of visits depend on K, which depends on them.
         for _ in 0..MOST_OBSERVATIONS {
@@ -206,10 +211,13 @@ impl Observation {
             }
             let before = fit.changing.clone();
             data.repeats = stated.clone();
-            seen = data.repeats.observe(setup, readings, &mut data.offsets, &fit);
-            fit = data.fit(setup, model)?;
-            let close = |(now, before): (&f64, &f64)| (now - before).abs() <= SAME_OFFSET * before.abs();
-            if fit.changing.iter().zip(&before).all(close) {
+            seen = data.repeats.observe(setup, readings, differences, &mut data.offsets, &fit);
+            fit = data.fit_again(setup, &fit)?;
+            let u = fit.own_uncertainties_of_offsets();
+            let close = |((now, before), u): ((&f64, &f64), f64)| {
+                (now - before).abs() <= (SAME_OFFSET * before.abs()).max(SETTLED * u)
+            };
+            if fit.changing.iter().zip(&before).zip(u).all(close) {
                 break;
             }
         }
@@ -248,9 +256,16 @@ impl Data {
 
     /// Returns the weighted fit at `setup`.
     pub(crate) fn fit(&self, setup: &Setup, model: Model) -> Result<Fit, NoLeastSquares> {
-        Fit::new(setup.coefficients(), &self.currents_ma, model, &self.offsets, |place, unknowns, current| {
-            Sensitivity::new(setup, unknowns).own_covariance(place, current, &self.repeats)
-        })
+        Fit::new(setup.coefficients(), &self.currents_ma, model, &self.offsets, self.own_covariance(setup))
+    }
+
+    /// Returns the weighted fit of the same model as `last`, which differs only by weights and offsets.
+    fn fit_again(&self, setup: &Setup, last: &Fit) -> Result<Fit, NoLeastSquares> {
+        last.again(setup.coefficients(), &self.currents_ma, &self.offsets, self.own_covariance(setup))
+    }
+
+    fn own_covariance(&self, setup: &Setup) -> impl Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64> {
+        |place, unknowns, current| Sensitivity::new(setup, unknowns).own_covariance(place, current, &self.repeats)
     }
 }
 
@@ -265,21 +280,48 @@ struct Evaluation<'a> {
     data: &'a Data,
     fit: &'a Fit,
     propagation: Propagation<'a>,
+    /// L F of least squares (parameters × causes).
+    spread: DMatrix<f64>,
     chi_square: ChiSquare,
+}
+
+/// Uncertainties of the paper's two methods. Both have those of the analytic solution, because it is the fixed point of
+/// the iteration.
+struct Closed {
+    /// Covariance of the parameters, 8×8.
+    covariance: DMatrix<f64>,
+    /// Standard uncertainties of the elements of ω_n, °/(h·g), 2×2.
+    omega_n_deg_per_h_per_g: Matrix2<f64>,
+    /// Standard uncertainties of the residuals, °/h.
+    residuals_deg_per_h: Vec<f64>,
+    /// Standard uncertainties of the differences of the parameters from least squares.
+    from_least_squares: Vec<f64>,
 }
 
 impl<'a> Evaluation<'a> {
     fn new(setup: &'a Setup, data: &'a Data, fit: &'a Fit) -> Self {
         let propagation = Propagation::new(setup, fit, data);
+        let spread = propagation.least_squares();
         let chi_square = ChiSquare::new(chi_square(setup, fit, data));
-        Self { setup, data, fit, propagation, chi_square }
+        Self { setup, data, fit, propagation, spread, chi_square }
+    }
+
+    /// Returns the uncertainties of the paper's methods, or `None` if there is no analytic solution.
+    fn closed(&self) -> Option<Closed> {
+        let map = AnalyticMap::new(self.setup.coefficients(), &self.fit.currents_ma)?;
+        let (spread, of_omega_n) = self.propagation.analytic(&map);
+        Some(Closed {
+            covariance: covariance(&spread),
+            omega_n_deg_per_h_per_g: Matrix2::from_row_slice(&standard_deviations(&of_omega_n)),
+            residuals_deg_per_h: self.propagation.of_residuals(&spread),
+            from_least_squares: standard_deviations(&(&spread - self.spread.rows(0, spread.nrows()))),
+        })
     }
 
     fn least_squares(&self) -> MethodResult {
         let solution = self.fit.solution();
         let model = self.fit.of;
-        let spread = self.propagation.least_squares();
-        let all = covariance(&spread);
+        let all = covariance(&self.spread);
         let covariance = all.view((0, 0), (model.columns(), model.columns())).into_owned();
         let u = |p| model.column(p).map_or(0.0, |column| covariance[(column, column)].sqrt());
         let [u_g, u_k] = [Parameter::OmegaG, Parameter::OmegaK].map(u);
@@ -306,7 +348,7 @@ impl<'a> Evaluation<'a> {
             drift,
             cycles: self.cycles(&solution.parameters),
             iteration: None,
-            residuals: self.residuals(&self.fit.unknowns, &spread),
+            residuals: self.residuals(&self.fit.unknowns, &self.propagation.of_residuals(&self.spread)),
             covariance,
             omega_n_uncertainty_deg_per_h_per_g: Matrix2::new(u_g, u_k, u_k, u_g),
             from_least_squares: None,
@@ -326,14 +368,14 @@ impl<'a> Evaluation<'a> {
         each.collect()
     }
 
-    fn analytic(&self) -> Result<MethodResult, NoAnalyticSolution> {
+    fn analytic(&self, closed: Option<&Closed>) -> Result<MethodResult, NoAnalyticSolution> {
         let solution = analytic::solve(self.setup.coefficients(), &self.data.currents_ma)?;
-        let refusal = NoAnalyticSolution::SingularCurrents;
+        let closed = closed.ok_or(NoAnalyticSolution::SingularCurrents)?;
         let (parameters, omega_n) = (solution.parameters, solution.omega_n_deg_per_h_per_g);
-        self.of_the_paper(Method::Analytic, parameters, omega_n, None).ok_or(refusal)
+        Ok(self.of_the_paper(Method::Analytic, parameters, omega_n, None, closed))
     }
 
-    fn iterative(&self, rule: &StopRule) -> Result<MethodResult, MethodRefusal> {
+    fn iterative(&self, closed: Option<&Closed>, rule: &StopRule) -> Result<MethodResult, MethodRefusal> {
         let coefficients = self.setup.coefficients();
         let found = iterative::solve(coefficients, &self.data.currents_ma, rule)?;
         let predicted_steps = iterative::Plan::new(coefficients, &self.data.currents_ma)?.predicted_steps(rule);
@@ -346,26 +388,23 @@ impl<'a> Evaluation<'a> {
             remainder_k_deg_per_h_per_ma: found.remainder_k_deg_per_h_per_ma,
             remainder_omega_n_deg_per_h_per_g: found.remainder_omega_n_deg_per_h_per_g,
         };
+        let closed = closed.ok_or(NoIterativeSolution::SingularCurrents)?;
         let (parameters, omega_n) = (found.parameters, found.omega_n_deg_per_h_per_g);
-        let result = self.of_the_paper(Method::Iterative, parameters, omega_n, Some(iteration));
-        result.ok_or(NoIterativeSolution::SingularCurrents.into())
+        Ok(self.of_the_paper(Method::Iterative, parameters, omega_n, Some(iteration), closed))
     }
 
-    /// Returns the result of one of the paper's methods, or `None` if there is no analytic solution. Both methods have
-    /// the uncertainty of the analytic solution, because it is the fixed point of the iteration. The remainder of the
-    /// iteration is stated separately.
+    /// Returns the result of one of the paper's methods. The remainder of the iteration is stated separately.
     fn of_the_paper(
         &self,
         method: Method,
         parameters: GyroParameters,
         omega_n: Matrix2<f64>,
         iteration: Option<Iteration>,
-    ) -> Option<MethodResult> {
-        let map = AnalyticMap::new(self.setup.coefficients(), &self.fit.currents_ma)?;
-        let (spread, spread_omega_n) = self.propagation.analytic(&map);
-        let u = standard_deviations(&spread_omega_n);
-        let unknowns = Unknowns::of(parameters);
-        Some(MethodResult {
+        closed: &Closed,
+    ) -> MethodResult {
+        let (found, answer) = (parameters.to_vector(), self.fit.unknowns.parameters.to_vector());
+        let difference = |place| in_units(found[place] - answer[place], closed.from_least_squares[place]);
+        MethodResult {
             method,
             model: Model::Paper,
             parameters,
@@ -376,24 +415,16 @@ impl<'a> Evaluation<'a> {
             drift: None,
             cycles: self.cycles(&parameters),
             iteration,
-            residuals: self.residuals(&unknowns, &spread),
-            covariance: covariance(&spread),
-            omega_n_uncertainty_deg_per_h_per_g: Matrix2::from_row_slice(&u),
-            from_least_squares: Some(self.difference_to_least_squares(&parameters, &spread)),
+            residuals: self.residuals(&Unknowns::of(parameters), &closed.residuals_deg_per_h),
+            covariance: closed.covariance.clone(),
+            omega_n_uncertainty_deg_per_h_per_g: closed.omega_n_deg_per_h_per_g,
+            from_least_squares: Some(std::array::from_fn(difference)),
             chi_square: self.chi_square,
-        })
+        }
     }
 
-    /// Returns the differences from least squares divided by their standard uncertainties.
-    fn difference_to_least_squares(&self, parameters: &GyroParameters, spread: &DMatrix<f64>) -> [f64; 8] {
-        let of_least_squares = self.propagation.least_squares();
-        let u = standard_deviations(&(spread - of_least_squares.rows(0, spread.nrows())));
-        let (found, answer) = (parameters.to_vector(), self.fit.unknowns.parameters.to_vector());
-        std::array::from_fn(|place| in_units(found[place] - answer[place], u[place]))
-    }
-
-    fn residuals(&self, unknowns: &Unknowns, spread: &DMatrix<f64>) -> Vec<Residual> {
-        let u = self.propagation.of_residuals(spread);
+    /// Returns the residuals with their standard uncertainties `u`, °/h.
+    fn residuals(&self, unknowns: &Unknowns, u: &[f64]) -> Vec<Residual> {
         let each = self.fit.positions.iter().zip(&self.data.currents_ma).zip(u.chunks_exact(2));
         each.map(|((at, current), u)| {
             let residual = unknowns.misclosure(at, current);

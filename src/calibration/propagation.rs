@@ -7,16 +7,13 @@
 //! of the residuals is (F − X L F)(F − X L F)'.
 
 use super::analytic::AnalyticMap;
-use super::causes::{self, Input};
-use super::estimates::Estimates;
+use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
 use super::least_squares::{Fit, whiten_rows};
 use super::procedure::Data;
-use super::sensitivity::Sensitivity;
-use crate::coefficients::PositionIndex;
+use super::sensitivity::{Sensitivity, Shared};
 use crate::statistics::scaled_f::{Part, ScaledF};
-use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
-use std::collections::BTreeMap;
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2, Vector3};
 
 /// Causes of error at a fit, and their propagation by the fit.
 #[derive(Debug, Clone)]
@@ -142,6 +139,17 @@ pub(crate) struct Misfit {
 /// that fits exact readings exactly. It is computed from z = Q₂'W e, whose covariance 1 + B B' has full rank (B is Q₂'W
 /// times the common part of all positions).
 pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> Misfit {
+    let degrees_of_freedom = fit.model.rows() - fit.model.columns();
+    if degrees_of_freedom == 0 {
+        // With as many readings as unknowns, the residuals are only rounding.
+        return Misfit { value: 0.0, degrees_of_freedom, distribution: ScaledF::new(0, &[]) };
+    }
+    let (value, parts) = quadratic_form(setup, fit, data);
+    Misfit { value, degrees_of_freedom, distribution: ScaledF::new(degrees_of_freedom, &parts) }
+}
+
+/// Returns the value of chi-square, and the parts of the covariance that rest on estimates.
+fn quadratic_form(setup: &Setup, fit: &Fit, data: &Data) -> (f64, Vec<Part>) {
     let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma, &data.repeats);
     let count = shared.ncols();
     // The misclosures follow the common part as one more column, so that a single rotation transforms both.
@@ -156,12 +164,7 @@ pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> Misfit {
     }
     let whitened = rotated.clone();
     fit.model.rotate(&mut rotated);
-    let degrees_of_freedom = fit.model.rows() - fit.model.columns();
-    if degrees_of_freedom == 0 {
-        // With as many readings as unknowns, the residuals are only rounding.
-        return Misfit { value: 0.0, degrees_of_freedom, distribution: ScaledF::new(0, &[]) };
-    }
-    let rest = rotated.rows(fit.model.columns(), degrees_of_freedom);
+    let rest = rotated.rows_range(fit.model.columns()..);
     // Woodbury: z' (1 + B B')⁻¹ z = z'z − (B'z)' (1 + B'B)⁻¹ (B'z).
     let z = rest.column(count);
     let projected = DVector::from_fn(count, |i, _| rest.column(i).dot(&z));
@@ -170,66 +173,123 @@ pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> Misfit {
     let cholesky = inner.cholesky();
     let taken = cholesky.as_ref().map_or(0.0, |cholesky| projected.dot(&cholesky.solve(&projected)));
     let lower = cholesky.map(|cholesky| cholesky.unpack());
-    let parts = parts(setup, fit, data, &whitened.columns(0, count).into_owned(), lower);
-    let distribution = ScaledF::new(degrees_of_freedom, &parts);
-    Misfit { value: z.norm_squared() - taken, degrees_of_freedom, distribution }
+    (z.norm_squared() - taken, parts(setup, fit, data, &whitened.columns(0, count).into_owned(), lower))
 }
 
 /// Returns the parts of the covariance of the residuals that rest on estimates with few degrees of freedom. `shared` is
 /// the whitened common part of all positions, and `lower` is L with L L' = 1 + B'B.
 ///
 /// χ² is y' M y of the whitened misclosures y, with M = 1 − V V'. V consists of Q₁ and Q₂ B L'⁻¹ side by side; Q₁ = W X
-/// R⁻¹ is the part that the parameters absorb. A part D of the covariance of y enters through tr M D and tr M D M D.
-/// Columns of D at different positions are orthogonal, so the cost grows only linearly with the number of positions.
+/// R⁻¹ is the part that the parameters absorb. A part D of the covariance of y enters through tr M D and tr M D M D. The
+/// own parts of positions are blocks of D, so the cost grows only linearly with the number of positions.
 fn parts(setup: &Setup, fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Option<DMatrix<f64>>) -> Vec<Part> {
     let estimates = Estimates::new(setup, &data.repeats);
     if estimates.degrees_of_freedom.is_empty() {
         return Vec::new();
     }
-    let (inputs, mut columns) = causes::inputs(setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
+    let v = absorbed(fit, data, shared, lower);
+    let own = own_parts(setup, fit, data, &estimates);
+    let common = common_parts(setup, fit, data, &estimates);
+    let differences = 2 * fit.whitening.len()..fit.model.rows();
+    let mut parts = Vec::with_capacity(own.len());
+    for (estimate, (own, common)) in own.iter().zip(&common).enumerate() {
+        let degrees_of_freedom = estimates.degrees_of_freedom[estimate];
+        let mut part = Part { degrees_of_freedom, trace: 0.0, square: 0.0 };
+        // V' D V.
+        let mut inside = DMatrix::zeros(v.nrows(), v.nrows());
+        for (place, block) in own.iter().enumerate().filter(|(_, block)| **block != Matrix2::zeros()) {
+            let here = v.fixed_columns::<2>(2 * place);
+            let of_block = here * block;
+            inside.gemm(1.0, &of_block, &here.transpose(), 1.0);
+            part.trace += block.trace();
+            part.square += block.norm_squared() - 2.0 * of_block.norm_squared();
+        }
+        if estimates.visits == Basis::Estimate(estimate) {
+            for row in differences.clone() {
+                let here = v.column(row);
+                inside.ger(1.0, &here, &here, 1.0);
+                part.trace += 1.0;
+                part.square += 1.0 - 2.0 * here.norm_squared();
+            }
+        }
+        part.trace -= inside.trace();
+        part.square += inside.norm_squared();
+        let seen = &v * common;
+        let left = common.tr_mul(common) - seen.tr_mul(&seen);
+        part.trace += left.trace();
+        part.square += left.norm_squared();
+        parts.push(part);
+    }
+    parts
+}
+
+/// Returns V' of [`parts`].
+fn absorbed(fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Option<DMatrix<f64>>) -> DMatrix<f64> {
     let mut taken = fit.design(&data.offsets);
     for (place, whiten) in fit.whitening.iter().enumerate() {
-        whiten_rows(&mut columns, place, whiten);
         whiten_rows(&mut taken, place, whiten);
     }
     taken *= fit.model.r_inverse();
-    let mut inner = shared - &taken * (taken.transpose() * shared);
+    let mut inner = shared - &taken * taken.tr_mul(shared);
     if let Some(inverse) = lower.and_then(|lower| lower.try_inverse()) {
         inner *= inverse.transpose();
     }
-    let seen = [taken, inner].map(|v| v.transpose() * &columns);
-    let rows = seen[0].nrows() + seen[1].nrows();
-    // V' times a column.
-    let seen = |column: usize| {
-        DVector::from_iterator(
-            rows,
-            seen.iter().flat_map(|part| part.column(column).iter().copied().collect::<Vec<_>>()),
-        )
-    };
-    let part = |(estimate, &degrees_of_freedom): (usize, &f64)| {
-        let share = |input: &Input| input.basis.shares().find(|(place, _)| *place == estimate).map(|(_, share)| share);
-        let mut part = Part { degrees_of_freedom, trace: 0.0, square: 0.0 };
-        let mut inside = DMatrix::zeros(rows, rows);
-        let mut at: BTreeMap<Option<PositionIndex>, Vec<_>> = BTreeMap::new();
-        for (column, input) in inputs.iter().enumerate() {
-            let Some(weight) = share(input) else { continue };
-            let v = seen(column);
-            part.trace += weight * (columns.column(column).norm_squared() - v.norm_squared());
-            inside.ger(weight, &v, &v, 1.0);
-            at.entry(input.cause.position()).or_default().push((column, weight, v));
-        }
-        for here in at.values() {
-            for ((one, weight, v), (other, other_weight, w)) in
-                here.iter().flat_map(|a| here.iter().map(move |b| (a, b)))
-            {
-                let product = columns.column(*one).dot(&columns.column(*other));
-                part.square += weight * other_weight * product * (product - 2.0 * v.dot(w));
+    let columns = taken.ncols();
+    let mut v = taken.resize_horizontally(columns + inner.ncols(), 0.0);
+    v.columns_mut(columns, inner.ncols()).copy_from(&inner);
+    v.transpose()
+}
+
+/// Returns the whitened own part of each position that rests on each estimate, 2×2.
+fn own_parts(setup: &Setup, fit: &Fit, data: &Data, estimates: &Estimates) -> Vec<Vec<Matrix2<f64>>> {
+    let (repeats, positions) = (&data.repeats, fit.whitening.len());
+    let sensitivity = Sensitivity::new(setup, &fit.unknowns);
+    let k = sensitivity.k_deg_per_h_per_ma();
+    let noise = k * k.transpose();
+    let mut parts = vec![vec![Matrix2::zeros(); positions]; estimates.degrees_of_freedom.len()];
+    for (place, whiten) in fit.whitening.iter().enumerate() {
+        let mut add = |basis: Basis, covariance: &dyn Fn() -> Matrix2<f64>| {
+            for (estimate, share) in basis.shares() {
+                parts[estimate][place] += whiten * covariance() * whiten.transpose() * share;
             }
+        };
+        let turns = sensitivity.to_case_turns(place);
+        for (basis, change) in estimates.angles[place].into_iter().zip(sensitivity.to_certified_angles(place, &turns)) {
+            add(basis, &|| change * change.transpose());
         }
-        part.square += inside.norm_squared();
-        part
+        add(estimates.returns, &|| sensitivity.of_return(&turns) * repeats.return_share(place));
+        add(estimates.noise, &|| noise * repeats.noise_variance_ma2(place));
+        add(estimates.visits, &|| Matrix2::from_diagonal_element(repeats.drift_variance(place)));
+    }
+    parts
+}
+
+/// Returns the whitened errors for one standard uncertainty of each input common to all positions that rests on each
+/// estimate (rows × inputs).
+fn common_parts(setup: &Setup, fit: &Fit, data: &Data, estimates: &Estimates) -> Vec<DMatrix<f64>> {
+    let u = setup.uncertainty();
+    let sensitivity = Sensitivity::new(setup, &fit.unknowns);
+    let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let turn_on = data.repeats.turn_on_of_mean_deg_per_h();
+    let inputs: [(Basis, f64, Vec<Shared>); 3] = [
+        (estimates.platform, u.common_platform_rad, axes.map(Shared::Case).into()),
+        (estimates.base, u.common_base_rad, axes.map(Shared::Base).into()),
+        (estimates.turn_ons, turn_on, [0, 1].map(Shared::TurnOn).into()),
+    ];
+    let of_estimate = |estimate| match inputs.iter().find(|(basis, ..)| *basis == Basis::Estimate(estimate)) {
+        None => DMatrix::zeros(fit.model.rows(), 0),
+        Some((_, u, inputs)) => {
+            let mut columns = DMatrix::zeros(fit.model.rows(), inputs.len());
+            for (place, (whiten, current_ma)) in fit.whitening.iter().zip(&fit.currents_ma).enumerate() {
+                for (column, input) in inputs.iter().enumerate() {
+                    let change = whiten * sensitivity.to_shared(place, current_ma, input) * *u;
+                    columns.fixed_view_mut::<2, 1>(2 * place, column).copy_from(&change);
+                }
+            }
+            columns
+        }
     };
-    estimates.degrees_of_freedom.iter().enumerate().map(part).collect()
+    (0..estimates.degrees_of_freedom.len()).map(of_estimate).collect()
 }
 
 /// Returns the covariance S S' of a spread S (parameters × causes).
@@ -261,8 +321,9 @@ mod tests {
     use super::*;
     use crate::attitude::Deviation;
     use crate::calibration::inputs::{InputUncertainty, MeterUncertainty};
+    use crate::calibration::procedure::{Linearised, Options, linearise};
     use crate::calibration::unknowns::{Model, Unknowns};
-    use crate::calibration::{analytic, readings::Readings};
+    use crate::calibration::{Method, analytic, causes, readings::Readings};
     use crate::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
     use crate::gyro::GyroType;
     use crate::statistics::random::Stream;
@@ -315,6 +376,76 @@ mod tests {
             let inverse = (&left * left.transpose()).pseudo_inverse(1e-14).unwrap();
             let found = residuals.dot(&(inverse * &residuals));
             assert!((found / expected - 1.0).abs() < 1e-3, "{found} {expected}");
+        }
+    }
+
+    /// Expected: tr P D and tr P D P D with P = C⁻¹ − C⁻¹ X (X' C⁻¹ X)⁻¹ X' C⁻¹ from dense matrices, where C is the sum of
+    /// all inputs and D of those on one estimate.
+    #[test]
+    fn parts_are_those_of_dense_matrices() {
+        let mut stream = Stream::new(5);
+        let uncertainty = InputUncertainty {
+            angles_rad: vec![[1e-5, 2e-5, 3e-5]; 8],
+            angles_degrees_of_freedom: vec![6.0; 8],
+            repeatability_rad: 2e-5,
+            repeatability_degrees_of_freedom: 18.0,
+            common_platform_rad: 2e-5,
+            common_platform_degrees_of_freedom: 3.0,
+            common_base_rad: 1e-5,
+            common_base_degrees_of_freedom: 4.0,
+            latitude_rad: 3e-5,
+            azimuth_rad: 5e-5,
+            seating_rad: [3e-5; 3],
+            ..InputUncertainty::of_meter(MeterUncertainty {
+                reading: 1e-4,
+                floor_ma: 1e-6,
+                noise_ma: 1e-6,
+                gain: 1e-4,
+                offset_ma: 1e-5,
+            })
+        };
+        let stand = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| {
+            let [alpha_rad, beta_rad, gamma_rad] = [(); 3].map(|()| stream.within(0.01));
+            Position { index, theta_deg, phi_deg, deviation: Deviation { alpha_rad, beta_rad, gamma_rad } }
+        });
+        let setup = Setup::new(&stand, EarthRate::at_astronomic_latitude(55.0), uncertainty).unwrap();
+        let gyro = GyroType::gvk_6().nominal.to_model();
+        let mut run = "cycle,i,j,jx_ma,jy_ma\n".to_owned();
+        for (cycle, count) in [(1, 8), (2, 8), (3, 5)] {
+            for at in setup.coefficients().positions.iter().take(count) {
+                let [x, y] = <[f64; 2]>::from(gyro.currents_ma(at).unwrap()).map(|j| j + stream.within(1e-4));
+                run += &format!("{cycle},{},{},{x},{y}\n", at.index.i, at.index.j);
+            }
+        }
+        let readings = Readings::from_csv("run.csv", run.as_bytes(), setup.coefficients(), 1000.0).unwrap();
+        for options in [Options::default(), Options { model: Model::General, ..Options::default() }] {
+            let Linearised { fit, repeats, offsets, .. } =
+                linearise(&setup, &readings, Method::LeastSquares, &options).unwrap();
+            let data = Data { currents_ma: readings.means_ma(), repeats, offsets };
+            let (_, parts) = quadratic_form(&setup, &fit, &data);
+            let estimates = Estimates::new(&setup, &data.repeats);
+            assert!(parts.len() >= 6, "angles, returns and noise, platform, base and turn-ons: {parts:?}");
+            let (inputs, columns) =
+                causes::inputs(&setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
+            let inverse = (&columns * columns.transpose()).try_inverse().unwrap();
+            let design = fit.design(&data.offsets);
+            let weighted = &inverse * &design;
+            let p = &inverse - &weighted * (design.tr_mul(&weighted)).try_inverse().unwrap() * weighted.transpose();
+            for (estimate, part) in parts.iter().enumerate() {
+                let mut of_estimate = DMatrix::zeros(design.nrows(), design.nrows());
+                for (input, column) in inputs.iter().zip(columns.column_iter()) {
+                    for (_, share) in input.basis.shares().filter(|(place, _)| *place == estimate) {
+                        of_estimate.ger(share, &column, &column, 1.0);
+                    }
+                }
+                let seen = &p * of_estimate;
+                let (trace, square) = (seen.trace(), (&seen * &seen).trace());
+                assert_eq!(part.degrees_of_freedom, estimates.degrees_of_freedom[estimate]);
+                // ω_0 absorbs the mean of the turn-ons, so nothing of it is left.
+                let is = |found: f64, expected: f64| (found - expected).abs() < 1e-7 * expected.abs().max(1e-5);
+                assert!(is(part.trace, trace), "{estimate}: {part:?} {trace}");
+                assert!(is(part.square, square), "{estimate}: {part:?} {square}");
+            }
         }
     }
 }

@@ -2,13 +2,11 @@
 
 use super::analytic::NoAnalyticSolution;
 use super::diagnosis::{ALARM, Hint};
-use super::inputs::Setup;
 use super::iterative::{NoIterativeSolution, StepChange, StopRule};
-use super::least_squares::{Fit, NoLeastSquares};
+use super::least_squares::NoLeastSquares;
 use super::noise::{DriftNoise, NoiseSource};
 use super::parameter::Parameter;
-use super::procedure::Data;
-use super::propagation::{self, Misfit};
+use super::propagation::Misfit;
 use super::scatter::{RowScatter, Scatter};
 use super::stated::NotStated;
 use super::unknowns::Model;
@@ -169,17 +167,14 @@ pub struct ModelTest {
 
 impl ModelTest {
     /// Compares the fits of the paper's and of a larger model; `None` if the larger model leaves no degree of freedom.
-    pub(crate) fn new(setup: &Setup, data: &Data, [paper, larger]: [&Fit; 2]) -> Option<Self> {
-        let [(before, of_paper), (after, of_larger)] = [paper, larger].map(|fit| {
-            let found = propagation::chi_square(setup, fit, data);
-            (found.value, found.degrees_of_freedom)
-        });
-        let degrees_of_freedom = [of_paper.checked_sub(of_larger)?, of_larger];
+    pub(crate) fn new(paper: &ChiSquare, larger: &ChiSquare) -> Option<Self> {
+        let degrees_of_freedom =
+            [paper.degrees_of_freedom.checked_sub(larger.degrees_of_freedom)?, larger.degrees_of_freedom];
         let [further, rest] = degrees_of_freedom;
-        if further == 0 || rest == 0 || after.is_nan() || after <= 0.0 {
+        if further == 0 || rest == 0 || larger.value.is_nan() || larger.value <= 0.0 {
             return None;
         }
-        let f = (before - after).max(0.0) / further as f64 / (after / rest as f64);
+        let f = (paper.value - larger.value).max(0.0) / further as f64 / (larger.value / rest as f64);
         Some(Self { f, degrees_of_freedom, probability: f_larger(f, further, rest as f64) })
     }
 

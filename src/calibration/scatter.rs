@@ -7,7 +7,7 @@ use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
 use super::least_squares::{Fit, whitening_of};
 use super::noise::{self, DriftNoise, NoiseSource};
-use super::offsets::Offsets;
+use super::offsets::{Differences, Offsets};
 use super::readings::{PositionReadings, Readings};
 use super::sensitivity::Sensitivity;
 use crate::statistics::distributions::chi_square_larger;
@@ -132,15 +132,23 @@ impl Repeats {
         self.visit_factor * self.shares[place][1] * self.noise_ma * self.noise_ma
     }
 
-    /// Compares the scatter of rows, visits and turn-ons at a fit with what was stated. Replaces the errors if the scatter
-    /// is larger than stated, or if nothing was stated; `offsets` takes over what differences between visits say.
-    pub(crate) fn observe(&mut self, setup: &Setup, readings: &Readings, offsets: &mut Offsets, fit: &Fit) -> Observed {
+    /// Compares the scatter of rows and visits at a fit with what was stated. Replaces the errors if the scatter is larger
+    /// than stated, or if nothing was stated; `offsets` takes over what differences between visits say.
+    pub(crate) fn observe(
+        &mut self,
+        setup: &Setup,
+        readings: &Readings,
+        differences: Option<&Differences>,
+        offsets: &mut Offsets,
+        fit: &Fit,
+    ) -> Observed {
         let mut of_rows = Squares::default();
         for visit in readings.positions().iter().flat_map(|at| &at.visits) {
             of_rows.add(&visit.each_ma, &visit.mean_ma);
         }
         let rows = self.observe_rows(&of_rows);
-        Observed { rows, visits: self.observe_visits(setup, readings, offsets, fit), turn_ons: None }
+        let visits = differences.and_then(|found| self.observe_visits(setup, readings, found, offsets, fit));
+        Observed { rows, visits, turn_ons: None }
     }
 
     fn observe_rows(&mut self, found: &Squares) -> Option<RowScatter> {
@@ -165,19 +173,21 @@ impl Repeats {
         &mut self,
         setup: &Setup,
         readings: &Readings,
+        differences: &Differences,
         offsets: &mut Offsets,
         fit: &Fit,
     ) -> Option<Scatter> {
         let sensitivity = Sensitivity::new(setup, &fit.unknowns);
         let k = fit.unknowns.parameters.k_deg_per_h_per_ma;
         let positions = readings.positions();
-        let returns: Vec<_> = (0..positions.len()).map(|place| sensitivity.of_return(place)).collect();
+        let returns: Vec<_> =
+            (0..positions.len()).map(|place| sensitivity.of_return(&sensitivity.to_case_turns(place))).collect();
         let reading = k * k.transpose() * (self.noise_ma * self.noise_ma);
         let of_noise = |place: usize, visit: usize| reading / positions[place].visits[visit].each_ma.len() as f64;
         let known = |place: usize, visit: usize| returns[place] + of_noise(place, visit);
         let stated = self.visit.deg_per_h * self.visit.deg_per_h;
         let of_stated = |place, visit| known(place, visit) + Matrix2::from_diagonal_element(stated);
-        let found = offsets.differences(readings, &k, of_stated);
+        let found = differences.condensed(&k, of_stated);
         let scatter = found.as_ref().filter(|found| found.degrees_of_freedom > 0).map(|found| {
             let parts = self.parts(setup, readings, &returns, of_noise, of_stated);
             let probability = ScaledF::new(found.degrees_of_freedom, &parts).larger(found.chi_square);
@@ -185,13 +195,13 @@ impl Repeats {
         });
         // A noise that is stated as 0, where nothing else scatters, cannot be compared with a scatter that is there.
         if self.visit.source == NoiseSource::NotStated || found.is_none() {
-            let (deg_per_h, degrees_of_freedom) = noise::of_visits(offsets, readings, &k, known)?;
+            let (deg_per_h, degrees_of_freedom) = noise::of_visits(differences, &k, known)?;
             self.visit = DriftNoise::estimated(deg_per_h, degrees_of_freedom);
             if deg_per_h > 0.0 {
                 self.visit_degrees_of_freedom = degrees_of_freedom as f64;
             }
             let variance = Matrix2::from_diagonal_element(deg_per_h.max(LEAST_DEG_PER_H).powi(2));
-            offsets.with(&offsets.differences(readings, &k, |place, visit| known(place, visit) + variance)?);
+            offsets.with(differences.condensed(&k, |place, visit| known(place, visit) + variance)?);
             return scatter.map(|scatter| Scatter { variance_factor: 1.0, ..scatter });
         }
         let scatter = scatter?;
@@ -200,7 +210,7 @@ impl Repeats {
             self.visit_degrees_of_freedom = scatter.degrees_of_freedom as f64;
         }
         let factor = self.visit_factor;
-        offsets.with(&offsets.differences(readings, &k, |place, visit| of_stated(place, visit) * factor)?);
+        offsets.with(differences.condensed(&k, |place, visit| of_stated(place, visit) * factor)?);
         Some(scatter)
     }
 

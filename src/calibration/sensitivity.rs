@@ -6,7 +6,7 @@
 use super::inputs::Setup;
 use super::scatter::Repeats;
 use super::unknowns::Unknowns;
-use nalgebra::{DMatrix, Matrix2, Vector2, Vector3};
+use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2, Vector3};
 
 /// Change of the misclosure of one position, °/h, per unit change of an input.
 type Change = Vector2<f64>;
@@ -81,6 +81,13 @@ impl<'a> Sensitivity<'a> {
         self.of_vectors(place, &self.setup.case_turned(place, axis))
     }
 
+    /// Returns the changes of the misclosure of position `place`, °/h per radian, for rotations of the case about x, y and
+    /// z, 2×3.
+    pub(crate) fn to_case_turns(&self, place: usize) -> Matrix2x3<f64> {
+        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+        Matrix2x3::from_columns(&axes.map(|axis| self.to_case_turn(place, &axis)))
+    }
+
     /// Returns the covariance of the own part of a position, (°/h)², 2×2. It includes the specification of the meter,
     /// the repeatability, the noise of the readings and that of the gyro according to `repeats`, and the certified angles.
     pub(crate) fn own_covariance(&self, place: usize, current_ma: &Vector2<f64>, repeats: &Repeats) -> Matrix2<f64> {
@@ -88,34 +95,32 @@ impl<'a> Sensitivity<'a> {
         let noise = repeats.noise_variance_ma2(place);
         let k = &self.unknowns.parameters.k_deg_per_h_per_ma;
         let currents = current_ma.map(|current| meter.own_variance_ma2(current) + noise);
-        let meter = k * Matrix2::from_diagonal(&currents) * k.transpose();
-        let gyro = Matrix2::from_diagonal_element(repeats.drift_variance(place));
-        self.with_return(meter, place, repeats.return_share(place)) + self.of_certified_angles(place) + gyro
+        let turns = self.to_case_turns(place);
+        k * Matrix2::from_diagonal(&currents) * k.transpose()
+            + self.of_return(&turns) * repeats.return_share(place)
+            + self.of_certified_angles(place, &turns)
+            + Matrix2::from_diagonal_element(repeats.drift_variance(place))
     }
 
-    /// Returns the covariance of one visit from the repeatability, (°/h)², 2×2.
-    pub(crate) fn of_return(&self, place: usize) -> Matrix2<f64> {
-        self.with_return(Matrix2::zeros(), place, 1.0)
+    /// Returns the covariance of one visit from the repeatability, (°/h)², 2×2, with the [changes](Self::to_case_turns)
+    /// of its position.
+    pub(crate) fn of_return(&self, turns: &Matrix2x3<f64>) -> Matrix2<f64> {
+        let u = self.setup.uncertainty().repeatability_rad;
+        turns * turns.transpose() * (u * u)
     }
 
-    /// Returns `covariance` plus that of the repeatability, multiplied by `share`.
-    fn with_return(&self, covariance: Matrix2<f64>, place: usize, share: f64) -> Matrix2<f64> {
-        let u = self.setup.uncertainty().repeatability_rad * share.sqrt();
-        let axes = if u > 0.0 { vec![Vector3::x(), Vector3::y(), Vector3::z()] } else { Vec::new() };
-        axes.iter().fold(covariance, |sum, axis| {
-            let change = self.to_case_turn(place, axis) * u;
-            sum + change * change.transpose()
-        })
+    /// Returns the covariance of a position from its certified angles, (°/h)², 2×2, with its
+    /// [changes](Self::to_case_turns).
+    pub(crate) fn of_certified_angles(&self, place: usize, turns: &Matrix2x3<f64>) -> Matrix2<f64> {
+        self.to_certified_angles(place, turns).iter().map(|change| change * change.transpose()).sum()
     }
 
-    /// Returns the covariance of a position from its certified angles, (°/h)², 2×2.
-    pub(crate) fn of_certified_angles(&self, place: usize) -> Matrix2<f64> {
+    /// Returns the changes of the misclosure of a position, °/h, for one standard uncertainty of each of its certified
+    /// angles α, β, γ, from its [changes](Self::to_case_turns).
+    pub(crate) fn to_certified_angles(&self, place: usize, turns: &Matrix2x3<f64>) -> [Change; 3] {
         let angles = self.setup.uncertainty().angles_rad.get(place).copied().unwrap_or_default();
-        let axes = self.setup.turns()[place].axes;
-        angles.iter().zip(&axes).filter(|(u, _)| **u > 0.0).fold(Matrix2::zeros(), |sum, (u, axis)| {
-            let change = self.to_case_turn(place, axis) * *u;
-            sum + change * change.transpose()
-        })
+        let axes = &self.setup.turns()[place].axes;
+        std::array::from_fn(|angle| turns * axes[angle] * angles[angle])
     }
 
     /// Returns the errors of the misclosures for one standard uncertainty of each common input, °/h (two rows per
