@@ -43,6 +43,10 @@ pub(crate) enum Purpose {
     Stands,
     /// Files `*.yaml` or `*.yml` in the folder itself.
     Sites,
+    /// Files that claim to be passports, at any depth, whatever their names.
+    Passports,
+    /// Files `*.csv` in the folder itself.
+    Tables,
 }
 
 /// Settings of a batch.

@@ -3,6 +3,7 @@
 use super::{Failure, Purpose};
 use crate::files::walk::{Entry, Walk};
 use crate::files::{FileError, reason};
+use crate::folder::search;
 use crate::text::{Printable, shown};
 use glob::MatchOptions;
 use std::ffi::OsStr;
@@ -68,13 +69,26 @@ fn in_folder(folder: PathBuf, purpose: Purpose) -> Box<dyn Iterator<Item = Resul
     let (walk, what) = match purpose {
         Purpose::Stands => (Walk::deep(&folder, is_stand), "stand.yaml"),
         Purpose::Sites => (Walk::flat(&folder, is_yaml), "*.yaml"),
+        Purpose::Tables => (Walk::flat(&folder, is_table), "*.csv"),
+        Purpose::Passports => return passports(&folder),
     };
     let mut found = walk.map(found).peekable();
     if found.peek().is_none() {
-        let what = format!("{}: this folder contains no {what}", shown(&folder));
-        return Box::new(std::iter::once(Err(Failure::unusable(&folder, what))));
+        return Box::new(std::iter::once(Err(contains_no(&folder, what))));
     }
     Box::new(found)
+}
+
+fn passports(folder: &Path) -> Box<dyn Iterator<Item = Result<PathBuf, Failure>>> {
+    match search::passports(folder) {
+        Err(error) => Box::new(std::iter::once(Err(Failure::file(error)))),
+        Ok(found) if found.is_empty() => Box::new(std::iter::once(Err(contains_no(folder, "passport")))),
+        Ok(found) => Box::new(found.into_iter().map(|path| path.map_err(Failure::file))),
+    }
+}
+
+fn contains_no(folder: &Path, what: &str) -> Failure {
+    Failure::unusable(folder, format!("{}: this folder contains no {what}", shown(folder)))
 }
 
 /// Returns the path of a file found by a walk, or a failure for a link and for an entry that cannot be read.
@@ -100,10 +114,24 @@ pub(crate) fn is_stand(name: &OsStr) -> bool {
 }
 
 pub(crate) fn is_yaml(name: &OsStr) -> bool {
-    let extension = Path::new(name).extension();
-    let is_yaml =
-        ["yaml", "yml"].iter().any(|yaml| extension.is_some_and(|extension| extension.eq_ignore_ascii_case(yaml)));
-    is_yaml && !name.as_encoded_bytes().starts_with(b".")
+    has_extension(name, &["yaml", "yml"])
+}
+
+fn is_table(name: &OsStr) -> bool {
+    has_extension(name, &["csv"])
+}
+
+/// Returns `true` if a file name has one of the extensions and is not hidden.
+fn has_extension(name: &OsStr, extensions: &[&str]) -> bool {
+    let found = Path::new(name).extension();
+    let has = extensions.iter().any(|due| found.is_some_and(|found| found.eq_ignore_ascii_case(due)));
+    has && !name.as_encoded_bytes().starts_with(b".")
+}
+
+/// Returns the path if the arguments are exactly one that names a file: not a list, a pattern or a folder.
+pub(crate) fn one_file(arguments: &[PathBuf]) -> Option<&Path> {
+    let [path] = arguments else { return None };
+    (path.as_os_str() != "-" && pattern(path).is_none() && !path.is_dir()).then_some(path)
 }
 
 /// Returns the argument if it is a pattern, or `None` if it is not or if a file has exactly this name.

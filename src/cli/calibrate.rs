@@ -1,40 +1,56 @@
-//! Verb `calibrate`: the gyro's parameters from a passport and currents.
+//! Verb `calibrate`: the gyro's parameters from a passport and currents, or those of several gyros.
 
 use super::administrative::AdministrativeFile;
+use super::inputs::{self, Each};
 use super::output::Format;
 use super::render::{Written, languages};
-use super::show::{PassportOptions, Read};
+use super::show::{Read, Whom};
 use super::simulate::{MethodName, read_gyro};
-use super::{Code, Failure, REFUSED, output, uncertainty};
+use super::{Code, Failure, REFUSED, defaults, output, uncertainty};
+use crate::batch::{Purpose, paths};
 use crate::calibration::document::{CalibrationDocument, Subject};
 use crate::calibration::iterative::StopRule;
 use crate::calibration::readings::Exclusion;
-use crate::calibration::verdict::Decision;
+use crate::calibration::stated::temperature_remark;
+use crate::calibration::verdict::{Decision, Verdict};
 use crate::calibration::{Method, Model, Options as CalibrationOptions, Readings};
 use crate::coefficients::PositionIndex;
 use crate::dcc::{self, Calibrated};
 use crate::document::sha256_hex;
-use crate::files;
-use crate::interface::calibrated::Prepared;
+use crate::files::{self, FileError};
+use crate::gyro::GyroType;
+use crate::interface::calibrated::{Done, Prepared};
 use crate::laboratory::Laboratory;
 use crate::passport::{Content, Question, Trust, Verification};
 use crate::report::calibration as report;
 use crate::report::page::{CalibrationPage, PassportPage, UsedPassport};
-use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of, printable, shown};
 use crate::uncertainty::document::WholeDocument;
 use clap::{Args, ValueEnum};
 use jiff::Timestamp;
+use serde::Serialize;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// Calibrate a gyro: parameters, their uncertainty, the fit, and the decision for its type
+///
+/// For several gyros on one stand, CURRENTS.csv is several files, a quoted pattern, or a folder, whose *.csv are taken;
+/// a - reads a list of paths from standard input. Each gyro is one line, and with --format json one line of JSON.
 #[derive(Args)]
 pub(super) struct Options {
+    /// Passport file; in a workspace also its identifier
+    #[arg(value_name = "PASSPORT", value_parser = defaults::passport())]
+    passport: PathBuf,
+    /// Currents of a gyro: CSV with the header i,j,jx_ma,jy_ma and optionally cycle, visit, time_s; without visit,
+    /// successive rows of a position belong to one visit
+    #[arg(required = true, value_name = "CURRENTS.csv")]
+    currents: Vec<PathBuf>,
     #[command(flatten)]
-    passport: PassportOptions,
-    /// Currents: CSV with the header i,j,jx_ma,jy_ma and optionally cycle, visit, time_s; without visit, successive
-    /// rows of a position belong to one visit
-    #[arg(value_name = "CURRENTS.csv")]
-    currents: PathBuf,
+    whom: Whom,
+    /// Folder for the results of several gyros: <name of the currents>.json, as --format json writes it, and .html, the
+    /// report
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["report", "dcc"])]
+    out: Option<PathBuf>,
     /// Calibration methods; least squares gives the adopted result
     #[arg(long, value_enum, value_delimiter = ',', default_value = "analytic,iterative,least-squares")]
     method: Vec<MethodName>,
@@ -122,74 +138,238 @@ fn limit(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let Read { content, bytes: passport, verification } = options.passport.read()?;
-    let laboratory = read_laboratory(options.laboratory.as_deref())?;
-    let gyro_type = read_gyro(options.gyro.as_deref())?;
-    let previous = previous(options)?;
-    let bytes = files::read(&options.currents, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
-    let name = name_of(&options.currents);
-    let prepared = Prepared::new(&content, &laboratory, gyro_type.as_ref(), (&name, &bytes));
-    let mut prepared = prepared.map_err(Failure::stopped)?;
-    exclude(options, &mut prepared.readings)?;
-    if let Some(remark) = prepared.readings.remark() {
-        output::say(remark);
+    let one = paths::one_file(&options.currents).filter(|_| options.out.is_none());
+    if one.is_none() {
+        options.check_for_several()?;
     }
-    let administrative = AdministrativeFile::read(options.administrative.as_deref())?;
-    let asked = options.asked();
-    let done = prepared.run(&asked, verification.is_some(), options.subject(), previous.as_ref());
-    let done = done.map_err(Failure::stopped)?;
-    if let Some(warning) = &done.warning {
-        output::complain(&format!("WARNING: {warning}"));
+    let bench = Bench {
+        options,
+        passport: options.whom.reader()?.read(&options.passport)?,
+        laboratory: read_laboratory(options.laboratory.as_deref())?,
+        gyro_type: read_gyro(options.gyro.as_deref())?,
+        previous: previous(options)?,
+        administrative: AdministrativeFile::read(options.administrative.as_deref())?,
+    };
+    match one {
+        Some(currents) => bench.one(currents),
+        None => bench.several(),
     }
-    let tolerance = gyro_type.as_ref().map(|gyro_type| &gyro_type.tolerance);
-    let uncertainty = options.uncertainty.find(&done.setup, &done.readings, &done.calibration, (&asked, tolerance))?;
-    if let Some(path) = &options.dcc {
-        let laboratory = options.laboratory.is_some().then_some(&laboratory);
-        let calibrated = Calibrated::new(&content, &sha256_hex(&passport), laboratory, gyro_type.as_ref(), &done);
-        write_dcc(options, path, &calibrated.map_err(Failure::refused)?, &administrative)?;
+}
+
+/// Everything but the currents.
+struct Bench<'a> {
+    options: &'a Options,
+    passport: Read,
+    laboratory: Laboratory,
+    gyro_type: Option<GyroType>,
+    previous: Option<CalibrationDocument>,
+    administrative: AdministrativeFile,
+}
+
+/// Calibrated gyro.
+struct Found {
+    /// Name of the file of currents, and the SHA-256 of its content.
+    currents: (String, String),
+    done: Done,
+    uncertainty: uncertainty::Found,
+}
+
+impl Found {
+    fn whole(&self) -> WholeDocument<'_> {
+        let (budget, monte_carlo) = self.uncertainty.documents();
+        WholeDocument { calibration: &self.done.document, budget, monte_carlo }
     }
-    if let Some(path) = &options.report {
+
+    fn code(&self) -> Code {
+        let failed = self.done.document.verdict.as_ref().is_some_and(|verdict| verdict.overall == Decision::Fail);
+        if failed { REFUSED } else { 0 }
+    }
+}
+
+/// Result for one of several gyros.
+#[derive(Serialize)]
+struct Line<'a> {
+    file: &'a str,
+    #[serde(flatten)]
+    result: WholeDocument<'a>,
+}
+
+impl Bench<'_> {
+    /// Calibrates the gyro whose currents are at `path`.
+    fn calibrate(&self, path: &Path) -> Result<Found, Failure> {
+        let (options, content) = (self.options, &self.passport.content);
+        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+        let name = name_of(path);
+        let prepared = Prepared::new(content, &self.laboratory, self.gyro_type.as_ref(), (&name, &bytes));
+        let mut prepared = prepared.map_err(Failure::stopped)?;
+        exclude(options, &mut prepared.readings)?;
+        if let Some(remark) = prepared.readings.remark() {
+            output::say(remark);
+        }
+        let asked = options.asked();
+        let verified = self.passport.verification.is_some();
+        let done = prepared.run(&asked, verified, options.subject(), self.previous.as_ref());
+        let done = done.map_err(Failure::stopped)?;
+        let tolerance = self.gyro_type.as_ref().map(|gyro_type| &gyro_type.tolerance);
+        let asked = (&asked, tolerance);
+        let uncertainty = options.uncertainty.find(&done.setup, &done.readings, &done.calibration, asked)?;
+        Ok(Found { currents: (name, sha256_hex(&bytes)), done, uncertainty })
+    }
+
+    fn one(&self, path: &Path) -> Result<Code, Failure> {
+        let (options, content) = (self.options, &self.passport.content);
+        let found = self.calibrate(path)?;
+        let done = &found.done;
+        if let Some(warning) = &done.warning {
+            output::complain(&format!("WARNING: {warning}"));
+        }
+        if let Some(path) = &options.dcc {
+            let laboratory = options.laboratory.is_some().then_some(&self.laboratory);
+            let sha256 = sha256_hex(&self.passport.bytes);
+            let calibrated = Calibrated::new(content, &sha256, laboratory, self.gyro_type.as_ref(), done);
+            write_dcc(options, path, &calibrated.map_err(Failure::refused)?, &self.administrative)?;
+        }
+        if let Some(path) = &options.report {
+            output::file(path, &self.page(&found)?, options.uncertainty.force)?;
+            output::say(&format!("wrote {}", shown(path)));
+        }
+        match options.format {
+            Format::Json => output::json(&found.whole())?,
+            Format::Text => output::text(&self.text(&found))?,
+        }
+        Ok(found.code())
+    }
+
+    /// Calibrates several gyros, with one line for each.
+    fn several(&self) -> Result<Code, Failure> {
+        let options = self.options;
+        if let Some(warning) = temperature_remark(&self.passport.content.certificate, &self.laboratory) {
+            output::complain(&format!("WARNING: {warning}"));
+        }
+        let mut written = HashMap::new();
+        let calibrate = |path: &Path| {
+            let found = self.calibrate(path)?;
+            if let Some(folder) = &options.out {
+                self.write(folder, path, &found, &mut written)?;
+            }
+            let code = found.code();
+            Ok((found, code))
+        };
+        inputs::each(&options.currents, Purpose::Tables, calibrate, |done| {
+            let found;
+            let line = match done {
+                Each::Done(done) => {
+                    found = done;
+                    let file = found.currents.0.as_str();
+                    let verdict = self.verdict(&found);
+                    let text =
+                        report::line(file, &found.done.calibration, found.done.document.mistake.as_ref(), verdict);
+                    Each::Done((Line { file, result: found.whole() }, text))
+                }
+                Each::Refused { file, refusal } => Each::Refused { file, refusal },
+            };
+            inputs::print(&line, options.format)
+        })
+    }
+
+    /// Writes the result and the report of one of several gyros, whose names must differ.
+    fn write(
+        &self,
+        folder: &Path,
+        path: &Path,
+        found: &Found,
+        written: &mut HashMap<PathBuf, String>,
+    ) -> Result<(), Failure> {
+        let named = |extension: &str| {
+            let mut name = path.file_stem().unwrap_or_default().to_owned();
+            name.push(extension);
+            folder.join(name)
+        };
+        let json = named(".json");
+        if let Some(other) = written.get(&json) {
+            let words = format!(
+                "nothing was written: {} is the result of {}; rename one of the files of currents",
+                shown(&json),
+                Printable(other)
+            );
+            return Err(Failure::refused(words));
+        }
+        let page = (named(".html"), self.page(found)?);
+        let text = printable::json(&found.whole()).map_err(Failure::unusable)? + "\n";
+        let files = [(json.clone(), text), page];
+        let force = self.options.uncertainty.force;
+        if let Some((path, _)) = files.iter().find(|(path, _)| !force && path.symlink_metadata().is_ok()) {
+            return Err(Failure::file(FileError::Exists { path: path.clone(), replaceable: true }));
+        }
+        for (path, text) in &files {
+            output::file(path, text, force)?;
+        }
+        output::say(&format!("wrote {} and .html", shown(&json)));
+        written.insert(json, found.currents.0.clone());
+        Ok(())
+    }
+
+    /// Returns the name of the gyro type and the decision for it, if one was asked for.
+    fn verdict<'f>(&'f self, found: &'f Found) -> Option<(&'f str, &'f Verdict)> {
+        let name = self.gyro_type.as_ref().map(|gyro_type| gyro_type.r#type.as_str());
+        name.zip(found.done.document.verdict.as_ref())
+    }
+
+    /// Returns the report for paper.
+    fn page(&self, found: &Found) -> Result<String, Failure> {
+        let (Read { content, bytes, verification }, done) = (&self.passport, &found.done);
+        let (name, sha256) = &found.currents;
         let page = CalibrationPage {
-            passport: used(&content, &passport, verification.as_ref())?,
+            passport: used(content, bytes, verification.as_ref())?,
             time: verification.as_ref().map_or_else(Timestamp::now, |(_, _, question)| question.time),
-            currents: (&name, sha256_hex(&bytes)),
-            gyro: gyro_type.as_ref(),
-            laboratory: options.laboratory.is_some().then_some(&laboratory),
+            currents: (name, sha256.clone()),
+            gyro: self.gyro_type.as_ref(),
+            laboratory: self.options.laboratory.is_some().then_some(&self.laboratory),
             calibration: &done.calibration,
             missing: &done.missing,
             document: &done.document,
-            budget: uncertainty.budget(),
-            monte_carlo: uncertainty.monte_carlo(),
+            budget: found.uncertainty.budget(),
+            monte_carlo: found.uncertainty.monte_carlo(),
         };
-        output::file(path, &page.html(&languages(&options.lang)), options.uncertainty.force)?;
-        output::say(&format!("wrote {}", shown(path)));
+        Ok(page.html(&languages(&self.options.lang)))
     }
-    match options.format {
-        Format::Json => {
-            let (budget, monte_carlo) = uncertainty.documents();
-            output::json(&WholeDocument { calibration: &done.document, budget, monte_carlo })?;
-        }
-        Format::Text => {
-            let (document, name) = (&done.document, gyro_type.as_ref().map(|gyro_type| gyro_type.r#type.as_str()));
-            let context = report::Context {
-                passport_id: &content.passport.id,
-                passport_verified: verification.is_some(),
-                gravity_m_per_s2: (document.gravity_m_per_s2, document.gravity_u_m_per_s2),
-                missing: &done.missing,
-                mistake: document.mistake.as_ref(),
-                verdict: name.zip(document.verdict.as_ref()),
-                change: done.earlier.as_ref().map(|earlier| (earlier, document.change.as_ref())),
-                readings: Some((&done.readings, done.cost_of_missing)),
-                further: done.further,
-            };
-            output::text(&(report::text(&done.calibration, &context) + &uncertainty.text()))?;
-        }
+
+    fn text(&self, found: &Found) -> String {
+        let (done, document) = (&found.done, &found.done.document);
+        let context = report::Context {
+            passport_id: &self.passport.content.passport.id,
+            passport_verified: self.passport.verification.is_some(),
+            gravity_m_per_s2: (document.gravity_m_per_s2, document.gravity_u_m_per_s2),
+            missing: &done.missing,
+            mistake: document.mistake.as_ref(),
+            verdict: self.verdict(found),
+            change: done.earlier.as_ref().map(|earlier| (earlier, document.change.as_ref())),
+            readings: Some((&done.readings, done.cost_of_missing)),
+            further: done.further,
+        };
+        report::text(&done.calibration, &context) + &found.uncertainty.text()
     }
-    let failed = done.document.verdict.is_some_and(|verdict| verdict.overall == Decision::Fail);
-    Ok(if failed { REFUSED } else { 0 })
 }
 
 impl Options {
+    /// Refuses options that describe a single gyro.
+    fn check_for_several(&self) -> Result<(), Failure> {
+        let given = [
+            ("--gyro-serial", self.gyro_serial.is_some()),
+            ("--previous", self.previous.is_some()),
+            ("--exclude", !self.exclude.is_empty()),
+            ("--report", self.report.is_some()),
+            ("--dcc", self.dcc.is_some()),
+            ("--budget-svg", self.uncertainty.has_picture()),
+        ];
+        let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
+        let advice = match option {
+            "--report" => "; --out DIR writes the reports of several",
+            _ => "; calibrate this gyro by itself",
+        };
+        Err(Failure::usage(format!("{option} is for one file of currents, but several are given{advice}")))
+    }
+
     /// Returns how the library shall calibrate.
     fn asked(&self) -> CalibrationOptions {
         CalibrationOptions {

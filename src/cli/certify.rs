@@ -1,13 +1,14 @@
-//! Verb `certify`: a stand file from repeated readings of the angles, or a later check run against it.
+//! Verb `certify`: stand files from repeated readings of the angles, or a later check run against one.
 
 use super::diff::Past;
 use super::issue::read_stand;
 use super::output::Format;
 use super::render::{Written, languages};
 use super::trust_options::OptionalTrust;
-use super::{Code, Failure, REFUSED, output};
+use super::{Code, Failure, REFUSED, inputs, output};
+use crate::batch::{Purpose, paths};
 use crate::certification::comparison::compare;
-use crate::certification::{AngleReadings, Header, certify, predicted};
+use crate::certification::{AngleReadings, Certification, Header, certify, predicted};
 use crate::files;
 use crate::folder::archive::Superseded;
 use crate::passport::content::claims_to_be_a_passport;
@@ -17,20 +18,30 @@ use crate::report::page::certification::CertificationPage;
 use crate::stand::{Excluded, Stand};
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of, rule, shown};
 use clap::Args;
+use serde::Serialize;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// Certify a stand from repeated readings of its angles, or check that it has not changed
+///
+/// For several stands, READINGS.csv is several files, a quoted pattern, or a folder, whose *.csv are taken; a - reads a
+/// list of paths from standard input. --stand is then the folder of their headers, NAME.yaml for NAME.csv. Each stand is
+/// one line, and with --format json one line of JSON.
 #[derive(Args)]
 pub(super) struct Options {
     /// Angles: CSV with the header i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec, and every position in every run
-    #[arg(value_name = "READINGS.csv")]
-    readings: PathBuf,
-    /// Stand file (dtg-stand/1) whose positions have no angles yet [default: that of --against]
+    #[arg(required = true, value_name = "READINGS.csv")]
+    readings: Vec<PathBuf>,
+    /// Stand file (dtg-stand/1) whose positions have no angles yet [default: that of --against]; for several stands, the
+    /// folder of these files
     #[arg(long, value_name = "HEADER.yaml", required_unless_present = "against")]
     stand: Option<PathBuf>,
-    /// Certified stand file to write
-    #[arg(short, value_name = "stand.yaml", required_unless_present = "against")]
+    /// Certified stand file to write, for one stand
+    #[arg(short, value_name = "stand.yaml", required_unless_present_any = ["against", "out"], conflicts_with = "out")]
     output: Option<PathBuf>,
+    /// Folder for the stand files of several stands: <model>/<serial>/stand.yaml
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["against", "report", "exclude"])]
+    out: Option<PathBuf>,
     /// Replace an existing stand file
     #[arg(long)]
     force: bool,
@@ -57,17 +68,93 @@ pub(super) struct Options {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
+    match (&options.out, paths::one_file(&options.readings)) {
+        (Some(folder), _) => several(options, folder),
+        (None, Some(readings)) => one(options, readings),
+        (None, None) if options.against.is_some() => {
+            Err(Failure::usage("--against is for one file of readings; check each stand by itself"))
+        }
+        (None, None) => Err(Failure::usage("several READINGS.csv need --out DIR, the folder for their stand files")),
+    }
+}
+
+/// Result for one of several stands.
+#[derive(Serialize)]
+struct Line {
+    file: String,
+    stand_file: String,
+    #[serde(flatten)]
+    result: Value,
+}
+
+/// Certifies several stands, with one line for each.
+fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
+    let headers = options.stand.as_deref().ok_or_else(|| Failure::usage("missing --stand"))?;
+    if !headers.is_dir() {
+        let words = "is not a folder; with --out, --stand is the folder of the headers, NAME.yaml for NAME.csv";
+        return Err(Failure::usage(format!("--stand {}: {words}", shown(headers))));
+    }
+    let work = |readings: &Path| {
+        let header = header_of(headers, readings)?;
+        let bytes = files::read(readings, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+        let name = name_of(readings);
+        let read = AngleReadings::from_csv(&name, &bytes, &header.positions).map_err(Failure::unreadable)?;
+        if let Some(remark) = read.remark() {
+            output::say(&format!("{}: {remark}", Printable(&name)));
+        }
+        let certified = certify(&header, &read);
+        let certified = certified.map_err(|refused| Failure::refused(format!("{}: {refused}", Printable(&name))))?;
+        let stand = &certified.stand.stand;
+        let path = folder.join(stand.model.as_str()).join(stand.serial.as_str()).join("stand.yaml");
+        write(&path, &certified, &[], options.force)?;
+        let text = report::line(&certified, &name_of(&path));
+        for warning in &certified.warnings {
+            output::say(&format!("{}: WARNING: {warning}", Printable(&name)));
+        }
+        let result = report::to_json(Some(&certified), None, None);
+        Ok(((Line { file: name, stand_file: name_of(&path), result }, text), 0))
+    };
+    inputs::each(&options.readings, Purpose::Tables, work, |done| inputs::print(&done, options.format))
+}
+
+/// Reads the header of one of several stands: the file with the name of its readings in the folder `headers`.
+fn header_of(headers: &Path, readings: &Path) -> Result<Header, Failure> {
+    let name = |extension: &str| headers.join(readings.with_extension(extension).file_name().unwrap_or_default());
+    let path = Some(name("yml")).filter(|path| path.is_file()).unwrap_or_else(|| name("yaml"));
+    read_header(&path)
+}
+
+fn read_header(path: &Path) -> Result<Header, Failure> {
+    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+    Header::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)
+}
+
+/// Writes a certified stand; a stand file that it supersedes is kept. Certificates of `known` stands, and of the one that
+/// is there, must not have its number with other angles.
+fn write(path: &Path, certified: &Certification, known: &[&Stand], force: bool) -> Result<(), Failure> {
+    // An existing output file need not be a stand file; --force replaces it in any case.
+    let there = read_stand(path).ok();
+    for stand in known.iter().copied().chain(&there) {
+        certified.check_number(stand).map_err(Failure::refused)?;
+    }
+    let text = certified.to_yaml(&name_of(path)).map_err(Failure::refused)?;
+    let superseded = Superseded::of(path, text.as_bytes()).map_err(Failure::file)?.filter(|_| force);
+    if let Some(superseded) = &superseded {
+        superseded.keep().map_err(Failure::file)?;
+        output::say(&format!("kept the superseded stand file as {}", shown(&superseded.path)));
+    }
+    output::file(path, &text, force)
+}
+
+fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
     let against = options.against.as_deref().map(|path| certified(path, &options.trust)).transpose()?;
     let header = match (&options.stand, &against) {
-        (Some(path), _) => {
-            let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
-            Header::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)?
-        }
+        (Some(path), _) => read_header(path)?,
         (None, Some(stand)) => Header::from(stand),
         (None, None) => return Err(Failure::unusable("missing --stand or --against")),
     };
-    let bytes = files::read(&options.readings, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
-    let name = name_of(&options.readings);
+    let bytes = files::read(readings, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+    let name = name_of(readings);
     let excluded = excluded(options)?;
     let readings = AngleReadings::from_csv_without(&name, &bytes, &header.positions, &excluded);
     let readings = readings.map_err(Failure::unreadable)?;
@@ -96,22 +183,12 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         return Err(Failure::file(files::FileError::Exists { path: path.to_path_buf(), replaceable: true }));
     }
     if let (Some(path), Some(certified)) = (&options.output, &certified) {
-        // An existing output file need not be a stand file; --force replaces it in any case.
-        let there = read_stand(path).ok();
-        for stand in against.iter().chain(&there) {
-            certified.check_number(stand).map_err(Failure::refused)?;
-        }
         if options.stand.is_none() {
+            against.iter().try_for_each(|stand| certified.check_number(stand)).map_err(Failure::refused)?;
             let words = "-o requires --stand HEADER.yaml, because a new certificate has its own number and dates";
             return Err(Failure::unusable(words));
         }
-        let text = certified.to_yaml(&name_of(path)).map_err(Failure::refused)?;
-        let superseded = Superseded::of(path, text.as_bytes()).map_err(Failure::file)?.filter(|_| options.force);
-        if let Some(superseded) = &superseded {
-            superseded.keep().map_err(Failure::file)?;
-            output::say(&format!("kept the superseded stand file as {}", shown(&superseded.path)));
-        }
-        output::file(path, &text, options.force)?;
+        write(path, certified, &against.iter().collect::<Vec<_>>(), options.force)?;
         output::say(&format!("wrote {}", shown(path)));
     }
     if let Some((path, page)) = &page {

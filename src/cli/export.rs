@@ -4,14 +4,13 @@ use super::administrative::{AdministrativeFile, DCC_IS_NOT_SIGNED};
 use super::render::{Written, languages};
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, REFUSED, UNUSABLE, output};
-use crate::batch::paths::{self, Named};
+use crate::batch::{Purpose, paths};
 use crate::dcc;
 use crate::document::sha256_hex;
-use crate::folder::search;
 use crate::passport::export::{site_file, stand_file};
 use crate::passport::verification::unreadable;
 use crate::passport::{Content, Question, Trust, Verification, verify};
-use crate::report::{exported, style, verdict};
+use crate::report::{exported, issued, style, verdict};
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of, printable, shown};
 use crate::{files, parallel};
 use clap::{Args, ValueEnum};
@@ -71,18 +70,10 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let written = HashMap::new();
     let mut run = Run { options, trust, question, administrative, written, code: 0, next: Vec::new() };
     let mut list = std::io::stdin().lock();
-    for named in paths::named(&options.passports, &mut list) {
-        match named {
-            Ok(Named::File(path)) => run.push(path)?,
-            Ok(Named::Folder(root)) => {
-                for found in search::passports(&root).map_err(Failure::unusable)? {
-                    match found {
-                        Ok(path) => run.push(path)?,
-                        Err(error) => run.failed(UNUSABLE, &error.to_string()),
-                    }
-                }
-            }
-            Err(failure) => run.failed(UNUSABLE, &failure.why),
+    for found in paths::files(&options.passports, &mut list, Purpose::Passports) {
+        match found {
+            Ok(path) => run.push(path)?,
+            Err(failure) => run.failed(if failure.unusable { UNUSABLE } else { REFUSED }, &issued::failure(&failure)),
         }
     }
     run.chunk()?;

@@ -34,10 +34,7 @@ const EXAMPLES: [(&str, [&str; 2]); 24] = [
     ),
     (
         "certify",
-        [
-            "certify angles.csv --stand header.yaml -o stand.yaml",
-            "certify check.csv --against stand.yaml --format json",
-        ],
+        ["certify angles.csv --stand header.yaml -o stand.yaml", "certify readings --stand headers --out stands"],
     ),
     (
         "issue",
@@ -64,10 +61,7 @@ const EXAMPLES: [(&str, [&str; 2]); 24] = [
     ),
     (
         "show",
-        [
-            "show moscow-bmstu-1.yaml --trust allowed_signers",
-            "show moscow-bmstu-1.yaml --trust allowed_signers --format json",
-        ],
+        ["show moscow-bmstu-1.yaml --trust allowed_signers", "show passports --trust allowed_signers --format json"],
     ),
     (
         "render",
@@ -81,8 +75,8 @@ const EXAMPLES: [(&str, [&str; 2]); 24] = [
         [
             "calibrate moscow-bmstu-1.yaml currents.csv --trust allowed_signers --serial 0017 --gyro gvk-6.yaml \
              --laboratory laboratory.yaml",
-            "calibrate moscow-bmstu-1.yaml currents.csv --trust allowed_signers --method least-squares --budget \
-             --report report.html",
+            "calibrate moscow-bmstu-1.yaml gyros --trust allowed_signers --gyro gvk-6.yaml --laboratory laboratory.yaml \
+             --out results",
         ],
     ),
     (

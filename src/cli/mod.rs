@@ -18,6 +18,7 @@ mod failure;
 mod help;
 mod history;
 mod init;
+mod inputs;
 mod issue;
 mod key_options;
 mod keygen;
@@ -84,7 +85,7 @@ enum Verb {
     Diff(diff::Options),
     History(history::Options),
     Render(render::Options),
-    Calibrate(calibrate::Options),
+    Calibrate(Box<calibrate::Options>),
     Register(register::Options),
     Revoke(revoke::Options),
     Plan(plan::Options),

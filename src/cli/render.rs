@@ -2,14 +2,13 @@
 
 use super::output::Format;
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, defaults, output, register};
-use crate::batch::paths::{self, Named};
+use super::{Code, Failure, defaults, inputs, output, register};
+use crate::batch::Purpose;
 pub(super) use crate::dcc::Written;
-use crate::files::{self, FileError};
+use crate::files;
 use crate::folder::Folder;
-use crate::interface::Failed;
 use crate::report::page::{Language, Languages, PassportPage};
-use crate::report::{issued, style, verdict};
+use crate::report::{style, verdict};
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use clap::Args;
 use serde::Serialize;
@@ -17,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 /// Write the printed passport: one HTML file for paper, screen and phone
 ///
-/// With --out, PASSPORT is a file or a quoted pattern, and a - reads a list of paths from standard input.
+/// With --out, PASSPORT is a file, a quoted pattern, or a folder; a - reads a list of paths from standard input.
 #[derive(Args)]
 pub(super) struct Options {
     /// Passport files; in a workspace also their identifiers
@@ -43,18 +42,6 @@ pub(super) struct Options {
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
-}
-
-/// The result for one of several passports.
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Each {
-    Written(Rendered),
-    Refused {
-        file: String,
-        #[serde(rename = "error")]
-        refusal: Failed,
-    },
 }
 
 /// The written page, and the verdict on its passport.
@@ -107,22 +94,12 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 
 /// Writes the page of each passport; one that is refused does not stop the others.
 fn each(options: &Options, write: impl Fn(&Path) -> Result<Rendered, Failure>) -> Result<Code, Failure> {
-    let (mut code, mut results) = (0, Vec::new());
-    for named in paths::named(&options.passports, &mut std::io::stdin().lock()) {
-        let (file, written) = match named {
-            Ok(Named::File(path)) => (name_of(&path), write(&path)),
-            Ok(Named::Folder(path)) => (name_of(&path), Err(Failure::file(FileError::Folder { path }))),
-            Err(refused) => (refused.what.clone(), Err(Failure::unusable(issued::failure(&refused)))),
-        };
-        results.push(match written {
-            Ok(rendered) => Each::Written(rendered),
-            Err(failure) => {
-                output::complain(&failure.message);
-                code = code.max(failure.code);
-                Each::Refused { file, refusal: failure.failed }
-            }
-        });
-    }
+    let mut results = Vec::new();
+    let write = |path: &Path| write(path).map(|rendered| (rendered, 0));
+    let code = inputs::each(&options.passports, Purpose::Passports, write, |rendered| {
+        results.push(rendered);
+        Ok(())
+    })?;
     if options.format == Format::Json {
         output::json(&results)?;
     }

@@ -1,32 +1,37 @@
-//! Verb `show`: the passport as tables, or in full as JSON.
+//! Verb `show`: passports as tables, or in full as JSON.
 
+use super::inputs::{self, Each};
 use super::output::Format;
 use super::trust_options::{self, Asked};
 use super::{Code, Failure, defaults, output};
+use crate::batch::{Purpose, paths};
 use crate::files;
 use crate::passport::{Content, Question, Trust, Verification, read, verify};
 use crate::report::passport_table;
 use crate::text::{Field, LARGEST_DOCUMENT_BYTES, name_of};
 use clap::{ArgGroup, Args};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-/// Show a passport as tables, or in full as JSON for tools without YAML
+/// Show passports as tables, or in full as JSON for tools without YAML
+///
+/// PASSPORT is a file, a quoted pattern, or a folder; a - reads a list of paths from standard input. Of several, JSON is
+/// one line for each.
 #[derive(Args)]
 pub(super) struct Options {
+    /// Passport files; in a workspace also their identifiers
+    #[arg(required = true, value_name = "PASSPORT", value_parser = defaults::passport())]
+    passports: Vec<PathBuf>,
     #[command(flatten)]
-    passport: PassportOptions,
+    whom: Whom,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
 
-/// A passport that is used: verified, or, said loudly, not.
+/// Trust in the passports that are used, or the loud statement that they are not verified.
 #[derive(Args)]
 #[command(group(ArgGroup::new("whom").required(true).args(["trust", "no_verify"])))]
-pub(super) struct PassportOptions {
-    /// Passport file; in a workspace also its identifier
-    #[arg(value_name = "PASSPORT", value_parser = defaults::passport())]
-    passport: PathBuf,
+pub(super) struct Whom {
     /// Trusted signing keys: an OpenSSH allowed_signers file
     #[arg(long, value_name = "SIGNERS")]
     trust: Option<PathBuf>,
@@ -40,6 +45,12 @@ pub(super) struct PassportOptions {
     no_verify: bool,
 }
 
+/// Reader of passports that are used.
+pub(super) struct Reader {
+    /// Trust and question; `None` if passports are not verified.
+    verified: Option<(Trust, Question)>,
+}
+
 /// A passport that was read, and the result of its verification.
 pub(super) struct Read {
     pub content: Content,
@@ -48,24 +59,34 @@ pub(super) struct Read {
     pub verification: Option<(Verification, Trust, Question)>,
 }
 
-impl PassportOptions {
-    /// Reads the passport and verifies it, unless `--no-verify` is given. A passport that fails a check is refused with
-    /// its verdict.
-    pub(super) fn read(&self) -> Result<Read, Failure> {
-        let bytes = files::read(&self.passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
-        let name = name_of(&self.passport);
+impl Whom {
+    /// Loads the trust, or warns that nothing is verified.
+    pub(super) fn reader(&self) -> Result<Reader, Failure> {
         let Some(signers) = &self.trust else {
             output::complain("NOT VERIFIED (--no-verify): the origin of these numbers is unknown");
-            let content = read::content_from_anyone(&name, &bytes).map_err(Failure::unreadable)?;
-            return Ok(Read { content, bytes, verification: None });
+            return Ok(Reader { verified: None });
         };
         let question = self.asked.question();
         let trust = trust_options::load(signers, &self.revoked, question.time)?;
-        let verification = verify(&name, &bytes, &trust, &question);
+        Ok(Reader { verified: Some((trust, question)) })
+    }
+}
+
+impl Reader {
+    /// Reads a passport and verifies it, unless `--no-verify` is given. A passport that fails a check is refused with
+    /// its verdict.
+    pub(super) fn read(&self, path: &Path) -> Result<Read, Failure> {
+        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+        let name = name_of(path);
+        let Some((trust, question)) = &self.verified else {
+            let content = read::content_from_anyone(&name, &bytes).map_err(Failure::unreadable)?;
+            return Ok(Read { content, bytes, verification: None });
+        };
+        let verification = verify(&name, &bytes, trust, question);
         match verification.passport() {
             Some(passport) => {
                 let content = passport.content().clone();
-                Ok(Read { content, bytes, verification: Some((verification, trust, question)) })
+                Ok(Read { content, bytes, verification: Some((verification, trust.clone(), question.clone())) })
             }
             None => Err(Failure::verdict("", &name, &verification)),
         }
@@ -73,10 +94,24 @@ impl PassportOptions {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let Read { content, verification, .. } = options.passport.read()?;
-    match options.format {
-        Format::Json => output::json(&content.write())?,
-        Format::Text => output::text(&passport_table::text(&content, verification.is_some()))?,
+    let reader = options.whom.reader()?;
+    let table = |read: &Read| passport_table::text(&read.content, read.verification.is_some());
+    if let Some(path) = paths::one_file(&options.passports) {
+        let read = reader.read(path)?;
+        match options.format {
+            Format::Json => output::json(&read.content.write())?,
+            Format::Text => output::text(&table(&read))?,
+        }
+        return Ok(0);
     }
-    Ok(0)
+    let mut before = "";
+    let show = |path: &Path| reader.read(path).map(|read| (read, 0));
+    inputs::each(&options.passports, Purpose::Passports, show, |shown| {
+        let shown = match shown {
+            Each::Done(read) => Each::Done((read.content.write(), format!("{before}{}", table(&read)))),
+            Each::Refused { file, refusal } => Each::Refused { file, refusal },
+        };
+        before = "\n";
+        inputs::print(&shown, options.format)
+    })
 }

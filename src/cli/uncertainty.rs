@@ -83,6 +83,11 @@ impl Found {
 }
 
 impl UncertaintyOptions {
+    /// Returns `true` if a picture is to be written.
+    pub(super) fn has_picture(&self) -> bool {
+        self.budget_svg.is_some()
+    }
+
     /// Computes the requested budget and Monte Carlo result, and writes the picture of the budget.
     pub(super) fn find(
         &self,

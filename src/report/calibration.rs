@@ -56,8 +56,8 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
         columns::paragraph(&mut out, "", &format!("WARNING: {}", mistake::words(mistake, Language::English)));
     }
     if let Some((name, verdict)) = context.verdict {
-        let (style, words) = headline(name, verdict);
-        let _ = writeln!(out, "{}", style(&words));
+        let (style, mark, words) = headline(name, verdict);
+        let _ = writeln!(out, "{}", style(&format!("{mark}  {words}")));
     }
     let state = if context.passport_verified { "verified" } else { "NOT VERIFIED" };
     let _ = writeln!(out, "Calibrated with passport {} ({state})", context.passport_id);
@@ -99,6 +99,35 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
     out
 }
 
+/// Returns the result for one of several gyros in one line: the decision, or the fit if no type was given.
+pub(crate) fn line(
+    file: &str,
+    calibration: &Calibration,
+    mistake: Option<&Mistake>,
+    verdict: Option<(&str, &Verdict)>,
+) -> String {
+    let file = printable(file);
+    let mut out = match (verdict, calibration.answer()) {
+        (Some((name, verdict)), _) => {
+            let (style, mark, words) = headline(name, verdict);
+            format!("{}  {file}  {words}", style(&format!("{mark:<11}")))
+        }
+        (None, answer) => {
+            let fit = answer.map(|answer| columns::probability(answer.chi_square.probability));
+            let fit = fit.map_or_else(String::new, |p| format!("  probability of a larger chi-square {p}"));
+            format!("{:<11}  {file}{fit}", "calibrated")
+        }
+    };
+    if calibration.hint.is_some() || !calibration.settled {
+        out.push_str("; WARNING: the readings are not consistent with this stand; calibrate it by itself");
+    }
+    if let Some(mistake) = mistake {
+        let _ = write!(out, "; WARNING: {}", mistake::words(mistake, Language::English));
+    }
+    out.push('\n');
+    out
+}
+
 /// Writes which visits and positions were left out, and what that cost.
 fn left_out(out: &mut String, readings: &Readings, cost: Option<(Parameter, f64)>) {
     for Exclusion { index, visit, cycle, why } in readings.exclusions() {
@@ -116,8 +145,8 @@ fn left_out(out: &mut String, readings: &Readings, cost: Option<(Parameter, f64)
     }
 }
 
-/// Returns the decision for the type in one line, and its emphasis: which parameters pass, fail and are undecided.
-fn headline(name: &str, verdict: &Verdict) -> (fn(&str) -> String, String) {
+/// Returns the decision for the type with its mark and emphasis, and which parameters pass, fail and are undecided.
+fn headline(name: &str, verdict: &Verdict) -> (fn(&str) -> String, String, String) {
     let of = |decision: Decision| -> Vec<&str> {
         let rows = verdict.parameters.iter().filter(|row| row.guarded == decision);
         rows.map(|row| symbol_of(row.parameter)).collect()
@@ -134,7 +163,7 @@ fn headline(name: &str, verdict: &Verdict) -> (fn(&str) -> String, String) {
         Decision::Fail => (style::bad, style::FAILED),
         Decision::Undecided => (style::heading, style::NOT_ASKED),
     };
-    (style, format!("{mark} {}  {words}", word(verdict.overall).to_uppercase()))
+    (style, format!("{mark} {}", word(verdict.overall).to_uppercase()), words)
 }
 
 fn word(decision: Decision) -> &'static str {

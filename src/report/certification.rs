@@ -6,7 +6,7 @@ use crate::certification::suspects::{AXES, WorsePosition};
 use crate::certification::{Certification, NotCertified};
 use crate::report::{columns, style};
 use crate::statistics::outlier::Bartlett;
-use crate::text::{Field, Node};
+use crate::text::{Field, Node, Printable};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -92,6 +92,18 @@ fn comparison_json(found: &Comparison) -> Value {
         },
         "words": found.words,
     })
+}
+
+/// Returns the certification of one of several stands in one line; `file` is its stand file.
+pub(crate) fn line(found: &Certification, file: &str) -> String {
+    let (stand, runs) = (&found.stand, found.runs.len());
+    let certificate = Printable(&stand.certificate.number);
+    format!(
+        "certified  {}  {}  certificate {certificate}, {} positions, {runs} runs\n",
+        stand.stand.id(),
+        Printable(file),
+        stand.positions.len()
+    )
 }
 
 /// Returns a certification as text.

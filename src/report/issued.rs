@@ -196,6 +196,11 @@ fn line(report: &Report) -> String {
     format!("{:<9}  {}  {}\n", report.state.key(), Printable(&report.id), Printable(file))
 }
 
+/// Returns the line of an input that was refused.
+pub(crate) fn refused_line(file: &str) -> String {
+    format!("{:<9}  {}\n", State::Refused.key(), Printable(file))
+}
+
 /// Formats a number with commas between groups of three digits.
 fn grouped(number: u64) -> String {
     let digits = number.to_string();

@@ -288,8 +288,16 @@ fn a_pipe_or_a_device_is_refused_at_once_wherever_a_file_is_named() {
     ];
     for arguments in named {
         for file in ["pipe", "/dev/zero", "sites"] {
-            let of_a_folder =
-                ["issue FILE", "issue stands --site FILE", "reissue"].iter().any(|verb| arguments.starts_with(verb));
+            // These take the files of a folder.
+            let take_folders = [
+                "issue FILE",
+                "issue stands --site FILE",
+                "reissue",
+                "show FILE",
+                "calibrate good.yaml FILE",
+                "certify FILE",
+            ];
+            let of_a_folder = take_folders.iter().any(|verb| arguments.starts_with(verb));
             if file == "sites" && of_a_folder {
                 continue;
             }

@@ -1,0 +1,73 @@
+//! Several inputs of a verb: each has its own result, and one that fails does not stop the others.
+
+use super::output::{self, Format};
+use super::{Code, Failure};
+use crate::batch::Purpose;
+use crate::batch::paths;
+use crate::interface::Failed;
+use crate::report::issued;
+use crate::text::{Printable, name_of, printable};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// Result of a verb for one of several inputs.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub(super) enum Each<T> {
+    Done(T),
+    Refused {
+        file: String,
+        #[serde(rename = "error")]
+        refusal: Failed,
+    },
+}
+
+/// Calls `work` for every input, reports those that fail, and returns the highest exit code.
+///
+/// `hear` gets each result or refusal in the order of the inputs; an error of it ends the work.
+pub(super) fn each<T>(
+    arguments: &[PathBuf],
+    purpose: Purpose,
+    mut work: impl FnMut(&Path) -> Result<(T, Code), Failure>,
+    mut hear: impl FnMut(Each<T>) -> Result<(), Failure>,
+) -> Result<Code, Failure> {
+    let mut code = 0;
+    for input in paths::files(arguments, &mut std::io::stdin().lock(), purpose) {
+        let done = match input {
+            Ok(path) => work(&path).map_err(|failure| (name_of(&path), failure)),
+            Err(failed) => {
+                let words = issued::failure(&failed);
+                let failure = if failed.unusable { Failure::unusable(words) } else { Failure::refused(words) };
+                Err((failed.what, failure))
+            }
+        };
+        code = code.max(match &done {
+            Ok((_, code)) => *code,
+            Err((_, failure)) => failure.code,
+        });
+        hear(done.map_or_else(refused, |(result, _)| Each::Done(result)))?;
+    }
+    Ok(code)
+}
+
+/// Reports the failure of an input, whose name the message states.
+fn refused<T>((file, failure): (String, Failure)) -> Each<T> {
+    let name = Printable(&file).to_string();
+    if failure.message.contains(&name) {
+        output::complain(&failure.message);
+    } else {
+        output::complain(&format!("{name}: {}", failure.message));
+    }
+    Each::Refused { file, refusal: failure.failed }
+}
+
+/// Prints the result for one of several inputs: its JSON on one line, or its text.
+pub(super) fn print<T: Serialize>(result: &Each<(T, String)>, format: Format) -> Result<(), Failure> {
+    let line = |line: Result<String, _>| output::result(&(line.map_err(Failure::unusable)? + "\n"));
+    match (format, result) {
+        (Format::Text, Each::Done((_, text))) => output::text(text),
+        (Format::Text, Each::Refused { file, .. }) => output::text(&issued::refused_line(file)),
+        (Format::Json, Each::Done((value, _))) => line(printable::json_line(value)),
+        (Format::Json, refused @ Each::Refused { .. }) => line(printable::json_line(refused)),
+    }
+}
