@@ -122,6 +122,15 @@ fn left_aside_whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D:
     IgnoredAny::deserialize(deserializer).map(|_| ())
 }
 
+impl Subject {
+    /// Returns the serial numbers of two gyros if the results are known to be those of different ones.
+    pub(crate) fn another_gyro<'a>(&'a self, earlier: &'a [CalibrationDocument]) -> Option<[&'a str; 2]> {
+        let mut known = earlier.iter().filter_map(CalibrationDocument::gyro_serial).chain(self.gyro_serial.as_deref());
+        let first = known.next()?;
+        known.find(|serial| *serial != first).map(|other| [first, other])
+    }
+}
+
 impl CalibrationDocument {
     /// Creates the JSON result of a calibration. The pair contains the local g and its standard uncertainty, m/s²;
     /// `not_stated` is the list that [`Setup::stated`] returns.
@@ -171,11 +180,21 @@ impl CalibrationDocument {
         self.left_out = readings.left_out().to_vec();
     }
 
-    /// Returns the serial numbers of the two gyros if an earlier result is known to be that of another one.
-    pub(crate) fn another_gyro<'a>(&'a self, subject: &'a Subject) -> Option<[&'a str; 2]> {
-        let earlier = self.subject.as_ref()?.gyro_serial.as_deref()?;
-        let now = subject.gyro_serial.as_deref()?;
-        (earlier != now).then_some([earlier, now])
+    /// Returns the serial number of the gyro, if it was stated.
+    fn gyro_serial(&self) -> Option<&str> {
+        self.subject.as_ref()?.gyro_serial.as_deref()
+    }
+
+    /// Returns the day of the readings, if it was stated.
+    pub(crate) fn date(&self) -> Option<jiff::civil::Date> {
+        self.subject.as_ref()?.date
+    }
+
+    /// Sorts results from the earliest to the latest; if not every one has a date, the order stays.
+    pub(crate) fn sort(results: &mut [Self]) {
+        if results.iter().all(|result| result.date().is_some()) {
+            results.sort_by_key(Self::date);
+        }
     }
 
     /// Reads an earlier JSON result; `name` is the file name in messages.

@@ -60,9 +60,10 @@ pub(super) struct Options {
     /// Laboratory (dtg-laboratory/1) [default: the paper's meter, 0.015 %]
     #[arg(long, value_name = "FILE")]
     laboratory: Option<PathBuf>,
-    /// Previous result of this gyro (from --format json), to report the change
+    /// Previous result of this gyro (from --format json), to report the change. May be repeated: the latest one is
+    /// compared, and --report shows all
     #[arg(long, value_name = "RESULT.json")]
-    previous: Option<PathBuf>,
+    previous: Vec<PathBuf>,
     /// Stop limit of the iteration for the main scale factors, percent
     #[arg(long, value_name = "P", default_value_t = 0.1, value_parser = limit, allow_hyphen_values = true)]
     delta1_percent: f64,
@@ -162,7 +163,7 @@ struct Bench<'a> {
     passport: Read,
     laboratory: Laboratory,
     gyro_type: Option<GyroType>,
-    previous: Option<CalibrationDocument>,
+    previous: Vec<CalibrationDocument>,
     administrative: AdministrativeFile,
 }
 
@@ -208,7 +209,7 @@ impl Bench<'_> {
         }
         let asked = options.asked();
         let verified = self.passport.verification.is_some();
-        let done = prepared.run(&asked, verified, options.subject(), self.previous.as_ref());
+        let done = prepared.run(&asked, verified, options.subject(), &self.previous);
         let done = done.map_err(Failure::stopped)?;
         let tolerance = self.gyro_type.as_ref().map(|gyro_type| &gyro_type.tolerance);
         let asked = (&asked, tolerance);
@@ -328,6 +329,7 @@ impl Bench<'_> {
             calibration: &done.calibration,
             missing: &done.missing,
             document: &done.document,
+            previous: &self.previous,
             budget: found.uncertainty.budget(),
             monte_carlo: found.uncertainty.monte_carlo(),
         };
@@ -356,7 +358,7 @@ impl Options {
     fn check_for_several(&self) -> Result<(), Failure> {
         let given = [
             ("--gyro-serial", self.gyro_serial.is_some()),
-            ("--previous", self.previous.is_some()),
+            ("--previous", !self.previous.is_empty()),
             ("--exclude", !self.exclude.is_empty()),
             ("--report", self.report.is_some()),
             ("--dcc", self.dcc.is_some()),
@@ -437,14 +439,17 @@ pub(super) fn read_laboratory(path: Option<&Path>) -> Result<Laboratory, Failure
     Laboratory::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)
 }
 
-fn previous(options: &Options) -> Result<Option<CalibrationDocument>, Failure> {
-    let Some(path) = &options.previous else { return Ok(None) };
-    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
-    let document = CalibrationDocument::from_json(&name_of(path), &bytes).map_err(Failure::unreadable)?;
-    if document.answer().is_none() {
-        return Err(Failure::unusable(format!("{}: contains no result", shown(path))));
-    }
-    Ok(Some(document))
+/// Reads the previous results, from the earliest to the latest.
+fn previous(options: &Options) -> Result<Vec<CalibrationDocument>, Failure> {
+    let read = |path: &PathBuf| {
+        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+        let document = CalibrationDocument::from_json(&name_of(path), &bytes).map_err(Failure::unreadable)?;
+        let empty = || Failure::unusable(format!("{}: contains no result", shown(path)));
+        document.answer().map(|_| document).ok_or_else(empty)
+    };
+    let mut results = options.previous.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    CalibrationDocument::sort(&mut results);
+    Ok(results)
 }
 
 /// Leaves out the visits that `--exclude` names.

@@ -49,7 +49,7 @@ pub fn calibrate(
     let prepared = Prepared::new(content, laboratory, gyro_type, (name, currents))?;
     let options = Options { methods: vec![method], ..Options::default() };
     let mut remarks: Vec<String> = prepared.readings.remark().map(str::to_owned).into_iter().collect();
-    let done = prepared.run(&options, verified, Subject::default(), None)?;
+    let done = prepared.run(&options, verified, Subject::default(), &[])?;
     remarks.extend(done.warning);
     // The document has an answer, so the calibration has one.
     let result = done.calibration.answer().ok_or_else(|| Failed::refused("no result"))?;
@@ -125,17 +125,18 @@ impl<'a> Prepared<'a> {
         Ok(Self { content, laboratory, gyro_type, setup, missing, currents_sha256, readings })
     }
 
-    /// Calibrates the gyro. `subject` says which one and under which conditions; its SHA-256 is filled in here.
+    /// Calibrates the gyro. `subject` says which one and under which conditions; its SHA-256 is filled in here. The result
+    /// is compared with the last of the `previous` ones.
     pub(crate) fn run(
         self,
         options: &Options,
         verified: bool,
         subject: Subject,
-        previous: Option<&CalibrationDocument>,
+        previous: &[CalibrationDocument],
     ) -> Result<Done, Stopped> {
         let Self { content, laboratory, gyro_type, setup, mut missing, currents_sha256, readings } = self;
         let subject = Subject { currents_sha256, ..subject };
-        if let Some([before, now]) = previous.and_then(|document| document.another_gyro(&subject)) {
+        if let Some([before, now]) = subject.another_gyro(previous) {
             let [before, now] = [before, now].map(printable::printable);
             return Err(Stopped::Refused(format!("the previous result is that of gyro {before}, not of {now}")));
         }
@@ -152,7 +153,7 @@ impl<'a> Prepared<'a> {
             let words = calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key()));
             return Err(Stopped::Refused(words.collect::<Vec<_>>().join("\n")));
         };
-        let earlier = previous.and_then(CalibrationDocument::answer);
+        let earlier = previous.last().and_then(CalibrationDocument::answer);
         // Without a type or an earlier result, the nominal values of the paper's gyro still reveal an error by a
         // factor of a thousand.
         let usual = earlier.as_ref().map_or_else(|| GyroType::gvk_6().nominal.to_model(), |found| found.parameters);

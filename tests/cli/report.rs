@@ -133,6 +133,49 @@ fn the_annex_is_the_result() {
     assert!(page.contains("Change since the previous calibration"));
 }
 
+/// Three earlier results, given in any order: the page has the parameters of each below one another, by date, and the result
+/// is compared with the latest.
+#[test]
+fn earlier_results_stand_in_the_order_of_their_dates() {
+    let folder = Folder::new();
+    let currents = std::fs::read_to_string(programs::project(CURRENTS)).unwrap();
+    let (head, rows) = currents.split_at(currents.find("1,1,").unwrap());
+    let mut k_x = std::collections::BTreeMap::new();
+    for (date, factor) in [("2026-05-12", 1.0002), ("2024-11-03", 1.0001), ("2025-06-30", 0.9999)] {
+        let larger: String = rows
+            .lines()
+            .map(|row| {
+                let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
+                format!("{},{},{:.7},{:.7}\n", cells[0], cells[1], factor * cells[2], factor * cells[3])
+            })
+            .collect();
+        let larger = folder.write("larger.csv", &format!("{head}{larger}"));
+        let (_, result) = folder.page(&larger, &[VERIFIED, LABORATORY, &["--date", date, "--gyro-serial", "4711"]]);
+        k_x.insert(date, result["results"][2]["k_deg_per_h_per_ma"][0][0].to_string());
+        folder.write(&format!("{date}.json"), &result.to_string());
+    }
+    let previous: Vec<String> = ["2026-05-12", "2024-11-03", "2025-06-30"]
+        .iter()
+        .flat_map(|date| ["--previous".to_owned(), folder.path(&format!("{date}.json")).display().to_string()])
+        .collect();
+    let previous: Vec<&str> = previous.iter().map(String::as_str).collect();
+    let asked = [VERIFIED, LABORATORY, GYRO, &previous, &["--date", "2026-11-20"]];
+    let (page, result) = folder.page(CURRENTS, &asked);
+    let now = result["results"][2]["k_deg_per_h_per_ma"][0][0].to_string();
+    assert_eq!(result["change"]["parameters"][0]["reference_value"].to_string(), k_x["2026-05-12"]);
+    let table = page.split_once("All calibrations of this gyro").unwrap().1.split_once("</table>").unwrap().0;
+    let places: Vec<usize> = k_x.values().chain([&now]).map(|value| table.find(value.as_str()).unwrap()).collect();
+    assert!(places.is_sorted(), "{places:?}");
+    for date in k_x.keys().chain([&"2026-11-20"]) {
+        assert_eq!(table.matches(&format!(">{date}<")).count(), 8, "{date}");
+    }
+    assert_eq!(table.matches("class=\"picture strip\"").count(), 8 * 4 + 1);
+    // Without a type there are no strips.
+    let (page, _) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, &previous]);
+    let table = page.split_once("All calibrations of this gyro").unwrap().1.split_once("</table>").unwrap().0;
+    assert!(!table.contains("strip") && table.contains("2024-11-03"));
+}
+
 #[test]
 fn it_says_with_what_the_gyro_was_calibrated() {
     let folder = Folder::new();

@@ -27,11 +27,13 @@ const LABORATORY: &[&str] = &["--laboratory", "docs/laboratory.yaml"];
 const GYRO: &[&str] = &["--gyro", "docs/gvk-6.yaml"];
 const WHOLE: &[&str] = &["--budget", "--monte-carlo", "--trials", "16384"];
 const PREVIOUS: &[&str] = &["--previous", "@earlier.json"];
+const SEVERAL: &[&str] = &["--previous", "@earlier.json", "--previous", "@older.json"];
 
 const REPORTS: &[Report] = &[
     Report { name: "calibrated-en", languages: &[English], asked: &[USUAL, CURRENTS, LABORATORY, GYRO] },
     Report { name: "calibrated-ru", languages: &[Russian], asked: &[USUAL, CURRENTS, LABORATORY, GYRO] },
     Report { name: "whole-ru", languages: &[Russian], asked: &[USUAL, CURRENTS, LABORATORY, GYRO, WHOLE, PREVIOUS] },
+    Report { name: "history-en", languages: &[English], asked: &[USUAL, CURRENTS, LABORATORY, GYRO, SEVERAL] },
     // Repeated readings; a laboratory that is too warm, with a poor seat; a term more to fit.
     Report {
         name: "repeated-en",
@@ -144,8 +146,11 @@ fn files(folder: &Path) {
     // Currents that were a little larger are scale factors that were a little smaller.
     let larger = changed(&|_, jx, jy| (1.0001 * jx, 1.0002 * jy));
     write("earlier.csv", &format!("{head}{larger}"));
-    let earlier = [USUAL, &["@earlier.csv", "--format", "json"], LABORATORY].concat();
-    write("earlier.json", &programs::output(calibrate(folder, &earlier)));
+    write("older.csv", &format!("{head}{}", changed(&|_, jx, jy| (0.9998 * jx, 1.0001 * jy))));
+    for (currents, result) in [("@earlier.csv", "earlier.json"), ("@older.csv", "older.json")] {
+        let earlier = [USUAL, &[currents, "--format", "json"], LABORATORY].concat();
+        write(result, &programs::output(calibrate(folder, &earlier)));
+    }
     let seat = example("docs/laboratory.yaml").replace("about_z: 10.0", "about_z: 100.0");
     write("warm.yaml", &(seat + "temperature_c: 35.5\n"));
     let other = example("docs/gvk-6.yaml").replace("GVK-6", HOSTILE_TYPE).replace("[[95, 9.5]", "[[95.2, 9.5]");

@@ -18,13 +18,14 @@ const FIELD: [f64; 2] = [7.0, 153.0];
 const REACH: [f64; 2] = [1.3, 4.0];
 const ROOM_FOR_ARROW: f64 = 22.0;
 
-/// Strips of a verdict against a type, or on a change since an earlier result, all to one scale.
+/// Strips of verdicts against a type, or on a change since an earlier result, all to one scale.
 pub(crate) struct Strips(Scale);
 
 impl Strips {
     /// Creates strips that reach to the farthest deviation with its uncertainty.
-    pub(crate) fn of(verdict: &Verdict) -> Self {
-        let ends = verdict.parameters.iter().filter(|row| row.tolerance > 0.0);
+    pub(crate) fn of<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Self {
+        let rows = verdicts.into_iter().flat_map(|verdict| &verdict.parameters);
+        let ends = rows.filter(|row| row.tolerance > 0.0);
         let farthest =
             ends.map(|row| (row.deviation.abs() + row.expanded_uncertainty) / row.tolerance).fold(0.0, f64::max);
         let reach = (1.1 * farthest).clamp(REACH[0], REACH[1]);

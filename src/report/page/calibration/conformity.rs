@@ -2,7 +2,7 @@
 //! its change since an earlier result.
 
 use super::parameters::{self, uncertainties, values};
-use super::{CalibrationPage, Section};
+use super::{CalibrationPage, Section, history};
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
@@ -29,6 +29,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
             (heading(languages, texts::CHANGE))
             (table(languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY]))
         }
+        (history::table(page, languages))
     };
     page.section(languages, Section::Result, &body)
 }
@@ -97,7 +98,7 @@ fn alone(page: &CalibrationPage, languages: &Languages) -> Markup {
 
 fn table(languages: &Languages, verdict: &Verdict, caption: Text, [reference, deviation]: [Text; 2]) -> Markup {
     let rows = &verdict.parameters;
-    let strips = Strips::of(verdict);
+    let strips = Strips::of([verdict]);
     let numbers = |number: &dyn Fn(&ParameterVerdict) -> Number| {
         column(languages, &rows.iter().map(|row| Some(number(row))).collect::<Vec<_>>())
     };
@@ -175,7 +176,7 @@ fn parameter(row: &ParameterVerdict) -> Markup {
     name_of(parameter_of(row).map_or(row.parameter, Parameter::symbol))
 }
 
-fn name_of(name: &str) -> Markup {
+pub(super) fn name_of(name: &str) -> Markup {
     let (letter, index) = name.split_once('_').unwrap_or((name, ""));
     symbol(letter, index)
 }

@@ -3,6 +3,7 @@
 //! The numbers are those of [`CalibrationDocument`], which `calibrate --format json` writes; the annex is that file.
 //!
 //! * `conformity`: the result, compared with the gyro type and with an earlier result.
+//! * `history`: all calibrations of the gyro, if there are several earlier results.
 //! * `fit`: chi-square, residuals, possible causes of disagreement, errors that the residuals do not show.
 //! * `uncertainty`: budget and Monte Carlo.
 //! * `parameters`: parameters by every method.
@@ -12,6 +13,7 @@
 mod closing;
 mod conformity;
 mod fit;
+mod history;
 mod parameters;
 mod subject;
 mod uncertainty;
@@ -129,6 +131,8 @@ pub struct CalibrationPage<'a> {
     pub missing: &'a [NotStated],
     /// Result as the JSON document that programs read.
     pub document: &'a CalibrationDocument,
+    /// Earlier results of the gyro, from the earliest to the latest.
+    pub previous: &'a [CalibrationDocument],
     /// Uncertainty budget, if requested.
     pub budget: Option<&'a Budget>,
     /// Coverage intervals from a Monte Carlo run, if requested.

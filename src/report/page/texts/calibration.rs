@@ -173,6 +173,14 @@ texts! {
              отнесены к g, указанному для типа"
     }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
+    HISTORY { en: "All calibrations of this gyro", ru: "Все калибровки этого гироскопа" }
+    HISTORY_CAPTION {
+        en: "Parameters from the earliest calibration to this one, with expanded uncertainty U\u{a0}=\u{a0}2u; drifts refer \
+             to one g",
+        ru: "Параметры от первой калибровки до этой, с расширенной неопределённостью U\u{a0}=\u{a0}2u; составляющие дрейфа \
+             отнесены к одному g"
+    }
+    CALIBRATED { en: "Calibration", ru: "Калибровка" }
     CHANGE_CAPTION {
         en: "Change with expanded uncertainty U\u{a0}=\u{a0}2u, compared with the same tolerance, which limits the \
              instability; drifts refer to the g of the type",
