@@ -31,7 +31,7 @@ fn tenths(value: f64) -> f64 {
 }
 
 fn identifier(text: &str) -> Identifier {
-    Identifier::new(text).expect("an identifier")
+    text.parse().expect("an identifier")
 }
 
 fn stand(number: usize, stream: &mut Stream) -> Stand {

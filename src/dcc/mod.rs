@@ -24,7 +24,7 @@ pub(crate) use administrative::{Administrative, DCC_FORMAT, Written};
 pub(crate) use gyro::{Calibrated, of_gyro};
 pub(crate) use stand::of_stand;
 
-use crate::text::Identifier;
+use crate::text::{Identifier, NotAnIdentifier};
 
 /// Digital Calibration Certificate.
 #[derive(Debug)]
@@ -44,7 +44,7 @@ impl Dcc {
         let stem: String = self.number.trim().chars().map(safe).take(LONGEST).collect();
         // Windows reserves some names, with or without an extension.
         let first = stem.split('.').next().unwrap_or_default().trim_end();
-        let is_device = Identifier::new(first).is_err_and(|why| why.contains("device"));
+        let is_device = Identifier::new(first).is_err_and(|why| matches!(why, NotAnIdentifier::Device(_)));
         let is_hidden_or_option = stem.starts_with(['.', '-']);
         let prefix = if is_device || is_hidden_or_option { "certificate_" } else { "" };
         format!("{prefix}{stem}.xml")

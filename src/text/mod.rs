@@ -33,7 +33,7 @@ pub(crate) use printable::{Printable, name_of, printable, shown};
 pub use problem::{Location, Problem, Unreadable};
 pub(crate) use problem::{Path, Problems};
 pub(crate) use record::{Field, record};
-pub use scalar::Identifier;
+pub use scalar::{Identifier, NotAnIdentifier};
 
 /// Size of the largest document that is read, in bytes.
 ///

@@ -7,6 +7,7 @@ use jiff::civil::Date;
 use jiff::tz::TimeZone;
 use sha2::{Digest, Sha256};
 use std::fmt;
+use std::str::FromStr;
 
 /// Name that can be a folder or file name on every system: `[A-Za-z0-9][A-Za-z0-9._-]{0,63}` without `..`, without a
 /// dot at the end, and not reserved by Windows.
@@ -34,24 +35,57 @@ fn is_device(text: &str) -> bool {
     DEVICES.contains(&name.as_str()) || PORTS.iter().any(is_port)
 }
 
+/// Fault of a text that is not an [`Identifier`]; its words complete a message "found …, expected …".
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NotAnIdentifier {
+    /// Empty text.
+    #[error("empty text")]
+    Empty,
+    /// A character that is not permitted, and the text.
+    #[error("{found} in {1:?}", found = character(*.0))]
+    Character(char, String),
+    /// A first character that is not a letter or digit, and the text.
+    #[error("{0:?} at the start of {1:?}")]
+    Start(char, String),
+    /// Too many characters.
+    #[error("{0} characters")]
+    Length(usize),
+    /// Two dots in a row.
+    #[error("\"..\" in {0:?}")]
+    Dots(String),
+    /// A dot at the end.
+    #[error("a dot at the end of {0:?}")]
+    DotAtEnd(String),
+    /// A device name of Windows.
+    #[error("{0:?}, a device name of Windows")]
+    Device(String),
+}
+
+impl FromStr for Identifier {
+    type Err = NotAnIdentifier;
+
+    fn from_str(text: &str) -> Result<Self, NotAnIdentifier> {
+        Self::new(text)
+    }
+}
+
 impl Identifier {
     /// Creates the identifier `text`.
-    ///
-    /// # Errors
-    /// Returns a description of the fault, which completes a message "found …, expected …".
-    pub fn new(text: &str) -> Result<Self, String> {
+    pub(crate) fn new(text: &str) -> Result<Self, NotAnIdentifier> {
+        let whole = || text.to_owned();
         let odd = text.chars().find(|&c| !c.is_ascii_alphanumeric() && !"._-".contains(c));
         if let Some(odd) = odd {
-            return Err(format!("{} in {text:?}", character(odd)));
+            return Err(NotAnIdentifier::Character(odd, whole()));
         }
         match text.chars().next() {
-            None => Err("empty text".to_owned()),
-            Some(first) if !first.is_ascii_alphanumeric() => Err(format!("{first:?} at the start of {text:?}")),
-            _ if text.len() > 64 => Err(format!("{} characters", text.len())),
-            _ if text.contains("..") => Err(format!("\"..\" in {text:?}")),
-            _ if text.ends_with('.') => Err(format!("a dot at the end of {text:?}")),
-            _ if is_device(text) => Err(format!("{text:?}, a device name of Windows")),
-            _ => Ok(Self(text.to_owned())),
+            None => Err(NotAnIdentifier::Empty),
+            Some(first) if !first.is_ascii_alphanumeric() => Err(NotAnIdentifier::Start(first, whole())),
+            _ if text.len() > 64 => Err(NotAnIdentifier::Length(text.len())),
+            _ if text.contains("..") => Err(NotAnIdentifier::Dots(whole())),
+            _ if text.ends_with('.') => Err(NotAnIdentifier::DotAtEnd(whole())),
+            _ if is_device(text) => Err(NotAnIdentifier::Device(whole())),
+            _ => Ok(Self(whole())),
         }
     }
 
@@ -127,7 +161,7 @@ impl Field for Identifier {
         let found = match node {
             Node::Text(text) => match Self::new(text) {
                 Ok(identifier) => return Some(identifier),
-                Err(found) => found,
+                Err(found) => found.to_string(),
             },
             Node::Integer(_) | Node::Number(_) => {
                 let found = format!("the number {}", node.describe());
@@ -242,7 +276,7 @@ mod tests {
         for bad in ["CON", "con.1", "Prn", "aux.a.b", "NUL", "COM1", "com9.x", "LPT0", "a.", "a.b."] {
             assert!(Identifier::new(bad).is_err(), "{bad}");
         }
-        assert!(Identifier::new("SPS-2А").unwrap_err().contains("Cyrillic"));
+        assert!(Identifier::new("SPS-2А").unwrap_err().to_string().contains("Cyrillic"));
     }
 
     /// Expected: the Gregorian calendar; 2028 is a leap year, 2100 is not.

@@ -133,7 +133,7 @@ impl AnyKey {
         };
         let blob = Base64::decode_vec(base64)
             .map_err(|_| KeyError::DamagedPublicKey("its base64 is truncated or changed".to_owned()))?;
-        check_fields(&blob, algorithm, fields).map_err(KeyError::DamagedPublicKey)?;
+        check_fields(&blob, algorithm, fields).map_err(|fault| KeyError::DamagedPublicKey(fault.to_string()))?;
         Ok(Self { algorithm, blob })
     }
 
@@ -162,32 +162,57 @@ pub(super) fn shortened(word: &str) -> String {
     }
 }
 
+/// Fault of bytes that are not a key as SSH transmits it.
+#[derive(Debug, PartialEq, Eq, thiserror::Error)]
+pub(super) enum NotAKey {
+    /// The bytes end too early.
+    #[error(transparent)]
+    Truncated(#[from] Truncated),
+    /// A name that is not that of a key type.
+    #[error("`{0}`, which is not a key type")]
+    UnknownType(String),
+    /// Another type than the line says.
+    #[error("it says {said}, its base64 says `{found}`")]
+    OtherType {
+        /// Type that the line says.
+        said: String,
+        /// Type in the bytes.
+        found: String,
+    },
+    /// An Ed25519 key of another length.
+    #[error("a key of {0} bytes, expected 32")]
+    Length(usize),
+    /// Bytes after the end of the key.
+    #[error("{0} bytes after its end")]
+    More(usize),
+}
+
 /// Checks that bytes are a key of a type that OpenSSH knows, as SSH transmits it.
-pub(super) fn check_blob(blob: &[u8]) -> Result<(), String> {
-    let named = Wire::new(blob).string().map_err(|error| error.to_string())?;
+pub(super) fn check_blob(blob: &[u8]) -> Result<(), NotAKey> {
+    let named = Wire::new(blob).string()?;
     match KEY_TYPES.iter().find(|(name, _)| name.as_bytes() == named) {
         Some((algorithm, fields)) => check_fields(blob, algorithm, *fields),
-        None => Err(format!("`{}`, which is not a key type", shortened(&String::from_utf8_lossy(named)))),
+        None => Err(NotAKey::UnknownType(shortened(&String::from_utf8_lossy(named)))),
     }
 }
 
 /// Checks that a key consists of the name of its type and as many strings as the type has fields.
-fn check_fields(blob: &[u8], algorithm: &str, fields: usize) -> Result<(), String> {
-    let short = |error: Truncated| error.to_string();
+fn check_fields(blob: &[u8], algorithm: &str, fields: usize) -> Result<(), NotAKey> {
     let mut wire = Wire::new(blob);
-    let named = wire.string().map_err(short)?;
+    let named = wire.string()?;
     if named != algorithm.as_bytes() {
-        return Err(format!("it says {algorithm}, its base64 says `{}`", shortened(&String::from_utf8_lossy(named))));
+        let found = shortened(&String::from_utf8_lossy(named));
+        return Err(NotAKey::OtherType { said: algorithm.to_owned(), found });
     }
     for _ in 0..fields {
-        let field = wire.string().map_err(short)?;
+        let field = wire.string()?;
         if algorithm == KEY_TYPES[0].0 && field.len() != 32 {
-            return Err(format!("a key of {} bytes, expected 32", field.len()));
+            return Err(NotAKey::Length(field.len()));
         }
     }
     match wire.rest().len() {
         0 => Ok(()),
-        more => Err(format!("{more} bytes after its end")),
+        more => Err(NotAKey::More(more)),
     }
 }
 

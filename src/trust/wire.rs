@@ -1,20 +1,13 @@
 //! SSH's binary encoding (RFC 4251, section 5), with every length checked against the remaining bytes.
 
-use std::fmt::{self, Display, Formatter};
-
 /// A length that extends past the end of its container.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("an item of {needed} bytes at byte {offset}, where only {left} bytes are left")]
 pub(super) struct Truncated {
     /// Offset of the item that does not fit, in bytes from the start of the file.
     pub(super) offset: usize,
     needed: usize,
     left: usize,
-}
-
-impl Display for Truncated {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        write!(f, "an item of {} bytes at byte {}, where only {} bytes are left", self.needed, self.offset, self.left)
-    }
 }
 
 /// Reader of binary data that knows its offset from the start of the file.
