@@ -7,7 +7,7 @@
 use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
 use super::offsets::Offsets;
-use super::scatter::Repeats;
+use super::repeats::Repeats;
 use super::sensitivity::{Sensitivity, Shared};
 use super::unknowns::Unknowns;
 use crate::coefficients::PositionIndex;

@@ -1,10 +1,9 @@
 //! Possible causes if the readings do not fit, as far as the residuals show them.
 
+use super::chi_square::{self, ChiSquare};
+use super::data::Data;
 use super::inputs::Setup;
 use super::least_squares::Fit;
-use super::procedure::Data;
-use super::propagation;
-use super::result::ChiSquare;
 use super::sensitivity::Sensitivity;
 use super::unknowns::Model;
 use crate::coefficients::PositionIndex;
@@ -150,7 +149,7 @@ fn single_positions(setup: &Setup, data: &Data, model: Model, suspects: &[usize]
     let possible = suspects.iter().filter_map(|&place| {
         let (rest, others) = (setup.without(place), data.without(place));
         let fit = others.fit(&rest, model).ok()?;
-        let found = ChiSquare::new(propagation::chi_square(&rest, &fit, &others));
+        let found = chi_square::chi_square(&rest, &fit, &others);
         if found.degrees_of_freedom == 0 || found.probability <= POSSIBLE {
             return None;
         }
@@ -174,7 +173,7 @@ fn single_positions(setup: &Setup, data: &Data, model: Model, suspects: &[usize]
 
 fn chi_square(setup: &Setup, data: &Data, model: Model) -> Option<ChiSquare> {
     let fit = data.fit(setup, model).ok().filter(|fit| fit.settled)?;
-    let found = ChiSquare::new(propagation::chi_square(setup, &fit, data));
+    let found = chi_square::chi_square(setup, &fit, data);
     found.value.is_finite().then_some(found)
 }
 

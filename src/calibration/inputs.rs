@@ -1,7 +1,6 @@
 //! Inputs of a calibration: the coefficients, and the standard uncertainties of everything behind them.
 
 use super::readings::Readings;
-use super::result::Calibration;
 use crate::attitude::{self, Deviation};
 use crate::coefficients::{Coefficients, EIGHT_POSITIONS, EarthRate, Position, SingularPositions, StandGeometry};
 use crate::gyro::GyroNoise;
@@ -211,13 +210,14 @@ impl Setup {
         self
     }
 
-    /// Returns the setup with the noises that a calibration used, stated or estimated.
-    pub(crate) fn with_noise_of(mut self, calibration: &Calibration) -> Self {
-        self.uncertainty.visit_deg_per_h = Some(calibration.visit_noise.deg_per_h);
-        self.uncertainty.turn_on_deg_per_h = Some(calibration.turn_on_noise.deg_per_h);
+    /// Returns the setup with the noises of visits and turn-ons, °/h, that a calibration used, and with that of a reading,
+    /// mA, if none is stated.
+    pub(crate) fn with_noise(mut self, [visit, turn_on]: [f64; 2], reading_ma: Option<f64>) -> Self {
+        self.uncertainty.visit_deg_per_h = Some(visit);
+        self.uncertainty.turn_on_deg_per_h = Some(turn_on);
         let meter = &mut self.uncertainty.meter;
-        if let Some(rows) = calibration.row_scatter.filter(|_| meter.noise_ma == 0.0) {
-            meter.noise_ma = rows.standard_deviation_ma;
+        if let Some(noise_ma) = reading_ma.filter(|_| meter.noise_ma == 0.0) {
+            meter.noise_ma = noise_ma;
         }
         self
     }

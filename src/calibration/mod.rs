@@ -6,7 +6,9 @@
 //! * `analytic`: the paper's analytic method, eq. (13)-(16) and (8).
 //! * [`iterative`]: the paper's iterative method, eq. (17)-(19).
 //! * `least_squares`: weighted least squares on all readings of any positions.
-//! * `procedure`: all methods side by side; `result`: their results with uncertainties, residuals and chi-square.
+//! * `procedure`: all methods side by side; `result`: their results with uncertainties and residuals.
+//! * `data`: mean currents with their errors, and fits to them; `chi_square`: the test of a fit.
+//! * `repeats`: numbers of visits and readings, and the errors assumed for each.
 //! * `scatter`: agreement of the rows of a visit, of the visits of a position and of the turn-ons with what was stated.
 //! * `noise`: the gyro's own noise; `offsets`: drift that changes during a run.
 //! * `diagnosis`: possible causes if the readings do not fit.
@@ -43,6 +45,8 @@
 
 pub(crate) mod analytic;
 pub(crate) mod causes;
+pub(crate) mod chi_square;
+pub(crate) mod data;
 pub(crate) mod diagnosis;
 pub(crate) mod document;
 pub(crate) mod estimates;
@@ -57,6 +61,7 @@ pub(crate) mod prediction;
 pub(crate) mod procedure;
 pub(crate) mod propagation;
 pub(crate) mod readings;
+pub(crate) mod repeats;
 pub(crate) mod result;
 pub(crate) mod scatter;
 pub(crate) mod sensitivity;
@@ -66,6 +71,7 @@ pub(crate) mod verdict;
 
 pub use analytic::NoAnalyticSolution;
 pub use causes::{Cause, Input};
+pub use chi_square::ChiSquare;
 pub use diagnosis::{Explanation, Hint};
 pub use document::CalibrationDocument;
 pub use estimates::Basis;
@@ -77,7 +83,7 @@ pub use parameter::Parameter;
 pub use prediction::predicted;
 pub use procedure::{Options, calibrate};
 pub use readings::{NoReadings, PositionReadings, Reading, Readings, Visit};
-pub use result::{Calibration, ChiSquare, Iteration, Method, MethodRefusal, MethodResult, Residual};
+pub use result::{Calibration, Iteration, Method, MethodRefusal, MethodResult, Residual};
 pub use scatter::{Agreement, RowScatter, Scatter};
 pub use stated::NotStated;
 pub use unknowns::Model;

@@ -59,7 +59,9 @@ pub(crate) fn best_further_visit(
     (calibration, gyro): (&Calibration, &GyroParameters),
     (parameter, options): (Parameter, &Options),
 ) -> Option<FurtherVisit> {
-    let setup = setup.clone().with_noise_of(calibration);
+    let noise = [calibration.visit_noise, calibration.turn_on_noise].map(|noise| noise.deg_per_h);
+    let of_reading = calibration.row_scatter.map(|rows| rows.standard_deviation_ma);
+    let setup = setup.clone().with_noise(noise, of_reading);
     let options = Options { methods: vec![Method::LeastSquares], ..options.clone() };
     let positions = &setup.coefficients().positions;
     let exact: Option<Vec<_>> = positions.iter().map(|at| Some((at.index, gyro.currents_ma(at)?))).collect();

@@ -1,30 +1,24 @@
 //! The whole calibration: every requested method with its uncertainty and its fit.
 
 use super::analytic::{self, AnalyticMap, NoAnalyticSolution};
+use super::chi_square::{ChiSquare, chi_square};
+use super::data::{Data, Observation};
 use super::diagnosis;
 use super::inputs::Setup;
 use super::iterative::{self, NoIterativeSolution, StopRule};
-use super::least_squares::{Fit, NoLeastSquares, SETTLED};
-use super::offsets::{Differences, Offsets};
+use super::least_squares::{Fit, NoLeastSquares};
+use super::offsets::Offsets;
 use super::parameter::Parameter;
-use super::propagation::{Propagation, chi_square, covariance, standard_deviations};
+use super::propagation::{Propagation, covariance, standard_deviations};
 use super::readings::Readings;
+use super::repeats::Repeats;
 use super::result::{
-    Calibration, ChiSquare, Cycle, Drift, DriftTest, GMatrix, Iteration, Method, MethodRefusal, MethodResult,
-    ModelTest, Residual,
+    Calibration, Cycle, Drift, DriftTest, GMatrix, Iteration, Method, MethodRefusal, MethodResult, ModelTest, Residual,
 };
-use super::scatter::{Observed, Repeats};
-use super::sensitivity::Sensitivity;
 use super::unknowns::{Model, Unknowns};
 use crate::gyro::GyroParameters;
 use crate::statistics::distributions::chi_square_larger;
 use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2};
-
-/// Number of repeated fits with differences of visits after which their change no longer matters; two or three do.
-const MOST_OBSERVATIONS: usize = 8;
-
-/// Relative change of turn-ons and drift from one fit to the next that does not matter.
-const SAME_OFFSET: f64 = 1e-12;
 
 /// Options of a calibration.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,13 +54,13 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
         drift_can_be_fitted(readings)?;
     }
     // If the positions do not determine the model, least squares alone has no result.
-    let (Observation { data, fit, seen }, refused) = match Observation::new(setup, readings, options) {
-        Err(refusal) if options.model != Model::Paper => {
-            let paper = Options { model: Model::Paper, ..options.clone() };
-            (Observation::new(setup, readings, &paper)?, Some(refusal))
-        }
-        found => (found?, None),
-    };
+    let (Observation { data, fit, seen }, refused) =
+        match Observation::new(setup, readings, options.model, options.drift) {
+            Err(refusal) if options.model != Model::Paper => {
+                (Observation::new(setup, readings, Model::Paper, options.drift)?, Some(refusal))
+            }
+            found => (found?, None),
+        };
     let evaluation = Evaluation::new(setup, &data, &fit);
     let hint = diagnosis::hint(setup, &data, fit.of, &evaluation.chi_square);
     let mut calibration = Calibration {
@@ -123,8 +117,7 @@ fn drift_can_be_fitted(readings: &Readings) -> Result<(), NoLeastSquares> {
 /// it.
 fn drift_test(setup: &Setup, readings: &Readings, options: &Options) -> Option<DriftTest> {
     drift_can_be_fitted(readings).ok()?;
-    let Observation { data, fit, .. } =
-        Observation::new(setup, readings, &Options { drift: true, ..options.clone() }).ok()?;
+    let Observation { data, fit, .. } = Observation::new(setup, readings, options.model, true).ok()?;
     let (drift, covariance) = fit.drift(&data.offsets)?;
     let chi_square = drift.dot(&(covariance.try_inverse()? * drift));
     Some(DriftTest { drift_deg_per_h_per_h: drift, probability: chi_square_larger(chi_square, 2) })
@@ -155,7 +148,7 @@ pub(crate) fn linearise(
 ) -> Result<Linearised, MethodRefusal> {
     let setup = &*setup.of_readings(readings);
     let model = if method == Method::LeastSquares { options.model } else { Model::Paper };
-    let Observation { data, fit, .. } = Observation::new(setup, readings, &Options { model, ..options.clone() })?;
+    let Observation { data, fit, .. } = Observation::new(setup, readings, model, options.drift)?;
     let propagation = Propagation::new(setup, &fit, &data);
     let (found, response) = match method {
         Method::LeastSquares => (fit.unknowns, propagation.response_of_least_squares()),
@@ -170,103 +163,6 @@ pub(crate) fn linearise(
         }
     };
     Ok(Linearised { found, repeats: data.repeats, offsets: data.offsets, response, fit })
-}
-
-/// Mean currents of all positions, the input of a fit.
-#[derive(Debug, Clone)]
-pub(crate) struct Data {
-    /// Mean currents (J_x, J_y), mA, in the order of the coefficients.
-    pub(crate) currents_ma: Vec<Vector2<f64>>,
-    /// Numbers of visits and readings behind each mean, and their scatter.
-    pub(crate) repeats: Repeats,
-    /// Drift that changes during the run.
-    pub(crate) offsets: Offsets,
-}
-
-/// The fit of a model, with the errors of visits, readings and turn-ons as observed.
-struct Observation {
-    data: Data,
-    fit: Fit,
-    seen: Observed,
-}
-
-impl Observation {
-    /// Fits with the errors as stated, updates them from their scatter, and fits again while that changes anything.
-    fn new(setup: &Setup, readings: &Readings, options: &Options) -> Result<Self, NoLeastSquares> {
-        let model = options.model;
-        let mut data = Data::new(setup, readings);
-        let mut fit = data.fit(setup, model)?;
-        data.offsets = Offsets::new(readings, options.drift);
-        let stated = data.repeats.clone();
-        let differences = Differences::new(readings, &data.offsets);
-        let differences = differences.as_ref();
-        let mut seen = data.repeats.observe(setup, readings, differences, &mut data.offsets, &fit);
-        if data.repeats != stated || data.offsets.columns() > 0 {
-            fit = data.fit_again(setup, &fit)?;
-        }
-        // Differences of visits depend on K, which depends on them.
-        for _ in 0..MOST_OBSERVATIONS {
-            if data.offsets.columns() == 0 || data.offsets.rows.nrows() == 0 {
-                break;
-            }
-            let before = fit.changing.clone();
-            data.repeats = stated.clone();
-            seen = data.repeats.observe(setup, readings, differences, &mut data.offsets, &fit);
-            fit = data.fit_again(setup, &fit)?;
-            let u = fit.own_uncertainties_of_offsets();
-            let close = |((now, before), u): ((&f64, &f64), f64)| {
-                (now - before).abs() <= (SAME_OFFSET * before.abs()).max(SETTLED * u)
-            };
-            if fit.changing.iter().zip(&before).zip(u).all(close) {
-                break;
-            }
-        }
-        seen.turn_ons = data.repeats.observe_turn_ons(&data.offsets, &fit);
-        Ok(Self { data, fit, seen })
-    }
-}
-
-impl Data {
-    pub(crate) fn new(setup: &Setup, readings: &Readings) -> Self {
-        let (currents_ma, repeats) = (readings.means_ma(), Repeats::stated(setup, readings));
-        Self { currents_ma, repeats, offsets: Offsets::default() }
-    }
-
-    /// Returns a copy without position `place`.
-    pub(crate) fn without(&self, place: usize) -> Self {
-        let mut rest = self.clone();
-        rest.currents_ma.remove(place);
-        rest.repeats.shares.remove(place);
-        if place < rest.offsets.means.len() {
-            rest.offsets.means.remove(place);
-        }
-        rest
-    }
-
-    /// Returns a copy with the readings of two positions exchanged.
-    pub(crate) fn exchanged(&self, one: usize, other: usize) -> Self {
-        let mut exchanged = self.clone();
-        exchanged.currents_ma.swap(one, other);
-        exchanged.repeats.shares.swap(one, other);
-        if !exchanged.offsets.means.is_empty() {
-            exchanged.offsets.means.swap(one, other);
-        }
-        exchanged
-    }
-
-    /// Returns the weighted fit at `setup`.
-    pub(crate) fn fit(&self, setup: &Setup, model: Model) -> Result<Fit, NoLeastSquares> {
-        Fit::new(setup.coefficients(), &self.currents_ma, model, &self.offsets, self.own_covariance(setup))
-    }
-
-    /// Returns the weighted fit of the same model as `last`, which differs only by weights and offsets.
-    fn fit_again(&self, setup: &Setup, last: &Fit) -> Result<Fit, NoLeastSquares> {
-        last.again(setup.coefficients(), &self.currents_ma, &self.offsets, self.own_covariance(setup))
-    }
-
-    fn own_covariance(&self, setup: &Setup) -> impl Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64> {
-        |place, unknowns, current| Sensitivity::new(setup, unknowns).own_covariance(place, current, &self.repeats)
-    }
 }
 
 /// Returns a value in units of its standard uncertainty, or 0 if it can only be rounding.
@@ -302,7 +198,7 @@ impl<'a> Evaluation<'a> {
     fn new(setup: &'a Setup, data: &'a Data, fit: &'a Fit) -> Self {
         let propagation = Propagation::new(setup, fit, data);
         let spread = propagation.least_squares();
-        let chi_square = ChiSquare::new(chi_square(setup, fit, data));
+        let chi_square = chi_square(setup, fit, data);
         Self { setup, data, fit, propagation, spread, chi_square }
     }
 

@@ -1,12 +1,12 @@
 //! Results of a calibration.
 
 use super::analytic::NoAnalyticSolution;
+use super::chi_square::ChiSquare;
 use super::diagnosis::{ALARM, Hint};
 use super::iterative::{NoIterativeSolution, StepChange, StopRule};
 use super::least_squares::NoLeastSquares;
 use super::noise::{DriftNoise, NoiseSource};
 use super::parameter::Parameter;
-use super::propagation::Misfit;
 use super::scatter::{RowScatter, Scatter};
 use super::stated::NotStated;
 use super::unknowns::Model;
@@ -262,34 +262,6 @@ pub struct Iteration {
     pub remainder_k_deg_per_h_per_ma: Matrix2<f64>,
     /// Exact difference of the analytic solution from ω_n at the last step, °/(h·g), 2×2.
     pub remainder_omega_n_deg_per_h_per_g: Matrix2<f64>,
-}
-
-/// Chi-square test of a fit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ChiSquare {
-    /// Value of chi-square; 0 without degrees of freedom.
-    pub value: f64,
-    /// Number of readings minus number of parameters; if it is 0, a fit cannot be judged.
-    pub degrees_of_freedom: usize,
-    /// Probability of a larger value if the readings agree with all stated uncertainties.
-    ///
-    /// It is computed from a scaled F distribution if uncertainties rest on estimates with few degrees of freedom.
-    pub probability: f64,
-    /// Denominator degrees of freedom of that F distribution; infinite if every uncertainty is known.
-    pub of_uncertainties: f64,
-}
-
-impl ChiSquare {
-    pub(crate) fn new(misfit: Misfit) -> Self {
-        let Misfit { value, degrees_of_freedom, distribution } = misfit;
-        let probability = if degrees_of_freedom == 0 { 1.0 } else { distribution.larger(value) };
-        Self { value, degrees_of_freedom, probability, of_uncertainties: distribution.denominator }
-    }
-
-    /// Returns `false` if there are as many unknowns as readings; then any readings fit.
-    pub(crate) fn judges(&self) -> bool {
-        self.degrees_of_freedom > 0
-    }
 }
 
 /// Residuals of the two equations of a position: ω_3 − K J − ω_0 − ω_n n.

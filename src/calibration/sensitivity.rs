@@ -4,7 +4,7 @@
 //! v × δ. If the base rotates by δ about east, north and up, Ã w changes by Ã (w × δ), with w in these axes.
 
 use super::inputs::Setup;
-use super::scatter::Repeats;
+use super::repeats::Repeats;
 use super::unknowns::Unknowns;
 use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2, Vector3};
 

@@ -7,7 +7,7 @@
 use super::{ReadingShape, student};
 use crate::calibration::Setup;
 use crate::calibration::estimates::{Basis, Estimates};
-use crate::calibration::scatter::Repeats;
+use crate::calibration::repeats::Repeats;
 use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
 use nalgebra::Vector2;
 

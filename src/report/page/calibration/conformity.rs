@@ -1,7 +1,7 @@
 //! The result: every parameter with its expanded uncertainty, within the tolerance of the type if one was specified, and
 //! its change since an earlier result.
 
-use super::parameters::{self, uncertainties, values};
+use super::parameters::{self, name_of, uncertainties, values};
 use super::{CalibrationPage, Section, history};
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, ParameterVerdict, Verdict};
@@ -174,11 +174,6 @@ fn from_gravity(page: &CalibrationPage, row: &ParameterVerdict, languages: &Lang
 /// Returns the symbol of the parameter of `row`.
 fn parameter(row: &ParameterVerdict) -> Markup {
     name_of(parameter_of(row).map_or(row.parameter, Parameter::symbol))
-}
-
-pub(super) fn name_of(name: &str) -> Markup {
-    let (letter, index) = name.split_once('_').unwrap_or((name, ""));
-    symbol(letter, index)
 }
 
 /// Writes the mark of a decision; screen readers say the word.

@@ -1,7 +1,7 @@
 //! The gyro over several calibrations: every parameter from the earliest to the latest, within the tolerance of the type.
 
 use super::CalibrationPage;
-use super::conformity::name_of;
+use super::parameters::name_of;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Found, Verdict, against_type};
 use crate::gyro::GyroType;

@@ -192,3 +192,9 @@ fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
         }
     }
 }
+
+/// Writes the name of a parameter as a symbol with its index.
+pub(super) fn name_of(name: &str) -> Markup {
+    let (letter, index) = name.split_once('_').unwrap_or((name, ""));
+    symbol(letter, index)
+}

@@ -1,0 +1,329 @@
+//! Chi-square test of a fit: its value from all inputs, and its distribution if uncertainties rest on estimates.
+
+use super::data::Data;
+use super::estimates::{Basis, Estimates};
+use super::inputs::Setup;
+use super::least_squares::{Fit, whiten_rows};
+use super::sensitivity::{Sensitivity, Shared};
+use crate::statistics::scaled_f::{Part, ScaledF};
+use nalgebra::{DMatrix, DVector, Matrix2, Vector3};
+
+/// Chi-square test of a fit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ChiSquare {
+    /// Value of chi-square; 0 without degrees of freedom.
+    pub value: f64,
+    /// Number of readings minus number of parameters; if it is 0, a fit cannot be judged.
+    pub degrees_of_freedom: usize,
+    /// Probability of a larger value if the readings agree with all stated uncertainties.
+    ///
+    /// It is computed from a scaled F distribution if uncertainties rest on estimates with few degrees of freedom.
+    pub probability: f64,
+    /// Denominator degrees of freedom of that F distribution; infinite if every uncertainty is known.
+    pub of_uncertainties: f64,
+}
+
+impl ChiSquare {
+    /// Returns `false` if there are as many unknowns as readings; then any readings fit.
+    pub(crate) fn judges(&self) -> bool {
+        self.degrees_of_freedom > 0
+    }
+}
+
+/// Returns chi-square of readings at a fit.
+///
+/// It is r' C⁻ r, where r are the residuals of a method, C is their covariance from all inputs, and C⁻ is any
+/// generalised inverse. The part that the parameters absorb cancels. Chi-square is therefore the same for every method
+/// that fits exact readings exactly. It is computed from z = Q₂'W e, whose covariance 1 + B B' has full rank (B is Q₂'W
+/// times the common part of all positions).
+pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> ChiSquare {
+    let degrees_of_freedom = fit.model.rows() - fit.model.columns();
+    if degrees_of_freedom == 0 {
+        // With as many readings as unknowns, the residuals are only rounding.
+        return ChiSquare { value: 0.0, degrees_of_freedom, probability: 1.0, of_uncertainties: f64::INFINITY };
+    }
+    let (value, parts) = quadratic_form(setup, fit, data);
+    let distribution = ScaledF::new(degrees_of_freedom, &parts);
+    let (probability, of_uncertainties) = (distribution.larger(value), distribution.denominator);
+    ChiSquare { value, degrees_of_freedom, probability, of_uncertainties }
+}
+
+/// Returns the value of chi-square, and the parts of the covariance that rest on estimates.
+fn quadratic_form(setup: &Setup, fit: &Fit, data: &Data) -> (f64, Vec<Part>) {
+    let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma, &data.repeats);
+    let count = shared.ncols();
+    // The misclosures follow the common part as one more column, so that a single rotation transforms both.
+    let mut rotated = shared.resize(fit.model.rows(), count + 1, 0.0);
+    let top = 2 * fit.whitening.len();
+    rotated.view_mut((top, count), (fit.model.rows() - top, 1)).copy_from(&fit.of_differences(&data.offsets));
+    for (place, (current, whiten)) in data.currents_ma.iter().zip(&fit.whitening).enumerate() {
+        let misclosure = fit.misclosure(place, current);
+        rotated[(2 * place, count)] = misclosure.x;
+        rotated[(2 * place + 1, count)] = misclosure.y;
+        whiten_rows(&mut rotated, place, whiten);
+    }
+    let whitened = rotated.clone();
+    fit.model.rotate(&mut rotated);
+    let rest = rotated.rows_range(fit.model.columns()..);
+    // Woodbury: z' (1 + B B')⁻¹ z = z'z − (B'z)' (1 + B'B)⁻¹ (B'z).
+    let z = rest.column(count);
+    let projected = DVector::from_fn(count, |i, _| rest.column(i).dot(&z));
+    let inner =
+        DMatrix::from_fn(count, count, |i, j| rest.column(i).dot(&rest.column(j)) + if i == j { 1.0 } else { 0.0 });
+    let cholesky = inner.cholesky();
+    let taken = cholesky.as_ref().map_or(0.0, |cholesky| projected.dot(&cholesky.solve(&projected)));
+    let lower = cholesky.map(|cholesky| cholesky.unpack());
+    (z.norm_squared() - taken, parts(setup, fit, data, &whitened.columns(0, count).into_owned(), lower))
+}
+
+/// Returns the parts of the covariance of the residuals that rest on estimates with few degrees of freedom. `shared` is
+/// the whitened common part of all positions, and `lower` is L with L L' = 1 + B'B.
+///
+/// χ² is y' M y of the whitened misclosures y, with M = 1 − V V'. V consists of Q₁ and Q₂ B L'⁻¹ side by side; Q₁ = W X
+/// R⁻¹ is the part that the parameters absorb. A part D of the covariance of y enters through tr M D and tr M D M D. The
+/// own parts of positions are blocks of D, so the cost grows only linearly with the number of positions.
+fn parts(setup: &Setup, fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Option<DMatrix<f64>>) -> Vec<Part> {
+    let estimates = Estimates::new(setup, &data.repeats);
+    if estimates.degrees_of_freedom.is_empty() {
+        return Vec::new();
+    }
+    let v = absorbed(fit, data, shared, lower);
+    let own = own_parts(setup, fit, data, &estimates);
+    let common = common_parts(setup, fit, data, &estimates);
+    let differences = 2 * fit.whitening.len()..fit.model.rows();
+    let mut parts = Vec::with_capacity(own.len());
+    for (estimate, (own, common)) in own.iter().zip(&common).enumerate() {
+        let degrees_of_freedom = estimates.degrees_of_freedom[estimate];
+        let mut part = Part { degrees_of_freedom, trace: 0.0, square: 0.0 };
+        // V' D V.
+        let mut inside = DMatrix::zeros(v.nrows(), v.nrows());
+        for (place, block) in own.iter().enumerate().filter(|(_, block)| **block != Matrix2::zeros()) {
+            let here = v.fixed_columns::<2>(2 * place);
+            let of_block = here * block;
+            inside.gemm(1.0, &of_block, &here.transpose(), 1.0);
+            part.trace += block.trace();
+            part.square += block.norm_squared() - 2.0 * of_block.norm_squared();
+        }
+        if estimates.visits == Basis::Estimate(estimate) {
+            for row in differences.clone() {
+                let here = v.column(row);
+                inside.ger(1.0, &here, &here, 1.0);
+                part.trace += 1.0;
+                part.square += 1.0 - 2.0 * here.norm_squared();
+            }
+        }
+        part.trace -= inside.trace();
+        part.square += inside.norm_squared();
+        let seen = &v * common;
+        let left = common.tr_mul(common) - seen.tr_mul(&seen);
+        part.trace += left.trace();
+        part.square += left.norm_squared();
+        parts.push(part);
+    }
+    parts
+}
+
+/// Returns V' of [`parts`].
+fn absorbed(fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Option<DMatrix<f64>>) -> DMatrix<f64> {
+    let mut taken = fit.design(&data.offsets);
+    for (place, whiten) in fit.whitening.iter().enumerate() {
+        whiten_rows(&mut taken, place, whiten);
+    }
+    taken *= fit.model.r_inverse();
+    let mut inner = shared - &taken * taken.tr_mul(shared);
+    if let Some(inverse) = lower.and_then(|lower| lower.try_inverse()) {
+        inner *= inverse.transpose();
+    }
+    let columns = taken.ncols();
+    let mut v = taken.resize_horizontally(columns + inner.ncols(), 0.0);
+    v.columns_mut(columns, inner.ncols()).copy_from(&inner);
+    v.transpose()
+}
+
+/// Returns the whitened own part of each position that rests on each estimate, 2×2.
+fn own_parts(setup: &Setup, fit: &Fit, data: &Data, estimates: &Estimates) -> Vec<Vec<Matrix2<f64>>> {
+    let (repeats, positions) = (&data.repeats, fit.whitening.len());
+    let sensitivity = Sensitivity::new(setup, &fit.unknowns);
+    let k = sensitivity.k_deg_per_h_per_ma();
+    let noise = k * k.transpose();
+    let mut parts = vec![vec![Matrix2::zeros(); positions]; estimates.degrees_of_freedom.len()];
+    for (place, whiten) in fit.whitening.iter().enumerate() {
+        let mut add = |basis: Basis, covariance: &dyn Fn() -> Matrix2<f64>| {
+            for (estimate, share) in basis.shares() {
+                parts[estimate][place] += whiten * covariance() * whiten.transpose() * share;
+            }
+        };
+        let turns = sensitivity.to_case_turns(place);
+        for (basis, change) in estimates.angles[place].into_iter().zip(sensitivity.to_certified_angles(place, &turns)) {
+            add(basis, &|| change * change.transpose());
+        }
+        add(estimates.returns, &|| sensitivity.of_return(&turns) * repeats.return_share(place));
+        add(estimates.noise, &|| noise * repeats.noise_variance_ma2(place));
+        add(estimates.visits, &|| Matrix2::from_diagonal_element(repeats.drift_variance(place)));
+    }
+    parts
+}
+
+/// Returns the whitened errors for one standard uncertainty of each input common to all positions that rests on each
+/// estimate (rows × inputs).
+fn common_parts(setup: &Setup, fit: &Fit, data: &Data, estimates: &Estimates) -> Vec<DMatrix<f64>> {
+    let u = setup.uncertainty();
+    let sensitivity = Sensitivity::new(setup, &fit.unknowns);
+    let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let turn_on = data.repeats.turn_on_of_mean_deg_per_h();
+    let inputs: [(Basis, f64, Vec<Shared>); 3] = [
+        (estimates.platform, u.common_platform_rad, axes.map(Shared::Case).into()),
+        (estimates.base, u.common_base_rad, axes.map(Shared::Base).into()),
+        (estimates.turn_ons, turn_on, [0, 1].map(Shared::TurnOn).into()),
+    ];
+    let of_estimate = |estimate| match inputs.iter().find(|(basis, ..)| *basis == Basis::Estimate(estimate)) {
+        None => DMatrix::zeros(fit.model.rows(), 0),
+        Some((_, u, inputs)) => {
+            let mut columns = DMatrix::zeros(fit.model.rows(), inputs.len());
+            for (place, (whiten, current_ma)) in fit.whitening.iter().zip(&fit.currents_ma).enumerate() {
+                for (column, input) in inputs.iter().enumerate() {
+                    let change = whiten * sensitivity.to_shared(place, current_ma, input) * *u;
+                    columns.fixed_view_mut::<2, 1>(2 * place, column).copy_from(&change);
+                }
+            }
+            columns
+        }
+    };
+    (0..estimates.degrees_of_freedom.len()).map(of_estimate).collect()
+}
+
+#[cfg(all(test, feature = "monte-carlo"))]
+mod tests {
+    use super::*;
+    use crate::attitude::Deviation;
+    use crate::calibration::analytic::AnalyticMap;
+    use crate::calibration::inputs::{InputUncertainty, MeterUncertainty};
+    use crate::calibration::procedure::{Linearised, Options, linearise};
+    use crate::calibration::propagation::Propagation;
+    use crate::calibration::unknowns::{Model, Unknowns};
+    use crate::calibration::{Method, analytic, causes, readings::Readings};
+    use crate::coefficients::{EIGHT_POSITIONS, EarthRate, Position};
+    use crate::gyro::GyroType;
+    use crate::statistics::random::Stream;
+
+    /// Checks [`chi_square`] against r' C⁻ r by the pseudo-inverse of the residuals' covariance, for two methods.
+    #[test]
+    fn chi_square_is_that_of_the_residuals_of_any_method() {
+        let mut stream = Stream::new(1);
+        let uncertainty = InputUncertainty {
+            angles_rad: vec![[1e-5, 2e-5, 3e-5]; 8],
+            common_platform_rad: 2e-5,
+            latitude_rad: 3e-5,
+            level_rad: 2e-5,
+            azimuth_rad: 5e-5,
+            seating_rad: [3e-5; 3],
+            ..InputUncertainty::of_meter(MeterUncertainty {
+                reading: 1e-4,
+                floor_ma: 1e-6,
+                noise_ma: 0.0,
+                gain: 1e-4,
+                offset_ma: 1e-5,
+            })
+        };
+        let stand = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| {
+            let [alpha_rad, beta_rad, gamma_rad] = [(); 3].map(|()| stream.within(0.14));
+            Position { index, theta_deg, phi_deg, deviation: Deviation { alpha_rad, beta_rad, gamma_rad } }
+        });
+        let setup = Setup::new(&stand, EarthRate::at_astronomic_latitude(40.0), uncertainty).unwrap();
+        let gyro = GyroType::gvk_6().nominal.to_model();
+        let positions = &setup.coefficients().positions;
+        let mut currents: Vec<_> = positions.iter().map(|at| gyro.currents_ma(at).unwrap()).collect();
+        currents.iter_mut().for_each(|current| *current = current.map(|j| j * (1.0 + stream.within(2e-4))));
+        let each: Vec<_> = positions.iter().map(|at| at.index).zip(currents.clone()).collect();
+        let data = Data::new(&setup, &Readings::new(setup.coefficients(), &each).unwrap());
+        let fit = data.fit(&setup, Model::Paper).unwrap();
+        let ChiSquare { value: expected, degrees_of_freedom, .. } = chi_square(&setup, &fit, &data);
+        assert_eq!(degrees_of_freedom, 8);
+        let propagation = Propagation::new(&setup, &fit, &data);
+        let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma).unwrap();
+        let closed = analytic::solve(setup.coefficients(), &currents).unwrap().parameters;
+        let closed = Unknowns::of(closed);
+        let methods = [(fit.unknowns, propagation.least_squares()), (closed, propagation.analytic(&map).0)];
+        for (unknowns, spread) in methods {
+            let rows = positions.iter().zip(&currents).flat_map(|(at, j)| {
+                let misclosure = unknowns.misclosure(at, j);
+                [misclosure.x, misclosure.y]
+            });
+            let residuals = DVector::from_iterator(16, rows);
+            let left = &propagation.causes - &propagation.design * &spread;
+            let inverse = (&left * left.transpose()).pseudo_inverse(1e-14).unwrap();
+            let found = residuals.dot(&(inverse * &residuals));
+            assert!((found / expected - 1.0).abs() < 1e-3, "{found} {expected}");
+        }
+    }
+
+    /// Expected: tr P D and tr P D P D with P = C⁻¹ − C⁻¹ X (X' C⁻¹ X)⁻¹ X' C⁻¹ from dense matrices, where C is the sum of
+    /// all inputs and D of those on one estimate.
+    #[test]
+    fn parts_are_those_of_dense_matrices() {
+        let mut stream = Stream::new(5);
+        let uncertainty = InputUncertainty {
+            angles_rad: vec![[1e-5, 2e-5, 3e-5]; 8],
+            angles_degrees_of_freedom: vec![6.0; 8],
+            repeatability_rad: 2e-5,
+            repeatability_degrees_of_freedom: 18.0,
+            common_platform_rad: 2e-5,
+            common_platform_degrees_of_freedom: 3.0,
+            common_base_rad: 1e-5,
+            common_base_degrees_of_freedom: 4.0,
+            latitude_rad: 3e-5,
+            azimuth_rad: 5e-5,
+            seating_rad: [3e-5; 3],
+            ..InputUncertainty::of_meter(MeterUncertainty {
+                reading: 1e-4,
+                floor_ma: 1e-6,
+                noise_ma: 1e-6,
+                gain: 1e-4,
+                offset_ma: 1e-5,
+            })
+        };
+        let stand = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| {
+            let [alpha_rad, beta_rad, gamma_rad] = [(); 3].map(|()| stream.within(0.01));
+            Position { index, theta_deg, phi_deg, deviation: Deviation { alpha_rad, beta_rad, gamma_rad } }
+        });
+        let setup = Setup::new(&stand, EarthRate::at_astronomic_latitude(55.0), uncertainty).unwrap();
+        let gyro = GyroType::gvk_6().nominal.to_model();
+        let mut run = "cycle,i,j,jx_ma,jy_ma\n".to_owned();
+        for (cycle, count) in [(1, 8), (2, 8), (3, 5)] {
+            for at in setup.coefficients().positions.iter().take(count) {
+                let [x, y] = <[f64; 2]>::from(gyro.currents_ma(at).unwrap()).map(|j| j + stream.within(1e-4));
+                run += &format!("{cycle},{},{},{x},{y}\n", at.index.i, at.index.j);
+            }
+        }
+        let readings = Readings::from_csv("run.csv", run.as_bytes(), setup.coefficients(), 1000.0).unwrap();
+        for options in [Options::default(), Options { model: Model::General, ..Options::default() }] {
+            let Linearised { fit, repeats, offsets, .. } =
+                linearise(&setup, &readings, Method::LeastSquares, &options).unwrap();
+            let data = Data { currents_ma: readings.means_ma(), repeats, offsets };
+            let (_, parts) = quadratic_form(&setup, &fit, &data);
+            let estimates = Estimates::new(&setup, &data.repeats);
+            assert!(parts.len() >= 6, "angles, returns and noise, platform, base and turn-ons: {parts:?}");
+            let (inputs, columns) =
+                causes::inputs(&setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
+            let inverse = (&columns * columns.transpose()).try_inverse().unwrap();
+            let design = fit.design(&data.offsets);
+            let weighted = &inverse * &design;
+            let p = &inverse - &weighted * (design.tr_mul(&weighted)).try_inverse().unwrap() * weighted.transpose();
+            for (estimate, part) in parts.iter().enumerate() {
+                let mut of_estimate = DMatrix::zeros(design.nrows(), design.nrows());
+                for (input, column) in inputs.iter().zip(columns.column_iter()) {
+                    for (_, share) in input.basis.shares().filter(|(place, _)| *place == estimate) {
+                        of_estimate.ger(share, &column, &column, 1.0);
+                    }
+                }
+                let seen = &p * of_estimate;
+                let (trace, square) = (seen.trace(), (&seen * &seen).trace());
+                assert_eq!(part.degrees_of_freedom, estimates.degrees_of_freedom[estimate]);
+                // ω_0 absorbs the mean of the turn-ons, so nothing of it is left.
+                let is = |found: f64, expected: f64| (found - expected).abs() < 1e-7 * expected.abs().max(1e-5);
+                assert!(is(part.trace, trace), "{estimate}: {part:?} {trace}");
+                assert!(is(part.square, square), "{estimate}: {part:?} {square}");
+            }
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Mean currents of all positions with their errors as stated or observed, and fits to them.
+
+use super::inputs::Setup;
+use super::least_squares::{Fit, NoLeastSquares, SETTLED};
+use super::offsets::{Differences, Offsets};
+use super::readings::Readings;
+use super::repeats::Repeats;
+use super::scatter::Observed;
+use super::sensitivity::Sensitivity;
+use super::unknowns::{Model, Unknowns};
+use nalgebra::{Matrix2, Vector2};
+
+/// Number of repeated fits with differences of visits after which their change no longer matters; two or three do.
+const MOST_OBSERVATIONS: usize = 8;
+
+/// Relative change of turn-ons and drift from one fit to the next that does not matter.
+const SAME_OFFSET: f64 = 1e-12;
+
+/// Mean currents of all positions, the input of a fit.
+#[derive(Debug, Clone)]
+pub(crate) struct Data {
+    /// Mean currents (J_x, J_y), mA, in the order of the coefficients.
+    pub(crate) currents_ma: Vec<Vector2<f64>>,
+    /// Numbers of visits and readings behind each mean, and their scatter.
+    pub(crate) repeats: Repeats,
+    /// Drift that changes during the run.
+    pub(crate) offsets: Offsets,
+}
+
+/// The fit of a model, with the errors of visits, readings and turn-ons as observed.
+pub(crate) struct Observation {
+    pub(crate) data: Data,
+    pub(crate) fit: Fit,
+    pub(crate) seen: Observed,
+}
+
+impl Observation {
+    /// Fits with the errors as stated, updates them from their scatter, and fits again while that changes anything.
+    pub(crate) fn new(setup: &Setup, readings: &Readings, model: Model, drift: bool) -> Result<Self, NoLeastSquares> {
+        let mut data = Data::new(setup, readings);
+        let mut fit = data.fit(setup, model)?;
+        data.offsets = Offsets::new(readings, drift);
+        let stated = data.repeats.clone();
+        let differences = Differences::new(readings, &data.offsets);
+        let differences = differences.as_ref();
+        let mut seen = data.repeats.observe(setup, readings, differences, &mut data.offsets, &fit);
+        if data.repeats != stated || data.offsets.columns() > 0 {
+            fit = data.fit_again(setup, &fit)?;
+        }
+        // Differences of visits depend on K, which depends on them.
+        for _ in 0..MOST_OBSERVATIONS {
+            if data.offsets.columns() == 0 || data.offsets.rows.nrows() == 0 {
+                break;
+            }
+            let before = fit.changing.clone();
+            data.repeats = stated.clone();
+            seen = data.repeats.observe(setup, readings, differences, &mut data.offsets, &fit);
+            fit = data.fit_again(setup, &fit)?;
+            let u = fit.own_uncertainties_of_offsets();
+            let close = |((now, before), u): ((&f64, &f64), f64)| {
+                (now - before).abs() <= (SAME_OFFSET * before.abs()).max(SETTLED * u)
+            };
+            if fit.changing.iter().zip(&before).zip(u).all(close) {
+                break;
+            }
+        }
+        seen.turn_ons = data.repeats.observe_turn_ons(&data.offsets, &fit);
+        Ok(Self { data, fit, seen })
+    }
+}
+
+impl Data {
+    pub(crate) fn new(setup: &Setup, readings: &Readings) -> Self {
+        let (currents_ma, repeats) = (readings.means_ma(), Repeats::stated(setup, readings));
+        Self { currents_ma, repeats, offsets: Offsets::default() }
+    }
+
+    /// Returns a copy without position `place`.
+    pub(crate) fn without(&self, place: usize) -> Self {
+        let mut rest = self.clone();
+        rest.currents_ma.remove(place);
+        rest.repeats.shares.remove(place);
+        if place < rest.offsets.means.len() {
+            rest.offsets.means.remove(place);
+        }
+        rest
+    }
+
+    /// Returns a copy with the readings of two positions exchanged.
+    pub(crate) fn exchanged(&self, one: usize, other: usize) -> Self {
+        let mut exchanged = self.clone();
+        exchanged.currents_ma.swap(one, other);
+        exchanged.repeats.shares.swap(one, other);
+        if !exchanged.offsets.means.is_empty() {
+            exchanged.offsets.means.swap(one, other);
+        }
+        exchanged
+    }
+
+    /// Returns the weighted fit at `setup`.
+    pub(crate) fn fit(&self, setup: &Setup, model: Model) -> Result<Fit, NoLeastSquares> {
+        Fit::new(setup.coefficients(), &self.currents_ma, model, &self.offsets, self.own_covariance(setup))
+    }
+
+    /// Returns the weighted fit of the same model as `last`, which differs only by weights and offsets.
+    fn fit_again(&self, setup: &Setup, last: &Fit) -> Result<Fit, NoLeastSquares> {
+        last.again(setup.coefficients(), &self.currents_ma, &self.offsets, self.own_covariance(setup))
+    }
+
+    fn own_covariance(&self, setup: &Setup) -> impl Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64> {
+        |place, unknowns, current| Sensitivity::new(setup, unknowns).own_covariance(place, current, &self.repeats)
+    }
+}
