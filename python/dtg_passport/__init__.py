@@ -16,22 +16,28 @@ array([[1.20000e-03, 1.69235e+01],
 '10.0003 +- 0.0013 deg/h/g'
 """
 
-from ._calibration import Calibration, Parameters
+from ._calibration import Calibration, MonteCarlo, Parameters
+from ._factory import Issued, Plan, issue, plan
 from ._load import load, load_many, load_unverified, loads, verify
 from ._passport import Check, Passport, Position, Refused, SelfCheck, Verification
 
 __all__ = [
     "Calibration",
     "Check",
+    "Issued",
+    "MonteCarlo",
     "Parameters",
     "Passport",
+    "Plan",
     "Position",
     "Refused",
     "SelfCheck",
     "Verification",
+    "issue",
     "load",
     "load_many",
     "load_unverified",
     "loads",
+    "plan",
     "verify",
 ]

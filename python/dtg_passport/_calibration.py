@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
+import sys
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._common import Array, array, optional
+from ._common import Array, Frozen, array, frozen, optional
 
 NAMES = ("K_x", "K_xy", "K_yx", "K_y", "ω_0x", "ω_0y", "ω_g", "ω_k")
 """Order of the eight parameters."""
@@ -25,51 +28,70 @@ class Parameters(NamedTuple):
     """g-sensitive drift omega_k, deg/h per local g."""
 
 
-def _parameters(result: dict[str, Any]) -> Parameters:
+class MonteCarlo(NamedTuple):
+    """Distributions of the parameters by Monte Carlo (JCGM 101), in their units."""
+
+    mean: Parameters
+    """Means of the trials."""
+    u: Parameters
+    """Standard deviations of the trials."""
+    interval: tuple[Parameters, Parameters]
+    """Ends of the probabilistically symmetric 95 % coverage intervals."""
+    shortest: tuple[Parameters, Parameters]
+    """Ends of the shortest 95 % coverage intervals."""
+    covariance: Array
+    """Covariance of K_x, K_xy, K_yx, K_y, omega_0x, omega_0y, omega_g, omega_k, shape (8, 8)."""
+    trials: int
+    """Number of trials made."""
+    stable: bool
+    """Whether two digits of every uncertainty are stable."""
+    document: dict[str, Any]
+    """The whole result: the key `monte_carlo` of `calibrate --format json`."""
+
+
+def parameters(result: dict[str, Any]) -> Parameters:
+    """Return the parameters of a gyro from their keys."""
     return Parameters(
-        _frozen(result["k_deg_per_h_per_ma"], 2, 2),
-        _frozen(result["omega0_deg_per_h"], 2),
+        frozen(result["k_deg_per_h_per_ma"], 2, 2),
+        frozen(result["omega0_deg_per_h"], 2),
         result["omega_g_deg_per_h_per_g"],
         result["omega_k_deg_per_h_per_g"],
     )
 
 
-def _frozen(values: Any, *shape: int) -> Array:
-    return array(np.array(values, dtype=np.float64).tobytes(), *shape)
+def _eight(values: list[float]) -> Parameters:
+    return Parameters(frozen(values[:4], 2, 2), frozen(values[4:6], 2), *values[6:])
 
 
-class Calibration:
+class Calibration(Frozen):
     """Result of a calibration: parameters, their uncertainty, and the fit. It cannot be changed."""
 
-    __slots__ = ("_covariance", "_document", "_remarks", "_result")
+    __slots__ = ("_covariance", "_document", "_remarks", "_result", "_run")
     __module__ = "dtg_passport"
 
     _covariance: Array
     _document: dict[str, Any]
     _remarks: tuple[str, ...]
     _result: dict[str, Any]
+    _run: Callable[..., str]
 
-    def __init__(self, document: dict[str, Any], covariance: bytes, remarks: tuple[str, ...]) -> None:
+    def __init__(
+        self, document: dict[str, Any], covariance: bytes, remarks: tuple[str, ...], run: Callable[..., str]
+    ) -> None:
         """Calibrations are created by `Passport.calibrate`."""
-        values = (array(covariance, 8, 8), document, remarks, document["results"][0])
+        values = (array(covariance, 8, 8), document, remarks, document["results"][0], run)
         for name, value in zip(self.__slots__, values):
             object.__setattr__(self, name, value)
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"a calibration cannot be changed: {name}")
-
-    def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"a calibration cannot be changed: {name}")
 
     @property
     def parameters(self) -> Parameters:
         """The parameters K, omega_0, omega_g, omega_k."""
-        return _parameters(self._result)
+        return parameters(self._result)
 
     @property
     def u(self) -> Parameters:
         """Standard uncertainties of the parameters (k = 1), in their units."""
-        return _parameters(self._result["standard_uncertainty"])
+        return parameters(self._result["standard_uncertainty"])
 
     @property
     def K(self) -> Array:
@@ -117,12 +139,12 @@ class Calibration:
     @property
     def ij(self) -> Array:
         """Indices of the positions to which the rows of `residuals` belong, shape (N, 2)."""
-        return _frozen([[at["i"], at["j"]] for at in self._residuals], -1, 2)
+        return frozen([[at["i"], at["j"]] for at in self._residuals], -1, 2)
 
     @property
     def residuals(self) -> Array:
         """Residuals along x and y of each position, deg/h, shape (N, 2); no rows without degrees of freedom."""
-        return _frozen([[at["x"], at["y"]] for at in self._residuals], -1, 2)
+        return frozen([[at["x"], at["y"]] for at in self._residuals], -1, 2)
 
     @property
     def _residuals(self) -> list[dict[str, Any]]:
@@ -151,6 +173,80 @@ class Calibration:
         import copy
 
         return copy.deepcopy(self._document)
+
+    def monte_carlo(
+        self,
+        trials: int | None = None,
+        *,
+        seed: int = 1,
+        threads: int | None = None,
+        progress: Callable[[int, int], object] | bool | None = None,
+    ) -> MonteCarlo:
+        """Return the distributions of the parameters by Monte Carlo, as `calibrate --monte-carlo` does.
+
+        Parameters
+        ----------
+        trials
+            Number of trials, rounded up to a multiple of 16384. Default: until every digit is stable.
+        seed
+            Seed of the random numbers, which determines every bit of the result.
+        threads
+            Number of threads. Default: one for each processor. They do not hold Python's global lock.
+        progress
+            Function that is called with the number of trials done and the number due as far as it is known; True for a
+            bar of the package `tqdm`, False for none. Default: a bar if tqdm is installed and standard error is a
+            terminal. An exception of the function ends the run, as Ctrl-C does.
+
+        Returns
+        -------
+        MonteCarlo
+            Means, standard uncertainties, 95 % coverage intervals and covariance.
+
+        Raises
+        ------
+        KeyboardInterrupt
+            If Ctrl-C ended the run.
+        ValueError
+            If an argument cannot be used.
+
+        Examples
+        --------
+        >>> from dtg_passport import load
+        >>> passport = load("passports/SPS-2/0017/moscow-bmstu-1.yaml", "docs/allowed_signers", time="2026-11-20")
+        >>> found = passport.calibrate("docs/currents.csv").monte_carlo(100_000, seed=7)
+        >>> found.trials
+        114688
+        >>> low, high = found.interval
+        >>> f"{low.omega_g:.3f} to {high.omega_g:.3f} deg/h/g"
+        '9.998 to 10.003 deg/h/g'
+        """
+        for name, value, least in (("trials", trials, 1), ("seed", seed, 0), ("threads", threads, 1)):
+            if value is not None and value < least:
+                raise ValueError(f"{name}: found {value}, expected a whole number from {least}")
+        bar = None
+        if progress is True or (progress is None and sys.stderr is not None and sys.stderr.isatty()):
+            try:
+                bar = optional("tqdm.auto", "progress").tqdm(unit=" trials", unit_scale=True)
+            except ImportError:
+                if progress:
+                    raise
+
+        def draw(done: int, due: int) -> None:
+            if bar is not None:
+                bar.total = due
+                bar.update(done - bar.n)
+
+        try:
+            found = json.loads(self._run(trials, seed, threads, progress if callable(progress) else draw))
+        finally:
+            if bar is not None:
+                bar.close()
+        each = found["parameters"]
+        mean, u = (_eight([at[key] for at in each]) for key in ("mean", "standard_uncertainty"))
+        low, high = (_eight([at["symmetric_interval"][end] for at in each]) for end in (0, 1))
+        left, right = (_eight([at["shortest_interval"][end] for at in each]) for end in (0, 1))
+        covariance = frozen(found["covariance"], 8, 8)
+        return MonteCarlo(mean, u, (low, high), (left, right), covariance, found["trials"], found["stable"], found)
 
     def ufloats(self) -> dict[str, Any]:
         """Return the parameters as correlated numbers of the package `uncertainties`, by name.

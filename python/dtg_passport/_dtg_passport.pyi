@@ -1,10 +1,12 @@
 """Types of the compiled part, which converts types and calls the Rust library."""
 
+from collections.abc import Callable
 from typing import final
 
-__all__ = ["Answer", "Content", "Enquiry", "currents_csv"]
+__all__ = ["Answer", "Content", "Enquiry", "currents_csv", "issue", "plan"]
 
 _File = tuple[str, bytes]
+_Files = tuple[_File | None, _File | None]
 _Check = tuple[str, bool | None, str, str]
 
 @final
@@ -41,8 +43,29 @@ class Content:
     def json(self) -> str: ...
     def array(self, name: str) -> bytes: ...
     def calibrate(
-        self, currents: _File, method: str, laboratory: _File | None, gyro: _File | None
+        self, currents: _File, method: str, files: _Files
     ) -> tuple[str, bytes, list[str]]: ...
+    def monte_carlo(
+        self,
+        currents: _File,
+        method: str,
+        files: _Files,
+        trials: int | None,
+        seed: int,
+        threads: int | None,
+        progress: Callable[[int, int], object] | None,
+    ) -> str: ...
     def self_check_errors(self, found: list[float]) -> tuple[list[float], float]: ...
 
 def currents_csv(rows: list[list[float]]) -> bytes: ...
+def issue(
+    stand: _File,
+    site: _File,
+    order: str,
+    accuracy: _Files | None,
+    key: str,
+    passphrase: str | None,
+    signers: _File | None,
+    out: str,
+) -> tuple[str, str, str, bool, list[str]]: ...
+def plan(site: _File, stand: _File | None, files: _Files, question: str) -> str: ...

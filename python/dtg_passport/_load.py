@@ -10,7 +10,7 @@ import warnings
 from collections.abc import Iterable, Iterator
 
 from . import _dtg_passport
-from ._common import Path, named
+from ._common import Path, moment, named
 from ._passport import Passport, Refused, Verification, checks_of
 
 # Passports verified at a time by load_many: enough work for the threads, little memory.
@@ -26,23 +26,19 @@ def _enquiry(
     revoked: Path | bytes | Iterable[Path | bytes],
     register: Path | None,
 ) -> _dtg_passport.Enquiry:
-    if isinstance(time, datetime.datetime):
-        time = time.isoformat(timespec="seconds")
-    elif isinstance(time, datetime.date):
-        time = time.isoformat()
     if isinstance(revoked, (str, bytes, os.PathLike)):
         revoked = (revoked,)
     lists = [("revoked", one) if isinstance(one, bytes) else named(one) for one in revoked]
     place = None if at is None else [float(degrees) for degrees in at]
-    question = json.dumps({"serial": serial, "at": place, "time": time, "issuer": issuer})
+    question = json.dumps({"serial": serial, "at": place, "time": moment(time), "issuer": issuer})
     folder = None if register is None else os.fspath(register)
-    enquiry = _dtg_passport.Enquiry(_signers(trust), lists, question, folder)
+    enquiry = _dtg_passport.Enquiry(signers(trust), lists, question, folder)
     for remark in enquiry.remarks():
         warnings.warn(remark, stacklevel=3)
     return enquiry
 
 
-def _signers(trust: Path | bytes) -> tuple[str, bytes]:
+def signers(trust: Path | bytes) -> tuple[str, bytes]:
     """Return the name and the content of allowed_signers, given as a path or as text.
 
     Every line of it has the base64 of a key, which begins with AAAA after a space. No path of a file looks like that.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 from collections.abc import Callable, Mapping, Sequence
@@ -13,7 +14,7 @@ import numpy.typing as npt
 
 from . import _dtg_passport
 from ._calibration import NAMES, Calibration, Parameters
-from ._common import Array, Path, array, named, optional
+from ._common import Array, File, Frozen, array, documents, named, optional
 
 UNITS: Mapping[str, str] = MappingProxyType(
     {
@@ -108,7 +109,7 @@ class SelfCheck(NamedTuple):
     """Largest permitted error."""
 
 
-class Passport:
+class Passport(Frozen):
     """A passport. Its numbers are those that were signed, to the last bit, and cannot be changed.
 
     Arrays are float64 and read-only. What the passport does not state is NaN. Rows belong to the positions in the order
@@ -125,12 +126,6 @@ class Passport:
         """Passports are created by `load` and its siblings, from an answer or, unverified, with the SHA-256 alone."""
         object.__setattr__(self, "_content", content)
         object.__setattr__(self, "_source", source)
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"a passport cannot be changed: {name}")
-
-    def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"a passport cannot be changed: {name}")
 
     @property
     def id(self) -> str:
@@ -253,8 +248,8 @@ class Passport:
         self,
         currents: object,
         *,
-        laboratory: Path | None = None,
-        gyro: Path | None = None,
+        laboratory: File | None = None,
+        gyro: File | None = None,
         method: str = "least-squares",
     ) -> Calibration:
         """Calibrate a gyro from its currents in every position.
@@ -265,9 +260,9 @@ class Passport:
             Path of a CSV file, a DataFrame or a mapping of columns (`i`, `j`, `jx_ma`, `jy_ma`, and if present
             `cycle`, `visit`, `time_s`), or an array of shape (N, 4) with rows i, j, jx_ma, jy_ma. Currents in mA.
         laboratory
-            Path of a laboratory file, `dtg-laboratory/1`. Default: the paper's meter, 0.015 %.
+            Laboratory, `dtg-laboratory/1`: path of the file, or a mapping. Default: the paper's meter, 0.015 %.
         gyro
-            Path of a gyro type file, `dtg-gyro/1`, for the verdict.
+            Gyro type, `dtg-gyro/1`, for the verdict: path of the file, or a mapping.
         method
             `least-squares`, `analytic` or `iterative`.
 
@@ -292,9 +287,10 @@ class Passport:
         >>> found.verdict["overall"]
         'undecided'
         """
-        files = [None if path is None else named(path) for path in (laboratory, gyro)]
-        text, covariance, remarks = self._content.calibrate(_csv(currents), method, *files)
-        return Calibration(json.loads(text), covariance, tuple(remarks))
+        inputs = (_csv(currents), method, documents(gyro, laboratory))
+        text, covariance, remarks = self._content.calibrate(*inputs)
+        run = functools.partial(self._content.monte_carlo, *inputs)
+        return Calibration(json.loads(text), covariance, tuple(remarks), run)
 
     def self_check(self, function: Callable[[Passport, Array], Calibration | Sequence[npt.ArrayLike]]) -> SelfCheck:
         """Test laboratory software with the self-check of this passport.

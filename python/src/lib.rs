@@ -6,10 +6,14 @@ use dtg_passport::interface::{self, Failed};
 use dtg_passport::jiff::Timestamp;
 use dtg_passport::laboratory::Laboratory;
 use dtg_passport::passport::{Content as Passport, SelfCheck, content_from_anyone};
+use dtg_passport::signing::{KeyFileError, signer};
+use dtg_passport::uncertainty::Trials;
 use pyo3::exceptions::{PyIsADirectoryError, PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 /// Name and content of a file.
 type File = (String, Vec<u8>);
@@ -17,8 +21,27 @@ type File = (String, Vec<u8>);
 /// Name, result, code and detail of a check.
 type Check = (&'static str, Option<bool>, &'static str, String);
 
+/// Gyro type and laboratory.
+type Files = (Option<File>, Option<File>);
+
 fn failed(error: Failed) -> PyErr {
-    PyValueError::new_err(error.message)
+    match error.code {
+        "unwritable" | "exists" => PyOSError::new_err(error.message),
+        _ => PyValueError::new_err(error.message),
+    }
+}
+
+/// Returns a file as the library takes it.
+fn given((name, bytes): &File) -> (&str, &[u8]) {
+    (name, bytes)
+}
+
+/// Reads a gyro type and a laboratory.
+fn read((gyro, laboratory): Files) -> PyResult<(Option<GyroType>, Option<Laboratory>)> {
+    let unreadable = |error: dtg_passport::text::Unreadable| failed(error.into());
+    let gyro = gyro.map(|(name, bytes)| GyroType::from_yaml(&name, &bytes)).transpose();
+    let laboratory = laboratory.map(|(name, bytes)| Laboratory::from_yaml(&name, &bytes)).transpose();
+    Ok((gyro.map_err(unreadable)?, laboratory.map_err(unreadable)?))
 }
 
 /// Converts an error of a file to the subclass of OSError that Python users expect.
@@ -55,7 +78,7 @@ impl Enquiry {
     }
 
     fn remarks(&self) -> Vec<String> {
-        self.0.remarks().to_vec()
+        self.0.remarks.clone()
     }
 
     fn verify(&self, py: Python, file: &str, data: &[u8]) -> Answer {
@@ -161,20 +184,51 @@ impl Content {
         py: Python<'py>,
         currents: File,
         method: &str,
-        laboratory: Option<File>,
-        gyro: Option<File>,
+        files: Files,
     ) -> PyResult<(String, Bound<'py, PyBytes>, Vec<String>)> {
-        let unreadable = |error: dtg_passport::text::Unreadable| failed(error.into());
-        let laboratory = laboratory.map(|(name, bytes)| Laboratory::from_yaml(&name, &bytes)).transpose();
-        let gyro = gyro.map(|(name, bytes)| GyroType::from_yaml(&name, &bytes)).transpose();
-        let (laboratory, gyro) = (laboratory.map_err(unreadable)?, gyro.map_err(unreadable)?);
-        let currents = (currents.0.as_str(), currents.1.as_slice());
+        let (gyro, laboratory) = read(files)?;
         let (passport, verified) = (&self.passport, self.verified);
-        let found = py
-            .detach(|| interface::calibrate(passport, verified, currents, method, laboratory.as_ref(), gyro.as_ref()));
+        let found = py.detach(|| {
+            interface::calibrate(passport, verified, given(&currents), method, laboratory.as_ref(), gyro.as_ref())
+        });
         let found = found.map_err(failed)?;
         let covariance: Vec<u8> = found.covariance.into_iter().flatten().flat_map(f64::to_ne_bytes).collect();
         Ok((found.json, PyBytes::new(py, &covariance), found.remarks))
+    }
+
+    /// Returns the JSON of a Monte Carlo. Between the waves of trials `progress` is called, and signals are handled; an
+    /// exception of either ends the run.
+    #[expect(clippy::too_many_arguments)]
+    fn monte_carlo(
+        &self,
+        py: Python,
+        currents: File,
+        method: &str,
+        files: Files,
+        trials: Option<u64>,
+        seed: u64,
+        threads: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<String> {
+        let (gyro, laboratory) = read(files)?;
+        let (cancel, raised) = (AtomicBool::new(false), Mutex::new(None));
+        let tell = |done: u64, due: u64| {
+            let told = Python::attach(|py| {
+                py.check_signals()?;
+                progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (done, due)).map(drop))
+            });
+            if let Err(error) = told {
+                cancel.store(true, Ordering::Relaxed);
+                *raised.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
+            }
+        };
+        let mut run = Trials { trials, cancel: Some(&cancel), progress: Some(&tell), ..Trials::adaptive(seed) };
+        run.threads = threads.unwrap_or(run.threads);
+        let (laboratory, gyro, passport) = (laboratory.as_ref(), gyro.as_ref(), &self.passport);
+        let found = py
+            .detach(|| interface::monte_carlo(passport, given(&currents), method, laboratory, gyro, &run))
+            .map_err(failed);
+        raised.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(found, Err)
     }
 
     /// Returns the relative error of each of the eight parameters found from the currents of the self-check, and the
@@ -233,8 +287,48 @@ fn currents_csv(rows: Vec<[f64; 4]>) -> Vec<u8> {
     interface::currents_csv(&rows)
 }
 
+/// Issues a passport; `accuracy` is a gyro type and a laboratory. Returns its id, path and SHA-256, whether it is new, and
+/// remarks.
+#[pyfunction]
+#[expect(clippy::too_many_arguments)]
+fn issue(
+    py: Python,
+    stand: File,
+    site: File,
+    order: &str,
+    accuracy: Option<Files>,
+    key: PathBuf,
+    passphrase: Option<String>,
+    signers: Option<File>,
+    out: PathBuf,
+) -> PyResult<(String, PathBuf, String, bool, Vec<String>)> {
+    let accuracy = accuracy.as_ref().map(|(gyro, laboratory)| [gyro, laboratory].map(|file| file.as_ref().map(given)));
+    let ask = |_: &std::path::Path| {
+        let words = || "give its passphrase, or set DTG_PASSPORT_PASSPHRASE".to_owned();
+        passphrase.clone().map(Into::into).ok_or_else(words)
+    };
+    let issued = py.detach(|| {
+        let signer = signer(&key, &ask).map_err(Err)?;
+        let (files, signers) = ([given(&stand), given(&site)], signers.as_ref().map(given));
+        interface::issue(files, order, accuracy, &*signer, signers, &out, Timestamp::now()).map_err(Ok)
+    });
+    let (issued, remarks) = issued.map_err(|error| match error {
+        Ok(error) => failed(error),
+        Err(KeyFileError::File(error)) => os_error(py, &error),
+        Err(error) => PyValueError::new_err(error.to_string()),
+    })?;
+    Ok((issued.id, issued.path, issued.sha256, issued.new, remarks))
+}
+
+/// Returns the JSON of `plan`.
+#[pyfunction]
+fn plan(py: Python, site: File, stand: Option<File>, files: Files, question: &str) -> PyResult<String> {
+    let [stand, gyro, laboratory] = [&stand, &files.0, &files.1].map(|file| file.as_ref().map(given));
+    py.detach(|| interface::plan(given(&site), stand, gyro, laboratory, question)).map_err(failed)
+}
+
 #[pymodule]
 mod _dtg_passport {
     #[pymodule_export]
-    use super::{Answer, Content, Enquiry, currents_csv};
+    use super::{Answer, Content, Enquiry, currents_csv, issue, plan};
 }

@@ -10,7 +10,7 @@ use crate::files::{self, Durability};
 use crate::folder::{Folder, Seal};
 use crate::parallel;
 use crate::passport::{NAMESPACE, Trust};
-use crate::report::issued::{Form, Report, Reports, Told, failure, warnings};
+use crate::report::issued::{Form, Report, Reports, Told, failure};
 use crate::text::{LARGEST_DOCUMENT_BYTES, shown};
 use crate::trust::{AllowedSigners, NotAuthorised, PublicKey};
 use clap::Args;
@@ -154,10 +154,10 @@ impl Reporter {
         match outcome {
             // The remarks on an identical existing passport were printed when it was issued.
             Outcome::There(issued) if issued.new => {
-                warnings(&issued.remarks).into_iter().for_each(|words| self.told.add(&issued.id, words));
+                issued.remarks.words().into_iter().for_each(|words| self.told.add(&issued.id, words));
             }
             Outcome::Planned(planned) => {
-                warnings(&planned.remarks).into_iter().for_each(|words| self.told.add(&planned.id, words));
+                planned.remarks.words().into_iter().for_each(|words| self.told.add(&planned.id, words));
             }
             Outcome::There(_) | Outcome::Skipped { .. } => {}
             Outcome::Failed(failed) => {

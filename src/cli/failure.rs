@@ -6,12 +6,10 @@ use crate::interface::calibrated::Stopped;
 use crate::interface::{self, CheckLine, Failed, Place};
 use crate::passport::Verification;
 use crate::report::{style, verdict};
-use crate::text::{Unreadable, name_of};
+use crate::text::Unreadable;
 
-/// Codes of failures in JSON, besides those of the library and of a passport's checks.
+/// Code of a failure in JSON, besides those of the library and of a passport's checks.
 const USAGE: &str = "usage";
-const UNWRITABLE: &str = "unwritable";
-const EXISTS: &str = "exists";
 
 /// A failure that ends a verb at once: a message and an exit code.
 #[derive(Debug)]
@@ -45,14 +43,9 @@ impl Failure {
 
     /// Converts an error of a file: an existing file is a refusal, any other error is not.
     pub(super) fn file(error: FileError) -> Self {
-        let (code, kind) = match error {
-            FileError::Exists { .. } => (REFUSED, EXISTS),
-            FileError::Write { .. } => (UNUSABLE, UNWRITABLE),
-            _ => (UNUSABLE, interface::UNREADABLE),
-        };
-        let message = error.with_nearest();
-        let place = Place::file(name_of(error.path()), message.clone());
-        Self::new(message, code, kind, vec![place])
+        let failed = Failed::from(error);
+        let code = if failed.code == interface::EXISTS { REFUSED } else { UNUSABLE };
+        Self { message: failed.message.clone(), code, failed }
     }
 
     /// Creates the failure for a file with mistakes; the message includes their lines.

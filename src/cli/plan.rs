@@ -80,7 +80,7 @@ fn angles(text: &str) -> Result<Angles, String> {
         return Ok(Angles::Quadrants);
     }
     let step = text.parse().ok().and_then(Angles::every);
-    step.ok_or_else(|| "quadrants, or a step from 10 to 180 degrees that divides 360".to_owned())
+    step.ok_or_else(|| format!("quadrants, or {}", Angles::EXPECTED))
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {

@@ -10,7 +10,7 @@ use crate::certification::Header;
 use crate::files;
 use crate::folder::Seal;
 use crate::passport::issue::time_of_issue;
-use crate::report::issued::{Told, warnings};
+use crate::report::issued::Told;
 use crate::report::recertification as report;
 use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, name_of};
 use clap::Args;
@@ -111,7 +111,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     let mut told = Told::default();
     for issued in found.new_passports() {
-        warnings(&issued.remarks).into_iter().for_each(|words| told.add(&issued.id, words));
+        issued.remarks.words().into_iter().for_each(|words| told.add(&issued.id, words));
     }
     told.lines().iter().for_each(|line| output::say(line));
     Ok(0)

@@ -3,12 +3,12 @@
 use super::{Failure, long_run, output};
 use crate::calibration::{Calibration, Method, Model, Options as CalibrationOptions, Readings, Setup};
 use crate::gyro::Tolerance;
+use crate::interface::calibrated::distributions;
 use crate::report::{budget as budget_report, monte_carlo as monte_carlo_report, picture};
 use crate::uncertainty::document::{BudgetDocument, MonteCarloDocument};
 use crate::uncertainty::dominant::Dominant;
-use crate::uncertainty::engine::{Engine, ReadingShape};
 use crate::uncertainty::monte_carlo::Trials;
-use crate::uncertainty::{Budget, MonteCarlo, monte_carlo};
+use crate::uncertainty::{Budget, MonteCarlo};
 use clap::Args;
 use indicatif::HumanDuration;
 use std::path::PathBuf;
@@ -120,7 +120,6 @@ impl UncertaintyOptions {
 
     /// Runs the trials with a progress bar on a terminal. Ctrl-C ends them with the trials completed so far.
     fn trials(&self, setup: &Setup, readings: &Readings, budget: &Budget) -> Result<MonteCarlo, Failure> {
-        let engine = Engine::new(setup, readings, budget.method, ReadingShape::Normal).map_err(Failure::refused)?;
         let cancel = long_run::cancelled_by_ctrl_c()?;
         let bar = long_run::bar(self.trials.unwrap_or(0), long_run::TRIALS)?;
         let (start, told) = (Instant::now(), AtomicBool::new(false));
@@ -141,11 +140,9 @@ impl UncertaintyOptions {
         if let Some(threads) = self.threads {
             run.threads = threads as usize;
         }
-        let found = monte_carlo(&engine, budget, &run);
+        let found = distributions(setup, readings, budget, &run);
         bar.finish_and_clear();
-        if found.trials == 0 {
-            return Err(Failure::refused("interrupted before the first trial was completed"));
-        }
+        let found = found.map_err(Failure::refused)?;
         long_run::report_interruption(&cancel);
         Ok(found)
     }

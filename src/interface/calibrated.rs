@@ -12,6 +12,10 @@ use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::text::{Unreadable, printable};
+#[cfg(feature = "monte-carlo")]
+use crate::uncertainty::document::MonteCarloDocument;
+#[cfg(feature = "monte-carlo")]
+use crate::uncertainty::{self, Budget, Engine, MonteCarlo, ReadingShape, Trials};
 
 /// Result of a calibration by one method.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,13 +45,8 @@ pub fn calibrate(
     laboratory: Option<&Laboratory>,
     gyro_type: Option<&GyroType>,
 ) -> Result<Calibrated, Failed> {
-    let known = Method::ALL.iter().copied().find(|known| known.key() == method);
-    let names = Method::ALL.map(Method::key).join(", ");
-    let method = known.ok_or_else(|| Failed::unusable(format!("method {method:?}, expected one of {names}")))?;
-    let paper = Laboratory::paper();
-    let laboratory = laboratory.unwrap_or(&paper);
-    let prepared = Prepared::new(content, laboratory, gyro_type, (name, currents))?;
-    let options = Options { methods: vec![method], ..Options::default() };
+    let (paper, options) = (Laboratory::paper(), by(method)?);
+    let prepared = Prepared::new(content, laboratory.unwrap_or(&paper), gyro_type, (name, currents))?;
     let mut remarks: Vec<String> = prepared.readings.remark().map(str::to_owned).into_iter().collect();
     let done = prepared.run(&options, verified, Subject::default(), &[])?;
     remarks.extend(done.warning);
@@ -57,6 +56,57 @@ pub fn calibrate(
     let covariance = |row, column| result.covariance.get((place(row), place(column))).copied().unwrap_or(f64::NAN);
     let covariance = std::array::from_fn(|row| std::array::from_fn(|column| covariance(row, column)));
     Ok(Calibrated { json: json(&done.document), covariance, remarks })
+}
+
+/// Returns the options of a calibration by one method.
+fn by(method: &str) -> Result<Options, Failed> {
+    let known = Method::ALL.iter().copied().find(|known| known.key() == method);
+    let names = Method::ALL.map(Method::key).join(", ");
+    let method = known.ok_or_else(|| Failed::unusable(format!("method {method:?}, expected one of {names}")))?;
+    Ok(Options { methods: vec![method], ..Options::default() })
+}
+
+/// Returns the distributions of the parameters by Monte Carlo (JCGM 101), as the key `monte_carlo` of `calibrate`.
+///
+/// The inputs are those of [`calibrate`]. A seed gives the same numbers on any number of threads.
+///
+/// # Errors
+/// Returns the errors of [`calibrate`], and [`Failed`] if the run was cancelled before its first trials were complete.
+#[cfg(feature = "monte-carlo")]
+pub fn monte_carlo(
+    content: &Content,
+    currents: (&str, &[u8]),
+    method: &str,
+    laboratory: Option<&Laboratory>,
+    gyro_type: Option<&GyroType>,
+    run: &Trials,
+) -> Result<String, Failed> {
+    let (paper, options) = (Laboratory::paper(), by(method)?);
+    let prepared = Prepared::new(content, laboratory.unwrap_or(&paper), gyro_type, currents)?;
+    let Done { setup, readings, calibration, .. } = prepared.run(&options, true, Subject::default(), &[])?;
+    let method = calibration.answer().map_or(Method::LeastSquares, |answer| answer.method);
+    let budget = Budget::new(&setup, &readings, method, &options).map_err(Failed::refused)?;
+    Ok(json(&MonteCarloDocument::new(&distributions(&setup, &readings, &budget, run)?)))
+}
+
+/// Runs the trials of a calibration.
+///
+/// # Errors
+/// Returns [`Failed`] if the method does not suit the readings, or if the run was cancelled before its first trials were
+/// complete.
+#[cfg(feature = "monte-carlo")]
+pub(crate) fn distributions(
+    setup: &Setup,
+    readings: &Readings,
+    budget: &Budget,
+    run: &Trials,
+) -> Result<MonteCarlo, Failed> {
+    let engine = Engine::new(setup, readings, budget.method, ReadingShape::Normal).map_err(Failed::refused)?;
+    let found = uncertainty::monte_carlo(&engine, budget, run);
+    if found.trials == 0 {
+        return Err(Failed::refused("interrupted before the first trial was completed"));
+    }
+    Ok(found)
 }
 
 /// Reason why a calibration has no result.

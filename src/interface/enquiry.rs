@@ -22,10 +22,13 @@ use std::path::{Path, PathBuf};
 /// Trusted keys and the question to verify passports for.
 #[derive(Debug)]
 pub struct Enquiry {
-    trust: Trust,
-    question: Question,
+    /// Trusted keys, without what is revoked.
+    pub trust: Trust,
+    /// Question to verify passports for.
+    pub question: Question,
+    /// What the user should know about the revocation lists and the register, a sentence each.
+    pub remarks: Vec<String>,
     register: Option<Register>,
-    remarks: Vec<String>,
 }
 
 /// Answer on one passport.
@@ -112,21 +115,6 @@ impl Enquiry {
         let mut remarks = self.remarks;
         remarks.extend(register.alarms.iter().map(ToString::to_string));
         Ok(Self { trust, register: Some(register), remarks, ..self })
-    }
-
-    /// Returns whom the enquiry trusts.
-    pub fn trust(&self) -> &Trust {
-        &self.trust
-    }
-
-    /// Returns what the enquiry asks.
-    pub fn question(&self) -> &Question {
-        &self.question
-    }
-
-    /// Returns what the user should know about the revocation lists and the register, a sentence each.
-    pub fn remarks(&self) -> &[String] {
-        &self.remarks
     }
 
     /// Verifies the bytes of a passport; `file` is the file name in messages.

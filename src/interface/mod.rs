@@ -4,7 +4,8 @@
 //! checks and computes the same numbers to the bit.
 //!
 //! * [`Enquiry`]: whom to trust and what to ask, and the verification of many passports.
-//! * [`calibrate`]: currents to the parameters of a gyro.
+//! * [`calibrate`]: currents to the parameters of a gyro; `monte_carlo` (with `monte-carlo`): their distributions.
+//! * `issue` (with `factory`), `plan` (with `monte-carlo` too): a signed passport; the best positions.
 //! * [`Failed`]: refusals as JSON.
 //!
 //! ```
@@ -26,11 +27,25 @@
 
 pub(crate) mod calibrated;
 pub(crate) mod enquiry;
+#[cfg(feature = "factory")]
+mod issued;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod planned;
 
+#[cfg(feature = "monte-carlo")]
+pub use calibrated::monte_carlo;
 pub use calibrated::{Calibrated, calibrate, currents_csv};
 pub use enquiry::{Answer, Enquiry};
+#[cfg(feature = "factory")]
+pub use issued::issue;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+pub use planned::plan;
 
+#[cfg(feature = "factory")]
+use crate::files::FileError;
 use crate::passport::{Content, Verification};
+#[cfg(feature = "factory")]
+use crate::text::name_of;
 use crate::text::{Problem, Unreadable, printable};
 use serde::Serialize;
 
@@ -38,13 +53,15 @@ use serde::Serialize;
 pub(crate) const REFUSED: &str = "refused";
 pub(crate) const UNREADABLE: &str = "unreadable";
 pub(crate) const UNUSABLE: &str = "unusable";
+pub(crate) const UNWRITABLE: &str = "unwritable";
+pub(crate) const EXISTS: &str = "exists";
 
 /// Refusal, or input that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize)]
 #[error("{message}")]
 pub struct Failed {
     /// Kind of failure: `refused` if a document or a result is refused; `unreadable` or `unusable` if an input cannot
-    /// be used. The program has further ones.
+    /// be used; `unwritable` or `exists` if a file cannot be written. The program has further ones.
     pub code: &'static str,
     /// Message, which may have several lines.
     pub message: String,
@@ -112,6 +129,20 @@ impl Failed {
 impl From<Unreadable> for Failed {
     fn from(error: Unreadable) -> Self {
         Self::new(UNREADABLE, error.with_lines(""), Place::each(&error))
+    }
+}
+
+#[cfg(feature = "factory")]
+impl From<FileError> for Failed {
+    fn from(error: FileError) -> Self {
+        let code = match error {
+            FileError::Exists { .. } => EXISTS,
+            FileError::Write { .. } => UNWRITABLE,
+            _ => UNREADABLE,
+        };
+        let message = error.with_nearest();
+        let place = Place::file(name_of(error.path()), message.clone());
+        Self::new(code, message, vec![place])
     }
 }
 

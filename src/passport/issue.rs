@@ -1,8 +1,10 @@
 //! Issue of a signed passport from a certified stand and a site.
 
 mod refused;
+mod remarks;
 
 pub use refused::IssueRefused;
+pub use remarks::Remarks;
 
 use super::accuracy::Stated;
 use super::annotations::{self, absences};
@@ -10,7 +12,7 @@ use super::content::{
     Content, Header, PASSPORT_FORMAT, Predecessor, REFERENCE_GYRO, SelfCheck, derive_from, passport_id,
 };
 use super::{NAMESPACE, read};
-use crate::calibration::prediction::{NoiseGrowth, noise_growth};
+use crate::calibration::prediction::noise_growth;
 use crate::coefficients::{SingularPositions, StandGeometry};
 use crate::document::{Signer, join};
 use crate::gyro::GyroType;
@@ -26,9 +28,6 @@ use jiff::civil::Date;
 /// Upper limit for the size of an armored signature, bytes. Usual signatures need a quarter of it; those of tokens,
 /// which include an application string, need more, but less than the limit.
 const LONGEST_SIGNATURE: usize = 2000;
-
-/// Noise growth relative to the ideal stand from which the factory is warned.
-pub(crate) const NOISE_WARNING: f64 = 2.0;
 
 /// Link from a re-issued passport to its predecessor.
 #[derive(Debug, Clone, PartialEq)]
@@ -267,19 +266,6 @@ impl Draft {
         let odd = odd.iter().map(ToString::to_string).collect();
         Remarks { noise, uncertainty_growth: content.site.uncertainty_growth(), odd, absences: absences(content) }
     }
-}
-
-/// Remarks for the factory to read before it delivers a passport.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Remarks {
-    /// Noise relative to the ideal stand; `None` if the positions do not determine all parameters.
-    pub(crate) noise: Option<NoiseGrowth>,
-    /// Growth of the uncertainty with latitude, 1/cos Φ.
-    pub uncertainty_growth: f64,
-    /// Implausible statements of the certificate, one sentence each.
-    pub odd: Vec<String>,
-    /// Missing statements and their effects, one sentence each.
-    pub absences: Vec<String>,
 }
 
 #[cfg(all(test, feature = "factory"))]

@@ -36,6 +36,9 @@ const SMALLEST_STEP_DEG: f64 = 10.0;
 const FIRST_OF_GRID: u32 = 1001;
 
 impl Angles {
+    /// Form of a step in words.
+    pub(crate) const EXPECTED: &str = "a step from 10 to 180 degrees that divides 360";
+
     /// Returns the multiples of `step_deg`, or `None` if it does not divide a full circle or is less than 10°.
     pub(crate) fn every(step_deg: f64) -> Option<Self> {
         let is_usable = (SMALLEST_STEP_DEG..=180.0).contains(&step_deg) && (360.0 / step_deg).fract() == 0.0;

@@ -35,6 +35,9 @@ impl Display for Criterion {
 }
 
 impl Criterion {
+    /// All criteria.
+    pub(crate) const ALL: [Self; 3] = [Self::A, Self::D, Self::Worst];
+
     /// Returns the value for the information matrix `information` in units of the tolerances; `turn_on` is the variance
     /// that the scatter of turn-ons adds to ω_0x and ω_0y. Returns infinity if a parameter is not determined.
     pub(crate) fn value(self, information: &Symmetric, turn_on: f64) -> f64 {

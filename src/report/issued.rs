@@ -1,4 +1,4 @@
-//! Reports of the orders of a batch, and warnings for the factory before it delivers the passports.
+//! Reports of the orders of a batch.
 //!
 //! Reports are written one after the other, so that not all are held in memory. For a few orders the text is complete;
 //! for many it contains only the failures and a summary.
@@ -7,14 +7,11 @@ use super::columns::csv_row;
 use crate::batch::{Failure, Outcome};
 use crate::calibration::prediction::NoiseGrowth;
 use crate::folder::Issued;
-use crate::passport::issue::{NOISE_WARNING, Remarks};
+use crate::passport::issue::Remarks;
 use crate::text::printable::json;
 use crate::text::{Printable, name_of, printable};
 use serde::Serialize;
 use std::fmt::Write;
-
-/// Growth of K's uncertainty towards the poles above which the factory is warned.
-const POLAR_WARNING: f64 = 3.0;
 
 /// Largest number of orders for which the text is complete.
 const FEW: usize = 20;
@@ -145,31 +142,6 @@ pub(crate) fn failure(failure: &Failure) -> String {
         None if why.starts_with(&format!("{what}:")) => format!("{why}{cost}"),
         None => format!("{what}: {why}{cost}"),
     }
-}
-
-/// Returns warnings for the factory, and the inputs that the passport does not state.
-pub(crate) fn warnings(remarks: &Remarks) -> Vec<String> {
-    let mut words = Vec::new();
-    match &remarks.noise {
-        None => words.push(
-            "WARNING: least squares cannot determine all parameters of a gyro from these positions at this site"
-                .to_owned(),
-        ),
-        Some(growth) if growth.worst() > NOISE_WARNING => words.push(format!(
-            "WARNING: the noise of a calibration on this stand is up to {:.2} times that on an ideal stand",
-            growth.worst()
-        )),
-        Some(_) => {}
-    }
-    if remarks.uncertainty_growth > POLAR_WARNING {
-        words.push(format!(
-            "WARNING: at this latitude, near the pole, the uncertainty of K is {:.1} times that at the equator",
-            remarks.uncertainty_growth
-        ));
-    }
-    words.extend(remarks.odd.iter().map(|odd| format!("WARNING: {odd}")));
-    words.extend(remarks.absences.iter().cloned());
-    words
 }
 
 /// Returns the line of an order, and its details below.

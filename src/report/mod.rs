@@ -11,7 +11,7 @@
 //! * `history`: one stand over the years.
 //! * `mistake`: the explanation of a result that is not the gyro's.
 //! * `monte_carlo`: coverage intervals, and the test of linear propagation.
-//! * `issued`: the outcome of an order, and warnings for the factory.
+//! * `issued`: the outcomes of the orders of a batch.
 //! * `page`: pages for print and screen, in several languages.
 //! * `passport_table`: a passport in a terminal.
 //! * `plan`: the best positions, and what they cannot see.

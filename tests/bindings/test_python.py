@@ -6,11 +6,13 @@ import csv
 import datetime
 import doctest
 import json
+import os
 import pickle
 import subprocess
 import sys
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import dtg_passport
@@ -414,6 +416,190 @@ def test_remarks_are_handed_on() -> None:
     assert any("operator" in remark for remark in load().calibrate(frame).remarks)
 
 
+def test_the_trials_are_those_of_the_program() -> None:
+    """Every figure to the bit, on any number of threads; the bar and the function see the same numbers."""
+    files = {"gyro": PROJECT / "docs/gvk-6.yaml", "laboratory": PROJECT / "docs/laboratory.yaml"}
+    options = ["--gyro", files["gyro"], "--laboratory", files["laboratory"], "--method", "least-squares"]
+    run = ["--monte-carlo", "--trials", "40000", "--seed", "11", "--format", "json"]
+    printed = program("calibrate", PASSPORT, CURRENTS, "--trust", SIGNERS, "--time", TIME, *options, *run)
+    due, seen = json.loads(printed)["monte_carlo"], []
+    found = load().calibrate(CURRENTS, **files)
+    for threads in (None, 1, 3):
+        drawn = found.monte_carlo(40_000, seed=11, threads=threads, progress=lambda *at: seen.append(at))
+        assert drawn.document == due and json.dumps(drawn.document) == json.dumps(due)
+    assert seen == [(49152, 49152)] * 3 and (drawn.trials, drawn.stable) == (49152, False)
+    each = due["parameters"]
+    for parameters, values in (
+        (drawn.mean, [at["mean"] for at in each]),
+        (drawn.u, [at["standard_uncertainty"] for at in each]),
+        (drawn.interval[0], [at["symmetric_interval"][0] for at in each]),
+        (drawn.interval[1], [at["symmetric_interval"][1] for at in each]),
+        (drawn.shortest[0], [at["shortest_interval"][0] for at in each]),
+        (drawn.shortest[1], [at["shortest_interval"][1] for at in each]),
+    ):
+        assert eight(parameters).tobytes() == bits(values)
+    assert drawn.covariance.tobytes() == bits(due["covariance"]) and not drawn.covariance.flags.writeable
+    assert found.monte_carlo(40_000, seed=12).mean.omega_g != drawn.mean.omega_g
+    # JCGM 101 against first order: the program finds them equal within a twentieth of u here.
+    assert np.all(np.abs(eight(drawn.u) / eight(found.u) - 1) < 0.05)
+    for wrong in ({"trials": 0}, {"seed": -1}, {"threads": 0}):
+        with pytest.raises(ValueError, match=f"{next(iter(wrong))}: found"):
+            found.monte_carlo(**wrong)
+
+
+def test_trials_can_be_watched_and_stopped(capsys: pytest.CaptureFixture) -> None:
+    """By an exception of the function, by Ctrl-C, and with other threads running meanwhile."""
+    found = load().calibrate(CURRENTS)
+    found.monte_carlo(16_384, progress=True)
+    assert "16.4k/16.4k" in capsys.readouterr().err
+    found.monte_carlo(16_384)
+    found.monte_carlo(16_384, progress=False)
+    assert capsys.readouterr().err == ""
+
+    def full(done: int, due: int) -> None:
+        raise KeyError(done)
+
+    with pytest.raises(KeyError, match=r"^163840$"):
+        found.monte_carlo(progress=full)
+    code = f"""if True:
+        import dtg_passport, os, signal, threading, time
+        found = dtg_passport.load({str(PASSPORT)!r}, {str(SIGNERS)!r}, time={TIME!r}).calibrate({str(CURRENTS)!r})
+        # The timer is a thread of Python, so it could not run if the trials held the lock.
+        threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        try:
+            found.monte_carlo(10**12)
+        except KeyboardInterrupt:
+            print("stopped")
+    """
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "stopped\n", "")
+
+
+# --- The factory. ---
+
+STAND, SITE = PROJECT / "passports/SPS-2/0017/stand.yaml", PROJECT / "sites/moscow-bmstu.yaml"
+
+
+def issue(corpus: Corpus, out: Path, **asked: object) -> dtg_passport.Issued:
+    given = {"stand": STAND, "site": SITE, "key": corpus.folder / "key", "identity": "factory@example.org",
+             "issued_at": "2026-11-10T00:00:00Z", "out": out}  # fmt: skip
+    return dtg_passport.issue(**{**given, **asked})
+
+
+def plain(path: Path) -> dict:
+    return yaml.safe_load(path.read_text())
+
+
+@pytest.mark.parametrize(
+    ("asked", "options"),
+    [
+        ({}, []),
+        ({"valid_until": datetime.date(2027, 5, 1), "issued_at": datetime.date(2026, 11, 9)},
+         ["--valid-until", "2027-05-01", "--issued-at", "2026-11-09"]),
+        ({"accuracy": True}, ["--accuracy"]),
+        ({"accuracy": True, "gyro": PROJECT / "docs/gvk-6.yaml", "laboratory": PROJECT / "docs/laboratory.yaml"},
+         ["--accuracy", "--gyro", PROJECT / "docs/gvk-6.yaml", "--laboratory", PROJECT / "docs/laboratory.yaml"]),
+        ({"stand": plain(STAND), "site": plain(SITE)}, []),
+    ],
+)  # fmt: skip
+def test_an_issued_passport_has_the_bytes_of_the_program(corpus: Corpus, tmp_path: Path, asked: dict, options: list) -> None:
+    key = ("--key", corpus.folder / "key", "--identity", "factory@example.org", "--out", tmp_path / "due")
+    issued_at = [] if "--issued-at" in options else ["--issued-at", "2026-11-10T00:00:00Z"]
+    due = json.loads(program("issue", STAND, "--site", SITE, *key, *issued_at, *options, "--format", "json"))[0]
+    found = issue(corpus, tmp_path / "found", **asked)
+    path = tmp_path / "found/SPS-2/0017/moscow-bmstu-1.yaml"
+    assert path.read_bytes() == Path(due["file"]).read_bytes()
+    assert (found.id, found.path, found.sha256, found.new) == (due["id"], str(path), due["sha256"], True)
+    assert found.remarks == tuple(due["absences"])
+    assert dtg_passport.load(path, corpus.signers, time=TIME).id == found.id
+    again = issue(corpus, tmp_path / "found", **asked)
+    assert again == found._replace(new=False, remarks=())
+
+
+def test_keys_are_found_as_by_the_program(corpus: Corpus, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An encrypted key file, and a key in ssh-agent: the same bytes, because Ed25519 signatures have no random part."""
+    due = Path(issue(corpus, tmp_path / "due").path).read_bytes()
+    encrypted = tmp_path / "encrypted"
+    encrypted.write_bytes((corpus.folder / "key").read_bytes())
+    encrypted.chmod(0o600)
+    subprocess.run(["ssh-keygen", "-q", "-p", "-P", "", "-N", "word", "-f", encrypted], check=True, stdout=subprocess.DEVNULL)
+    with pytest.raises(ValueError, match="encrypted: give its passphrase, or set DTG_PASSPORT_PASSPHRASE"):
+        issue(corpus, tmp_path / "none", key=encrypted)
+    with pytest.raises(ValueError, match="passphrase"):
+        issue(corpus, tmp_path / "none", key=encrypted, passphrase="other")
+    assert Path(issue(corpus, tmp_path / "a", key=encrypted, passphrase="word").path).read_bytes() == due
+    monkeypatch.setenv("DTG_PASSPORT_PASSPHRASE", "word")
+    assert Path(issue(corpus, tmp_path / "b", key=encrypted).path).read_bytes() == due
+
+    public = tmp_path / "only.pub"
+    public.write_bytes((corpus.folder / "key.pub").read_bytes())
+    with pytest.raises(ValueError, match="found only the public half"):
+        issue(corpus, tmp_path / "none", key=public)
+    agent = subprocess.run(["ssh-agent", "-s"], capture_output=True, text=True, check=True).stdout
+    values = dict(part.split("=", 1) for line in agent.splitlines() for part in line.split(";") if "=" in part)
+    monkeypatch.setenv("SSH_AUTH_SOCK", values["SSH_AUTH_SOCK"])
+    try:
+        subprocess.run(["ssh-add", "-q", corpus.folder / "key"], check=True)
+        assert Path(issue(corpus, tmp_path / "c", key=public).path).read_bytes() == due
+    finally:
+        subprocess.run(["ssh-agent", "-k"], env={**os.environ, "SSH_AGENT_PID": values["SSH_AGENT_PID"]}, check=True,
+                       stdout=subprocess.DEVNULL)  # fmt: skip
+    assert not (tmp_path / "none").exists()
+
+
+def test_what_cannot_be_issued_leaves_no_file(corpus: Corpus, tmp_path: Path) -> None:
+    wrong = plain(STAND) | {"positions": plain(STAND)["positions"][:3]}
+    (tmp_path / "file").write_text("")
+    other = (PROJECT / "docs/allowed_signers").read_text()
+    for asked, error, words in (
+        ({"stand": "nowhere.yaml"}, FileNotFoundError, "nowhere.yaml"),
+        ({"key": "nowhere"}, FileNotFoundError, "nowhere"),
+        ({"stand": SITE}, ValueError, "dtg-stand/1"),
+        ({"stand": wrong}, ValueError, "do not determine"),
+        ({"site": plain(SITE) | {"latitude_deg": float("nan")}}, ValueError, "site:.*latitude_deg"),
+        ({"site": plain(SITE) | {"latitude": 55}}, ValueError, "latitude"),
+        ({"identity": "a b"}, ValueError, "identity"),
+        ({"issued_at": "2040-01-01"}, ValueError, "later than the clock"),
+        ({"issued_at": "2026-11-10T00:00:00"}, ValueError, "issued_at: expected"),
+        ({"valid_until": "2040-01-01"}, ValueError, "certificate"),
+        ({"trust": other}, ValueError, "verification"),
+        ({"gyro": PROJECT / "docs/gvk-6.yaml"}, ValueError, "accuracy=True"),
+        ({"out": tmp_path / "file"}, OSError, "file"),
+    ):
+        with pytest.raises(error, match=f"(?s){words}"):
+            issue(corpus, **{"out": tmp_path / "out", **asked})
+    assert not (tmp_path / "out").exists()
+    first = issue(corpus, tmp_path / "out", trust=corpus.signers)
+    with pytest.raises(ValueError, match="already exists with other content"):
+        issue(corpus, tmp_path / "out", valid_until="2027-01-01")
+    assert issue(corpus, tmp_path / "out").sha256 == first.sha256
+
+
+@pytest.mark.parametrize(
+    ("asked", "options"),
+    [
+        ({}, []),
+        ({"stand": STAND, "readings": 16, "criterion": "worst"}, ["--stand", STAND, "--readings", "16", "--criterion", "worst"]),
+        ({"step": 45, "frame_axis_azimuths": (90, 0), "criterion": "d"},
+         ["--angles", "45", "--frame-axis", "east,north", "--criterion", "d"]),
+        ({"gyro": plain(PROJECT / "docs/gvk-6.yaml"), "laboratory": PROJECT / "docs/laboratory.yaml"},
+         ["--gyro", PROJECT / "docs/gvk-6.yaml", "--laboratory", PROJECT / "docs/laboratory.yaml"]),
+    ],
+)  # fmt: skip
+def test_a_plan_is_that_of_the_program(asked: dict, options: list) -> None:
+    due = json.loads(program("plan", "--site", SITE, *options, "--format", "json"))
+    found = dtg_passport.plan(SITE, **asked)
+    assert found.document == due and found.value == due["value"]
+    assert found.order.tobytes() == bits(due["order"]) and len(found.order) == asked.get("readings", 8)
+    assert found.u.K.tobytes() == bits(due["standard_uncertainty"]["k_deg_per_h_per_ma"])
+    assert found.frame_axis_azimuth == due["frame_axis_azimuth_deg"]
+    assert found.paper_u is not None and found.paper_u.omega_0.tobytes() == bits(due["paper"]["standard_uncertainty"]["omega0_deg_per_h"])
+    assert dtg_passport.plan(SITE, readings=9).paper_u is None
+    for wrong in ({"readings": 3}, {"step": 7}, {"criterion": "best"}, {"frame_axis_azimuths": [400]}, {"stand": SITE}):
+        with pytest.raises(ValueError, match="expected"):
+            dtg_passport.plan(SITE, **wrong)
+
+
 # --- The self-check. ---
 
 
@@ -508,18 +694,24 @@ def test_html_is_escaped() -> None:
 
 @pytest.mark.parametrize(
     ("package", "call"),
-    [("pandas", "to_dataframe"), ("xarray", "to_xarray"), ("matplotlib", "plot")],
+    [
+        ("pandas", lambda passport: passport.to_dataframe()),
+        ("xarray", lambda passport: passport.to_xarray()),
+        ("matplotlib", lambda passport: passport.plot()),
+        ("uncertainties", lambda passport: passport.calibrate(CURRENTS).ufloats()),
+        ("tqdm", lambda passport: passport.calibrate(CURRENTS).monte_carlo(1, progress=True)),
+    ],
 )
-def test_a_missing_package_is_named(package: str, call: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_package_is_named(package: str, call: Callable, monkeypatch: pytest.MonkeyPatch) -> None:
     for module in [name for name in sys.modules if name.split(".")[0] == package]:
         monkeypatch.delitem(sys.modules, module)
     monkeypatch.setitem(sys.modules, package, None)
     with pytest.raises(ImportError, match=f"{package} is not installed; install it with: pip install"):
-        getattr(load(), call)()
+        call(load())
 
 
 def test_the_optional_packages_are_not_imported() -> None:
-    code = "import sys, dtg_passport; print([name for name in ('pandas', 'xarray', 'matplotlib', 'uncertainties') if name in sys.modules])"
+    code = "import sys, dtg_passport; print([name for name in ('pandas', 'xarray', 'matplotlib', 'uncertainties', 'tqdm') if name in sys.modules])"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"
 
 
@@ -534,7 +726,7 @@ def test_examples_in_docstrings(name: str, monkeypatch: pytest.MonkeyPatch) -> N
         runner.run(test)
     result = runner.summarize()
     assert result.failed == 0
-    assert result.attempted > 0 or name not in ("load", "loads", "load_many", "verify", "Passport", "Calibration")
+    assert result.attempted > 0 or name not in ("load", "loads", "load_many", "verify", "issue", "plan", "Passport", "Calibration")
 
 
 def test_the_examples_of_the_guide(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -562,6 +754,11 @@ def test_types_and_stubs_hold(tmp_path: Path) -> None:
         "K, g = p.calibrate('c').K, p.calibrate('c').omega_g\n"
         "g + 1.0, B @ K\n"
         "for q in dtg_passport.load_many(['p'], 't', threads=2): q.id.upper()\n"
+        "m = p.calibrate('c', gyro={}).monte_carlo(5, progress=lambda done, due: print(done / due))\n"
+        "m.interval[0].K @ B, m.trials + 1\n"
+        "dtg_passport.issue('s', {'format': 'dtg-site/1'}, key='k', identity='w').path.upper()\n"
+        "u = dtg_passport.plan('s', frame_axis_azimuths=[90]).paper_u\n"
+        "u is None or u.omega_g + 1.0\n"
     )
     installed = Path(dtg_passport.__file__).parent
     for check in (

@@ -1,0 +1,108 @@
+//! The best positions to certify or to read.
+
+use super::{Failed, json};
+use crate::gyro::GyroType;
+use crate::laboratory::Laboratory;
+use crate::plan::candidates::Angles;
+use crate::plan::criterion::Criterion;
+use crate::plan::document::PlanDocument;
+use crate::plan::{FEWEST_READINGS, MOST_READINGS, Question};
+use crate::site::Site;
+use crate::stand::Stand;
+use serde::Deserialize;
+
+/// Question as JSON.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Asked {
+    readings: u32,
+    step_deg: Option<f64>,
+    frame_axis_azimuths_deg: Vec<f64>,
+    criterion: String,
+}
+
+impl Default for Asked {
+    fn default() -> Self {
+        let criterion = Criterion::A.to_string();
+        Self { readings: 8, step_deg: None, frame_axis_azimuths_deg: Vec::new(), criterion }
+    }
+}
+
+/// Finds the best positions to certify, or with a stand which of its positions to read, as the program's `plan` does.
+/// Returns the JSON of `plan`.
+///
+/// The files are names and contents. `question` is JSON, in which every key may be absent: `readings` (8), `step_deg`
+/// of the nominal angles to choose from without a stand (quadrants), `frame_axis_azimuths_deg` to choose from (that of
+/// the site), and `criterion`: `a`, `d` or `worst`. The gyro type and the laboratory are the paper's by default.
+///
+/// # Errors
+/// Returns [`Failed`] if an input cannot be used, or if no choice determines the parameters.
+pub fn plan(
+    (site, bytes): (&str, &[u8]),
+    stand: Option<(&str, &[u8])>,
+    gyro: Option<(&str, &[u8])>,
+    laboratory: Option<(&str, &[u8])>,
+    question: &str,
+) -> Result<String, Failed> {
+    let site = Site::from_yaml(site, bytes)?;
+    let stand = stand.map(|(name, bytes)| Stand::from_yaml(name, bytes)).transpose()?;
+    let gyro = gyro.map_or_else(|| Ok(GyroType::gvk_6()), |(name, bytes)| GyroType::from_yaml(name, bytes))?;
+    let paper = || Ok(Laboratory::paper());
+    let laboratory = laboratory.map_or_else(paper, |(name, bytes)| Laboratory::from_yaml(name, bytes))?;
+    let asked: Asked = serde_json::from_str(question)
+        .map_err(|error| Failed::unusable(format!("the question is not usable JSON: {error}")))?;
+    let expected = |words: String| Failed::unusable(words);
+    if !(FEWEST_READINGS..=MOST_READINGS).contains(&asked.readings) {
+        let found = asked.readings;
+        return Err(expected(format!("readings: found {found}, expected {FEWEST_READINGS} to {MOST_READINGS}")));
+    }
+    let angles = match asked.step_deg {
+        None => Angles::Quadrants,
+        Some(step_deg) => Angles::every(step_deg)
+            .ok_or_else(|| expected(format!("step_deg: found {step_deg}, expected {}", Angles::EXPECTED)))?,
+    };
+    let criterion = Criterion::ALL.into_iter().find(|criterion| criterion.to_string() == asked.criterion);
+    let criterion =
+        criterion.ok_or_else(|| expected(format!("criterion: found {:?}, expected a, d or worst", asked.criterion)))?;
+    let mut azimuths_deg = asked.frame_axis_azimuths_deg;
+    if let Some(found) = azimuths_deg.iter().find(|azimuth| !(0.0..360.0).contains(*azimuth)) {
+        return Err(expected(format!("frame_axis_azimuths_deg: found {found}, expected 0 or more and below 360")));
+    }
+    if azimuths_deg.is_empty() {
+        azimuths_deg.push(site.frame_axis_azimuth_deg());
+    }
+    let (readings, stand) = (asked.readings, stand.as_ref());
+    let question = Question {
+        site: &site,
+        stand,
+        angles,
+        gyro: &gyro,
+        laboratory: &laboratory,
+        readings,
+        azimuths_deg,
+        criterion,
+    };
+    let found = crate::plan::plan(&question).map_err(Failed::refused)?;
+    Ok(json(&PlanDocument::from(&found)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SITE: (&str, &[u8]) = ("site.yaml", include_bytes!("../../sites/moscow-bmstu.yaml"));
+
+    #[test]
+    fn what_cannot_be_asked_is_named() {
+        for (question, words) in [
+            (r#"{"reading": 8}"#, "unknown field `reading`"),
+            (r#"{"readings": 3}"#, "readings: found 3, expected 4 to 256"),
+            (r#"{"step_deg": 7}"#, "step_deg: found 7"),
+            (r#"{"frame_axis_azimuths_deg": [90, 360]}"#, "found 360"),
+            (r#"{"criterion": "A"}"#, "expected a, d or worst"),
+        ] {
+            let failed = plan(SITE, None, None, None, question).unwrap_err();
+            assert!(failed.code == "unusable" && failed.message.contains(words), "{question}: {failed}");
+        }
+    }
+}
