@@ -13,7 +13,7 @@ function c = dtg_calibrate(passport, signers, currents, varargin)
     fprintf(id, '%d,%d,%.17g,%.17g\n', currents');
     fclose(id);
     options = [varargin, {'method', 'least-squares'}];
-    c.document = jsondecode(dtg_run('calibrate', passport, {file}, signers, options));
+    c.document = jsondecode(dtg_run('calibrate', passport, {file, '--format=json'}, signers, options));
     result = c.document.results;
     c = parameters(c, result);
     c.u = parameters(struct(), result.standard_uncertainty);

@@ -8,7 +8,7 @@ function text = dtg_run(verb, passport, files, signers, options)
         end
         words{end + 1} = ['--', options{k}, '=', char(options{k + 1})];
     end
-    words = cellfun(@quoted, [words, {'--format=json'}], 'UniformOutput', false);
+    words = cellfun(@quoted, words, 'UniformOutput', false);
     [status, text] = system(['dtg-passport ', verb, ' ', strjoin(words, ' ')]);
     if status == 1 && strcmp(verb, 'calibrate') && any(strfind(text, '"passport_id"'))
         status = 0;  % the gyro fails its type; the result says so

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
+import os
+import re
 import struct
 import subprocess
 from pathlib import Path
@@ -90,6 +93,24 @@ def test_the_example_calibrates(tmp_path: Path, how: str) -> None:
         assert json.loads(printed)["error"]["code"] in ("unusable", "unreadable")
 
 
+def test_the_example_in_c_plus_plus(tmp_path: Path) -> None:
+    """The program in docs/c.md, with a good passport and with one of another stand."""
+    [source] = re.findall(r"```cpp\n(.*?)```", (PROJECT / "docs/c.md").read_text(), re.DOTALL)
+    B = yaml.safe_load(PASSPORT.read_bytes().partition(b"signature: |")[0])["matrices"]["b_deg_per_h"]
+    for serial, accept in (("0017", 0), ("0018", 1)):
+        (tmp_path / "example.cpp").write_text(source.replace('"serial": "0017"', f'"serial": "{serial}"'))
+        warnings = ["-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-g", *SANITIZERS]
+        run("g++", *warnings, tmp_path / "example.cpp", f"-I{PROJECT / 'c'}", f"-L{LIBRARIES}",
+            f"-Wl,-rpath,{LIBRARIES}", "-ldtg_passport", "-o", tmp_path / "example")  # fmt: skip
+        printed = subprocess.run([tmp_path / "example"], capture_output=True, text=True, cwd=PROJECT)
+        assert printed.returncode == accept, printed.stderr
+        if accept == 0:
+            numbers = re.fullmatch(r"B = \[(.*), (.*); (.*), (.*)\] deg/h\n", printed.stdout)
+            assert numbers and [float(number) for number in numbers.groups()] == sum(B, [])
+        else:
+            assert "wrong_stand" in printed.stdout
+
+
 def test_what_cannot_be_used_is_refused_without_harm(library: Path) -> None:
     assert run(library) == "misused\n"
 
@@ -150,6 +171,35 @@ def test_every_answer_and_number_is_that_of_the_program(library: Path, corpus: C
             assert bits(row) == bits([float(at["i"]), float(at["j"]), *at["specific_force_g"], *at["omega_deg_per_h"]])
 
 
+def octave(script: Path) -> str:
+    path = f"{Path(os.environ['DTG_PASSPORT']).parent}:{os.environ['PATH']}"
+    command = ["octave-cli", "--norc", "--quiet", str(script)]
+    done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "PATH": path})
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_lists_are_arrays_in_octave(corpus: Corpus, tmp_path: Path) -> None:
+    """Also where one position does not state an uncertainty that the others state."""
+    stand = (PROJECT / "passports/SPS-2/0017/stand.yaml").read_text()
+    (tmp_path / "stand.yaml").write_text(stand.replace(", u_beta_arcsec: 1.2", "", 1))
+    who = ("--key", corpus.folder / "key", "--identity", "factory@example.org", "--issued-at", "2026-11-10T00:00:00Z")
+    program("issue", tmp_path / "stand.yaml", "--site", PROJECT / "sites/moscow-bmstu.yaml", *who, "--out", tmp_path)
+    [passport] = tmp_path.glob("*/*/*-1.yaml")
+    script = tmp_path / "test.m"
+    script.write_text(f"""
+        addpath('{PROJECT}/docs/matlab');
+        p = dtg_load('{passport}', '{corpus.signers}', 'time', '{TIME}');
+        disp([isstruct(p.positions), numel(p.positions), isstruct(p.vectors), numel(p.vectors), p.verified]);
+        disp([numel([p.positions.u_beta_arcsec]), isempty(p.positions(1).u_beta_arcsec)]);
+        printf('%g ', p.positions.gamma_arcsec); printf('\\n%s\\n', p.sha256, p.checks.code);
+    """)
+    shape, absent, gammas, sha256, *codes = octave(script).splitlines()
+    assert (shape.split(), absent.split()) == (["1", "8", "1", "8", "1"], ["7", "1"])
+    assert sha256 == hashlib.sha256(passport.read_bytes()).hexdigest() and len(codes) > 5 and set(codes) == {"ok", ""}
+    assert [float(gamma) for gamma in gammas.split()] == [at["gamma_arcsec"] for at in yaml.safe_load(stand)["positions"]]
+
+
 def test_octave_and_matlab_functions(tmp_path: Path) -> None:
     """docs/matlab in Octave: numbers to one unit in the last place, which is what its jsondecode gives."""
     due = yaml.safe_load(PASSPORT.read_bytes().partition(b"signature: |")[0])
@@ -167,12 +217,7 @@ def test_octave_and_matlab_functions(tmp_path: Path) -> None:
         try, dtg_load('{PASSPORT}', '{SIGNERS}', 'serail', '0017'); catch e, disp(e.identifier); end
         try, dtg_load('it''s "no" $(file)', '{SIGNERS}'); catch e, disp(e.identifier); end
     """)
-    import os
-
-    path = f"{Path(os.environ['DTG_PASSPORT']).parent}:{os.environ['PATH']}"
-    done = subprocess.run(["octave-cli", "--norc", "--quiet", str(script)], capture_output=True, text=True, env={**os.environ, "PATH": path})
-    assert done.returncode == 0, done.stderr
-    loaded, found, *refused = done.stdout.splitlines()
+    loaded, found, *refused = octave(script).splitlines()
     ulp = lambda printed, numbers: np.testing.assert_array_max_ulp(np.array(printed.split(), dtype=float), np.array(numbers), 1)
     ulp(loaded, np.concatenate([np.ravel(due["matrices"][key]) for key in ("b_deg_per_h", "delta")]))
     ulp(found, [*np.ravel(calibrated["k_deg_per_h_per_ma"]), *calibrated["omega0_deg_per_h"],
