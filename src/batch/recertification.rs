@@ -5,7 +5,7 @@
 //! second run with the same input completes a run that was killed in between, and changes nothing otherwise.
 
 use crate::certification::comparison::compare;
-use crate::certification::{AngleReadings, Certification, Comparison, Header, certify};
+use crate::certification::{AngleReadings, Certification, Comparison, Header, certify, predicted};
 use crate::files::{self, FileError, folder_of, leftovers};
 use crate::folder::archive::Superseded;
 use crate::folder::{Folder, FolderRefused, Issued, Next, Seal, Sealed, Superseding, search};
@@ -15,10 +15,11 @@ use crate::passport::reissue::{Order, successor};
 use crate::passport::{Content, Question, Trust, verify};
 use crate::register::{Asked, Line, Register, State};
 use crate::site::Site;
-use crate::stand::Stand;
+use crate::stand::{Excluded, Stand};
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, shown};
 use jiff::Timestamp;
 use jiff::civil::Date;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -48,6 +49,8 @@ pub(crate) struct Recertification<'a> {
     pub passport: &'a Path,
     /// Name and content of the file of readings.
     pub readings: (&'a str, &'a [u8]),
+    /// Readings and runs to leave out.
+    pub excluded: &'a [Excluded],
     /// Header of the new certificate; that of the passport if `None`.
     pub header: Option<Header>,
     /// Number of the new certificate.
@@ -70,6 +73,8 @@ pub(crate) struct Recertification<'a> {
     pub question: Question,
     /// Root of the new files; that of the passport's path if `None`.
     pub out: Option<PathBuf>,
+    /// Root of the stand file; that of the new files if `None`.
+    pub stands: Option<PathBuf>,
     /// Flag that cancels the recertification before anything is written.
     pub cancel: Option<&'a AtomicBool>,
 }
@@ -169,7 +174,8 @@ impl Recertification<'_> {
         let (certification, comparison) = self.measured(&old_stand, &header)?;
         let new = certification.stand.clone();
         let root = self.root(&old_stand)?;
-        let stand_file = root.join(new.stand.model.as_str()).join(new.stand.serial.as_str()).join("stand.yaml");
+        let stands = self.stands.as_deref().unwrap_or(&root);
+        let stand_file = stands.join(new.stand.model.as_str()).join(new.stand.serial.as_str()).join("stand.yaml");
         let text = certification.to_yaml(&name_of(&stand_file))?;
         self.check_there(&stand_file, &certification)?;
         let (found, trust) = search::register(
@@ -253,7 +259,8 @@ impl Recertification<'_> {
     fn measured(&self, old: &Stand, header: &Header) -> Result<(Certification, Comparison), NotRecertified> {
         let (name, bytes) = self.readings;
         let of_readings = |why: &dyn std::fmt::Display| refused(format!("{}: {why}", Printable(name)));
-        let readings = AngleReadings::from_csv(name, bytes, &header.positions)?;
+        let readings = AngleReadings::from_csv_without(name, bytes, &header.positions, self.excluded)?;
+        let (readings, _) = predicted(header, &readings).map_err(|why| of_readings(&why))?;
         let certification = certify(header, &readings).map_err(|why| of_readings(&why))?;
         if certification.check_number(old).is_err() || old.certificate.number == self.number {
             let number = self.number;
@@ -421,7 +428,10 @@ fn write(
     text: &str,
     superseded: Option<&Superseded>,
 ) -> Result<(), NotRecertified> {
-    leftovers::remove(folder_of(stand_file));
+    let paths = sealed.iter().map(|sealed| sealed.issued.path.as_path()).chain([stand_file]);
+    for folder in paths.map(folder_of).collect::<BTreeSet<_>>() {
+        leftovers::remove(folder);
+    }
     let new: Vec<(PathBuf, Vec<u8>)> = sealed
         .iter()
         .filter_map(|sealed| Some((sealed.issued.path.clone(), sealed.text.clone()?.into_bytes())))

@@ -1,6 +1,7 @@
 //! Verb `certify`: stand files from repeated readings of the angles, or a later check run against one.
 
 use super::diff::Past;
+use super::exclusion::ExclusionOptions;
 use super::issue::read_stand;
 use super::output::Format;
 use super::render::{Written, languages};
@@ -15,8 +16,8 @@ use crate::passport::content::claims_to_be_a_passport;
 use crate::passport::difference::of_deviations;
 use crate::report::certification as report;
 use crate::report::page::certification::CertificationPage;
-use crate::stand::{Excluded, Stand};
-use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of, rule, shown};
+use crate::stand::Stand;
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
 use clap::Args;
 use serde::Serialize;
 use serde_json::Value;
@@ -50,12 +51,8 @@ pub(super) struct Options {
     against: Option<PathBuf>,
     #[command(flatten)]
     trust: OptionalTrust,
-    /// Exclude a reading, given as i,j,run, or a whole run (repeatable); requires --why
-    #[arg(long, value_name = "I,J,RUN|RUN", value_parser = exclusion, requires = "why")]
-    exclude: Vec<Excluded>,
-    /// Reason for the exclusion, recorded in the certificate; one for each --exclude, or one for all
-    #[arg(long, value_name = "TEXT", requires = "exclude")]
-    why: Vec<String>,
+    #[command(flatten)]
+    exclusions: ExclusionOptions,
     /// Record of the certification for paper to write: readings, tests, uncertainty, signature lines
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
@@ -155,7 +152,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
     };
     let bytes = files::read(readings, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
     let name = name_of(readings);
-    let excluded = excluded(options)?;
+    let excluded = options.exclusions.excluded()?;
     let readings = AngleReadings::from_csv_without(&name, &bytes, &header.positions, &excluded);
     let readings = readings.map_err(Failure::unreadable)?;
     if let Some(remark) = readings.remark() {
@@ -205,37 +202,6 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
         }
     }
     Ok(if comparison.is_some_and(|comparison| !comparison.same_stand) { REFUSED } else { 0 })
-}
-
-/// Parses an exclusion: a reading `i,j,run`, or a run. Its reason is given separately.
-fn exclusion(text: &str) -> Result<Excluded, String> {
-    let numbers = text.split(',').map(|number| number.trim().parse::<u32>().ok().filter(|number| *number > 0));
-    let numbers = numbers.collect::<Option<Vec<_>>>().unwrap_or_default();
-    match numbers[..] {
-        [run] => Ok(Excluded { i: None, j: None, run, why: String::new() }),
-        [i, j, run] => Ok(Excluded { i: Some(i), j: Some(j), run, why: String::new() }),
-        _ => Err("i,j,run for a reading, such as 2,3,4, or the number of a run, such as 4".to_owned()),
-    }
-}
-
-/// Returns the exclusions with their reasons.
-fn excluded(options: &Options) -> Result<Vec<Excluded>, Failure> {
-    let (exclude, why) = (&options.exclude, &options.why);
-    if why.len() > 1 && why.len() != exclude.len() {
-        let (found, due) = (why.len(), exclude.len());
-        return Err(Failure::unusable(format!(
-            "found {found} --why for {due} --exclude; give one for each, or one for all"
-        )));
-    }
-    if let Some(bad) = why.iter().find(|why| why.is_empty() || !why.chars().all(rule::allowed_in_string)) {
-        let words = "the reason is empty or contains a character that is not allowed in signed files";
-        return Err(Failure::unusable(format!("--why {:?}: {words}", Printable(bad).to_string())));
-    }
-    let each = exclude.iter().enumerate().map(|(at, excluded)| {
-        let why = why.get(at).or_else(|| why.first()).cloned().unwrap_or_default();
-        Excluded { why, ..excluded.clone() }
-    });
-    Ok(each.collect())
 }
 
 /// Reads the certified stand in a stand file or, if `trust` verifies it, in a passport.

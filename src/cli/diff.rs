@@ -2,7 +2,7 @@
 
 use super::output::{self, Format};
 use super::trust_options::TrustOptions;
-use super::{Code, Failure};
+use super::{Code, Failure, defaults};
 use crate::document::sha256_hex;
 use crate::files;
 use crate::passport::difference::Differences;
@@ -15,11 +15,11 @@ use std::path::{Path, PathBuf};
 /// Compare two passports number by number, in units of their uncertainty
 #[derive(Args)]
 pub(super) struct Options {
-    /// First passport, for example the predecessor
-    #[arg(value_name = "PASSPORT")]
+    /// First passport, for example the predecessor; in a workspace also its identifier
+    #[arg(value_name = "PASSPORT", value_parser = defaults::passport())]
     a: PathBuf,
     /// Second passport
-    #[arg(value_name = "PASSPORT")]
+    #[arg(value_name = "PASSPORT", value_parser = defaults::passport())]
     b: PathBuf,
     #[command(flatten)]
     trust: TrustOptions,

@@ -3,7 +3,7 @@
 use super::administrative::{AdministrativeFile, DCC_IS_NOT_SIGNED};
 use super::render::{Written, languages};
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, REFUSED, UNUSABLE, output};
+use super::{Code, Failure, REFUSED, UNUSABLE, defaults, output};
 use crate::batch::{Purpose, paths};
 use crate::dcc;
 use crate::document::sha256_hex;
@@ -27,8 +27,8 @@ const AT_ONCE: usize = 256;
 /// DIR/<number of the certificate>.xml.
 #[derive(Args)]
 pub(super) struct Options {
-    /// Passports
-    #[arg(required = true, value_name = "PASSPORT")]
+    /// Passports; in a workspace also their identifiers
+    #[arg(required = true, value_name = "PASSPORT", value_parser = defaults::passport())]
     passports: Vec<PathBuf>,
     /// What to export, separated by commas
     #[arg(long, value_enum, value_delimiter = ',', required = true, value_name = "FORM")]

@@ -22,7 +22,10 @@ const EXAMPLES: [(&str, [&str; 2]); 24] = [
     ("init", ["init factory --identity factory@example.org", "init laboratory"]),
     (
         "new",
-        ["new site sites/moscow-bmstu.yaml --at 55.7658,37.6856 --height-m 150", "new readings readings.csv --runs 5"],
+        [
+            "new site sites/moscow-bmstu.yaml --at 55.7658,37.6856 --height-m 150",
+            "new readings readings.csv --runs 5 --from-plan plan.json",
+        ],
     ),
     ("status", ["status --workspace factory", "status --workspace factory --format json"]),
     (

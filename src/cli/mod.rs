@@ -13,6 +13,7 @@ mod completions;
 mod defaults;
 mod demo;
 mod diff;
+mod exclusion;
 mod export;
 mod failure;
 mod help;

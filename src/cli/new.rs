@@ -3,8 +3,10 @@
 use super::trust_options::place;
 use super::{Code, Failure, output};
 use crate::earth::Place;
+use crate::files;
+use crate::plan::document::Planned;
 use crate::template::{self, Positions};
-use crate::text::{Identifier, Printable, shown};
+use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -22,6 +24,9 @@ pub(super) struct Options {
     /// Number of positions of a stand, header, readings or currents: the paper's 8, four of them, or 16 more
     #[arg(long, value_enum, default_value = "8")]
     positions: Count,
+    /// Plan whose positions a stand, header, readings or currents get, in its order (from `plan --format json`)
+    #[arg(long, value_name = "PLAN.json", conflicts_with = "positions")]
+    from_plan: Option<PathBuf>,
     /// Number of runs of readings
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=100))]
     runs: u32,
@@ -82,12 +87,22 @@ fn height(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let positions = options.positions.into();
+    let has_positions = matches!(options.kind, Kind::Stand | Kind::Header | Kind::Readings | Kind::Currents);
+    if options.from_plan.is_some() && !has_positions {
+        return Err(Failure::usage("--from-plan is for a stand, header, readings or currents; omit it"));
+    }
+    let positions = match &options.from_plan {
+        None => options.positions.into(),
+        Some(path) => {
+            let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+            Positions::Planned(Planned::from_json(&name_of(path), &bytes).map_err(Failure::unreadable)?)
+        }
+    };
     let text = match options.kind {
-        Kind::Stand => template::stand(positions),
-        Kind::Header => template::header(positions),
-        Kind::Readings => template::readings(positions, options.runs),
-        Kind::Currents => template::currents(positions).map_err(Failure::refused)?,
+        Kind::Stand => template::stand(&positions),
+        Kind::Header => template::header(&positions),
+        Kind::Readings => template::readings(&positions, options.runs),
+        Kind::Currents => template::currents(&positions).map_err(Failure::refused)?,
         Kind::Gyro => template::GYRO.to_owned(),
         Kind::Laboratory => template::LABORATORY.to_owned(),
         Kind::Dcc => template::DCC.to_owned(),

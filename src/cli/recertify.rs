@@ -1,18 +1,21 @@
 //! Verb `recertify`: a new certificate from new readings, and successors of the passports in force, in one step.
 
+use super::exclusion::ExclusionOptions;
 use super::issue::read_site;
 use super::key_options::{self, signer_of};
 use super::output::{self, Format};
+use super::render::{Written, languages};
 use super::trust_options::{self, TrustOptions};
-use super::{Code, Failure, long_run};
+use super::{Code, Failure, defaults, long_run};
 use crate::batch::recertification::{AtSite, NotRecertified, Recertification};
 use crate::certification::Header;
 use crate::files;
 use crate::folder::Seal;
 use crate::passport::issue::time_of_issue;
 use crate::report::issued::Told;
+use crate::report::page::certification::CertificationPage;
 use crate::report::recertification as report;
-use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, name_of};
+use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, name_of, shown};
 use clap::Args;
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -24,8 +27,8 @@ use std::path::{Path, PathBuf};
 /// kept as stand-<certificate number>.superseded.yaml.
 #[derive(Args)]
 pub(super) struct Options {
-    /// Passport of the stand, in force
-    #[arg(value_name = "PASSPORT")]
+    /// Passport of the stand, in force; in a workspace also its identifier
+    #[arg(value_name = "PASSPORT", value_parser = defaults::passport())]
     passport: PathBuf,
     /// Angles: CSV with the header i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec, and every position in every run
     #[arg(value_name = "READINGS.csv")]
@@ -64,7 +67,18 @@ pub(super) struct Options {
     /// Folder of passports [default: the parent of <model>/<serial> in the path of the passport]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Compute and check everything, and show it, but write nothing; requires no key
+    #[command(flatten)]
+    exclusions: ExclusionOptions,
+    /// Record of the certification for paper to write, with a table and a picture of what has changed
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
+    /// Languages of the record; the first sets the number format
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
+    lang: Vec<Written>,
+    /// Replace an existing record
+    #[arg(long)]
+    force: bool,
+    /// Compute and check everything, and show it, but write only the record, if --report is given; requires no key
     #[arg(long)]
     dry_run: bool,
     /// Output format
@@ -82,9 +96,15 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         .map(|path| Header::from_yaml(&name_of(path), &read(path)?).map_err(Failure::unreadable));
     let (name, bytes) = (name_of(&options.readings), read(&options.readings)?);
     let sites = options.sites.iter().map(|path| at_site(path)).collect::<Result<Vec<_>, _>>()?;
+    if let Some(path) = options.report.as_ref().filter(|path| !options.force && path.symlink_metadata().is_ok()) {
+        // Nothing is written if the record cannot be.
+        return Err(Failure::file(files::FileError::Exists { path: path.clone(), replaceable: true }));
+    }
+    let excluded = options.exclusions.excluded()?;
     let order = Recertification {
         passport: &options.passport,
         readings: (&name, &bytes),
+        excluded: &excluded,
         header: header.transpose()?,
         number: &options.number,
         issued: options.issued,
@@ -96,6 +116,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         trust: trust.clone(),
         question,
         out: options.out.clone(),
+        stands: stands(options),
         cancel: Some(&cancel),
     };
     let signer = options.key.as_deref().filter(|_| !options.dry_run).map(signer_of).transpose()?;
@@ -105,6 +126,12 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         why if why.is_unusable() => Failure::unusable(why),
         why => Failure::refused(why),
     })?;
+    if let Some(path) = &options.report {
+        let change = Some((&found.comparison, found.changes.clone()));
+        let page = CertificationPage { certification: &found.certification, readings: (&name, &bytes), change };
+        output::file(path, &page.html(&languages(&options.lang)), options.force)?;
+        output::say(&format!("wrote {}", shown(path)));
+    }
     match options.format {
         Format::Json => output::json(&report::to_json(&found, options.dry_run))?,
         Format::Text => output::text(&report::text(&found, options.dry_run))?,
@@ -115,6 +142,12 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     told.lines().iter().for_each(|line| output::say(line));
     Ok(0)
+}
+
+/// Returns the folder of stand files, from which `issue` takes them, if the folder of passports is that of a workspace.
+fn stands(options: &Options) -> Option<PathBuf> {
+    let workspace = defaults::workspace().filter(|workspace| workspace.passports == options.out)?;
+    workspace.stands.clone()
 }
 
 /// Returns the place of `--site`: the site file of that name, or else the id of a site.

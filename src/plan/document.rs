@@ -1,10 +1,13 @@
-//! The plan as JSON.
+//! The plan as JSON, and what templates take from it.
 
 use super::sensitivity::Effect;
-use super::{Evaluation, Plan};
+use super::{Evaluation, MOST_READINGS, Plan};
 use crate::calibration::NotStated;
+use crate::coefficients::PositionIndex;
 use crate::gyro::{GyroParameters, Parameters};
-use serde::Serialize;
+use crate::stand::MOST_POSITIONS;
+use crate::text::{Location, Unreadable};
+use serde::{Deserialize, Serialize};
 
 /// JSON form of a plan, with the keys in the order of writing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -82,6 +85,89 @@ struct EffectOnDesign {
     largest_residual_deg_per_h: f64,
     /// Root of the chi-square that the residuals add.
     residuals_over_noise: f64,
+}
+
+/// Positions and order of a plan, as its JSON states them; other keys are ignored.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(crate) struct Planned {
+    /// Azimuth of the frame's axis, degrees clockwise from north.
+    pub frame_axis_azimuth_deg: f64,
+    /// Positions, each once.
+    pub readings: Vec<PlannedPosition>,
+    /// Nominal angles [θ, φ] of the visits, in their order, degrees.
+    pub order: Vec<[f64; 2]>,
+}
+
+/// Position of a plan.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(crate) struct PlannedPosition {
+    /// Nominal angle θ of the frame, degrees.
+    pub theta_deg: f64,
+    /// Nominal angle φ of the platform, degrees.
+    pub phi_deg: f64,
+    i: Option<u32>,
+    j: Option<u32>,
+}
+
+impl PlannedPosition {
+    /// Returns the index on the stand that was planned for, or `None` if the plan is for none.
+    pub(crate) fn index(&self) -> Option<PositionIndex> {
+        self.i.zip(self.j).map(|(i, j)| PositionIndex { i, j })
+    }
+
+    fn angles(&self) -> [f64; 2] {
+        [self.theta_deg, self.phi_deg]
+    }
+}
+
+impl Planned {
+    /// Reads the JSON of a plan; `name` is the file name in messages.
+    ///
+    /// # Errors
+    /// Returns [`Unreadable`] if `bytes` is not such a plan.
+    pub(crate) fn from_json(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
+        let refused = |location: Option<Location>, found: String| {
+            let advice = "create it with `plan --format json`";
+            Unreadable::whole(name, location, found, "the JSON of a plan", advice).in_text(bytes)
+        };
+        let plan: Self = serde_json::from_slice(bytes).map_err(|error| {
+            let location = (error.line() > 0).then(|| Location { line: error.line(), column: error.column().max(1) });
+            let mut found = error.to_string();
+            found.truncate(found.find(" at line ").unwrap_or(found.len()));
+            refused(location, format!("unsuitable JSON ({found})"))
+        })?;
+        match plan.contradiction() {
+            Some(found) => Err(refused(None, found)),
+            None => Ok(plan),
+        }
+    }
+
+    /// Returns the rule that the plan breaks, in words.
+    fn contradiction(&self) -> Option<String> {
+        let count = self.readings.len();
+        let finite = self.readings.iter().flat_map(PlannedPosition::angles).all(f64::is_finite);
+        let twice = |at: &PlannedPosition| {
+            let alike = |other: &&PlannedPosition| {
+                other.angles() == at.angles() || (at.index().is_some() && other.index() == at.index())
+            };
+            self.readings.iter().filter(alike).count() > 1
+        };
+        let unknown = |angles: &&[f64; 2]| !self.readings.iter().any(|at| at.angles() == **angles);
+        if count == 0 || count > MOST_POSITIONS || self.order.len() > MOST_READINGS as usize {
+            return Some(format!("a plan of {count} positions and {} visits", self.order.len()));
+        }
+        if !finite || !(0.0..360.0).contains(&self.frame_axis_azimuth_deg) {
+            return Some("a plan with impossible angles".to_owned());
+        }
+        if let Some(at) = self.readings.iter().find(|at| twice(at)) {
+            return Some(format!("a plan that lists position ({}°, {}°) twice", at.theta_deg, at.phi_deg));
+        }
+        if let Some([theta_deg, phi_deg]) = self.order.iter().find(unknown) {
+            return Some(format!("a plan whose order visits ({theta_deg}°, {phi_deg}°), which is not in its readings"));
+        }
+        let missing = self.readings.iter().find(|at| !self.order.contains(&at.angles()));
+        missing.map(|at| format!("a plan whose order never visits ({}°, {}°)", at.theta_deg, at.phi_deg))
+    }
 }
 
 impl From<&Plan> for PlanDocument {

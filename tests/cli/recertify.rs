@@ -300,3 +300,53 @@ fn nothing_else_is_left() {
     assert!(Path::new(&factory.path("renewed/SPS-2/0017/stand.yaml")).is_file());
     assert_eq!(factory.passports().len(), 3);
 }
+
+/// The record of the certification shows what has changed, and the exclusion is in the certificate.
+#[test]
+fn the_record_shows_the_change_and_the_exclusion() {
+    let factory = Factory::new();
+    let before = factory.passports();
+    let recertify = format!("recertify {HERE} new.csv {ORDER} --identity factory {TRUST} --report record.html");
+    factory.good(&format!("{recertify} --dry-run --exclude 2,3,4 --why lamp"));
+    assert_eq!(factory.passports(), before, "a dry run writes the record alone");
+    let (code, _, said) = factory.run(&format!("{recertify} --key key"));
+    assert!(code == 1 && said.contains("record.html: already exists") && factory.passports() == before, "{said}");
+    let found = factory.json(&format!("{recertify} --key key --force --exclude 2,3,4 --why lamp"));
+    let page = fs::read_to_string(factory.path("record.html")).unwrap();
+    // Expected: the number of the JSON, and one bar for each of the 24 deviations above the axis.
+    let changes = found["changes"].as_array().unwrap();
+    let gamma = changes.iter().find(|at| at["key"] == "positions[2,3].gamma_arcsec").unwrap();
+    assert!(page.contains(&format!("{:.1}", gamma["difference"].as_f64().unwrap())));
+    let section = page.split("id=\"change\"").nth(1).unwrap().split("</section>").next().unwrap();
+    assert_eq!(section.matches("picture strip").count(), changes.len() + 1);
+    assert!(page.contains("lamp"));
+    // Expected: `certify` with the same exclusion, whose readings the certificate names.
+    let stand = String::from_utf8(factory.passports()["stand.yaml"].clone()).unwrap();
+    assert!(stand.contains("{i: 2, j: 3, run: 4, why: \"lamp\"}"), "{stand}");
+    factory.good(&format!("verify passports/SPS-2/0017/here-2.yaml {TRUST}"));
+    for (arguments, words) in [
+        ("--exclude 2,3,9 --why lamp", "found no reading of position (2, 3) in run 9 to exclude"),
+        ("--exclude 2,3,4 --exclude 1,1,1 --exclude 1,1,2 --why a --why b", "found 2 --why for 3 --exclude"),
+    ] {
+        let (code, _, said) =
+            factory.run(&format!("recertify {HERE} new.csv {ORDER} --identity factory {TRUST} --dry-run {arguments}"));
+        assert!(code == 2 && said.contains(words), "{said}");
+    }
+}
+
+/// In a workspace the stand file is where `issue` finds it.
+#[test]
+fn in_a_workspace_the_stand_file_is_among_the_stands() {
+    let factory = Factory::new();
+    let settings = "key = \"key\"\nidentity = \"factory\"\ntrust = \"allowed_signers\"\npassports = \"passports\"\n\
+                    stands = \"stands\"\nsites = \".\"\n";
+    fs::write(factory.path("dtg-passport.toml"), settings).unwrap();
+    fs::create_dir_all(factory.path("stands/SPS-2/0017")).unwrap();
+    let stand = factory.path("stands/SPS-2/0017/stand.yaml");
+    fs::rename(factory.path("passports/SPS-2/0017/stand.yaml"), &stand).unwrap();
+    factory.good(&format!("recertify SPS-2/0017/here/1 new.csv {ORDER} --workspace . --time 2026-11-21"));
+    assert!(fs::read_to_string(&stand).unwrap().contains("C-2026-0300"));
+    assert!(factory.path("stands/SPS-2/0017/stand-C-2026-0142.superseded.yaml").exists());
+    assert!(!factory.path("passports/SPS-2/0017/stand.yaml").exists());
+    assert!(factory.path("passports/SPS-2/0017/there-2.yaml").exists());
+}

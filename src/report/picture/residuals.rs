@@ -1,10 +1,11 @@
-//! Residuals of each equation after the fit, as bars in their table with limits from their uncertainty.
+//! Residuals of each equation after the fit, and changes of deviations, as bars in their table with limits from their
+//! uncertainty.
 
 use super::drawing::{
     Anchor, Scale, Ticks, crowding, legend, line, nothing, power, power_of_ten, rectangle, strip, words,
 };
 use crate::calibration::document::{ResidualDocument, ResultDocument};
-use crate::report::page::language::Languages;
+use crate::report::page::language::{Languages, Text};
 use crate::report::page::texts::pictures as texts;
 use maud::{Markup, html};
 
@@ -22,19 +23,23 @@ pub(crate) type Along = fn(&ResidualDocument) -> (f64, Option<f64>);
 /// Axes of the case, and the functions that return the residuals along them.
 pub(crate) const AXES: [(&str, Along); 2] = [("x", |at| (at.x, at.u_x)), ("y", |at| (at.y, at.u_y))];
 
-/// Bars of all residuals of a result, to one scale.
+/// Bars of values that are 0 but for their uncertainty, to one scale.
 pub(crate) struct Bars(Scale);
 
 impl Bars {
     /// Creates bars to the scale of the largest residual or limit.
     pub(crate) fn of(result: &ResultDocument) -> Self {
-        let all = result.residuals_deg_per_h.iter().flat_map(|at| AXES.map(|(_, along)| along(at)));
-        let reach = all.fold(0.0, |most, (value, u)| f64::max(most, value.abs().max(LIMIT * u.unwrap_or(0.0))));
+        Self::over(result.residuals_deg_per_h.iter().flat_map(|at| AXES.map(|(_, along)| along(at))))
+    }
+
+    /// Creates bars to the scale of the largest value or limit; a value comes with its standard uncertainty, if known.
+    pub(crate) fn over(values: impl Iterator<Item = (f64, Option<f64>)>) -> Self {
+        let reach = values.fold(0.0, |most, (value, u)| f64::max(most, value.abs().max(LIMIT * u.unwrap_or(0.0))));
         let reach = if reach > 0.0 && reach.is_finite() { 1.05 * reach } else { 1.0 };
         Self(Scale { values: [-reach, reach], places: BARS })
     }
 
-    /// Draws a residual within its limits.
+    /// Draws a value within its limits.
     pub(crate) fn bar(&self, (value, u): (f64, Option<f64>)) -> Markup {
         let (Self(scale), y) = (self, 0.5 * HEIGHT);
         let band =
@@ -69,11 +74,16 @@ impl Bars {
     }
 }
 
-/// Draws what bars and limits mean.
+/// Draws what bars and limits of residuals mean.
 pub(crate) fn key(languages: &Languages) -> Markup {
+    key_of(languages, texts::RESIDUAL, texts::RESIDUAL_LIMITS)
+}
+
+/// Draws what bars and limits mean.
+pub(crate) fn key_of(languages: &Languages, bar: Text, limits: Text) -> Markup {
     let entries = [
-        (rectangle([2.0, 4.0], [26.0, 10.0], "bar", None), texts::RESIDUAL),
-        (rectangle([2.0, 1.0], [26.0, 13.0], "limits", None), texts::RESIDUAL_LIMITS),
+        (rectangle([2.0, 4.0], [26.0, 10.0], "bar", None), bar),
+        (rectangle([2.0, 1.0], [26.0, 13.0], "limits", None), limits),
     ];
     legend(languages, &entries)
 }

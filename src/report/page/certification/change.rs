@@ -1,13 +1,14 @@
 //! Change of the stand since its last certificate.
 
-use super::evidence::numbers;
+use super::evidence::{numbers, rows};
 use super::{CertificationPage, remarks};
 use crate::certification::comparison::{Comparison, Test};
 use crate::passport::difference::NumberDifference;
 use crate::report::page::language::Languages;
 use crate::report::page::number::{Number, column};
-use crate::report::page::parts::{field, fields, heading, section as part, symbol, symbol_and_unit};
-use crate::report::page::texts::{certification as texts, units};
+use crate::report::page::parts::{Table, field, fields, heading, section as part, symbol, symbol_and_unit};
+use crate::report::page::texts::{certification as texts, pictures, units};
+use crate::report::picture::residuals::{Bars, key_of};
 use maud::{Markup, html};
 
 pub(super) fn section(page: &CertificationPage, languages: &Languages) -> Markup {
@@ -74,6 +75,7 @@ fn rotations(comparison: &Comparison, languages: &Languages) -> Markup {
     numbers(languages, headings, names, &columns, texts::ROTATIONS)
 }
 
+/// Writes the deviations of both certificates, and their change as a number and as a bar.
 fn table(changes: &[NumberDifference], languages: &Languages) -> Markup {
     let of = |number: fn(&NumberDifference) -> Option<f64>| -> Vec<Option<Markup>> {
         let each = changes.iter().map(|at| Some(Number::measured(number(at)?, at.standard_uncertainty.unwrap_or(0.0))));
@@ -81,12 +83,15 @@ fn table(changes: &[NumberDifference], languages: &Languages) -> Markup {
     };
     let us: Vec<_> = changes.iter().map(|at| at.standard_uncertainty.map(Number::uncertainty)).collect();
     let ratios: Vec<_> = changes.iter().map(|at| at.ratio().map(|ratio| Number::fixed(ratio, 1))).collect();
+    let change = |at: &NumberDifference| Some((at.difference()?, at.standard_uncertainty));
+    let bars = Bars::over(changes.iter().filter_map(change));
     let columns = [
         of(|at| at.a),
         of(|at| at.b),
         of(NumberDifference::difference),
         column(languages, &us),
         column(languages, &ratios),
+        changes.iter().map(|at| change(at).map(|change| bars.bar(change))).collect(),
     ];
     let headings = vec![
         languages.label(texts::POSITION),
@@ -96,12 +101,30 @@ fn table(changes: &[NumberDifference], languages: &Languages) -> Markup {
         languages.label(texts::DIFFERENCE),
         symbol("u", ""),
         html! { (languages.label(texts::DIFFERENCE)) "/" i { "u" } },
+        html! {},
     ];
+    let mut foot = vec![html! {}; headings.len()];
+    if let Some(last) = foot.last_mut() {
+        *last = bars.axis(languages);
+    }
     let names = changes.iter().map(|at| {
         let (index, angle) = of_key(&at.key);
         vec![html! { "(" (index.replace(',', ", ")) ")" }, symbol(angle, "")]
     });
-    numbers(languages, headings, names.collect(), &columns, texts::CHANGE)
+    let starts = (1..changes.len()).filter(|row| of_key(&changes[*row].key).0 != of_key(&changes[row - 1].key).0);
+    let table = Table {
+        headings,
+        rows: rows(names.collect(), &columns),
+        starts: starts.collect(),
+        foot,
+        row_headings: 2,
+        class: "numbers residuals",
+        ..Table::default()
+    };
+    html! {
+        (table.markup(languages.spoken(texts::CHANGE)))
+        (key_of(languages, pictures::CHANGE_BAR, pictures::CHANGE_LIMITS))
+    }
 }
 
 /// Returns the indices and the letter of a deviation from its key, `positions[1,2].alpha_arcsec`.

@@ -110,6 +110,12 @@ texts! {
         ru: "границы ±2u, где u\u{a0}— стандартная неопределённость остатка"
     }
 
+    CHANGE_BAR { en: "change of the deviation, ″", ru: "изменение отклонения, ″" }
+    CHANGE_LIMITS {
+        en: "limits ±2u, with u the standard uncertainty of the change",
+        ru: "границы ±2u, где u\u{a0}— стандартная неопределённость изменения"
+    }
+
     TOLERANCES_WHISKER {
         en: "expanded uncertainty ±U, U\u{a0}=\u{a0}2u",
         ru: "расширенная неопределённость ±U, U\u{a0}=\u{a0}2u"

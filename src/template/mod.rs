@@ -2,69 +2,17 @@
 //!
 //! A line with `CHANGE` has a value that the program cannot know.
 
+mod positions;
+
 use crate::attitude::Deviation;
 use crate::coefficients::{EarthRate, Position, PositionIndex, SingularPositions, StandGeometry};
 use crate::earth::{
     NORMAL_GRAVITY_U_M_PER_S2, NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2, Place, normal_gravity_m_per_s2,
 };
 use crate::gyro::GyroType;
+use positions::Nominal;
+pub(crate) use positions::Positions;
 use std::fmt::Write;
-
-/// Set of positions in a template.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Positions {
-    /// The four of the paper's eight positions with which the errors of the parameters, in units of the tolerances of
-    /// the paper's gyro, have the smallest sum of variances.
-    Four,
-    /// The paper's eight positions.
-    Eight,
-    /// The paper's eight positions, and the frame at 45°, 180°, 225° and 270°.
-    TwentyFour,
-}
-
-/// Nominal position: index and angles of frame and platform, degrees.
-struct Nominal {
-    index: PositionIndex,
-    theta_deg: f64,
-    phi_deg: f64,
-}
-
-impl Positions {
-    fn nominal(self) -> Vec<Nominal> {
-        const FRAME_DEG: [f64; 6] = [0.0, 90.0, 180.0, 270.0, 45.0, 225.0];
-        let grid = |frames: u32| (1..=frames).flat_map(|i| (1..=4).map(move |j| (i, j)));
-        let places: Vec<(u32, u32)> = match self {
-            Self::Four => vec![(1, 1), (1, 2), (2, 1), (2, 4)],
-            Self::Eight => grid(2).collect(),
-            Self::TwentyFour => grid(6).collect(),
-        };
-        let nominal = |(i, j): (u32, u32)| Nominal {
-            index: PositionIndex { i, j },
-            theta_deg: FRAME_DEG[i as usize - 1],
-            phi_deg: f64::from(j - 1) * 90.0,
-        };
-        places.into_iter().map(nominal).collect()
-    }
-
-    fn remark(self) -> &'static str {
-        match self {
-            Self::Four => {
-                "# Four positions: without all of the paper's eight there are no matrices, and only least squares applies.\n"
-            }
-            Self::Eight => "# The paper's eight positions.\n",
-            Self::TwentyFour => "# The paper's eight positions (i 1 and 2), and sixteen more.\n",
-        }
-    }
-
-    /// Returns the rows of `positions` in a file; `rest` is what follows the nominal angles.
-    fn rows(self, rest: &str) -> String {
-        let row = |at: Nominal| {
-            let PositionIndex { i, j } = at.index;
-            format!("  - {{i: {i}, j: {j}, theta_deg: {}, phi_deg: {}{rest}}}\n", at.theta_deg, at.phi_deg)
-        };
-        self.nominal().into_iter().map(row).collect()
-    }
-}
 
 /// First lines of a stand file and of a header, up to the measured numbers.
 const STAND: &str = r#"format: "dtg-stand/1"
@@ -101,7 +49,7 @@ datum:                               # CHANGE; the surfaces that realise the axe
 "#;
 
 /// Returns a stand file with all deviations 0.
-pub(crate) fn stand(positions: Positions) -> String {
+pub(crate) fn stand(positions: &Positions) -> String {
     let rest = ", alpha_arcsec: 0.0, beta_arcsec: 0.0, gamma_arcsec: 0.0";
     format!(
         "# Certified stand (dtg-stand/1). `certify` writes such a file from readings; write one by hand only if the\n\
@@ -120,7 +68,7 @@ pub(crate) fn stand(positions: Positions) -> String {
 }
 
 /// Returns a header for `certify`: a stand file whose positions have no deviations yet.
-pub(crate) fn header(positions: Positions) -> String {
+pub(crate) fn header(positions: &Positions) -> String {
     format!(
         "# Header of a certification (dtg-stand/1): the stand and its certificate, before the deviations are measured.\n\
          # Replace every CHANGE; delete the lines that do not apply. `certify` adds all measured numbers.\n\
@@ -132,15 +80,21 @@ pub(crate) fn header(positions: Positions) -> String {
 
 /// Returns a table of angles for `certify`. Their digits are arbitrary and differ from run to run, because runs with
 /// the same angles are refused as copies.
-pub(crate) fn readings(positions: Positions, runs: u32) -> String {
+pub(crate) fn readings(positions: &Positions, runs: u32) -> String {
     let mut text = String::from(
         "# Angles for `certify`: deviation of the actual from the nominal orientation, in arcseconds.\n\
          # Replace every angle: these are arbitrary. Measure every position in every run, and move the platform away\n\
          # and back between the runs.\n\
          i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec\n",
     );
+    let mut order: Vec<PositionIndex> = Vec::new();
+    for Nominal { index, .. } in positions.visits() {
+        if !order.contains(&index) {
+            order.push(index);
+        }
+    }
     for run in 1..=runs {
-        for (place, Nominal { index: PositionIndex { i, j }, .. }) in (0..).zip(positions.nominal()) {
+        for (place, PositionIndex { i, j }) in (0..).zip(&order) {
             let [x, y, z] = [0, 1, 2].map(|axis: u32| f64::from((37 * run + 17 * place + 29 * axis) % 101) / 100.0);
             // Writing into a string cannot fail.
             let _ = writeln!(text, "{i},{j},{run},{x:.2},{y:.2},{z:.2}");
@@ -156,26 +110,41 @@ const EXAMPLE_LATITUDE_DEG: f64 = 45.0;
 ///
 /// # Errors
 /// Returns [`SingularPositions`] if the positions have no coefficients; those of [`Positions`] have.
-pub(crate) fn currents(positions: Positions) -> Result<String, SingularPositions> {
+pub(crate) fn currents(positions: &Positions) -> Result<String, SingularPositions> {
     let ideal = |at: Nominal| Position {
         index: at.index,
         theta_deg: at.theta_deg,
         phi_deg: at.phi_deg,
         deviation: Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 },
     };
-    let ideal: Vec<_> = positions.nominal().into_iter().map(ideal).collect();
-    let earth = EarthRate::at_astronomic_latitude(EXAMPLE_LATITUDE_DEG);
+    let all: Vec<_> = positions.nominal().into_iter().map(ideal).collect();
+    let mut earth = EarthRate::at_astronomic_latitude(EXAMPLE_LATITUDE_DEG);
+    let azimuth_deg = positions.frame_axis_azimuth_deg();
+    earth.frame_axis_azimuth_deg = azimuth_deg.unwrap_or(earth.frame_axis_azimuth_deg);
     let gyro = GyroType::gvk_6().nominal.to_model();
     let mut text = String::from(
         "# Currents for `calibrate`, in milliamperes: mean of each axis in each position.\n\
          # Replace every current: these are the exact ones of the paper's gyro on an ideal stand at 45 degrees.\n\
          # Further columns, if you have them: cycle (turn-on of the gyro), visit (arrival at the position), time_s.\n\
-         # Read a position again in further rows; give them another visit if the stand was moved in between.\n\
-         i,j,jx_ma,jy_ma\n",
+         # Read a position again in further rows; give them another visit if the stand was moved in between.\n",
     );
-    for at in &StandGeometry::new(&ideal)?.at(earth).positions {
-        if let Some(current) = gyro.currents_ma(at) {
-            let _ = writeln!(text, "{},{},{:.7},{:.7}", at.index.i, at.index.j, current.x, current.y);
+    if let Some(azimuth_deg) = azimuth_deg {
+        let _ = writeln!(
+            text,
+            "# The rows are in the order of the plan, which is for a frame's axis at azimuth {azimuth_deg} degrees."
+        );
+    }
+    text.push_str(if azimuth_deg.is_some() { "i,j,visit,jx_ma,jy_ma\n" } else { "i,j,jx_ma,jy_ma\n" });
+    let coefficients = StandGeometry::new(&all)?.at(earth);
+    let mut visited: Vec<PositionIndex> = Vec::new();
+    for PositionIndex { i, j } in positions.visits().into_iter().map(|at| at.index) {
+        let index = PositionIndex { i, j };
+        visited.push(index);
+        let visit = visited.iter().filter(|at| **at == index).count();
+        let visit = if azimuth_deg.is_some() { format!("{visit},") } else { String::new() };
+        let current = coefficients.positions.iter().find(|at| at.index == index).and_then(|at| gyro.currents_ma(at));
+        if let Some(current) = current {
+            let _ = writeln!(text, "{i},{j},{visit}{:.7},{:.7}", current.x, current.y);
         }
     }
     Ok(text)
@@ -309,7 +278,8 @@ mod tests {
 
     #[test]
     fn stand_header_readings_and_currents_pass_their_readers() {
-        for (set, count) in EACH {
+        for (set, count) in &EACH {
+            let count = *count;
             let stand = Stand::from_yaml("stand.yaml", stand(set).as_bytes()).unwrap();
             let header = Header::from_yaml("header.yaml", header(set).as_bytes()).unwrap();
             assert_eq!((stand.positions.len(), header.positions.len()), (count, count));

@@ -1,0 +1,120 @@
+//! Positions of a template: the paper's, a subset or more of them, or those of a plan.
+
+use crate::coefficients::PositionIndex;
+use crate::plan::document::Planned;
+
+/// Set of positions in a template.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Positions {
+    /// The four of the paper's eight positions with which the errors of the parameters, in units of the tolerances of
+    /// the paper's gyro, have the smallest sum of variances.
+    Four,
+    /// The paper's eight positions.
+    Eight,
+    /// The paper's eight positions, and the frame at 45°, 180°, 225° and 270°.
+    TwentyFour,
+    /// Those of a plan.
+    Planned(Planned),
+}
+
+/// Nominal position: index and angles of frame and platform, degrees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Nominal {
+    pub(super) index: PositionIndex,
+    pub(super) theta_deg: f64,
+    pub(super) phi_deg: f64,
+}
+
+/// Angles of the frame, degrees, of i = 1, 2, …; the first two are the paper's.
+const FRAME_DEG: [f64; 6] = [0.0, 90.0, 180.0, 270.0, 45.0, 225.0];
+
+/// Angles of the platform, degrees, of j = 1, 2, …; these are the paper's.
+const PLATFORM_DEG: [f64; 4] = [0.0, 90.0, 180.0, 270.0];
+
+impl Positions {
+    /// Returns the positions, each once.
+    pub(super) fn nominal(&self) -> Vec<Nominal> {
+        let grid = |frames: u32| (1..=frames).flat_map(|i| (1..=4).map(move |j| (i, j)));
+        let places: Vec<(u32, u32)> = match self {
+            Self::Four => vec![(1, 1), (1, 2), (2, 1), (2, 4)],
+            Self::Eight => grid(2).collect(),
+            Self::TwentyFour => grid(6).collect(),
+            Self::Planned(plan) => return planned(plan),
+        };
+        let nominal = |(i, j): (u32, u32)| Nominal {
+            index: PositionIndex { i, j },
+            theta_deg: FRAME_DEG[i as usize - 1],
+            phi_deg: PLATFORM_DEG[j as usize - 1],
+        };
+        places.into_iter().map(nominal).collect()
+    }
+
+    /// Returns the positions in the order of the visits of one run: as often as a plan visits them, otherwise once.
+    pub(super) fn visits(&self) -> Vec<Nominal> {
+        let all = self.nominal();
+        let Self::Planned(plan) = self else { return all };
+        let of = |angles: &[f64; 2]| all.iter().find(|at| [at.theta_deg, at.phi_deg] == *angles).copied();
+        plan.order.iter().filter_map(of).collect()
+    }
+
+    /// Returns the azimuth of the frame's axis, degrees clockwise from north, or `None` without a plan.
+    pub(super) fn frame_axis_azimuth_deg(&self) -> Option<f64> {
+        match self {
+            Self::Planned(plan) => Some(plan.frame_axis_azimuth_deg),
+            _ => None,
+        }
+    }
+
+    /// Returns the remark above the positions of a file.
+    pub(super) fn remark(&self) -> String {
+        match self {
+            Self::Four => {
+                "# Four positions: without all of the paper's eight there are no matrices, and only least squares \
+                 applies.\n"
+                    .to_owned()
+            }
+            Self::Eight => "# The paper's eight positions.\n".to_owned(),
+            Self::TwentyFour => "# The paper's eight positions (i 1 and 2), and sixteen more.\n".to_owned(),
+            Self::Planned(plan) => format!(
+                "# Positions of the plan, which is for a frame's axis at azimuth {} degrees: state it in the site.\n",
+                plan.frame_axis_azimuth_deg
+            ),
+        }
+    }
+
+    /// Returns the rows of `positions` in a file; `rest` is what follows the nominal angles.
+    pub(super) fn rows(&self, rest: &str) -> String {
+        let row = |at: Nominal| {
+            let PositionIndex { i, j } = at.index;
+            format!("  - {{i: {i}, j: {j}, theta_deg: {}, phi_deg: {}{rest}}}\n", at.theta_deg, at.phi_deg)
+        };
+        self.nominal().into_iter().map(row).collect()
+    }
+}
+
+/// Returns the positions of a plan, sorted by their indices: those of the stand that was planned for, otherwise the
+/// paper's for its angles and the next ones for all others.
+fn planned(plan: &Planned) -> Vec<Nominal> {
+    let (mut frames, mut platforms) = (FRAME_DEG.to_vec(), PLATFORM_DEG.to_vec());
+    let number = |of: &mut Vec<f64>, angle_deg: f64| {
+        let at = of.iter().position(|known| *known == angle_deg).unwrap_or_else(|| {
+            of.push(angle_deg);
+            of.len() - 1
+        });
+        u32::try_from(at + 1).unwrap_or(u32::MAX)
+    };
+    let mut found: Vec<Nominal> = plan
+        .readings
+        .iter()
+        .map(|at| Nominal {
+            index: at.index().unwrap_or_else(|| PositionIndex {
+                i: number(&mut frames, at.theta_deg),
+                j: number(&mut platforms, at.phi_deg),
+            }),
+            theta_deg: at.theta_deg,
+            phi_deg: at.phi_deg,
+        })
+        .collect();
+    found.sort_by_key(|at| (at.index.i, at.index.j));
+    found
+}
