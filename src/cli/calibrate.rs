@@ -289,7 +289,7 @@ impl Bench<'_> {
         let json = named(".json");
         if let Some(other) = written.get(&json) {
             let words = format!(
-                "nothing was written: {} is the result of {}; rename one of the files of currents",
+                "nothing was written: {} is the result of {}; name each file of currents once, or rename one",
                 shown(&json),
                 Printable(other)
             );

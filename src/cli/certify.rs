@@ -118,6 +118,11 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
 fn header_of(headers: &Path, readings: &Path) -> Result<Header, Failure> {
     let name = |extension: &str| headers.join(readings.with_extension(extension).file_name().unwrap_or_default());
     let path = Some(name("yml")).filter(|path| path.is_file()).unwrap_or_else(|| name("yaml"));
+    if path.symlink_metadata().is_err() {
+        let advice = "`dtg-passport new header FILE` writes a template";
+        let (path, readings) = (shown(&path), shown(readings));
+        return Err(Failure::unusable(format!("{path}: missing, expected the header of {readings}; {advice}")));
+    }
     read_header(&path)
 }
 

@@ -5,6 +5,7 @@
 
 use super::failure::Failure;
 use super::help;
+use crate::files::FileError;
 use crate::text::shown;
 use crate::workspace::{NoWorkspace, Workspace};
 use clap::builder::{PathBufValueParser, TypedValueParser};
@@ -43,10 +44,10 @@ pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure>
     };
     let folder =
         matches.get_one::<PathBuf>("workspace").cloned().or_else(|| variable(WORKSPACE_VARIABLE).map(Into::into));
-    let workspace = folder.map(|folder| Workspace::read(&folder)).transpose().map_err(|error| match error {
-        NoWorkspace::File(error) => Failure::file(error),
-        NoWorkspace::Unreadable(error) => Failure::unreadable(error),
-    })?;
+    // `init` makes a workspace, so the one that the environment names need not be there yet.
+    let folder = folder.filter(|_| matches.subcommand_name() != Some("init"));
+    let workspace = folder.map(|folder| Workspace::read(&folder).map_err(|error| no_workspace(&folder, error)));
+    let workspace = workspace.transpose()?;
     let defaults = Defaults::of(workspace.as_ref());
     let mut added = Vec::new();
     if let Some((verb, of_command, of_verb)) = verb(&command, &matches) {
@@ -72,6 +73,20 @@ pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure>
         format!("{option} {} (from {source})", shown(Path::new(value)))
     };
     Ok(added.iter().map(words).collect())
+}
+
+fn no_workspace(folder: &Path, error: NoWorkspace) -> Failure {
+    match error {
+        NoWorkspace::File(FileError::Read { error, .. }) if error.kind() == std::io::ErrorKind::NotFound => {
+            Failure::unusable(format!(
+                "{}: is not a workspace, because it has no dtg-passport.toml; check --workspace or {WORKSPACE_VARIABLE}, \
+                 or make a workspace with `init`",
+                shown(folder)
+            ))
+        }
+        NoWorkspace::File(error) => Failure::file(error),
+        NoWorkspace::Unreadable(error) => Failure::unreadable(error),
+    }
 }
 
 /// Returns an option with its value as one argument; without an option, the value alone.
@@ -162,8 +177,11 @@ pub(super) fn passport() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().map(|path| named(path, |workspace, name| workspace.passport(name)))
 }
 
-/// Returns the file that a name means in the workspace, or the name as a path if that exists or no file has the name.
+/// Returns the file that a name means in the workspace, or the name as a path if that exists or the name means none.
+///
+/// The file need not exist: the message then names the nearest one of the workspace.
 fn named(path: PathBuf, find: fn(&Workspace, &str) -> Option<PathBuf>) -> PathBuf {
-    let found = || find(workspace()?, path.to_str()?).filter(|found| found.exists());
+    let begins_here = path.components().next().is_some_and(|first| Path::new(&first).symlink_metadata().is_ok());
+    let found = || find(workspace()?, path.to_str()?).filter(|found| found.exists() || !begins_here);
     if path == Path::new("-") || path.symlink_metadata().is_ok() { path } else { found().unwrap_or(path) }
 }

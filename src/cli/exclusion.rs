@@ -37,7 +37,8 @@ impl ExclusionOptions {
             )));
         }
         if let Some(bad) = why.iter().find(|why| why.is_empty() || !why.chars().all(rule::allowed_in_string)) {
-            let words = "the reason is empty or contains a character that is not allowed in signed files";
+            let words = "the reason is empty or contains a character that is not allowed in signed files; state in plain \
+                         words why the reading is left out";
             return Err(Failure::unusable(format!("--why {:?}: {words}", Printable(bad).to_string())));
         }
         let each = exclude.iter().enumerate().map(|(at, excluded)| {

@@ -15,6 +15,7 @@ use crate::passport::issue::time_of_issue;
 use crate::report::issued::Told;
 use crate::report::page::certification::CertificationPage;
 use crate::report::recertification as report;
+use crate::text::kind::{Kind, mistaken};
 use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, name_of, shown};
 use clap::Args;
 use jiff::Timestamp;
@@ -90,6 +91,12 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let cancel = long_run::cancelled_by_ctrl_c()?;
     let read = |path: &PathBuf| files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file);
+    // Before the readings are read: exchanged arguments are then recognised by the file that is there.
+    let expected = "a passport, which `issue` makes and signs";
+    let name = name_of(&options.passport);
+    if let Some(other) = mistaken(&name, &read(&options.passport)?, expected, |kind| kind == Kind::Passport) {
+        return Err(Failure::unreadable(other));
+    }
     let header = options
         .header
         .as_ref()

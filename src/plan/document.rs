@@ -6,6 +6,7 @@ use crate::calibration::NotStated;
 use crate::coefficients::PositionIndex;
 use crate::gyro::{GyroParameters, Parameters};
 use crate::stand::MOST_POSITIONS;
+use crate::text::kind::Kind;
 use crate::text::{Location, Unreadable};
 use serde::{Deserialize, Serialize};
 
@@ -130,6 +131,9 @@ impl Planned {
             let advice = "create it with `plan --format json`";
             Unreadable::whole(name, location, found, "the JSON of a plan", advice).in_text(bytes)
         };
+        if let Some(kind) = Kind::of(bytes) {
+            return Err(refused(None, kind.words().to_owned()));
+        }
         let plan: Self = serde_json::from_slice(bytes).map_err(|error| {
             let location = (error.line() > 0).then(|| Location { line: error.line(), column: error.column().max(1) });
             let mut found = error.to_string();

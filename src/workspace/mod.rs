@@ -13,7 +13,7 @@ pub(crate) use status::status;
 use crate::files::{self, FileError};
 use crate::folder::Folder;
 use crate::text::problem::Problem;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Location, Unreadable, name_of};
+use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Location, Unreadable, name_of};
 use std::path::{Path, PathBuf};
 use toml::de::{DeTable, DeValue};
 
@@ -113,20 +113,38 @@ impl Workspace {
         })
     }
 
-    /// Returns the path of the stand file of `MODEL/SERIAL`.
+    /// Returns the path of the stand file of `MODEL/SERIAL`, or `None` if `name` is not of this form.
     pub(crate) fn stand(&self, name: &str) -> Option<PathBuf> {
-        Some(self.stands.as_ref()?.join(name).join("stand.yaml"))
+        let names: Vec<&str> = name.split('/').collect();
+        let [model, serial] = identifiers(&names)?.try_into().ok()?;
+        Some(self.stands.as_ref()?.join(model).join(serial).join("stand.yaml"))
     }
 
-    /// Returns the path of the file of the site `id`.
+    /// Returns the path of the file of the site `id`, or `None` if it is not an identifier.
     pub(crate) fn site(&self, id: &str) -> Option<PathBuf> {
+        let [id] = identifiers(&[id])?.try_into().ok()?;
         Some(self.sites.as_ref()?.join(format!("{id}.yaml")))
     }
 
-    /// Returns the path of the passport with the identifier `id`, or `None` if it is not an identifier.
+    /// Returns the path of the passport with the identifier `id`, or for `MODEL/SERIAL` the folder of the passports of
+    /// this stand; `None` if it is neither. Without its revision the identifier leads to a path that does not exist, and
+    /// next to which the passport is.
     pub(crate) fn passport(&self, id: &str) -> Option<PathBuf> {
-        Folder::new(self.passports.as_ref()?).path_of_id(id)
+        let root = self.passports.as_ref()?;
+        let names: Vec<&str> = id.split('/').collect();
+        match identifiers(&names)?.as_slice() {
+            [model, serial] => Some(root.join(model).join(serial)),
+            [model, serial, site] => Some(root.join(model).join(serial).join(format!("{site}.yaml"))),
+            _ => Folder::new(root).path_of_id(id),
+        }
     }
+}
+
+/// Returns the names if each is an identifier and not that of a file with an extension of YAML or of a table.
+fn identifiers<'a>(names: &[&'a str]) -> Option<Vec<&'a str>> {
+    let is_file = |name: &str| [".yaml", ".yml", ".csv"].iter().any(|end| name.to_lowercase().ends_with(end));
+    let each = names.iter().map(|name| (Identifier::new(name).is_ok() && !is_file(name)).then_some(*name));
+    each.collect()
 }
 
 /// Returns the text of a value, or `None` if it is not text or empty.

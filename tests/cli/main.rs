@@ -14,6 +14,7 @@ mod history;
 #[cfg(unix)]
 mod hostile_words;
 mod json_keys;
+mod keystrokes;
 mod recertify;
 mod report;
 mod revocation_chain;
