@@ -14,7 +14,7 @@ pub(crate) fn text(budget: &Budget, sentence: Option<&str>) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "\nUncertainty budget ({}), linear approximation", budget.method.key());
     if let Some(sentence) = sentence {
-        columns::paragraph(&mut out, "", &format!("{sentence}."));
+        columns::paragraph(&mut out, "", &columns::powers(&format!("{sentence}.")));
     }
     for line in &budget.parameters {
         parameter(&mut out, line);
@@ -44,27 +44,29 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
     // A single small contribution is printed as it is.
     let shown = if large + 1 == line.contributions.len() { large + 1 } else { large };
     let (shown, rest) = line.contributions.split_at(shown);
-    let mut rows: Vec<Vec<String>> = shown.iter().map(row).collect();
+    // One digit more than u has: the small ones can be told from 0.
+    let digits = digits + 1;
+    let mut rows: Vec<Vec<String>> = shown.iter().map(|part| row(part, digits)).collect();
     if !rest.is_empty() {
         let sum: f64 = rest.iter().map(|part| part.contribution * part.contribution).sum();
         let name = format!("{} others", rest.len());
-        rows.push(vec![name, String::new(), String::new(), format!("{:.1e}", sum.sqrt()), "< 0.1".to_owned()]);
+        rows.push(vec![name, String::new(), String::new(), format!("{:.digits$}", sum.sqrt()), "< 0.1".to_owned()]);
     }
     columns::table(out, &["input", "u of input", "inputs", "contribution", "share, %"], &rows);
 }
 
-fn row(part: &Contribution) -> Vec<String> {
+fn row(part: &Contribution, digits: usize) -> Vec<String> {
     let [low, high] = part.standard_uncertainty.map(|u| part.cause.shown(u));
     let size = if low < 0.99 * high { format!("{low:.2}–{high:.2}") } else { short(high) };
     vec![
         part.cause.kind(),
         format!("{size} {}", printed(part.cause.unit())),
         part.inputs.to_string(),
-        format!("{:.1e}", part.contribution),
+        format!("{:.digits$}", part.contribution),
         format!("{:.2}", 100.0 * part.share),
     ]
 }
 
 fn short(value: f64) -> String {
-    if value < 1e-3 { format!("{value:.1e}") } else { format!("{:.*}", columns::decimals(value).max(1), value) }
+    if value < 1e-3 { columns::two_digits(value) } else { format!("{:.*}", columns::decimals(value).max(1), value) }
 }

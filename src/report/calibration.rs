@@ -281,8 +281,11 @@ fn methods(out: &mut String, calibration: &Calibration) {
         let rest_n = iteration.remainder_omega_n_deg_per_h_per_g.abs().max();
         let words = format!(
             "iterative: spectral radius {:.4}; {predicted} steps predicted, {} taken; remaining error at most \
-             {rest:.1e} °/(h·mA) in K and {rest_n:.1e} °/(h·g) in omega_n.",
-            iteration.spectral_radius, iteration.steps
+             {} °/(h·mA) in K and {} °/(h·g) in ω_n.",
+            iteration.spectral_radius,
+            iteration.steps,
+            columns::two_digits(rest),
+            columns::two_digits(rest_n)
         );
         columns::paragraph(out, "  ", &words);
     }
@@ -361,8 +364,9 @@ fn scatter(out: &mut String, calibration: &Calibration) {
         let words = match &rows.against_stated {
             Some(stated) => agreement("Readings of a visit", stated, "check whether they are copies of one reading"),
             None => format!(
-                "Readings of a visit have a standard deviation of {deviation:.2e} uA ({freedom} degrees of freedom), \
-                 which was used as the noise of the meter, because noise_ma is not stated."
+                "Readings of a visit have a standard deviation of {} uA ({freedom} degrees of freedom), \
+                 which was used as the noise of the meter, because noise_ma is not stated.",
+                columns::two_digits(deviation)
             ),
         };
         columns::paragraph(out, "  ", &words);
@@ -378,21 +382,27 @@ fn scatter(out: &mut String, calibration: &Calibration) {
     let each = [("visit to visit", &calibration.visit_noise), ("turn-on to turn-on", &calibration.turn_on_noise)];
     for (between, noise) in each.into_iter().filter(|(_, noise)| noise.source == NoiseSource::Estimated) {
         let words = format!(
-            "Noise of the gyro from {between}, estimated: {:.1e} °/h ({} degrees of freedom).",
-            noise.deg_per_h, noise.degrees_of_freedom
+            "Noise of the gyro from {between}, estimated: {} °/h ({} degrees of freedom).",
+            columns::two_digits(noise.deg_per_h),
+            noise.degrees_of_freedom
         );
         columns::paragraph(out, "  ", &words);
     }
     if let Some(test) = calibration.drift_test.filter(|test| test.is_significant()) {
         let words = format!(
-            "WARNING: the residuals show a drift of ω_0 in time, ({:+.1e}, {:+.1e}) °/h per hour, which is not fitted \
+            "WARNING: the residuals show a drift of ω_0 in time, ({}, {}) °/h per hour, which is not fitted \
              (probability of a larger one: {}). Fit it with --drift.",
-            test.drift_deg_per_h_per_h.x,
-            test.drift_deg_per_h_per_h.y,
+            with_sign(test.drift_deg_per_h_per_h.x),
+            with_sign(test.drift_deg_per_h_per_h.y),
             columns::probability(test.probability)
         );
         columns::paragraph(out, "", &words);
     }
+}
+
+/// Formats a value with two significant digits and its sign.
+fn with_sign(value: f64) -> String {
+    if value > 0.0 { format!("+{}", columns::two_digits(value)) } else { columns::two_digits(value) }
 }
 
 /// Returns a sentence that compares an observed scatter with the stated uncertainty; `less` is the advice if the
@@ -443,10 +453,10 @@ fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
     }
     for row in verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()) {
         let words = format!(
-            "local g contributes most of U of {}: {:.1e} {}; to reduce it, measure gravity or state the height of the \
+            "local g contributes most of U of {}: {} {}; to reduce it, measure gravity or state the height of the \
              site.",
             symbol_of(row.parameter),
-            row.expanded_uncertainty_from_gravity.unwrap_or(0.0),
+            columns::two_digits(row.expanded_uncertainty_from_gravity.unwrap_or(0.0)),
             printed(row.unit),
         );
         columns::paragraph(out, "  ", &words);

@@ -148,7 +148,7 @@ pub(crate) fn certification(found: &Certification) -> String {
     components(&mut out, found);
     tests(&mut out, found);
     for warning in &found.remarks {
-        columns::paragraph(&mut out, "", &format!("WARNING: {warning}."));
+        columns::paragraph(&mut out, "", &columns::powers(&format!("WARNING: {warning}.")));
     }
     out
 }

@@ -1,5 +1,6 @@
 //! Text in columns that fits the terminal. Where there is none, lines have at most 100 characters.
 
+use super::page::number::superscripts;
 use super::style;
 use crate::text::printable;
 use std::fmt::Write;
@@ -113,7 +114,7 @@ fn unbroken(text: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for word in text.split(' ') {
         let is_unit = UNITS.contains(&word.trim_end_matches([',', ';', '.', ':', ')'])) || word.starts_with("°/(");
-        match words.last_mut().filter(|last| is_unit && last.ends_with(|c: char| c.is_ascii_digit())) {
+        match words.last_mut().filter(|last| is_unit && last.ends_with(|c: char| c.is_numeric())) {
             Some(number) => *number += &format!(" {word}"),
             None => words.push(word.to_owned()),
         }
@@ -252,15 +253,46 @@ pub(crate) fn signed(value: f64, decimals: usize) -> String {
     if is_zero { format!("{:.decimals$}", 0.0) } else { printed }
 }
 
-/// Formats a probability with two digits, or as `< 1e-6`.
+/// Formats a probability with two digits, or as `< 10⁻⁶`.
 pub(crate) fn probability(p: f64) -> String {
     if p < 1e-6 {
-        "< 1e-6".to_owned()
+        "< 10⁻⁶".to_owned()
     } else if p < 0.01 {
-        format!("{p:.1e}")
+        two_digits(p)
     } else {
         format!("{p:.2}")
     }
+}
+
+/// Formats a value with two significant digits, and with a power of ten if it would otherwise have many zeros.
+pub(crate) fn two_digits(value: f64) -> String {
+    if value == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e5).contains(&value.abs()) {
+        format!("{value:.*}", decimals(value.abs()))
+    } else {
+        powers(&format!("{value:.1e}"))
+    }
+}
+
+/// Returns a text with powers of ten instead of exponents: `7.3×10⁻⁵` instead of `7.3e-5`. The text contains no words from
+/// elsewhere.
+pub(crate) fn powers(text: &str) -> String {
+    let (mut out, mut rest) = (String::with_capacity(text.len()), text);
+    while let Some((before, after)) = rest.split_once('e') {
+        let sign = usize::from(after.starts_with('-'));
+        let digits = after[sign..].chars().take_while(char::is_ascii_digit).count();
+        out.push_str(before);
+        if digits > 0 && before.ends_with(|c: char| c.is_ascii_digit()) {
+            let (exponent, further) = after.split_at(sign + digits);
+            out += &format!("×10{}", superscripts(exponent));
+            rest = further;
+        } else {
+            out.push('e');
+            rest = after;
+        }
+    }
+    out + rest
 }
 
 #[cfg(test)]
@@ -271,6 +303,19 @@ mod tests {
     fn an_uncertainty_has_two_digits() {
         for (u, decimals_due) in [(0.0123, 3), (0.0996, 2), (1.5, 1), (15.0, 0), (150.0, 0), (2.0e-5, 6)] {
             assert_eq!(decimals(u), decimals_due, "{u}");
+        }
+    }
+
+    #[test]
+    fn exponents_become_powers_of_ten() {
+        assert_eq!(powers("one of 2 to 7.3e-5 mA; 1.0e12, x1e"), "one of 2 to 7.3×10⁻⁵ mA; 1.0×10¹², x1e");
+        let cases =
+            [(0.0, "0"), (0.001_34, "0.0013"), (-0.25, "-0.25"), (0.000_999_6, "1.0×10⁻³"), (4.6e-9, "4.6×10⁻⁹")];
+        for (value, due) in cases {
+            assert_eq!(two_digits(value), due, "{value}");
+        }
+        for (p, due) in [(0.45, "0.45"), (0.0036, "0.0036"), (1.3e-4, "1.3×10⁻⁴"), (1e-7, "< 10⁻⁶")] {
+            assert_eq!(probability(p), due, "{p}");
         }
     }
 
@@ -294,6 +339,7 @@ mod tests {
     #[test]
     fn a_number_stays_with_its_unit() {
         assert_eq!(unbroken("is 2 °/(h·mA); a 5 % b"), ["is", "2 °/(h·mA);", "a", "5 %", "b"]);
+        assert_eq!(unbroken("of 4.6×10⁻⁹ °/(h·mA)"), ["of", "4.6×10⁻⁹ °/(h·mA)"]);
         let mut out = String::new();
         paragraph(&mut out, "", &format!("{}0.13 %", "word ".repeat(19)));
         assert_eq!(out.lines().last(), Some("0.13 %"));

@@ -12,7 +12,7 @@ const MICROAMPERES: i32 = 3;
 pub(crate) fn words(mistake: &Mistake, language: Language) -> String {
     match mistake {
         Mistake::Currents(mistaken) => {
-            let causes = causes(mistaken, language).join(&format!(", {} ", texts::MISTAKE_AND.of(language)));
+            let causes = causes(mistaken, language).join(&format!(", {} ", texts::MISTAKE_AND.words(language)));
             texts::MISTAKE_CURRENTS.filled(language, &[("causes", &causes)])
         }
         Mistake::OtherPlace { latitude_deg } => {
@@ -24,7 +24,7 @@ pub(crate) fn words(mistake: &Mistake, language: Language) -> String {
 
 fn causes(mistaken: &CurrentsMistaken, language: Language) -> Vec<String> {
     let mut causes = Vec::new();
-    let mut add = |text: Text| causes.push(text.of(language).to_owned());
+    let mut add = |text: Text| causes.push(text.words(language));
     if mistaken.exchanged {
         add(texts::MISTAKE_EXCHANGED);
     }

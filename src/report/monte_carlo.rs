@@ -43,8 +43,8 @@ fn row(line: &crate::uncertainty::monte_carlo::Distribution) -> Vec<String> {
         format!("{:.digits$}", line.standard_uncertainty),
         interval(line.symmetric),
         interval(line.shortest),
-        format!("{:.1e}", first.differences[0].max(first.differences[1])),
-        format!("{:.0e}", first.tolerance),
+        format!("{:.*}", digits + 2, first.differences[0].max(first.differences[1])),
+        format!("{:.*}", digits + 1, first.tolerance),
         match first.valid {
             Some(true) => "valid".to_owned(),
             Some(false) => "NOT VALID".to_owned(),

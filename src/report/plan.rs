@@ -139,7 +139,7 @@ fn common_errors(out: &mut String, plan: &Plan) {
     let cells = |effect: &Effect| {
         // Rounding leaves about 1e-15.
         let residual = effect.largest_residual_deg_per_h;
-        let residual = if residual < 1e-12 { "0".to_owned() } else { format!("{residual:.1e}") };
+        let residual = if residual < 1e-12 { "0".to_owned() } else { columns::two_digits(residual) };
         [percent(effect.largest_over_tolerance), residual]
     };
     let rows = plan.evaluation.effects.iter().enumerate().map(|(place, effect)| {
@@ -157,7 +157,7 @@ fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     match percent {
         small if small < 1e-6 => "0".to_owned(),
-        small if small < 0.095 => format!("{small:.1e}"),
+        small if small < 0.095 => columns::two_digits(small),
         small if small < 9.5 => format!("{small:.1}"),
         large => format!("{large:.0}"),
     }

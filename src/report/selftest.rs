@@ -55,17 +55,17 @@ fn sources(group: &[Case]) -> String {
 fn row(case: &Case, digits: bool) -> Vec<String> {
     let number = |value: f64| {
         if digits {
-            return format!("{value:.14e}");
+            return columns::powers(&format!("{value:.14e}"));
         }
         if case.expected == 0.0 {
-            return format!("{value:.1e}");
+            return columns::two_digits(value);
         }
         // One digit more than the tolerance affects.
         format!("{value:.*}", columns::decimals(case.tolerance))
     };
     // As printed in the source: its digits show its precision.
     let expected = if digits { number(case.expected) } else { format!("{}", case.expected) };
-    let last = case.digits.map_or_else(|| format!("{:.1e}", case.tolerance), |digits| format!("{digits:.1}"));
+    let last = case.digits.map_or_else(|| columns::two_digits(case.tolerance), |digits| format!("{digits:.1}"));
     let verdict = if case.passed() { "ok" } else { "FAILED" };
     vec![case.quantity.clone(), expected, number(case.found), last, verdict.to_owned()]
 }

@@ -1,9 +1,10 @@
 // Looks at pages in the system's Chromium: what they say, whether anything is cut off, what axe and the validator find, what
-// they ask of the network, how they print.
+// they ask of the network, how they print. Needs pdftotext.
 //
 // usage: node browser.cjs CHROMIUM FOLDER NAME...   reads FOLDER/NAME.html, writes FOLDER/NAME*.{pdf,png}, prints JSON.
 
 const fs = require("fs");
+const { execFileSync } = require("child_process");
 const os = require("os");
 const path = require("path");
 const { chromium } = require("playwright-core");
@@ -68,7 +69,7 @@ function said() {
     sections: all("h2 .number").map(text),
     headings: all("h1, h2, h3, caption").map((heading) => heading.textContent),
     blocks: all("p, dt, dd, th, td, caption, h1, h2, h3, li")
-      .filter((block) => !block.closest(".unseen, .save, .screen, svg, tfoot") && !block.querySelector("sub, sup, p, .pad, .unseen"))
+      .filter((block) => !block.closest(".unseen, .save, .screen, svg, tfoot") && !block.querySelector("sub, sup, p, .pad, .unseen, svg text"))
       .map((block) => block.textContent),
     annex: document.querySelector("pre").textContent,
     download: { name: link.download, address: link.href },
@@ -167,6 +168,65 @@ function misaligned() {
   return found;
 }
 
+/** Marks the beginning of every heading and of every row below one, and says what was marked, in the order of the page. */
+function marked() {
+  const heads = { H2: 2, H3: 3, CAPTION: 4, THEAD: 5 };
+  const found = [];
+  for (const element of document.querySelectorAll("h2, h3, caption, thead, tbody tr, .fields > div, li, p, figure, pre .l:nth-child(-n + 3)")) {
+    const level = heads[element.tagName] ?? 0;
+    if (element.closest(".unseen, .screen, .band, .checked, header") || element.getClientRects().length === 0) continue;
+    if (element.matches("p, li") && element.parentElement.closest("table, figure, li, .fields")) continue;
+    const style = getComputedStyle(element);
+    const lines = Math.round(element.getBoundingClientRect().height / (parseFloat(style.lineHeight) || 12));
+    const rows = element.tagName === "FIGURE" ? 3 : element.tagName === "P" ? Math.max(1, lines) : 1;
+    const table = element.closest("table");
+    const tables = [...document.querySelectorAll("table")];
+    // Words out of the flow, which no browser leaves out in print and no eye sees.
+    const mark = document.createElement("span");
+    mark.textContent = `qz${found.length}zq`;
+    mark.style.cssText = "position:absolute;font:1px sans-serif;color:#fefefe;pointer-events:none";
+    const place = element.matches("tr, thead") ? element.querySelector("th, td") : element.matches(".fields > div") ? element.firstElementChild : element;
+    place.prepend(mark);
+    found.push({ level, rows, table: tables.indexOf(table), name: element.textContent.replace(/qz\d+zq/g, "").trim().slice(0, 40) });
+  }
+  return found;
+}
+
+/** The sheets of a print, as text. */
+function sheets(pdf) {
+  return execFileSync("pdftotext", ["-raw", pdf, "-"], { encoding: "utf8", maxBuffer: 1 << 26 }).replace(/\f$/, "").split("\f");
+}
+
+/** Headings, captions and table heads at the foot of a sheet, with fewer than three rows below them that could be there. */
+function orphaned(marks, pdf, printed) {
+  const LEAST = 3;
+  const first = new Map();
+  const text = sheets(pdf);
+  text.forEach((sheet, page) => {
+    for (const [, mark] of sheet.matchAll(/qz(\d+)zq/g)) if (!first.has(Number(mark))) first.set(Number(mark), page);
+  });
+  const plain = (sheet) => sheet.replace(/qz\d+zq|\s/g, "").length;
+  const found = [];
+  const same = text.length === printed.length && text.every((sheet, page) => plain(sheet) === plain(printed[page]));
+  if (!same) found.push("the marks have moved what is on the sheets");
+  marks.forEach((head, place) => {
+    if (!first.has(place)) found.push(`${head.name} is marked and not printed`);
+    if (head.level === 0) return;
+    const after = marks.slice(place + 1);
+    const within = ({ level, table }) => (head.level >= 4 ? table === head.table && level !== 4 : level === 0 || level > head.level);
+    const end = after.findIndex((mark) => !within(mark));
+    const below_head = (end < 0 ? after : after.slice(0, end)).map((mark, index) => ({ ...mark, page: first.get(place + 1 + index) }));
+    const all = below_head.filter(({ level }) => level === 0 || (level >= 4 && head.level < 4));
+    // What comes after a table that is whole may stand on the next sheet.
+    const rows = all.filter(({ table }) => all[0].table < 0 || table === all[0].table);
+    const sum = (some) => some.reduce((all, { rows }) => all + rows, 0);
+    const due = Math.min(LEAST, sum(rows));
+    const there = sum(rows.filter(({ page }) => page === first.get(place)));
+    if (there < due) found.push(`sheet ${first.get(place) + 1}: ${there} of ${due} rows below ${head.name}`);
+  });
+  return found;
+}
+
 async function look(browser, folder, name) {
   const file = path.join(folder, `${name}.html`);
   const address = `file://${file}`;
@@ -201,7 +261,12 @@ async function look(browser, folder, name) {
   result.unfit.print = await page.evaluate(unfit);
   result.crowded.print = await page.evaluate(crowded);
   result.print = { small: await page.evaluate(small), misaligned: await page.evaluate(misaligned) };
-  await page.pdf({ path: path.join(folder, `${name}.pdf`), preferCSSPageSize: true });
+  const printed = path.join(folder, `${name}.pdf`);
+  await page.pdf({ path: printed, preferCSSPageSize: true });
+  const marks = await page.evaluate(marked);
+  const marked_pdf = path.join(folder, `${name}.marked`);
+  await page.pdf({ path: marked_pdf, preferCSSPageSize: true });
+  result.print.orphaned = orphaned(marks, marked_pdf, sheets(printed));
   await page.close();
   const report = await new HtmlValidate(RULES).validateString(html);
   result.html = report.results.flatMap((one) => one.messages.map((message) => `${message.line}:${message.column} ${message.ruleId}: ${message.message}`));

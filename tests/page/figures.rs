@@ -30,7 +30,7 @@ static CALIBRATED: LazyLock<(String, Value)> = LazyLock::new(|| {
     };
     std::fs::write(&earlier, programs::output(calibrate(&currents))).unwrap();
     let mut calibrate = calibrate("docs/currents.csv".as_ref());
-    calibrate.arg("--previous").arg(&earlier).arg("--report").arg(&page);
+    calibrate.arg("--previous").arg(&earlier).args(["--budget", "--report"]).arg(&page);
     let result = serde_json::from_str(&programs::output(calibrate)).unwrap();
     (std::fs::read_to_string(&page).unwrap(), result)
 });
@@ -120,6 +120,41 @@ fn verdict_and_change_are_where_their_axes_say() {
             assert!(of_class(*strip, other).is_empty());
         }
     }
+}
+
+/// Every part of a strip is as long as the share of one input, and each strip as long as its variance.
+#[test]
+fn shares_of_a_variance_are_as_long_as_in_the_result() {
+    let page = Document::parse(table("shares")[0]).unwrap();
+    let strips = of_class(page.root(), "strip");
+    let lines = CALIBRATED.1["budget"]["parameters"].as_array().unwrap();
+    assert_eq!((lines.len(), strips.len()), (8, 9));
+    let axis = Axis::along_x(strips[8]);
+    let us = page.descendants().filter(|node| node.has_tag_name("data"));
+    let mut parts_drawn = 0;
+    for (u, strip) in us.zip(&strips) {
+        let u: f64 = u.attribute("value").unwrap().parse().unwrap();
+        let line = lines.iter().find(|line| get(line, "standard_uncertainty") == u).unwrap();
+        let mut shares: Vec<f64> =
+            line["contributions"].as_array().unwrap().iter().map(|part| 100.0 * get(part, "share")).collect();
+        let (mut parts, mut end) = (of_class(*strip, "share"), 0.0);
+        let rest = parts.remove(0);
+        axis.says(number(parts[0], "x"), 0.0);
+        for part in parts {
+            axis.says(number(part, "x"), end);
+            let to = axis.value(number(part, "x") + number(part, "width"));
+            // The nearest, because small shares differ by less than a line's width.
+            let off = |share: &f64| (to - end - share).abs();
+            let nearest = (0..shares.len()).min_by(|one, other| off(&shares[*one]).total_cmp(&off(&shares[*other])));
+            let share = shares.remove(nearest.unwrap());
+            assert!(off(&share) <= 4.0 * axis.fineness(), "{} of {line}", to - end);
+            end += share;
+            parts_drawn += 1;
+        }
+        axis.says(number(rest, "x"), end);
+        axis.says(number(rest, "x") + number(rest, "width"), 100.0);
+    }
+    assert!(parts_drawn > 16, "{parts_drawn}");
 }
 
 #[test]

@@ -13,6 +13,8 @@ from decimal import ROUND_HALF_EVEN, Decimal
 import yaml
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+# Degrees, if there are any, minutes and seconds.
+ANGLE = re.compile(r"(-?)(?:(\d+)°)?(\d\d?)′(\d\d(?:\.\d+)?)")
 SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 
 
@@ -34,7 +36,15 @@ def printed(text, comma):
     mark, other = (",", ".") if comma else (".", ",")
     if other in plain:
         raise ValueError(f"{text!r} has the decimal mark of another language")
-    mantissa, _, power = plain.replace(mark, ".").partition("·10")
+    angle = ANGLE.fullmatch(plain.replace(mark, "."))
+    if angle:
+        sign, degrees, minutes, seconds = angle.groups()
+        if not 10 * (60 if degrees is None else 0) <= 60 * int(minutes) < 3600 or Decimal(seconds) >= 60:
+            raise ValueError(f"{text!r} is no angle above 600 arcseconds")
+        number = 3600 * int(degrees or 0) + 60 * int(minutes) + Decimal(seconds)
+        return -number if sign else number, Decimal(seconds).as_tuple().exponent
+    # The sign before a power of ten is a cross in English, a point in Russian.
+    mantissa, _, power = plain.replace(mark, ".").partition("·10" if comma else "×10")
     number = Decimal(mantissa)
     exponent = int(power.translate(SUPERSCRIPTS)) if power else 0
     return number.scaleb(exponent), number.as_tuple().exponent + exponent

@@ -7,27 +7,58 @@ use super::language::{Language, Languages};
 use crate::text::number;
 use maud::{Markup, html};
 
+/// Largest angle that is printed in arcseconds alone.
+pub(crate) const LARGEST_IN_ARCSEC: f64 = 600.0;
+
 /// Narrow non-breaking space, between groups of digits.
 pub(crate) const THIN_BLANK: char = '\u{202F}';
 
 /// Non-breaking space, between a number and its unit.
 pub(crate) const BLANK: char = '\u{00A0}';
 
-/// Sign before a power of ten.
-const TIMES: char = '\u{00B7}';
+/// Returns the sign before a power of ten: a cross in English (SI Brochure, 5.4.5), a point in Russian.
+pub(crate) fn times(language: Language) -> char {
+    match language {
+        Language::English => '\u{00D7}',
+        Language::Russian => '\u{00B7}',
+    }
+}
 
 /// A number of a document, and its printed digits.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Number {
     value: f64,
+    /// Sign, degrees and minutes before the digits, if the number is printed as an angle; empty otherwise.
+    before: String,
     /// Printed digits, with a decimal point and an ASCII minus.
     digits: String,
 }
 
 impl Number {
+    fn new(value: f64, digits: String) -> Self {
+        Self { value, before: String::new(), digits }
+    }
+
+    /// Creates the number of an angle in arcseconds with the standard uncertainty `u`: as [`Number::measured`], above 600″
+    /// with degrees and minutes. The mark of the seconds is not part of it.
+    pub(crate) fn angle(arcsec: f64, u: f64) -> Self {
+        let seconds = Self::measured(arcsec, u);
+        let (sign, unsigned) = match seconds.digits.strip_prefix('-') {
+            Some(unsigned) => ("\u{2212}", unsigned),
+            None => ("", seconds.digits.as_str()),
+        };
+        let (whole, decimals) = unsigned.find('.').map_or((unsigned, ""), |at| unsigned.split_at(at));
+        let large = |whole: &u64| arcsec.abs() > LARGEST_IN_ARCSEC && *whole as f64 >= LARGEST_IN_ARCSEC;
+        let Some(whole) = whole.parse::<u64>().ok().filter(large) else { return seconds };
+        let (degrees, minutes) = (whole / 3600, whole / 60 % 60);
+        let before =
+            if degrees > 0 { format!("{sign}{degrees}°{minutes:02}′") } else { format!("{sign}{minutes}′") };
+        Self { value: arcsec, before, digits: format!("{:02}{decimals}", whole % 60) }
+    }
+
     /// Creates a number with `decimals` decimals.
     pub(crate) fn fixed(value: f64, decimals: usize) -> Self {
-        Self { value, digits: without_minus_zero(format!("{value:.decimals$}")) }
+        Self::new(value, without_minus_zero(format!("{value:.decimals$}")))
     }
 
     /// Creates a number with `digits` significant digits.
@@ -42,7 +73,7 @@ impl Number {
             return if value == 0.0 { Self::exact(value) } else { Self::significant(value, digits) };
         }
         let decimals = usize::try_from(digits - 1).unwrap_or(0);
-        Self { value, digits: format!("{value:.decimals$e}") }
+        Self::new(value, format!("{value:.decimals$e}"))
     }
 
     /// Creates a number with the shortest decimal that gives the value back.
@@ -50,7 +81,7 @@ impl Number {
         let magnitude = value.abs();
         let plain = magnitude == 0.0 || (1e-6..1e16).contains(&magnitude);
         let digits = if plain { format!("{value}") } else { format!("{value:e}") };
-        Self { value, digits: without_minus_zero(digits) }
+        Self::new(value, without_minus_zero(digits))
     }
 
     /// Creates a number with the shortest decimal, but at most `decimals` decimals.
@@ -88,12 +119,12 @@ impl Number {
             }
             Err(_) => "0".to_owned(),
         };
-        Self { value, digits: without_minus_zero(digits) }
+        Self::new(value, without_minus_zero(digits))
     }
 
     /// Returns the digits with the marks of `language`.
     pub(crate) fn text(&self, language: Language) -> String {
-        localised(&self.digits, language)
+        format!("{}{}", self.before, localised(&self.digits, language))
     }
 
     /// Returns the number of printed decimals.
@@ -130,7 +161,7 @@ struct Tail {
 
 impl Tail {
     fn of(text: &str) -> Self {
-        let power = text.find([TIMES]).map_or(text.len(), |at| at - THIN_BLANK.len_utf8());
+        let power = text.find(['\u{00D7}', '\u{00B7}']).map_or(text.len(), |at| at - THIN_BLANK.len_utf8());
         let (mantissa, power) = text.split_at(power);
         let decimals = mantissa.split_once(['.', ',']).map(|(_, decimals)| decimals);
         let count = |of: fn(char) -> bool| decimals.map_or(0, |decimals| decimals.chars().filter(|c| of(*c)).count());
@@ -212,8 +243,7 @@ pub(crate) fn localised(ascii: &str, language: Language) -> String {
         grouped(&mut out, decimals, 0);
     }
     if let Some(exponent) = exponent {
-        out += &format!("{THIN_BLANK}{TIMES}{THIN_BLANK}10");
-        out.extend(exponent.chars().filter_map(superscript));
+        out += &format!("{THIN_BLANK}{}{THIN_BLANK}10{}", times(language), superscripts(exponent));
     }
     out
 }
@@ -226,6 +256,11 @@ fn grouped(out: &mut String, digits: &str, head: usize) {
         }
         out.push(digit);
     }
+}
+
+/// Returns an exponent in superscript digits.
+pub(crate) fn superscripts(exponent: &str) -> String {
+    exponent.chars().filter_map(superscript).collect()
 }
 
 fn superscript(c: char) -> Option<char> {
@@ -270,13 +305,31 @@ mod tests {
         }
     }
 
+    /// By hand: 2412.34″ is 40′12.34″, 3599.96″ rounds to a degree, and 45° has no seconds.
+    #[test]
+    fn a_large_angle_has_degrees_and_minutes() {
+        let cases = [
+            (600.0, 1.2, "600.0"),
+            (-599.2, 12.0, "\u{2212}599"),
+            (2412.34, 1.2, "40′12.3"),
+            (-3599.96, 1.2, "\u{2212}1°00′00.0"),
+            (3661.25, 0.0, "1°01′01.25"),
+            (-162_000.0, 0.0, "\u{2212}45°00′00"),
+            (4315.0, 123.4, "1°12′00"),
+        ];
+        for (arcsec, u, printed) in cases {
+            assert_eq!(english(&Number::angle(arcsec, u)), printed, "{arcsec} with {u}");
+        }
+        assert_eq!(Number::angle(-2412.34, 1.2).text(Language::Russian), "\u{2212}40′12,3");
+    }
+
     /// 0.15 is 0.1499999999999999944…: rounded from its decimal 0.15 it would be 0.2.
     #[test]
     fn rounding_is_from_the_binary_value() {
         assert_eq!(english(&Number::fixed(0.15, 1)), "0.1");
         assert_eq!(english(&Number::fixed(2.675, 2)), "2.67");
         assert_eq!(english(&Number::significant(0.000_123_456, 3)), "0.000_123");
-        assert_eq!(english(&Number::scientific(4.649e-9, 2)), "4.6_·_10⁻⁹");
+        assert_eq!(english(&Number::scientific(4.649e-9, 2)), "4.6_×_10⁻⁹");
         assert_eq!(english(&Number::scientific(0.0464, 2)), "0.046");
     }
 

@@ -44,6 +44,9 @@ pub(crate) fn budget(budget: &Budget) -> Option<String> {
 fn parameter(line: &ParameterBudget, [left, top]: Point) -> Markup {
     let u = line.standard_uncertainty;
     let bars = bars(line);
+    // One digit more than u has: the small ones can be told from 0, and the decimal points are in one line.
+    let place = Number::place_of(u) - 1;
+    let digits = |contribution: f64| Number::to_place(contribution, place).text(Language::English);
     // Without any uncertainty the bars have no length, so any scale will do.
     let reach = if u > 0.0 { u } else { 1.0 };
     let scale = Scale { values: [0.0, reach], places: BARS.map(|x| left + x) };
@@ -54,7 +57,7 @@ fn parameter(line: &ParameterBudget, [left, top]: Point) -> Markup {
         html! {
             (words([start - 6.0, y + 4.0], Anchor::End, "", name))
             (rectangle([start, y - BAR_HALF], [scale.clamped(*contribution), y + BAR_HALF], "bar", None))
-            (number([end + 6.0, y + 4.0], Anchor::Start, *contribution, &printed(*contribution)))
+            (number([end + 6.0, y + 4.0], Anchor::Start, *contribution, &digits(*contribution)))
         }
     };
     let title = html! { (symbol(line.parameter.symbol())) tspan dy="-3" { ": u = " (with_unit(line)) } };

@@ -2,6 +2,7 @@
 
 use super::drawing::{Scale, legend, line, nothing, rectangle, strip, strip_axis, whisker};
 use crate::report::page::language::Languages;
+use crate::report::page::number::LARGEST_IN_ARCSEC;
 use crate::report::page::texts::pictures as texts;
 use crate::stand::CertifiedPosition;
 use crate::units::ARCSECONDS_PER_DEGREE;
@@ -15,9 +16,6 @@ const BAR_HALF: f64 = 4.0;
 
 /// Half-length of the whiskers, in standard uncertainties.
 const COVERAGE_FACTOR: f64 = 2.0;
-
-/// Largest value of an axis in arcseconds.
-const LARGEST_AXIS_ARCSEC: f64 = 600.0;
 
 /// Largest value on an axis, arcsec: 180°. The uncertainties themselves have no limit.
 const LARGEST_ARCSEC: f64 = 648_000.0;
@@ -67,7 +65,7 @@ impl Bars {
     /// Draws the axis of a column, in degrees if there would be no room for the numbers in arcseconds.
     pub(crate) fn axis(&self, languages: &Languages) -> Markup {
         let [low, high] = self.scale.values;
-        if high.max(-low) <= LARGEST_AXIS_ARCSEC {
+        if high.max(-low) <= LARGEST_IN_ARCSEC {
             return strip_axis(languages, &self.scale, WIDTH, "");
         }
         let degrees = [low, high].map(|arcsec| arcsec / ARCSECONDS_PER_DEGREE);

@@ -116,12 +116,17 @@ pub(crate) fn whisker(from: f64, to: f64, y: f64, half: f64) -> Markup {
 
 /// Draws a legend: a sample of each mark, and its meaning.
 pub(crate) fn legend(languages: &Languages, entries: &[(Markup, Text)]) -> Markup {
+    legend_with(entries.iter().map(|(sample, words)| (sample, languages.label(*words))))
+}
+
+/// Draws a legend as `legend` does, with any words.
+pub(crate) fn legend_with<'a>(entries: impl Iterator<Item = (&'a Markup, Markup)>) -> Markup {
     html! {
         ul.legend {
             @for (sample, words) in entries {
                 li {
                     svg.sample viewBox="0 0 28 14" aria-hidden="true" { (sample) }
-                    span { (languages.label(*words)) }
+                    span { (words) }
                 }
             }
         }
@@ -211,16 +216,17 @@ pub(crate) fn plain_symbol(name: &str) -> String {
 }
 
 /// Draws a title, in lines for each language, and returns it with the height of all lines after the first.
-pub(crate) fn heading(languages: &Languages, at: Point, text: Text) -> (Markup, f64) {
+/// `say` gives its words in each.
+pub(crate) fn heading_with(languages: &Languages, at: Point, say: impl Fn(Language) -> String) -> (Markup, f64) {
     const LINE: f64 = 15.0;
-    let mut said: Vec<&str> = Vec::new();
+    let mut said: Vec<String> = Vec::new();
     let mut lines: Vec<(&str, String)> = Vec::new();
     for (place, language) in languages.iter().enumerate() {
-        let words = text.of(language);
+        let words = say(language);
         if !said.contains(&words) {
-            said.push(words);
             let class = if place == 0 { "title" } else { "small" };
-            lines.extend(lines_of(words).into_iter().map(|line| (class, line)));
+            lines.extend(lines_of(&words).into_iter().map(|line| (class, line)));
+            said.push(words);
         }
     }
     let drawn = html! {

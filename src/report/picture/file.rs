@@ -25,7 +25,9 @@ pub(crate) fn file(panel: &Panel, title: &str, description: &str, drawing: &[Mar
 pub(crate) fn caption([x, y]: Point, axis: &str, entries: &[(Markup, &str)]) -> Markup {
     const GAP: f64 = 16.0;
     const SAMPLE: f64 = 34.0;
-    let mut end = x + width(axis) + GAP;
+    // `width` has some reserve for labels, which would leave wide gaps here.
+    let width = |words: &str| 0.9 * width(words);
+    let mut end = if axis.is_empty() { x } else { x + width(axis) + GAP };
     let entry = |(sample, name): &(Markup, &str)| {
         let at = end;
         end += SAMPLE + width(name) + GAP;

@@ -131,6 +131,9 @@ fn drift(drift: &Drift, top: f64) -> Markup {
         })
     });
     let (low, high) = ends.fold((-1.0, 1.0), |(low, high), end| (f64::min(low, end), f64::max(high, end)));
+    // No whisker ends on an axis.
+    let margin = 0.06 * (high - low);
+    let (low, high) = (low - margin, high + margin);
     let last = drift.series.iter().flat_map(|series| &series.values).map(|at| at.years).fold(0.0, f64::max);
     let years = [-0.06 * last.max(1.0), 1.06 * last.max(1.0)];
     let legend = [
@@ -169,6 +172,7 @@ fn panel(series: &Series, field: &Field, lowest: bool) -> Markup {
     html! {
         g {
             (field.axes(&years.collect::<Vec<_>>(), &changes))
+            (line([left, field.y.place(0.0)], [right, field.y.place(0.0)], "grid"))
             @if let Some(fitted) = &series.line {
                 @let end = |x: f64| [field.x.place(x), field.y.clamped(fitted.at(x) - first)];
                 @let last = series.values.last().map_or(0.0, |at| at.years);
@@ -183,7 +187,6 @@ fn panel(series: &Series, field: &Field, lowest: bool) -> Markup {
                 (super::drawing::mark([x, field.y.clamped(at.arcsec - first)], 1, "mark"))
             }
             (words([right, field.y.places[1] - 3.0], Anchor::End, if drifts { "title" } else { "small" }, &title))
-            (line([left, field.y.place(0.0)], [right, field.y.place(0.0)], "grid"))
         }
     }
 }

@@ -28,6 +28,7 @@ pub(crate) mod place;
 pub(crate) mod plan;
 pub(crate) mod positions;
 pub(crate) mod residuals;
+pub(crate) mod shares;
 pub(crate) mod simulation;
 pub(crate) mod stand;
 pub(crate) mod tolerances;

@@ -6,6 +6,7 @@ use super::drawing::{
 };
 use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::report::page::language::{Languages, Text};
+use crate::report::page::number::times;
 use crate::report::page::texts::pictures as texts;
 use maud::{Markup, html};
 
@@ -62,7 +63,7 @@ impl Bars {
         let ticks = Ticks::along(&shown, languages.first());
         let drawing = html! {
             @if exponent != 0 {
-                (words([WIDTH, 14.0], Anchor::End, "small", &format!("× {}", power(exponent, languages.first()))))
+                (words([WIDTH, 14.0], Anchor::End, "small", &format!("{}\u{202f}{}", times(languages.first()), power(exponent, languages.first()))))
             }
             @for value in &ticks.values {
                 @let x = shown.place(*value);

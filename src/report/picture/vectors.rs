@@ -2,8 +2,8 @@
 //! gyro's x-y plane ([the paper](crate::bibliography::Bibliography::Tang17), eq. (5)).
 
 use super::drawing::{
-    Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading, label, legend, line, mark, panels, power,
-    power_of_ten, rectangle, words,
+    Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading_with, label, legend, line, mark, nothing, panels,
+    power, power_of_ten, rectangle, words,
 };
 use super::label as labels;
 use crate::attitude;
@@ -14,11 +14,28 @@ use crate::report::page::number::Number;
 use crate::report::page::texts::{pictures as texts, units};
 use maud::{Markup, html};
 
-const PANEL_PIXELS: u32 = 235;
-const COLUMNS: u32 = 2;
-const SIZE: Point = [262.0, 268.0];
-/// Plot area: left, right, upper and lower end.
-const FIELD: [Point; 2] = [[38.0, 22.0], [254.0, 238.0]];
+/// Largest number of positions in a panel; of more there is a panel for each frame index.
+const MOST_IN_A_PANEL: usize = 12;
+
+/// Measures of a panel.
+#[derive(Debug, Clone, Copy)]
+struct Layout {
+    pixels: u32,
+    columns: u32,
+    size: Point,
+    /// Plot area: left and upper, right and lower end.
+    field: [Point; 2],
+    /// Largest number of marks on an axis.
+    ticks: usize,
+}
+
+/// All positions of a quantity in one panel.
+const WHOLE: Layout =
+    Layout { pixels: 235, columns: 2, size: [262.0, 268.0], field: [[38.0, 22.0], [254.0, 238.0]], ticks: 5 };
+
+/// A panel for the positions of one frame index.
+const SMALL: Layout =
+    Layout { pixels: 170, columns: 4, size: [204.0, 216.0], field: [[36.0, 22.0], [200.0, 186.0]], ticks: 4 };
 
 /// A vector of one position in the x-y plane: with and without the deviations.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,6 +55,8 @@ impl Pair {
 struct Subject {
     name: &'static str,
     title: Text,
+    /// Title of a panel of one frame index.
+    of_frame: Text,
     unit: Text,
     pairs: Vec<Pair>,
 }
@@ -45,8 +64,29 @@ struct Subject {
 /// Draws ω_3 and n of every position, as the passport states them, minus those at the nominal angles.
 pub(crate) fn vectors(languages: &Languages, content: &Content) -> Markup {
     let subjects = subjects(content);
-    let drawings: Vec<Markup> = subjects.iter().map(|subject| differences_of(languages, subject)).collect();
-    panels(COLUMNS, PANEL_PIXELS, &drawings, &key(languages))
+    if content.positions.len() > MOST_IN_A_PANEL {
+        let each = subjects.map(|subject| small_multiples(languages, &subject));
+        return html! { @for row in &each { (row) } (key(languages)) };
+    }
+    let whole = |subject: &Subject| {
+        let plane = Plane::about(WHOLE, &subject.pairs);
+        differences_of(languages, subject, &plane, &subject.pairs, None)
+    };
+    let drawings: Vec<Markup> = subjects.iter().map(whole).collect();
+    panels(WHOLE.columns, WHOLE.pixels, &drawings, &key(languages))
+}
+
+/// Draws a panel for each frame index, all to one scale.
+fn small_multiples(languages: &Languages, subject: &Subject) -> Markup {
+    let plane = Plane::about(SMALL, &subject.pairs);
+    let same_frame = subject.pairs.chunk_by(|one, other| one.index.i == other.index.i);
+    let parts = same_frame.flat_map(|frame| {
+        let most = frame.len().div_ceil(frame.len().div_ceil(MOST_IN_A_PANEL));
+        frame.chunks(most)
+    });
+    let drawings: Vec<Markup> =
+        parts.enumerate().map(|(place, part)| differences_of(languages, subject, &plane, part, Some(place))).collect();
+    panels(SMALL.columns, SMALL.pixels, &drawings, &nothing())
 }
 
 fn key(languages: &Languages) -> Markup {
@@ -69,13 +109,26 @@ fn subjects(content: &Content) -> [Subject; 2] {
     });
     let (rates, forces) = each.unzip();
     [
-        Subject { name: "earth-rate", title: texts::EARTH_RATE_DIFFERENCE, unit: units::DEG_PER_H, pairs: rates },
-        Subject { name: "specific-force", title: texts::SPECIFIC_FORCE_DIFFERENCE, unit: units::G, pairs: forces },
+        Subject {
+            name: "earth-rate",
+            title: texts::EARTH_RATE_DIFFERENCE,
+            of_frame: texts::EARTH_RATE_OF_FRAME,
+            unit: units::DEG_PER_H,
+            pairs: rates,
+        },
+        Subject {
+            name: "specific-force",
+            title: texts::SPECIFIC_FORCE_DIFFERENCE,
+            of_frame: texts::SPECIFIC_FORCE_OF_FRAME,
+            unit: units::G,
+            pairs: forces,
+        },
     ]
 }
 
 /// A plane with equal scales along x and y.
 struct Plane {
+    layout: Layout,
     x: Scale,
     y: Scale,
     /// Power of ten factored out of the numbers on the axes.
@@ -83,15 +136,16 @@ struct Plane {
 }
 
 impl Plane {
-    /// Creates a plane wide enough for `points`, with room for labels around them.
-    fn about(points: impl Iterator<Item = [f64; 2]>) -> Self {
-        let largest = points.flatten().fold(0.0, |most, value: f64| f64::max(most, value.abs()));
+    /// Creates a plane wide enough for all differences, with room for labels around them.
+    fn about(layout: Layout, pairs: &[Pair]) -> Self {
+        let largest = pairs.iter().flat_map(Pair::difference).fold(0.0, |most, value: f64| f64::max(most, value.abs()));
         let reach = if largest > 0.0 { 1.16 * largest } else { 1.0 };
-        let [[left, top], [right, bottom]] = FIELD;
+        let [[left, top], [right, bottom]] = layout.field;
         let values = [-reach, reach];
         // There is no room for numbers with many zeros, so a factor of the unit replaces them.
         let exponent = crowding(reach);
-        Self { x: Scale { values, places: [left, right] }, y: Scale { values, places: [bottom, top] }, exponent }
+        let (x, y) = (Scale { values, places: [left, right] }, Scale { values, places: [bottom, top] });
+        Self { layout, x, y, exponent }
     }
 
     fn point(&self, [x, y]: [f64; 2]) -> Point {
@@ -99,10 +153,10 @@ impl Plane {
     }
 
     fn grid(&self, languages: &Languages, unit: Text) -> Markup {
-        let [[left, top], [right, bottom]] = FIELD;
+        let [[left, top], [right, bottom]] = self.layout.field;
         let factor = power_of_ten(self.exponent);
         let reach = self.x.values[1] / factor;
-        let ticks = Ticks::between(-0.93 * reach, 0.93 * reach, 5);
+        let ticks = Ticks::between(-0.93 * reach, 0.93 * reach, self.layout.ticks);
         let text = |value: &f64| ticks.text(*value, languages.first());
         let unit = match self.exponent {
             0 => languages.plain(unit),
@@ -116,25 +170,36 @@ impl Plane {
                 (words([x, bottom + 12.0], Anchor::Middle, "small", &text(value)))
                 (words([left - 4.0, y + 4.0], Anchor::End, "small", &text(value)))
             }
-            (rectangle(FIELD[0], FIELD[1], "frame-line", None))
+            (rectangle([left, top], [right, bottom], "frame-line", None))
             (label([right, bottom + 27.0], Anchor::End, "", &html! { tspan.letter { "x" } ", " (unit) }))
             (label([left + 5.0, top + 13.0], Anchor::Start, "", &html! { tspan.letter { "y" } ", " (unit) }))
         }
     }
 }
 
-fn differences_of(languages: &Languages, subject: &Subject) -> Markup {
-    let plane = Plane::about(subject.pairs.iter().map(Pair::difference));
+/// Draws some of the vectors of `subject`; `part` is the place of the panel if there are several.
+fn differences_of(
+    languages: &Languages,
+    subject: &Subject,
+    plane: &Plane,
+    pairs: &[Pair],
+    part: Option<usize>,
+) -> Markup {
     let origin = plane.point([0.0, 0.0]);
     let tips: Vec<(Point, PositionIndex)> =
-        subject.pairs.iter().map(|pair| (plane.point(pair.difference()), pair.index)).collect();
+        pairs.iter().map(|pair| (plane.point(pair.difference()), pair.index)).collect();
     let lines: Vec<Point> = tips.iter().flat_map(|(tip, _)| along(origin, *tip)).collect();
     let named: Vec<(Point, String)> =
         tips.iter().map(|(at, index)| (*at, format!("{},{}", index.i, index.j))).collect();
-    let [[left, top], _] = FIELD;
+    let [[left, top], [right, bottom]] = plane.layout.field;
     let axis = labels::Area { low: [left, top], high: [left + 86.0, top + 18.0] };
-    let field = labels::Area { low: FIELD[0], high: FIELD[1] };
-    let (title_lines, more) = heading(languages, [2.0, 13.0], subject.title);
+    let field = labels::Area { low: [left, top], high: [right, bottom] };
+    let frame = pairs.first().map_or_else(String::new, |pair| pair.index.i.to_string());
+    let title = |language: Language| match part {
+        Some(_) => subject.of_frame.filled(language, &[("i", &frame)]),
+        None => subject.title.words(language),
+    };
+    let (title_lines, more) = heading_with(languages, [2.0, 13.0], title);
     let moved = html! {
         g transform={ "translate(0 " (more) ")" } {
             (plane.grid(languages, subject.unit))
@@ -143,13 +208,11 @@ fn differences_of(languages: &Languages, subject: &Subject) -> Markup {
             (labels::place(&labels::together(&named), &[axis], &lines, &field))
         }
     };
-    let name = format!("{}-differences", subject.name);
-    let panel = Panel { name: &name, languages, size: [SIZE[0], SIZE[1] + more] };
-    panel.svg(
-        |language| subject.title.of(language).to_owned(),
-        |language| in_words(language, subject),
-        &[title_lines, moved],
-    )
+    let part = part.map_or_else(String::new, |place| format!("-{}", place + 1));
+    let name = format!("{}-differences{part}", subject.name);
+    let [width, height] = plane.layout.size;
+    let panel = Panel { name: &name, languages, size: [width, height + more] };
+    panel.svg(title, |language| in_words(language, subject.unit, pairs), &[title_lines, moved])
 }
 
 /// Returns points along a line for labels to avoid. Its ends are omitted, because they have marks.
@@ -163,11 +226,11 @@ fn along(from: Point, to: Point) -> Vec<Point> {
     (1..steps).map(at).collect()
 }
 
-fn in_words(language: Language, subject: &Subject) -> String {
-    let each = subject.pairs.iter().map(|pair| {
+fn in_words(language: Language, unit: Text, pairs: &[Pair]) -> String {
+    let each = pairs.iter().map(|pair| {
         let [x, y] = pair.difference().map(|value| Number::significant(value, 5).text(language));
         texts::VECTOR_IN_WORDS.filled(language, &[("index", &pair.index.to_string()), ("x", &x), ("y", &y)])
     });
     let list = each.collect::<Vec<_>>().join("; ");
-    texts::VECTORS_DESCRIPTION.filled(language, &[("unit", subject.unit.of(language)), ("list", &list)])
+    texts::VECTORS_DESCRIPTION.filled(language, &[("unit", unit.of(language)), ("list", &list)])
 }

@@ -94,6 +94,49 @@ fn vectors_end_where_their_axes_say() {
     }
 }
 
+/// By hand after eq. (3) and (5): of Earth rate (0, h, v) the frame leaves h cos θ + v sin θ across its axis, and the platform turns that
+/// by φ.
+#[test]
+fn of_many_positions_each_frame_index_has_its_panels() {
+    let mut stand = fixtures::ARC_MINUTES.to_owned();
+    for (i, j) in (3..=4).flat_map(|i| (1..=8).map(move |j| (i, j))) {
+        let (theta, phi, angle) = (45 * (i - 2), 45 * (j - 1), 20 * i + 15 * j);
+        stand += &format!(
+            "  - {{i: {i}, j: {j}, theta_deg: {theta}, phi_deg: {phi}, alpha_arcsec: {angle}.5, beta_arcsec: -{angle}, \
+             gamma_arcsec: 9{j}, u_alpha_arcsec: 1.2, u_beta_arcsec: 0.85, u_gamma_arcsec: 12.0}}\n"
+        );
+    }
+    let content = passport(&stand, fixtures::SITE).0;
+    let text = whole(&[vectors::vectors(&english(), &content)]);
+    let page = Document::parse(&text).unwrap();
+    let panels = svgs(&page);
+    assert_eq!(panels.len(), 8);
+    let earth = [(content.earth.horizontal_deg_per_h, content.earth.vertical_deg_per_h), (0.0, 1.0)];
+    for (quantity, panels) in panels.chunks(4).enumerate() {
+        let (h, v) = earth[quantity];
+        let scale = |panel: Node| Axis::along_x(panel).value(100.0);
+        for (i, panel) in (1..).zip(panels) {
+            assert!((scale(*panel) / scale(panels[0]) - 1.0).abs() < 0.01, "all have one scale");
+            let (x, y) = (Axis::along_x(*panel), Axis::along_y(*panel));
+            let tips: Vec<[f64; 2]> = of_class(*panel, "real").into_iter().map(tip).collect();
+            let mut seen = 0;
+            for (at, vectors) in content.positions.iter().zip(&content.vectors).filter(|(at, _)| at.i == i) {
+                let (theta, phi) = (at.theta_deg.to_radians(), at.phi_deg.to_radians());
+                let across = h * libm::cos(theta) + v * libm::sin(theta);
+                let real = [vectors.omega_deg_per_h, vectors.specific_force_g][quantity];
+                let due = [real[0] - across * libm::sin(phi), real[1] - across * libm::cos(phi)];
+                let near = |tip: &&[f64; 2]| {
+                    (x.value(tip[0]) - due[0]).abs() < 3.0 * x.fineness()
+                        && (y.value(tip[1]) - due[1]).abs() < 3.0 * y.fineness()
+                };
+                seen += usize::from(tips.iter().any(|tip| near(&tip)));
+            }
+            assert_eq!(seen, tips.len(), "each arrow is a position's, in panel {i}");
+            assert!(seen >= if i < 3 { 2 } else { 7 }, "{seen} arrows in panel {i}");
+        }
+    }
+}
+
 /// By hand: a tolerance of K_x is 0.05 % of 95, of K_xy 0.5 % of 9.5, of a drift 0.01.
 #[test]
 fn accuracy_is_where_its_axis_says() {

@@ -100,7 +100,7 @@ fn factor(svg: Node) -> f64 {
     // The factor stands before a unit or alone. The numbers of decades are powers of ten themselves.
     let units =
         svg.descendants().filter(|node| node.has_tag_name("text") && node.attribute("text-anchor") == Some("end"));
-    let unit = units.map(words).find(|words| words.starts_with("x, ") || words.starts_with("× "));
+    let unit = units.map(words).find(|words| words.starts_with("x, ") || words.starts_with(['×', '·']));
     unit.and_then(|words| power(&words)).map_or(1.0, |exponent| 10_f64.powi(exponent))
 }
 

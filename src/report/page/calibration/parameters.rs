@@ -23,8 +23,8 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
         @for result in results { (iteration(result, languages)) }
         @for (refused, _) in &page.calibration.refused {
             (languages.paragraph_with(|language| {
-                let name = method(refused.key()).of(language);
-                html! { (texts::NO_RESULT.filled(language, &[("method", name)])) }
+                let name = method(refused.key()).words(language);
+                html! { (texts::NO_RESULT.filled(language, &[("method", &name)])) }
             }))
         }
     };
@@ -170,25 +170,33 @@ fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
             languages.inline_with(|language| texts::STEPS_OVER.filled(language, &[("most", &most)]))
         }
     };
+    let steps = fields([
+        field(languages, texts::SPECTRAL_RADIUS, Some(Number::scientific(radius, 2).markup(languages))),
+        field(languages, texts::STEPS, Some(whole(steps))),
+        field(languages, texts::STEPS_PREDICTED, Some(predicted)),
+        field(
+            languages,
+            texts::REMAINDER_K,
+            missing(result.remainder_k_deg_per_h_per_ma, smallest(us.k_deg_per_h_per_ma), units::DEG_PER_H_PER_MA),
+        ),
+        field(
+            languages,
+            texts::REMAINDER_OMEGA,
+            missing(
+                result.remainder_omega_n_deg_per_h_per_g,
+                us.omega_g_deg_per_h_per_g.unwrap_or(0.0),
+                units::DEG_PER_H_PER_G,
+            ),
+        ),
+    ]);
     html! {
         (heading(languages, texts::ITERATION))
-        (fields([
-            field(languages, texts::SPECTRAL_RADIUS, Some(Number::scientific(radius, 2).markup(languages))),
-            field(languages, texts::STEPS, Some(whole(steps))),
-            field(languages, texts::STEPS_PREDICTED, Some(predicted)),
-            field(
-                languages,
-                texts::REMAINDER_K,
-                missing(result.remainder_k_deg_per_h_per_ma, smallest(us.k_deg_per_h_per_ma), units::DEG_PER_H_PER_MA),
-            ),
-            field(
-                languages,
-                texts::REMAINDER_OMEGA,
-                missing(result.remainder_omega_n_deg_per_h_per_g, us.omega_g_deg_per_h_per_g.unwrap_or(0.0), units::DEG_PER_H_PER_G),
-            ),
-        ]))
-        @if let Some(drawing) = convergence(languages, result) {
-            (figure(languages, "convergence", &drawing, texts::CONVERGENCE_CAPTION))
+        @match convergence(languages, result) {
+            Some(drawing) => div.with-figure {
+                (steps)
+                (figure(languages, "convergence", &drawing, texts::CONVERGENCE_CAPTION))
+            },
+            None => (steps),
         }
     }
 }

@@ -4,11 +4,13 @@ use super::{CalibrationPage, Section};
 use crate::calibration::causes::Cause;
 use crate::calibration::parameter::Parameter;
 use crate::report::page::language::{Language, Languages, Text};
-use crate::report::page::number::{BLANK, Number};
-use crate::report::page::parts::symbol;
+use crate::report::page::number::{BLANK, Number, column};
+use crate::report::page::parts::{Table, symbol, symbol_and_unit};
 use crate::report::page::passport::numbers::{Cell, parameters};
 use crate::report::page::texts::{calibration as texts, units, words};
 use crate::report::picture::accuracy::unit as parameter_unit;
+use crate::report::picture::drawing::legend_with;
+use crate::report::picture::shares as strips;
 use crate::uncertainty::budget::{Contribution, ParameterBudget};
 use crate::uncertainty::dominant::{Dominant, Effect, Part, percent};
 use crate::uncertainty::monte_carlo::Distribution;
@@ -21,6 +23,10 @@ const MANY: f64 = 1e4;
 /// Largest share of a variance that is attributed to rounding and not printed.
 const LEAST_SHARE: f64 = 1e-20;
 
+/// Least share of a variance with which a kind of input has a part of the strips, and a row of the table.
+const LEAST_NAMED: f64 = 0.02;
+const LEAST_SHOWN: f64 = 1e-3;
+
 pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
     html! {
         @if let Some(budget) = page.budget {
@@ -28,6 +34,7 @@ pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup 
             @let worst = if tolerance.is_some() { texts::BUDGET_WORST } else { texts::BUDGET_WORST_OF_SIZE };
             (page.section(languages, Section::Budget, &html! {
                 @if let Some(remedy) = Dominant::of(budget, tolerance) { (sentences(&remedy, worst, languages)) }
+                (shares(budget, languages))
                 (budget_table(budget, languages))
             }))
         }
@@ -71,13 +78,52 @@ fn sentences(remedy: &Dominant, worst: Text, languages: &Languages) -> Markup {
     })
 }
 
+/// Writes which kinds of input each variance comes from.
+fn shares(budget: &Budget, languages: &Languages) -> Markup {
+    let kinds = kinds(budget);
+    let named: Vec<&&Contribution> =
+        kinds.iter().filter(|kind| kind.share >= LEAST_NAMED).take(strips::LETTERS.len()).collect();
+    let of = |line: &ParameterBudget, kind: &Contribution| {
+        line.contributions.iter().find(|part| part.cause.kind() == kind.cause.kind()).map_or(0.0, |part| part.share)
+    };
+    let lines = Parameter::AS_IN_THE_PAPER.into_iter().filter_map(|parameter| line_of(budget, parameter));
+    let lines: Vec<&ParameterBudget> = lines.collect();
+    let us: Vec<_> = lines.iter().map(|line| Some(Number::uncertainty(line.standard_uncertainty))).collect();
+    let rows = lines.iter().zip(column(languages, &us)).map(|(line, u)| {
+        let (letter, index) = line.parameter.symbol().split_once('_').unwrap_or((line.parameter.symbol(), ""));
+        let name = symbol_and_unit(languages, &symbol(letter, index), parameter_unit(line.parameter));
+        let parts: Vec<f64> = named.iter().map(|kind| of(line, kind)).collect();
+        vec![name, u.unwrap_or_default(), strips::shares(&parts)]
+    });
+    let table = Table {
+        caption: Some(languages.label(texts::SHARES_CAPTION)),
+        headings: vec![languages.label(texts::PARAMETER), symbol("u", ""), languages.label(texts::SHARES)],
+        rows: rows.collect(),
+        foot: vec![html! {}, html! {}, strips::axis(languages)],
+        row_headings: 1,
+        class: "numbers shares",
+        ..Table::default()
+    };
+    let samples: Vec<Markup> = (0..named.len()).map(|place| strips::sample(Some(place))).collect();
+    let names = named.iter().map(|kind| languages.label_with(|language| cause(kind.cause, language)));
+    let rest = (kinds.len() > named.len()).then(|| (strips::sample(None), languages.label(texts::OTHER_INPUTS)));
+    html! {
+        (table.markup(languages.spoken(texts::SHARES_CAPTION)))
+        (legend_with(samples.iter().zip(names).chain(rest.iter().map(|(sample, name)| (sample, name.clone())))))
+    }
+}
+
+fn line_of(budget: &Budget, parameter: Parameter) -> Option<&ParameterBudget> {
+    budget.parameters.iter().find(|line| line.parameter == parameter)
+}
+
 /// Returns one table of all parameters: a row for each kind of input, the largest first, then the totals.
 fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
-    let line = |parameter: Parameter| budget.parameters.iter().find(|line| line.parameter == parameter);
     let each = |cell: &dyn Fn(&ParameterBudget) -> Cell| {
-        Parameter::AS_IN_THE_PAPER.map(|parameter| line(parameter).map_or_else(Cell::none, cell))
+        Parameter::AS_IN_THE_PAPER.map(|parameter| line_of(budget, parameter).map_or_else(Cell::none, cell))
     };
-    let mut rows: Vec<(Markup, [Cell; 8])> = kinds(budget)
+    let (large, small): (Vec<_>, Vec<_>) = kinds(budget).into_iter().partition(|kind| kind.share >= LEAST_SHOWN);
+    let mut rows: Vec<(Markup, [Cell; 8])> = large
         .into_iter()
         .map(|kind| {
             let contribution = |line: &ParameterBudget| {
@@ -107,7 +153,15 @@ fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
         each(&|line| Cell::Number(Number::uncertainty(line.expanded_uncertainty()))),
     ));
     let caption = Some(languages.label(texts::BUDGET_CAPTION));
-    parameters(languages, caption, rows).markup(languages.spoken(texts::BUDGET_CAPTION))
+    html! {
+        (parameters(languages, caption, rows).markup(languages.spoken(texts::BUDGET_CAPTION)))
+        @if !small.is_empty() {
+            (languages.paragraph_with(|language| {
+                let names: Vec<String> = small.iter().map(|kind| cause(kind.cause, language)).collect();
+                html! { (texts::BUDGET_NOT_SHOWN.filled(language, &[("names", &names.join(", "))])) }
+            }))
+        }
+    }
 }
 
 /// Returns one contribution for each kind of input, the largest of that kind, sorted by descending share of a variance.

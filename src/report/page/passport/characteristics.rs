@@ -3,7 +3,7 @@
 use super::PassportPage;
 use super::figures::{Slot, figure};
 use crate::report::page::language::{Language, Languages};
-use crate::report::page::number::{Number, column};
+use crate::report::page::number::{LARGEST_IN_ARCSEC, Number, column};
 use crate::report::page::parts::{
     Table, blank, field, fields, given, heading, quantity, section as part, symbol, symbol_and_unit, wide_field,
 };
@@ -49,8 +49,12 @@ pub(crate) fn positions(positions: &[CertifiedPosition], languages: &Languages) 
     };
     let mut columns =
         vec![numbers(&|at| Some(Number::exact(at.theta_deg))), numbers(&|at| Some(Number::exact(at.phi_deg)))];
+    // One angle with degrees and minutes, and all are marked in their cells.
+    let large = positions.iter().any(|at| ANGLES.iter().any(|(_, of)| of(at).0.abs() > LARGEST_IN_ARCSEC));
     for (_, of) in ANGLES {
-        columns.push(numbers(&|at| Some(Number::measured(of(at).0, of(at).1.unwrap_or(0.0)))));
+        let angles = numbers(&|at| Some(Number::angle(of(at).0, of(at).1.unwrap_or(0.0))));
+        let marked = |angle: Markup| html! { (angle) span { "″" } };
+        columns.push(angles.into_iter().map(|angle| if large { angle.map(marked) } else { angle }).collect());
         columns.push(numbers(&|at| of(at).1.map(Number::uncertainty)));
         columns.push(positions.iter().map(|at| Some(bars.bar(of(at)))).collect());
     }
@@ -72,12 +76,12 @@ pub(crate) fn positions(positions: &[CertifiedPosition], languages: &Languages) 
     };
     let table = Table {
         caption: Some(languages.label(texts::DEVIATIONS_CAPTION)),
-        headings: headings(languages),
+        headings: headings(languages, large),
         rows: rows.collect(),
         starts: starts(positions.iter().map(|at| at.i)),
         foot: (0..14).map(axis).collect(),
         row_headings: 2,
-        class: "numbers deviations",
+        class: if large { "numbers deviations large" } else { "numbers deviations" },
         ..Table::default()
     };
     html! { (table.markup(languages.spoken(texts::DEVIATIONS_CAPTION))) (bars.key(languages)) }
@@ -90,12 +94,13 @@ pub(crate) fn starts(indices: impl Iterator<Item = u32>) -> Vec<usize> {
     changed.map(|(row, _)| row + 1).collect()
 }
 
-fn headings(languages: &Languages) -> Vec<Markup> {
+/// Returns the headings; the cells of `large` angles have their own marks.
+fn headings(languages: &Languages, large: bool) -> Vec<Markup> {
     let with = |symbol: Markup, unit| symbol_and_unit(languages, &symbol, unit);
     let mut headings = vec![symbol("i", ""), symbol("j", "")];
     headings.extend(["θ", "φ"].map(|name| with(symbol(name, ""), units::DEGREES)));
     for (name, _) in ANGLES {
-        headings.push(with(symbol(name, ""), units::ARCSEC));
+        headings.push(if large { symbol(name, "") } else { with(symbol(name, ""), units::ARCSEC) });
         headings.push(with(html! { i { "u" } "(" i { (name) } ")" }, units::ARCSEC));
         headings.push(html! {});
     }

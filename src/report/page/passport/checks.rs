@@ -112,11 +112,11 @@ pub(crate) fn refusal(page: &PassportPage, languages: &Languages) -> Markup {
 
 /// Returns "In force", or the reasons why the passport may not be used.
 pub(crate) fn headline(page: &PassportPage, language: Language) -> String {
-    let failed: Vec<&str> = failed(page).map(|check| reason(check.code).of(language)).collect();
+    let failed: Vec<String> = failed(page).map(|check| reason(check.code).words(language)).collect();
     if failed.is_empty() {
         return texts::IN_FORCE.words(language);
     }
-    format!("{}: {}", texts::NOT_TO_BE_USED.of(language), failed.join(", "))
+    format!("{}: {}", texts::NOT_TO_BE_USED.words(language), failed.join(", "))
 }
 
 fn failed<'a>(page: &'a PassportPage) -> impl Iterator<Item = &'a Check> {

@@ -39,9 +39,9 @@ texts! {
         ru: "Аттестованы не все восемь положений: матриц нет, применим только метод наименьших квадратов."
     }
     DEFLECTION {
-        en: "The deflection of the vertical is unknown; it is taken as 0 with u\u{a0}=\u{a0}{u}″, which adds up to \
-             {cost}\u{a0}°/h to the Earth-rate components.",
-        ru: "Уклонение отвесной линии неизвестно: принято равным 0 с u\u{a0}=\u{a0}{u}″, что даёт до {cost}\u{a0}°/ч в \
+        en: "The deflection of the vertical is unknown; it is taken as 0 with u = {u}″, which adds up to \
+             {cost} °/h to the Earth-rate components.",
+        ru: "Уклонение отвесной линии неизвестно: принято равным 0 с u = {u}″, что даёт до {cost} °/ч в \
              составляющих угловой скорости Земли."
     }
     LONGITUDE {
@@ -53,10 +53,10 @@ texts! {
         ru: "Геодезическая широта неизвестна: при проверке места допускается отличие {margin}″."
     }
     HEIGHT {
-        en: "The height is unknown; normal gravity is that at 0\u{a0}m, which is {slope}\u{a0}m/s² too large for each \
+        en: "The height is unknown; normal gravity is that at 0 m, which is {slope} m/s² too large for each \
              metre of height.",
-        ru: "Высота неизвестна: нормальное ускорение силы тяжести вычислено для высоты 0\u{a0}м и завышено на \
-             {slope}\u{a0}м/с² на каждый метр высоты."
+        ru: "Высота неизвестна: нормальное ускорение силы тяжести вычислено для высоты 0 м и завышено на \
+             {slope} м/с² на каждый метр высоты."
     }
     BASE_UNCERTAINTY {
         en: "The uncertainties of the latitude, azimuth and level of the base are not stated for this site.",

@@ -12,7 +12,7 @@ texts! {
     }
     MARGIN { en: "Calibration with passport {id}", ru: "Калибровка по паспорту {id}" }
     MARGIN_SHA256 { en: "SHA-256 of the file of currents {sha256}", ru: "SHA-256 файла токов {sha256}" }
-    END { en: "End of the calibration report, passport {id}", ru: "Конец отчёта о\u{a0}калибровке, паспорт {id}" }
+    END { en: "End of the calibration report, passport {id}", ru: "Конец отчёта о калибровке, паспорт {id}" }
 
     NOT_VERIFIED { en: "Passport NOT VERIFIED", ru: "Паспорт НЕ ПРОВЕРЕН" }
     NOT_VERIFIED_WORDS {
@@ -23,7 +23,7 @@ texts! {
     }
     DOES_NOT_FIT {
         en: "The readings are not consistent with this stand",
-        ru: "Показания не согласуются с\u{a0}этим стендом"
+        ru: "Показания не согласуются с этим стендом"
     }
     DOES_NOT_FIT_WORDS {
         en: "The parameters are not valid until the cause has been found.",
@@ -33,10 +33,10 @@ texts! {
     CONFORMS_NOT { en: "NOT within the tolerance of gyro type {type}", ru: "НЕ соответствует допускам типа {type}" }
     UNDECIDED { en: "Conformity with gyro type {type} is undecided", ru: "Соответствие типу {type} не определено" }
     RULE {
-        en: "Decision rule: guarded acceptance with a guard band equal to the expanded uncertainty U\u{a0}=\u{a0}2u \
-             (JCGM\u{a0}106, 8.3).",
+        en: "Decision rule: guarded acceptance with a guard band equal to the expanded uncertainty U = 2u \
+             (JCGM 106, 8.3).",
         ru: "Правило принятия решения: приёмка с защитной полосой, равной расширенной неопределённости \
-             U\u{a0}=\u{a0}2u (JCGM\u{a0}106, 8.3)."
+             U = 2u (JCGM 106, 8.3)."
     }
     NO_TYPE { en: "Parameters determined", ru: "Параметры определены" }
     NO_TYPE_WORDS {
@@ -76,7 +76,7 @@ texts! {
         ru: "все токи занижены в {factor} раз"
     }
 
-    SUBJECT { en: "Object, place and equipment of the calibration", ru: "Объект, место и\u{a0}средства калибровки" }
+    SUBJECT { en: "Object, place and equipment of the calibration", ru: "Объект, место и средства калибровки" }
     TYPE { en: "Type", ru: "Тип" }
     SERIAL { en: "Serial number of the gyro", ru: "Заводской номер гироскопа" }
     CUSTOMER { en: "Customer", ru: "Заказчик" }
@@ -84,7 +84,7 @@ texts! {
     RECEIVED { en: "Gyro received", ru: "Дата поступления" }
     MEASURED { en: "Date of the readings", ru: "Дата измерений" }
     REPORT_NUMBER { en: "Report number", ru: "Номер отчёта" }
-    PROCEDURE { en: "Procedure and deviations from it", ru: "Методика и\u{a0}отступления от неё" }
+    PROCEDURE { en: "Procedure and deviations from it", ru: "Методика и отступления от неё" }
     STAND { en: "Stand", ru: "Стенд" }
     SITE { en: "Site", ru: "Место установки" }
     TIME { en: "Verified as of", ru: "Проверен по состоянию на" }
@@ -100,38 +100,38 @@ texts! {
     LABORATORY_NAME { en: "Laboratory", ru: "Лаборатория" }
     METER_ASSUMED {
         en: "No laboratory file states the current meter. This report assumes a meter with an error uniformly \
-             distributed within ±0.015\u{a0}% of the reading, and no other uncertainty of the laboratory.",
-        ru: "Измеритель тока лаборатории не указан: принята погрешность ±0,015\u{a0}% показания, распределённая \
+             distributed within ±0.015 % of the reading, and no other uncertainty of the laboratory.",
+        ru: "Измеритель тока лаборатории не указан: принята погрешность ±0,015 % показания, распределённая \
              равномерно; другие составляющие неопределённости лаборатории не учтены."
     }
     TEMPERATURE { en: "Temperature", ru: "Температура" }
     TEMPERATURE_OUTSIDE {
-        en: "The temperature in the laboratory is {here}\u{a0}°C; the deviations of the stand are certified from \
-             {low}\u{a0}°C to {high}\u{a0}°C.",
-        ru: "Температура в лаборатории {here}\u{a0}°C; отклонения стенда аттестованы при температуре от {low} до \
-             {high}\u{a0}°C."
+        en: "The temperature in the laboratory is {here} °C; the deviations of the stand are certified from \
+             {low} °C to {high} °C.",
+        ru: "Температура в лаборатории {here} °C; отклонения стенда аттестованы при температуре от {low} до \
+             {high} °C."
     }
     GRAVITY {
         en: "Local gravity (the g of the drifts)",
-        ru: "Местное ускорение свободного падения (g, к\u{a0}которому отнесены составляющие дрейфа)"
+        ru: "Местное ускорение свободного падения (g, к которому отнесены составляющие дрейфа)"
     }
 
     PARAMETERS { en: "Parameters", ru: "Параметры" }
     RESULT { en: "Result", ru: "Результат" }
     RESULT_CAPTION {
-        en: "Parameters with their standard uncertainty u (k\u{a0}=\u{a0}1); drifts refer to local g",
-        ru: "Параметры и\u{a0}их стандартная неопределённость u (k\u{a0}=\u{a0}1); составляющие дрейфа отнесены к\u{a0}местному g"
+        en: "Parameters with their standard uncertainty u (k = 1); drifts refer to local g",
+        ru: "Параметры и их стандартная неопределённость u (k = 1); составляющие дрейфа отнесены к местному g"
     }
     PASSED { en: "{passed} of {all} parameters pass", ru: "Соответствуют допускам {passed} из {all} параметров" }
     ARE_UNDECIDED { en: "; undecided: {names}", ru: "; не определено: {names}" }
     FAIL { en: "; fail: {names}", ru: "; не соответствуют: {names}" }
     PLUS_MINUS { en: "± U", ru: "± U" }
     IN_TOLERANCE { en: "% of the tolerance", ru: "% допуска" }
-    METHODS { en: "Methods and convergence", ru: "Методы и\u{a0}сходимость" }
+    METHODS { en: "Methods and convergence", ru: "Методы и сходимость" }
     NEGLIGIBLE { en: "negligible, below a thousandth of u", ru: "пренебрежимо мала, менее тысячной доли u" }
     PARAMETERS_CAPTION {
-        en: "Values, each with its standard uncertainty u (k\u{a0}=\u{a0}1) below it; drifts refer to local g",
-        ru: "Значения и под ними стандартная неопределённость u (k\u{a0}=\u{a0}1); составляющие дрейфа отнесены к \
+        en: "Values, each with its standard uncertainty u (k = 1) below it; drifts refer to local g",
+        ru: "Значения и под ними стандартная неопределённость u (k = 1); составляющие дрейфа отнесены к \
              местному g"
     }
     LEAST_SQUARES {
@@ -141,7 +141,7 @@ texts! {
     LEAST_SQUARES_NAME { en: "least squares", ru: "метод наименьших квадратов" }
     ANALYTIC { en: "analytic method", ru: "аналитический метод" }
     ITERATIVE { en: "iterative method", ru: "итерационный метод" }
-    OFF_BY { en: "difference from least squares, in its u", ru: "отличие от МНК в единицах его u" }
+    OFF_BY { en: "difference from least squares, in its u", ru: "отличие от МНК в единицах его\u{a0}u" }
     OFF_BY_NOTE {
         en: "Difference from least squares: in units of the standard uncertainty of that difference. The same input \
              errors act on both methods.",
@@ -161,15 +161,17 @@ texts! {
     }
     NO_RESULT { en: "No result by this method: {method}.", ru: "Результат этим методом не получен: {method}." }
     CONVERGENCE_CAPTION {
-        en: "Convergence: change in each step, relative to the limit at which the iteration stops",
-        ru: "Сходимость: изменение на каждом шаге относительно предела, при котором итерации прекращаются"
+        en: "Convergence: change in each step, relative to the limit at which the iteration stops. The first approximation \
+             counts as a step.",
+        ru: "Сходимость: изменение на каждом шаге относительно предела, при котором итерации прекращаются. Первое \
+             приближение считается шагом."
     }
 
-    CONFORMITY { en: "Comparison with gyro type {type}", ru: "Сравнение с\u{a0}типом {type}" }
+    CONFORMITY { en: "Comparison with gyro type {type}", ru: "Сравнение с типом {type}" }
     VERDICT_CAPTION {
-        en: "Deviation from the nominal value, with expanded uncertainty U\u{a0}=\u{a0}2u; drifts refer to the g of \
+        en: "Deviation from the nominal value, with expanded uncertainty U = 2u; drifts refer to the g of \
              the type",
-        ru: "Отклонение от номинального значения с расширенной неопределённостью U\u{a0}=\u{a0}2u; составляющие дрейфа \
+        ru: "Отклонение от номинального значения с расширенной неопределённостью U = 2u; составляющие дрейфа \
              отнесены к g, указанному для типа"
     }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
@@ -182,9 +184,9 @@ texts! {
     }
     CALIBRATED { en: "Calibration", ru: "Калибровка" }
     CHANGE_CAPTION {
-        en: "Change with expanded uncertainty U\u{a0}=\u{a0}2u, compared with the same tolerance, which limits the \
+        en: "Change with expanded uncertainty U = 2u, compared with the same tolerance, which limits the \
              instability; drifts refer to the g of the type",
-        ru: "Изменение с расширенной неопределённостью U\u{a0}=\u{a0}2u в сравнении с тем же допуском (допуск на \
+        ru: "Изменение с расширенной неопределённостью U = 2u в сравнении с тем же допуском (допуск на \
              нестабильность); составляющие дрейфа отнесены к g, указанному для типа"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
@@ -202,7 +204,7 @@ texts! {
     CHANGED_BY { en: "Change", ru: "Изменение" }
     TOLERANCE { en: "Tolerance", ru: "Допуск" }
     SIMPLE { en: "Simple acceptance, risk", ru: "Простая приёмка, риск" }
-    GUARDED { en: "Guarded acceptance", ru: "С\u{a0}защитной полосой" }
+    GUARDED { en: "Guarded acceptance", ru: "С защитной полосой" }
     RISK_NOTE {
         en: "Simple acceptance: no guard band. Guarded acceptance: undecided where the uncertainty does not permit a \
              decision. Specific risk: probability that the decision by simple acceptance is wrong.",
@@ -212,7 +214,7 @@ texts! {
     }
     BELOW { en: "< {limit}", ru: "< {limit}" }
 
-    FIT { en: "Goodness of fit", ru: "Согласие показаний с\u{a0}моделью" }
+    FIT { en: "Goodness of fit", ru: "Согласие показаний с моделью" }
     CHI_SQUARE { en: "Chi-square", ru: "Хи-квадрат" }
     FREEDOM { en: "Degrees of freedom", ru: "Число степеней свободы" }
     PROBABILITY { en: "Probability of a larger value", ru: "Вероятность большего значения" }
@@ -227,7 +229,7 @@ texts! {
     }
     SCATTER {
         en: "Variation between visits to a position, chi-square",
-        ru: "Рассеяние между установками в\u{a0}положение, хи-квадрат"
+        ru: "Рассеяние между установками в положение, хи-квадрат"
     }
     ROW_SCATTER {
         en: "Variation between readings of a visit, chi-square",
@@ -235,14 +237,14 @@ texts! {
     }
     ROW_DEVIATION {
         en: "Standard deviation of a reading within a visit",
-        ru: "Стандартное отклонение показания в\u{a0}одной установке"
+        ru: "Стандартное отклонение показания в одной установке"
     }
     TURN_ON_SCATTER {
         en: "Variation between turn-ons, chi-square",
         ru: "Рассеяние между запусками, хи-квадрат"
     }
-    VISIT_NOISE { en: "Gyro noise from visit to visit", ru: "Шум гироскопа от установки к\u{a0}установке" }
-    TURN_ON_NOISE { en: "Gyro noise from turn-on to turn-on", ru: "Нестабильность гироскопа от запуска к\u{a0}запуску" }
+    VISIT_NOISE { en: "Gyro noise from visit to visit", ru: "Шум гироскопа от установки к установке" }
+    TURN_ON_NOISE { en: "Gyro noise from turn-on to turn-on", ru: "Нестабильность гироскопа от запуска к запуску" }
     NOISE_STATED { en: "as the gyro type states", ru: "по данным типа гироскопа" }
     NOISE_ESTIMATED {
         en: "estimated, {known} degrees of freedom",
@@ -255,7 +257,7 @@ texts! {
     G_MATRIX { en: "Matrix of g-sensitive drift", ru: "Матрица дрейфа, зависящего от\u{a0}g" }
     MODEL_TEST {
         en: "Test whether ω_g and ω_k alone are enough: F = {f} with {further} and {rest} degrees of freedom, probability of a larger value {p}.",
-        ru: "Проверка достаточности ω_g и\u{a0}ω_k: F = {f} при {further} и\u{a0}{rest} степенях свободы, вероятность большего значения {p}."
+        ru: "Проверка достаточности ω_g и ω_k: F = {f} при {further} и {rest} степенях свободы, вероятность большего значения {p}."
     }
     CYCLES { en: "Turn-ons", ru: "Запуски" }
     DRIFT_X { en: "Drift in time about x", ru: "Изменение дрейфа во времени, ось x" }
@@ -267,7 +269,7 @@ texts! {
     }
     RESIDUALS_CAPTION {
         en: "Residuals of the equations and their standard uncertainties",
-        ru: "Остатки уравнений и\u{a0}их стандартные неопределённости"
+        ru: "Остатки уравнений и их стандартные неопределённости"
     }
     HINT { en: "Possible causes", ru: "Возможные причины" }
     HINT_EXCHANGED {
@@ -275,10 +277,10 @@ texts! {
         ru: "Возможно, показания в положениях {one} и {other} переставлены."
     }
     HINT_DID_NOT_REPEAT {
-        en: "Position {index} may not have repeated: by {angle}″ if the angle changed, or by {jx}\u{a0}µA along x and \
-             {jy}\u{a0}µA along y if the currents are wrong.",
-        ru: "Возможно, положение {index} не воспроизведено: на {angle}″, если изменился угол, или на {jx}\u{a0}мкА по \
-             x и {jy}\u{a0}мкА по y, если неверны токи."
+        en: "Position {index} may not have repeated: by {angle}″ if the angle changed, or by {jx} µA along x and \
+             {jy} µA along y if the currents are wrong.",
+        ru: "Возможно, положение {index} не воспроизведено: на {angle}″, если изменился угол, или на {jx} мкА по \
+             x и {jy} мкА по y, если неверны токи."
     }
     HINT_NOTHING {
         en: "No single position and no exchange of two positions explains this. The passport may be that of another \
@@ -305,7 +307,7 @@ texts! {
     }
     NOT_STATED {
         en: "Not stated, and not included in any uncertainty:",
-        ru: "Не указано и\u{a0}не учтено в\u{a0}неопределённости:"
+        ru: "Не указано и не учтено в неопределённости:"
     }
     ALL_STATED { en: "All relevant uncertainties are stated.", ru: "Все учитываемые неопределённости указаны." }
     NOT_STATED_ANGLES { en: "certified angles", ru: "аттестованные углы" }
@@ -315,8 +317,8 @@ texts! {
     NOT_STATED_LATITUDE { en: "latitude", ru: "широта" }
     NOT_STATED_DEFLECTION { en: "deflection of the vertical", ru: "уклонение отвесной линии" }
     NOT_STATED_MARK { en: "azimuth of the mark", ru: "азимут ориентирного пункта" }
-    NOT_STATED_VISITS { en: "gyro from visit to visit", ru: "шум гироскопа от установки к\u{a0}установке" }
-    NOT_STATED_TURN_ONS { en: "gyro from turn-on to turn-on", ru: "нестабильность гироскопа от запуска к\u{a0}запуску" }
+    NOT_STATED_VISITS { en: "gyro from visit to visit", ru: "шум гироскопа от установки к установке" }
+    NOT_STATED_TURN_ONS { en: "gyro from turn-on to turn-on", ru: "нестабильность гироскопа от запуска к запуску" }
     NOT_STATED_GRAVITY { en: "gravity", ru: "ускорение свободного падения" }
     NOT_STATED_AZIMUTH { en: "azimuth of the base", ru: "азимут основания" }
     NOT_STATED_LEVEL { en: "level of the base", ru: "горизонтирование основания" }
@@ -325,27 +327,37 @@ texts! {
     BUDGET { en: "Uncertainty budget", ru: "Бюджет неопределённости" }
     BUDGET_CAPTION {
         en: "Contributions of the inputs, by kind, to the standard uncertainty of each parameter",
-        ru: "Вклады входных величин по видам в\u{a0}стандартную неопределённость каждого параметра"
+        ru: "Вклады входных величин по видам в стандартную неопределённость каждого параметра"
+    }
+    SHARES_CAPTION {
+        en: "Standard uncertainty u of each parameter, and where its variance u² comes from",
+        ru: "Стандартная неопределённость u каждого параметра и составляющие её дисперсии u²"
+    }
+    SHARES { en: "share of the variance, %", ru: "доля дисперсии, %" }
+    OTHER_INPUTS { en: "other inputs", ru: "прочие входные величины" }
+    BUDGET_NOT_SHOWN {
+        en: "Not shown, below a thousandth of every variance: {names}.",
+        ru: "Не показаны величины, доля которых в каждой дисперсии менее тысячной: {names}."
     }
     BUDGET_WORST {
-        en: "Largest uncertainty relative to tolerance: {parameter}, u\u{a0}=\u{a0}{u}.",
-        ru: "Наибольшая неопределённость относительно допуска: {parameter}, u\u{a0}=\u{a0}{u}."
+        en: "Largest uncertainty relative to tolerance: {parameter}, u = {u}.",
+        ru: "Наибольшая неопределённость относительно допуска: {parameter}, u = {u}."
     }
     BUDGET_WORST_OF_SIZE {
-        en: "Largest uncertainty relative to the value: {parameter}, u\u{a0}=\u{a0}{u}.",
-        ru: "Наибольшая неопределённость относительно значения: {parameter}, u\u{a0}=\u{a0}{u}."
+        en: "Largest uncertainty relative to the value: {parameter}, u = {u}.",
+        ru: "Наибольшая неопределённость относительно значения: {parameter}, u = {u}."
     }
     BUDGET_NEARLY_ALL {
-        en: "One source contributes nearly all of its variance ({share}\u{a0}%): {source}.",
-        ru: "Почти всю дисперсию ({share}\u{a0}%) даёт один источник: {source}."
+        en: "One source contributes nearly all of its variance ({share} %): {source}.",
+        ru: "Почти всю дисперсию ({share} %) даёт один источник: {source}."
     }
     BUDGET_MOST {
-        en: "One source contributes {share}\u{a0}% of its variance: {source}.",
-        ru: "Один источник даёт {share}\u{a0}% дисперсии: {source}."
+        en: "One source contributes {share} % of its variance: {source}.",
+        ru: "Один источник даёт {share} % дисперсии: {source}."
     }
     BUDGET_LARGEST {
-        en: "The source with the largest share of its variance ({share}\u{a0}%): {source}.",
-        ru: "Источник с наибольшей долей дисперсии ({share}\u{a0}%): {source}."
+        en: "The source with the largest share of its variance ({share} %): {source}.",
+        ru: "Источник с наибольшей долей дисперсии ({share} %): {source}."
     }
     BUDGET_HALVES {
         en: "To halve u, reduce the uncertainty of this source to {limit} or less.",
@@ -354,8 +366,8 @@ texts! {
     BUDGET_LEAVES { en: "Without this source, u would be {rest}.", ru: "Без этого источника u составила бы {rest}." }
     COMBINED { en: "combined, u", ru: "суммарная, u" }
     EFFECTIVE_FREEDOM { en: "effective degrees of freedom", ru: "эффективное число степеней свободы" }
-    EXPANDED { en: "expanded, U for 95\u{a0}%", ru: "расширенная, U для 95\u{a0}%" }
-    INPUT { en: "{input}: u\u{a0}=\u{a0}{u}", ru: "{input}: u\u{a0}=\u{a0}{u}" }
+    EXPANDED { en: "expanded, U for 95 %", ru: "расширенная, U для 95 %" }
+    INPUT { en: "{input}: u = {u}", ru: "{input}: u = {u}" }
     CAUSE_ANGLE { en: "certified angles", ru: "аттестованные углы" }
     CAUSE_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
     CAUSE_READING { en: "meter, specification", ru: "измеритель, погрешность показания" }
@@ -380,8 +392,8 @@ texts! {
 
     MONTE_CARLO { en: "Monte Carlo method", ru: "Метод Монте-Карло" }
     MONTE_CARLO_CAPTION {
-        en: "{trials} trials, seed {seed}; probabilistically symmetric 95\u{a0}% coverage intervals",
-        ru: "Число испытаний {trials}, начальное число {seed}; вероятностно симметричные интервалы охвата для 95\u{a0}%"
+        en: "{trials} trials, seed {seed}; probabilistically symmetric 95 % coverage intervals",
+        ru: "Число испытаний {trials}, начальное число {seed}; вероятностно симметричные интервалы охвата для 95 %"
     }
     MEAN { en: "mean", ru: "среднее" }
     LOWER { en: "lower end", ru: "нижняя граница" }
@@ -404,7 +416,7 @@ texts! {
     POST_AND_NAME { en: "Position and name", ru: "Должность, фамилия" }
     SIGNATURE { en: "Signature", ru: "Подпись" }
     DATE { en: "Date", ru: "Дата" }
-    STAMP { en: "Stamp", ru: "М.\u{a0}П." }
+    STAMP { en: "Stamp", ru: "М. П." }
     VALID_WHEN_SIGNED {
         en: "Valid only with a handwritten signature.",
         ru: "Действительно только с собственноручной подписью."
@@ -414,7 +426,7 @@ texts! {
     ANNEX_NOTE {
         en: "The result as computed by the program, with all digits. A later calibration can be compared with this \
              file.",
-        ru: "Вычисленный программой результат, все числа приведены полностью. С\u{a0}этим файлом сравнивают результат \
+        ru: "Вычисленный программой результат, все числа приведены полностью. С этим файлом сравнивают результат \
              последующей калибровки."
     }
     SAVE { en: "Save the result", ru: "Сохранить результат" }

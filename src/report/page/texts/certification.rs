@@ -6,26 +6,26 @@ texts! {
     TITLE { en: "Record of the calibration of a test stand", ru: "Протокол калибровки испытательного стенда" }
     SUBTITLE {
         en: "Readings, tests and uncertainty behind a calibration certificate",
-        ru: "Показания, критерии и\u{a0}неопределённость, на которых основан сертификат калибровки"
+        ru: "Показания, критерии и неопределённость, на которых основан сертификат калибровки"
     }
-    MARGIN { en: "Record of certificate {number}", ru: "Протокол к\u{a0}сертификату {number}" }
+    MARGIN { en: "Record of certificate {number}", ru: "Протокол к сертификату {number}" }
     MARGIN_SHA256 { en: "SHA-256 of the file of readings {sha256}", ru: "SHA-256 файла показаний {sha256}" }
-    END { en: "End of the record of certificate {number}", ru: "Конец протокола к\u{a0}сертификату {number}" }
+    END { en: "End of the record of certificate {number}", ru: "Конец протокола к сертификату {number}" }
 
-    SUBJECT { en: "Stand and certificate", ru: "Стенд и\u{a0}сертификат" }
+    SUBJECT { en: "Stand and certificate", ru: "Стенд и сертификат" }
 
     READINGS { en: "Readings", ru: "Показания" }
     FILE { en: "File of readings", ru: "Файл показаний" }
     FILE_SHA256 { en: "SHA-256 of the file", ru: "SHA-256 файла" }
     RUNS { en: "Runs", ru: "Серии" }
     POSITIONS { en: "Positions", ru: "Положения" }
-    REPEATED { en: "Rows averaged with another row of the same visit", ru: "Строки, усреднённые с\u{a0}другими строками того же положения и\u{a0}серии" }
-    EXCLUSIONS { en: "Excluded readings and runs", ru: "Исключённые показания и\u{a0}серии" }
+    REPEATED { en: "Rows averaged with another row of the same visit", ru: "Строки, усреднённые с другими строками того же положения и серии" }
+    EXCLUSIONS { en: "Excluded readings and runs", ru: "Исключённые показания и серии" }
     NO_EXCLUSIONS { en: "No reading was excluded.", ru: "Показания не исключались." }
     EXCLUSIONS_NOTE {
         en: "An excluded reading is predicted from all others by least squares, so it contributes neither to the means \
              nor to the scatter.",
-        ru: "Исключённое показание заменено прогнозом по остальным методом наименьших квадратов; на средние и\u{a0}на \
+        ru: "Исключённое показание заменено прогнозом по остальным методом наименьших квадратов; на средние и на \
              рассеяние оно не влияет."
     }
     POSITION { en: "Position", ru: "Положение" }
@@ -36,15 +36,15 @@ texts! {
     RESULT { en: "Certified deviations", ru: "Аттестованные отклонения" }
 
     UNCERTAINTY { en: "Uncertainty", ru: "Неопределённость" }
-    BUDGET { en: "Budget of the certificate (k\u{a0}=\u{a0}1)", ru: "Бюджет неопределённости сертификата (k\u{a0}=\u{a0}1)" }
+    BUDGET { en: "Budget of the certificate (k = 1)", ru: "Бюджет неопределённости сертификата (k = 1)" }
     COMPONENTS { en: "Components found in the readings", ru: "Составляющие, найденные по показаниям" }
     COMPONENTS_NOTE {
         en: "A reading differs from the mean of its position by a rotation of the platform and one of the base, both \
              common to the whole run, and by the scatter of the single visit. s: standard deviation; ν: its degrees of \
              freedom; s/√R: its part in the mean of R runs.",
-        ru: "Показание отличается от среднего по положению на поворот платформы и\u{a0}поворот основания, общие для всей \
-             серии, и\u{a0}на разброс одной установки. s\u{a0}— стандартное отклонение, ν\u{a0}— число его степеней свободы, \
-             s/√R\u{a0}— его часть в\u{a0}среднем по R\u{a0}сериям."
+        ru: "Показание отличается от среднего по положению на поворот платформы и поворот основания, общие для всей \
+             серии, и на разброс одной установки. s — стандартное отклонение, ν — число его степеней свободы, \
+             s/√R — его часть в среднем по R\u{a0}сериям."
     }
     COMPONENT { en: "Component", ru: "Составляющая" }
     OWN_X { en: "Visit, about x", ru: "Установка, вокруг x" }
@@ -53,7 +53,7 @@ texts! {
     POOLED { en: "Visit, pooled (repeatability)", ru: "Установка, по всем осям (повторяемость)" }
     PLATFORM { en: "Run, platform, per axis", ru: "Серия, платформа, по осям" }
     BASE { en: "Run, base, per axis", ru: "Серия, основание, по осям" }
-    UPPER { en: "s, upper limit at 95\u{a0}%", ru: "s, верхняя граница, 95\u{a0}%" }
+    UPPER { en: "s, upper limit at 95 %", ru: "s, верхняя граница, 95 %" }
     RUN_TURNS { en: "Rotation of each run relative to the mean, ″", ru: "Поворот каждой серии относительно среднего, ″" }
     OF_PLATFORM { en: "platform", ru: "платформа" }
     OF_BASE { en: "base", ru: "основание" }
@@ -67,31 +67,31 @@ texts! {
     FREEDOM { en: "Degrees of freedom", ru: "Число степеней свободы" }
     PROBABILITY { en: "Probability", ru: "Вероятность" }
     BARTLETT_POSITIONS { en: "Bartlett: all positions scatter alike", ru: "Бартлетта: разброс всех положений одинаков" }
-    BARTLETT_AXES { en: "Bartlett: x, y and z scatter alike", ru: "Бартлетта: разброс вокруг x, y и\u{a0}z одинаков" }
+    BARTLETT_AXES { en: "Bartlett: x, y and z scatter alike", ru: "Бартлетта: разброс вокруг x, y и z одинаков" }
     COCHRAN { en: "Cochran: position {index} scatters more, ratio", ru: "Кохрена: положение {index} рассеяно сильнее, отношение" }
     GRUBBS {
         en: "Grubbs: position {index}, run {run}, about {axis}, residual, ″",
         ru: "Граббса: положение {index}, серия {run}, вокруг {axis}, остаток, ″"
     }
-    NO_OUTLIER { en: "Grubbs: no outlier at 5\u{a0}%", ru: "Граббса: выбросов на уровне 5\u{a0}% нет" }
+    NO_OUTLIER { en: "Grubbs: no outlier at 5 %", ru: "Граббса: выбросов на уровне 5 % нет" }
     TESTS_NOTE {
-        en: "Probability of a result at least as extreme by chance. Below 5\u{a0}% it is a straggler, below 1\u{a0}% an \
+        en: "Probability of a result at least as extreme by chance. Below 5 % it is a straggler, below 1 % an \
              outlier. The tests exclude nothing.",
-        ru: "Вероятность случайно получить столь же большое значение. Менее 5\u{a0}%\u{a0}— квазивыброс, менее \
-             1\u{a0}%\u{a0}— выброс. По критериям ничего не исключается."
+        ru: "Вероятность случайно получить столь же большое значение. Менее 5 % — квазивыброс, менее \
+             1 % — выброс. По критериям ничего не исключается."
     }
     WARNINGS { en: "Warnings of the program", ru: "Предупреждения программы" }
 
-    CHANGE { en: "Change since the previous certificate", ru: "Изменение с\u{a0}прошлой калибровки" }
+    CHANGE { en: "Change since the previous certificate", ru: "Изменение с прошлой калибровки" }
     NOT_COMPARED {
         en: "The readings were not compared with an earlier certificate.",
-        ru: "Показания не сравнивались с\u{a0}прежним сертификатом."
+        ru: "Показания не сравнивались с прежним сертификатом."
     }
     SAME { en: "Unchanged since certificate {number}", ru: "Не изменился после сертификата {number}" }
     CHANGED { en: "Changed since certificate {number}", ru: "Изменился после сертификата {number}" }
     CHANGE_CAPTION {
         en: "Deviations of certificate {number} and of this one; u: standard uncertainty of the change",
-        ru: "Отклонения по сертификату {number} и\u{a0}по новому; u\u{a0}— стандартная неопределённость изменения"
+        ru: "Отклонения по сертификату {number} и по новому; u — стандартная неопределённость изменения"
     }
     ROTATIONS {
         en: "Rotation of each position relative to the other positions",
@@ -113,7 +113,7 @@ texts! {
     ANNEX { en: "Annex: the file of readings", ru: "Приложение: файл показаний" }
     ANNEX_NOTE {
         en: "The file as it was read, verbatim. Its SHA-256 is in the certificate.",
-        ru: "Файл воспроизведён дословно. Его SHA-256 указана в\u{a0}сертификате."
+        ru: "Файл воспроизведён дословно. Его SHA-256 указана в сертификате."
     }
     SAVE { en: "Save the file of readings", ru: "Сохранить файл показаний" }
 }

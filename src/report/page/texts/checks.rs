@@ -100,12 +100,12 @@ texts! {
     STAND_NOT_ASKED { en: "no serial number was given", ru: "заводской номер не задан" }
     PLACE { en: "Place", ru: "Место" }
     PLACE_OK {
-        en: "{distance}\u{a0}m from the site; validity radius {radius}\u{a0}m",
-        ru: "{distance}\u{a0}м от места установки; радиус применимости {radius}\u{a0}м"
+        en: "{distance} m from the site; validity radius {radius} m",
+        ru: "{distance} м от места установки; радиус применимости {radius} м"
     }
     PLACE_WRONG {
-        en: "{distance}\u{a0}m from the site; validity radius {radius}\u{a0}m; request a re-issue for this place",
-        ru: "{distance}\u{a0}м от места установки; радиус применимости {radius}\u{a0}м; следует запросить перевыпуск \
+        en: "{distance} m from the site; validity radius {radius} m; request a re-issue for this place",
+        ru: "{distance} м от места установки; радиус применимости {radius} м; следует запросить перевыпуск \
              для этого места"
     }
     PLACE_NOT_ASKED { en: "no place was given", ru: "место не задано" }

@@ -11,22 +11,22 @@ texts! {
     UNTIL { en: "until", ru: "по" }
     INCLUSIVE { en: "inclusive", ru: "включительно" }
     NO_END { en: "no expiry date is stated", ru: "срок действия не указан" }
-    WHERE { en: "Place of use: within", ru: "Место применения: в\u{a0}радиусе" }
-    AROUND { en: "of latitude and longitude", ru: "от места с\u{a0}широтой и\u{a0}долготой" }
-    AROUND_PARALLEL { en: "north or south of latitude", ru: "к\u{a0}северу и\u{a0}югу от широты" }
+    WHERE { en: "Place of use: within", ru: "Место применения: в радиусе" }
+    AROUND { en: "of latitude and longitude", ru: "от места с широтой и долготой" }
+    AROUND_PARALLEL { en: "north or south of latitude", ru: "к северу и югу от широты" }
     WORD { en: "On the word of certificate", ru: "Основание: сертификат калибровки" }
     SIGNED_BY { en: "signed by", ru: "подписал" }
     CHECKING { en: "How to check", ru: "Как проверить" }
     CHECKING_HOW {
         en: "of the file: scan the code and compare, or run dtg-passport verify",
-        ru: "файла: считать код и\u{a0}сравнить или выполнить dtg-passport verify"
+        ru: "файла: считать код и сравнить или выполнить dtg-passport verify"
     }
     FIGURE_STAND {
-        en: "The stand: its axes and angles, for θ\u{a0}=\u{a0}40° and φ\u{a0}=\u{a0}35°, the frame’s axis ξ as at this site.",
-        ru: "Оси и\u{a0}углы стенда при θ\u{a0}=\u{a0}40° и\u{a0}φ\u{a0}=\u{a0}35°, ось рамки ξ\u{a0}— как в\u{a0}месте установки."
+        en: "The stand: its axes and angles, for θ = 40° and φ = 35°, the frame’s axis ξ as at this site.",
+        ru: "Оси и углы стенда при θ = 40° и φ = 35°, ось рамки ξ — как в месте установки."
     }
 
-    FRONT { en: "Identity and verification", ru: "Идентификация и\u{a0}проверка" }
+    FRONT { en: "Identity and verification", ru: "Идентификация и проверка" }
     ID { en: "Passport", ru: "Паспорт" }
     REVISION { en: "Revision", ru: "Редакция" }
     ISSUED { en: "Issued", ru: "Выдан" }
@@ -40,7 +40,7 @@ texts! {
     REISSUE_CHANGED { en: "Changes", ru: "Изменения" }
     REISSUE_SUPERSEDES { en: "Supersedes the predecessor", ru: "Прежний паспорт заменён" }
     SHA256 { en: "SHA-256 of the signed file", ru: "SHA-256 подписанного файла" }
-    CODE { en: "Code with the SHA-256 of the signed file", ru: "Код с\u{a0}SHA-256 подписанного файла" }
+    CODE { en: "Code with the SHA-256 of the signed file", ru: "Код с SHA-256 подписанного файла" }
     PAPER_IS_NOT_SIGNED {
         en: "This page shows a signed file; the page itself is not signed. Only the file is valid; it is reproduced \
              verbatim in the annex. Compare its SHA-256 with the value here or in the code. To verify the file, use \
@@ -86,17 +86,17 @@ texts! {
     DEVIATIONS { en: "Certified deviations of the positions", ru: "Аттестованные отклонения положений" }
     DEVIATIONS_CAPTION {
         en: "Nominal angles, and certified deviations of the actual orientation from the nominal",
-        ru: "Номинальные углы и\u{a0}аттестованные отклонения реальной ориентации от номинальной"
+        ru: "Номинальные углы и аттестованные отклонения реальной ориентации от номинальной"
     }
     DEVIATIONS_NOTE {
         en: "Position (i, j): frame angle θ about ξ, then platform angle φ about the spin axis. α, β, γ transform \
-             coordinates from the nominal to the actual platform, eq.\u{a0}(4). u: standard uncertainty \
-             (k\u{a0}=\u{a0}1) of the certified mean, own part of the position; ν: degrees of freedom of u. \
+             coordinates from the nominal to the actual platform, eq. (4). u: standard uncertainty \
+             (k = 1) of the certified mean, own part of the position; ν: degrees of freedom of u. \
              Uncertainties have two significant digits; values are rounded to the same decimal place.",
         ru: "Положение (i, j): угол рамки θ вокруг ξ, затем угол платформы φ вокруг оси собственного вращения. α, β, γ \
-             преобразуют координаты от номинальной платформы к реальной, формула\u{a0}(4). u\u{a0}— стандартная \
-             неопределённость (k\u{a0}=\u{a0}1) аттестованного среднего, собственная составляющая положения; ν\u{a0}— \
-             число её степеней свободы. Неопределённости даны с двумя значащими цифрами, значения\u{a0}— до того же \
+             преобразуют координаты от номинальной платформы к реальной, формула (4). u — стандартная \
+             неопределённость (k = 1) аттестованного среднего, собственная составляющая положения; ν — \
+             число её степеней свободы. Неопределённости даны с двумя значащими цифрами, значения — до того же \
              разряда."
     }
     FIGURE_POSITIONS {
@@ -104,19 +104,19 @@ texts! {
         ru: "Стенд в положениях (i, j), вид с юго-юго-востока и сверху."
     }
     COMMON {
-        en: "Uncertainty common to all positions (k\u{a0}=\u{a0}1)",
-        ru: "Неопределённость, общая для всех положений (k\u{a0}=\u{a0}1)"
+        en: "Uncertainty common to all positions (k = 1)",
+        ru: "Неопределённость, общая для всех положений (k = 1)"
     }
     REPEATABILITY { en: "Repeatability of positioning, per axis", ru: "Повторяемость (по осям)" }
     REPEATABILITY_DOF { en: "Degrees of freedom of the repeatability", ru: "Число её степеней свободы" }
     COMMON_PLATFORM { en: "Common part, per axis of the platform", ru: "Общая, по осям платформы" }
     COMMON_BASE { en: "Common part, per axis of the base", ru: "Общая, по осям основания" }
-    TYPE_B_POSITION { en: "Type B, part of u(α), u(β), u(γ)", ru: "По типу B, в\u{a0}составе u(α), u(β), u(γ)" }
+    TYPE_B_POSITION { en: "Type B, part of u(α), u(β), u(γ)", ru: "По типу B, в составе u(α), u(β), u(γ)" }
     TYPE_B_PLATFORM {
         en: "Type B, in the common part of the platform",
-        ru: "По типу B, в\u{a0}общей составляющей платформы"
+        ru: "По типу B, в общей составляющей платформы"
     }
-    TYPE_B_BASE { en: "Type B, in the common part of the base", ru: "По типу B, в\u{a0}общей составляющей основания" }
+    TYPE_B_BASE { en: "Type B, in the common part of the base", ru: "По типу B, в общей составляющей основания" }
     EXCLUDED_READING {
         en: "excluded: position {index}, run {run}",
         ru: "исключено: положение {index}, серия {run}"
@@ -138,22 +138,22 @@ texts! {
     DEFLECTION { en: "Deflection of the vertical", ru: "Уклонение отвесной линии" }
     GRAVITY_MEASURED { en: "Gravity g, measured", ru: "Ускорение g, измеренное" }
     MARK { en: "Azimuth mark", ru: "Ориентирный пункт" }
-    MARK_POSITION { en: "Latitude and longitude of the mark", ru: "Широта и\u{a0}долгота пункта" }
-    PILLAR_POSITION { en: "Latitude and longitude of the pillar", ru: "Широта и\u{a0}долгота пилона" }
+    MARK_POSITION { en: "Latitude and longitude of the mark", ru: "Широта и долгота пункта" }
+    PILLAR_POSITION { en: "Latitude and longitude of the pillar", ru: "Широта и долгота пилона" }
     POSITION_U { en: "u of each of these coordinates", ru: "u каждой из этих координат" }
     FRAME_AXIS { en: "Azimuth of the frame’s axis ξ", ru: "Азимут оси рамки ξ" }
     LATITUDE_U { en: "u of the latitude", ru: "u широты" }
     AZIMUTH_U { en: "u of the azimuth of the base", ru: "u азимута основания" }
     LEVEL_U { en: "u of the level of the base", ru: "u горизонтирования основания" }
     SOURCE { en: "Source of the data", ru: "Источник этих данных" }
-    EARTH { en: "Earth parameters at the site", ru: "Параметры Земли в\u{a0}месте установки" }
+    EARTH { en: "Earth parameters at the site", ru: "Параметры Земли в месте установки" }
     EARTH_RATE { en: "Earth rate Ω", ru: "Угловая скорость Земли Ω" }
     EARTH_LATITUDE { en: "Astronomic latitude Φ", ru: "Астрономическая широта Φ" }
     HORIZONTAL { en: "Horizontal component, Ω cos Φ", ru: "Горизонтальная составляющая, Ω cos Φ" }
     VERTICAL { en: "Vertical component, Ω sin Φ", ru: "Вертикальная составляющая, Ω sin Φ" }
     GRAVITY {
         en: "Gravity g to which the drifts refer",
-        ru: "Ускорение g, к\u{a0}которому отнесены составляющие дрейфа"
+        ru: "Ускорение g, к которому отнесены составляющие дрейфа"
     }
     RADIUS { en: "Validity radius", ru: "Радиус применимости" }
     RADIUS_WITHIN {
@@ -167,7 +167,7 @@ texts! {
     NUMBERS { en: "Calibration data", ru: "Данные для калибровки" }
     MATRICES { en: "Matrices", ru: "Матрицы" }
     MATRICES_CAPTION {
-        en: "Matrices at the site, by rows; eq.\u{a0}(9) to\u{a0}(15)",
+        en: "Matrices at the site, by rows; eq. (9) to\u{a0}(15)",
         ru: "Матрицы для места установки, по строкам; формулы (9)–(15)"
     }
     MATRIX { en: "Matrix", ru: "Матрица" }
@@ -175,13 +175,13 @@ texts! {
     FORMULAS {
         en: "With the differences of the currents as columns, the scale factors, the g-sensitive drifts and the \
              constant drift are:",
-        ru: "Масштабные коэффициенты и\u{a0}составляющие дрейфа по разностям токов, записанным столбцами:"
+        ru: "Масштабные коэффициенты и составляющие дрейфа по разностям токов, записанным столбцами:"
     }
     MEAN { en: "mean over all positions of", ru: "среднее по всем положениям от" }
     VECTORS { en: "Vectors of the positions", ru: "Векторы положений" }
     VECTORS_ALONE_CAPTION {
         en: "Specific force n and Earth rate ω in case axes",
-        ru: "Перегрузка n и\u{a0}угловая скорость Земли ω в\u{a0}осях корпуса гироскопа"
+        ru: "Перегрузка n и угловая скорость Земли ω в осях корпуса гироскопа"
     }
     VECTORS_CAPTION {
         en: "Specific force n and Earth rate ω in case axes, and currents J of the self-check",
@@ -189,13 +189,13 @@ texts! {
     }
     FIGURE_VECTORS {
         en: "Earth rate and specific force in case axes: differences from those of an ideal stand.",
-        ru: "Угловая скорость Земли и\u{a0}перегрузка в\u{a0}осях корпуса: отличия от значений для идеального стенда."
+        ru: "Угловая скорость Земли и перегрузка в осях корпуса: отличия от значений для идеального стенда."
     }
     SELF_CHECK { en: "Self-check", ru: "Контрольный пример" }
     SELF_CHECK_NOTE {
         en: "From the currents J of the self-check (use all digits given in the annex), laboratory software should \
              obtain these parameters:",
-        ru: "По токам J контрольного примера (все цифры\u{a0}— в приложении) программа лаборатории должна получить:"
+        ru: "По токам J контрольного примера (все цифры — в приложении) программа лаборатории должна получить:"
     }
     DIGITS_NOTE {
         en: "The numbers in this section are rounded to nine decimals. For computation, use the annex, which gives all \
@@ -206,7 +206,7 @@ texts! {
     SCALE_FACTORS_MAIN { en: "Main scale factors", ru: "Основные масштабные коэффициенты" }
     SCALE_FACTORS_CROSS { en: "Cross-axis scale factors", ru: "Перекрёстные масштабные коэффициенты" }
     DRIFT_CONSTANT { en: "Constant drift", ru: "Постоянная составляющая дрейфа" }
-    DRIFT_G { en: "g-sensitive drift", ru: "Составляющие дрейфа, зависящие от g" }
+    DRIFT_G { en: "g-sensitive drift", ru: "Составляющие дрейфа, зависящие от\u{a0}g" }
     VALUE { en: "Value", ru: "Значение" }
     NO_MATRICES {
         en: "Some of the eight standard positions are not certified, so there are no matrices. Calibrate by least \
@@ -217,9 +217,9 @@ texts! {
 
     ACCURACY { en: "Expected calibration uncertainty", ru: "Ожидаемая неопределённость калибровки" }
     ACCURACY_CAPTION {
-        en: "Standard uncertainties (k\u{a0}=\u{a0}1) of one calibration at this site by least squares, and the \
+        en: "Standard uncertainties (k = 1) of one calibration at this site by least squares, and the \
              tolerances of the gyro type",
-        ru: "Стандартные неопределённости (k\u{a0}=\u{a0}1) одной калибровки в этом месте методом наименьших квадратов \
+        ru: "Стандартные неопределённости (k = 1) одной калибровки в этом месте методом наименьших квадратов \
              и допуски типа гироскопа"
     }
     ACCURACY_NONE {
@@ -233,18 +233,18 @@ texts! {
     GYRO_TYPE { en: "Gyro type", ru: "Тип гироскопа" }
     GYRO_GRAVITY { en: "g to which its drifts refer", ru: "g составляющих дрейфа" }
     CALIBRATING_LABORATORY { en: "Calibrating laboratory", ru: "Лаборатория" }
-    METER { en: "Current meter (k\u{a0}=\u{a0}1)", ru: "Измеритель тока (k\u{a0}=\u{a0}1)" }
+    METER { en: "Current meter (k = 1)", ru: "Измеритель тока (k = 1)" }
     METER_WORDS {
-        en: "reading {reading}\u{a0}%, gain {gain}\u{a0}%, offset {offset}\u{a0}mA, floor {floor}\u{a0}mA; range \
-             {range}\u{a0}mA",
-        ru: "показание {reading}\u{a0}%, преобразование {gain}\u{a0}%, смещение {offset}\u{a0}мА, постоянная часть \
-             {floor}\u{a0}мА; диапазон {range}\u{a0}мА"
+        en: "reading {reading} %, gain {gain} %, offset {offset} mA, floor {floor} mA; range \
+             {range} mA",
+        ru: "показание {reading} %, преобразование {gain} %, смещение {offset} мА, постоянная часть \
+             {floor} мА; диапазон {range} мА"
     }
-    METER_NOISE { en: "; noise of a reading {noise}\u{a0}mA", ru: "; шум показания {noise}\u{a0}мА" }
+    METER_NOISE { en: "; noise of a reading {noise} mA", ru: "; шум показания {noise} мА" }
     SEATING { en: "u of the gyro seat about x, y, z", ru: "u посадки вокруг x, y, z" }
     BASE_AZIMUTH_U { en: "u of the azimuth of the base", ru: "u азимута основания" }
     BASE_LEVEL_U { en: "u of the level of the base", ru: "u горизонтирования основания" }
-    LABORATORY_TEMPERATURE { en: "Temperature in the laboratory", ru: "Температура в\u{a0}лаборатории" }
+    LABORATORY_TEMPERATURE { en: "Temperature in the laboratory", ru: "Температура в лаборатории" }
     NOMINAL { en: "Nominal value", ru: "Номинальное значение" }
     TOLERANCE { en: "Tolerance", ru: "Допуск" }
 

@@ -11,7 +11,7 @@ texts! {
     WEST_LETTER { en: "W", ru: "З" }
     UP { en: "up", ru: "верх" }
 
-    STAND_TITLE { en: "Stand with its parts, axes and angles", ru: "Стенд: части, оси и\u{a0}углы" }
+    STAND_TITLE { en: "Stand with its parts, axes and angles", ru: "Стенд: части, оси и углы" }
     STAND_DESCRIPTION {
         en: "The frame is rotated by θ about its axis ξ, which points to the azimuth {azimuth}°, the platform by φ \
              in the frame. The platform carries the gyro, whose spin axis is z; two pins lie along x.",
@@ -27,11 +27,11 @@ texts! {
 
     POSITION_TITLE { en: "Position {index} of the stand", ru: "Положение {index} стенда" }
     POSITION_DESCRIPTION {
-        en: "Frame angle θ\u{a0}=\u{a0}{theta}°, platform angle φ\u{a0}=\u{a0}{phi}°. Certified directions of the case \
+        en: "Frame angle θ = {theta}°, platform angle φ = {phi}°. Certified directions of the case \
              axes: x {x} (within {x_angle}°), y {y} (within {y_angle}°), z, the spin axis, {z} (within {z_angle}°).",
-        ru: "Угол рамки θ\u{a0}=\u{a0}{theta}°, угол платформы φ\u{a0}=\u{a0}{phi}°. Аттестованные направления осей \
-             корпуса: x\u{a0}— {x} (в пределах {x_angle}°), y\u{a0}— {y} (в пределах {y_angle}°), z (ось собственного \
-             вращения)\u{a0}— {z} (в пределах {z_angle}°)."
+        ru: "Угол рамки θ = {theta}°, угол платформы φ = {phi}°. Аттестованные направления осей \
+             корпуса: x — {x} (в пределах {x_angle}°), y — {y} (в пределах {y_angle}°), z (ось собственного \
+             вращения) — {z} (в пределах {z_angle}°)."
     }
     CASE_AXES { en: "case axes x, y, z, actual", ru: "оси x, y, z корпуса, реальные" }
     CASE_AXES_IDEAL {
@@ -39,7 +39,7 @@ texts! {
         ru: "те же оси, номинальные (где отличие заметно)"
     }
     FRAME { en: "frame, rotated by θ about its axis ξ", ru: "рамка, повёрнута на угол θ вокруг своей оси ξ" }
-    EXAGGERATED { en: "Deviations are drawn ×{factor}.", ru: "Отклонения увеличены в\u{a0}{factor} раз." }
+    EXAGGERATED { en: "Deviations are drawn ×{factor}.", ru: "Отклонения увеличены в {factor} раз." }
     PLATFORM {
         en: "platform with the gyro, rotated by φ about z; its two pins are along x",
         ru: "платформа с гироскопом, повёрнута на угол φ вокруг z; два штифта направлены по x"
@@ -51,28 +51,30 @@ texts! {
     }
     DEVIATION_WHISKER {
         en: "±2u, with u the standard uncertainty of the own part of the position",
-        ru: "±2u, где u\u{a0}— стандартная неопределённость собственной составляющей положения"
+        ru: "±2u, где u — стандартная неопределённость собственной составляющей положения"
     }
-    DEVIATION_NO_U { en: "the certificate gives no uncertainty", ru: "неопределённость в\u{a0}сертификате не указана" }
+    DEVIATION_NO_U { en: "the certificate gives no uncertainty", ru: "неопределённость в сертификате не указана" }
 
     EARTH_RATE_DIFFERENCE { en: "ω₃: actual minus nominal", ru: "Отклонение ω₃ от номинальной" }
     SPECIFIC_FORCE_DIFFERENCE { en: "n: actual minus nominal", ru: "Отклонение n от номинальной" }
+    EARTH_RATE_OF_FRAME { en: "ω₃, frame index i = {i}", ru: "ω₃, индекс рамки i = {i}" }
+    SPECIFIC_FORCE_OF_FRAME { en: "n, frame index i = {i}", ru: "n, индекс рамки i = {i}" }
     VECTOR_IN_WORDS { en: "position {index}: x {x}, y {y}", ru: "положение {index}: x {x}, y {y}" }
     VECTORS_DESCRIPTION { en: "In {unit}: {list}.", ru: "В {unit}: {list}." }
     VECTOR_DIFFERENCE { en: "actual minus ideal stand", ru: "отличие от идеального стенда" }
     VECTOR_MARKS {
         en: "one symbol for each frame index i; labels are i,j",
-        ru: "для каждого индекса рамки i свой знак; подписи\u{a0}— i,j"
+        ru: "для каждого индекса рамки i свой знак; подписи — i,j"
     }
 
     PLACE_TITLE { en: "Area of validity of the passport", ru: "Область применимости паспорта" }
     PLACE_CIRCLE {
-        en: "Within {radius}\u{a0}m of the site at latitude {latitude}°, longitude {longitude}°.",
-        ru: "Не далее {radius}\u{a0}м от места с широтой {latitude}° и долготой {longitude}°."
+        en: "Within {radius} m of the site at latitude {latitude}°, longitude {longitude}°.",
+        ru: "Не далее {radius} м от места с широтой {latitude}° и долготой {longitude}°."
     }
     PLACE_BAND {
-        en: "Within {radius}\u{a0}m north or south of latitude {latitude}°; no longitude is stated.",
-        ru: "Не далее {radius}\u{a0}м к северу и югу от широты {latitude}°; долгота не указана."
+        en: "Within {radius} m north or south of latitude {latitude}°; no longitude is stated.",
+        ru: "Не далее {radius} м к северу и югу от широты {latitude}°; долгота не указана."
     }
     PLACE_MARK_IN_WORDS {
         en: "The azimuth of the mark is {azimuth}°, clockwise from north.",
@@ -88,26 +90,26 @@ texts! {
 
     ACCURACY_TITLE {
         en: "Standard uncertainty of a calibration relative to the tolerance of the gyro type",
-        ru: "Стандартная неопределённость калибровки в\u{a0}сравнении с\u{a0}допуском типа"
+        ru: "Стандартная неопределённость калибровки в сравнении с допуском типа"
     }
     ACCURACY_AXIS { en: "% of the tolerance", ru: "% допуска" }
     ACCURACY_IN_WORDS {
-        en: "{parameter}: u\u{a0}=\u{a0}{u} {unit}, {share}\u{a0}% of the tolerance",
-        ru: "{parameter}: u\u{a0}=\u{a0}{u} {unit}, {share}\u{a0}% допуска"
+        en: "{parameter}: u = {u} {unit}, {share} % of the tolerance",
+        ru: "{parameter}: u = {u} {unit}, {share} % допуска"
     }
     ACCURACY_NO_TOLERANCE_IN_WORDS {
-        en: "{parameter}: u\u{a0}=\u{a0}{u} {unit}; the tolerance is 0",
-        ru: "{parameter}: u\u{a0}=\u{a0}{u} {unit}, допуск равен 0"
+        en: "{parameter}: u = {u} {unit}; the tolerance is 0",
+        ru: "{parameter}: u = {u} {unit}, допуск равен 0"
     }
     ACCURACY_U { en: "standard uncertainty u", ru: "стандартная неопределённость u" }
     ACCURACY_EXPANDED {
-        en: "expanded uncertainty U\u{a0}=\u{a0}2u",
-        ru: "расширенная неопределённость U\u{a0}=\u{a0}2u"
+        en: "expanded uncertainty U = 2u",
+        ru: "расширенная неопределённость U = 2u"
     }
     RESIDUAL { en: "residual of an equation after the fit", ru: "остаток уравнения после оценивания" }
     RESIDUAL_LIMITS {
         en: "limits ±2u, with u the standard uncertainty of the residual",
-        ru: "границы ±2u, где u\u{a0}— стандартная неопределённость остатка"
+        ru: "границы ±2u, где u — стандартная неопределённость остатка"
     }
 
     CHANGE_BAR { en: "change of the deviation, ″", ru: "изменение отклонения, ″" }
@@ -117,8 +119,8 @@ texts! {
     }
 
     TOLERANCES_WHISKER {
-        en: "expanded uncertainty ±U, U\u{a0}=\u{a0}2u",
-        ru: "расширенная неопределённость ±U, U\u{a0}=\u{a0}2u"
+        en: "expanded uncertainty ±U, U = 2u",
+        ru: "расширенная неопределённость ±U, U = 2u"
     }
     TOLERANCES_GUARDED {
         en: "guarded acceptance: within the tolerance minus U",
@@ -133,7 +135,7 @@ texts! {
         en: "Iterative method: change in each step relative to the limit",
         ru: "Итерационный метод: изменение на каждом шаге относительно предела"
     }
-    CONVERGENCE_STEP { en: "step; the first approximation is step 1", ru: "шаг; первое приближение\u{a0}— 1" }
+    CONVERGENCE_STEP { en: "step", ru: "шаг" }
     CONVERGENCE_K {
         en: "main scale factors, the larger change",
         ru: "основные масштабные коэффициенты, большее изменение"
@@ -144,13 +146,13 @@ texts! {
     }
     CONVERGENCE_LIMIT { en: "the iteration stops when both are below", ru: "ниже этого уровня итерации прекращаются" }
     CONVERGENCE_IN_WORDS {
-        en: "step {step}: {k}\u{a0}% and {g}\u{a0}°/(h·g)",
-        ru: "шаг {step}: {k}\u{a0}% и {g}\u{a0}°/(ч·g)"
+        en: "step {step}: {k} % and {g} °/(h·g)",
+        ru: "шаг {step}: {k} % и {g} °/(ч·g)"
     }
     CONVERGENCE_DESCRIPTION {
-        en: "Limits: {k}\u{a0}% for the main scale factors, {g}\u{a0}°/(h·g) for the g-sensitive drifts. Changes: \
+        en: "Limits: {k} % for the main scale factors, {g} °/(h·g) for the g-sensitive drifts. Changes: \
              {list}.",
-        ru: "Пределы: {k}\u{a0}% для основных масштабных коэффициентов, {g}\u{a0}°/(ч·g) для составляющих дрейфа, \
+        ru: "Пределы: {k} % для основных масштабных коэффициентов, {g} °/(ч·g) для составляющих дрейфа, \
              зависящих от g. Изменения: {list}."
     }
     ACCURACY_LIMIT {

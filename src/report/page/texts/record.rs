@@ -16,7 +16,7 @@ texts! {
     RECORD { en: "Record of the stand", ru: "Учёт изделия" }
     ON_PAPER {
         en: "The forms of this section are filled in by hand on the printed passport.",
-        ru: "Формы этого раздела заполняют от\u{a0}руки в\u{a0}отпечатанном паспорте."
+        ru: "Формы этого раздела заполняют от\u{a0}руки в отпечатанном паспорте."
     }
     COMPLETENESS { en: "Completeness", ru: "Комплектность" }
     DESIGNATION { en: "Designation", ru: "Обозначение" }
@@ -29,7 +29,7 @@ texts! {
 
     WARRANTY {
         en: "Service life, storage life and warranty",
-        ru: "Ресурсы, сроки службы и\u{a0}хранения и\u{a0}гарантии изготовителя"
+        ru: "Ресурсы, сроки службы и хранения и гарантии изготовителя"
     }
     SERVICE_LIFE { en: "Service life", ru: "Срок службы" }
     STORAGE_LIFE { en: "Storage life", ru: "Срок хранения" }
@@ -44,16 +44,16 @@ texts! {
 
     PACKING { en: "Certificate of packing", ru: "Свидетельство об упаковывании" }
     PACKING_WORDS {
-        en: "Stand {model} No.\u{a0}{serial} has been packed by the organisation named below in accordance with the \
+        en: "Stand {model} No. {serial} has been packed by the organisation named below in accordance with the \
              technical documentation in force.",
-        ru: "Стенд {model} №\u{a0}{serial} упакован указанной ниже организацией согласно требованиям действующей \
+        ru: "Стенд {model} № {serial} упакован указанной ниже организацией согласно требованиям действующей \
              технической документации."
     }
-    ACCEPTANCE { en: "Certificate of acceptance", ru: "Свидетельство о\u{a0}приёмке" }
+    ACCEPTANCE { en: "Certificate of acceptance", ru: "Свидетельство о приёмке" }
     ACCEPTANCE_WORDS {
-        en: "Stand {model} No.\u{a0}{serial} has been manufactured and accepted in accordance with the mandatory \
+        en: "Stand {model} No. {serial} has been manufactured and accepted in accordance with the mandatory \
              requirements of standards and the technical documentation in force, and has been found fit for use.",
-        ru: "Стенд {model} №\u{a0}{serial} изготовлен и принят в соответствии с обязательными требованиями стандартов, \
+        ru: "Стенд {model} № {serial} изготовлен и принят в соответствии с обязательными требованиями стандартов, \
              действующей технической документацией и признан годным для эксплуатации."
     }
     VALID_WHEN_SIGNED {
@@ -61,23 +61,23 @@ texts! {
         ru: "Оба свидетельства действительны только с собственноручной подписью."
     }
     ORGANISATION { en: "Organisation", ru: "Организация" }
-    STAMP { en: "Stamp", ru: "М.\u{a0}П." }
+    STAMP { en: "Stamp", ru: "М. П." }
 
-    STORAGE { en: "Storage and transport", ru: "Хранение и\u{a0}транспортирование" }
+    STORAGE { en: "Storage and transport", ru: "Хранение и транспортирование" }
     STORAGE_CONDITIONS { en: "Storage conditions", ru: "Условия хранения" }
     TRANSPORT_CONDITIONS { en: "Transport conditions", ru: "Условия транспортирования" }
 
-    MOVEMENT { en: "Relocation in use", ru: "Движение изделия в\u{a0}эксплуатации" }
+    MOVEMENT { en: "Relocation in use", ru: "Движение изделия в эксплуатации" }
     INSTALLED { en: "Date installed", ru: "Дата установки" }
     WHERE { en: "Place of installation", ru: "Место установки" }
     REMOVED { en: "Date removed", ru: "Дата снятия" }
     WHY_REMOVED { en: "Reason for removal", ru: "Причина снятия" }
 
-    REPAIRS { en: "Repairs and work under bulletins", ru: "Ремонт и\u{a0}учёт работы по бюллетеням и\u{a0}указаниям" }
+    REPAIRS { en: "Repairs and work under bulletins", ru: "Ремонт и учёт работы по бюллетеням и указаниям" }
     REPAIR { en: "Reason, work performed", ru: "Основание, выполненные работы" }
-    CERTIFIED_AGAIN { en: "Recertification, certificate No.", ru: "Повторная калибровка, №\u{a0}сертификата" }
+    CERTIFIED_AGAIN { en: "Recertification, certificate No.", ru: "Повторная калибровка, № сертификата" }
 
-    NOTES { en: "Notes on use and storage", ru: "Заметки по эксплуатации и\u{a0}хранению" }
+    NOTES { en: "Notes on use and storage", ru: "Заметки по эксплуатации и хранению" }
     DISPOSAL { en: "Disposal", ru: "Сведения об утилизации" }
     SPECIAL { en: "Special remarks", ru: "Особые отметки" }
     AFTER_A_MOVE {
