@@ -153,11 +153,10 @@ fn own_parts(setup: &Setup, fit: &Fit, data: &Data, estimates: &Estimates) -> Ve
                 parts[estimate][place] += whiten * covariance() * whiten.transpose() * share;
             }
         };
-        let turns = sensitivity.to_case_turns(place);
-        for (basis, change) in estimates.angles[place].into_iter().zip(sensitivity.to_certified_angles(place, &turns)) {
+        for (basis, change) in estimates.angles[place].into_iter().zip(sensitivity.to_certified_angles(place)) {
             add(basis, &|| change * change.transpose());
         }
-        add(estimates.returns, &|| sensitivity.of_return(&turns) * repeats.return_share(place));
+        add(estimates.returns, &|| sensitivity.of_return(place) * repeats.return_share(place));
         add(estimates.noise, &|| noise * repeats.noise_variance_ma2(place));
         add(estimates.visits, &|| Matrix2::from_diagonal_element(repeats.drift_variance(place)));
     }

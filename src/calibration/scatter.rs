@@ -126,8 +126,7 @@ impl Repeats {
         let sensitivity = Sensitivity::new(setup, &fit.unknowns);
         let k = fit.unknowns.parameters.k_deg_per_h_per_ma;
         let positions = readings.positions();
-        let returns: Vec<_> =
-            (0..positions.len()).map(|place| sensitivity.of_return(&sensitivity.to_case_turns(place))).collect();
+        let returns: Vec<_> = (0..positions.len()).map(|place| sensitivity.of_return(place)).collect();
         let reading = k * k.transpose() * (self.noise_ma * self.noise_ma);
         let of_noise = |place: usize, visit: usize| reading / positions[place].visits[visit].each_ma.len() as f64;
         let known = |place: usize, visit: usize| returns[place] + of_noise(place, visit);

@@ -95,32 +95,42 @@ impl<'a> Sensitivity<'a> {
         let noise = repeats.noise_variance_ma2(place);
         let k = &self.unknowns.parameters.k_deg_per_h_per_ma;
         let currents = current_ma.map(|current| meter.own_variance_ma2(current) + noise);
-        let turns = self.to_case_turns(place);
-        k * Matrix2::from_diagonal(&currents) * k.transpose()
-            + self.of_return(&turns) * repeats.return_share(place)
-            + self.of_certified_angles(place, &turns)
-            + Matrix2::from_diagonal_element(repeats.drift_variance(place))
+        let meter = k * Matrix2::from_diagonal(&currents) * k.transpose();
+        let gyro = Matrix2::from_diagonal_element(repeats.drift_variance(place));
+        self.with_return(meter, place, repeats.return_share(place)) + self.of_certified_angles(place) + gyro
     }
 
-    /// Returns the covariance of one visit from the repeatability, (°/h)², 2×2, with the [changes](Self::to_case_turns)
-    /// of its position.
-    pub(crate) fn of_return(&self, turns: &Matrix2x3<f64>) -> Matrix2<f64> {
-        let u = self.setup.uncertainty().repeatability_rad;
-        turns * turns.transpose() * (u * u)
+    /// Returns the covariance of one visit from the repeatability, (°/h)², 2×2.
+    pub(crate) fn of_return(&self, place: usize) -> Matrix2<f64> {
+        self.with_return(Matrix2::zeros(), place, 1.0)
     }
 
-    /// Returns the covariance of a position from its certified angles, (°/h)², 2×2, with its
-    /// [changes](Self::to_case_turns).
-    pub(crate) fn of_certified_angles(&self, place: usize, turns: &Matrix2x3<f64>) -> Matrix2<f64> {
-        self.to_certified_angles(place, turns).iter().map(|change| change * change.transpose()).sum()
+    /// Returns `covariance` plus that of the repeatability, multiplied by `share`.
+    fn with_return(&self, covariance: Matrix2<f64>, place: usize, share: f64) -> Matrix2<f64> {
+        let u = self.setup.uncertainty().repeatability_rad * share.sqrt();
+        if u == 0.0 {
+            return covariance;
+        }
+        self.to_case_turns(place).column_iter().fold(covariance, |sum, turn| {
+            let change = turn * u;
+            sum + change * change.transpose()
+        })
+    }
+
+    /// Returns the covariance of a position from its certified angles, (°/h)², 2×2.
+    pub(crate) fn of_certified_angles(&self, place: usize) -> Matrix2<f64> {
+        self.to_certified_angles(place).iter().map(|change| change * change.transpose()).sum()
     }
 
     /// Returns the changes of the misclosure of a position, °/h, for one standard uncertainty of each of its certified
-    /// angles α, β, γ, from its [changes](Self::to_case_turns).
-    pub(crate) fn to_certified_angles(&self, place: usize, turns: &Matrix2x3<f64>) -> [Change; 3] {
+    /// angles α, β, γ.
+    pub(crate) fn to_certified_angles(&self, place: usize) -> [Change; 3] {
         let angles = self.setup.uncertainty().angles_rad.get(place).copied().unwrap_or_default();
         let axes = &self.setup.turns()[place].axes;
-        std::array::from_fn(|angle| turns * axes[angle] * angles[angle])
+        std::array::from_fn(|angle| match angles[angle] {
+            0.0 => Change::zeros(),
+            u => self.to_case_turn(place, &axes[angle]) * u,
+        })
     }
 
     /// Returns the errors of the misclosures for one standard uncertainty of each common input, °/h (two rows per

@@ -248,7 +248,6 @@ fn candidate(
 ) -> Candidate {
     let u = setup.uncertainty();
     let sensitivity = Sensitivity::new(setup, unknowns);
-    let turns = sensitivity.to_case_turns(place);
     let k = &unknowns.parameters.k_deg_per_h_per_ma;
     let of_currents = |variance_ma2: Vector2<f64>| k * Matrix2::from_diagonal(&variance_ma2) * k.transpose();
     let visit = u.visit_deg_per_h.unwrap_or(0.0);
@@ -261,8 +260,8 @@ fn candidate(
     Candidate {
         position: *position,
         rows,
-        fixed: specification + sensitivity.of_certified_angles(place, &turns),
-        of_visit: noise + sensitivity.of_return(&turns) + Matrix2::identity() * (visit * visit),
+        fixed: specification + sensitivity.of_certified_angles(place),
+        of_visit: noise + sensitivity.of_return(place) + Matrix2::identity() * (visit * visit),
     }
 }
 

@@ -66,7 +66,8 @@ fn marked(page: &str) -> Vec<(f64, String)> {
 
 /// A printed number and half the unit of its last place, read by its digits.
 fn read(printed: &str, comma: bool) -> (f64, f64) {
-    let plain: String = printed.chars().filter(|c| !"\u{202f}\u{b7}".contains(*c)).collect();
+    assert!(!printed.contains(if comma { '\u{d7}' } else { '\u{b7}' }), "{printed}: the sign of the other language");
+    let plain: String = printed.chars().filter(|c| !"\u{202f}\u{b7}\u{d7}".contains(*c)).collect();
     let plain = plain.replace('\u{2212}', "-");
     assert!(!plain.contains(if comma { '.' } else { ',' }), "{printed}: the mark of the other language");
     let superscript =
