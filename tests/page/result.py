@@ -9,6 +9,7 @@ Files are read by PyYAML and csv, numbers are rounded by `decimal`: nothing here
 
 import csv
 import json
+import math
 import re
 import sys
 from datetime import datetime, timezone
@@ -122,9 +123,28 @@ def derived(budget):
             yield float(Decimal(limit).quantize(Decimal(1).scaleb(place), ROUND_FLOOR))
 
 
+def course(results, gravity):
+    """The parameters of several results, and their standard uncertainties, each at one gravity: PLACES × results."""
+    for place in PLACES.values():
+        line = []
+        for result in results:
+            answer = next((one for one in result["results"] if one["method"] == "least-squares"), result["results"][-1])
+            value, u = at(answer, place), at(answer["standard_uncertainty"], place)
+            if place[0] in ("omega_g_deg_per_h_per_g", "omega_k_deg_per_h_per_g"):
+                local = result["gravity_m_per_s2"]
+                u = gravity / local * math.hypot(u, value * result.get("gravity_u_m_per_s2", 0) / local)
+                value *= gravity / local
+            line.append((value, u))
+        yield line
+
+
 class Report:
-    def __init__(self, said, result, files, days):
+    def __init__(self, said, result, files, days, earlier=(), gravity=None):
         self.said, self.result, self.days = said, result, days
+        # With a single earlier result there is a table of changes alone.
+        gravity = gravity or result["gravity_m_per_s2"]
+        self.course = list(course([*earlier, result], gravity)) if len(earlier) > 1 else []
+        self.converted = [number for line in self.course for value, u in line for number in (value, 2 * u)]
         self.known = {}
         for path, value in numbers(result):
             # What is missing is stated as at most so much.
@@ -149,6 +169,8 @@ class Report:
         """A number that is marked as such: known, rounded once, to its uncertainty's digits."""
         digits, place = printed(shown, self.said["lang"] == "ru")
         paths = self.known.get(float(value))
+        if paths is None and any(math.isclose(float(value), other, rel_tol=1e-14) for other in self.converted):
+            paths = [()]
         if paths is None:
             self.wrong.append(f"{value} is on the page and not in the result")
             return
@@ -181,6 +203,7 @@ class Report:
     def tables(self):
         found = [self.table(table) for table in self.said["tables"]]
         due = {"parameters", "residuals", *(part for part in ("verdict", "change") if self.result.get(part))}
+        due |= {"course"} if self.course else set()
         if not due <= set(found):
             self.wrong.append(f"tables are missing: {found}")
 
@@ -193,6 +216,8 @@ class Report:
             return self.residuals(table)
         if len(heads) == 10:
             return self.verdict(table)
+        if heads[1:2] in (["Calibration"], ["Калибровка"]):
+            return self.of_course(table)
         return table["caption"]
 
     def cell(self, what, cell, due, u=None):
@@ -269,6 +294,22 @@ class Report:
                 self.cell(f"residual {key} of ({line['i']}, {line['j']})", cell, line[key], line[f"u_{key[-1]}"])
         return "residuals"
 
+    def of_course(self, table):
+        """Every parameter from the earliest calibration to this one."""
+        due = [(symbol, *pair) for symbol, line in zip(PLACES, self.course) for pair in line]
+        by_symbol = {}
+        for row in table["rows"]:
+            by_symbol.setdefault(row[0]["text"].split(",")[0], []).append(row)
+        rows = [row for symbol in PLACES for row in by_symbol.get(symbol, [])]
+        for (symbol, value, u), row in zip(due, rows, strict=True):
+            for cell, number in ((row[2], value), (row[3], 2 * u)):
+                shown = [float(one) for one in cell["values"]]
+                if len(shown) != 1 or not math.isclose(shown[0], number, rel_tol=1e-14):
+                    self.wrong.append(f"{symbol}, {row[1]['text']}: {cell['text']} {shown}, and in its result {number}")
+                elif printed(cell["text"], self.said["lang"] == "ru")[1] != place_of(u):
+                    self.wrong.append(f"{symbol}, {row[1]['text']}: {cell['text']} has not the digits of its uncertainty {u}")
+        return "course"
+
     def verdict(self, table):
         part = "change" if table["heads"][4].startswith(("Change", "Изменение")) else "verdict"
         for row, line in zip(table["rows"], self.result[part]["parameters"], strict=True):
@@ -318,7 +359,10 @@ def main():
     if "--no-verify" in asked:
         # Then the day is that of the report.
         days.add(datetime.now(timezone.utc).date().isoformat())
-    report = Report(said, result, values, days)
+    earlier = [json.load(open(file, encoding="utf-8")) for option, file in zip(asked, asked[1:]) if option == "--previous"]
+    types = [yaml.safe_load(open(file, encoding="utf-8")) for option, file in zip(asked, asked[1:]) if option == "--gyro"]
+    gravity = types[0].get("gravity_m_per_s2", 9.80665) if types else None
+    report = Report(said, result, values, days, earlier, gravity)
     if len(said["numbers"]) < 60:
         report.wrong.append(f"only {len(said['numbers'])} numbers on the page")
     for number in said["numbers"]:
