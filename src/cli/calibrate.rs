@@ -17,7 +17,7 @@ use crate::calibration::{Method, Model, Options as CalibrationOptions, Readings}
 use crate::coefficients::PositionIndex;
 use crate::dcc::{self, Calibrated};
 use crate::document::sha256_hex;
-use crate::files::{self, FileError};
+use crate::files;
 use crate::gyro::GyroType;
 use crate::interface::calibrated::{Done, Prepared};
 use crate::laboratory::Laboratory;
@@ -297,12 +297,10 @@ impl Bench<'_> {
         }
         let page = (named(".html"), self.page(found)?);
         let text = printable::json(&found.whole()).map_err(Failure::unusable)? + "\n";
-        let files = [(json.clone(), text), page];
+        let pages = [(json.clone(), text), page];
         let force = self.options.uncertainty.force;
-        if let Some((path, _)) = files.iter().find(|(path, _)| !force && path.symlink_metadata().is_ok()) {
-            return Err(Failure::file(FileError::Exists { path: path.clone(), replaceable: true }));
-        }
-        for (path, text) in &files {
+        files::check_replaceable(pages.iter().map(|(path, _)| path), force).map_err(Failure::file)?;
+        for (path, text) in &pages {
             output::file(path, text, force)?;
         }
         output::say(&format!("wrote {} and .html", shown(&json)));

@@ -180,10 +180,8 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
         let page = CertificationPage { certification: certified, readings: (&name, &bytes), change };
         (path, page.html(&languages(&options.lang)))
     });
-    if let Some((path, _)) = page.as_ref().filter(|(path, _)| !options.force && path.symlink_metadata().is_ok()) {
-        // Nothing is written if the record cannot be.
-        return Err(Failure::file(files::FileError::Exists { path: path.to_path_buf(), replaceable: true }));
-    }
+    // Nothing is written if the record cannot be.
+    files::check_replaceable(page.as_ref().map(|(path, _)| *path), options.force).map_err(Failure::file)?;
     if let (Some(path), Some(certified)) = (&options.output, &certified) {
         if options.stand.is_none() {
             against.iter().try_for_each(|stand| certified.check_number(stand)).map_err(Failure::refused)?;

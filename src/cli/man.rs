@@ -1,7 +1,7 @@
 //! Verb `man`: manual pages.
 
 use super::{Code, Failure, help, output};
-use crate::files::FileError;
+use crate::files;
 use crate::text::shown;
 use clap::{Args, Command};
 use std::path::PathBuf;
@@ -24,9 +24,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     render(&command, &mut pages)?;
     // All or none: the page of an older version would contradict the others.
     let paths: Vec<PathBuf> = pages.iter().map(|(name, _)| options.folder.join(format!("{name}.1"))).collect();
-    if let Some(path) = paths.iter().find(|path| !options.force && path.symlink_metadata().is_ok()) {
-        return Err(Failure::file(FileError::Exists { path: path.clone(), replaceable: true }));
-    }
+    files::check_replaceable(&paths, options.force).map_err(Failure::file)?;
     for (path, (_, page)) in paths.iter().zip(&pages) {
         output::file(path, page, options.force)?;
     }

@@ -103,10 +103,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         .map(|path| Header::from_yaml(&name_of(path), &read(path)?).map_err(Failure::unreadable));
     let (name, bytes) = (name_of(&options.readings), read(&options.readings)?);
     let sites = options.sites.iter().map(|path| at_site(path)).collect::<Result<Vec<_>, _>>()?;
-    if let Some(path) = options.report.as_ref().filter(|path| !options.force && path.symlink_metadata().is_ok()) {
-        // Nothing is written if the record cannot be.
-        return Err(Failure::file(files::FileError::Exists { path: path.clone(), replaceable: true }));
-    }
+    // Nothing is written if the record cannot be.
+    files::check_replaceable(&options.report, options.force).map_err(Failure::file)?;
     let excluded = options.exclusions.excluded()?;
     let order = Recertification {
         passport: &options.passport,

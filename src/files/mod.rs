@@ -233,6 +233,26 @@ pub(crate) fn write_new_as(path: &Path, bytes: &[u8], access: Access, durability
     write(path, bytes, access, durability, persist, false)
 }
 
+/// Checks that no file is in the way of [`write_replaceable`], so that none of several is written if one cannot be.
+///
+/// # Errors
+/// Returns [`FileError::Folder`], or [`FileError::Exists`] without `force`.
+pub(crate) fn check_replaceable<'a>(
+    paths: impl IntoIterator<Item = &'a PathBuf>,
+    force: bool,
+) -> Result<(), FileError> {
+    for path in paths {
+        let path = path.clone();
+        if path.is_dir() {
+            return Err(FileError::Folder { path });
+        }
+        if !force && path.symlink_metadata().is_ok() {
+            return Err(FileError::Exists { path, replaceable: true });
+        }
+    }
+    Ok(())
+}
+
 /// Writes a file as [`write_new`] does, and replaces an existing file if `force` is set.
 ///
 /// Passports, lists of withdrawn passports and private keys are never replaced. Nor is anything but a regular file,
@@ -241,6 +261,9 @@ pub(crate) fn write_new_as(path: &Path, bytes: &[u8], access: Access, durability
 /// # Errors
 /// Returns the errors of [`write_new`].
 pub(crate) fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
+    if path.is_dir() {
+        return Err(FileError::Folder { path: path.to_owned() });
+    }
     if path.metadata().is_ok_and(|there| !there.is_file()) || (force && is_irreplaceable(path)) {
         return Err(FileError::Exists { path: path.to_owned(), replaceable: false });
     }

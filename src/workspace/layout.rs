@@ -39,11 +39,7 @@ pub(crate) fn make(root: &Path, identity: Option<&str>, force: bool) -> Result<V
         (root.join(".gitattributes"), GITATTRIBUTES.to_owned()),
         (root.join("README.md"), read_me()),
     ];
-    for (path, _) in written.iter().filter(|_| !force) {
-        if path.symlink_metadata().is_ok() {
-            return Err(FileError::Exists { path: path.clone(), replaceable: true }.into());
-        }
-    }
+    files::check_replaceable(written.iter().map(|(path, _)| path), force)?;
     let mut made = Made::default();
     let done =
         made.folders(root).and_then(|()| written.iter().try_for_each(|(path, text)| made.file(path, text, force)));

@@ -40,9 +40,7 @@ fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, language
         (table(languages, verdict, texts::VERDICT_CAPTION, [texts::NOMINAL, texts::DEVIATION]))
         (key(languages))
         (languages.paragraph(texts::RISK_NOTE))
-        @for row in verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()) {
-            (from_gravity(page, row, languages))
-        }
+        (from_gravity(page, verdict, languages))
     }
 }
 
@@ -159,16 +157,24 @@ fn table(languages: &Languages, verdict: &Verdict, caption: Text, [reference, de
     table.markup(languages.spoken(caption))
 }
 
-/// Writes the expanded uncertainty that the local g adds to a drift converted to the type's g.
-fn from_gravity(page: &CalibrationPage, row: &ParameterVerdict, languages: &Languages) -> Markup {
-    let part = Number::uncertainty(row.expanded_uncertainty_from_gravity.unwrap_or(0.0));
+/// Writes the expanded uncertainty that the local g adds to the drifts converted to the type's g, where it is most of it.
+fn from_gravity(page: &CalibrationPage, verdict: &Verdict, languages: &Languages) -> Markup {
+    let rows: Vec<_> = verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()).collect();
+    if rows.is_empty() {
+        return html! {};
+    }
     let u = Number::uncertainty(page.result().gravity_u_m_per_s2.unwrap_or(0.0));
-    let values = [
-        ("parameter", parameter(row)),
-        ("gravity", quantity(languages, &part, unit_of(row))),
-        ("u", quantity(languages, &u, units::M_PER_S2)),
-    ];
-    languages.paragraph_with(|language| texts::FROM_GRAVITY.marked_up(language, &values))
+    let u = quantity(languages, &u, units::M_PER_S2);
+    let part = |row: &ParameterVerdict, language: Language| {
+        let gravity = Number::uncertainty(row.expanded_uncertainty_from_gravity.unwrap_or(0.0));
+        let gravity = quantity(languages, &gravity, unit_of(row));
+        texts::FROM_GRAVITY_PART.marked_up(language, &[("gravity", gravity), ("parameter", parameter(row))])
+    };
+    languages.paragraph_with(|language| {
+        let parts =
+            html! { @for (place, row) in rows.iter().enumerate() { @if place > 0 { ", " } (part(row, language)) } };
+        texts::FROM_GRAVITY.marked_up(language, &[("parts", parts), ("u", u.clone())])
+    })
 }
 
 /// Returns the symbol of the parameter of `row`.

@@ -195,11 +195,12 @@ texts! {
     EARLIER { en: "Previous", ru: "Предыдущее значение" }
     FOUND { en: "Value", ru: "Значение" }
     FROM_GRAVITY {
-        en: "Local gravity, with an uncertainty of {u}, contributes {gravity} to U of {parameter}. To reduce this, \
-             measure gravity or state the height in the site file.",
-        ru: "Вклад местного g, неопределённость которого {u}, в U параметра {parameter} составляет {gravity}. Для его \
-             уменьшения следует измерить ускорение свободного падения или указать высоту в файле места установки."
+        en: "Local gravity, with an uncertainty of {u}, contributes {parts}. To reduce this, measure gravity or state the \
+             height in the site file.",
+        ru: "Местное g, неопределённость которого {u}, вносит {parts}. Для уменьшения этого вклада следует измерить \
+             ускорение свободного падения или указать высоту в файле места установки."
     }
+    FROM_GRAVITY_PART { en: "{gravity} to U of {parameter}", ru: "{gravity} в U параметра {parameter}" }
     DEVIATION { en: "Deviation", ru: "Отклонение" }
     CHANGED_BY { en: "Change", ru: "Изменение" }
     TOLERANCE { en: "Tolerance", ru: "Допуск" }
