@@ -3,7 +3,7 @@
 use super::data::Data;
 use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
-use super::least_squares::{Fit, whiten_rows};
+use super::least_squares::{Fit, multiply_rows};
 use super::sensitivity::{Sensitivity, Shared};
 use crate::statistics::scaled_f::{Part, ScaledF};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector3};
@@ -60,7 +60,7 @@ fn quadratic_form(setup: &Setup, fit: &Fit, data: &Data) -> (f64, Vec<Part>) {
         let misclosure = fit.misclosure(place, current);
         rotated[(2 * place, count)] = misclosure.x;
         rotated[(2 * place + 1, count)] = misclosure.y;
-        whiten_rows(&mut rotated, place, whiten);
+        multiply_rows(&mut rotated, place, whiten);
     }
     let whitened = rotated.clone();
     fit.model.rotate(&mut rotated);
@@ -80,45 +80,42 @@ fn quadratic_form(setup: &Setup, fit: &Fit, data: &Data) -> (f64, Vec<Part>) {
 /// the whitened common part of all positions, and `lower` is L with L L' = 1 + B'B.
 ///
 /// χ² is y' M y of the whitened misclosures y, with M = 1 − V V'. V consists of Q₁ and Q₂ B L'⁻¹ side by side; Q₁ = W X
-/// R⁻¹ is the part that the parameters absorb. A part D of the covariance of y enters through tr M D and tr M D M D. The
-/// own parts of positions are blocks of D, so the cost grows only linearly with the number of positions.
+/// R⁻¹ is the part that the parameters absorb. A part D of the covariance of y enters through tr D M and tr D M D M. Own
+/// parts of positions are blocks of D, so D M costs little more than M itself.
 fn parts(setup: &Setup, fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Option<DMatrix<f64>>) -> Vec<Part> {
     let estimates = Estimates::new(setup, &data.repeats);
     if estimates.degrees_of_freedom.is_empty() {
         return Vec::new();
     }
     let v = absorbed(fit, data, shared, lower);
+    let rows = v.ncols();
+    let one = |row, column| if row == column { 1.0 } else { 0.0 };
+    let mut m = DMatrix::zeros(rows, rows);
+    for column in 0..rows {
+        for row in 0..=column {
+            let left = one(row, column) - v.column(row).dot(&v.column(column));
+            m[(row, column)] = left;
+            m[(column, row)] = left;
+        }
+    }
     let own = own_parts(setup, fit, data, &estimates);
     let common = common_parts(setup, fit, data, &estimates);
-    let differences = 2 * fit.whitening.len()..fit.model.rows();
     let mut parts = Vec::with_capacity(own.len());
     for (estimate, (own, common)) in own.iter().zip(&common).enumerate() {
+        let mut product = m.clone();
+        for (place, block) in own.iter().enumerate() {
+            multiply_rows(&mut product, place, block);
+        }
+        // Differences of visits, the last rows, have unit covariance.
+        if estimates.visits != Basis::Estimate(estimate) {
+            product.rows_range_mut(2 * fit.whitening.len()..).fill(0.0);
+        }
+        if common.ncols() > 0 {
+            product += common * common.tr_mul(&m);
+        }
+        let square = (0..rows).map(|row| product.row(row).tr_dot(&product.column(row))).sum();
         let degrees_of_freedom = estimates.degrees_of_freedom[estimate];
-        let mut part = Part { degrees_of_freedom, trace: 0.0, square: 0.0 };
-        // V' D V.
-        let mut inside = DMatrix::zeros(v.nrows(), v.nrows());
-        for (place, block) in own.iter().enumerate().filter(|(_, block)| **block != Matrix2::zeros()) {
-            let here = v.fixed_columns::<2>(2 * place);
-            let of_block = here * block;
-            inside.gemm(1.0, &of_block, &here.transpose(), 1.0);
-            part.trace += block.trace();
-            part.square += block.norm_squared() - 2.0 * of_block.norm_squared();
-        }
-        if estimates.visits == Basis::Estimate(estimate) {
-            for row in differences.clone() {
-                let here = v.column(row);
-                inside.ger(1.0, &here, &here, 1.0);
-                part.trace += 1.0;
-                part.square += 1.0 - 2.0 * here.norm_squared();
-            }
-        }
-        part.trace -= inside.trace();
-        part.square += inside.norm_squared();
-        let seen = &v * common;
-        let left = common.tr_mul(common) - seen.tr_mul(&seen);
-        part.trace += left.trace();
-        part.square += left.norm_squared();
-        parts.push(part);
+        parts.push(Part { degrees_of_freedom, trace: product.trace(), square });
     }
     parts
 }
@@ -127,7 +124,7 @@ fn parts(setup: &Setup, fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Op
 fn absorbed(fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Option<DMatrix<f64>>) -> DMatrix<f64> {
     let mut taken = fit.design(&data.offsets);
     for (place, whiten) in fit.whitening.iter().enumerate() {
-        whiten_rows(&mut taken, place, whiten);
+        multiply_rows(&mut taken, place, whiten);
     }
     taken *= fit.model.r_inverse();
     let mut inner = shared - &taken * taken.tr_mul(shared);

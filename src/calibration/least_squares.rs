@@ -328,6 +328,10 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
 
     /// Checks that no offset is mixed with another unknown. How well each is known, its uncertainty tells.
     fn offsets_determined(&self, currents_ma: &[Vector2<f64>]) -> Result<(), NoLeastSquares> {
+        // Differences of visits alone may determine all of them.
+        if self.offsets.rows.nrows() == self.offsets.columns() {
+            return Ok(());
+        }
         let mut design = whole_design(&self.coefficients.positions, currents_ma, self.model, self.offsets);
         // Rows of differences are in units of their uncertainty, which has no place here; columns have different units.
         let first = 2 * self.coefficients.positions.len();
@@ -420,7 +424,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
             let whiten = whitening_of(&covariance)?;
             let misclosure = whiten * unknowns.misclosure(at, &self.currents_ma[place]);
             right.fixed_view_mut::<2, 1>(2 * place, 0).copy_from(&misclosure);
-            whiten_rows(&mut design, place, &whiten);
+            multiply_rows(&mut design, place, &whiten);
             whitening.push(whiten);
         }
         let model = Factorised::new(design).ok()?;
@@ -455,12 +459,12 @@ pub(crate) fn whitening_of(covariance: &Matrix2<f64>) -> Option<Matrix2<f64>> {
     inverse.iter().all(|x| x.is_finite()).then_some(inverse)
 }
 
-/// Multiplies the two rows of a position by W, in place.
-pub(crate) fn whiten_rows(matrix: &mut DMatrix<f64>, place: usize, whiten: &Matrix2<f64>) {
+/// Multiplies the two rows of a position by a matrix, in place.
+pub(crate) fn multiply_rows(matrix: &mut DMatrix<f64>, place: usize, by: &Matrix2<f64>) {
     for column in 0..matrix.ncols() {
         let (x, y) = (matrix[(2 * place, column)], matrix[(2 * place + 1, column)]);
-        matrix[(2 * place, column)] = whiten.m11 * x + whiten.m12 * y;
-        matrix[(2 * place + 1, column)] = whiten.m21 * x + whiten.m22 * y;
+        matrix[(2 * place, column)] = by.m11 * x + by.m12 * y;
+        matrix[(2 * place + 1, column)] = by.m21 * x + by.m22 * y;
     }
 }
 

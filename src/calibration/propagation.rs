@@ -9,7 +9,7 @@
 use super::analytic::AnalyticMap;
 use super::data::Data;
 use super::inputs::Setup;
-use super::least_squares::{Fit, whiten_rows};
+use super::least_squares::{Fit, multiply_rows};
 use super::sensitivity::Sensitivity;
 use nalgebra::{DMatrix, Matrix2, Vector2};
 
@@ -39,7 +39,7 @@ impl<'a> Propagation<'a> {
         for (place, whiten) in fit.whitening.iter().enumerate() {
             let own = Matrix2::new(1.0 / whiten.m11, 0.0, -whiten.m21 / (whiten.m11 * whiten.m22), 1.0 / whiten.m22);
             causes.fixed_view_mut::<2, 2>(2 * place, 2 * place).copy_from(&own);
-            whiten_rows(&mut shared, place, whiten);
+            multiply_rows(&mut shared, place, whiten);
         }
         rotated.columns_mut(rows, shared.ncols()).copy_from(&shared);
         fit.model.rotate(&mut rotated);
@@ -83,7 +83,7 @@ impl<'a> Propagation<'a> {
         let (rows, columns) = (self.fit.model.rows(), self.fit.model.columns());
         let mut rotated = DMatrix::identity(rows, rows);
         for (place, whiten) in self.fit.whitening.iter().enumerate() {
-            whiten_rows(&mut rotated, place, whiten);
+            multiply_rows(&mut rotated, place, whiten);
         }
         self.fit.model.rotate(&mut rotated);
         let r_inverse = self.fit.model.r_inverse();

@@ -171,8 +171,12 @@ impl Repeats {
         let estimates = Estimates::new(setup, self);
         let mut parts = Parts::new(&estimates);
         for (place, at) in readings.positions().iter().enumerate().filter(|(_, at)| at.visits.len() > 1) {
-            let kept = 1.0 - at.visit_share();
-            for visit in 0..at.visits.len() {
+            // Visits with the same number of rows have the same covariance.
+            let mut first = 0;
+            for visits in at.visits.chunk_by(|one, other| one.each_ma.len() == other.each_ma.len()) {
+                let kept = visits.len() as f64 * (1.0 - at.visit_share());
+                let visit = first;
+                first += visits.len();
                 let Some(w) = whitening_of(&of_visit(place, visit)) else { continue };
                 parts.add(estimates.returns, kept, &(w * returns[place] * w.transpose()));
                 parts.add(estimates.noise, kept, &(w * of_noise(place, visit) * w.transpose()));

@@ -11,21 +11,27 @@ use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2, Vector3};
 /// Change of the misclosure of one position, °/h, per unit change of an input.
 type Change = Vector2<f64>;
 
-/// Change of the vectors of one position, in case coordinates, per radian.
+/// Vectors of one position in case coordinates, or their change per radian.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct VectorChange {
     pub(crate) earth_rate_deg_per_h: Vector3<f64>,
     pub(crate) vertical: Vector3<f64>,
 }
 
+impl VectorChange {
+    /// Returns the change of vectors per radian of a rotation of the case about the unit vector `axis` (case coordinates).
+    pub(crate) fn turned(&self, axis: &Vector3<f64>) -> Self {
+        Self { earth_rate_deg_per_h: self.earth_rate_deg_per_h.cross(axis), vertical: self.vertical.cross(axis) }
+    }
+}
+
 impl Setup {
-    /// Returns the change of the vectors of position `place` per radian of a rotation of the case about the unit vector
-    /// `axis` (case coordinates).
-    pub(crate) fn case_turned(&self, place: usize, axis: &Vector3<f64>) -> VectorChange {
+    /// Returns the vectors of position `place`, in case coordinates.
+    pub(crate) fn in_case(&self, place: usize) -> VectorChange {
         let attitude = &self.turns()[place].attitude;
         VectorChange {
-            earth_rate_deg_per_h: (attitude * self.earth_rate_east_north_up()).cross(axis),
-            vertical: attitude.column(2).cross(axis),
+            earth_rate_deg_per_h: attitude * self.earth_rate_east_north_up(),
+            vertical: attitude.column(2).into_owned(),
         }
     }
 
@@ -78,14 +84,14 @@ impl<'a> Sensitivity<'a> {
     /// Returns the change of the misclosure of position `place`, °/h per radian, for a rotation of the case about the
     /// unit vector `axis` (case coordinates).
     pub(crate) fn to_case_turn(&self, place: usize, axis: &Vector3<f64>) -> Change {
-        self.of_vectors(place, &self.setup.case_turned(place, axis))
+        self.of_vectors(place, &self.setup.in_case(place).turned(axis))
     }
 
     /// Returns the changes of the misclosure of position `place`, °/h per radian, for rotations of the case about x, y and
     /// z, 2×3.
     pub(crate) fn to_case_turns(&self, place: usize) -> Matrix2x3<f64> {
-        let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
-        Matrix2x3::from_columns(&axes.map(|axis| self.to_case_turn(place, &axis)))
+        let (axes, here) = ([Vector3::x(), Vector3::y(), Vector3::z()], self.setup.in_case(place));
+        Matrix2x3::from_columns(&axes.map(|axis| self.of_vectors(place, &here.turned(&axis))))
     }
 
     /// Returns the covariance of the own part of a position, (°/h)², 2×2. It includes the specification of the meter,
@@ -126,10 +132,10 @@ impl<'a> Sensitivity<'a> {
     /// angles α, β, γ.
     pub(crate) fn to_certified_angles(&self, place: usize) -> [Change; 3] {
         let angles = self.setup.uncertainty().angles_rad.get(place).copied().unwrap_or_default();
-        let axes = &self.setup.turns()[place].axes;
+        let (axes, here) = (&self.setup.turns()[place].axes, self.setup.in_case(place));
         std::array::from_fn(|angle| match angles[angle] {
             0.0 => Change::zeros(),
-            u => self.to_case_turn(place, &axes[angle]) * u,
+            u => self.of_vectors(place, &here.turned(&axes[angle])) * u,
         })
     }
 
