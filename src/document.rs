@@ -6,9 +6,9 @@
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::canonical::{self, NotCanonical};
 use crate::text::kind::{Kind, mistaken};
-use crate::text::problem::{Location, Unreadable};
 pub(crate) use crate::text::scalar::{is_sha256_hex, sha256_hex};
 use crate::text::{Field, Printable, Problems, rule};
+use crate::text::{Location, Unreadable};
 use crate::trust::{AllowedSigners, KeyPoint, Message, PublicKey, Signature, SignatureError};
 #[cfg(feature = "factory")]
 use crate::trust::{KeyError, SigningKey};

@@ -13,8 +13,8 @@ use super::scatter::Scatter;
 use super::stated::NotStated;
 use super::verdict::{Found, Verdict};
 use crate::coefficients::PositionIndex;
+use crate::text::Location;
 use crate::text::Unreadable;
-use crate::text::problem::Location;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer, Serialize};
 

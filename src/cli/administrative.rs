@@ -1,9 +1,8 @@
 //! Administrative file of Digital Calibration Certificates.
 
-use super::Failure;
+use super::{Failure, inputs};
 use crate::dcc::Administrative;
-use crate::files;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Problems, Unreadable, name_of};
+use crate::text::{Problems, Unreadable, name_of};
 use std::path::Path;
 
 /// Said once for all certificates of a run.
@@ -24,7 +23,7 @@ impl AdministrativeFile {
             return Ok(Self { name: "--administrative".to_owned(), text: String::new(), content: None });
         };
         let name = name_of(path);
-        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+        let bytes = inputs::bytes(path)?;
         let content = Administrative::from_yaml(&name, &bytes).map_err(Failure::unreadable)?;
         let text = String::from_utf8_lossy(&bytes);
         let text = text.strip_prefix('\u{FEFF}').unwrap_or(&text).to_owned();

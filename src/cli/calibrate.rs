@@ -5,7 +5,7 @@ use super::inputs::{self, Each};
 use super::output::Format;
 use super::render::{Written, languages};
 use super::show::{Read, Whom};
-use super::simulate::{MethodName, read_gyro};
+use super::simulate::MethodName;
 use super::{Code, Failure, REFUSED, defaults, output, uncertainty};
 use crate::batch::{Purpose, paths};
 use crate::calibration::document::{CalibrationDocument, Subject};
@@ -24,7 +24,7 @@ use crate::laboratory::Laboratory;
 use crate::passport::{Content, Question, Trust, Verification};
 use crate::report::calibration as report;
 use crate::report::page::{CalibrationPage, PassportPage, UsedPassport};
-use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of, printable, shown};
+use crate::text::{Printable, name_of, printable, shown};
 use crate::uncertainty::document::WholeDocument;
 use clap::{Args, ValueEnum};
 use jiff::Timestamp;
@@ -146,8 +146,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let bench = Bench {
         options,
         passport: options.whom.reader()?.read(&options.passport)?,
-        laboratory: read_laboratory(options.laboratory.as_deref())?,
-        gyro_type: read_gyro(options.gyro.as_deref())?,
+        laboratory: inputs::laboratory(options.laboratory.as_deref())?,
+        gyro_type: inputs::gyro(options.gyro.as_deref())?,
         previous: previous(options)?,
         administrative: AdministrativeFile::read(options.administrative.as_deref())?,
     };
@@ -199,7 +199,7 @@ impl Bench<'_> {
     /// Calibrates the gyro whose currents are at `path`.
     fn calibrate(&self, path: &Path) -> Result<Found, Failure> {
         let (options, content) = (self.options, &self.passport.content);
-        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+        let bytes = inputs::bytes(path)?;
         let name = name_of(path);
         let prepared = Prepared::new(content, &self.laboratory, self.gyro_type.as_ref(), (&name, &bytes));
         let mut prepared = prepared.map_err(Failure::stopped)?;
@@ -430,18 +430,10 @@ fn used<'a>(
     }
 }
 
-/// Reads a laboratory file. Without a path it returns the paper's meter.
-pub(super) fn read_laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
-    let Some(path) = path else { return Ok(Laboratory::paper()) };
-    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
-    Laboratory::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)
-}
-
 /// Reads the previous results, from the earliest to the latest.
 fn previous(options: &Options) -> Result<Vec<CalibrationDocument>, Failure> {
     let read = |path: &PathBuf| {
-        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
-        let document = CalibrationDocument::from_json(&name_of(path), &bytes).map_err(Failure::unreadable)?;
+        let document = inputs::document(path, CalibrationDocument::from_json)?;
         let empty = || Failure::unusable(format!("{}: contains no result", shown(path)));
         document.answer().map(|_| document).ok_or_else(empty)
     };

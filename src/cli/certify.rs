@@ -2,7 +2,6 @@
 
 use super::diff::Past;
 use super::exclusion::ExclusionOptions;
-use super::issue::read_stand;
 use super::output::Format;
 use super::render::{Written, languages};
 use super::trust_options::OptionalTrust;
@@ -93,7 +92,7 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
     }
     let work = |readings: &Path| {
         let header = header_of(headers, readings)?;
-        let bytes = files::read(readings, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+        let bytes = inputs::bytes(readings)?;
         let name = name_of(readings);
         let read = AngleReadings::from_csv(&name, &bytes, &header.positions).map_err(Failure::unreadable)?;
         if let Some(remark) = read.remark() {
@@ -123,19 +122,14 @@ fn header_of(headers: &Path, readings: &Path) -> Result<Header, Failure> {
         let (path, readings) = (shown(&path), shown(readings));
         return Err(Failure::unusable(format!("{path}: missing, expected the header of {readings}; {advice}")));
     }
-    read_header(&path)
-}
-
-fn read_header(path: &Path) -> Result<Header, Failure> {
-    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
-    Header::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)
+    inputs::document(&path, Header::from_yaml)
 }
 
 /// Writes a certified stand; a stand file that it supersedes is kept. Certificates of `known` stands, and of the one that
 /// is there, must not have its number with other angles.
 fn write(path: &Path, certified: &Certification, known: &[&Stand], force: bool) -> Result<(), Failure> {
     // An existing output file need not be a stand file; --force replaces it in any case.
-    let there = read_stand(path).ok();
+    let there = inputs::stand(path).ok();
     for stand in known.iter().copied().chain(&there) {
         certified.check_number(stand).map_err(Failure::refused)?;
     }
@@ -151,11 +145,11 @@ fn write(path: &Path, certified: &Certification, known: &[&Stand], force: bool) 
 fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
     let against = options.against.as_deref().map(|path| certified(path, &options.trust)).transpose()?;
     let header = match (&options.stand, &against) {
-        (Some(path), _) => read_header(path)?,
+        (Some(path), _) => inputs::document(path, Header::from_yaml)?,
         (None, Some(stand)) => Header::from(stand),
         (None, None) => return Err(Failure::unusable("missing --stand or --against")),
     };
-    let bytes = files::read(readings, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+    let bytes = inputs::bytes(readings)?;
     let name = name_of(readings);
     let excluded = options.exclusions.excluded()?;
     let readings = AngleReadings::from_csv_without(&name, &bytes, &header.positions, &excluded);
@@ -212,7 +206,7 @@ fn certified(path: &Path, trust: &OptionalTrust) -> Result<Stand, Failure> {
     let is_passport =
         files::read_first(path, LARGEST_DOCUMENT_BYTES).is_ok_and(|bytes| claims_to_be_a_passport(&bytes));
     match (is_passport, trust.load()?) {
-        (false, _) => read_stand(path),
+        (false, _) => inputs::stand(path),
         (true, Some((trust, question))) => Ok(Past::read(path, &trust, &question)?.content.to_stand()),
         (true, None) => Err(Failure::unusable(format!("{}: is a passport; specify --trust to verify it", shown(path)))),
     }

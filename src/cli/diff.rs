@@ -2,13 +2,12 @@
 
 use super::output::{self, Format};
 use super::trust_options::TrustOptions;
-use super::{Code, Failure, defaults};
+use super::{Code, Failure, defaults, inputs};
 use crate::document::sha256_hex;
-use crate::files;
 use crate::passport::difference::Differences;
 use crate::passport::{CheckName, Content, Question, Trust, verify};
 use crate::report::difference::{self, Side};
-use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, printable};
+use crate::text::{name_of, printable};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -50,7 +49,7 @@ pub(super) struct Past {
 impl Past {
     /// Reads and verifies a passport; it may have expired, which is reported.
     pub(super) fn read(path: &Path, trust: &Trust, question: &Question) -> Result<Self, Failure> {
-        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+        let bytes = inputs::bytes(path)?;
         let name = name_of(path);
         let verification = verify(&name, &bytes, trust, question);
         let Some(content) = verification.content_even_if_expired().cloned() else {

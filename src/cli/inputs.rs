@@ -1,14 +1,57 @@
-//! Several inputs of a verb: each has its own result, and one that fails does not stop the others.
+//! Input files of the verbs: documents read, and several inputs of which one that fails does not stop the others.
 
 use super::output::{self, Format};
 use super::{Code, Failure};
 use crate::batch::Purpose;
+use crate::batch::catalogue::Listed as _;
 use crate::batch::paths;
+use crate::files;
+use crate::gyro::GyroType;
 use crate::interface::Failed;
+use crate::laboratory::Laboratory;
 use crate::report::issued;
-use crate::text::{Printable, name_of, printable};
+use crate::site::Site;
+use crate::stand::Stand;
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, printable, shown};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
+
+/// Reads the bytes of a document.
+pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)
+}
+
+/// Reads a document with its own reader, such as `Stand::from_yaml`.
+pub(super) fn document<T>(
+    path: &Path,
+    reader: impl FnOnce(&str, &[u8]) -> Result<T, Unreadable>,
+) -> Result<T, Failure> {
+    reader(&name_of(path), &bytes(path)?).map_err(Failure::unreadable)
+}
+
+/// Reads a stand file.
+pub(super) fn stand(path: &Path) -> Result<Stand, Failure> {
+    document(path, Stand::from_yaml)
+}
+
+/// Reads a site file, and remarks on a file that has not the name of its site.
+pub(super) fn site(path: &Path) -> Result<Site, Failure> {
+    let site = document(path, Site::from_yaml)?;
+    if let Some(words) = site.remark(path) {
+        output::say(&format!("{}: {words}", shown(path)));
+    }
+    Ok(site)
+}
+
+/// Reads a gyro type, or returns `None` without a path.
+pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
+    path.map(|path| document(path, GyroType::from_yaml)).transpose()
+}
+
+/// Reads a laboratory file, or returns the paper's meter without a path.
+pub(super) fn laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
+    path.map_or_else(|| Ok(Laboratory::paper()), |path| document(path, Laboratory::from_yaml))
+}
 
 /// Result of a verb for one of several inputs.
 #[derive(Serialize)]

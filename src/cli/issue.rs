@@ -1,19 +1,12 @@
 //! Verb `issue`: one passport for every stand at every site.
 
 use super::batch::BatchOptions;
-use super::calibrate::read_laboratory;
-use super::simulate::read_gyro;
-use super::{Code, Failure, defaults, output, trust_options};
-use crate::batch::catalogue::Listed;
+use super::{Code, Failure, defaults, inputs, trust_options};
 use crate::batch::issue::{Job, Known};
-use crate::files;
 use crate::gyro::GyroType;
 use crate::passport::accuracy::Stated;
 use crate::passport::issue::{Issue, time_of_issue};
 use crate::signing::own_trust;
-use crate::site::Site;
-use crate::stand::Stand;
-use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use clap::Args;
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -86,23 +79,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 
 /// Reads the gyro type and the laboratory for which the passports state the expected calibration uncertainty.
 fn stated(options: &Options) -> Result<Stated, Failure> {
-    let gyro = read_gyro(options.gyro.as_deref())?.unwrap_or_else(GyroType::gvk_6);
-    let laboratory = read_laboratory(options.laboratory.as_deref())?;
+    let gyro = inputs::gyro(options.gyro.as_deref())?.unwrap_or_else(GyroType::gvk_6);
+    let laboratory = inputs::laboratory(options.laboratory.as_deref())?;
     Ok(Stated { gyro: gyro.into(), laboratory: laboratory.into() })
-}
-
-/// Reads a stand file.
-pub(super) fn read_stand(path: &Path) -> Result<Stand, Failure> {
-    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
-    Stand::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)
-}
-
-/// Reads a site file.
-pub(super) fn read_site(path: &Path) -> Result<Site, Failure> {
-    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
-    let site = Site::from_yaml(&name_of(path), &bytes).map_err(Failure::unreadable)?;
-    if let Some(words) = site.remark(path) {
-        output::say(&format!("{}: {words}", shown(path)));
-    }
-    Ok(site)
 }

@@ -1,12 +1,11 @@
 //! Verb `new`: templates of the hand-written files.
 
 use super::trust_options::place;
-use super::{Code, Failure, output};
+use super::{Code, Failure, inputs, output};
 use crate::earth::Place;
-use crate::files;
 use crate::plan::document::Planned;
 use crate::template::{self, Positions};
-use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
+use crate::text::{Identifier, Printable, shown};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -93,10 +92,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     let positions = match &options.from_plan {
         None => options.positions.into(),
-        Some(path) => {
-            let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
-            Positions::Planned(Planned::from_json(&name_of(path), &bytes).map_err(Failure::unreadable)?)
-        }
+        Some(path) => Positions::Planned(inputs::document(path, Planned::from_json)?),
     };
     let text = match options.kind {
         Kind::Stand => template::stand(&positions),

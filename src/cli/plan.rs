@@ -1,10 +1,7 @@
 //! Verb `plan`: the best positions to certify, or of a certified stand's positions to read, and their order.
 
-use super::calibrate::read_laboratory;
-use super::issue::{read_site, read_stand};
 use super::output::Format;
-use super::simulate::read_gyro;
-use super::{Code, Failure, output};
+use super::{Code, Failure, inputs, output};
 use crate::gyro::GyroType;
 use crate::plan::candidates::Angles;
 use crate::plan::criterion::Criterion;
@@ -84,10 +81,10 @@ fn angles(text: &str) -> Result<Angles, String> {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let site = read_site(&options.site)?;
-    let stand = options.stand.as_deref().map(read_stand).transpose()?;
-    let gyro = read_gyro(options.gyro.as_deref())?.unwrap_or_else(GyroType::gvk_6);
-    let laboratory = read_laboratory(options.laboratory.as_deref())?;
+    let site = inputs::site(&options.site)?;
+    let stand = options.stand.as_deref().map(inputs::stand).transpose()?;
+    let gyro = inputs::gyro(options.gyro.as_deref())?.unwrap_or_else(GyroType::gvk_6);
+    let laboratory = inputs::laboratory(options.laboratory.as_deref())?;
     let of_site = site.frame_axis_azimuth_deg();
     let mut azimuths_deg: Vec<f64> = Vec::new();
     for axis in &options.frame_axis {

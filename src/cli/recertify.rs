@@ -1,12 +1,11 @@
 //! Verb `recertify`: a new certificate from new readings, and successors of the passports in force, in one step.
 
 use super::exclusion::ExclusionOptions;
-use super::issue::read_site;
 use super::key_options::{self, signer_of};
 use super::output::{self, Format};
 use super::render::{Written, languages};
 use super::trust_options::{self, TrustOptions};
-use super::{Code, Failure, defaults, long_run};
+use super::{Code, Failure, defaults, inputs, long_run};
 use crate::batch::recertification::{AtSite, NotRecertified, Recertification};
 use crate::certification::Header;
 use crate::files;
@@ -16,7 +15,7 @@ use crate::report::issued::Told;
 use crate::report::page::certification::CertificationPage;
 use crate::report::recertification as report;
 use crate::text::kind::{Kind, mistaken};
-use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, name_of, shown};
+use crate::text::{Identifier, name_of, shown};
 use clap::Args;
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -90,7 +89,7 @@ pub(super) struct Options {
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let cancel = long_run::cancelled_by_ctrl_c()?;
-    let read = |path: &PathBuf| files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file);
+    let read = |path: &PathBuf| inputs::bytes(path);
     // Before the readings are read: exchanged arguments are then recognised by the file that is there.
     let expected = "a passport, which `issue` makes and signs";
     let name = name_of(&options.passport);
@@ -160,6 +159,6 @@ fn at_site(path: &Path) -> Result<AtSite, Failure> {
     let id = path.to_str().filter(|id| !path.is_file() && Identifier::new(id).is_ok());
     match id {
         Some(id) => Ok(AtSite::Id(id.to_owned())),
-        None => read_site(path).map(|site| AtSite::File(Box::new(site))),
+        None => inputs::site(path).map(|site| AtSite::File(Box::new(site))),
     }
 }

@@ -1,9 +1,8 @@
 //! Verb `reissue`: successors of existing passports.
 
 use super::batch::BatchOptions;
-use super::issue::read_site;
 use super::trust_options::{self, TrustOptions};
-use super::{Code, Failure, defaults};
+use super::{Code, Failure, defaults, inputs};
 use crate::batch::successors::Change;
 use crate::passport::issue::time_of_issue;
 use crate::passport::reissue::Order;
@@ -63,7 +62,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let order = Order {
         stand: None,
-        site: options.site.as_deref().map(read_site).transpose()?,
+        site: options.site.as_deref().map(inputs::site).transpose()?,
         moved: options.moved,
         reason: options.reason.clone(),
         issuer: options.batch.identity.clone(),

@@ -5,11 +5,10 @@ use super::trust_options::TrustOptions;
 use super::{Code, Failure, defaults, inputs, output, register};
 use crate::batch::Purpose;
 pub(super) use crate::dcc::Written;
-use crate::files;
 use crate::folder::Folder;
 use crate::report::page::{Language, Languages, PassportPage};
 use crate::report::{style, verdict};
-use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
+use crate::text::{name_of, shown};
 use clap::Args;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -63,7 +62,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let (register, trust) = register::asked(options.register.as_deref(), trust, &question)?;
     let write = |passport: &Path, output: Option<&Path>| {
-        let bytes = files::read(passport, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+        let bytes = inputs::bytes(passport)?;
         let name = name_of(passport);
         let page = PassportPage::verified(&name, &bytes, &trust, &question, register.as_ref())
             .map_err(|refused| Failure::verdict("no page was written\n", &name, &refused))?;

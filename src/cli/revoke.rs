@@ -3,12 +3,12 @@
 use super::key_options::KeyOptions;
 use super::output::Format;
 use super::trust_options::{TrustOptions, now};
-use super::{Code, Failure, output};
+use super::{Code, Failure, inputs, output};
 use crate::files::{self, Access};
 use crate::folder::Folder;
 use crate::folder::search::{self, NoNewestList};
 use crate::passport::verify;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
+use crate::text::{Printable, name_of, shown};
 use clap::Args;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -55,7 +55,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let mut entries = Vec::new();
     for id in &options.ids {
         let path = file_of(id, &options.passports)?;
-        let bytes = read(&path)?;
+        let bytes = inputs::bytes(&path)?;
         let verification = verify(&name_of(&path), &bytes, &trust, &question);
         entries.push(verification.withdrawal(&bytes, now(), &options.reason).map_err(|failed| {
             let words = failed.map_or("", |check| &check.detail);
@@ -77,10 +77,6 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         Format::Text => output::text(&format!("revoked    passports in all: {count}  {}\n", shown(&path)))?,
     }
     Ok(0)
-}
-
-fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)
 }
 
 /// Returns the file of an id in `passports`, or `id` itself as a path if only that file exists.

@@ -5,10 +5,9 @@ use super::output::Format;
 use super::trust_options::{self, Asked};
 use super::{Code, Failure, defaults, output};
 use crate::batch::{Purpose, paths};
-use crate::files;
 use crate::passport::{Content, Question, Trust, Verification, read, verify};
 use crate::report::passport_table;
-use crate::text::{Field, LARGEST_DOCUMENT_BYTES, name_of};
+use crate::text::{Field, name_of};
 use clap::{ArgGroup, Args};
 use std::path::{Path, PathBuf};
 
@@ -76,7 +75,7 @@ impl Reader {
     /// Reads a passport and verifies it, unless `--no-verify` is given. A passport that fails a check is refused with
     /// its verdict.
     pub(super) fn read(&self, path: &Path) -> Result<Read, Failure> {
-        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
+        let bytes = inputs::bytes(path)?;
         let name = name_of(path);
         let Some((trust, question)) = &self.verified else {
             let content = read::content_from_anyone(&name, &bytes).map_err(Failure::unreadable)?;

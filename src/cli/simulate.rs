@@ -1,11 +1,9 @@
 //! Verb `simulate`: the paper's table and its Fig. 4.
 
-use super::issue::{read_site, read_stand};
 use super::output::Format;
-use super::{Code, Failure, long_run, output};
+use super::{Code, Failure, inputs, long_run, output};
 use crate::calibration::Method;
 use crate::coefficients::EarthRate;
-use crate::files;
 use crate::gyro::GyroType;
 use crate::report::picture::simulation as picture;
 use crate::report::simulation as table;
@@ -14,9 +12,8 @@ use crate::simulation::convergence::{ConvergenceOptions, convergence};
 use crate::simulation::draw::CurrentError;
 use crate::stand::{CertifiedPosition, LARGEST_DEVIATION_DEG};
 use crate::statistics::random::Run;
-use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use clap::{Args, Subcommand, ValueEnum};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Simulate calibrations: the paper's table and its Fig. 4
 #[derive(Args)]
@@ -146,19 +143,19 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 fn run_accuracy(arguments: &AccuracyArguments) -> Result<Code, Failure> {
     let earth = match &arguments.site {
         Some(path) => {
-            let site = read_site(path)?;
+            let site = inputs::site(path)?;
             site.earth().rate(&site)
         }
         None => EarthRate::at_astronomic_latitude(PAPER_LATITUDE_DEG),
     };
     let stands = match &arguments.stand {
-        Some(path) => Stands::Given(read_stand(path)?.positions.iter().map(CertifiedPosition::to_model).collect()),
+        Some(path) => Stands::Given(inputs::stand(path)?.positions.iter().map(CertifiedPosition::to_model).collect()),
         None => Stands::Drawn { limit_deg: arguments.limit_deg },
     };
     let options = AccuracyOptions {
         stands,
         earth,
-        gyro: read_gyro(arguments.gyro.as_deref())?.unwrap_or_else(GyroType::gvk_6),
+        gyro: inputs::gyro(arguments.gyro.as_deref())?.unwrap_or_else(GyroType::gvk_6),
         within_tolerance: arguments.within_tolerance,
         current_percent: arguments.current_percent,
         current_error: match arguments.current_error {
@@ -195,13 +192,6 @@ fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
         Format::Text => output::text(&table::convergence(&found))?,
     }
     Ok(0)
-}
-
-/// Reads a gyro type, or returns `None` without a path.
-pub(super) fn read_gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
-    let Some(path) = path else { return Ok(None) };
-    let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)?;
-    GyroType::from_yaml(&name_of(path), &bytes).map(Some).map_err(Failure::unreadable)
 }
 
 /// Runs a simulation with a progress bar on a terminal (none in a pipe). Ctrl-C ends it with the trials completed so

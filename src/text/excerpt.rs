@@ -1,7 +1,6 @@
 //! Line of a file with an error, as a terminal shows it.
 
 use super::Printable;
-use super::problem::Location;
 use std::fmt::{self, Display, Formatter};
 
 /// Number of characters shown, and how many of them precede the error; with line number and indentation, they fit in
@@ -11,6 +10,15 @@ const BEFORE: usize = 46;
 
 /// Mark at the end of a shortened line.
 const CUT: &str = "…";
+
+/// Line and column, both counted from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Location {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+}
 
 /// Line around the place of an error, shortened if necessary, without any character that a terminal would interpret.
 ///

@@ -28,10 +28,11 @@ pub(crate) mod table;
 #[cfg(feature = "factory")]
 pub(crate) mod yaml;
 
+pub use excerpt::Location;
 pub(crate) use node::Node;
 pub(crate) use printable::{Printable, name_of, printable, shown};
-pub use problem::{Location, Problem, Unreadable};
 pub(crate) use problem::{Path, Problems};
+pub use problem::{Problem, Unreadable};
 pub(crate) use record::{Field, record};
 pub use scalar::{Identifier, NotAnIdentifier};
 

@@ -1,6 +1,7 @@
 //! Documents as trees: every key is kept in order, including duplicates. Trees are serialised as JSON.
 
-use super::problem::{Location, Problems, Unreadable};
+use super::excerpt::Location;
+use super::problem::{Problems, Unreadable};
 use super::sink::Sink;
 use super::{Field, LARGEST_DOCUMENT_BYTES, Path};
 use serde::ser::{Serialize, SerializeMap, Serializer};

@@ -1,7 +1,7 @@
 //! Errors in documents: location, found content, expected content and advice.
 
 use super::Printable;
-use super::excerpt::Excerpt;
+use super::excerpt::{Excerpt, Location};
 use std::fmt::{self, Display, Formatter};
 
 /// Path from the top of a document to one of its values, such as `positions[3].alpha_arcsec`.
@@ -75,15 +75,6 @@ impl Display for Path<'_> {
 pub(crate) struct Target {
     pub(crate) steps: Vec<Step>,
     pub(crate) entry: Option<usize>,
-}
-
-/// Line and column, both counted from 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Location {
-    /// Line, from 1.
-    pub line: usize,
-    /// Column in characters, from 1.
-    pub column: usize,
 }
 
 /// Error in a document.

@@ -6,9 +6,10 @@
 //! are accepted and reported, and with them decimal commas if the whole file has them; anything in between is refused,
 //! because its meaning depends on the country of the reader.
 
+use super::excerpt::Location;
 use super::kind::{Kind, mistaken};
 use super::node::hand_written_text;
-use super::problem::{Location, MOST_PROBLEMS, Problem, Unreadable};
+use super::problem::{MOST_PROBLEMS, Problem, Unreadable};
 use super::record::{has_two_points, unquoted};
 use super::scalar::latin;
 use std::collections::BTreeMap;

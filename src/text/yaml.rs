@@ -1,8 +1,9 @@
 //! Conversion of hand-written YAML to a tree with `serde_yaml`, with the line and column of every error.
 
+use super::excerpt::Location;
 use super::kind::{Kind, mistaken};
 use super::node::{MOST_BRACKETS, hand_written_text, location_of};
-use super::problem::{Location, Problems, Step, Target, Unreadable};
+use super::problem::{Problems, Step, Target, Unreadable};
 use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
 use super::{Field, Node, Path};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};

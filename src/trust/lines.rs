@@ -3,7 +3,7 @@
 use super::LARGEST_TRUST_FILE_BYTES;
 use crate::text::Unreadable;
 use crate::text::node::is_utf16;
-use crate::text::problem::{Location, Problem};
+use crate::text::{Location, Problem};
 
 /// A line that is neither empty nor a comment.
 #[derive(Debug, Clone, Copy)]

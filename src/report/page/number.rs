@@ -13,9 +13,6 @@ pub(crate) const LARGEST_IN_ARCSEC: f64 = 600.0;
 /// Narrow non-breaking space, between groups of digits.
 pub(crate) const THIN_BLANK: char = '\u{202F}';
 
-/// Non-breaking space, between a number and its unit.
-pub(crate) const BLANK: char = '\u{00A0}';
-
 /// Returns the sign before a power of ten: a cross in English (SI Brochure, 5.4.5), a point in Russian.
 pub(crate) fn times(language: Language) -> char {
     match language {

@@ -1,7 +1,8 @@
 //! Building blocks of pages: sections, fields, tables, figures, forms to fill in by hand.
 
 use super::language::{Language, Languages, Text};
-use super::number::{BLANK, Number};
+use super::number::Number;
+use super::spacing::BLANK;
 use super::texts::{units, words};
 use base64ct::{Base64, Encoding};
 use jiff::Timestamp;

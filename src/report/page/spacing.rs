@@ -1,7 +1,8 @@
 //! Non-breaking spaces of a text: numbers stay with their units, and short words with the words they belong to
 //! (SI Brochure, 5.4.3; GOST 8.417, 5.3).
 
-use super::number::BLANK;
+/// Non-breaking space.
+pub(crate) const BLANK: char = '\u{00A0}';
 
 /// Units that follow a number after a space; those that begin with ° are not listed.
 const UNITS: [&str; 14] = ["%", "m", "km", "mA", "µA", "g", "m/s²", "м", "км", "мА", "мкА", "м/с²", "UTC", "{unit}"];

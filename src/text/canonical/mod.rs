@@ -11,7 +11,7 @@ pub(crate) use scanner::Scanner;
 pub(crate) use writer::write_bare;
 pub(crate) use writer::{write, write_some};
 
-use super::problem::Location;
+use super::excerpt::Location;
 use super::{Field, rule};
 
 /// First place at which a text is not in canonical form.
