@@ -516,6 +516,19 @@ def test_an_issued_passport_has_the_bytes_of_the_program(corpus: Corpus, tmp_pat
     assert again == found._replace(new=False, remarks=())
 
 
+@pytest.mark.parametrize("site", ["moscow-bmstu", "beijing-nim"])
+@pytest.mark.parametrize("stand", ["SPS-1/0203", "SPS-2/0017"])
+def test_a_release_build_issues_the_shipped_passports(corpus: Corpus, tmp_path: Path, stand: str, site: str) -> None:
+    """pip builds the module for release; the tests of the documentation compare a debug build with the same files."""
+    folder = PROJECT / "passports" / stand
+    key = tmp_path / "key"
+    key.touch(mode=0o600)  # Git does not keep this mode.
+    key.write_bytes((PROJECT / "tests/keys/examples").read_bytes())
+    found = issue(corpus, tmp_path, stand=folder / "stand.yaml", site=PROJECT / f"sites/{site}.yaml", key=key,
+                  identity="examples@dtg-passport.test", issued_at="2026-11-09T09:00:00Z")  # fmt: skip
+    assert Path(found.path).read_bytes() == (folder / f"{site}-1.yaml").read_bytes()
+
+
 def test_keys_are_found_as_by_the_program(corpus: Corpus, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """An encrypted key file, and a key in ssh-agent: the same bytes, because Ed25519 signatures have no random part."""
     due = Path(issue(corpus, tmp_path / "due").path).read_bytes()
