@@ -271,6 +271,22 @@ mod tests {
         assert_eq!(parsed(&format!("{misses}a {line}")).authorise(&key, "a", NAMESPACE, now), Ok(()));
     }
 
+    /// Expected: the order of the variants of [`NotAuthorised`], whatever the order of the lines.
+    #[test]
+    fn the_nearest_miss_is_reported_in_any_order_of_the_lines() {
+        let key = key();
+        let line = key.to_openssh();
+        let verdict = |one: &str, other: &str| {
+            let text = format!("{one} {line}\n{other} {line}\n");
+            parsed(&text).authorise(&key, "a", NAMESPACE, at("2026-06-01T12:00:00Z")).unwrap_err()
+        };
+        let until = at("2026-01-01T00:00:00Z");
+        assert_eq!(verdict("a valid-before=\"20260101Z\"", "b"), NotAuthorised::Expired { until });
+        let namespaces = |allowed: &str| NotAuthorised::WrongNamespace { allowed: allowed.to_owned() };
+        assert_eq!(verdict("a namespaces=\"git\"", "a namespaces=\"git\""), namespaces("git"));
+        assert_eq!(verdict("a namespaces=\"git\"", "a namespaces=\"file\""), namespaces("git or file"));
+    }
+
     #[test]
     fn every_mistake_of_every_line_is_reported_with_its_place() {
         let key = key().to_openssh();
@@ -302,6 +318,7 @@ mod tests {
             ("namespaces=\"a\",namespaces=\"b\"", "f:1:18: namespaces: found a duplicate option"),
             ("namespaces=dtg-passport", "found `dtg-passport`, expected a value in double quotes"),
             ("namespaces=\"a\"b", "found `\"a\"b`, expected a value in double quotes"),
+            ("namespaces=\"a\"\"b\"", "found `\"a\"\"b\"`, expected a value in double quotes"),
             ("namespaces=\"\"", "found an empty list"),
             ("namespaces", "found no value, expected namespaces=\"…\""),
             ("namespaces=\"a\",", "found nothing after a comma"),
@@ -319,7 +336,11 @@ mod tests {
         assert!(refused(&format!("a\"b\" {key}")).contains("a quote within the list"));
         assert!(refused(&format!("\"a\"b {key}")).contains("text immediately after the closing quote"));
         assert!(refused(&format!("a {key}\u{7}")).contains("found control character U+0007"));
+        assert!(refused(&format!(" a\"b\" {key}")).starts_with("f:1:3: principals: found a quote within the list"));
         assert!(refused("# nobody so far\n").contains("found no key"));
+        let sixty: Vec<_> = (0..60).map(|number| format!("x{number}")).collect();
+        let refused = AllowedSigners::parse("f", format!("a {} {key}", sixty.join(",")).as_bytes()).unwrap_err();
+        assert_eq!(refused.problems().len(), MOST_PROBLEMS);
     }
 
     #[test]

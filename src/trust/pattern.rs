@@ -82,6 +82,7 @@ mod tests {
         assert!(matches_list("lab@factory", "x,*@factory"));
         assert!(!matches_list("bad@factory", "!bad@*,*@factory"));
         assert!(!matches_list("bad@factory", "*@factory,!bad@*"));
+        assert!(matches_list("lab@factory", "!bad@*,*@factory"));
         assert!(!matches_list("lab@factory", "!bad@*"));
         assert!(!matches_list("a,b", "a,b"));
         assert!(matches_list("!a", "?a"));

@@ -140,6 +140,27 @@ mod tests {
     }
 
     #[test]
+    fn every_line_counts_and_fifty_errors_are_enough() {
+        let (key, other) = (key(), key());
+        let lines = format!("{}\n\n{}\n", other.to_openssh(), key.to_openssh());
+        assert!(RevokedKeys::parse("keys", lines.as_bytes()).unwrap().revokes(&key).is_some());
+        let refused = RevokedKeys::parse("keys", "lost\n".repeat(60).as_bytes()).unwrap_err();
+        assert_eq!(refused.problems().len(), MOST_PROBLEMS);
+    }
+
+    #[test]
+    fn a_file_may_be_as_large_as_stated_and_no_larger() {
+        let comment = |bytes: usize| "#".repeat(bytes).into_bytes();
+        // 44 bytes precede the comment of a key revocation list.
+        let empty =
+            |bytes: usize| [krl::MAGIC, &[0, 0, 0, 1], &[0; 24], &[0; 4], &string(&vec![b'x'; bytes - 44])].concat();
+        for file in [&comment as &dyn Fn(usize) -> Vec<u8>, &empty] {
+            assert!(RevokedKeys::parse("krl", &file(16_777_216)).is_ok());
+            assert!(refused(&file(16_777_217)).contains("found 16777217 bytes, expected at most 16777216"));
+        }
+    }
+
+    #[test]
     fn extensions_that_need_not_be_understood_are_passed_over() {
         let key = key();
         let optional = [string(b"note@here"), vec![0], string(b"x")].concat();
@@ -168,6 +189,8 @@ mod tests {
             (0x22, bitmap(7, &[0, 0x80])),
             (0x22, bitmap(0, &[2])),
             (0x22, bitmap(last - 1, &[3])),
+            (0x22, bitmap(last - 8, &[1, 0])),
+            (0x22, bitmap(1, &[1; 2048])),
             (0x23, [string(b"id"), string(b"other\0")].concat()),
         ] {
             assert!(RevokedKeys::parse("krl", &certificates(std::slice::from_ref(&good))).is_ok(), "{good:x?}");
@@ -180,6 +203,7 @@ mod tests {
             ((0x22, bitmap(7, &[0x80])), "invalid serial numbers"),
             ((0x22, bitmap(0, &[1])), "invalid serial numbers"),
             ((0x22, bitmap(last - 1, &[4])), "invalid serial numbers"),
+            ((0x22, bitmap(last - 7, &[1, 0])), "invalid serial numbers"),
             ((0x22, bitmap(1, &[1; 2049])), "invalid serial numbers"),
             ((0x23, string(b"a\0b")), "a NUL within the text"),
             ((0x24, vec![]), "a section of type 36 at byte 60"),

@@ -63,7 +63,6 @@ impl SigningKey {
                 let key = ed25519_dalek::SigningKey::try_from(pair).map_err(damaged)?;
                 Ok(Self { key })
             }
-            KeypairData::SkEd25519(_) => Err(KeyError::SecurityKey),
             _ => Err(KeyError::OtherKeyType { found: opened.algorithm().to_string() }),
         }
     }
@@ -272,7 +271,12 @@ mod tests {
             ("", "an empty file"),
             (public.as_str(), "a public key, expected a private key file of OpenSSH"),
             ("-----BEGIN PRIVATE KEY-----\nMC4=\n-----END PRIVATE KEY-----", "PKCS#8"),
+            ("-----BEGIN ENCRYPTED PRIVATE KEY-----", "PKCS#8"),
             ("-----BEGIN RSA PRIVATE KEY-----", "an RSA key in PEM"),
+            ("-----BEGIN EC PRIVATE KEY-----", "an ECDSA key in PEM"),
+            ("-----BEGIN CERTIFICATE-----", "found a certificate, expected a private key file"),
+            ("---- BEGIN SSH2 PUBLIC KEY ----", "found a public key, expected a private key file"),
+            (public.as_str(), "give the private key, the file without .pub"),
             ("PuTTY-User-Key-File-3: ssh-ed25519", "puttygen"),
             ("hello", "something else"),
             ("-----BEGIN OPENSSH PRIVATE KEY-----\nAAAA", "does not end with"),
@@ -280,6 +284,58 @@ mod tests {
             let refused = refused(text).to_string();
             assert!(refused.contains(words), "{text}: {refused}");
         }
+    }
+
+    fn string(bytes: &[u8]) -> Vec<u8> {
+        [&(bytes.len() as u32).to_be_bytes()[..], bytes].concat()
+    }
+
+    fn armored(bytes: &[u8]) -> String {
+        let base64 = Base64::encode_string(bytes);
+        let lines: Vec<_> = base64.as_bytes().chunks(70).map(String::from_utf8_lossy).collect();
+        format!("{FIRST_LINE}\n{}\n{LAST_LINE}", lines.join("\n"))
+    }
+
+    /// Expected: PROTOCOL.key, section 1, and the names of ciphers and key types in OpenSSH.
+    #[test]
+    fn the_header_tells_what_cannot_be_opened() {
+        let checked = |cipher: &str, key_type: &str| {
+            let key = string(&string(key_type.as_bytes()));
+            let kdf = [string(b"bcrypt"), string(b"")].concat();
+            let count = 1_u32.to_be_bytes();
+            let file = [b"openssh-key-v1\0", &string(cipher.as_bytes())[..], &kdf, &count, &key].concat();
+            check_header(&armored(&file))
+        };
+        let other = |found: &str| Err(KeyError::OtherKeyType { found: found.to_owned() });
+        let encryption = |found: &str| Err(KeyError::Encryption { found: found.to_owned() });
+        for (cipher, key_type, expected) in [
+            ("none", "ssh-ed25519", Ok(())),
+            ("aes256-ctr", "ssh-ed25519", Ok(())),
+            ("none", "ssh-rsa", other("ssh-rsa")),
+            ("aes256-ctr", "ecdsa-sha2-nistp256", other("ecdsa-sha2-nistp256")),
+            ("none", "sk-ssh-ed25519@openssh.com", Err(KeyError::SecurityKey)),
+            ("aes256-ctr", "sk-ssh-ed25519@openssh.com", Err(KeyError::EncryptedSecurityKey)),
+            ("aes256-ctr", "sk-ecdsa-sha2-nistp256@openssh.com", Err(KeyError::EncryptedSecurityKey)),
+            ("3des-cbc", "ssh-ed25519", encryption("3des-cbc")),
+            ("rot13", "ssh-ed25519", encryption("rot13")),
+        ] {
+            assert_eq!(checked(cipher, key_type), expected, "{cipher}, {key_type}");
+        }
+    }
+
+    #[test]
+    fn a_file_that_would_take_hours_to_open_is_refused_at_once() {
+        let sealed = SigningKey::generate().unwrap().to_openssh("", Some("x")).unwrap();
+        let base64: String = sealed.lines().filter(|line| !line.starts_with('-')).collect();
+        let mut bytes = Base64::decode_vec(&base64).unwrap();
+        // The options of bcrypt are the salt, 16 bytes, and the number of rounds (PROTOCOL.key, section 3).
+        let kdf = bytes.windows(10).position(|window| window == string(b"bcrypt")).unwrap();
+        let rounds = kdf + 10 + 4 + (4 + 16);
+        assert_eq!(bytes[rounds..rounds + 4], 24_u32.to_be_bytes());
+        bytes[rounds..rounds + 4].copy_from_slice(&10_001_u32.to_be_bytes());
+        let found = "10001 rounds of bcrypt".to_owned();
+        let refused = SigningKey::from_openssh(&armored(&bytes), Some("x")).unwrap_err();
+        assert_eq!(refused, KeyError::Encryption { found });
     }
 
     #[test]

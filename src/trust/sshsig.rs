@@ -297,6 +297,25 @@ mod tests {
         assert_eq!(key.sign("", MESSAGE).unwrap_err(), crate::trust::KeyError::Namespace);
     }
 
+    /// Expected: the key in the block decides, whichever point is given.
+    #[test]
+    fn a_point_of_another_key_is_not_used() {
+        let (key, other) = (SigningKey::generate().unwrap(), SigningKey::generate().unwrap());
+        let message = Message::new(NAMESPACE, MESSAGE);
+        let [own, theirs] = [&key, &other].map(|key| key.sign(NAMESPACE, MESSAGE).unwrap());
+        assert_eq!(own.verify_message(&message, Some(&other.point())), Ok(()));
+        // The signature of one key in a block with the other one; the key follows the preamble, the version, two
+        // lengths and the type.
+        let at = 6 + 4 + 4 + (4 + 11) + 4;
+        let mut forged = blob(&theirs.to_armor());
+        forged[at..at + 32].copy_from_slice(&blob(&own.to_armor())[at..at + 32]);
+        let forged = Signature::from_armor(&armored(&forged, 70)).unwrap();
+        assert_eq!(forged.public_key(), &key.public_key());
+        for point in [None, Some(&other.point()), Some(&key.point())] {
+            assert_eq!(forged.verify_message(&message, point), Err(SignatureError::DoesNotHold));
+        }
+    }
+
     #[test]
     fn every_single_bit_and_byte_of_the_armor_counts() {
         let armor = signed();
@@ -351,7 +370,9 @@ mod tests {
         assert_eq!(refused(&good, 76), SignatureError::NotCanonical);
         let longer = [&good[..], b"x"].concat();
         assert!(matches!(refused(&longer, 70), SignatureError::Damaged(_)));
-        assert!(matches!(Signature::from_armor(&"x".repeat(5000)), Err(SignatureError::Damaged(_))));
+        let of_length = |bytes| Signature::from_armor(&"x".repeat(bytes)).unwrap_err().to_string();
+        assert!(of_length(4097).contains("4097 bytes, expected at most 4096"));
+        assert!(!of_length(4096).contains("expected at most"));
         let crlf = armored(&good, 70).replace('\n', "\r\n");
         assert_eq!(Signature::from_armor(&crlf), Err(SignatureError::NotCanonical));
     }
