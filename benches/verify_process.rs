@@ -1,6 +1,7 @@
 //! Process `dtg-passport verify` compared with `ssh-keygen -Y verify` on the same signed text, alternating in one run.
 //!
-//! `cargo bench --bench verify_process` prints the median time of each, and the median of their ratio in each pair.
+//! `cargo bench --bench verify_process` prints the median time of each, and the median of their ratio in each pair. The
+//! variable `DTG_PASSPORT` names another program than that of the benchmark, such as the static one.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -23,7 +24,8 @@ fn main() {
     std::fs::write(&payload_file, payload).expect("the payload");
     std::fs::write(&armor_file, armor.replace("  ", "")).expect("the armor");
 
-    let mut ours = Command::new(env!("CARGO_BIN_EXE_dtg-passport"));
+    let built = || env!("CARGO_BIN_EXE_dtg-passport").into();
+    let mut ours = Command::new(std::env::var_os("DTG_PASSPORT").unwrap_or_else(built));
     ours.arg("verify").arg(&passport).arg("--trust").arg(&signers).args(["--time", "2026-12-01T00:00:00Z"]);
     let mut theirs = Command::new("ssh-keygen");
     theirs.args(["-Y", "verify", "-n", "dtg-passport", "-I", ISSUER, "-O", "verify-time=20261109090000Z", "-f"]);
