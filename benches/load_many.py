@@ -1,6 +1,9 @@
-"""Measures the Python module: `load_many` against a laboratory that has only PyYAML and cryptography, and the import.
+"""Measures the Python module: `load_many` against a laboratory that has only PyYAML and cryptography, and against
+`register` of the program; and the import.
 
     tests/bindings/run -k none; target/bindings/venv/bin/python benches/load_many.py [COUNT]
+
+`register` is that of the debug build, unless DTG_PASSPORT names a release build.
 
 Both read the same files, verify the signature of each, and give four matrices as arrays. The laboratory's program knows
 no revocation, no expiry and no canonical form; `load_many` runs every check, on all processors.
@@ -33,9 +36,9 @@ def passports(folder: Path, count: int) -> list[Path]:
     run = lambda *arguments: subprocess.run([PROGRAM, *map(str, arguments)], check=True, stdout=subprocess.DEVNULL)
     run("keygen", folder / "key", "--identity", WHO, "--no-passphrase", "--allowed-signers", folder / "signers")
     stands = [PROJECT / "passports/SPS-1/0203/stand.yaml", PROJECT / "passports/SPS-2/0017/stand.yaml"]
-    run("issue", *stands, "--site", folder / "sites", "--key", folder / "key", "--identity", WHO, "--out", folder,
+    run("issue", *stands, "--site", folder / "sites", "--key", folder / "key", "--identity", WHO, "--out", folder / "passports",
         "--issued-at", "2026-11-10T00:00:00Z", "--no-sync")  # fmt: skip
-    return sorted(folder.glob("*/*/*-1.yaml"))
+    return sorted((folder / "passports").glob("*/*/*-1.yaml"))
 
 
 def by_hand(paths: list[Path], signers: Path) -> float:
@@ -69,6 +72,13 @@ def by_module(paths: list[Path], signers: Path, threads: int | None) -> float:
     return time.perf_counter() - begin
 
 
+def by_register(folder: Path, signers: Path) -> float:
+    """Time of the whole program, which verifies every passport too and finds out which of them are in force."""
+    begin = time.perf_counter()
+    subprocess.run([PROGRAM, "register", folder / "passports", "--trust", signers, "--time", TIME], check=True, stdout=subprocess.DEVNULL)
+    return time.perf_counter() - begin
+
+
 def import_ms() -> float:
     code = "import numpy, time; begin = time.perf_counter(); import dtg_passport; print(1e3 * (time.perf_counter() - begin))"
     runs = [float(subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout) for _ in range(21)]
@@ -84,11 +94,14 @@ def main() -> None:
         assert len(paths) == count
         by_module(paths, signers, None)  # reads every file once, so that both find them in memory
         hand = by_hand(paths, signers)
+        register = sorted(by_register(folder, signers) for _ in range(3))[1]
         for threads in (None, 1):
             module = sorted(by_module(paths, signers, threads) for _ in range(3))[1]
             words = "one thread" if threads else "all processors"
             print(f"load_many, {words}: {1e6 * module / count:.0f} us each; by hand {1e6 * hand / count:.0f} us; "
                   f"{hand / module:.1f} times as fast")  # fmt: skip
+            if threads is None:
+                print(f"register, all processors: {1e6 * register / count:.0f} us each; load_many {register / module:.2f} times as fast")
     print(f"import dtg_passport after numpy: {import_ms():.1f} ms, median of 21")
 
 
