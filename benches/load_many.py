@@ -75,7 +75,8 @@ def by_module(paths: list[Path], signers: Path, threads: int | None) -> float:
 def by_register(folder: Path, signers: Path) -> float:
     """Time of the whole program, which verifies every passport too and finds out which of them are in force."""
     begin = time.perf_counter()
-    subprocess.run([PROGRAM, "register", folder / "passports", "--trust", signers, "--time", TIME], check=True, stdout=subprocess.DEVNULL)
+    command = [PROGRAM, "register", folder / "passports", "--trust", signers, "--time", TIME]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return time.perf_counter() - begin
 
 
@@ -101,7 +102,7 @@ def main() -> None:
             print(f"load_many, {words}: {1e6 * module / count:.0f} us each; by hand {1e6 * hand / count:.0f} us; "
                   f"{hand / module:.1f} times as fast")  # fmt: skip
             if threads is None:
-                print(f"register, all processors: {1e6 * register / count:.0f} us each; load_many {register / module:.2f} times as fast")
+                print(f"register: {1e6 * register / count:.0f} us each; load_many {register / module:.2f} times as fast")
     print(f"import dtg_passport after numpy: {import_ms():.1f} ms, median of 21")
 
 
