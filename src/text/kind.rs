@@ -91,7 +91,7 @@ impl Kind {
             _ if line.starts_with("-----BEGIN") && line.contains("PRIVATE KEY") => Some(Self::PrivateKey),
             _ if line.starts_with('{') && beginning.contains("\"passport_id\"") => Some(Self::Result),
             _ if lower.starts_with("<!doctype html") || lower.starts_with("<html") => Some(Self::Html),
-            _ if words.first().is_some_and(|word| is_key_type(word)) && words.len() > 1 => Some(Self::PublicKey),
+            _ if words.first().is_some_and(|word| is_key_type(word)) => Some(Self::PublicKey),
             _ if words.iter().any(|word| is_key_type(word)) => Some(Self::AllowedSigners),
             _ if has_column("jx_") => Some(Self::Currents),
             _ if has_column("alpha_") => Some(Self::Angles),
@@ -181,7 +181,16 @@ mod tests {
         ] {
             assert_eq!(Kind::of(text), Some(kind));
         }
-        for text in [&b""[..], b"\n# x\n", b"hello", b"format: \"dtg-other/1\"\n", b"\xFF\xFE\0", b"{}", b"i,j,k\n"] {
+        for text in [
+            &b""[..],
+            b"-----BEGIN SSH SIGNATURE-----\n",
+            b"\n# x\n",
+            b"hello",
+            b"format: \"dtg-other/1\"\n",
+            b"\xFF\xFE\0",
+            b"{}",
+            b"i,j,k\n",
+        ] {
             assert_eq!(Kind::of(text), None, "{text:?}");
         }
     }

@@ -172,3 +172,27 @@ impl Serialize for Node {
 
 /// Maximum number of opening brackets, including those in strings; a passport of the largest size has about 18,000.
 pub(super) const MOST_BRACKETS: usize = 25_000;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_may_be_as_large_as_stated_and_no_larger() {
+        let of = |bytes: usize| format!("a\r\n{}", "b".repeat(bytes - 3));
+        assert!(plain_text("f", of(1_048_576).replace('\r', "b").as_bytes()).is_ok());
+        assert_eq!(hand_written_text("f", of(1_048_576).as_bytes()).map(|text| text.len()), Ok(1_048_575));
+        for refused in [
+            plain_text("f", of(1_048_577).replace('\r', "b").as_bytes()).map(str::len),
+            hand_written_text("f", of(1_048_577).as_bytes()).map(|text| text.len()),
+        ] {
+            assert!(refused.unwrap_err().to_string().contains("found more than 1048576 bytes"));
+        }
+    }
+
+    #[test]
+    fn a_long_text_is_described_by_its_length() {
+        let of = |characters: usize| Node::Text("ж".repeat(characters)).describe();
+        assert_eq!((of(60), of(61)), (format!("{:?}", "ж".repeat(60)), "text of 61 characters".to_owned()));
+    }
+}

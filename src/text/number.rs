@@ -42,7 +42,7 @@ pub(super) fn write(value: f64, mut push: impl FnMut(&str)) {
     }
     match shortest.strip_prefix('-').unwrap_or(shortest).strip_prefix("0.0000") {
         // Magnitude below 1e-4 and not below 1e-5.
-        Some(digits) if !plain => {
+        Some(digits) => {
             let (first, others) = digits.split_at(1);
             push(if value < 0.0 { "-" } else { "" });
             push(first);
@@ -138,6 +138,11 @@ mod tests {
         }
         // These values lie midway between two decimals of sixteen digits.
         for value in [-8_895_655_562_136_013.0 / 4.0, 1_073_741_825.0 / 2048.0, 1_125_899_906_842_624.125] {
+            assert_eq!(decimal(value), due(value));
+        }
+        // A power of two has no other bit: 2^-25 lies midway between two decimals of seventeen digits.
+        for places in 0..60 {
+            let value = libm::pow(2.0, f64::from(-places));
             assert_eq!(decimal(value), due(value));
         }
         for bits in 20..52 {

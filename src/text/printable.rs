@@ -130,6 +130,13 @@ mod tests {
     }
 
     #[test]
+    fn what_the_program_draws_itself_is_shown() {
+        assert_eq!(printable("u² 10⁻⁶ x₁ ─█● ✕ \u{fffd}"), "u² 10⁻⁶ x₁ ─█● ✕ \u{fffd}");
+        let typographic = "1\u{a0}м\n\u{2002}1\u{202f}000 ✕";
+        assert_eq!(page(&format!("{typographic}\u{1b}\u{202e}\t")), format!("{typographic}\\u{{1b}}\\u{{202e}}\\t"));
+    }
+
+    #[test]
     fn only_line_feeds_and_emphasis_go_out() {
         let codes = ["[1m", "[0m"];
         assert_eq!(outgoing("\u{1b}[1mA\u{1b}[0m\nb", &codes), "\u{1b}[1mA\u{1b}[0m\nb");
@@ -142,5 +149,7 @@ mod tests {
         let json = json(&[hostile]).unwrap();
         assert!(json.chars().all(|c| c == '\n' || visible(c)), "{json}");
         assert_eq!(serde_json::from_str::<Vec<String>>(&json).unwrap(), [hostile]);
+        // Expected: RFC 8259, section 7.
+        assert_eq!(json_line(&["a", "\u{202e}", "\u{e0041}"]).unwrap(), r#"["a","\u202e","\udb40\udc41"]"#);
     }
 }

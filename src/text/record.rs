@@ -237,8 +237,7 @@ impl Field for f64 {
     }
 
     fn scan(scanner: &mut Scanner) -> Option<Self> {
-        // Adding zero turns -0.0 into 0.0.
-        scanner.number().filter(|value| value.is_finite()).map(|value| value + 0.0)
+        scanner.number().filter(|value| value.is_finite())
     }
 }
 
@@ -432,5 +431,43 @@ impl<T: Field, const N: usize> Field for [T; N] {
 
     fn scan(scanner: &mut Scanner) -> Option<Self> {
         scanner.array()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns the value, and what the message says about it.
+    fn read<T: Field>(node: Node) -> (Option<T>, Option<String>) {
+        let mut problems = Problems::new();
+        let value = T::read(&node, &Path::Root, &mut problems);
+        let refused = (!problems.is_empty()).then(|| problems.refuse_by_field("f").problems()[0].found.clone());
+        (value, refused)
+    }
+
+    #[test]
+    fn a_value_is_either_read_or_described() {
+        let described = |found: &str| Some(found.to_owned());
+        assert_eq!(read::<u32>(Node::Integer(4_294_967_295)), (Some(u32::MAX), None));
+        assert_eq!(read::<u32>(Node::Integer(4_294_967_296)), (None, described("4294967296")));
+        assert_eq!(read::<u32>(Node::Integer(-1)), (None, described("-1")));
+        assert_eq!(read::<f64>(Node::Number(f64::INFINITY)), (None, described("inf")));
+        let list = |length| Node::List(vec![Node::Integer(1); length]);
+        assert_eq!(read::<[u32; 3]>(list(3)), (Some([1; 3]), None));
+        assert_eq!(read::<[u32; 3]>(list(2)), (None, described("a list of 2 items")));
+        assert_eq!(read::<String>(Node::Text("a\u{301}".to_owned())), (None, described("character U+0301")));
+        // A document has one zero.
+        assert!(read::<f64>(Node::Number(-0.0)).0.unwrap().is_sign_positive());
+    }
+
+    #[test]
+    fn digits_with_two_points_are_neither_number_nor_other_text() {
+        for text in ["12.5.6", "+1.2.3", "-55.45.0"] {
+            assert!(has_two_points(text), "{text}");
+        }
+        for text in ["12.5", "1.2.3.4", "1..2", ".1.2", "1.2.", "a.b.c", "1.2.x", ""] {
+            assert!(!has_two_points(text), "{text}");
+        }
     }
 }

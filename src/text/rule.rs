@@ -302,6 +302,33 @@ mod tests {
         }
     }
 
+    /// Blocks of 32 bytes are tested without stopping: several faults in one must not cancel each other.
+    #[test]
+    fn several_faults_do_not_cancel_each_other() {
+        for faults in 1..=32 {
+            let line = format!("{}{}", "A".repeat(faults), "a".repeat(68 - faults));
+            assert!(!may_stand_outside(line.as_bytes(), false), "{faults}");
+        }
+        for begun in 1..=10 {
+            let lines = format!("{}{}", "\n-".repeat(begun), "a".repeat(68));
+            assert!(!may_stand_outside(lines.as_bytes(), false), "{begun}");
+        }
+        assert!(may_stand_outside("a".repeat(68).as_bytes(), false));
+    }
+
+    /// Expected: Unicode's code points, and letters that a reader sees as they are.
+    #[test]
+    fn a_fault_is_named_so_that_it_can_be_found() {
+        for (line, name) in [
+            ("a:\t1", "a tab"),
+            ("a: &x", "character '&'"),
+            ("a: \u{e9}", "character U+00E9"),
+            ("a: \u{7f}", "character U+007F"),
+        ] {
+            assert_eq!(first_fault(line).map(|fault| fault.1).as_deref(), Some(name));
+        }
+    }
+
     #[test]
     fn comments_and_blank_lines_do_not_differ_anything_else_does() {
         let canonical = "a: 1\nb:\n  c: 2.0\n";

@@ -304,6 +304,14 @@ mod tests {
     }
 
     #[test]
+    fn a_sha_256_has_64_lower_case_digits() {
+        assert!(is_sha256_hex(&"0123456789abcdef".repeat(4)));
+        for other in ["a".repeat(63), "a".repeat(65), "g".repeat(64), "A".repeat(64), "/".repeat(64)] {
+            assert!(!is_sha256_hex(&other), "{other}");
+        }
+    }
+
+    #[test]
     fn a_day_is_its_86400_seconds() {
         let (start, end) = day("2026-11-02".parse().unwrap());
         assert_eq!(start.to_string(), "2026-11-02T00:00:00Z");
