@@ -153,6 +153,18 @@ fn private_key(path: &Path, ask: AskPassphrase) -> Result<Option<SigningKey>, Ke
     }
 }
 
+/// Returns the public half of a key from its file, private or public. A private key need not be decrypted for this.
+///
+/// # Errors
+/// Returns the errors of [`signer`] for the file itself.
+pub(crate) fn public_half(path: &Path) -> Result<PublicKey, KeyFileError> {
+    let text = text(path)?;
+    if text.contains("PRIVATE KEY") {
+        refuse_exposed(path)?;
+    }
+    PublicKey::of_key_file(&text).map_err(|error| KeyFileError::Key { path: path.to_owned(), error })
+}
+
 fn text(path: &Path) -> Result<Zeroizing<String>, KeyFileError> {
     let bytes = Zeroizing::new(files::read(path, LARGEST_KEY_FILE_BYTES)?);
     let text = std::str::from_utf8(&bytes).map_err(|_| KeyFileError::NotText { path: path.to_owned() })?;

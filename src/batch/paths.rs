@@ -87,7 +87,8 @@ fn passports(folder: &Path) -> Box<dyn Iterator<Item = Result<PathBuf, Failure>>
     }
 }
 
-fn contains_no(folder: &Path, what: &str) -> Failure {
+/// Returns the failure of a folder without a file of the kind `what`.
+pub(super) fn contains_no(folder: &Path, what: &str) -> Failure {
     Failure::unusable(folder, format!("{}: this folder contains no {what}", shown(folder)))
 }
 

@@ -249,6 +249,16 @@ impl Recertification<'_> {
             let (given, old) = (header.stand.id(), old.stand.id());
             return Err(refused(format!("the header is for {given}, but the passport is for {old}")));
         }
+        let before = &old.certificate;
+        if self.issued < before.issued {
+            return Err(refused(format!(
+                "the new certificate would be dated {}, before certificate {} of {}, which it replaces; check the year \
+                 of --issued",
+                self.issued,
+                Printable(&before.number),
+                before.issued
+            )));
+        }
         self.number.clone_into(&mut header.certificate.number);
         header.certificate.issued = self.issued;
         header.certificate.valid_until = self.valid_until.or(header.certificate.valid_until);

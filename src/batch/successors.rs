@@ -143,6 +143,9 @@ impl Run<'_> {
             Ok(found) => found,
             Err(error) => return self.push(Err(Failure::file(error)), tell),
         };
+        if register.passports.is_empty() && register.alarms.is_empty() {
+            return self.push(Err(paths::contains_no(root, "passport")), tell);
+        }
         let mut here: Vec<(PathBuf, usize)> =
             register.passports.iter().enumerate().map(|(index, line)| (PathBuf::from(&line.file), index)).collect();
         here.retain(|(path, _)| self.batch.shard.has_file(path));

@@ -2,6 +2,7 @@
 
 use super::{Failure, inputs};
 use crate::dcc::Administrative;
+use crate::text::kind::Kind;
 use crate::text::{Problems, Unreadable, name_of};
 use std::path::Path;
 
@@ -23,7 +24,7 @@ impl AdministrativeFile {
             return Ok(Self { name: "--administrative".to_owned(), text: String::new(), content: None });
         };
         let name = name_of(path);
-        let bytes = inputs::bytes(path)?;
+        let bytes = inputs::bytes(path, Kind::Dcc.words())?;
         let content = Administrative::from_yaml(&name, &bytes).map_err(Failure::unreadable)?;
         let text = String::from_utf8_lossy(&bytes);
         let text = text.strip_prefix('\u{FEFF}').unwrap_or(&text).to_owned();

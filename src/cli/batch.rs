@@ -35,13 +35,13 @@ pub(super) struct BatchOptions {
     #[arg(long)]
     pub allow_uncalibratable: bool,
     /// Compute and check everything, and list what would be issued, but write nothing; requires no key
-    #[arg(long)]
+    #[arg(short = 'n', long)]
     dry_run: bool,
     /// Do not sync to disk: faster, but a power failure may lose files
     #[arg(long)]
     no_sync: bool,
     /// Number of threads [default: one for each processor]
-    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(short = 'j', long, value_name = "T", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]

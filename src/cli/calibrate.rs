@@ -24,6 +24,7 @@ use crate::laboratory::Laboratory;
 use crate::passport::{Content, Question, Trust, Verification};
 use crate::report::calibration as report;
 use crate::report::page::{CalibrationPage, PassportPage, UsedPassport};
+use crate::text::kind::Kind;
 use crate::text::{Printable, name_of, printable, shown};
 use crate::uncertainty::document::WholeDocument;
 use clap::{Args, ValueEnum};
@@ -49,7 +50,7 @@ pub(super) struct Options {
     whom: Whom,
     /// Folder for the results of several gyros: <name of the currents>.json, as --format json writes it, and .html, the
     /// report
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["report", "dcc"])]
+    #[arg(short, long, visible_alias = "output", value_name = "DIR", conflicts_with_all = ["report", "dcc"])]
     out: Option<PathBuf>,
     /// Calibration methods; least squares gives the adopted result
     #[arg(long, value_enum, value_delimiter = ',', default_value = "analytic,iterative,least-squares")]
@@ -182,8 +183,9 @@ impl Found {
     }
 
     fn code(&self) -> Code {
-        let failed = self.done.document.verdict.as_ref().is_some_and(|verdict| verdict.overall == Decision::Fail);
-        if failed { REFUSED } else { 0 }
+        let document = &self.done.document;
+        let failed = |verdict: &Verdict| verdict.overall == Decision::Fail;
+        if document.verdict.iter().chain(&document.change).any(failed) { REFUSED } else { 0 }
     }
 }
 
@@ -199,7 +201,7 @@ impl Bench<'_> {
     /// Calibrates the gyro whose currents are at `path`.
     fn calibrate(&self, path: &Path) -> Result<Found, Failure> {
         let (options, content) = (self.options, &self.passport.content);
-        let bytes = inputs::bytes(path)?;
+        let bytes = inputs::bytes(path, Kind::Currents.words())?;
         let name = name_of(path);
         let prepared = Prepared::new(content, &self.laboratory, self.gyro_type.as_ref(), (&name, &bytes));
         let mut prepared = prepared.map_err(Failure::stopped)?;
@@ -219,6 +221,10 @@ impl Bench<'_> {
 
     fn one(&self, path: &Path) -> Result<Code, Failure> {
         let (options, content) = (self.options, &self.passport.content);
+        // Nothing is written if one of the files cannot be.
+        let files = || options.report.iter().chain(&options.dcc).chain(options.uncertainty.picture());
+        files::check_distinct(files()).map_err(Failure::file)?;
+        files::check_replaceable(files(), options.uncertainty.force).map_err(Failure::file)?;
         let found = self.calibrate(path)?;
         let done = &found.done;
         if let Some(warning) = &done.warning {
@@ -360,7 +366,7 @@ impl Options {
             ("--exclude", !self.exclude.is_empty()),
             ("--report", self.report.is_some()),
             ("--dcc", self.dcc.is_some()),
-            ("--budget-svg", self.uncertainty.has_picture()),
+            ("--budget-svg", self.uncertainty.picture().is_some()),
         ];
         let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
         let advice = match option {
@@ -433,7 +439,8 @@ fn used<'a>(
 /// Reads the previous results, from the earliest to the latest.
 fn previous(options: &Options) -> Result<Vec<CalibrationDocument>, Failure> {
     let read = |path: &PathBuf| {
-        let document = inputs::document(path, CalibrationDocument::from_json)?;
+        let expected = "the JSON result of an earlier calibration";
+        let document = inputs::document(path, expected, CalibrationDocument::from_json)?;
         let empty = || Failure::unusable(format!("{}: contains no result", shown(path)));
         document.answer().map(|_| document).ok_or_else(empty)
     };

@@ -16,6 +16,7 @@ use crate::passport::difference::of_deviations;
 use crate::report::certification as report;
 use crate::report::page::certification::CertificationPage;
 use crate::stand::Stand;
+use crate::text::kind::Kind;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of, shown};
 use clap::Args;
 use serde::Serialize;
@@ -37,7 +38,13 @@ pub(super) struct Options {
     #[arg(long, value_name = "HEADER.yaml", required_unless_present = "against")]
     stand: Option<PathBuf>,
     /// Certified stand file to write, for one stand
-    #[arg(short, value_name = "stand.yaml", required_unless_present_any = ["against", "out"], conflicts_with = "out")]
+    #[arg(
+        short,
+        long,
+        value_name = "stand.yaml",
+        required_unless_present_any = ["against", "out"],
+        conflicts_with = "out"
+    )]
     output: Option<PathBuf>,
     /// Folder for the stand files of several stands: <model>/<serial>/stand.yaml
     #[arg(long, value_name = "DIR", conflicts_with_all = ["against", "report", "exclude"])]
@@ -92,7 +99,7 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
     }
     let work = |readings: &Path| {
         let header = header_of(headers, readings)?;
-        let bytes = inputs::bytes(readings)?;
+        let bytes = inputs::bytes(readings, Kind::Angles.words())?;
         let name = name_of(readings);
         let read = AngleReadings::from_csv(&name, &bytes, &header.positions).map_err(Failure::unreadable)?;
         if let Some(remark) = read.remark() {
@@ -122,7 +129,7 @@ fn header_of(headers: &Path, readings: &Path) -> Result<Header, Failure> {
         let (path, readings) = (shown(&path), shown(readings));
         return Err(Failure::unusable(format!("{path}: missing, expected the header of {readings}; {advice}")));
     }
-    inputs::document(&path, Header::from_yaml)
+    inputs::document(&path, inputs::HEADER, Header::from_yaml)
 }
 
 /// Writes a certified stand; a stand file that it supersedes is kept. Certificates of `known` stands, and of the one that
@@ -143,13 +150,14 @@ fn write(path: &Path, certified: &Certification, known: &[&Stand], force: bool) 
 }
 
 fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
+    files::check_distinct(options.output.iter().chain(&options.report)).map_err(Failure::file)?;
     let against = options.against.as_deref().map(|path| certified(path, &options.trust)).transpose()?;
     let header = match (&options.stand, &against) {
-        (Some(path), _) => inputs::document(path, Header::from_yaml)?,
+        (Some(path), _) => inputs::document(path, inputs::HEADER, Header::from_yaml)?,
         (None, Some(stand)) => Header::from(stand),
         (None, None) => return Err(Failure::unusable("missing --stand or --against")),
     };
-    let bytes = inputs::bytes(readings)?;
+    let bytes = inputs::bytes(readings, Kind::Angles.words())?;
     let name = name_of(readings);
     let excluded = options.exclusions.excluded()?;
     let readings = AngleReadings::from_csv_without(&name, &bytes, &header.positions, &excluded);

@@ -57,7 +57,8 @@ pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure>
             }
         }
         let root = workspace.as_ref().and_then(|workspace| workspace.passports.clone());
-        if let Some(root) = root.filter(|_| verb == "register" && of_verb.value_source("folder").is_none()) {
+        let given = |id: &str| of_verb.value_source(id).is_some();
+        if let Some(root) = root.filter(|_| verb == "register" && !given("folder") && !given("passports")) {
             added.push(("", root.into(), FILE));
         }
     }
@@ -133,9 +134,11 @@ impl Defaults {
         let out = passports("--out").filter(|_| WRITE_PASSPORTS.contains(&verb));
         // Lists of withdrawn passports belong into the folder of the passports, where `register` finds them.
         let lists = passports("--list").filter(|_| verb == "revoke");
+        // `register` has its folder without an option.
+        let folder = passports("--passports").filter(|_| verb != "register");
         [of("--key", &self.key), of("--identity", &self.identity), of("--trust", &self.trust)]
             .into_iter()
-            .chain([out, lists, passports("--passports")])
+            .chain([out, lists, folder])
             .flatten()
             .collect()
     }

@@ -7,6 +7,7 @@ use crate::document::sha256_hex;
 use crate::passport::difference::Differences;
 use crate::passport::{CheckName, Content, Question, Trust, verify};
 use crate::report::difference::{self, Side};
+use crate::text::kind::Kind;
 use crate::text::{name_of, printable};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -49,7 +50,7 @@ pub(super) struct Past {
 impl Past {
     /// Reads and verifies a passport; it may have expired, which is reported.
     pub(super) fn read(path: &Path, trust: &Trust, question: &Question) -> Result<Self, Failure> {
-        let bytes = inputs::bytes(path)?;
+        let bytes = inputs::bytes(path, Kind::Passport.words())?;
         let name = name_of(path);
         let verification = verify(&name, &bytes, trust, question);
         let Some(content) = verification.content_even_if_expired().cloned() else {

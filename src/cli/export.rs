@@ -1,19 +1,23 @@
 //! Verb `export`: verified passports in other forms: stand and site files again, JSON, and a DCC.
 
 use super::administrative::{AdministrativeFile, DCC_IS_NOT_SIGNED};
-use super::render::{Written, languages};
+use super::inputs::{self, Each};
+use super::output::Format;
+use super::render::{Written as Language, languages};
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, REFUSED, UNUSABLE, defaults, output};
 use crate::batch::{Purpose, paths};
 use crate::dcc;
 use crate::document::sha256_hex;
+use crate::files::{self, FileError};
+use crate::parallel;
 use crate::passport::export::{site_file, stand_file};
 use crate::passport::verification::unreadable;
 use crate::passport::{Content, Question, Trust, Verification, verify};
-use crate::report::{exported, issued, style, verdict};
+use crate::report::{exported, issued};
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of, printable, shown};
-use crate::{files, parallel};
 use clap::{Args, ValueEnum};
+use serde::Serialize;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -36,17 +40,27 @@ pub(super) struct Options {
     #[command(flatten)]
     trust: TrustOptions,
     /// Folder to write to [default: the current folder; JSON goes to standard output, one line for each passport]
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long, visible_alias = "output", value_name = "DIR")]
     out: Option<PathBuf>,
     /// Administrative data of the DCC that no passport states (dtg-dcc/1); `new dcc` writes a template
     #[arg(long, value_name = "FILE")]
     administrative: Option<PathBuf>,
     /// Languages of the DCC: en, ru, or en,ru for both [default: the language in FILE, or en]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "LANGUAGE")]
-    lang: Vec<Written>,
+    lang: Vec<Language>,
     /// Replace existing files
     #[arg(long)]
     force: bool,
+    /// Output format of what was written, with a line for each passport
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+/// Files written from one passport, for programs.
+#[derive(Serialize)]
+struct Written {
+    file: String,
+    written: Vec<String>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -73,7 +87,11 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     for found in paths::files(&options.passports, &mut list, Purpose::Passports) {
         match found {
             Ok(path) => run.push(path)?,
-            Err(failure) => run.failed(if failure.unusable { UNUSABLE } else { REFUSED }, &issued::failure(&failure)),
+            Err(failed) => {
+                let words = issued::failure(&failed);
+                let failure = if failed.unusable { Failure::unusable(words) } else { Failure::refused(words) };
+                run.failed(failed.what, failure)?;
+            }
         }
     }
     run.chunk()?;
@@ -112,9 +130,14 @@ impl Run<'_> {
         if self.next.len() == AT_ONCE { self.chunk() } else { Ok(()) }
     }
 
-    fn failed(&mut self, code: Code, words: &str) {
-        output::complain(words);
-        self.code = self.code.max(code);
+    /// Reports the failure of one passport; the others are exported nevertheless.
+    fn failed(&mut self, file: String, failure: Failure) -> Result<(), Failure> {
+        output::complain(&failure.message);
+        self.code = self.code.max(failure.code);
+        match self.options.format {
+            Format::Json => inputs::json_line(&Each::<Written>::Refused { file, refusal: failure.failed }),
+            Format::Text => Ok(()),
+        }
     }
 
     fn chunk(&mut self) -> Result<(), Failure> {
@@ -177,52 +200,67 @@ impl Run<'_> {
 
     /// Writes the files of one passport, all or none of them.
     fn write(&mut self, exported: &Exported) -> Result<(), Failure> {
-        let Exported { path, verification, files, unread, .. } = exported;
-        let verdict = || style::plain(&verdict::text(&[verdict::Verdict::of(&name_of(path), verification)]));
+        let Exported { path, verification, files, unread, line } = exported;
+        let name = name_of(path);
         if !verification.valid() {
-            self.failed(if *unread { UNUSABLE } else { REFUSED }, &format!("nothing was exported\n{}", verdict()));
-            return Ok(());
-        }
-        let files = match files {
-            Ok(files) => files,
-            Err(error) => {
-                let lines = error.with_lines("");
-                self.failed(REFUSED, &format!("nothing was exported from {}\n{lines}", shown(path)));
+            let failure = Failure::verdict("nothing was exported\n", &name, verification);
+            let failure = Failure { code: if *unread { UNUSABLE } else { REFUSED }, ..failure };
+            // The line of the passport, with its checks, is already on standard output if no folder was given.
+            if line.is_some() {
+                output::complain(&failure.message);
+                self.code = self.code.max(failure.code);
                 return Ok(());
             }
+            return self.failed(name, failure);
+        }
+        let new = match self.new_files(path, files.as_ref()) {
+            Ok(new) => new,
+            Err(failure) => return self.failed(name, failure),
         };
+        let mut written = Vec::new();
+        for (target, text, sha256) in new {
+            output::file(&target, &text, self.options.force)?;
+            output::say(&format!("wrote {}", shown(&target)));
+            written.push(name_of(&target));
+            self.written.insert(target, (sha256, path.clone()));
+        }
+        match self.options.format {
+            Format::Json if line.is_none() => inputs::json_line(&Written { file: name, written }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Returns the files of one passport that are not there yet, with their SHA-256.
+    fn new_files(
+        &self,
+        path: &Path,
+        files: Result<&Vec<(PathBuf, String)>, &Unreadable>,
+    ) -> Result<Vec<(PathBuf, String, String)>, Failure> {
+        let files = files.map_err(|error| {
+            let words = format!("nothing was exported from {}\n{}", shown(path), error.with_lines(""));
+            Failure { message: words, code: REFUSED, ..Failure::unreadable(error.clone()) }
+        })?;
         let mut new = Vec::new();
         for (target, text) in files {
             let sha256 = sha256_hex(text.as_bytes());
             match self.written.get(target) {
                 Some((there, _)) if *there == sha256 => {}
                 Some((_, from)) => {
-                    let words = format!(
+                    return Err(Failure::refused(format!(
                         "{}: nothing was exported: its {} differs from that of {}; export them to different folders",
                         shown(path),
                         shown(target),
                         shown(from)
-                    );
-                    self.failed(REFUSED, &words);
-                    return Ok(());
+                    )));
                 }
                 None if !self.options.force && target.symlink_metadata().is_ok() => {
-                    let words = format!(
-                        "{}: already exists, not overwritten; to replace it, use --force; nothing was exported from {}",
-                        shown(target),
-                        shown(path)
-                    );
-                    self.failed(REFUSED, &words);
-                    return Ok(());
+                    let error = FileError::Exists { path: target.clone(), replaceable: true };
+                    let words = format!("{error}; nothing was exported from {}", shown(path));
+                    return Err(Failure { message: words, ..Failure::file(error) });
                 }
-                None => new.push((target, text, sha256)),
+                None => new.push((target.clone(), text.clone(), sha256)),
             }
         }
-        for (target, text, sha256) in new {
-            output::file(target, text, self.options.force)?;
-            output::say(&format!("wrote {}", shown(target)));
-            self.written.insert(target.clone(), (sha256, path.clone()));
-        }
-        Ok(())
+        Ok(new)
     }
 }

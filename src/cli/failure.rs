@@ -6,7 +6,8 @@ use crate::interface::calibrated::Stopped;
 use crate::interface::{self, CheckLine, Failed, Place};
 use crate::passport::Verification;
 use crate::report::{style, verdict};
-use crate::text::Unreadable;
+use crate::text::{Unreadable, name_of, shown};
+use std::path::Path;
 
 /// Code of a failure in JSON, besides those of the library and of a passport's checks.
 const USAGE: &str = "usage";
@@ -46,6 +47,13 @@ impl Failure {
         let failed = Failed::from(error);
         let code = if failed.code == interface::EXISTS { REFUSED } else { UNUSABLE };
         Self { message: failed.message.clone(), code, failed }
+    }
+
+    /// Creates the failure for a folder in place of the file that `expected` describes.
+    pub(super) fn folder(path: &Path, expected: &str) -> Self {
+        let message = format!("{}: is a folder, expected {expected}; name a file in it", shown(path));
+        let problems = vec![Place::file(name_of(path), message.clone())];
+        Self::new(message, UNUSABLE, interface::UNREADABLE, problems)
     }
 
     /// Creates the failure for a file with mistakes; the message includes their lines.

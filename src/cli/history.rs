@@ -1,6 +1,7 @@
 //! Verb `history`: one stand over the years.
 
 use super::output::{self, Format};
+use super::register::refuse_file;
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, UNUSABLE};
 use crate::folder::record;
@@ -24,7 +25,7 @@ pub(super) struct Options {
     #[command(flatten)]
     trust: TrustOptions,
     /// Picture of the time line and of the drift to write
-    #[arg(short, value_name = "FILE.svg")]
+    #[arg(short, long, value_name = "FILE.svg")]
     output: Option<PathBuf>,
     /// Replace an existing picture
     #[arg(long)]
@@ -41,9 +42,10 @@ fn stand(text: &str) -> Result<String, String> {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
+    refuse_file(&options.passports)?;
     let (trust, question) = options.trust.load()?;
     let found = record::history(&options.passports, &options.stand, trust, question.time, parallel::processors());
-    let (history, register) = found.map_err(Failure::unusable)?;
+    let (history, register) = found.map_err(Failure::file)?;
     let Some(history) = history else {
         let known: std::collections::BTreeSet<&str> =
             register.passports.iter().filter_map(|line| line.stand.as_deref()).collect();

@@ -1,10 +1,12 @@
 //! Verb `init`: a new workspace.
 
-use super::{Code, Failure, key_options, output};
-use crate::text::shown;
+use super::output::{self, Format};
+use super::{Code, Failure, key_options};
+use crate::text::{name_of, shown};
 use crate::workspace::{NotMade, make};
 use clap::Args;
-use std::path::PathBuf;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
 
 /// Make a workspace: folders, dtg-passport.toml, .gitignore and a README
 #[derive(Args)]
@@ -18,6 +20,16 @@ pub(super) struct Options {
     /// Replace existing files of a workspace
     #[arg(long)]
     force: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+/// The new workspace, for programs.
+#[derive(Serialize)]
+struct Made {
+    workspace: String,
+    made: Vec<String>,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -25,16 +37,30 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         NotMade::File(error) => Failure::file(error),
         error => Failure::usage(error),
     })?;
-    let lines: String = made.iter().map(|path| format!("{}\n", shown(path))).collect();
-    output::text(&lines)?;
+    match options.format {
+        Format::Json => {
+            let made = made.iter().map(|path| name_of(path)).collect();
+            output::json(&Made { workspace: name_of(&options.folder), made })?;
+        }
+        Format::Text => {
+            let lines: String = made.iter().map(|path| format!("{}\n", shown(path))).collect();
+            output::text(&lines)?;
+        }
+    }
     let (key, signers) = (options.folder.join("factory.key"), options.folder.join("allowed_signers"));
     let identity = options.identity.as_deref().unwrap_or("WHO");
     output::say(&format!(
         "next: dtg-passport keygen {} --identity {identity} --allowed-signers {}\n\
          then: dtg-passport status --workspace {}",
-        shown(&key),
-        shown(&signers),
-        shown(&options.folder)
+        quoted(&key),
+        quoted(&signers),
+        quoted(&options.folder)
     ));
     Ok(0)
+}
+
+/// Returns a path as every shell takes it for one argument.
+fn quoted(path: &Path) -> String {
+    let text = shown(path).to_string();
+    if text.contains(char::is_whitespace) { format!("\"{text}\"") } else { text }
 }

@@ -5,38 +5,46 @@ use super::{Code, Failure};
 use crate::batch::Purpose;
 use crate::batch::catalogue::Listed as _;
 use crate::batch::paths;
-use crate::files;
+use crate::files::{self, FileError};
 use crate::gyro::GyroType;
 use crate::interface::Failed;
 use crate::laboratory::Laboratory;
 use crate::report::issued;
 use crate::site::Site;
 use crate::stand::Stand;
+use crate::text::kind::Kind;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, printable, shown};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Reads the bytes of a document.
-pub(super) fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
-    files::read(path, LARGEST_DOCUMENT_BYTES).map_err(Failure::file)
+/// A header of a certification, in words.
+pub(super) const HEADER: &str = "a header (dtg-stand/1)";
+
+/// Reads the bytes of a document; `expected` says what it should be, for the message about a folder.
+pub(super) fn bytes(path: &Path, expected: &str) -> Result<Vec<u8>, Failure> {
+    files::read(path, LARGEST_DOCUMENT_BYTES).map_err(|error| match error {
+        FileError::Folder { path } => Failure::folder(&path, expected),
+        error => Failure::file(error),
+    })
 }
 
 /// Reads a document with its own reader, such as `Stand::from_yaml`.
 pub(super) fn document<T>(
     path: &Path,
+    expected: &str,
     reader: impl FnOnce(&str, &[u8]) -> Result<T, Unreadable>,
 ) -> Result<T, Failure> {
-    reader(&name_of(path), &bytes(path)?).map_err(Failure::unreadable)
+    reader(&name_of(path), &bytes(path, expected)?).map_err(Failure::unreadable)
 }
 
 /// Reads a stand file.
 pub(super) fn stand(path: &Path) -> Result<Stand, Failure> {
-    document(path, Stand::from_yaml)
+    document(path, Kind::Stand.words(), Stand::from_yaml)
 }
 
 /// Reads a site file, and remarks on a file that has not the name of its site.
 pub(super) fn site(path: &Path) -> Result<Site, Failure> {
-    let site = document(path, Site::from_yaml)?;
+    let site = document(path, Kind::Site.words(), Site::from_yaml)?;
     if let Some(words) = site.remark(path) {
         output::say(&format!("{}: {words}", shown(path)));
     }
@@ -45,12 +53,12 @@ pub(super) fn site(path: &Path) -> Result<Site, Failure> {
 
 /// Reads a gyro type, or returns `None` without a path.
 pub(super) fn gyro(path: Option<&Path>) -> Result<Option<GyroType>, Failure> {
-    path.map(|path| document(path, GyroType::from_yaml)).transpose()
+    path.map(|path| document(path, Kind::Gyro.words(), GyroType::from_yaml)).transpose()
 }
 
 /// Reads a laboratory file, or returns the paper's meter without a path.
 pub(super) fn laboratory(path: Option<&Path>) -> Result<Laboratory, Failure> {
-    path.map_or_else(|| Ok(Laboratory::paper()), |path| document(path, Laboratory::from_yaml))
+    path.map_or_else(|| Ok(Laboratory::paper()), |path| document(path, Kind::Laboratory.words(), Laboratory::from_yaml))
 }
 
 /// Result of a verb for one of several inputs.
@@ -104,13 +112,17 @@ fn refused<T>((file, failure): (String, Failure)) -> Each<T> {
     Each::Refused { file, refusal: failure.failed }
 }
 
+/// Prints JSON on one line.
+pub(super) fn json_line(value: &impl Serialize) -> Result<(), Failure> {
+    output::result(&(printable::json_line(value).map_err(Failure::unusable)? + "\n"))
+}
+
 /// Prints the result for one of several inputs: its JSON on one line, or its text.
 pub(super) fn print<T: Serialize>(result: &Each<(T, String)>, format: Format) -> Result<(), Failure> {
-    let line = |line: Result<String, _>| output::result(&(line.map_err(Failure::unusable)? + "\n"));
     match (format, result) {
         (Format::Text, Each::Done((_, text))) => output::text(text),
         (Format::Text, Each::Refused { file, .. }) => output::text(&issued::refused_line(file)),
-        (Format::Json, Each::Done((value, _))) => line(printable::json_line(value)),
-        (Format::Json, refused @ Each::Refused { .. }) => line(printable::json_line(refused)),
+        (Format::Json, Each::Done((value, _))) => json_line(value),
+        (Format::Json, refused @ Each::Refused { .. }) => json_line(refused),
     }
 }

@@ -25,7 +25,7 @@ pub(super) struct Options {
     #[arg(long = "site", required = true, value_name = "SITE", value_parser = defaults::site())]
     sites: Vec<PathBuf>,
     /// Folder of passports
-    #[arg(long, value_name = "DIR", default_value = "passports")]
+    #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR", default_value = "passports")]
     out: PathBuf,
     #[command(flatten)]
     batch: BatchOptions,

@@ -1,9 +1,11 @@
 //! Verb `man`: manual pages.
 
-use super::{Code, Failure, help, output};
+use super::output::{self, Format};
+use super::{Code, Failure, help};
 use crate::files;
-use crate::text::shown;
+use crate::text::{name_of, shown};
 use clap::{Args, Command};
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// Write the manual pages, one for each command, into a folder
@@ -15,6 +17,15 @@ pub(super) struct Options {
     /// Replace existing pages
     #[arg(long)]
     force: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+/// The written pages, for programs.
+#[derive(Serialize)]
+struct Pages {
+    pages: Vec<String>,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -29,6 +40,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         output::file(path, page, options.force)?;
     }
     output::say(&format!("wrote {} pages into {}", pages.len(), shown(&options.folder)));
+    if options.format == Format::Json {
+        output::json(&Pages { pages: paths.iter().map(|path| name_of(path)).collect() })?;
+    }
     Ok(0)
 }
 

@@ -1,12 +1,14 @@
 //! Verb `new`: templates of the hand-written files.
 
+use super::output::{self, Format};
 use super::trust_options::place;
-use super::{Code, Failure, inputs, output};
+use super::{Code, Failure, inputs};
 use crate::earth::Place;
 use crate::plan::document::Planned;
 use crate::template::{self, Positions};
-use crate::text::{Identifier, Printable, shown};
+use crate::text::{Identifier, Printable, name_of, shown};
 use clap::{Args, ValueEnum};
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// Write a commented template of a file
@@ -20,15 +22,15 @@ pub(super) struct Options {
     /// File to write [default: standard output]
     #[arg(value_name = "FILE")]
     file: Option<PathBuf>,
-    /// Number of positions of a stand, header, readings or currents: the paper's 8, four of them, or 16 more
-    #[arg(long, value_enum, default_value = "8")]
-    positions: Count,
+    /// Number of positions of a stand, header, readings or currents: the paper's 8, four of them, or 16 more [default: 8]
+    #[arg(long, value_enum, value_name = "POSITIONS")]
+    positions: Option<Count>,
     /// Plan whose positions a stand, header, readings or currents get, in its order (from `plan --format json`)
     #[arg(long, value_name = "PLAN.json", conflicts_with = "positions")]
     from_plan: Option<PathBuf>,
-    /// Number of runs of readings
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=100))]
-    runs: u32,
+    /// Number of runs of readings [default: 5]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100))]
+    runs: Option<u32>,
     /// Place of a site: latitude and longitude in degrees, north and east positive
     #[arg(long, value_name = "LAT,LON", value_parser = place, allow_hyphen_values = true)]
     at: Option<Place>,
@@ -38,6 +40,17 @@ pub(super) struct Options {
     /// Replace an existing file
     #[arg(long)]
     force: bool,
+    /// Output format: of what was written, or of the template itself without FILE
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+/// The written file, or the template if it was not written, for programs.
+#[derive(Serialize)]
+struct Written<'a> {
+    file: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    template: Option<&'a str>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -86,28 +99,58 @@ fn height(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let has_positions = matches!(options.kind, Kind::Stand | Kind::Header | Kind::Readings | Kind::Currents);
-    if options.from_plan.is_some() && !has_positions {
-        return Err(Failure::usage("--from-plan is for a stand, header, readings or currents; omit it"));
-    }
+    options.check()?;
     let positions = match &options.from_plan {
-        None => options.positions.into(),
-        Some(path) => Positions::Planned(inputs::document(path, Planned::from_json)?),
+        None => options.positions.unwrap_or(Count::Eight).into(),
+        Some(path) => {
+            let expected = "the JSON of a plan, from `plan --format json`";
+            Positions::Planned(inputs::document(path, expected, Planned::from_json)?)
+        }
     };
     let text = match options.kind {
         Kind::Stand => template::stand(&positions),
         Kind::Header => template::header(&positions),
-        Kind::Readings => template::readings(&positions, options.runs),
+        Kind::Readings => template::readings(&positions, options.runs.unwrap_or(5)),
         Kind::Currents => template::currents(&positions).map_err(Failure::refused)?,
         Kind::Gyro => template::GYRO.to_owned(),
         Kind::Laboratory => template::LABORATORY.to_owned(),
         Kind::Dcc => template::DCC.to_owned(),
         Kind::Site => template::site(&site_id(options.file.as_deref())?, options.at, options.height_m),
     };
-    let Some(path) = &options.file else { return output::own(&text).map(|()| 0) };
-    output::file(path, &text, options.force)?;
-    output::say(&format!("wrote {}; replace the values that its comments name", shown(path)));
+    if let Some(path) = &options.file {
+        output::file(path, &text, options.force)?;
+        output::say(&format!("wrote {}; replace the values that its comments name", shown(path)));
+    }
+    let file = options.file.as_deref().map(name_of);
+    match options.format {
+        Format::Json => {
+            let template = file.is_none().then_some(text.as_str());
+            output::json(&Written { file, template })?;
+        }
+        Format::Text if file.is_none() => output::own(&text)?,
+        Format::Text => {}
+    }
     Ok(0)
+}
+
+impl Options {
+    /// Refuses options that the kind of file has no use for: their value would be lost without a word.
+    fn check(&self) -> Result<(), Failure> {
+        let has_positions = matches!(self.kind, Kind::Stand | Kind::Header | Kind::Readings | Kind::Currents);
+        let is_site = self.kind == Kind::Site;
+        let of_positions = "a stand, header, readings or currents";
+        let given = [
+            ("--from-plan", of_positions, self.from_plan.is_some() && !has_positions),
+            ("--positions", of_positions, self.positions.is_some() && !has_positions),
+            ("--runs", "readings", self.runs.is_some() && self.kind != Kind::Readings),
+            ("--at", "a site", self.at.is_some() && !is_site),
+            ("--height-m", "a site", self.height_m.is_some() && !is_site),
+        ];
+        match given.into_iter().find(|(_, _, wrong)| *wrong) {
+            Some((option, kinds, _)) => Err(Failure::usage(format!("{option} is for {kinds}; omit it"))),
+            None => Ok(()),
+        }
+    }
 }
 
 /// Returns the identifier of a site: the name of its file.
@@ -116,6 +159,9 @@ fn site_id(file: Option<&Path>) -> Result<String, Failure> {
     let stem = stem.to_string_lossy();
     Identifier::new(&stem).map(|id| id.to_string()).map_err(|found| {
         let found = Printable(found);
-        Failure::usage(format!("the name of the file is the identifier of the site: found {found}; use another name"))
+        Failure::usage(format!(
+            "the name of the file is the identifier of the site: found {found}, expected ASCII letters, digits, '.', \
+             '_' and '-'; use another name, such as moscow-bmstu.yaml"
+        ))
     })
 }

@@ -1,7 +1,7 @@
 //! Verb `plan`: the best positions to certify, or of a certified stand's positions to read, and their order.
 
 use super::output::Format;
-use super::{Code, Failure, inputs, output};
+use super::{Code, Failure, defaults, inputs, output};
 use crate::gyro::GyroType;
 use crate::plan::candidates::Angles;
 use crate::plan::criterion::Criterion;
@@ -15,11 +15,11 @@ use std::path::PathBuf;
 /// Find the best positions to certify or to read, how often, in which order, and with the frame's axis at which azimuth
 #[derive(Args)]
 pub(super) struct Options {
-    /// Site file (dtg-site/1)
-    #[arg(long, value_name = "SITE")]
+    /// Site file (dtg-site/1); in a workspace also the identifier of the site
+    #[arg(long, value_name = "SITE", value_parser = defaults::site())]
     site: PathBuf,
-    /// Certified stand to read (dtg-stand/1) [default: the positions of --angles, without deviations]
-    #[arg(long, value_name = "STAND", conflicts_with = "angles")]
+    /// Certified stand to read (dtg-stand/1); in a workspace also MODEL/SERIAL [default: the positions of --angles, without deviations]
+    #[arg(long, value_name = "STAND", conflicts_with = "angles", value_parser = defaults::stand())]
     stand: Option<PathBuf>,
     /// Gyro type (dtg-gyro/1) [default: the paper's GVK-6]
     #[arg(long, value_name = "FILE")]
@@ -43,7 +43,7 @@ pub(super) struct Options {
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
     /// Picture to write
-    #[arg(short, value_name = "FILE.svg")]
+    #[arg(short, long, value_name = "FILE.svg")]
     output: Option<PathBuf>,
     /// Replace an existing picture
     #[arg(long)]

@@ -8,6 +8,7 @@ use super::trust_options::{self, TrustOptions};
 use super::{Code, Failure, defaults, inputs, long_run};
 use crate::batch::recertification::{AtSite, NotRecertified, Recertification};
 use crate::certification::Header;
+use crate::certification::finding::Finding;
 use crate::files;
 use crate::folder::Seal;
 use crate::passport::issue::time_of_issue;
@@ -15,7 +16,7 @@ use crate::report::issued::Told;
 use crate::report::page::certification::CertificationPage;
 use crate::report::recertification as report;
 use crate::text::kind::{Kind, mistaken};
-use crate::text::{Identifier, name_of, shown};
+use crate::text::{Identifier, Printable, name_of, rule, shown};
 use clap::Args;
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -65,7 +66,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "TIME", value_parser = trust_options::time)]
     issued_at: Option<Timestamp>,
     /// Folder of passports [default: the parent of <model>/<serial> in the path of the passport]
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
     exclusions: ExclusionOptions,
@@ -79,7 +80,7 @@ pub(super) struct Options {
     #[arg(long)]
     force: bool,
     /// Compute and check everything, and show it, but write only the record, if --report is given; requires no key
-    #[arg(long)]
+    #[arg(short = 'n', long)]
     dry_run: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
@@ -87,20 +88,18 @@ pub(super) struct Options {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
+    options.check()?;
     let (trust, question) = options.trust.load()?;
     let cancel = long_run::cancelled_by_ctrl_c()?;
-    let read = |path: &PathBuf| inputs::bytes(path);
     // Before the readings are read: exchanged arguments are then recognised by the file that is there.
     let expected = "a passport, which `issue` makes and signs";
     let name = name_of(&options.passport);
-    if let Some(other) = mistaken(&name, &read(&options.passport)?, expected, |kind| kind == Kind::Passport) {
+    let first = inputs::bytes(&options.passport, Kind::Passport.words())?;
+    if let Some(other) = mistaken(&name, &first, expected, |kind| kind == Kind::Passport) {
         return Err(Failure::unreadable(other));
     }
-    let header = options
-        .header
-        .as_ref()
-        .map(|path| Header::from_yaml(&name_of(path), &read(path)?).map_err(Failure::unreadable));
-    let (name, bytes) = (name_of(&options.readings), read(&options.readings)?);
+    let header = options.header.as_ref().map(|path| inputs::document(path, inputs::HEADER, Header::from_yaml));
+    let (name, bytes) = (name_of(&options.readings), inputs::bytes(&options.readings, Kind::Angles.words())?);
     let sites = options.sites.iter().map(|path| at_site(path)).collect::<Result<Vec<_>, _>>()?;
     // Nothing is written if the record cannot be.
     files::check_replaceable(&options.report, options.force).map_err(Failure::file)?;
@@ -130,6 +129,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         why if why.is_unusable() => Failure::unusable(why),
         why => Failure::refused(why),
     })?;
+    for finding in found.comparison.findings.iter().filter(|finding| **finding == Finding::SameReadings) {
+        output::complain(&format!("{}: WARNING: {finding}; give the new readings", Printable(&name)));
+    }
     if let Some(path) = &options.report {
         let change = Some((&found.comparison, found.changes.clone()));
         let page = CertificationPage { certification: &found.certification, readings: (&name, &bytes), change };
@@ -146,6 +148,24 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     told.lines().iter().for_each(|line| output::say(line));
     Ok(0)
+}
+
+impl Options {
+    /// Refuses values that the new certificate cannot state: it has no file yet that a message could name.
+    fn check(&self) -> Result<(), Failure> {
+        if self.number.trim().is_empty() || !self.number.chars().all(rule::allowed_in_string) {
+            return Err(Failure::usage(format!(
+                "--number {:?}: is empty or contains a character that is not allowed in signed files, expected the \
+                 number of the new certificate, such as C-2027-0009",
+                self.number
+            )));
+        }
+        if let Some(until) = self.valid_until.filter(|until| *until < self.issued) {
+            let issued = self.issued;
+            return Err(Failure::usage(format!("--valid-until {until} is before --issued {issued}; check the years")));
+        }
+        Ok(())
+    }
 }
 
 /// Returns the folder of stand files, from which `issue` takes them, if the folder of passports is that of a workspace.

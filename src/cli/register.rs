@@ -17,8 +17,11 @@ use std::path::{Path, PathBuf};
 #[derive(Args)]
 pub(super) struct Options {
     /// Folder of passports; revocation lists in it and up to two levels above are used too
-    #[arg(value_name = "DIR")]
-    folder: PathBuf,
+    #[arg(value_name = "DIR", required_unless_present = "passports")]
+    folder: Option<PathBuf>,
+    /// The same folder, under the name that it has in other commands
+    #[arg(long, value_name = "DIR", conflicts_with = "folder")]
+    passports: Option<PathBuf>,
     #[command(flatten)]
     trust: TrustOptions,
     /// Flag passports that expire within DAYS days
@@ -49,15 +52,12 @@ enum By {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    if options.folder.is_file() {
-        let folder = shown(&options.folder);
-        return Err(Failure::usage(format!(
-            "{folder}: is a file, expected a folder; check one passport with `verify`"
-        )));
-    }
+    let folder = options.folder.as_ref().or(options.passports.as_ref());
+    let folder = folder.ok_or_else(|| Failure::usage("missing DIR, the folder of passports"))?;
+    refuse_file(folder)?;
     let (trust, question) = options.trust.load()?;
     let asked = Asked { question, within_days: options.within };
-    let register = search::register(&options.folder, trust, &asked, parallel::processors());
+    let register = search::register(folder, trust, &asked, parallel::processors());
     let (mut register, _) = register.map_err(Failure::file)?;
     let code = match (register.is_incomplete(), register.needs_attention()) {
         (true, _) => UNUSABLE,
@@ -77,6 +77,16 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         TableFormat::Csv => output::result(&report::csv(&register))?,
     }
     Ok(code)
+}
+
+/// Refuses a file in place of the folder of passports.
+pub(super) fn refuse_file(folder: &Path) -> Result<(), Failure> {
+    if folder.is_file() {
+        let folder = shown(folder);
+        let words = "is a file, expected a folder; check one passport with `verify`";
+        return Err(Failure::usage(format!("{folder}: {words}")));
+    }
+    Ok(())
 }
 
 impl Options {

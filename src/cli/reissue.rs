@@ -38,7 +38,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "TEXT")]
     reason: String,
     /// Folder of passports [default: the parent of <model>/<serial> in the path of each predecessor]
-    #[arg(long, value_name = "DIR")]
+    #[arg(short, long, visible_aliases = ["passports", "output"], value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
     batch: BatchOptions,

@@ -8,6 +8,7 @@ pub(super) use crate::dcc::Written;
 use crate::folder::Folder;
 use crate::report::page::{Language, Languages, PassportPage};
 use crate::report::{style, verdict};
+use crate::text::kind::Kind;
 use crate::text::{name_of, shown};
 use clap::Args;
 use serde::Serialize;
@@ -22,7 +23,7 @@ pub(super) struct Options {
     #[arg(required = true, value_name = "PASSPORT", value_parser = defaults::passport())]
     passports: Vec<PathBuf>,
     /// HTML file to write, for one passport
-    #[arg(short, value_name = "FILE.html", required_unless_present = "out", conflicts_with = "out")]
+    #[arg(short, long, value_name = "FILE.html", required_unless_present = "out", conflicts_with = "out")]
     output: Option<PathBuf>,
     /// Folder for the pages of several passports: <model>/<serial>/<site>-<revision>.html
     #[arg(long, value_name = "DIR")]
@@ -30,7 +31,7 @@ pub(super) struct Options {
     #[command(flatten)]
     trust: TrustOptions,
     /// Folder of passports: state on the page if another passport in it supersedes this one
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, visible_alias = "passports", value_name = "DIR")]
     register: Option<PathBuf>,
     /// Page languages; the first sets the number format: en, ru, or en,ru for both side by side
     #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
@@ -62,7 +63,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let (register, trust) = register::asked(options.register.as_deref(), trust, &question)?;
     let write = |passport: &Path, output: Option<&Path>| {
-        let bytes = inputs::bytes(passport)?;
+        let bytes = inputs::bytes(passport, Kind::Passport.words())?;
         let name = name_of(passport);
         let page = PassportPage::verified(&name, &bytes, &trust, &question, register.as_ref())
             .map_err(|refused| Failure::verdict("no page was written\n", &name, &refused))?;

@@ -8,6 +8,8 @@ use crate::files::{self, Access};
 use crate::folder::Folder;
 use crate::folder::search::{self, NoNewestList};
 use crate::passport::verify;
+use crate::text::kind::Kind;
+use crate::text::scalar::latin;
 use crate::text::{Printable, name_of, shown};
 use clap::Args;
 use serde::Serialize;
@@ -55,7 +57,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let mut entries = Vec::new();
     for id in &options.ids {
         let path = file_of(id, &options.passports)?;
-        let bytes = inputs::bytes(&path)?;
+        let bytes = inputs::bytes(&path, Kind::Passport.words())?;
         let verification = verify(&name_of(&path), &bytes, &trust, &question);
         entries.push(verification.withdrawal(&bytes, now(), &options.reason).map_err(|failed| {
             let words = failed.map_or("", |check| &check.detail);
@@ -88,7 +90,9 @@ fn file_of(id: &str, passports: &Path) -> Result<PathBuf, Failure> {
         _ if Path::new(id).exists() => return Ok(PathBuf::from(id)),
         _ => {}
     }
+    let alike = |(_, odd)| format!("; the {odd} only looks like a Latin letter");
     let nearest = folder.nearest_id(id).map_or_else(String::new, |nearest| format!("; did you mean {nearest}?"));
+    let nearest = latin(id).map_or_else(String::new, alike) + &nearest;
     let (id, passports) = (Printable(id), shown(passports));
     Err(Failure::unusable(match path {
         Some(_) => format!("{id}: {passports} contains no such passport{nearest}"),

@@ -7,6 +7,7 @@ use super::{Code, Failure, defaults, output};
 use crate::batch::{Purpose, paths};
 use crate::passport::{Content, Question, Trust, Verification, read, verify};
 use crate::report::passport_table;
+use crate::text::kind::Kind;
 use crate::text::{Field, name_of};
 use clap::{ArgGroup, Args};
 use std::path::{Path, PathBuf};
@@ -75,7 +76,7 @@ impl Reader {
     /// Reads a passport and verifies it, unless `--no-verify` is given. A passport that fails a check is refused with
     /// its verdict.
     pub(super) fn read(&self, path: &Path) -> Result<Read, Failure> {
-        let bytes = inputs::bytes(path)?;
+        let bytes = inputs::bytes(path, Kind::Passport.words())?;
         let name = name_of(path);
         let Some((trust, question)) = &self.verified else {
             let content = read::content_from_anyone(&name, &bytes).map_err(Failure::unreadable)?;

@@ -1,7 +1,7 @@
 //! Verb `simulate`: the paper's table and its Fig. 4.
 
 use super::output::Format;
-use super::{Code, Failure, inputs, long_run, output};
+use super::{Code, Failure, defaults, inputs, long_run, output};
 use crate::calibration::Method;
 use crate::coefficients::EarthRate;
 use crate::gyro::GyroType;
@@ -64,7 +64,7 @@ struct RunArguments {
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
     /// Number of threads [default: one for each processor]
-    #[arg(long, value_name = "T", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(short = 'j', long, value_name = "T", value_parser = clap::value_parser!(u32).range(1..))]
     threads: Option<u32>,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
@@ -75,10 +75,10 @@ struct RunArguments {
 #[derive(Args)]
 struct AccuracyArguments {
     /// Stand file to take the angles from [default: random stands]
-    #[arg(long, value_name = "STAND", conflicts_with = "limit_deg")]
+    #[arg(long, value_name = "STAND", conflicts_with = "limit_deg", value_parser = defaults::stand())]
     stand: Option<PathBuf>,
     /// Site file [default: the paper's latitude, 55.7658]
-    #[arg(long, value_name = "SITE")]
+    #[arg(long, value_name = "SITE", value_parser = defaults::site())]
     site: Option<PathBuf>,
     /// Gyro type [default: the paper's GVK-6]
     #[arg(long, value_name = "FILE")]
@@ -111,7 +111,7 @@ struct ConvergenceArguments {
     #[command(flatten)]
     run: RunArguments,
     /// Figure to write
-    #[arg(short, value_name = "FILE.svg")]
+    #[arg(short, long, value_name = "FILE.svg")]
     output: Option<PathBuf>,
     /// Replace an existing figure
     #[arg(long)]

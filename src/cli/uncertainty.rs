@@ -39,7 +39,13 @@ pub(super) struct UncertaintyOptions {
     #[arg(long, value_name = "S", default_value_t = 1, requires = "monte_carlo")]
     seed: u64,
     /// Number of threads [default: one for each processor]
-    #[arg(long, value_name = "T", requires = "monte_carlo", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(
+        short = 'j',
+        long,
+        value_name = "T",
+        requires = "monte_carlo",
+        value_parser = clap::value_parser!(u32).range(1..=1024)
+    )]
     threads: Option<u32>,
 }
 
@@ -83,9 +89,9 @@ impl Found {
 }
 
 impl UncertaintyOptions {
-    /// Returns `true` if a picture is to be written.
-    pub(super) fn has_picture(&self) -> bool {
-        self.budget_svg.is_some()
+    /// Returns the path of the picture to write, or `None` if none was requested.
+    pub(super) fn picture(&self) -> Option<&PathBuf> {
+        self.budget_svg.as_ref()
     }
 
     /// Computes the requested budget and Monte Carlo result, and writes the picture of the budget.

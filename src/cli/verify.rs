@@ -20,7 +20,7 @@ pub(super) struct Options {
     #[command(flatten)]
     trust: TrustOptions,
     /// Folder of passports: reject a passport that another one in it supersedes
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, visible_alias = "passports", value_name = "DIR")]
     register: Option<PathBuf>,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]

@@ -13,6 +13,7 @@ pub(crate) mod walk;
 pub(crate) use platform::{is_closed_pipe, sync_folder, wait_for_turn};
 
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, shown};
+use std::collections::BTreeSet;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -23,7 +24,7 @@ use tempfile::{NamedTempFile, PersistError};
 #[non_exhaustive]
 pub enum FileError {
     /// File that cannot be opened or read.
-    #[error("{}: cannot be read: {}", shown(path), Printable(reason(error)))]
+    #[error("{}: cannot be read: {}", shown(path), Printable(reason_at(path, error)))]
     Read {
         /// Path of the file.
         path: PathBuf,
@@ -58,8 +59,14 @@ pub enum FileError {
         /// `true` if the file may be replaced when the user requests it.
         replaceable: bool,
     },
+    /// Path that two options name for different files to be written.
+    #[error("{}: is named for two of the files to be written; give each its own name", shown(path))]
+    Twice {
+        /// Path of the file.
+        path: PathBuf,
+    },
     /// File that cannot be written.
-    #[error("{}: cannot be written: {}; no file was left", shown(path), Printable(reason(error)))]
+    #[error("{}: cannot be written: {}; no file was left", shown(path), Printable(reason_at(path, error)))]
     Write {
         /// Path of the file.
         path: PathBuf,
@@ -69,8 +76,11 @@ pub enum FileError {
 }
 
 impl FileError {
-    /// Returns the message, with the nearest existing path if there is no such file.
+    /// Returns the message with what to do: the nearest existing path if there is no such file.
     pub(crate) fn with_nearest(&self) -> String {
+        if let Self::Folder { .. } = self {
+            return format!("{self}; name a file in it");
+        }
         let is_missing = |error: &io::Error| error.kind() == io::ErrorKind::NotFound;
         let near = match self {
             Self::Read { path, error } if is_missing(error) => nearest(path),
@@ -87,6 +97,7 @@ impl FileError {
             | Self::Special { path }
             | Self::TooLarge { path, .. }
             | Self::Exists { path, .. }
+            | Self::Twice { path }
             | Self::Write { path, .. } => path,
         }
     }
@@ -131,6 +142,15 @@ pub(crate) fn reason(error: &io::Error) -> String {
         io::ErrorKind::NotADirectory => "a parent in this path is a file, not a folder".to_owned(),
         io::ErrorKind::StorageFull => "no space left on the disk".to_owned(),
         _ => error.to_string(),
+    }
+}
+
+/// Returns the reason of a system error at `path`. Windows does not tell a path below a file from one that is absent.
+fn reason_at(path: &Path, error: &io::Error) -> String {
+    let below_a_file = || path.ancestors().skip(1).any(Path::is_file);
+    match error.kind() {
+        io::ErrorKind::NotFound if below_a_file() => reason(&io::ErrorKind::NotADirectory.into()),
+        _ => reason(error),
     }
 }
 
@@ -248,6 +268,21 @@ pub(crate) fn check_replaceable<'a>(
         }
         if !force && path.symlink_metadata().is_ok() {
             return Err(FileError::Exists { path, replaceable: true });
+        }
+    }
+    Ok(())
+}
+
+/// Checks that no two of the `paths` to be written are the same, because the last one would replace the others.
+///
+/// # Errors
+/// Returns [`FileError::Twice`].
+pub(crate) fn check_distinct<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -> Result<(), FileError> {
+    let mut seen = BTreeSet::new();
+    for path in paths {
+        let whole = std::path::absolute(path).unwrap_or_else(|_| path.clone());
+        if !seen.insert(whole) {
+            return Err(FileError::Twice { path: path.clone() });
         }
     }
     Ok(())

@@ -73,7 +73,7 @@ pub enum ReissueRefused {
     )]
     NotMoved(String),
     /// The reason is empty or contains a character that a passport cannot contain.
-    #[error("the reason is empty or contains a character that is not allowed in signed files")]
+    #[error("the reason is empty or contains a character that is not allowed in signed files; state it in plain words")]
     BadReason,
     /// The new passport would be dated before its predecessor.
     #[error("issued_at {issued_at} is earlier than that of the predecessor, {old}; check the clock")]

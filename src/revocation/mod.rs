@@ -159,7 +159,9 @@ pub enum NoNewList {
     #[error("{0} passports are too many for one list; withdraw them in several steps")]
     TooMany(usize),
     /// A text is empty or contains a character that cannot be signed.
-    #[error("{0:?} is empty or contains a character that is not allowed in signed files")]
+    #[error(
+        "the reason {0:?} is empty or contains a character that is not allowed in signed files; state it in plain words"
+    )]
     BadText(String),
     /// The issuer's name cannot be a principal of allowed_signers.
     #[error(transparent)]

@@ -260,11 +260,31 @@ fn number_advice(node: &Node, key: &str) -> &'static str {
             "use a decimal point"
         }
         Node::Text(text) if text.parse::<f64>().is_ok_and(f64::is_finite) => "write the number without quotes",
+        Node::Text(text) if key.ends_with("_deg") && is_in_minutes(text) => {
+            "write decimal degrees, such as 55.7658; south and west are negative"
+        }
+        Node::Text(text) if has_unit(text) => "write the number without a unit; the key states it",
         Node::Text(text) if !text.is_ascii() => "use ASCII digits, a decimal point and an ASCII minus",
         Node::Text(text) if text.parse::<f64>().is_ok() => NOT_FINITE,
         Node::Number(_) => NOT_FINITE,
         _ => "",
     }
+}
+
+/// Returns `true` for an angle with a sign of degrees, in several numbers, or with the letter of a hemisphere.
+fn is_in_minutes(text: &str) -> bool {
+    let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.').filter(|part| !part.is_empty()).count();
+    numbers > 1 && !text.contains(',') || numbers > 0 && text.contains(|c| "°′″NSEW".contains(c))
+}
+
+/// Returns `true` for a number that is followed by a unit.
+pub(crate) fn has_unit(text: &str) -> bool {
+    if text.parse::<f64>().is_ok() {
+        return false;
+    }
+    let number = text.trim_start_matches(['+', '-']);
+    let rest = number.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
+    rest.len() < number.len() && rest.trim_start().starts_with(|c: char| c.is_alphabetic() || "°%″′µ".contains(c))
 }
 
 /// Returns a text without the quotes around it, straight or typographic.

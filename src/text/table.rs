@@ -90,7 +90,7 @@ impl<'a> Table<'a> {
                 Ok(cells) => problems.push(wrong_number_of_cells((line, text), separator, cells.len(), header.width)),
                 Err(problem) => problems.push(problem),
             }
-            if problems.len() >= MOST_PROBLEMS {
+            if problems.len() >= MOST_COUNTED {
                 break;
             }
         }
@@ -106,6 +106,8 @@ impl<'a> Table<'a> {
         if problems.is_empty() {
             Ok(Self { name, bytes, columns, rows, left_out, semicolons })
         } else {
+            let mut problems = counted(problems);
+            problems.truncate(MOST_PROBLEMS);
             Err(Unreadable::of(name, problems))
         }
     }
@@ -148,7 +150,8 @@ impl<'a> Table<'a> {
         let cell = &row.cells[column];
         let index = cell.text.parse::<u32>().ok().filter(|&index| index > 0);
         if index.is_none() {
-            problems.push(self.problem(cell, column, described(&cell.text), "a whole number from 1", ""));
+            let advice = advice_for_index(&cell.text);
+            problems.push(self.problem(cell, column, described(&cell.text), "a whole number from 1", advice));
         }
         index
     }
@@ -171,22 +174,33 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Number of cells with the same advice from which only the first is shown.
+/// Number of cells or rows of one kind from which only the first is shown.
 const ALIKE: usize = 4;
 
+/// Number of wrong rows from which no more are counted.
+const MOST_COUNTED: usize = 1_000;
+
+/// Returns the kind of an error in a cell, or of a row with too few or too many; `None` for errors of which each is
+/// shown.
+fn kind(problem: &Problem) -> Option<(String, String)> {
+    let is_cell = !problem.field.is_empty() && (!problem.advice.is_empty() || problem.expected.contains("number"));
+    let is_row = problem.field.is_empty() && problem.found.ends_with(" values");
+    let counts = problem.location.is_some() && (is_cell || is_row);
+    counts.then(|| (problem.expected.clone(), problem.advice.clone()))
+}
+
 fn counted(problems: Vec<Problem>) -> Vec<Problem> {
-    // For each advice: the index of its first cell, the number of cells, and the line of the last one.
-    let mut alike: BTreeMap<String, (usize, usize, usize)> = BTreeMap::new();
-    let cell = |problem: &Problem| problem.location.filter(|_| !problem.field.is_empty() && !problem.advice.is_empty());
+    // For each kind: the index of its first error, the number of errors, and the line of the last one.
+    let mut alike: BTreeMap<(String, String), (usize, usize, usize)> = BTreeMap::new();
     for (place, problem) in problems.iter().enumerate() {
-        if let Some(location) = cell(problem) {
-            let (_, count, last) = alike.entry(problem.advice.clone()).or_insert((place, 0, 0));
+        if let Some(kind) = kind(problem) {
+            let (_, count, last) = alike.entry(kind).or_insert((place, 0, 0));
             *count += 1;
-            *last = location.line.max(*last);
+            *last = problem.location.map_or(0, |at| at.line).max(*last);
         }
     }
     let shown = problems.into_iter().enumerate().filter_map(|(place, mut problem)| {
-        let of_all = cell(&problem).and_then(|_| alike.get(&problem.advice)).filter(|(_, count, _)| *count >= ALIKE);
+        let of_all = kind(&problem).and_then(|kind| alike.get(&kind)).filter(|(_, count, _)| *count >= ALIKE);
         match of_all {
             Some((first, ..)) if *first != place => return None,
             Some((_, count, last)) => {
@@ -403,6 +417,16 @@ fn wrong_number_of_cells((line, text): (usize, &str), separator: char, found: us
 
 fn described(text: &str) -> String {
     if text.is_empty() { "nothing".to_owned() } else { format!("{text:?}") }
+}
+
+fn advice_for_index(text: &str) -> &'static str {
+    if unquoted(text) != text {
+        "write the number without quotes"
+    } else if text.parse::<f64>().is_ok_and(|value| value >= 1.0 && value.fract() == 0.0) {
+        "write it without a decimal point"
+    } else {
+        ""
+    }
 }
 
 fn advice_for_number(text: &str) -> &'static str {

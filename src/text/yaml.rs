@@ -51,6 +51,9 @@ fn unreadable_yaml(name: &str, text: &str, error: &serde_yaml::Error) -> Unreada
     if let Some(at) = location.filter(|at| is_indented_by_tab(text, *at)) {
         return Unreadable::whole(name, Some(at), "a tab before the first word", "spaces", "replace the tab by spaces");
     }
+    if let Some(at) = location.filter(|at| is_tab(text, *at)) {
+        return Unreadable::whole(name, Some(at), "a tab before a value", "spaces", "replace the tab by spaces");
+    }
     // The parser could read these constructs, but they are refused; the message describes what is in the file.
     let (found, advice) = match words.as_str() {
         deep if deep.ends_with("recursion limit exceeded") => {
@@ -73,6 +76,12 @@ fn unreadable_yaml(name: &str, text: &str, error: &serde_yaml::Error) -> Unreada
 fn is_indented_by_tab(text: &str, at: Location) -> bool {
     let line = at.line.checked_sub(1).and_then(|index| text.lines().nth(index));
     line.is_some_and(|line| line.trim_start_matches(' ').starts_with('\t'))
+}
+
+/// Returns `true` if the character at `at` is a tab.
+fn is_tab(text: &str, at: Location) -> bool {
+    let line = at.line.checked_sub(1).and_then(|index| text.lines().nth(index));
+    line.and_then(|line| line.chars().nth(at.column.checked_sub(1)?)) == Some('\t')
 }
 
 /// Finds the line and column of an error by reading the text again up to it.

@@ -152,6 +152,23 @@ fn decrypted(file: &PrivateKey, passphrase: Option<&str>) -> Result<PrivateKey, 
     }
 }
 
+impl PublicKey {
+    /// Reads the public half of a key from the text of its file, private or public. It is not encrypted in either.
+    ///
+    /// # Errors
+    /// Returns the errors of [`PublicKey::from_openssh`], and [`KeyError::NotAPrivateKey`] or
+    /// [`KeyError::DamagedPrivateKey`] for a private key file in another format, or a damaged one.
+    pub(crate) fn of_key_file(text: &str) -> Result<Self, KeyError> {
+        let text = text.trim_start_matches('\u{feff}').trim();
+        if !text.contains("PRIVATE KEY-----") {
+            return Self::from_openssh(text);
+        }
+        check_kind(text)?;
+        let file = PrivateKey::from_openssh(text).map_err(damaged)?;
+        Self::from_data(file.public_key().key_data().clone())
+    }
+}
+
 /// Refuses a file that is not an OpenSSH private key, and reports its actual format.
 fn check_kind(pem: &str) -> Result<(), KeyError> {
     const NEW_KEY: &str = "create a key with `keygen`";

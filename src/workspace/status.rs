@@ -1,6 +1,6 @@
 //! What a workspace holds: stands, sites, passports in force, passports that expire soon, alarms, keys.
 
-use super::Workspace;
+use super::{WORKSPACE_FILE, Workspace};
 use crate::batch::paths::{is_stand, is_yaml};
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
@@ -8,15 +8,17 @@ use crate::folder::search;
 use crate::passport::{NAMESPACE, Trust};
 use crate::register::{Asked, Line, Register, State};
 use crate::report::style;
+use crate::signing::{self, KeyFileError};
 use crate::site::Site;
 use crate::stand::Stand;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, shown};
 use crate::trust::PublicKey;
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// Number of days before the expiry date from which a passport or certificate is listed as expiring.
@@ -184,18 +186,20 @@ fn keys(trust: &Trust, time: Timestamp) -> Vec<KeyLine> {
     trust.signers.keys().map(line).collect()
 }
 
+/// Returns the public half of the signing key. It is in both files of a key, and never encrypted.
+fn public_half(key: &Path) -> Result<PublicKey, String> {
+    signing::public_half(key).map_err(|error| match &error {
+        KeyFileError::File(FileError::Read { error: reason, .. }) if reason.kind() == ErrorKind::NotFound => format!(
+            "{}: missing; create the key with `keygen`, or state the path of yours as `key` in {WORKSPACE_FILE}",
+            shown(key)
+        ),
+        _ => error.to_string(),
+    })
+}
+
 /// Describes the signing key by its public half, because the private one is secret.
 fn signing_key(key: &Path, workspace: &Workspace, trust: Option<&Trust>, time: Timestamp) -> SigningKeyLine {
-    let mut public = key.as_os_str().to_owned();
-    if key.extension().is_none_or(|extension| extension != "pub") {
-        public.push(".pub");
-    }
-    let read = files::read(Path::new(&public), LARGEST_DOCUMENT_BYTES).map_err(|error| error.to_string());
-    let found = read.and_then(|bytes| {
-        let text = String::from_utf8_lossy(&bytes);
-        let name = Printable(name_of(Path::new(&public)));
-        PublicKey::from_openssh(text.trim_end()).map_err(|error| format!("{name}: {error}"))
-    });
+    let found = public_half(key);
     let (fingerprint, mut why) = match &found {
         Ok(key) => (Some(key.fingerprint()), None),
         Err(why) => (None, Some(why.clone())),
