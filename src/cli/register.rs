@@ -8,9 +8,10 @@ use crate::parallel;
 use crate::passport::{Question, Trust};
 use crate::register::{Asked, Line, Register, State};
 use crate::report::register as report;
-use crate::text::shown;
+use crate::text::{Printable, shown};
 use clap::{Args, ValueEnum};
 use jiff::civil::Date;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// List every passport under a folder: in force, superseded, moved, expired, revoked, broken
@@ -64,6 +65,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         (_, true) => REFUSED,
         _ => 0,
     };
+    if let Some(words) = options.no_such_site(&register) {
+        output::say(&words);
+    }
     // The filters select rows; alarms concern all passports.
     register.passports.retain(|line| options.selects(line));
     match options.by {
@@ -90,6 +94,19 @@ pub(super) fn refuse_file(folder: &Path) -> Result<(), Failure> {
 }
 
 impl Options {
+    /// Returns a remark if no passport is of the site asked for, which may be mistyped.
+    fn no_such_site(&self, register: &Register) -> Option<String> {
+        let site = self.site.as_deref()?;
+        let there: BTreeSet<&str> = register.passports.iter().filter_map(|line| line.site.as_deref()).collect();
+        if there.contains(site) {
+            return None;
+        }
+        let distance = |other: &&str| strsim::damerau_levenshtein(other, site);
+        let nearest = there.into_iter().min_by_key(distance).filter(|other| distance(other) <= site.len() / 3 + 1);
+        let nearest = nearest.map_or_else(String::new, |nearest| format!("; did you mean {}?", Printable(nearest)));
+        Some(format!("no passport of site {}{nearest}", Printable(site)))
+    }
+
     fn selects(&self, line: &Line) -> bool {
         let in_force = matches!(line.state, State::InForce | State::Expiring);
         let before = |date: Date| in_force && line.valid_until.is_some_and(|until| until < date);

@@ -278,7 +278,7 @@ fn is_in_minutes(text: &str) -> bool {
 }
 
 /// Returns `true` for a number that is followed by a unit.
-pub(crate) fn has_unit(text: &str) -> bool {
+fn has_unit(text: &str) -> bool {
     if text.parse::<f64>().is_ok() {
         return false;
     }
