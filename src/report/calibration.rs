@@ -78,7 +78,8 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
     methods(&mut out, calibration);
     residuals(&mut out, calibration);
     if let Some((name, verdict)) = context.verdict {
-        let _ = writeln!(out, "\nComparison with gyro type {name}, with expanded uncertainty U = {COVERAGE_FACTOR} u;");
+        let _ =
+            writeln!(out, "\nComparison with gyro type {name}, in the unit of the tolerance; U = {COVERAGE_FACTOR} u;");
         let _ = writeln!(out, "g-sensitive drifts refer to the g of the type, {} m/s²:", verdict.gravity_m_per_s2);
         verdict_table(&mut out, verdict, "minus nominal");
     }
@@ -175,7 +176,7 @@ fn word(decision: Decision) -> &'static str {
 }
 
 /// Returns the symbol of a parameter from its key, or the key itself if no parameter has it.
-fn symbol_of(key: &'static str) -> &'static str {
+pub(super) fn symbol_of(key: &'static str) -> &'static str {
     Parameter::NINE.into_iter().find(|parameter| parameter.key() == key).map_or(key, Parameter::symbol)
 }
 
@@ -437,15 +438,14 @@ fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
                 format!("{:.places$}", row.value),
                 columns::signed(row.deviation, digits),
                 format!("{:.digits$}", row.expanded_uncertainty),
-                format!("{}", row.tolerance),
-                printed(row.unit),
+                format!("{} {}", row.tolerance, printed(row.unit)),
                 word(row.simple).to_owned(),
                 columns::probability(row.specific_risk),
                 word(row.guarded).to_owned(),
             ]
         })
         .collect();
-    let names = ["", "result", deviation, "U", "tolerance", "unit", "simple", "risk", "guarded"];
+    let names = ["", "result", deviation, "U", "tolerance", "simple", "risk", "guarded"];
     columns::table(out, &names, &rows);
     let _ = writeln!(out, "  Overall, by guarded acceptance: {}", word(verdict.overall).to_uppercase());
     if verdict.overall == Decision::Undecided {

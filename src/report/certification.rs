@@ -124,7 +124,7 @@ pub(crate) fn certification(found: &Certification) -> String {
     for excluded in stand.certificate.evidence.iter().filter_map(|evidence| evidence.excluded.as_ref()).flatten() {
         columns::paragraph(&mut out, "", &format!("Excluded: {}: {}.", excluded.describe(), excluded.why));
     }
-    let names = ["i", "j", "alpha, arcsec", "u", "beta, arcsec", "u", "gamma, arcsec", "u", "deg. of freedom"];
+    let names = ["i", "j", "α, arcsec", "u", "β, arcsec", "u", "γ, arcsec", "u", "deg. of freedom"];
     let rows: Vec<Vec<String>> = stand
         .positions
         .iter()

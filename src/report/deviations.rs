@@ -20,7 +20,7 @@ pub(crate) fn picture(out: &mut String, positions: &[CertifiedPosition]) {
     if largest == 0.0 || side < LEAST_SIDE {
         return;
     }
-    let names = ["alpha", "beta", "gamma"].map(|name| format!("{name:^width$}", width = 2 * side + 1));
+    let names = ["α", "β", "γ"].map(|name| format!("{name:^width$}", width = 2 * side + 1));
     let _ = writeln!(out, "{}", style::faint(format!("  i  j  {}", names.join("  ")).trim_end()));
     for at in positions {
         let bars = angles(at).map(|angle| bar(angle / largest, side));

@@ -96,7 +96,7 @@ fn stand(out: &mut String, content: &Content) {
 
 fn positions(out: &mut String, content: &Content) {
     heading(out, "Positions: nominal angles in degrees; deviations and their standard uncertainties in arcseconds");
-    let mut names = vec!["i", "j", "theta", "phi", "alpha", "u", "beta", "u", "gamma", "u"];
+    let mut names = vec!["i", "j", "θ", "φ", "α", "u", "β", "u", "γ", "u"];
     let with_freedom = content.positions.iter().any(|at| at.degrees_of_freedom.is_some());
     if with_freedom {
         names.push("deg. of freedom");
@@ -131,6 +131,17 @@ fn with_u(u: Option<f64>) -> String {
     u.map_or_else(String::new, |u| format!(", u {u}"))
 }
 
+/// Returns a value to the digits of its standard uncertainty, and the uncertainty; all digits if it is `None`.
+fn measured(value: f64, u: Option<f64>) -> String {
+    u.map_or_else(
+        || value.to_string(),
+        |u| {
+            let digits = columns::decimals(u);
+            format!("{value:.digits$}, u {u:.digits$}")
+        },
+    )
+}
+
 fn site(out: &mut String, content: &Content) {
     let (site, earth) = (&content.site, &content.earth);
     heading(out, "Site");
@@ -142,7 +153,7 @@ fn site(out: &mut String, content: &Content) {
     option(out, "height, m", site.height_m);
     if let Some(deflection) = &site.deflection_arcsec {
         let (xi, eta) = (deflection.xi, deflection.eta);
-        line(out, "deflection, arcsec", format!("xi {xi}, eta {eta}{}", with_u(deflection.u)));
+        line(out, "deflection, arcsec", format!("ξ {xi}, η {eta}{}", with_u(deflection.u)));
     }
     let gravity = site.gravity_m_per_s2.map(|gravity| format!("{gravity}{}", with_u(site.gravity_u_m_per_s2)));
     option(out, "measured gravity, m/s²", gravity);
@@ -162,9 +173,9 @@ fn site(out: &mut String, content: &Content) {
     option(out, "source", site.source.as_ref());
     heading(out, "Earth at the site");
     line(out, "astronomic latitude, deg", earth.latitude_deg);
-    line(out, "horizontal rate, °/h", earth.horizontal_deg_per_h);
-    line(out, "vertical rate, °/h", earth.vertical_deg_per_h);
-    line(out, "gravity, m/s²", earth.gravity_m_per_s2);
+    line(out, "horizontal rate, °/h", format!("{:.9}", earth.horizontal_deg_per_h));
+    line(out, "vertical rate, °/h", format!("{:.9}", earth.vertical_deg_per_h));
+    line(out, "gravity, m/s²", measured(earth.gravity_m_per_s2, site.gravity_u_m_per_s2()));
     let radius = format!("{:.0} (Earth rate within {} °/h)", earth.valid_radius_m, earth.valid_within_deg_per_h);
     line(out, "validity radius, m", radius);
     option(out, "azimuth of mark, deg", earth.azimuth_deg);
@@ -183,14 +194,14 @@ fn matrices(out: &mut String, content: &Content) {
         row
     };
     let rows = [
-        row("Delta", "1", &m.delta),
+        row("Δ", "1", &m.delta),
         row("B", "°/h", &m.b_deg_per_h),
         row("C", "°/(h·g)", &m.c_deg_per_h_per_g),
         row("n_1", "1", &m.n1),
         row("n_2", "1", &m.n2),
-        row("n_2^-1", "1", &m.n2_inverse),
-        row("omega_31", "°/h", &m.omega1_deg_per_h),
-        row("omega_32", "°/h", &m.omega2_deg_per_h),
+        row("n_2⁻¹", "1", &m.n2_inverse),
+        row("ω_31", "°/h", &m.omega1_deg_per_h),
+        row("ω_32", "°/h", &m.omega2_deg_per_h),
     ];
     columns::table(out, &["", "unit", "11", "12", "21", "22"], &rows);
 }
@@ -204,7 +215,7 @@ fn vectors(out: &mut String, content: &Content) {
         row.extend([nx, ny, at.specific_force_z_g, wx, wy].map(|value| format!("{value:.9}")));
         row
     });
-    columns::table(out, &["i", "j", "n_x", "n_y", "n_z", "omega_x", "omega_y"], &rows.collect::<Vec<_>>());
+    columns::table(out, &["i", "j", "n_x", "n_y", "n_z", "ω_x", "ω_y"], &rows.collect::<Vec<_>>());
 }
 
 fn accuracy(out: &mut String, content: &Content) {
@@ -237,10 +248,10 @@ fn accuracy(out: &mut String, content: &Content) {
     let tolerance = &gyro.tolerance;
     let [x, y] = u.omega0_deg_per_h;
     let drifts = [
-        ("omega_0x", x, "°/h", tolerance.omega0_deg_per_h),
-        ("omega_0y", y, "°/h", tolerance.omega0_deg_per_h),
-        ("omega_g", u.omega_g_deg_per_h_per_g, "°/(h·g)", tolerance.omega_g_deg_per_h_per_g),
-        ("omega_k", u.omega_k_deg_per_h_per_g, "°/(h·g)", tolerance.omega_k_deg_per_h_per_g),
+        ("ω_0x", x, "°/h", tolerance.omega0_deg_per_h),
+        ("ω_0y", y, "°/h", tolerance.omega0_deg_per_h),
+        ("ω_g", u.omega_g_deg_per_h_per_g, "°/(h·g)", tolerance.omega_g_deg_per_h_per_g),
+        ("ω_k", u.omega_k_deg_per_h_per_g, "°/(h·g)", tolerance.omega_k_deg_per_h_per_g),
     ];
     let drifts = drifts.map(|(name, u, unit, limit)| {
         vec![name.to_owned(), format!("{u:.6} {unit}"), String::new(), format!("{limit} {unit}")]
@@ -260,7 +271,7 @@ fn self_check(out: &mut String, content: &Content) {
     let [[kx, kxy], [kyx, ky]] = check.k_deg_per_h_per_ma;
     line(out, "K, °/(h·mA)", format!("[[{kx}, {kxy}], [{kyx}, {ky}]]"));
     let [x, y] = check.omega0_deg_per_h;
-    line(out, "omega_0, °/h", format!("[{x}, {y}]"));
-    line(out, "omega_g, °/(h·g)", check.omega_g_deg_per_h_per_g);
-    line(out, "omega_k, °/(h·g)", check.omega_k_deg_per_h_per_g);
+    line(out, "ω_0, °/h", format!("[{x}, {y}]"));
+    line(out, "ω_g, °/(h·g)", check.omega_g_deg_per_h_per_g);
+    line(out, "ω_k, °/(h·g)", check.omega_k_deg_per_h_per_g);
 }

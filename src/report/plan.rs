@@ -60,7 +60,7 @@ fn of_criterion(criterion: Criterion) -> &'static str {
 
 fn positions(out: &mut String, plan: &Plan) {
     let certified = plan.readings.iter().any(|at| at.index.is_some());
-    let mut names = vec!["theta, deg", "phi, deg", "visits"];
+    let mut names = vec!["θ, deg", "φ, deg", "visits"];
     if certified {
         names.splice(0..0, ["i", "j"]);
     }
@@ -80,7 +80,7 @@ fn positions(out: &mut String, plan: &Plan) {
         }
     };
     let order: Vec<String> = plan.order.places.iter().map(visit).collect();
-    let names = if certified { "(i,j)" } else { "(theta,phi)" };
+    let names = if certified { "(i,j)" } else { "(θ,φ)" };
     out.push('\n');
     columns::paragraph(out, "", &format!("Order of the visits {names}: {}", order.join(", ")));
     out.push('\n');

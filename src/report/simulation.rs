@@ -1,5 +1,6 @@
 //! Tables of simulations, with the paper's figures next to ours.
 
+use super::calibration::symbol_of;
 use crate::simulation::accuracy::Accuracy;
 use crate::simulation::convergence::Convergence;
 use crate::units::printed;
@@ -24,7 +25,7 @@ pub(crate) fn accuracy(found: &Accuracy) -> String {
             out,
             "  {:<13}  {:<9}  {:>10.5}  {:>10.6}  {paper:>9}  {}",
             row.method,
-            row.parameter,
+            symbol_of(row.parameter),
             row.worst,
             row.standard_deviation,
             printed(row.unit)
