@@ -214,4 +214,21 @@ mod tests {
             assert!(help.contains("Examples:\n") && help.contains(EXIT_CODES), "{help}");
         }
     }
+
+    /// Returns the words of a verb's help, and of the verbs below it, each with its name.
+    fn all_help(verb: &Command, all: &mut Vec<(String, String)>) {
+        all.push((format!("help::{}", verb.get_name()), verb.clone().render_long_help().to_string()));
+        verb.get_subcommands().for_each(|verb| all_help(verb, all));
+    }
+
+    #[test]
+    fn help_has_the_terms_of_the_glossary() {
+        let mut all = Vec::new();
+        command().get_subcommands().for_each(|verb| all_help(verb, &mut all));
+        assert!(all.len() > 20, "{}", all.len());
+        let wrong = |(name, help): &(String, String)| {
+            help.lines().flat_map(|line| crate::inside::texts::wrong("en", name, line)).collect::<Vec<_>>()
+        };
+        assert_eq!(all.iter().flat_map(wrong).collect::<Vec<_>>(), Vec::<String>::new());
+    }
 }

@@ -27,7 +27,7 @@ pub(super) struct Options {
     /// Laboratory (dtg-laboratory/1) [default: the paper's meter, 0.015 %]
     #[arg(long, value_name = "FILE")]
     laboratory: Option<PathBuf>,
-    /// Number of readings, each after a return to its position
+    /// Number of readings, each of one visit to its position
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = readings())]
     readings: u32,
     /// Nominal angles to choose from: quadrants, or a step in degrees for theta and phi

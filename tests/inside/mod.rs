@@ -62,7 +62,7 @@ mod stated_uncertainty;
 mod suspects;
 mod text_rule;
 #[cfg(feature = "report")]
-mod texts;
+pub(crate) mod texts;
 #[cfg(all(feature = "factory", feature = "report"))]
 mod type_b;
 #[cfg(feature = "factory")]
