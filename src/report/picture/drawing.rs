@@ -125,7 +125,7 @@ pub(crate) fn legend_with<'a>(entries: impl Iterator<Item = (&'a Markup, Markup)
         ul.legend {
             @for (sample, words) in entries {
                 li {
-                    svg.sample viewBox="0 0 28 14" aria-hidden="true" { (sample) }
+                    @if !sample.0.is_empty() { svg.sample viewBox="0 0 28 14" aria-hidden="true" { (sample) } }
                     span { (words) }
                 }
             }
@@ -198,7 +198,12 @@ pub(crate) fn words(at: Point, anchor: Anchor, class: &str, words: &str) -> Mark
 
 /// Draws a number of a document; programs can find it by its value.
 pub(crate) fn number(at: Point, anchor: Anchor, value: f64, printed: &str) -> Markup {
-    label(at, anchor, "", &html! { tspan data-value=(crate::text::number::decimal(value)) { (printed) } })
+    number_of("", at, anchor, value, printed)
+}
+
+/// Writes a number as `number` does, in a class of letters.
+pub(crate) fn number_of(class: &str, at: Point, anchor: Anchor, value: f64, printed: &str) -> Markup {
+    label(at, anchor, class, &html! { tspan data-value=(crate::text::number::decimal(value)) { (printed) } })
 }
 
 /// Writes a symbol of the paper: the part after the underscore is a subscript.

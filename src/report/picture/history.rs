@@ -37,15 +37,17 @@ pub(crate) fn history(history: &History, now: Timestamp) -> String {
     let rows = history.places.len() as f64 + 1.0;
     let bottom = TOP + ROW * rows;
     let panels_top = bottom + 92.0;
+    // A single certificate shows no change.
+    let changes = history.drift.series.iter().any(|series| series.values.len() > 1);
     let positions = history.drift.series.len().div_ceil(LETTERS.len()) as f64;
-    let height = if positions > 0.0 { panels_top + PANEL_ROW * positions + 24.0 } else { bottom + 40.0 };
+    let height = if changes { panels_top + PANEL_ROW * positions + 24.0 } else { bottom + 40.0 };
     let title = format!("Stand {} over the years", history.stand);
     let languages = Languages::from(Language::English);
     let panel = Panel { name: "history", languages: &languages, size: [WIDTH, height] };
     let drawing = [
         words([20.0, 20.0], Anchor::Start, "title", &title),
         time_line(history, &time, bottom),
-        drift(&history.drift, panels_top),
+        if changes { drift(&history.drift, panels_top) } else { super::drawing::nothing() },
     ];
     file(&panel, &title, &in_words(history), &drawing)
 }
@@ -73,8 +75,27 @@ fn time_scale(history: &History, now: Timestamp) -> Scale {
     Scale { values: [low - margin, high + margin], places: ACROSS }
 }
 
+/// Months between two marks of the time line, the fewest first.
+const MONTHS: [i16; 8] = [1, 2, 3, 6, 12, 24, 60, 120];
+/// The most marks that have room.
+const MOST_MARKS: usize = 8;
+
+/// Returns the marks of the time line: decimal years of the beginnings of months or years, and their names.
+fn marks(time: &Scale) -> Vec<(f64, String)> {
+    let every = |months: i16| -> Vec<(f64, String)> {
+        let [first, last] = time.values.map(|year| (12.0 * year) as i16 / months);
+        let names = (first..=last).filter_map(|at| {
+            let (year, month) = (at * months / 12, at * months % 12 + 1);
+            let date = Date::new(year, i8::try_from(month).ok()?, 1).ok()?;
+            let name = if months < 12 { date.strftime("%Y-%m").to_string() } else { year.to_string() };
+            Some((year_of(date), name))
+        });
+        names.filter(|(year, _)| *year >= time.values[0] && *year <= time.values[1]).collect()
+    };
+    MONTHS.into_iter().map(every).find(|marks| marks.len() <= MOST_MARKS).unwrap_or_default()
+}
+
 fn time_line(history: &History, time: &Scale, bottom: f64) -> Markup {
-    let ticks = Ticks::along(time, Language::English);
     let (sure, unsure) = ("bar", "frame-line");
     let row = |place: usize| TOP + ROW * place as f64;
     html! {
@@ -83,10 +104,10 @@ fn time_line(history: &History, time: &Scale, bottom: f64) -> Markup {
             (rectangle([2.0, 2.5], [26.0, 11.5], unsure, None), "withdrawn later"),
             (super::drawing::mark([14.0, 7.0], 1, "mark"), "measured for a certificate"),
         ]))
-        @for value in &ticks.values {
-            @let x = time.place(*value);
+        @for (year, name) in marks(time) {
+            @let x = time.place(year);
             (line([x, TOP - 10.0], [x, bottom], "grid"))
-            (words([x, bottom + 14.0], Anchor::Middle, "small", &ticks.text(*value, Language::English)))
+            (words([x, bottom + 14.0], Anchor::Middle, "small", &name))
         }
         (words([ACROSS[0] - 8.0, row(0) + 4.0], Anchor::End, "small", "certificates"))
         @for at in &history.certificates {
@@ -218,4 +239,22 @@ fn in_words(history: &History) -> String {
     let all: Vec<String> =
         certificates.chain(passports).chain(drifts).chain([crate::report::history::sentence(&history.drift)]).collect();
     all.join("; ") + "."
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By hand: seven weeks have two beginnings of months, nine years five even ones.
+    #[test]
+    fn time_is_marked_by_months_or_years() {
+        let names = |values: [f64; 2]| -> Vec<String> {
+            marks(&Scale { values, places: ACROSS }).into_iter().map(|(_, name)| name).collect()
+        };
+        assert_eq!(names([2026.80, 2026.94]), ["2026-11", "2026-12"]);
+        assert_eq!(names([2017.5, 2026.9]), ["2018", "2020", "2022", "2024", "2026"]);
+        let (first, _) = marks(&Scale { values: [2023.9, 2024.3], places: ACROSS })[1].clone();
+        // 31 days of a leap year of 366.
+        assert!((first - (2024.0 + 31.0 / 366.0)).abs() < 1e-12, "{first}");
+    }
 }

@@ -1,7 +1,7 @@
 //! A plan next to the paper's eight positions as a picture file: the uncertainty of each parameter, and what errors
 //! cost that all positions share.
 
-use super::drawing::{Anchor, Panel, Point, Scale, label, number, plain_symbol, rectangle, symbol, words};
+use super::drawing::{Anchor, Panel, Point, Scale, label, number_of, plain_symbol, rectangle, symbol, words};
 use super::file::{caption, file};
 use crate::calibration::parameter::Parameter;
 use crate::plan::sensitivity::Effect;
@@ -15,7 +15,7 @@ const BARS: [Point; 2] = [[52.0, 262.0], [520.0, 730.0]];
 const WIDTH: f64 = 790.0;
 const TOP: f64 = 62.0;
 const ROW: f64 = 30.0;
-const BAR: f64 = 11.0;
+const BAR: f64 = 12.0;
 
 /// A row of a panel: its name, and the values of the plan and of the paper's eight, % of the tolerance.
 type Row = (Markup, f64, Option<f64>);
@@ -78,7 +78,7 @@ fn panel(rows: &[Row], [left, right]: Point) -> Markup {
         let width = scale.place(value) - left;
         html! {
             @if width >= 0.3 { (rectangle([left, top], [left + width, top + BAR - 1.0], class, None)) }
-            (number([left + width + 5.0, top + BAR - 2.0], Anchor::Start, value, &percent(value)))
+            (number_of("small", [left + width + 5.0, top + BAR - 2.0], Anchor::Start, value, &percent(value)))
         }
     };
     html! {

@@ -180,8 +180,8 @@ fn position(languages: &Languages, at: &CertifiedPosition, base_axes: &Matrix3<f
 fn heading(at: &CertifiedPosition, languages: &Languages) -> Markup {
     let degrees = |value: f64| format!("{}°", Number::exact(value).text(languages.first()));
     html! {
-        (words([4.0, 16.0], Anchor::Start, "title", &at.index().to_string()))
-        (label([206.0, 16.0], Anchor::End, "", &html! {
+        (label([4.0, 16.0], Anchor::Start, "", &html! {
+            tspan.title { (at.index().to_string()) } "\u{2002}"
             tspan.letter { "θ" } " " (degrees(at.theta_deg)) "\u{2002}" tspan.letter { "φ" } " " (degrees(at.phi_deg))
         }))
     }

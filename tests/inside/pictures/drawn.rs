@@ -55,8 +55,8 @@ fn positions_are_named_as_in_the_file() {
         let page = Document::parse(&text).unwrap();
         for (at, panel) in content.positions.iter().zip(svgs(&page)) {
             let said: Vec<String> = panel.descendants().filter(|node| node.has_tag_name("text")).map(words).collect();
-            let angles = format!("θ {}°\u{2002}φ {}°", at.theta_deg, at.phi_deg);
-            assert_eq!(said, [&format!("({}, {})", at.i, at.j), &angles, "x", "y", "z"]);
+            let (i, j, theta, phi) = (at.i, at.j, at.theta_deg, at.phi_deg);
+            assert_eq!(said, [&format!("({i}, {j})\u{2002}θ {theta}°\u{2002}φ {phi}°"), "x", "y", "z"]);
         }
     }
 }
