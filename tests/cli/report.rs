@@ -53,15 +53,23 @@ fn numbers(value: &Value, found: &mut Vec<f64>) {
     }
 }
 
-/// The numbers that a page marks: value and digits, those of pictures too.
-fn marked(page: &str) -> Vec<(f64, String)> {
+/// The numbers that a page marks: value, digits, and whether they stand in a sentence of the language `second`; those of
+/// pictures too.
+fn marked(page: &str, second: &str) -> Vec<(f64, String, bool)> {
     let between = |start: &'static str, end: &'static str| {
-        page.split(start).skip(1).map(move |rest| {
-            let (value, rest) = rest.split_once("\">").unwrap();
-            (value.parse().unwrap(), rest.split_once(end).unwrap().0.to_owned())
+        page.match_indices(start).map(move |(at, _)| {
+            let (value, rest) = page[at + start.len()..].split_once("\">").unwrap();
+            (value.parse().unwrap(), rest.split_once(end).unwrap().0.to_owned(), is_within(&page[..at], second))
         })
     };
     between("<data value=\"", "</data>").chain(between("data-value=\"", "</tspan>")).collect()
+}
+
+/// Whether what follows `before` stands in an element whose last attribute is the language `second`.
+fn is_within(before: &str, second: &str) -> bool {
+    let Some(opened) = before.rfind(&format!(" lang=\"{second}\">")) else { return false };
+    let name = before[before[..opened].rfind('<').unwrap() + 1..opened].split(' ').next().unwrap();
+    !before[opened..].contains(&format!("</{name}>"))
 }
 
 /// A printed number and half the unit of its last place, read by its digits.
@@ -86,7 +94,7 @@ fn read(printed: &str, comma: bool) -> (f64, f64) {
 fn every_number_is_the_results_own_rounded_once() {
     let folder = Folder::new();
     let more: &[&str] = &["--budget", "--monte-carlo", "--trials", "16384"];
-    for (lang, comma) in [("en", false), ("ru", true), ("ru,en", true)] {
+    for (lang, comma, second) in [("en", false, "-"), ("ru", true, "-"), ("ru,en", true, "en")] {
         let (page, result) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, GYRO, more, &["--lang", lang]]);
         let mut known = Vec::new();
         numbers(&result, &mut known);
@@ -96,11 +104,12 @@ fn every_number_is_the_results_own_rounded_once() {
         known.extend(u.iter().map(|u| 2.0 * u));
         // What the laboratory's file states of its meter.
         known.extend([0.0087, 0.0, 1.0, 1e-6]);
-        let marked = marked(&page);
+        let marked = marked(&page, second);
         assert!(marked.len() > 200, "{}", marked.len());
-        for (value, printed) in marked {
+        assert_eq!(marked.iter().any(|(.., in_second)| *in_second), second == "en");
+        for (value, printed, in_second) in marked {
             assert!(known.iter().any(|known| known.abs() == value.abs()), "{value} is not in the result");
-            let (number, half) = read(&printed, comma);
+            let (number, half) = read(&printed, comma != in_second);
             assert!((number - value).abs() <= half * (1.0 + 1e-9), "{printed} is not {value} rounded");
         }
     }
@@ -124,7 +133,9 @@ fn the_annex_is_the_result() {
     let (page, result) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, GYRO]);
     let annex = page.split_once("<pre").unwrap().1.split_once('>').unwrap().1.split_once("</pre>").unwrap().0;
     // Each line is an element of its own, so that it has a number.
-    let annex = annex.replace("<span class=\"l\">", "").replace("</span>", "");
+    let annex = ["l", "l w", "n"]
+        .iter()
+        .fold(annex.replace("</span>", ""), |annex, class| annex.replace(&format!("<span class=\"{class}\">"), ""));
     let annex = annex.replace("&quot;", "\"").replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
     assert_eq!(serde_json::from_str::<Value>(&annex).unwrap(), result);
     // A later calibration can be compared with it.

@@ -53,8 +53,12 @@ function said() {
     title: document.title,
     margins,
     lang: document.documentElement.lang,
-    // The page's first language writes the numbers.
-    numbers: all("data, [data-value]").map((data) => ({ value: data.value ?? data.dataset.value, text: text(data) })),
+    // The page's first language writes the numbers, that of a sentence those within it.
+    numbers: all("data, [data-value]").map((data) => ({
+      value: data.value ?? data.dataset.value,
+      text: text(data),
+      lang: (data.closest("p[lang], dd span[lang]") ?? document.documentElement).lang,
+    })),
     tables: all("table").map((table) => ({
       caption: table.caption ? table.caption.textContent : "",
       heads: [...[...table.tHead.rows].at(-1).cells].map(text),

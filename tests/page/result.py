@@ -165,9 +165,9 @@ class Report:
         self.hinted = [(number, Decimal("0.5").scaleb(place)) for number, place in hinted]
         self.wrong = []
 
-    def number(self, value, shown):
+    def number(self, value, shown, lang):
         """A number that is marked as such: known, rounded once, to its uncertainty's digits."""
-        digits, place = printed(shown, self.said["lang"] == "ru")
+        digits, place = printed(shown, lang == "ru")
         paths = self.known.get(float(value))
         if paths is None and any(math.isclose(float(value), other, rel_tol=1e-14) for other in self.converted):
             paths = [()]
@@ -280,7 +280,21 @@ class Report:
                     known = [one["contribution"] for one in line["contributions"]] + [line.get("effective_degrees_of_freedom")]
                     if float(cell["values"][0]) not in known:
                         self.wrong.append(f"{row[0]['text']}, {symbol}: {cell['text']} is no contribution to it")
+                    if not printed(cell["text"], self.said["lang"] == "ru")[0]:
+                        self.wrong.append(f"{row[0]['text']}, {symbol}: {cell['text']} is rounding noise")
+        if part == "budget":
+            self.left_out(heads, table, lines)
         return part
+
+    def left_out(self, heads, table, lines):
+        """A dash is a contribution that rounds to zero; one below a thousandth of every variance has no row."""
+        for column, symbol in enumerate(heads[1:], 1):
+            shown = {float(value) for row in table["rows"] for value in row[column]["values"]}
+            u = lines[symbol]["standard_uncertainty"]
+            for part in lines[symbol]["contributions"]:
+                due = part["share"] >= 1e-3 and rounded(part["contribution"], place_of(u))
+                if due and part["contribution"] not in shown:
+                    self.wrong.append(f"{symbol}: the contribution {part} is not on the page")
 
     def residuals(self, table):
         answers = [result for result in self.result["results"] if result["method"] == "least-squares"]
@@ -366,7 +380,7 @@ def main():
     if len(said["numbers"]) < 60:
         report.wrong.append(f"only {len(said['numbers'])} numbers on the page")
     for number in said["numbers"]:
-        report.number(number["value"], number["text"])
+        report.number(number["value"], number["text"], number["lang"])
     for day in said["days"]:
         report.day(day["value"][:10])
         report.day(DAY.findall(day["text"])[0])

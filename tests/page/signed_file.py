@@ -67,7 +67,7 @@ def main():
         wrong.append(f"only {len(said['numbers'])} numbers on the page")
     for number in said["numbers"]:
         value, shown = number["value"], number["text"]
-        digits, place = printed(shown, said["lang"] == "ru")
+        digits, place = printed(shown, number["lang"] == "ru")
         if Decimal(value) in in_comments or digits in in_comments:
             continue
         if float(value) not in floats:

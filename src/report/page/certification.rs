@@ -131,8 +131,11 @@ fn signatures(languages: &Languages) -> Markup {
         }
     };
     let body = html! {
-        div.pair { (signature(texts::MEASURED_BY)) (signature(texts::CHECKED_BY)) }
-        div.pair { (signature(texts::AUTHORISED_BY)) }
+        div.pair {
+            (signature(texts::MEASURED_BY))
+            (signature(texts::CHECKED_BY))
+            (signature(texts::AUTHORISED_BY))
+        }
         div.statement { (languages.paragraph(calibration_texts::VALID_WHEN_SIGNED)) }
     };
     part(languages, "signatures", "", texts::SIGNATURES, &body)

@@ -1,5 +1,6 @@
 //! Languages of a page, and texts in each of them.
 
+use super::number::Number;
 use super::spacing::spaced;
 use maud::{Markup, html};
 
@@ -53,6 +54,13 @@ impl Text {
             Piece::Name(name) => values.iter().find(|(key, _)| *key == name).map_or("", |(_, value)| value),
         };
         pieces(&self.words(language)).into_iter().map(piece).collect()
+    }
+
+    /// Returns the text in `language` with every `{name}` replaced by a number, with the marks of that language.
+    pub(crate) fn with_numbers(&self, language: Language, numbers: &[(&str, Number)]) -> Markup {
+        let alone = Languages::from(language);
+        let values: Vec<_> = numbers.iter().map(|(name, number)| (*name, number.markup(&alone))).collect();
+        self.marked_up(language, &values)
     }
 
     /// Returns the text in `language` with every `{name}` replaced by an element of the page.

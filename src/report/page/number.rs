@@ -119,6 +119,11 @@ impl Number {
         Self::new(value, without_minus_zero(digits))
     }
 
+    /// Returns `true` if all printed digits are zeros.
+    pub(crate) fn is_printed_as_zero(&self) -> bool {
+        self.digits.chars().all(|c| matches!(c, '0' | '.'))
+    }
+
     /// Returns the digits with the marks of `language`.
     pub(crate) fn text(&self, language: Language) -> String {
         format!("{}{}", self.before, localised(&self.digits, language))
@@ -318,6 +323,13 @@ mod tests {
             assert_eq!(english(&Number::angle(arcsec, u)), printed, "{arcsec} with {u}");
         }
         assert_eq!(Number::angle(-2412.34, 1.2).text(Language::Russian), "\u{2212}40′12,3");
+    }
+
+    #[test]
+    fn what_rounds_to_zero_is_printed_as_zero() {
+        for (value, zero) in [(4.9e-4, true), (-4.9e-4, true), (0.0, true), (5.1e-4, false), (-1.0, false)] {
+            assert_eq!(Number::to_place(value, -3).is_printed_as_zero(), zero, "{value}");
+        }
     }
 
     /// 0.15 is 0.1499999999999999944…: rounded from its decimal 0.15 it would be 0.2.

@@ -141,7 +141,19 @@ pub(crate) fn figure(languages: &Languages, id: &str, drawing: &Markup, caption:
 pub(crate) fn verbatim(lang: &str, text: &str) -> Markup {
     html! {
         pre lang=(lang) translate="no" tabindex="0" aria-labelledby="annex-heading" {
-            @for line in text.split_inclusive('\n') { span.l { (line) } }
+            @for line in text.split_inclusive('\n') {
+                // One word alone, such as a line of a signature, is broken anywhere.
+                span.l.w[!line.trim().contains(' ')] { (unbroken_powers(line)) }
+            }
+        }
+    }
+}
+
+/// Writes a line so that it is not broken at the minus of a power of ten, where browsers see a hyphen.
+fn unbroken_powers(line: &str) -> Markup {
+    html! {
+        @for word in line.split_inclusive(' ') {
+            @if word.contains("e-") { span.n { (word.trim_end()) } (&word[word.trim_end().len()..]) } @else { (word) }
         }
     }
 }

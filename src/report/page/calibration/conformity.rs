@@ -36,7 +36,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
 
 fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, languages: &Languages) -> Markup {
     html! {
-        p { (languages.inline_with(|language| texts::CONFORMITY.filled(language, &[("type", &gyro.r#type)]))) }
+        h3 { (languages.label_with(|language| texts::CONFORMITY.filled(language, &[("type", &gyro.r#type)]))) }
         (table(languages, verdict, texts::VERDICT_CAPTION, [texts::NOMINAL, texts::DEVIATION]))
         (key(languages))
         (languages.paragraph(texts::RISK_NOTE))
@@ -164,16 +164,16 @@ fn from_gravity(page: &CalibrationPage, verdict: &Verdict, languages: &Languages
         return html! {};
     }
     let u = Number::uncertainty(page.result().gravity_u_m_per_s2.unwrap_or(0.0));
-    let u = quantity(languages, &u, units::M_PER_S2);
     let part = |row: &ParameterVerdict, language: Language| {
         let gravity = Number::uncertainty(row.expanded_uncertainty_from_gravity.unwrap_or(0.0));
-        let gravity = quantity(languages, &gravity, unit_of(row));
+        let gravity = quantity(&language.into(), &gravity, unit_of(row));
         texts::FROM_GRAVITY_PART.marked_up(language, &[("gravity", gravity), ("parameter", parameter(row))])
     };
     languages.paragraph_with(|language| {
         let parts =
             html! { @for (place, row) in rows.iter().enumerate() { @if place > 0 { ", " } (part(row, language)) } };
-        texts::FROM_GRAVITY.marked_up(language, &[("parts", parts), ("u", u.clone())])
+        let u = quantity(&language.into(), &u, units::M_PER_S2);
+        texts::FROM_GRAVITY.marked_up(language, &[("parts", parts), ("u", u)])
     })
 }
 
@@ -188,10 +188,10 @@ fn mark_of(languages: &Languages, found: Decision) -> Markup {
     html! { span class=(class) { (mark) span.unseen { " " (languages.spoken(decision(found))) } } }
 }
 
-/// Writes a decision with its mark.
+/// Writes a decision with its mark, in the first language only: the key below the table has the mark in all of them.
 fn decided(languages: &Languages, found: Decision) -> Markup {
     let (class, mark) = mark(found);
-    html! { span class=(class) { (mark) " " (languages.label(decision(found))) } }
+    html! { span class=(class) { (mark) " " (languages.spoken(decision(found))) } }
 }
 
 fn mark(found: Decision) -> (&'static str, &'static str) {

@@ -59,13 +59,22 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
     let values = numbers(&Number::measured);
     let us = numbers(&|_, u| Number::measured(COVERAGE_FACTOR * u, u));
     let mut cells = Vec::with_capacity(each.len());
-    for ((parameter, number, past, ..), (value, u)) in each.iter().zip(values.into_iter().zip(us)) {
+    let starts: Vec<usize> = (1..each.len()).filter(|place| each[*place].0 != each[*place - 1].0).collect();
+    for (place, ((parameter, number, past, ..), (value, u))) in each.iter().zip(values.into_iter().zip(us)).enumerate()
+    {
+        // The name is shown once for its calibrations; screen readers say it in each row.
+        let name = html! { (name_of(parameter.symbol())) ", " (languages.spoken(unit(*parameter))) };
+        let first = place == 0 || starts.contains(&place);
         let row = past
             .verdict
             .as_ref()
             .and_then(|found| found.parameters.iter().find(|row| row.parameter == parameter.key()));
         cells.push(vec![
-            html! { (name_of(parameter.symbol())) ", " (languages.spoken(unit(*parameter))) },
+            if first {
+                name
+            } else {
+                html! { span.unseen { (name) } }
+            },
             past.date.map_or_else(|| html! { (number) }, |day| date(languages, day)),
             value.unwrap_or_default(),
             u.unwrap_or_default(),
@@ -82,15 +91,14 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
             html! {}
         }
     });
-    let starts = (1..each.len()).filter(|place| each[*place].0 != each[*place - 1].0);
     let table = Table {
         caption: Some(languages.label(texts::HISTORY_CAPTION)),
         headings: headings.iter().take(columns).map(|text| languages.label(*text)).collect(),
-        starts: starts.collect(),
+        starts,
         foot: if page.gyro.is_some() { foot.collect() } else { Vec::new() },
         rows: cells,
         row_headings: 2,
-        class: "numbers result",
+        class: "numbers result past",
         ..Table::default()
     };
     table.markup(languages.spoken(texts::HISTORY_CAPTION))

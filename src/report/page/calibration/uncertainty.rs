@@ -21,9 +21,6 @@ use maud::{Markup, html};
 /// Effective degrees of freedom above which ∞ is printed.
 const MANY: f64 = 1e4;
 
-/// Largest share of a variance that is attributed to rounding and not printed.
-const LEAST_SHARE: f64 = 1e-20;
-
 /// Least share of a variance with which a kind of input has a part of the strips, and a row of the table.
 const LEAST_NAMED: f64 = 0.02;
 const LEAST_SHOWN: f64 = 1e-3;
@@ -130,8 +127,8 @@ fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
             let contribution = |line: &ParameterBudget| {
                 let part = line.contributions.iter().find(|part| part.cause.kind() == kind.cause.kind());
                 let place = Number::place_of(line.standard_uncertainty);
-                part.filter(|part| part.share > LEAST_SHARE)
-                    .map_or_else(Cell::none, |part| Cell::Number(Number::to_place(part.contribution, place)))
+                let number = part.map(|part| Number::to_place(part.contribution, place));
+                number.filter(|number| !number.is_printed_as_zero()).map_or_else(Cell::none, Cell::Number)
             };
             (input(kind, languages), each(&contribution))
         })
@@ -156,6 +153,7 @@ fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
     let caption = Some(languages.label(texts::BUDGET_CAPTION));
     html! {
         (parameters(languages, caption, rows).markup(languages.spoken(texts::BUDGET_CAPTION)))
+        (languages.paragraph(texts::BUDGET_DASH))
         @if !small.is_empty() {
             (languages.paragraph_with(|language| {
                 let names: Vec<String> = small.iter().map(|kind| cause(kind.cause, language)).collect();

@@ -100,7 +100,7 @@ fn table(changes: &[NumberDifference], languages: &Languages) -> Markup {
         languages.label(texts::NEW),
         languages.label(texts::DIFFERENCE),
         symbol("u", ""),
-        html! { (languages.label(texts::DIFFERENCE)) "/" i { "u" } },
+        languages.label(texts::DIFFERENCE_IN_U),
         html! {},
     ];
     let mut foot = vec![html! {}; headings.len()];

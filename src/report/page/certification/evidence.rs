@@ -90,7 +90,7 @@ fn components(page: &CertificationPage, languages: &Languages) -> Markup {
         arcsec(symbol("s", "")),
         symbol("ν", ""),
         arcsec(html! { i { "s" } "/√" i { "R" } }),
-        arcsec(languages.label(texts::UPPER)),
+        languages.label(texts::UPPER),
     ];
     let names = found.iter().map(|(name, ..)| vec![languages.label(*name)]).collect();
     numbers(languages, headings, names, &columns, texts::COMPONENTS)

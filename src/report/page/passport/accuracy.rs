@@ -67,14 +67,14 @@ pub(crate) fn meter(laboratory: &StatedLaboratory, languages: &Languages) -> Mar
         ("floor", meter.floor_ma),
         ("range", meter.range_ma),
     ];
-    let values = values.map(|(name, value)| (name, Number::exact(value).markup(languages)));
-    let noise = meter.noise_ma.map(|noise| [("noise", Number::exact(noise).markup(languages))]);
+    let values = values.map(|(name, value)| (name, Number::exact(value)));
+    let noise = meter.noise_ma.map(|noise| [("noise", Number::exact(noise))]);
     html! {
         @for (index, language) in languages.iter().enumerate() {
             @if index > 0 { br; }
             span lang=(language.tag()) {
-                (texts::METER_WORDS.marked_up(language, &values))
-                @if let Some(noise) = &noise { (texts::METER_NOISE.marked_up(language, noise)) }
+                (texts::METER_WORDS.with_numbers(language, &values))
+                @if let Some(noise) = &noise { (texts::METER_NOISE.with_numbers(language, noise)) }
             }
         }
     }
@@ -114,8 +114,8 @@ fn not_stated(page: &PassportPage, languages: &Languages) -> Markup {
 }
 
 fn sentence(absence: Absence, languages: &Languages) -> Markup {
-    let number = |name, number: Number| vec![(name, number.markup(languages))];
-    let (text, values): (Text, Vec<(&str, Markup)>) = match absence {
+    let number = |name, number: Number| vec![(name, number)];
+    let (text, values): (Text, Vec<(&str, Number)>) = match absence {
         Absence::Uncertainty => (absences::UNCERTAINTY, vec![]),
         Absence::Repeatability => (absences::REPEATABILITY, vec![]),
         Absence::CommonPart => (absences::COMMON_PART, vec![]),
@@ -137,5 +137,5 @@ fn sentence(absence: Absence, languages: &Languages) -> Markup {
         Absence::BaseUncertainty => (absences::BASE_UNCERTAINTY, vec![]),
         Absence::AzimuthMark => (absences::AZIMUTH_MARK, vec![]),
     };
-    languages.paragraph_with(|language| text.marked_up(language, &values))
+    languages.paragraph_with(|language| text.with_numbers(language, &values))
 }

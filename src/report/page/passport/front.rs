@@ -65,7 +65,8 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
     };
     let word = html! {
         p { (given(&certificate.laboratory)) }
-        p { (languages.inline(texts::SIGNED_BY)) " " (given(&content.passport.issuer)) }
+        p { (languages.inline(texts::SIGNED_BY)) }
+        p { (given(&content.passport.issuer)) }
     };
     let radius = quantity(languages, &Number::fixed(content.earth.valid_radius_m, 0), units::METRES);
     band(

@@ -9,7 +9,7 @@ use crate::report::page::texts::record as texts;
 use maud::{Markup, html};
 
 pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
-    let form = |heading, headings: &[Text], rows| table(languages, heading, headings, rows);
+    let form = |heading, class, headings: &[Text], rows| table(languages, heading, class, headings, rows);
     let words = |heading_text, names: &[Text]| {
         html! {
             div.part.pen {
@@ -24,7 +24,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
         (words(texts::WARRANTY, &[
             texts::SERVICE_LIFE, texts::STORAGE_LIFE, texts::WARRANTY_PERIOD, texts::WARRANTY_TERMS,
         ]))
-        (form(texts::PRESERVATION, &[texts::DATE, texts::WORK, texts::PERIOD, texts::WHO], empty(1, 4)))
+        (form(texts::PRESERVATION, "form dated third", &[texts::DATE, texts::WORK, texts::PERIOD, texts::WHO], empty(1, 4)))
         div.pair {
             (certificate(page, languages, texts::PACKING, texts::PACKING_WORDS))
             (certificate(page, languages, texts::ACCEPTANCE, texts::ACCEPTANCE_WORDS))
@@ -33,12 +33,18 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
         (words(texts::STORAGE, &[texts::STORAGE_CONDITIONS, texts::TRANSPORT_CONDITIONS]))
         (form(
             texts::MOVEMENT,
+            "form dated third",
             &[texts::INSTALLED, texts::WHERE, texts::REMOVED, texts::WHY_REMOVED, texts::WHO],
             empty(2, 5),
         ))
-        (form(texts::REPAIRS, &[texts::DATE, texts::REPAIR, texts::CERTIFIED_AGAIN, texts::WHO], empty(2, 4)))
+        (form(
+            texts::REPAIRS,
+            "form dated",
+            &[texts::DATE, texts::REPAIR, texts::CERTIFIED_AGAIN, texts::WHO],
+            empty(2, 4),
+        ))
         div.statement { (languages.paragraph(texts::AFTER_A_MOVE)) }
-        (form(texts::NOTES, &[texts::DATE, texts::NOTE, texts::WHO], empty(2, 3)))
+        (form(texts::NOTES, "form dated", &[texts::DATE, texts::NOTE, texts::WHO], empty(2, 3)))
         div.pair {
             div.part.pen { (heading(languages, texts::DISPOSAL)) (lines(languages)) }
             div.part.pen { (heading(languages, texts::SPECIAL)) (lines(languages)) }
@@ -55,9 +61,11 @@ fn lines(languages: &Languages) -> Markup {
     html! { p.lines { (blank(languages)) } }
 }
 
-fn table(languages: &Languages, name: Text, headings: &[Text], rows: Vec<Vec<Markup>>) -> Markup {
+/// Writes a form. Its class has the widths of its columns: `dated` begins with a date, whose width the `third` column has
+/// too.
+fn table(languages: &Languages, name: Text, class: &'static str, headings: &[Text], rows: Vec<Vec<Markup>>) -> Markup {
     let headings = headings.iter().map(|text| languages.label(*text)).collect();
-    let table = Table { headings, rows, class: "form", ..Table::default() };
+    let table = Table { headings, rows, class, ..Table::default() };
     html! { div.part.pen { (heading(languages, name)) (table.markup(languages.spoken(name))) } }
 }
 
@@ -70,7 +78,7 @@ fn completeness(page: &PassportPage, languages: &Languages) -> Markup {
         vec![html! {}; 5],
     ];
     let headings = [texts::DESIGNATION, texts::ITEM, texts::QUANTITY, texts::SERIAL, texts::NOTE];
-    table(languages, texts::COMPLETENESS, &headings, rows)
+    table(languages, texts::COMPLETENESS, "form complete", &headings, rows)
 }
 
 fn certificate(page: &PassportPage, languages: &Languages, name: Text, words: Text) -> Markup {

@@ -56,7 +56,7 @@ texts! {
         en: "The height is unknown; normal gravity is that at 0 m, which is {slope} m/s² too large for each \
              metre of height.",
         ru: "Высота неизвестна: нормальное ускорение силы тяжести вычислено для высоты 0 м и завышено на \
-             {slope} м/с² на каждый метр высоты."
+             {slope} м/с² на каждый метр."
     }
     BASE_UNCERTAINTY {
         en: "The uncertainties of the latitude, azimuth and level of the base are not stated for this site.",

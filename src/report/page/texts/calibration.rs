@@ -97,7 +97,7 @@ texts! {
     PASSPORT { en: "Passport of the stand", ru: "Паспорт стенда" }
     PASSPORT_SHA256 { en: "SHA-256 of the passport", ru: "SHA-256 паспорта" }
     LABORATORY { en: "Laboratory", ru: "Лаборатория" }
-    LABORATORY_NAME { en: "Laboratory", ru: "Лаборатория" }
+    LABORATORY_NAME { en: "Name", ru: "Наименование" }
     METER_ASSUMED {
         en: "No laboratory file states the current meter. This report assumes a meter with an error uniformly \
              distributed within ±0.015 % of the reading, and no other uncertainty of the laboratory.",
@@ -169,10 +169,10 @@ texts! {
 
     CONFORMITY { en: "Comparison with gyro type {type}", ru: "Сравнение с типом {type}" }
     VERDICT_CAPTION {
-        en: "Deviation from the nominal value, with expanded uncertainty U = 2u; drifts refer to the g of \
-             the type",
-        ru: "Отклонение от номинального значения с расширенной неопределённостью U = 2u; составляющие дрейфа \
-             отнесены к g, указанному для типа"
+        en: "Deviation from the nominal value in the unit of the tolerance; expanded uncertainty U = 2u; drifts refer \
+             to the g of the type",
+        ru: "Отклонение от номинального значения в единицах допуска; расширенная неопределённость U = 2u; \
+             составляющие дрейфа отнесены к g типа"
     }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
     HISTORY { en: "All calibrations of this gyro", ru: "Все калибровки этого гироскопа" }
@@ -184,15 +184,15 @@ texts! {
     }
     CALIBRATED { en: "Calibration", ru: "Калибровка" }
     CHANGE_CAPTION {
-        en: "Change with expanded uncertainty U = 2u, compared with the same tolerance, which limits the \
-             instability; drifts refer to the g of the type",
-        ru: "Изменение с расширенной неопределённостью U = 2u в сравнении с тем же допуском (допуск на \
-             нестабильность); составляющие дрейфа отнесены к g, указанному для типа"
+        en: "Change in the unit of the tolerance, which also limits the instability; expanded uncertainty U = 2u; \
+             drifts refer to the g of the type",
+        ru: "Изменение в единицах допуска (он же — допуск на нестабильность); расширенная неопределённость U = 2u; \
+             составляющие дрейфа отнесены к g типа"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     UNIT { en: "Unit", ru: "Единица" }
-    NOMINAL { en: "Nominal", ru: "Номинальное значение" }
-    EARLIER { en: "Previous", ru: "Предыдущее значение" }
+    NOMINAL { en: "Nominal", ru: "Номин. значение" }
+    EARLIER { en: "Previous", ru: "Прежнее значение" }
     FOUND { en: "Value", ru: "Значение" }
     FROM_GRAVITY {
         en: "Local gravity, with an uncertainty of {u}, contributes {parts}. To reduce this, measure gravity or state the \
@@ -336,6 +336,10 @@ texts! {
     }
     SHARES { en: "share of the variance, %", ru: "доля дисперсии, %" }
     OTHER_INPUTS { en: "other inputs", ru: "прочие входные величины" }
+    BUDGET_DASH {
+        en: "–: no contribution, or one that rounds to zero.",
+        ru: "–: вклад отсутствует или при округлении равен нулю."
+    }
     BUDGET_NOT_SHOWN {
         en: "Not shown, below a thousandth of every variance: {names}.",
         ru: "Не показаны величины, доля которых в каждой дисперсии менее тысячной: {names}."
@@ -394,7 +398,7 @@ texts! {
     MONTE_CARLO { en: "Monte Carlo method", ru: "Метод Монте-Карло" }
     MONTE_CARLO_CAPTION {
         en: "{trials} trials, seed {seed}; probabilistically symmetric 95 % coverage intervals",
-        ru: "Число испытаний {trials}, начальное число {seed}; вероятностно симметричные интервалы охвата для 95 %"
+        ru: "Число испытаний {trials}, начальное число {seed}; вероятностно симметричные интервалы охвата для вероятности 95 %"
     }
     MEAN { en: "mean", ru: "среднее" }
     LOWER { en: "lower end", ru: "нижняя граница" }

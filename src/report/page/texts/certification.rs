@@ -53,7 +53,7 @@ texts! {
     POOLED { en: "Visit, pooled (repeatability)", ru: "Установка, по всем осям (повторяемость)" }
     PLATFORM { en: "Run, platform, per axis", ru: "Серия, платформа, по осям" }
     BASE { en: "Run, base, per axis", ru: "Серия, основание, по осям" }
-    UPPER { en: "s, upper limit at 95 %", ru: "s, верхняя граница, 95 %" }
+    UPPER { en: "Upper limit of s (95 %), ″", ru: "Верхняя граница s (95 %), ″" }
     RUN_TURNS { en: "Rotation of each run relative to the mean, ″", ru: "Поворот каждой серии относительно среднего, ″" }
     OF_PLATFORM { en: "platform", ru: "платформа" }
     OF_BASE { en: "base", ru: "основание" }
@@ -68,7 +68,7 @@ texts! {
     PROBABILITY { en: "Probability", ru: "Вероятность" }
     BARTLETT_POSITIONS { en: "Bartlett: all positions scatter alike", ru: "Бартлетта: разброс всех положений одинаков" }
     BARTLETT_AXES { en: "Bartlett: x, y and z scatter alike", ru: "Бартлетта: разброс вокруг x, y и z одинаков" }
-    COCHRAN { en: "Cochran: position {index} scatters more, ratio", ru: "Кохрена: положение {index} рассеяно сильнее, отношение" }
+    COCHRAN { en: "Cochran: position {index} scatters more, ratio", ru: "Кохрена: наибольший разброс в положении {index}, отношение" }
     GRUBBS {
         en: "Grubbs: position {index}, run {run}, about {axis}, residual, ″",
         ru: "Граббса: положение {index}, серия {run}, вокруг {axis}, остаток, ″"
@@ -102,6 +102,7 @@ texts! {
     OLD { en: "before", ru: "было" }
     NEW { en: "now", ru: "стало" }
     DIFFERENCE { en: "change", ru: "изменение" }
+    DIFFERENCE_IN_U { en: "change/u", ru: "изменение/u" }
     ALL_TOGETHER { en: "All positions, chi-square (ν)", ru: "Все положения, хи-квадрат (ν)" }
     COMMON_TURN { en: "Common rotation, chi-square (ν)", ru: "Общий поворот, хи-квадрат (ν)" }
 

@@ -5,19 +5,19 @@ use super::texts;
 texts! {
     CAPTION { en: "Checks as of {time}", ru: "Проверки на {time}" }
     CHECK { en: "Check", ru: "Проверка" }
-    RESULT { en: "Decision", ru: "Решение" }
-    FOUND { en: "Finding", ru: "Результат проверки" }
+    RESULT { en: "Result", ru: "Результат" }
+    FOUND { en: "Finding", ru: "Пояснение" }
     PASSED { en: "passed", ru: "пройдена" }
     FAILED { en: "FAILED", ru: "НЕ ПРОЙДЕНА" }
 
     NOT_ASKED { en: "not asked", ru: "не запрошена" }
     COUNTED {
         en: "Checks as of {time}: {passed} passed, {not_asked} not asked.",
-        ru: "Проверки на {time}: пройдено {passed}, не запрошено {not_asked}."
+        ru: "Проверки на {time}: пройдено\u{a0}{passed}, не\u{a0}запрошено\u{a0}{not_asked}."
     }
     COUNTED_FAILED {
         en: "Checks as of {time}: {passed} passed, {not_asked} not asked, {failed} failed.",
-        ru: "Проверки на {time}: пройдено {passed}, не запрошено {not_asked}, не пройдено {failed}."
+        ru: "Проверки на {time}: пройдено\u{a0}{passed}, не\u{a0}запрошено\u{a0}{not_asked}, не\u{a0}пройдено\u{a0}{failed}."
     }
 
     IN_FORCE { en: "In force", ru: "Действует" }
@@ -34,7 +34,7 @@ texts! {
     WITHDRAWN { en: "withdrawn by its issuer", ru: "отозван выдавшей организацией" }
     REFUSED { en: "rejected", ru: "отклонён" }
 
-    GRAMMAR { en: "Form of the file", ru: "Форма файла" }
+    GRAMMAR { en: "Form of the file", ru: "Форма" }
     GRAMMAR_OK {
         en: "the file has the canonical form, which all programs read alike",
         ru: "файл записан в канонической форме, которую все программы читают одинаково"
@@ -88,7 +88,7 @@ texts! {
         en: "issued at {time}, later than the time of verification",
         ru: "выдан {time}, позже момента проверки"
     }
-    ISSUER { en: "Issuer", ru: "Выдавшая организация" }
+    ISSUER { en: "Issuer", ru: "Кем выдан" }
     ISSUER_OK { en: "issued by {issuer}, as required", ru: "выдан {issuer}, как требовалось" }
     ISSUER_NOT_ASKED { en: "no issuer was required", ru: "выдавшая организация не задана" }
     STAND { en: "Stand", ru: "Стенд" }

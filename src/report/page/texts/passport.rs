@@ -11,10 +11,10 @@ texts! {
     UNTIL { en: "until", ru: "по" }
     INCLUSIVE { en: "inclusive", ru: "включительно" }
     NO_END { en: "no expiry date is stated", ru: "срок действия не указан" }
-    WHERE { en: "Place of use: within", ru: "Место применения: в радиусе" }
-    AROUND { en: "of latitude and longitude", ru: "от места с широтой и долготой" }
+    WHERE { en: "Place of use: within", ru: "Применять в радиусе" }
+    AROUND { en: "of latitude and longitude", ru: "от точки с координатами" }
     AROUND_PARALLEL { en: "north or south of latitude", ru: "к северу и югу от широты" }
-    WORD { en: "On the word of certificate", ru: "Основание: сертификат калибровки" }
+    WORD { en: "On the word of certificate", ru: "На основании сертификата" }
     SIGNED_BY { en: "signed by", ru: "подписал" }
     CHECKING { en: "How to check", ru: "Как проверить" }
     CHECKING_HOW {
@@ -96,8 +96,7 @@ texts! {
         ru: "Положение (i, j): угол рамки θ вокруг ξ, затем угол платформы φ вокруг оси собственного вращения. α, β, γ \
              преобразуют координаты от номинальной платформы к реальной, формула (4). u — стандартная \
              неопределённость (k = 1) аттестованного среднего, собственная составляющая положения; ν — \
-             число её степеней свободы. Неопределённости даны с двумя значащими цифрами, значения — до того же \
-             разряда."
+             число её степеней свободы. В неопределённостях две значащие цифры, значения — до того же разряда."
     }
     FIGURE_POSITIONS {
         en: "The stand in its positions (i, j), viewed from above and south-south-east.",
@@ -149,8 +148,8 @@ texts! {
     EARTH { en: "Earth parameters at the site", ru: "Параметры Земли в месте установки" }
     EARTH_RATE { en: "Earth rate Ω", ru: "Угловая скорость Земли Ω" }
     EARTH_LATITUDE { en: "Astronomic latitude Φ", ru: "Астрономическая широта Φ" }
-    HORIZONTAL { en: "Horizontal component, Ω cos Φ", ru: "Горизонтальная составляющая, Ω cos Φ" }
-    VERTICAL { en: "Vertical component, Ω sin Φ", ru: "Вертикальная составляющая, Ω sin Φ" }
+    HORIZONTAL { en: "Horizontal component, Ω\u{a0}cos\u{a0}Φ", ru: "Горизонтальная, Ω\u{a0}cos\u{a0}Φ" }
+    VERTICAL { en: "Vertical component, Ω\u{a0}sin\u{a0}Φ", ru: "Вертикальная, Ω\u{a0}sin\u{a0}Φ" }
     GRAVITY {
         en: "Gravity g to which the drifts refer",
         ru: "Ускорение g, к которому отнесены составляющие дрейфа"

@@ -33,16 +33,16 @@ texts! {
              корпуса: x — {x} (в пределах {x_angle}°), y — {y} (в пределах {y_angle}°), z (ось собственного \
              вращения) — {z} (в пределах {z_angle}°)."
     }
-    CASE_AXES { en: "case axes x, y, z, actual", ru: "оси x, y, z корпуса, реальные" }
+    CASE_AXES { en: "case axes x, y, z, actual", ru: "оси корпуса x, y, z, реальные" }
     CASE_AXES_IDEAL {
-        en: "case axes, nominal, where the difference is visible",
-        ru: "те же оси, номинальные (где отличие заметно)"
+        en: "nominal, where the difference is visible",
+        ru: "номинальные, где отличие заметно"
     }
-    FRAME { en: "frame, rotated by θ about its axis ξ", ru: "рамка, повёрнута на угол θ вокруг своей оси ξ" }
+    FRAME { en: "frame, rotated by θ about ξ", ru: "рамка, повёрнута на θ вокруг ξ" }
     EXAGGERATED { en: "Deviations are drawn ×{factor}.", ru: "Отклонения увеличены в {factor} раз." }
     PLATFORM {
         en: "platform with the gyro, rotated by φ about z; its two pins are along x",
-        ru: "платформа с гироскопом, повёрнута на угол φ вокруг z; два штифта направлены по x"
+        ru: "платформа с гироскопом, повёрнута на φ вокруг z; два штифта по x"
     }
 
     DEVIATION_BAR {

@@ -74,8 +74,8 @@ texts! {
     WHY_REMOVED { en: "Reason for removal", ru: "Причина снятия" }
 
     REPAIRS { en: "Repairs and work under bulletins", ru: "Ремонт и учёт работы по бюллетеням и указаниям" }
-    REPAIR { en: "Reason, work performed", ru: "Основание, выполненные работы" }
-    CERTIFIED_AGAIN { en: "Recertification, certificate No.", ru: "Повторная калибровка, № сертификата" }
+    REPAIR { en: "Reason, work performed", ru: "Основание, работы" }
+    CERTIFIED_AGAIN { en: "Recertification, certificate No.", ru: "Калибровка, № сертификата" }
 
     NOTES { en: "Notes on use and storage", ru: "Заметки по эксплуатации и хранению" }
     DISPOSAL { en: "Disposal", ru: "Сведения об утилизации" }
@@ -84,6 +84,6 @@ texts! {
         en: "After a repair, or a move beyond the validity radius, this passport must not be used until the stand has \
              been recertified or the passport re-issued.",
         ru: "После ремонта или перемещения за пределы радиуса применимости паспорт не применяют до повторной \
-             калибровки стенда или перевыпуска паспорта изготовителем."
+             калибровки или перевыпуска."
     }
 }
