@@ -96,8 +96,10 @@ fn compare_for_windows(file: &str, told: &str, played: &str) {
         let text = text.replace(r"\\", "/").replace('\\', "/");
         let mut parts = vec![(String::new(), String::new())];
         let mut in_block = false;
-        // What `keygen` says on Windows alone.
-        for line in text.lines().filter(|line| !line.contains("Windows protects the private key only by")) {
+        // What `keygen` says on Windows alone, and what Wine says when a program ends before its connection to Wine's server.
+        let alone = |line: &str| line.contains("Windows protects the private key only by");
+        let of_wine = |line: &str| line.trim_start_matches("! ").starts_with("wine client error:");
+        for line in text.lines().filter(|line| !alone(line) && !of_wine(line)) {
             in_block ^= line.starts_with("```");
             if !in_block && line.starts_with('#') {
                 parts.push((line.trim_start_matches(['#', ' ']).to_owned(), String::new()));
