@@ -69,10 +69,10 @@ transcripts! {
 fn is_what_comes_back(file: &str) {
     let path = programs::project("tests/cmd").join(file);
     let told = fs::read_to_string(&path).unwrap();
-    let played = play(&told);
     if std::env::var_os(FOLDER).is_some() {
-        return compare_for_windows(file, &told, &played);
+        return compare_for_windows(file, &told);
     }
+    let played = play(&told);
     if played == told {
         return;
     }
@@ -90,43 +90,53 @@ fn is_what_comes_back(file: &str) {
 /// Variable with the folder of the program, where it is not the one that cargo built.
 const FOLDER: &str = "DTG_PASSPORT_FOLDER";
 
-/// Fails unless exactly those headings differ that `tests/windows/differences.md` lists.
-fn compare_for_windows(file: &str, told: &str, played: &str) {
-    let parts = |text: &str| {
-        let text = text.replace(r"\\", "/").replace('\\', "/");
-        let mut parts = vec![(String::new(), String::new())];
-        let mut in_block = false;
-        // What `keygen` says on Windows alone, and what Wine says when a program ends before its connection to Wine's server.
-        let alone = |line: &str| line.contains("Windows protects the private key only by");
-        let of_wine = |line: &str| line.trim_start_matches("! ").starts_with("wine client error:");
-        for line in text.lines().filter(|line| !alone(line) && !of_wine(line)) {
-            in_block ^= line.starts_with("```");
-            if !in_block && line.starts_with('#') {
-                parts.push((line.trim_start_matches(['#', ' ']).to_owned(), String::new()));
-            }
-            let (_, part) = parts.last_mut().unwrap();
-            *part += &format!("{line}\n");
-        }
-        parts
-    };
+/// Number of times that a transcript is played under Wine. About one start in two hundred loses its connection to Wine's
+/// server and ends early; what is wrong with the program differs every time.
+const PLAYS: usize = 4;
+
+/// Fails unless exactly those headings differ, each time that they are played, that `tests/windows/differences.md` lists.
+fn compare_for_windows(file: &str, told: &str) {
     let differences = fs::read_to_string(programs::project("tests/windows/differences.md")).unwrap();
-    let (mut unexpected, mut same) = (String::new(), 0);
-    for ((heading, told), (_, played)) in parts(told).into_iter().zip(parts(played)) {
-        let listed = differences.contains(&format!("| `{file}#{heading}` |"));
-        same += usize::from(told == played);
-        match (told == played, listed) {
-            (true, true) => unexpected += &format!("{file}#{heading}: listed, but equal\n"),
-            (false, false) => {
-                let lines = told.lines().zip(played.lines()).filter(|(told, played)| told != played);
-                let lines: String =
-                    lines.map(|(told, played)| format!("  told:   {told}\n  played: {played}\n")).collect();
-                unexpected += &format!("{file}#{heading}: differs\n{lines}");
-            }
-            _ => {}
+    let due = parts_for_windows(told);
+    let mut unequal: Vec<usize> = (0..due.len()).collect();
+    let mut words = String::new();
+    for _ in 0..PLAYS {
+        let played = parts_for_windows(&play(told));
+        unequal.retain(|&place| played[place] != due[place]);
+        let listed = |place: &usize| differences.contains(&format!("| `{file}#{}` |", due[*place].0));
+        words.clear();
+        for place in unequal.iter().copied().filter(|place| !listed(place)) {
+            let lines = due[place].1.lines().zip(played[place].1.lines()).filter(|(told, played)| told != played);
+            let lines: String = lines.map(|(told, played)| format!("  told:   {told}\n  played: {played}\n")).collect();
+            words += &format!("{file}#{}: differs\n{lines}", due[place].0);
+        }
+        for place in (0..due.len()).filter(|place| listed(place) && !unequal.contains(place)) {
+            words += &format!("{file}#{}: listed, but equal\n", due[place].0);
+        }
+        if words.is_empty() {
+            break;
         }
     }
-    println!("{file}: {same} headings equal");
-    assert!(unexpected.is_empty(), "{unexpected}");
+    println!("{file}: {} of {} headings equal", due.len() - unequal.len(), due.len());
+    assert!(words.is_empty(), "{words}");
+}
+
+/// Returns the headings of a transcript, each with what is below it, without what Windows alone says.
+fn parts_for_windows(text: &str) -> Vec<(String, String)> {
+    let text = text.replace(r"\\", "/").replace('\\', "/");
+    let mut parts = vec![(String::new(), String::new())];
+    let mut in_block = false;
+    let of_keygen = |line: &str| line.contains("Windows protects the private key only by");
+    let of_wine = |line: &str| line.trim_start_matches("! ").starts_with("wine client error:");
+    for line in text.lines().filter(|line| !of_keygen(line) && !of_wine(line)) {
+        in_block ^= line.starts_with("```");
+        if !in_block && line.starts_with('#') {
+            parts.push((line.trim_start_matches(['#', ' ']).to_owned(), String::new()));
+        }
+        let (_, part) = parts.last_mut().unwrap();
+        *part += &format!("{line}\n");
+    }
+    parts
 }
 
 /// The transcript with what comes back now.
