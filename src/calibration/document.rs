@@ -40,6 +40,12 @@ pub struct CalibrationDocument {
     /// Positions of the passport without a reading.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub(crate) left_out: Vec<PositionIndex>,
+    /// Method whose result is adopted.
+    #[serde(default)]
+    pub(crate) adopted: String,
+    /// `false` if the readings do not fit this stand, so that the parameters are not valid; `hint` then has the causes.
+    #[serde(default)]
+    pub(crate) consistent: bool,
     /// Results, one for each method.
     pub(crate) results: Vec<ResultDocument>,
     /// Inputs whose uncertainty certificate, site and laboratory do not state; the result does not include it.
@@ -151,6 +157,8 @@ impl CalibrationDocument {
             subject: None,
             excluded: Vec::new(),
             left_out: Vec::new(),
+            adopted: calibration.answer().map_or_else(String::new, |answer| answer.method.key().to_owned()),
+            consistent: calibration.hint.is_none(),
             results: calibration.results.iter().map(|result| ResultDocument::new(result, calibration)).collect(),
             not_stated: not_stated.iter().map(|what| what.words().to_owned()).collect(),
             scatter: calibration.scatter,

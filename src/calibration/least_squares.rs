@@ -86,7 +86,10 @@ fn inseparable(groups: &[Vec<Parameter>], condition: f64) -> String {
         }
     });
     let words: Vec<String> = words.collect();
-    format!("these positions cannot {} (condition number {condition:.0e})", words.join(", nor "))
+    let words = words.join(", nor ");
+    format!(
+        "readings of these positions cannot {words} (condition number {condition:.0e}, at most {LARGEST_CONDITION})"
+    )
 }
 
 /// Solves for the gyro parameters from one reading (J_x, J_y) of each of `coefficients.positions`, mA, in the same

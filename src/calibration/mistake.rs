@@ -185,6 +185,7 @@ fn at_latitude(found: &Found, used: &EarthRate, latitude_deg: f64) -> Found {
             omega_k_deg_per_h_per_g: found.parameters.omega_k_deg_per_h_per_g / s,
         },
         standard_uncertainty: found.standard_uncertainty.map(|u| u / s),
+        degrees_of_freedom: found.degrees_of_freedom,
         gravity_m_per_s2: normal_gravity_m_per_s2(latitude_deg, 0.0),
         gravity_u_m_per_s2: NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2,
     }

@@ -1,15 +1,21 @@
 //! Comparison of a result with the specification of the gyro type, and with an earlier result.
 //!
 //! Decisions are made by simple acceptance, and by guarded acceptance with a guard band of one expanded uncertainty
-//! ([JCGM 106](crate::bibliography::Bibliography::Jcgm106), 8.2 and 8.3; ILAC-G8), with the specific risk (7.3).
+//! ([JCGM 106](crate::bibliography::Bibliography::Jcgm106), 8.2 and 8.3; ILAC-G8), with the specific risk (7.3). The
+//! coverage factor is 2, or that of Student's t for the same probability, if the uncertainty rests on few degrees of
+//! freedom ([JCGM 100](crate::bibliography::Bibliography::Gum), G.3).
 
 use super::parameter::Parameter;
 use crate::gyro::{GyroParameters, GyroType};
-use crate::statistics::distributions::normal_below;
+use crate::statistics::beta::{student_beyond, student_factor};
+use crate::statistics::propagation::effective_degrees_of_freedom;
 use serde::Serialize;
 
-/// Coverage factor of expanded uncertainties.
+/// Coverage factor of expanded uncertainties with unlimited degrees of freedom.
 pub(crate) const COVERAGE_FACTOR: f64 = 2.0;
+
+/// Probability that a normal variable is farther from its mean than [`COVERAGE_FACTOR`] standard deviations.
+const BEYOND: f64 = 0.045_500_263_896_358_42;
 
 /// Parameters that are drifts per g.
 const PER_G: [Parameter; 2] = [Parameter::OmegaG, Parameter::OmegaK];
@@ -56,8 +62,10 @@ pub struct ParameterVerdict {
     pub deviation: f64,
     /// Tolerance: largest permitted deviation, in either direction.
     pub tolerance: f64,
-    /// Expanded uncertainty of the deviation (k = 2).
+    /// Expanded uncertainty of the deviation.
     pub expanded_uncertainty: f64,
+    /// Coverage factor of the expanded uncertainties: 2, or more with few degrees of freedom.
+    pub coverage_factor: f64,
     /// Part of the expanded uncertainty from the local g, with which drifts were converted to the type's g; absent if
     /// there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -95,6 +103,8 @@ pub struct Found {
     pub parameters: GyroParameters,
     /// Standard uncertainties, in the order of [`Parameter::EIGHT`].
     pub standard_uncertainty: [f64; 8],
+    /// Effective degrees of freedom of the standard uncertainties; infinite where nothing is known of them.
+    pub degrees_of_freedom: [f64; 8],
     /// Local g, m/s².
     pub gravity_m_per_s2: f64,
     /// Standard uncertainty of the local g, m/s².
@@ -108,15 +118,17 @@ impl Found {
     pub(crate) fn at_gravity(&self, gravity_m_per_s2: f64) -> Self {
         let ratio = gravity_m_per_s2 / self.gravity_m_per_s2;
         let mut values = self.parameters.to_vector();
-        let mut standard_uncertainty = self.standard_uncertainty;
+        let (mut standard_uncertainty, mut degrees_of_freedom) = (self.standard_uncertainty, self.degrees_of_freedom);
         for parameter in PER_G {
             let place = parameter.place();
-            standard_uncertainty[place] =
-                ratio * libm::hypot(standard_uncertainty[place], self.u_from_gravity(parameter));
+            let (own, from_gravity) = (standard_uncertainty[place], self.u_from_gravity(parameter));
+            standard_uncertainty[place] = ratio * libm::hypot(own, from_gravity);
+            let both = [(own, degrees_of_freedom[place]), (from_gravity, f64::INFINITY)];
+            degrees_of_freedom[place] = effective_degrees_of_freedom(&both);
             values[place] *= ratio;
         }
         let parameters = GyroParameters::from_vector(&values);
-        Self { parameters, standard_uncertainty, gravity_m_per_s2, gravity_u_m_per_s2: 0.0 }
+        Self { parameters, standard_uncertainty, degrees_of_freedom, gravity_m_per_s2, gravity_u_m_per_s2: 0.0 }
     }
 
     /// Returns the standard uncertainty that the local g adds to a parameter on conversion to another g; 0 if it has no
@@ -139,6 +151,7 @@ pub fn against_type(found: &Found, gyro_type: &GyroType) -> Verdict {
     let nominal = Found {
         parameters: gyro_type.nominal.to_model(),
         standard_uncertainty: [0.0; 8],
+        degrees_of_freedom: [f64::INFINITY; 8],
         gravity_m_per_s2: gyro_type.gravity(),
         gravity_u_m_per_s2: 0.0,
     };
@@ -163,10 +176,13 @@ fn compare(found: &Found, reference: &Found, gyro_type: &GyroType) -> Verdict {
         |parameter: &Parameter| at_type.iter().all(|side| !side.parameters.to_vector()[parameter.place()].is_nan());
     let parameters = Parameter::AS_IN_THE_PAPER.into_iter().filter(found).map(|parameter| {
         let values = at_type.map(|side| side.parameters.to_vector()[parameter.place()]);
-        let [u, other] = at_type.map(|side| side.standard_uncertainty[parameter.place()]);
+        let parts = at_type
+            .map(|side| (side.standard_uncertainty[parameter.place()], side.degrees_of_freedom[parameter.place()]));
+        let u = libm::hypot(parts[0].0, parts[1].0);
+        let u = (u, effective_degrees_of_freedom(&parts));
         let from_gravity = sides.map(|side| side.u_from_gravity(parameter) * gravity_m_per_s2 / side.gravity_m_per_s2);
         let from_gravity = libm::hypot(from_gravity[0], from_gravity[1]);
-        judge(parameter, values, [libm::hypot(u, other), from_gravity], gyro_type)
+        judge(parameter, values, u, from_gravity, gyro_type)
     });
     Verdict::of(gravity_m_per_s2, parameters.collect())
 }
@@ -185,6 +201,16 @@ pub(crate) fn change_in_uncertainties(found: &Found, earlier: &Found) -> [f64; 8
 }
 
 impl Verdict {
+    /// Withholds every pass, because the readings do not fit the stand and the parameters are not valid.
+    pub(crate) fn withhold(&mut self) {
+        for row in self.parameters.iter_mut().filter(|row| row.guarded == Decision::Pass) {
+            row.guarded = Decision::Undecided;
+        }
+        if self.overall == Decision::Pass {
+            self.overall = Decision::Undecided;
+        }
+    }
+
     fn of(gravity_m_per_s2: f64, parameters: Vec<ParameterVerdict>) -> Self {
         let all = |decision| parameters.iter().all(|parameter| parameter.guarded == decision);
         let overall = if parameters.iter().any(|parameter| parameter.guarded == Decision::Fail) {
@@ -198,12 +224,18 @@ impl Verdict {
     }
 }
 
-/// Compares a value with a reference value. `u` is the standard uncertainty of their difference, of which a part comes
-/// from the local g. All arguments are in the unit of the parameter.
+/// Returns the coverage factor for an uncertainty that rests on `degrees_of_freedom`.
+fn coverage_factor(degrees_of_freedom: f64) -> f64 {
+    if degrees_of_freedom == f64::INFINITY { COVERAGE_FACTOR } else { student_factor(BEYOND, degrees_of_freedom) }
+}
+
+/// Compares a value with a reference value. `u` is the standard uncertainty of their difference with its degrees of
+/// freedom; a part of it comes from the local g. All arguments are in the unit of the parameter.
 fn judge(
     parameter: Parameter,
     [value, reference_value]: [f64; 2],
-    [u, from_gravity]: [f64; 2],
+    (u, degrees_of_freedom): (f64, f64),
+    from_gravity: f64,
     gyro_type: &GyroType,
 ) -> ParameterVerdict {
     let tolerance = &gyro_type.tolerance;
@@ -223,7 +255,8 @@ fn judge(
         (false, _) => (parameter.unit(), limit, 1.0),
     };
     let deviation = (value - reference_value) * scale;
-    let (simple, guarded, specific_risk) = decide(deviation, u * scale, limit);
+    let coverage_factor = coverage_factor(degrees_of_freedom);
+    let (simple, guarded, specific_risk) = decide(deviation, (u * scale, degrees_of_freedom), limit);
     ParameterVerdict {
         parameter: parameter.key(),
         value,
@@ -232,8 +265,9 @@ fn judge(
         unit,
         deviation,
         tolerance: limit,
-        expanded_uncertainty: COVERAGE_FACTOR * u * scale,
-        expanded_uncertainty_from_gravity: (from_gravity > 0.0).then_some(COVERAGE_FACTOR * from_gravity),
+        expanded_uncertainty: coverage_factor * u * scale,
+        coverage_factor,
+        expanded_uncertainty_from_gravity: (from_gravity > 0.0).then_some(coverage_factor * from_gravity),
         simple,
         guarded,
         specific_risk,
@@ -241,8 +275,12 @@ fn judge(
 }
 
 /// Decides by simple and by guarded acceptance; also returns the probability that the simple decision is wrong.
-fn decide(deviation: f64, u: f64, limit: f64) -> (Decision, Decision, f64) {
-    let expanded_uncertainty = COVERAGE_FACTOR * u;
+fn decide(deviation: f64, (u, degrees_of_freedom): (f64, f64), limit: f64) -> (Decision, Decision, f64) {
+    let expanded_uncertainty = coverage_factor(degrees_of_freedom) * u;
+    let below = |x: f64| {
+        let beyond = 0.5 * student_beyond(x, degrees_of_freedom);
+        if x < 0.0 { beyond } else { 1.0 - beyond }
+    };
     let within = deviation.abs() <= limit;
     let guarded = if deviation.abs() + expanded_uncertainty <= limit {
         Decision::Pass
@@ -252,11 +290,11 @@ fn decide(deviation: f64, u: f64, limit: f64) -> (Decision, Decision, f64) {
         Decision::Undecided
     };
     // The two tails are computed separately, so that a small risk keeps its significant digits.
-    let outside = normal_below((-limit - deviation) / u) + normal_below((deviation - limit) / u);
+    let outside = below((-limit - deviation) / u) + below((deviation - limit) / u);
     let inside = if deviation > 0.0 {
-        normal_below((limit - deviation) / u) - normal_below((-limit - deviation) / u)
+        below((limit - deviation) / u) - below((-limit - deviation) / u)
     } else {
-        normal_below((limit + deviation) / u) - normal_below((deviation - limit) / u)
+        below((limit + deviation) / u) - below((deviation - limit) / u)
     };
     let specific_risk = match (u > 0.0, within) {
         (false, _) => 0.0,

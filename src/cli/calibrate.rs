@@ -241,7 +241,11 @@ impl Bench<'_> {
             output::say(&format!("wrote {}", shown(path)));
         }
         match options.format {
-            Format::Json => output::json(&found.whole())?,
+            Format::Json => {
+                let warnings = report::warnings(&done.calibration, done.document.mistake.as_ref());
+                warnings.iter().for_each(|warning| output::complain(warning));
+                output::json(&found.whole())?;
+            }
             Format::Text => output::text(&self.text(&found))?,
         }
         Ok(found.code())
@@ -347,6 +351,7 @@ impl Bench<'_> {
             passport_verified: self.passport.verification.is_some(),
             gravity_m_per_s2: (document.gravity_m_per_s2, document.gravity_u_m_per_s2),
             missing: &done.missing,
+            meter_assumed: self.options.laboratory.is_none(),
             mistake: document.mistake.as_ref(),
             verdict: self.verdict(found),
             change: done.earlier.as_ref().map(|earlier| (earlier, document.change.as_ref())),

@@ -79,10 +79,11 @@ texts! {
     G_DRIFT { en: "g-sensitive drift ω_g, ω_k", ru: "Составляющие дрейфа, зависящие от g: ω_g, ω_k" }
     CONFORMITY { en: "Conformity with gyro type {type}", ru: "Соответствие типу {type}" }
     RULE {
-        en: "Guarded acceptance with a guard band equal to the expanded uncertainty U = 2u (JCGM 106, 8.3): pass or \
-             fail. Where the uncertainty does not permit this decision, the decision by simple acceptance is \
+        en: "Guarded acceptance with a guard band equal to the expanded uncertainty U, with k = 2 or that of \
+             Student's t for few degrees of freedom (JCGM 106, 8.3): pass or fail. Where the uncertainty does not permit this decision, the decision by simple acceptance is \
              conditional.",
-        ru: "Приёмка с защитной полосой, равной расширенной неопределённости U = 2u (JCGM 106, 8.3). Если \
+        ru: "Приёмка с защитной полосой, равной расширенной неопределённости U, k = 2 или по Стьюденту при малом числе \
+             степеней свободы (JCGM 106, 8.3). Если \
              неопределённость не позволяет принять решение, решение при простой приёмке условное."
     }
     DECISIONS { en: "Decisions on conformity, in the order of the values", ru: "Решения о соответствии в порядке значений" }

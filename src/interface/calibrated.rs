@@ -12,10 +12,14 @@ use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::text::{Unreadable, printable};
+use crate::uncertainty::Budget;
 #[cfg(feature = "monte-carlo")]
 use crate::uncertainty::document::MonteCarloDocument;
 #[cfg(feature = "monte-carlo")]
-use crate::uncertainty::{self, Budget, Engine, MonteCarlo, ReadingShape, Trials};
+use crate::uncertainty::{self, Engine, MonteCarlo, ReadingShape, Trials};
+
+const INCONSISTENT: &str = "the readings are not consistent with this stand, so the parameters are not valid";
+const UNLIKE: &str = "the readings fit, but the parameters are far from the gyro's; this would explain it";
 
 /// Result of a calibration by one method.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +28,7 @@ pub struct Calibrated {
     pub json: String,
     /// Covariance of the parameters, 8×8, in the order and units of [`Parameter::EIGHT`].
     pub covariance: [[f64; 8]; 8],
-    /// Remarks on the currents and the laboratory, a sentence each.
+    /// Remarks on the currents, the laboratory and the fit, a sentence each.
     pub remarks: Vec<String>,
 }
 
@@ -50,6 +54,10 @@ pub fn calibrate(
     let mut remarks: Vec<String> = prepared.readings.remark().map(str::to_owned).into_iter().collect();
     let done = prepared.run(&options, verified, Subject::default(), &[])?;
     remarks.extend(done.warning);
+    remarks.extend(done.document.hint.iter().map(|hint| format!("{INCONSISTENT}: {hint}")));
+    remarks.extend(done.document.mistake.iter().map(|mistake| format!("{UNLIKE}: {}", json(mistake))));
+    let left_out = done.document.left_out.iter().map(ToString::to_string).collect::<Vec<_>>();
+    remarks.extend((!left_out.is_empty()).then(|| format!("positions without a reading: {}", left_out.join(", "))));
     // The document has an answer, so the calibration has one.
     let result = done.calibration.answer().ok_or_else(|| Failed::refused("no result"))?;
     let place = |index: usize| Parameter::EIGHT[index].place();
@@ -199,10 +207,20 @@ impl<'a> Prepared<'a> {
         let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
         let mut document = CalibrationDocument::new(&content.passport.id, verified, gravity, &calibration, &missing);
         document.record(subject, &readings);
-        let Some(found) = document.answer() else {
+        let Some(mut found) = document.answer() else {
             let words = calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key()));
             return Err(Stopped::Refused(words.collect::<Vec<_>>().join("\n")));
         };
+        if gyro_type.is_some()
+            && let Some(answer) = calibration.answer()
+        {
+            let budget = Budget::new(&setup, &readings, answer.method, options);
+            for line in budget.into_iter().flat_map(|budget| budget.parameters) {
+                if let Some(place) = Parameter::EIGHT.iter().position(|parameter| *parameter == line.parameter) {
+                    found.degrees_of_freedom[place] = line.effective_degrees_of_freedom;
+                }
+            }
+        }
         let earlier = previous.last().and_then(CalibrationDocument::answer);
         // Without a type or an earlier result, the nominal values of the paper's gyro still reveal an error by a
         // factor of a thousand.
@@ -212,6 +230,9 @@ impl<'a> Prepared<'a> {
         document.verdict = gyro_type.map(|gyro_type| against_type(&found, gyro_type));
         let judged = earlier.as_ref().zip(gyro_type);
         document.change = judged.map(|(earlier, gyro_type)| against_earlier(&found, earlier, gyro_type));
+        if !document.consistent {
+            document.verdict.iter_mut().chain(&mut document.change).for_each(Verdict::withhold);
+        }
         let cost_of_missing = cost_of_missing(&setup, &readings, &found.parameters);
         let further = document.verdict.as_ref().and_then(Verdict::least_certain).and_then(|parameter| {
             let result = (&calibration, &found.parameters);
@@ -255,6 +276,27 @@ mod tests {
                 assert!((found.covariance[place][place].sqrt() - u).abs() <= 1e-15 * u);
             }
         }
+    }
+
+    /// The currents are those of a gyro on another stand.
+    #[test]
+    fn readings_that_do_not_fit_pass_nothing_and_say_so() {
+        let other = include_bytes!("../../passports/SPS-1/0203/moscow-bmstu-1.yaml");
+        let content = content_from_anyone("p", other).unwrap();
+        let currents: (&str, &[u8]) = ("c", include_bytes!("../../docs/currents.csv"));
+        let mut wide = GyroType::gvk_6();
+        (wide.tolerance.k_main_percent, wide.tolerance.k_cross_percent) = (1e3, 1e3);
+        (wide.tolerance.omega0_deg_per_h, wide.tolerance.omega_g_deg_per_h_per_g) = (1e3, 1e3);
+        wide.tolerance.omega_k_deg_per_h_per_g = 1e3;
+        let found = calibrate(&content, true, currents, "least-squares", None, Some(&wide)).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
+        assert_eq!((&json["consistent"], &json["verdict"]["overall"]), (&false.into(), &"undecided".into()));
+        assert!(found.remarks.iter().any(|remark| remark.starts_with(INCONSISTENT)), "{:?}", found.remarks);
+        let content = content_from_anyone("p", PASSPORT).unwrap();
+        let found = calibrate(&content, true, currents, "least-squares", None, Some(&wide)).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
+        assert_eq!((&json["consistent"], &json["verdict"]["overall"]), (&true.into(), &"pass".into()));
+        assert_eq!((&json["adopted"], found.remarks), (&"least-squares".into(), Vec::new()));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Whom to trust and what to ask, and the answer on each passport.
 
-use super::{Failed, Verdict, json};
+use super::{Failed, Verdict, asked, json};
 use crate::document::sha256_hex;
 use crate::earth::Place;
 #[cfg(feature = "factory")]
@@ -55,7 +55,7 @@ impl Answer {
 struct Asked {
     time: Option<String>,
     serial: Option<String>,
-    at: Option<[f64; 2]>,
+    at: Option<Vec<f64>>,
     issuer: Option<String>,
     revoked: Vec<Listed>,
 }
@@ -83,15 +83,17 @@ impl Enquiry {
         question: &str,
         now: Timestamp,
     ) -> Result<Self, Failed> {
-        let asked: Asked = serde_json::from_str(question)
-            .map_err(|error| Failed::unusable(format!("the question is not usable JSON: {error}")))?;
+        let asked: Asked = asked(question)?;
         let refuse = |key: &str, why: String| Failed::unusable(format!("{key}: expected {why}"));
         let time = match &asked.time {
             Some(text) => time(text).map_err(|form| refuse("time", format!("{form}; found {text:?}")))?,
             None => Timestamp::from_second(now.as_second()).unwrap_or(now),
         };
-        let place = asked.at.map(|[latitude, longitude]| place(latitude, longitude)).transpose();
-        let place = place.map_err(|why| Failed::unusable(format!("at: {why}")))?;
+        let place = asked.at.map(|at| match at[..] {
+            [latitude_deg, longitude_deg] => place(latitude_deg, longitude_deg),
+            _ => Err(format!("{} numbers, expected latitude and longitude in degrees", at.len())),
+        });
+        let place = place.transpose().map_err(|why| Failed::unusable(format!("at: {why}")))?;
         let listed = asked.revoked.into_iter().enumerate().map(|(index, list)| match list {
             Listed::Text(text) => (format!("revoked[{index}]"), text.into_bytes()),
             Listed::Bytes(bytes) => (format!("revoked[{index}]"), bytes),
@@ -262,7 +264,7 @@ mod tests {
             (r#"{"at": [91, 0]}"#, "latitude 91"),
             (r#"{"at": [0, 181]}"#, "longitude 181"),
             (r#"{"at": [1e999, 0]}"#, "JSON"),
-            (r#"{"at": [0]}"#, "JSON"),
+            (r#"{"at": [0]}"#, "at: 1 numbers, expected latitude"),
             (r#"{"revoked": ["rubbish"]}"#, "revoked[0]"),
             (r#"{"revoked": [[83, 83, 72, 75, 82, 76, 10, 0]]}"#, "revoked[0]"),
         ] {

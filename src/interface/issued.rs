@@ -1,7 +1,7 @@
 //! Issue of one passport into a folder.
 
 use super::enquiry::{date, time, trust};
-use super::{Failed, UNWRITABLE};
+use super::{Failed, UNWRITABLE, asked};
 use crate::folder::{Folder, FolderRefused, Issued, Seal};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
@@ -72,8 +72,7 @@ pub fn issue(
 
 /// Parses an order; its accuracy is not in it.
 fn ordered(order: &str, now: Timestamp) -> Result<Issue, Failed> {
-    let asked: Asked = serde_json::from_str(order)
-        .map_err(|error| Failed::unusable(format!("the order is not usable JSON: {error}")))?;
+    let asked: Asked = asked(order)?;
     let expected =
         |key: &str, form: String, found: &str| Failed::unusable(format!("{key}: expected {form}; found {found:?}"));
     let issued_at = asked.issued_at.map(|text| time(&text).map_err(|form| expected("issued_at", form, &text)));

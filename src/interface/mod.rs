@@ -48,6 +48,7 @@ use crate::passport::{Content, Verification};
 use crate::text::name_of;
 use crate::text::{Problem, Unreadable, printable};
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 /// Codes of failures.
 pub(crate) const REFUSED: &str = "refused";
@@ -193,6 +194,14 @@ impl Verdict {
 /// Returns the content of a passport as JSON: the keys of the file without `signature`, and the same binary64 values.
 pub fn content_json(content: &Content) -> String {
     json(content)
+}
+
+/// Reads a question or an order, a JSON object.
+fn asked<T: DeserializeOwned>(text: &str) -> Result<T, Failed> {
+    // An array could give the values without their keys.
+    let object: serde_json::Result<serde_json::Map<_, _>> = serde_json::from_str(text);
+    let asked = object.and_then(|object| serde_json::from_value(object.into()));
+    asked.map_err(|error| Failed::unusable(format!("the question is not usable JSON: {error}")))
 }
 
 /// Returns a value as JSON with invisible characters escaped. The values of this module have only text keys and finite

@@ -1,6 +1,6 @@
 //! The best positions to certify or to read.
 
-use super::{Failed, json};
+use super::{Failed, asked, json};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::plan::candidates::Angles;
@@ -49,8 +49,7 @@ pub fn plan(
     let gyro = gyro.map_or_else(|| Ok(GyroType::gvk_6()), |(name, bytes)| GyroType::from_yaml(name, bytes))?;
     let paper = || Ok(Laboratory::paper());
     let laboratory = laboratory.map_or_else(paper, |(name, bytes)| Laboratory::from_yaml(name, bytes))?;
-    let asked: Asked = serde_json::from_str(question)
-        .map_err(|error| Failed::unusable(format!("the question is not usable JSON: {error}")))?;
+    let asked: Asked = asked(question)?;
     let expected = |words: String| Failed::unusable(words);
     if !(FEWEST_READINGS..=MOST_READINGS).contains(&asked.readings) {
         let found = asked.readings;

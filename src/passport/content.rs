@@ -134,7 +134,7 @@ record! {
 }
 
 record! {
-    /// Content of a passport without its signature; keys in the order of the file.
+    /// Passport; keys in the order of the file.
     pub struct Content {
         /// Always "dtg-passport/1".
         pub format: String,

@@ -9,8 +9,8 @@ use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
-use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, Found, Verdict, change_in_uncertainties};
-use crate::calibration::{Calibration, MethodResult, Readings};
+use crate::calibration::verdict::{Decision, Found, Verdict, change_in_uncertainties};
+use crate::calibration::{Calibration, Method, MethodResult, Readings};
 use crate::report::page::Language;
 use crate::report::{columns, mistake, style};
 use crate::text::printable::printable;
@@ -28,6 +28,8 @@ pub(crate) struct Context<'a> {
     pub gravity_m_per_s2: (f64, Option<f64>),
     /// Inputs whose uncertainty no file states.
     pub missing: &'a [NotStated],
+    /// `true` if no laboratory was given, so that the meter is the paper's.
+    pub meter_assumed: bool,
     /// Mistake that explains the result, if one does.
     pub mistake: Option<&'a Mistake>,
     /// Name of the gyro type, and the verdict against it.
@@ -47,13 +49,8 @@ const LEAST_EFFECT_PERCENT: f64 = 1.0;
 /// residuals do not show.
 pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
     let mut out = String::new();
-    if calibration.hint.is_some() || !calibration.settled {
-        let words = "WARNING: the readings are not consistent with this stand. The parameters are not valid until the \
-                     cause has been found (see below).";
-        columns::paragraph(&mut out, "", words);
-    }
-    if let Some(mistake) = context.mistake {
-        columns::paragraph(&mut out, "", &format!("WARNING: {}", mistake::words(mistake, Language::English)));
+    for warning in warnings(calibration, context.mistake) {
+        columns::paragraph(&mut out, "", &warning);
     }
     if let Some((name, verdict)) = context.verdict {
         let (style, mark, words) = headline(name, verdict);
@@ -74,12 +71,25 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
     if let Some(answer) = calibration.answer() {
         beyond_the_paper(&mut out, answer);
     }
+    if let Some((_, verdict)) = context.verdict
+        && verdict.gravity_m_per_s2 != context.gravity_m_per_s2.0
+    {
+        let words = format!("ω_g and ω_k are decided at the type's g, {} m/s² (see below).", verdict.gravity_m_per_s2);
+        columns::paragraph(&mut out, "", &words);
+    }
     fit(&mut out, calibration, context.missing);
+    if context.meter_assumed {
+        let words = "No laboratory was given: u takes the meter as that of the paper, 0.0087 % of the reading.";
+        columns::paragraph(&mut out, "", words);
+    }
     methods(&mut out, calibration);
     residuals(&mut out, calibration);
     if let Some((name, verdict)) = context.verdict {
-        let _ =
-            writeln!(out, "\nComparison with gyro type {name}, in the unit of the tolerance; U = {COVERAGE_FACTOR} u;");
+        let _ = writeln!(
+            out,
+            "\nComparison with gyro type {name}, in the unit of the tolerance; U: 95 %, k = {};",
+            factors(verdict)
+        );
         let _ = writeln!(out, "g-sensitive drifts refer to the g of the type, {} m/s²:", verdict.gravity_m_per_s2);
         verdict_table(&mut out, verdict, "minus nominal");
     }
@@ -98,6 +108,18 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
     let _ = writeln!(out);
     columns::paragraph(&mut out, "", CANNOT_TELL);
     out
+}
+
+/// Returns what makes the parameters unusable, a sentence each.
+pub(crate) fn warnings(calibration: &Calibration, mistake: Option<&Mistake>) -> Vec<String> {
+    let inconsistent = "WARNING: the readings are not consistent with this stand. The parameters are not valid until the \
+                        cause has been found.";
+    let mistake = mistake.map(|mistake| format!("WARNING: {}", mistake::words(mistake, Language::English)));
+    let other = calibration.refused.iter().find(|(method, _)| *method == Method::LeastSquares);
+    let other = other.zip(calibration.answer()).map(|((_, why), answer)| {
+        format!("WARNING: least squares gave no result ({why}); this is that of the {} method.", answer.method.key())
+    });
+    calibration.hint.iter().map(|_| inconsistent.to_owned()).chain(mistake).chain(other).collect()
 }
 
 /// Returns the result for one of several gyros in one line: the decision, or the fit if no type was given.
@@ -119,7 +141,7 @@ pub(crate) fn line(
             format!("{:<11}  {file}{fit}", "calibrated")
         }
     };
-    if calibration.hint.is_some() || !calibration.settled {
+    if calibration.hint.is_some() {
         out.push_str("; WARNING: the readings are not consistent with this stand; calibrate it by itself");
     }
     if let Some(mistake) = mistake {
@@ -306,13 +328,6 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
         columns::paragraph(out, "", words);
     }
     scatter(out, calibration);
-    if !calibration.settled {
-        columns::paragraph(
-            out,
-            "  ",
-            "WARNING: the fit did not converge; the readings differ too much from those of any gyro on this stand.",
-        );
-    }
     if let Some(hint) = &calibration.hint {
         columns::paragraph(out, "", &format!("WARNING: {hint}."));
     }
@@ -425,13 +440,21 @@ fn agreement(what: &str, found: &Scatter, less: &str) -> String {
     )
 }
 
+/// Returns the coverage factor of a verdict, or their range.
+fn factors(verdict: &Verdict) -> String {
+    let factors = || verdict.parameters.iter().map(|row| row.coverage_factor);
+    let [least, most] =
+        [factors().fold(f64::INFINITY, f64::min), factors().fold(0.0, f64::max)].map(|k| format!("{k:.2}"));
+    if least == most { least } else { format!("{least} to {most}") }
+}
+
 /// Appends the lines of a verdict; `deviation` is the heading of the differences.
 fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
     let rows: Vec<Vec<String>> = verdict
         .parameters
         .iter()
         .map(|row| {
-            let digits = columns::decimals(row.expanded_uncertainty / COVERAGE_FACTOR);
+            let digits = columns::decimals(row.expanded_uncertainty / row.coverage_factor);
             let places = columns::decimals(row.standard_uncertainty);
             vec![
                 symbol_of(row.parameter).to_owned(),

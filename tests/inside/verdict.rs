@@ -20,6 +20,7 @@ fn found(change: impl Fn(&mut [f64; 8]), u: [f64; 8]) -> Found {
     Found {
         parameters: GyroParameters::from_vector(&values),
         standard_uncertainty: u,
+        degrees_of_freedom: [f64::INFINITY; 8],
         gravity_m_per_s2: G,
         gravity_u_m_per_s2: 0.0,
     }
@@ -59,6 +60,26 @@ fn decisions() {
     // An exact result leaves no doubt.
     let exact = against_type(&found(|v| v[4] += 0.011, [0.0; 8]), &GyroType::gvk_6());
     assert_eq!((exact.parameters[4].guarded, exact.parameters[4].specific_risk), (Decision::Fail, 0.0));
+}
+
+/// Expected: the factors for 95.45 % in table G.2 of JCGM 100.
+#[test]
+fn few_degrees_of_freedom_need_a_larger_factor() {
+    for (degrees_of_freedom, k) in [(1.0, 13.97), (2.0, 4.53), (3.0, 3.31), (4.0, 2.87), (10.0, 2.28), (50.0, 2.05)] {
+        let few = Found { degrees_of_freedom: [degrees_of_freedom; 8], ..found(|_| {}, SMALL) };
+        let verdict = against_type(&few, &GyroType { gravity_m_per_s2: Some(G), ..GyroType::gvk_6() });
+        for row in &verdict.parameters {
+            assert!((row.coverage_factor - k).abs() <= 0.005, "{row:?}");
+            let unit = if row.unit == "%" { row.reference_value / 100.0 } else { 1.0 };
+            assert!((row.expanded_uncertainty * unit - row.coverage_factor * row.standard_uncertainty).abs() < 1e-12);
+        }
+        // 0.01 ± k·0.002 for ω_0: from k = 5 on nothing is decided.
+        assert_eq!(verdict.overall, if k < 4.7 { Decision::Pass } else { Decision::Undecided });
+        // One standard uncertainty within the tolerance; the risk is that of t: 0.1587 with many, 0.25 with one.
+        let edge = Found { degrees_of_freedom: [degrees_of_freedom; 8], ..found(|v| v[4] += 0.008, SMALL) };
+        let risk = against_type(&edge, &GyroType::gvk_6()).parameters[4].specific_risk;
+        assert!(if degrees_of_freedom == 1.0 { (0.25..0.29).contains(&risk) } else { risk > 0.158 }, "{risk}");
+    }
 }
 
 /// Expected: docs/model.md: 10 °/h/g moves by 0.5 % from equator to pole.

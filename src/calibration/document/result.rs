@@ -325,6 +325,7 @@ impl ResultDocument {
                 u.omega_g_deg_per_h_per_g.unwrap_or(f64::NAN),
                 u.omega_k_deg_per_h_per_g.unwrap_or(f64::NAN),
             ],
+            degrees_of_freedom: [f64::INFINITY; 8],
             gravity_m_per_s2,
             gravity_u_m_per_s2: gravity_u_m_per_s2.unwrap_or(0.0),
         }
@@ -378,6 +379,7 @@ impl MethodResult {
         let standard_uncertainty = Parameter::EIGHT.map(|p| self.standard_uncertainty(p).unwrap_or(f64::NAN));
         let values = Parameter::EIGHT.map(|parameter| self.value(parameter).unwrap_or(f64::NAN));
         let parameters = GyroParameters::from_vector(&values);
-        Found { parameters, standard_uncertainty, gravity_m_per_s2, gravity_u_m_per_s2 }
+        let degrees_of_freedom = [f64::INFINITY; 8];
+        Found { parameters, standard_uncertainty, degrees_of_freedom, gravity_m_per_s2, gravity_u_m_per_s2 }
     }
 }

@@ -190,6 +190,10 @@ fn lone_cycles(readings: &[Reading]) -> Vec<Problem> {
 
 /// Returns a problem if the currents of an axis are all zero.
 fn without_current(readings: &[Reading]) -> Vec<Problem> {
+    if readings.is_empty() {
+        let (expected, advice) = ("a row for every reading", "add the rows with i, j, jx_ma and jy_ma");
+        return vec![whole_file("no readings".to_owned(), expected, advice)];
+    }
     let zero = |axis: usize| readings.iter().all(|row| row.current_ma[axis] == 0.0);
     let (found, advice) = match (zero(0), zero(1)) {
         (true, true) => ("currents that are all zero", "check that the gyro was running with its feedback loop closed"),

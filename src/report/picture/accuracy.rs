@@ -68,7 +68,9 @@ fn rows(accuracy: &Accuracy, gravity_m_per_s2: f64) -> Vec<Row> {
     // The verdict on a gyro with exactly this uncertainty gives tolerance and uncertainty in one unit and at one g.
     // The passport states its values per local g, so the uncertainty of g is not included.
     let parameters = gyro.nominal.to_model();
-    let found = Found { parameters, standard_uncertainty, gravity_m_per_s2, gravity_u_m_per_s2: 0.0 };
+    let degrees_of_freedom = [f64::INFINITY; 8];
+    let found =
+        Found { parameters, standard_uncertainty, degrees_of_freedom, gravity_m_per_s2, gravity_u_m_per_s2: 0.0 };
     let verdict = against_type(&found, &gyro);
     let share = |parameter: Parameter| {
         let row = verdict.parameters.iter().find(|row| row.parameter == parameter.key())?;

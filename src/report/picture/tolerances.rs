@@ -4,7 +4,7 @@
 use super::accuracy::unit;
 use super::drawing::{Point, Scale, arrow, coordinate, legend, line, polygon, rectangle, strip, strip_axis, whisker};
 use crate::calibration::parameter::Parameter;
-use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, ParameterVerdict, Verdict};
+use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::Number;
 use crate::report::page::texts::{pictures as texts, units};
@@ -102,7 +102,7 @@ fn decided([x, y]: Point, decision: Decision) -> Markup {
 
 /// Returns deviation and expanded uncertainty, rounded to the second digit of the standard uncertainty.
 pub(crate) fn printed(row: &ParameterVerdict) -> (Number, Number) {
-    let u = row.expanded_uncertainty / COVERAGE_FACTOR;
+    let u = row.expanded_uncertainty / row.coverage_factor;
     (Number::measured(row.deviation, u), Number::measured(row.expanded_uncertainty, u))
 }
 

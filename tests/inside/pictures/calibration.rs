@@ -62,6 +62,7 @@ fn row(
         deviation,
         tolerance,
         expanded_uncertainty,
+        coverage_factor: 2.0,
         expanded_uncertainty_from_gravity: None,
         simple,
         guarded,

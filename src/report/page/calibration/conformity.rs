@@ -4,7 +4,7 @@
 use super::parameters::{self, name_of, uncertainties, values};
 use super::{CalibrationPage, Section, history};
 use crate::calibration::parameter::Parameter;
-use crate::calibration::verdict::{COVERAGE_FACTOR, Decision, ParameterVerdict, Verdict};
+use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{Number, column};
@@ -121,7 +121,7 @@ fn table(languages: &Languages, verdict: &Verdict, caption: Text, [reference, de
         (texts::FOUND, numbers(&|row| Number::measured(row.value, row.standard_uncertainty))),
         (
             texts::PLUS_MINUS,
-            numbers(&|row| Number::measured(COVERAGE_FACTOR * row.standard_uncertainty, row.standard_uncertainty)),
+            numbers(&|row| Number::measured(row.coverage_factor * row.standard_uncertainty, row.standard_uncertainty)),
         ),
         (reference, numbers(&|row| Number::measured(row.reference_value, row.standard_uncertainty))),
         (deviation, numbers(&|row| printed(row).0)),

@@ -196,7 +196,7 @@ impl CalibrationPage<'_> {
     }
 
     fn fits(&self) -> bool {
-        self.calibration.hint.is_none() && self.calibration.settled
+        self.calibration.hint.is_none()
     }
 
     fn body(&self, languages: &Languages) -> Markup {

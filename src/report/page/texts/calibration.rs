@@ -33,10 +33,10 @@ texts! {
     CONFORMS_NOT { en: "NOT within the tolerance of gyro type {type}", ru: "НЕ соответствует допускам типа {type}" }
     UNDECIDED { en: "Conformity with gyro type {type} is undecided", ru: "Соответствие типу {type} не определено" }
     RULE {
-        en: "Decision rule: guarded acceptance with a guard band equal to the expanded uncertainty U = 2u \
-             (JCGM 106, 8.3).",
+        en: "Decision rule: guarded acceptance with a guard band equal to the expanded uncertainty U, \
+             k = 2 or that of Student's t (JCGM 106, 8.3).",
         ru: "Правило принятия решения: приёмка с защитной полосой, равной расширенной неопределённости \
-             U = 2u (JCGM 106, 8.3)."
+             U, k = 2 или по Стьюденту (JCGM 106, 8.3)."
     }
     NO_TYPE { en: "Parameters determined", ru: "Параметры определены" }
     NO_TYPE_WORDS {
@@ -169,9 +169,9 @@ texts! {
 
     CONFORMITY { en: "Comparison with gyro type {type}", ru: "Сравнение с типом {type}" }
     VERDICT_CAPTION {
-        en: "Deviation from the nominal value in the unit of the tolerance; expanded uncertainty U = 2u; drifts refer \
+        en: "Deviation from the nominal value in the unit of the tolerance; expanded uncertainty U (k = 2, or Student's t); drifts refer \
              to the g of the type",
-        ru: "Отклонение от номинального значения в единицах допуска; расширенная неопределённость U = 2u; \
+        ru: "Отклонение от номинального значения в единицах допуска; расширенная неопределённость U (k = 2 или по Стьюденту); \
              составляющие дрейфа отнесены к g типа"
     }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
@@ -184,9 +184,9 @@ texts! {
     }
     CALIBRATED { en: "Calibration", ru: "Калибровка" }
     CHANGE_CAPTION {
-        en: "Change in the unit of the tolerance, which also limits the instability; expanded uncertainty U = 2u; \
+        en: "Change in the unit of the tolerance, which also limits the instability; expanded uncertainty U (k = 2, or Student's t); \
              drifts refer to the g of the type",
-        ru: "Изменение в единицах допуска (он же — допуск на нестабильность); расширенная неопределённость U = 2u; \
+        ru: "Изменение в единицах допуска (он же — допуск на нестабильность); расширенная неопределённость U (k = 2 или по Стьюденту); \
              составляющие дрейфа отнесены к g типа"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }

@@ -119,8 +119,8 @@ texts! {
     }
 
     TOLERANCES_WHISKER {
-        en: "expanded uncertainty ±U, U = 2u",
-        ru: "расширенная неопределённость ±U, U = 2u"
+        en: "expanded uncertainty ±U",
+        ru: "расширенная неопределённость ±U"
     }
     TOLERANCES_GUARDED {
         en: "guarded acceptance: within the tolerance minus U",
