@@ -6,9 +6,10 @@
 //     const { valid, id, checks } = await verify(await readFile("moscow-bmstu-1.yaml"), signers, { serial: "0017" });
 //
 // Every function takes the bytes of a passport (Uint8Array or ArrayBuffer), the text or bytes of an OpenSSH
-// allowed_signers file, and a question in which every key may be absent: `time` (text in RFC 3339, a UTC date, or a
-// Date; default: now), `serial`, `at: [latitude, longitude]` in degrees, `issuer`, and `revoked`, a list of revocation
-// lists as text or bytes. Input that cannot be used throws an Error whose `cause` is {code, message, problems}.
+// allowed_signers file, and a question in which every key may be absent: `time` (text in RFC 3339, whole seconds, a UTC
+// date, or a Date; default: now), `serial`, `at: [latitude, longitude]` in degrees, `issuer`, and `revoked`, a list of
+// revocation lists as text or bytes. Input that cannot be used throws an Error whose `cause` is {code, message,
+// problems}; a refusal, one whose `cause` is {valid, id, checks}. No other key is accepted in a question.
 
 const WASM = "@WASM@"; // base64 of the module, compressed with gzip
 
@@ -20,12 +21,23 @@ async function compiled() {
     return WebAssembly.compile(await new Response(stream).arrayBuffer());
 }
 
-const bytes = (data) => (typeof data === "string" ? new TextEncoder().encode(data) : new Uint8Array(data));
+function bytes(data) {
+    if (typeof data === "string") return new TextEncoder().encode(data);
+    if (data instanceof Uint8Array || data instanceof ArrayBuffer) return new Uint8Array(data);
+    throw new TypeError(`found ${data?.constructor?.name ?? data}, expected text, a Uint8Array or an ArrayBuffer`);
+}
 
-function question({ time, serial, at, issuer, revoked = [] }) {
-    if (time instanceof Date) time = `${time.toISOString().slice(0, 19)}Z`;
-    const lists = revoked.map((list) => (typeof list === "string" ? list : Array.from(bytes(list))));
-    return JSON.stringify({ time, serial, at, issuer, revoked: lists });
+function question(asked) {
+    if (typeof asked !== "object" || asked === null || Array.isArray(asked)) {
+        throw new TypeError(`found ${JSON.stringify(asked)}, expected a question such as { serial: "0017" }`);
+    }
+    const { time, revoked = [] } = asked;
+    if (!Array.isArray(revoked)) throw new TypeError("revoked is not a list of revocation lists");
+    return JSON.stringify({
+        ...asked, // with keys that are unknown: the module names them
+        time: time instanceof Date ? `${time.toISOString().slice(0, 19)}Z` : time,
+        revoked: revoked.map((list) => (typeof list === "string" ? list : Array.from(bytes(list)))),
+    });
 }
 
 /** Calls a function of a new instance of the module; returns its text. */

@@ -1,7 +1,6 @@
 // The page verify.html: reads files, calls the functions above, and shows their answers as text.
 
 const byId = (id) => document.getElementById(id);
-const dropped = {};
 
 /** Creates an element. Text of others is only ever text, never markup. */
 function element(name, text, ...children) {
@@ -17,7 +16,7 @@ function table(head, rows) {
         element("tbody", undefined, ...rows.map((row) => line(row, "td"))));
 }
 
-const file = (id) => byId(id).files[0] ?? dropped[id];
+const file = (id) => byId(id).files[0];
 const read = async (blob) => (blob ? new Uint8Array(await blob.arrayBuffer()) : undefined);
 
 async function asked() {
@@ -47,7 +46,9 @@ function numbers(found) {
     return parts;
 }
 
-function parameters({ results: [found] }) {
+function parameters({ consistent, hint, mistake, results: [found] }) {
+    const warnings = consistent ? [] : [`WARNING: the readings are not consistent with this stand: ${hint}`];
+    if (mistake) warnings.push(`WARNING: the parameters are far from the gyro's; explained by ${JSON.stringify(mistake)}`);
     const rows = [];
     const u = found.standard_uncertainty;
     for (const [key, unit] of [["k_deg_per_h_per_ma", "°/(h·mA)"], ["omega0_deg_per_h", "°/h"],
@@ -55,7 +56,8 @@ function parameters({ results: [found] }) {
         rows.push([key, [found[key]].flat(2).join("  "), [u[key]].flat(2).join("  "), unit]);
     }
     const { value, degrees_of_freedom, probability } = found.chi_square;
-    return [element("h2", "Calibration by least squares"), table(["parameter", "value", "u (k = 1)", "unit"], rows),
+    return [element("h2", "Calibration by least squares"), ...warnings.map((words) => element("strong", words)),
+        table(["parameter", "value", "u (k = 1)", "unit"], rows),
         element("p", `χ² ${value} with ${degrees_of_freedom} degrees of freedom, probability ${probability ?? "-"}`)];
 }
 
@@ -88,7 +90,8 @@ async function answer() {
     if (!verdict.valid) return parts;
     parts.push(...numbers(await content(passport, signers, question)));
     const currents = await read(file("currents"));
-    if (currents) parts.push(...parameters(await calibrate(passport, signers, currents, question)));
+    const failed = (error) => [element("h2", "No calibration"), element("pre", error.message)];
+    if (currents) parts.push(...(await calibrate(passport, signers, currents, question).then(parameters, failed)));
     parts.push(...printed(await print(passport, signers, question), verdict.id));
     return parts;
 }
@@ -112,8 +115,10 @@ document.addEventListener("drop", (event) => {
     event.preventDefault();
     for (const one of event.dataTransfer.files) {
         const id = /\.ya?ml$/i.test(one.name) ? "passport" : /\.csv$/i.test(one.name) ? "currents" : "signers-file";
-        byId(id).value = "";
-        dropped[id] = one;
+        // The inputs show the name of what they hold.
+        const held = new DataTransfer();
+        held.items.add(one);
+        byId(id).files = held.files;
     }
     byId("question").requestSubmit();
 });

@@ -1,19 +1,42 @@
 /* Verifies a passport and calibrates a gyro with it, by the library and by the paper's equation (13).
  *
- *     gcc calibrate.c -I.. -L../../target/release -ldtg_passport -o calibrate
- *     ./calibrate PASSPORT ALLOWED_SIGNERS QUESTION_JSON < CURRENTS
+ *     ./calibrate PASSPORT ALLOWED_SIGNERS QUESTION_JSON < CURRENTS.csv
  *
- * Each line of CURRENTS has i, j, jx_ma and jy_ma. Exit code: 0 done, 1 refused, 2 unusable.
+ * Exit code: 0 done, 1 refused, 2 unusable.
  */
 #include "dtg_passport.h"
 
 #include <stdio.h>
+#include <string.h>
 
 enum { MOST_ROWS = 1024 };
 
+/* Reads rows i, j, jx_ma, jy_ma after an optional header. Returns their number, or 0 after a message. */
+static size_t read_rows(double rows[MOST_ROWS][4]) {
+    static const char header[] = "i,j,jx_ma,jy_ma";
+    char line[256], rest;
+    size_t count = 0;
+    for (int number = 1; fgets(line, sizeof line, stdin) != NULL; number++) {
+        if (line[0] == '#' || strncmp(line, header, sizeof header - 1) == 0) {
+            continue;
+        }
+        double *at = rows[count];
+        if (sscanf(line, "%lf ,%lf ,%lf ,%lf %c", &at[0], &at[1], &at[2], &at[3], &rest) != 4 || ++count == MOST_ROWS) {
+            fprintf(stderr, "line %d: expected %s, in fewer than %d rows\n", number, header, MOST_ROWS);
+            return 0;
+        }
+    }
+    return count;
+}
+
 int main(int argc, char **argv) {
     if (argc != 4) {
-        fprintf(stderr, "usage: %s PASSPORT ALLOWED_SIGNERS QUESTION_JSON\n", argv[0]);
+        fprintf(stderr, "usage: %s PASSPORT ALLOWED_SIGNERS QUESTION_JSON < CURRENTS.csv\n", argv[0]);
+        return DTG_UNUSABLE;
+    }
+    static double rows[MOST_ROWS][4];
+    size_t count = read_rows(rows);
+    if (count == 0) {
         return DTG_UNUSABLE;
     }
 
@@ -26,28 +49,23 @@ int main(int argc, char **argv) {
         return code;
     }
 
-    double rows[MOST_ROWS][4];
-    size_t count = 0;
-    while (count < MOST_ROWS &&
-           scanf("%lf ,%lf ,%lf ,%lf", &rows[count][0], &rows[count][1], &rows[count][2], &rows[count][3]) == 4) {
-        count++;
-    }
     char *result = NULL;
     code = dtg_calibrate(passport, rows[0], count, "least-squares", &result);
     puts(result);
     dtg_string_free(result);
 
     /* K = B (J_1 - J_2 delta)^-1, eq. (13): columns are differences of opposite positions, eq. (11). */
-    double b[4], delta[4], j[2][4][2] = {{{0}}}, m[2][2];
-    if (code == DTG_OK && dtg_matrix(passport, "b_deg_per_h", b) == DTG_OK &&
-        dtg_matrix(passport, "delta", delta) == DTG_OK) {
-        for (size_t k = 0; k < count; k++) {
-            if (rows[k][0] <= 2 && rows[k][1] <= 4) {
-                double *at = j[(int)rows[k][0] - 1][(int)rows[k][1] - 1];
-                at[0] = rows[k][2];
-                at[1] = rows[k][3];
-            }
+    double b[4], delta[4], j[2][4][2], m[2][2];
+    unsigned read = 0; /* a bit for each of the eight positions */
+    for (size_t k = 0; code == DTG_OK && k < count; k++) {
+        if (rows[k][0] <= 2 && rows[k][1] <= 4) {
+            int frame = (int)rows[k][0] - 1, platform = (int)rows[k][1] - 1;
+            memcpy(j[frame][platform], &rows[k][2], sizeof j[frame][platform]);
+            read |= 1U << (4 * frame + platform);
         }
+    }
+    if (read == 0xff && dtg_matrix(passport, "b_deg_per_h", b) == DTG_OK &&
+        dtg_matrix(passport, "delta", delta) == DTG_OK) {
         for (int row = 0; row < 2; row++) {
             double j2[2] = {j[1][0][row] - j[1][2][row], j[1][1][row] - j[1][3][row]};
             for (int column = 0; column < 2; column++) {

@@ -1,22 +1,37 @@
-function text = dtg_run(verb, passport, files, signers, options)
+function text = dtg_run(verb, words, options, known, files)
 % DTG_RUN  Run dtg-passport and return its JSON; used by dtg_load and dtg_calibrate.
-    known = {'serial', 'at', 'time', 'issuer', 'revoked', 'laboratory', 'gyro', 'method'};
-    words = [{passport}, files, {['--trust=', signers]}];
-    for k = 1:2:numel(options)
-        if ~ismember(options{k}, known)
-            error('dtg:option', 'unknown option %s, expected one of: %s', options{k}, strjoin(known, ', '));
-        end
-        words{end + 1} = ['--', options{k}, '=', char(options{k + 1})];
+    if mod(numel(options), 2) ~= 0
+        error('dtg:option', 'expected pairs of the name of an option and its value');
     end
-    words = cellfun(@quoted, words, 'UniformOutput', false);
-    [status, text] = system(['dtg-passport ', verb, ' ', strjoin(words, ' ')]);
+    for k = 1:2:numel(options)
+        [name, value] = options{k:k + 1};
+        if ~ismember(name, known)
+            error('dtg:option', 'unknown option %s, expected one of: %s', char(name), strjoin(known, ', '));
+        elseif strcmp(name, 'at') && isnumeric(value)
+            value = sprintf('%.10f,%.10f', value);
+        elseif isnumeric(value)
+            error('dtg:option', 'option %s is a number, expected text such as ''0017''', name);
+        end
+        words{end + 1} = ['--', name, '=', char(value)];
+    end
+    words = cellfun(@quoted, [words, {'--'}, files], 'UniformOutput', false);
+    [status, text] = system(['dtg-passport ', verb, ' --format=json ', strjoin(words, ' ')]);
     if status == 1 && strcmp(verb, 'calibrate') && any(strfind(text, '"passport_id"'))
         status = 0;  % the gyro fails its type; the result says so
     end
-    if status == 1
-        error('dtg:refused', 'refused: %s', text);
-    elseif status ~= 0
-        error('dtg:unusable', 'exit code %d: %s', status, text);
+    if status ~= 0
+        identifiers = {'dtg:refused', 'dtg:unusable'};
+        error(identifiers{min(status, 2)}, 'exit code %d: %s', status, message(text));
+    end
+end
+
+function words = message(text)
+% Return the message in the JSON of a refusal; another answer as it is.
+    words = text;
+    try
+        found = jsondecode(text);
+        words = found.error.message;
+    catch
     end
 end
 

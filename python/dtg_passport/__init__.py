@@ -17,6 +17,7 @@ array([[1.20000e-03, 1.69235e+01],
 """
 
 from ._calibration import Calibration, MonteCarlo, Parameters
+from ._dtg_passport import __version__ as __version__
 from ._factory import Issued, Plan, issue, plan
 from ._load import load, load_many, load_unverified, loads, verify
 from ._passport import Check, Passport, Position, Refused, SelfCheck, Verification

@@ -158,9 +158,20 @@ class Calibration(Frozen):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Remarks on the currents, the laboratory and the fit."""
-        hint = self._document.get("hint")
-        return self._remarks if hint is None else (*self._remarks, hint)
+        """Remarks on the currents, the laboratory and the fit; each was also a Python warning."""
+        return self._remarks
+
+    @property
+    def consistent(self) -> bool:
+        """Whether the readings fit the stand. If not, the parameters are not valid, and `remarks` has possible causes."""
+        consistent: bool = self._document["consistent"]
+        return consistent
+
+    @property
+    def verified(self) -> bool:
+        """Whether the passport was verified."""
+        verified: bool = self._document["passport_verified"]
+        return verified
 
     @property
     def verdict(self) -> dict[str, Any] | None:
@@ -280,5 +291,5 @@ class Calibration(Frozen):
 
     def __repr__(self) -> str:
         method, passport = self._result["method"], self._document["passport_id"]
-        mark = "" if self._document["passport_verified"] else " NOT VERIFIED"
-        return f"<Calibration by {method} with {passport}{mark}>"
+        marks = ("" if self.verified else " NOT VERIFIED") + ("" if self.consistent else " NOT CONSISTENT")
+        return f"<Calibration by {method} with {passport}{marks}>"

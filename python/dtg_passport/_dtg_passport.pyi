@@ -9,6 +9,8 @@ _File = tuple[str, bytes]
 _Files = tuple[_File | None, _File | None]
 _Check = tuple[str, bool | None, str, str]
 
+__version__: str
+
 @final
 class Enquiry:
     def __new__(

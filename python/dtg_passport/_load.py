@@ -95,7 +95,7 @@ def load(
     at
         Place of the stand: latitude and longitude in degrees, north and east positive.
     time
-        Time to verify for: RFC 3339, a UTC date, or a `datetime` with a time zone. Default: now.
+        Time to verify for: RFC 3339 in whole seconds, a UTC date, or a `datetime` with a time zone. Default: now.
     issuer
         Required issuer.
     revoked
@@ -243,7 +243,7 @@ def _each(paths: Iterable[Path], enquiry: _dtg_passport.Enquiry, threads: int) -
 
 
 def load_unverified(path: Path) -> Passport:
-    """Read a passport without verifying it: anyone may have written its numbers. It warns every time.
+    """Read a passport without verifying it: anyone may have written its numbers. It gives a Python warning.
 
     Raises
     ------

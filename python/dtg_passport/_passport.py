@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import json
 import os
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -64,6 +65,10 @@ class Verification(NamedTuple):
     passport: Passport | None
     """The passport if every check passed, otherwise None."""
 
+    def __bool__(self) -> bool:
+        """Return `valid`."""
+        return self.valid
+
 
 class Refused(Exception):
     """A passport that failed a check."""
@@ -107,6 +112,10 @@ class SelfCheck(NamedTuple):
     """Relative error |found/stated - 1| of each parameter."""
     limit: float
     """Largest permitted error."""
+
+    def __bool__(self) -> bool:
+        """Return `passed`."""
+        return self.passed
 
 
 class Passport(Frozen):
@@ -289,6 +298,8 @@ class Passport(Frozen):
         """
         inputs = (_csv(currents), method, documents(gyro, laboratory))
         text, covariance, remarks = self._content.calibrate(*inputs)
+        for remark in remarks:
+            warnings.warn(remark, stacklevel=2)
         run = functools.partial(self._content.monte_carlo, *inputs)
         return Calibration(json.loads(text), covariance, tuple(remarks), run)
 
@@ -376,6 +387,12 @@ class Passport(Frozen):
         ax.legend()
         return ax
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Passport) and (self.sha256, self.verified) == (other.sha256, other.verified)
+
+    def __hash__(self) -> int:
+        return hash(self.sha256)
+
     @property
     def _mark(self) -> str:
         return "" if self.verified else " NOT VERIFIED"
@@ -409,13 +426,19 @@ def _csv(currents: object) -> tuple[str, bytes]:
     """Return currents as a name and CSV, which the library reads with every check."""
     if isinstance(currents, (str, os.PathLike)):
         return named(currents)
+    if hasattr(currents, "reset_index"):  # a DataFrame; i and j may be its index, as in `to_dataframe`
+        currents = currents.reset_index() if "i" not in currents else currents
+        currents = {name: currents[name] for name in currents if name != "index"}
     if isinstance(currents, Mapping):
         columns = [np.asarray(column).tolist() for column in currents.values()]
-        rows = [",".join(map(repr, row)) for row in zip(*columns, strict=True)]
+        rows = [",".join(map(_cell, row)) for row in zip(*columns, strict=True)]
         return "currents", "\n".join([",".join(map(str, currents)), *rows, ""]).encode()
-    if hasattr(currents, "to_csv"):
-        return "currents", currents.to_csv(index=False).encode()
     table = np.asarray(currents, dtype=np.float64)
     if table.ndim != 2 or table.shape[1] != 4:
         raise ValueError(f"currents: found an array of shape {table.shape}, expected (N, 4): i, j, jx_ma, jy_ma")
     return "currents", _dtg_passport.currents_csv(table.tolist())
+
+
+def _cell(value: Any) -> str:
+    """Return a value as a cell of CSV. NumPy makes all columns of a table floats, even whole numbers such as i and j."""
+    return str(int(value)) if isinstance(value, float) and value.is_integer() and abs(value) < 2**53 else str(value)

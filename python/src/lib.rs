@@ -330,5 +330,8 @@ fn plan(py: Python, site: File, stand: Option<File>, files: Files, question: &st
 #[pymodule]
 mod _dtg_passport {
     #[pymodule_export]
+    #[expect(non_upper_case_globals)]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+    #[pymodule_export]
     use super::{Answer, Content, Enquiry, currents_csv, issue, plan};
 }

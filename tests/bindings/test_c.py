@@ -59,9 +59,8 @@ def test_the_header_is_good_c_and_c_plus_plus(tmp_path: Path) -> None:
         run(tmp_path / "a")
 
 
-def currents() -> str:
-    lines = (PROJECT / "docs/currents.csv").read_text().splitlines()
-    return "\n".join(line for line in lines if line[:1].isdigit())
+CURRENTS = PROJECT / "docs/currents.csv"
+OTHER = PROJECT / "passports/SPS-1/0203/moscow-bmstu-1.yaml"  # not the stand of these currents
 
 
 @pytest.mark.parametrize("how", ["sanitized", "static", "valgrind"])
@@ -69,7 +68,7 @@ def test_the_example_calibrates(tmp_path: Path, how: str) -> None:
     options = SANITIZERS if how == "sanitized" else []
     example = compiled(PROJECT / "c/examples/calibrate.c", tmp_path / "calibrate", *options, static=how == "static")
     before = ["valgrind", "--quiet", "--leak-check=full", "--error-exitcode=9"] if how == "valgrind" else []
-    printed = run(*before, example, PASSPORT, SIGNERS, QUESTION, given=currents())
+    printed = run(*before, example, PASSPORT, SIGNERS, QUESTION, given=CURRENTS.read_text())
     decoder = json.JSONDecoder()
     report, end = decoder.raw_decode(printed)
     result, end = decoder.raw_decode(printed[end:].lstrip())
@@ -86,11 +85,22 @@ def test_the_example_calibrates(tmp_path: Path, how: str) -> None:
     assert found[4] == "deg/(h*mA)" and np.allclose([float(number) for number in found[:4]], K, rtol=0, atol=1e-6)
 
     (tmp_path / "altered.yaml").write_bytes(PASSPORT.read_bytes().replace(b"serial", b"Serial", 1))
-    printed = run(*before, example, tmp_path / "altered.yaml", SIGNERS, QUESTION, accept=1)
+    rows = CURRENTS.read_text()
+    printed = run(*before, example, tmp_path / "altered.yaml", SIGNERS, QUESTION, given=rows, accept=1)
     assert json.loads(printed)["valid"] is False
     for arguments in ((tmp_path, SIGNERS, QUESTION), (PASSPORT, tmp_path / "none", QUESTION), (PASSPORT, SIGNERS, "{")):
-        printed = run(*before, example, *arguments, accept=2)
+        printed = run(*before, example, *arguments, given=rows, accept=2)
         assert json.loads(printed)["error"]["code"] in ("unusable", "unreadable")
+
+
+def test_the_example_reads_every_row_or_none(tmp_path: Path) -> None:
+    example = compiled(PROJECT / "c/examples/calibrate.c", tmp_path / "calibrate", *SANITIZERS)
+    rows = CURRENTS.read_text()
+    for malformed in (rows.replace("1,3,", "1;3;"), rows + "1,1,-0.2,-0.1,9\n", rows.replace("1,3,-0.1", "1,3,-O.1"), "", "#\n"):
+        assert run(example, PASSPORT, SIGNERS, QUESTION, given=malformed, accept=2) == ""
+    # Without one of the eight positions there is no K by equation (13).
+    seven = "".join(line for line in rows.splitlines(keepends=True) if not line.startswith("2,4,"))
+    assert "deg/(h*mA)" not in run(example, PASSPORT, SIGNERS, QUESTION, given=seven)
 
 
 def test_the_example_in_c_plus_plus(tmp_path: Path) -> None:
@@ -205,7 +215,7 @@ def test_octave_and_matlab_functions(tmp_path: Path) -> None:
     due = yaml.safe_load(PASSPORT.read_bytes().partition(b"signature: |")[0])
     options = ["--trust", SIGNERS, "--time", TIME, "--method", "least-squares", "--format", "json"]
     calibrated = json.loads(program("calibrate", PASSPORT, PROJECT / "docs/currents.csv", *options))["results"][0]
-    rows = ";".join(currents().splitlines())
+    rows = ";".join(line for line in CURRENTS.read_text().splitlines() if line[:1].isdigit())
     script = tmp_path / "test.m"
     script.write_text(f"""
         addpath('{PROJECT}/docs/matlab');
@@ -216,6 +226,14 @@ def test_octave_and_matlab_functions(tmp_path: Path) -> None:
         try, dtg_load('{PASSPORT}', '{SIGNERS}', 'serial', '0018', 'time', '{TIME}'); catch e, disp(e.identifier); end
         try, dtg_load('{PASSPORT}', '{SIGNERS}', 'serail', '0017'); catch e, disp(e.identifier); end
         try, dtg_load('it''s "no" $(file)', '{SIGNERS}'); catch e, disp(e.identifier); end
+        try, dtg_load('{PASSPORT}', '{SIGNERS}', 'serial', 17); catch e, disp(e.identifier); end
+        try, dtg_load('{PASSPORT}', '{SIGNERS}', 'trust', '{PASSPORT}'); catch e, disp(e.identifier); end
+        try, dtg_load('--help', '{SIGNERS}'); catch e, disp(e.identifier); end
+        try, dtg_calibrate('{PASSPORT}', '{SIGNERS}', ones(8, 5)); catch e, disp(e.identifier); end
+        try, dtg_load('{PASSPORT}', '{SIGNERS}', 'at', [10 20], 'time', '{TIME}'); catch e, disp(e.message); end
+        lastwarn('', '');
+        dtg_calibrate('{OTHER}', '{SIGNERS}', [{rows}], 'time', '{TIME}');
+        [~, identifier] = lastwarn(); disp(identifier);
     """)
     loaded, found, *refused = octave(script).splitlines()
     ulp = lambda printed, numbers: np.testing.assert_array_max_ulp(np.array(printed.split(), dtype=float), np.array(numbers), 1)
@@ -223,4 +241,6 @@ def test_octave_and_matlab_functions(tmp_path: Path) -> None:
     ulp(found, [*np.ravel(calibrated["k_deg_per_h_per_ma"]), *calibrated["omega0_deg_per_h"],
                 calibrated["omega_g_deg_per_h_per_g"], calibrated["omega_k_deg_per_h_per_g"],
                 *np.ravel(calibrated["standard_uncertainty"]["k_deg_per_h_per_ma"])])  # fmt: skip
-    assert refused == ["dtg:refused", "dtg:option", "dtg:unusable"]
+    expected = ["refused", "option", "unusable", "option", "option", "unusable", "unusable"]
+    assert refused[:7] == [f"dtg:{identifier}" for identifier in expected]
+    assert refused[7].startswith("exit code 1: nothing was exported") and refused[-1] == "dtg:inconsistent"
