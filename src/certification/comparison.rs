@@ -6,6 +6,7 @@
 //! with the worst, and are excluded from the common rotation. One bad position therefore does not make the others look
 //! bad.
 
+use super::compared::{CommonTurn, ComparedPosition, Test};
 use super::components::{RunModel, Variance, case_turn, turns_at};
 use super::finding::{Finding, Untested, findings};
 use super::suspects::OUTLIER;
@@ -38,45 +39,6 @@ pub enum NotCompared {
     /// Too few positions to distinguish a common rotation from changes of single positions.
     #[error("too few positions to distinguish a common rotation from changes of single positions")]
     TooFewPositions,
-}
-
-/// Result of a test with F, which is chi-square over its degrees of freedom if the uncertainties are known exactly.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Test {
-    /// Chi-square: the sum of squared differences in units of their standard uncertainties.
-    pub chi_square: f64,
-    /// Degrees of freedom of chi-square.
-    pub degrees_of_freedom: usize,
-    /// Probability of a larger value for an unchanged stand, by the F distribution, because the uncertainties have
-    /// finite degrees of freedom themselves.
-    pub probability: f64,
-}
-
-/// Result of a comparison for one position.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ComparedPosition {
-    /// Index (i, j) of the position.
-    pub index: PositionIndex,
-    /// Rotation since the certificate about x, y, z of the case, relative to the other positions, arcsec.
-    pub turn_arcsec: [f64; 3],
-    /// Standard uncertainties of `turn_arcsec`, arcsec.
-    pub u_arcsec: [f64; 3],
-    /// Test of all three components at once, relative to the rotation common to the other positions.
-    pub test: Test,
-    /// `true` if the position repeats.
-    pub repeats: bool,
-}
-
-/// Rotation common to all positions.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CommonTurn {
-    /// Rotation of the platform about x, y, z of the case, arcsec.
-    pub platform_arcsec: [f64; 3],
-    /// Rotation of the base about east, north, up, arcsec; what cannot be distinguished from the platform is in
-    /// `platform_arcsec`.
-    pub base_arcsec: [f64; 3],
-    /// Test of the common rotation against the variation between runs; `None` if that is unknown.
-    pub test: Option<Test>,
 }
 
 /// Comparison of a check run with a certificate.
@@ -146,26 +108,17 @@ pub fn compare(
     let untested = between.err().or(common.test.is_none().then_some(Untested::CommonParts));
     let moved = common.test.is_some_and(|test| test.probability < OUTLIER);
     let same_stand = repeating.len() == places.len() && all.probability >= OUTLIER && !moved;
-    let mut found = Comparison {
-        certificate: certificate.certificate.number.clone(),
-        runs,
-        all,
-        positions,
-        common,
-        same_stand,
-        findings: Vec::new(),
-        words: Vec::new(),
-    };
-    found.findings = findings(&found, moved, untested);
+    let mut findings = findings(all, &positions, &common, moved, untested);
     if certificate.positions.iter().any(|at| certified_u_arcsec(at).is_none()) {
-        found.findings.push(Finding::TreatedAsExact);
+        findings.push(Finding::TreatedAsExact);
     }
     let evidence = certificate.certificate.evidence.as_ref();
     if evidence.is_some_and(|evidence| readings.sha256() == Some(&evidence.readings_sha256)) {
-        found.findings.push(Finding::SameReadings);
+        findings.push(Finding::SameReadings);
     }
-    found.words = found.findings.iter().map(ToString::to_string).collect();
-    Ok(found)
+    let words = findings.iter().map(ToString::to_string).collect();
+    let certificate = certificate.certificate.number.clone();
+    Ok(Comparison { certificate, runs, all, positions, common, same_stand, findings, words })
 }
 
 fn check_same(certificate: &Stand, header: &Header) -> Result<(), NotCompared> {

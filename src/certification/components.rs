@@ -13,7 +13,6 @@
 //! unbiased, and equal to the analysis of variance if all axes scatter alike.
 
 use super::NotCertified;
-use super::deletion::Deletion;
 use crate::calibration::inputs::Turn;
 use crate::coefficients::Position;
 use crate::statistics::beta::chi_square_point;
@@ -200,14 +199,15 @@ pub(crate) fn estimate(turns: &[Turn], runs: &[u32], differences: &[DVector<f64>
 
 impl Components {
     /// Corrects the variances of readings of which some are predictions from the others, and so show no scatter:
-    /// `deletion` is the fit without them, and `missing` has the places (position, run) of the predictions.
-    pub(crate) fn without(&mut self, deletion: &Deletion, missing: &[(usize, usize)]) {
-        let ratio = |axis: usize| deletion.squares_arcsec2[axis].value / self.axis_squares_arcsec2[axis].value;
+    /// `squares_arcsec2` are the mean squares of the residuals without them, by axis, and `missing` has the places
+    /// (position, run) of the predictions.
+    pub(crate) fn without(&mut self, squares_arcsec2: [Variance; 3], missing: &[(usize, usize)]) {
+        let ratio = |axis: usize| squares_arcsec2[axis].value / self.axis_squares_arcsec2[axis].value;
         let ratios = [0, 1, 2].map(ratio);
         for (own, ratio) in self.own_arcsec2.iter_mut().zip(ratios) {
             *own = Variance { value: own.value * ratio, degrees_of_freedom: own.degrees_of_freedom / ratio };
         }
-        self.axis_squares_arcsec2 = deletion.squares_arcsec2;
+        self.axis_squares_arcsec2 = squares_arcsec2;
         self.pooled_arcsec2 =
             pooled(&[0, 1, 2].map(|a| Variance { value: self.axis_squares_arcsec2[a].value, ..self.own_arcsec2[a] }));
         let changes = self.residuals.len() as f64 - 1.0;

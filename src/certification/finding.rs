@@ -1,6 +1,6 @@
 //! Findings of a comparison: reasons for its result, and its limits.
 
-use super::comparison::{ComparedPosition, Comparison};
+use super::compared::{CommonTurn, ComparedPosition, Test};
 use super::suspects::{OUTLIER, STRAGGLER};
 use std::fmt::{self, Display, Formatter};
 
@@ -88,20 +88,26 @@ impl Display for Untested {
     }
 }
 
-/// Returns the findings of a comparison; `moved` states that the common rotation is significant.
-pub(super) fn findings(found: &Comparison, moved: bool, untested: Option<Untested>) -> Vec<Finding> {
-    let mut findings: Vec<Finding> =
-        found.positions.iter().filter(|at| !at.repeats).copied().map(Finding::Changed).collect();
-    if !findings.is_empty() && findings.len() == found.positions.len() {
+/// Returns the findings of a comparison: of `all` positions relative to each other, of each of the `positions`, and of
+/// their `common` rotation, where `moved` states that it is significant.
+pub(super) fn findings(
+    all: Test,
+    positions: &[ComparedPosition],
+    common: &CommonTurn,
+    moved: bool,
+    untested: Option<Untested>,
+) -> Vec<Finding> {
+    let mut findings: Vec<Finding> = positions.iter().filter(|at| !at.repeats).copied().map(Finding::Changed).collect();
+    if !findings.is_empty() && findings.len() == positions.len() {
         findings = vec![Finding::AnotherStand];
-    } else if findings.is_empty() && found.all.probability < OUTLIER {
+    } else if findings.is_empty() && all.probability < OUTLIER {
         findings.push(Finding::ChangedTogether);
-    } else if findings.is_empty() && found.all.probability < STRAGGLER {
+    } else if findings.is_empty() && all.probability < STRAGGLER {
         findings.push(Finding::Slightly);
     }
     if moved {
         findings.push(Finding::Rotated);
-    } else if found.common.test.is_some_and(|test| test.probability < STRAGGLER) {
+    } else if common.test.is_some_and(|test| test.probability < STRAGGLER) {
         findings.push(Finding::RotatedSlightly);
     }
     findings.extend(untested.map(Finding::NotTested));

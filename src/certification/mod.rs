@@ -3,14 +3,17 @@
 //! * `header`: the stand file before the measurement.
 //! * `readings`: the angles read, with every position in every run.
 //! * `components`: variance components (the positions' own scatter, and the part common to a run).
-//! * `remark`: remarks for the signatory.
+//! * `deletion`: the fit without some of the readings.
 //! * `suspects`: positions that scatter more (Cochran), outliers (Grubbs), and runs that agree too well.
-//! * `comparison`: comparison of a later check run with the certificate.
+//! * `remark`: remarks for the signatory.
+//! * `compared`: values of the comparison of a later check run with the certificate.
 //! * `finding`: reasons for the result of that comparison, and its limits.
+//! * `comparison`: the comparison itself.
 //! * `document`: the stand file as text, with comments on the origin of its numbers.
 //!
 //! The model and the meaning of each number are described in docs/certification.md.
 
+pub(crate) mod compared;
 pub(crate) mod comparison;
 pub(crate) mod components;
 mod deletion;
@@ -21,7 +24,8 @@ pub(crate) mod readings;
 pub(crate) mod remark;
 pub(crate) mod suspects;
 
-pub use comparison::{CommonTurn, ComparedPosition, Comparison, NotCompared, Test, compare};
+pub use compared::{CommonTurn, ComparedPosition, Test};
+pub use comparison::{Comparison, NotCompared, compare};
 use components::{Common, Components, Variance};
 pub use header::{Header, NominalPosition};
 pub use readings::{AngleReadings, NotBalanced};
@@ -154,7 +158,7 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     let turns = turns_of(header, readings);
     let mut components = components::estimate(&turns, runs, &differences(&turns, readings))?;
     if let Some(deletion) = &deletion {
-        components.without(deletion, readings.missing());
+        components.without(deletion.squares_arcsec2, readings.missing());
     }
     let suspects = Suspects::of(header, readings, &components);
     let worse: Vec<usize> = suspects.worse.iter().map(|at| at.place).collect();
@@ -195,7 +199,7 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
         excluded: Some(readings.excluded().to_vec()).filter(|excluded| !excluded.is_empty()),
     };
     certificate.evidence = readings.sha256().map(of_readings);
-    let mut remarks = suspects.remarks(runs);
+    let mut remarks = Remark::of_suspects(&suspects, runs);
     remarks.extend(remarks_on(&components, runs.len(), &stand.positions));
     remarks.extend(stand::remarks::of(&stand.certificate, &stand.positions).into_iter().map(Remark::Odd));
     let warnings = remarks.iter().map(ToString::to_string).collect();

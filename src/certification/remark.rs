@@ -1,7 +1,7 @@
 //! Remarks for the signatory of a certificate, as values. Displayed, a remark is an English sentence without a full stop:
 //! the wording of the comments in a stand file. `report` has the words of other languages.
 
-use super::suspects::{AXES, OUTLIER, Outlier, WorsePosition};
+use super::suspects::{AXES, OUTLIER, Outlier, Suspects, WorsePosition};
 use crate::stand::remarks::Odd;
 use std::fmt::{self, Display, Formatter};
 
@@ -31,6 +31,22 @@ pub(crate) enum Remark {
 }
 
 impl Remark {
+    /// Returns a remark for each suspect position, reading or run.
+    pub(crate) fn of_suspects(suspects: &Suspects, runs: &[u32]) -> Vec<Self> {
+        let mut remarks: Vec<Self> = suspects.worse.iter().copied().map(Self::Worse).collect();
+        remarks.extend(suspects.outliers.iter().copied().map(Self::Outlier));
+        if let ([one, other], false) = (runs, suspects.outliers.is_empty()) {
+            remarks.push(Self::TwoRuns(*one, *other));
+        }
+        if !suspects.outliers.is_empty() && suspects.worse.is_empty() {
+            remarks.push(Self::NotCompared);
+        }
+        remarks.extend(suspects.twins.iter().map(|(one, other)| Self::Twins(*one, *other)));
+        let axes = suspects.axes.filter(|test| test.probability < OUTLIER);
+        remarks.extend(axes.map(|test| Self::AxesDiffer(test.probability)));
+        remarks
+    }
+
     /// Returns the relative standard uncertainty, in percent, of a standard deviation with `degrees_of_freedom`.
     ///
     /// GUM ([JCGM 100](crate::bibliography::Bibliography::Gum)), E.4.3: about 1/√(2ν).

@@ -2,7 +2,6 @@
 
 use super::components::{Components, Variance};
 use super::deletion::Deletion;
-use super::remark::Remark;
 use super::{AngleReadings, Header};
 use crate::coefficients::PositionIndex;
 use crate::statistics::outlier::{Bartlett, bartlett, bonferroni_student, cochran_probability};
@@ -72,7 +71,6 @@ pub(crate) struct Suspects {
     pub twins: Vec<(u32, u32)>,
 }
 
-/// Returns a probability as text; the smallest numbers of the computer are not zero.
 impl Suspects {
     pub(crate) fn of(header: &Header, readings: &AngleReadings, components: &Components) -> Self {
         let outliers = outliers(header, readings, components);
@@ -90,22 +88,6 @@ impl Suspects {
             outliers,
             twins,
         }
-    }
-
-    /// Returns a remark for each suspect position, reading or run.
-    pub(crate) fn remarks(&self, runs: &[u32]) -> Vec<Remark> {
-        let mut remarks: Vec<Remark> = self.worse.iter().copied().map(Remark::Worse).collect();
-        remarks.extend(self.outliers.iter().copied().map(Remark::Outlier));
-        if let ([one, other], false) = (runs, self.outliers.is_empty()) {
-            remarks.push(Remark::TwoRuns(*one, *other));
-        }
-        if !self.outliers.is_empty() && self.worse.is_empty() {
-            remarks.push(Remark::NotCompared);
-        }
-        remarks.extend(self.twins.iter().map(|(one, other)| Remark::Twins(*one, *other)));
-        let axes = self.axes.filter(|test| test.probability < OUTLIER);
-        remarks.extend(axes.map(|test| Remark::AxesDiffer(test.probability)));
-        remarks
     }
 }
 

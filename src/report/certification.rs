@@ -1,6 +1,7 @@
 //! Result of a certification, and of a check run, as text and as JSON.
 
-use crate::certification::comparison::{Comparison, Test};
+use crate::certification::compared::Test;
+use crate::certification::comparison::Comparison;
 use crate::certification::components::{Common, Variance};
 use crate::certification::suspects::{AXES, WorsePosition};
 use crate::certification::{Certification, NotCertified};

@@ -2,7 +2,8 @@
 
 use super::evidence::{numbers, rows};
 use super::{CertificationPage, remarks};
-use crate::certification::comparison::{Comparison, Test};
+use crate::certification::compared::Test;
+use crate::certification::comparison::Comparison;
 use crate::passport::difference::NumberDifference;
 use crate::report::page::language::Languages;
 use crate::report::page::number::{Number, column};

@@ -1,6 +1,6 @@
 //! Remarks on a certification, and findings of a comparison, in the language of the page.
 
-use crate::certification::comparison::ComparedPosition;
+use crate::certification::compared::ComparedPosition;
 use crate::certification::finding::{Finding, Untested};
 use crate::certification::remark::Remark;
 use crate::certification::suspects::{AXES, OUTLIER};
