@@ -1,9 +1,8 @@
 //! Documents as trees: every key is kept in order, including duplicates. Trees are serialised as JSON.
 
+use super::LARGEST_DOCUMENT_BYTES;
 use super::excerpt::Location;
-use super::problem::{Problems, Unreadable};
-use super::sink::Sink;
-use super::{Field, LARGEST_DOCUMENT_BYTES, Path};
+use super::problem::Unreadable;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// Value in a document.
@@ -118,35 +117,6 @@ pub(crate) fn location_of(before: &[u8]) -> Location {
     Location {
         line: before.iter().filter(|&&byte| byte == b'\n').count() + 1,
         column: String::from_utf8_lossy(&before[line_start..]).chars().count() + 1,
-    }
-}
-
-/// Any value is a field, so that a document with unknown keys can be read.
-impl Field for Node {
-    fn read(node: &Node, _: &Path, _: &mut Problems) -> Option<Self> {
-        Some(node.clone())
-    }
-
-    fn is_mapping(&self) -> bool {
-        matches!(self, Node::Map(_))
-    }
-
-    fn emit<S: Sink>(&self, sink: &mut S) {
-        match self {
-            Node::Null => sink.null(),
-            Node::Bool(value) => sink.boolean(*value),
-            Node::Integer(value) => sink.integer(*value),
-            Node::Number(value) => sink.number(*value),
-            Node::Text(value) => sink.text(value),
-            Node::List(items) => sink.list(items),
-            Node::Map(entries) => sink.mapping(entries.is_empty(), |sink| {
-                for (key, value) in entries {
-                    if sink.key(key) {
-                        value.emit(sink);
-                    }
-                }
-            }),
-        }
     }
 }
 

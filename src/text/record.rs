@@ -388,11 +388,7 @@ impl<T: Field> Field for Option<T> {
     }
 
     fn is_absent(&self) -> bool {
-        self.as_ref().is_none_or(T::is_absent)
-    }
-
-    fn is_mapping(&self) -> bool {
-        self.as_ref().is_some_and(T::is_mapping)
+        self.is_none()
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {

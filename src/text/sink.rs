@@ -6,8 +6,6 @@ use super::{Field, Node};
 ///
 /// A single pass over the fields of a record ([`Field::emit`]) serves every form in which a document is written.
 pub(crate) trait Sink: Sized {
-    /// Writes an empty value.
-    fn null(&mut self);
     /// Writes `true` or `false`.
     fn boolean(&mut self, value: bool);
     /// Writes a whole number.
@@ -40,10 +38,6 @@ impl Tree {
 }
 
 impl Sink for Tree {
-    fn null(&mut self) {
-        self.values.push(Node::Null);
-    }
-
     fn boolean(&mut self, value: bool) {
         self.values.push(Node::Bool(value));
     }
@@ -62,7 +56,7 @@ impl Sink for Tree {
 
     fn list<T: Field>(&mut self, items: &[T]) {
         let first = self.values.len();
-        items.iter().filter(|item| !item.is_absent()).for_each(|item| item.emit(self));
+        items.iter().for_each(|item| item.emit(self));
         let items = self.values.split_off(first);
         self.values.push(Node::List(items));
     }

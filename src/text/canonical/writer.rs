@@ -99,9 +99,7 @@ impl<'a, O: Output> Writer<'a, O> {
     }
 
     fn written(mut self, document: &impl Field) -> O {
-        if document.is_mapping() {
-            document.emit(&mut self);
-        }
+        document.emit(&mut self);
         self.text
     }
 
@@ -127,10 +125,6 @@ impl<'a, O: Output> Writer<'a, O> {
 }
 
 impl<O: Output> Sink for Writer<'_, O> {
-    fn null(&mut self) {
-        self.on_the_line(|writer| writer.text.push("null"));
-    }
-
     fn boolean(&mut self, value: bool) {
         self.on_the_line(|writer| writer.text.push(if value { "true" } else { "false" }));
     }
@@ -157,8 +151,7 @@ impl<O: Output> Sink for Writer<'_, O> {
     }
 
     fn list<T: Field>(&mut self, items: &[T]) {
-        let mut items = items.iter().filter(|item| !item.is_absent()).peekable();
-        if self.inline == 0 && items.peek().is_some_and(|first| first.is_mapping()) {
+        if self.inline == 0 && items.first().is_some_and(Field::is_mapping) {
             self.text.push("\n");
             for item in items {
                 self.text.begin_line();
@@ -171,7 +164,7 @@ impl<O: Output> Sink for Writer<'_, O> {
         }
         self.on_the_line(|writer| {
             writer.text.push("[");
-            for (index, item) in items.enumerate() {
+            for (index, item) in items.iter().enumerate() {
                 if index > 0 {
                     writer.text.push(", ");
                 }
