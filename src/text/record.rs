@@ -486,4 +486,132 @@ mod tests {
             assert!(!has_two_points(text), "{text}");
         }
     }
+
+    record! {
+        /// Record with every kind of value.
+        pub struct Place {
+            /// Text.
+            pub name: String,
+            /// Boolean.
+            pub open: bool,
+            /// Number.
+            pub height_m: f64,
+            /// Whole number.
+            pub floors: u32,
+            /// Text that may be absent.
+            pub remark: Option<String>,
+        }
+    }
+
+    fn map(entries: &[(&str, Node)]) -> Node {
+        Node::Map(entries.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect())
+    }
+
+    fn text(text: &str) -> Node {
+        Node::Text(text.to_owned())
+    }
+
+    /// Expected: the canonical form of the contract, and the tree of the same values.
+    #[test]
+    fn a_record_is_written_and_read_as_text_and_as_a_tree() {
+        let entries = [
+            ("name", text("a \"b\" \\ c")),
+            ("open", Node::Bool(true)),
+            ("height_m", Node::Number(-2.5)),
+            ("floors", Node::Integer(12)),
+            ("remark", text("d")),
+        ];
+        let written = "name: \"a \\\"b\\\" \\\\ c\"\nopen: true\nheight_m: -2.5\nfloors: 12\nremark: \"d\"\n";
+        for length in [5, 4] {
+            let (tree, written) = (map(&entries[..length]), written.split_inclusive('\n').take(length));
+            let written: String = written.collect();
+            let place = read::<Place>(tree.clone()).0.unwrap();
+            assert_eq!(place.open && place.remark.is_some(), length == 5);
+            assert_eq!(place.write(), Some(tree));
+            assert_eq!(crate::text::canonical::write_bare(&place), written);
+            assert_eq!(crate::text::canonical::read(&written), Ok(place));
+        }
+    }
+
+    /// Returns what was found, expected and advised of each error in a [`Place`].
+    fn refused(node: &Node) -> Vec<[String; 3]> {
+        let mut problems = Problems::new();
+        assert_eq!(Place::read(node, &Path::Root, &mut problems), None);
+        let refused = problems.refuse_by_field("f");
+        refused.problems().iter().map(|at| [at.found.clone(), at.expected.clone(), at.advice.clone()]).collect()
+    }
+
+    /// Expected: the unit that each key of the contract ends with.
+    #[test]
+    fn a_missing_key_says_what_belongs_there() {
+        let expected: Vec<String> = refused(&map(&[])).into_iter().map(|[_, expected, _]| expected).collect();
+        assert_eq!(expected, ["text", "true or false", "a number in metres", "a whole number"]);
+        for (key, unit) in [
+            ("alpha_arcsec", "a number in arcseconds"),
+            ("latitude_deg", "a number in degrees"),
+            ("k_x_deg_per_h_per_ma", "a number in degrees per hour per milliampere"),
+            ("gravity_m_per_s2", "a number in metres per second squared"),
+            ("size", "a number"),
+        ] {
+            assert_eq!(f64::expected(key), unit);
+        }
+    }
+
+    #[test]
+    fn an_unknown_key_is_named_with_the_key_that_was_meant() {
+        let advice = |entries: &[(&str, Node)]| refused(&map(entries)).swap_remove(0);
+        let unknown = |key: &str| format!("unknown key {key:?}");
+        for (key, due) in [
+            ("hieght_m", "did you mean height_m?"),
+            ("colour", "delete it, or make it a comment"),
+            ("fl\u{43E}ors", "the Cyrillic letter 'о' (U+043E) only looks like a Latin letter; type floors again"),
+        ] {
+            let [found, _, advice] = advice(&[(key, Node::Integer(1))]);
+            assert_eq!((found, advice.as_str()), (unknown(key), due));
+        }
+        let comma = advice(&[("height_m", Node::Integer(12)), ("4", Node::Null)]);
+        assert_eq!((&comma[0], comma[2].as_str()), (&unknown("4"), "use a decimal point: height_m: 12.4"));
+        let no_comma = advice(&[("height_m", Node::Integer(12)), ("4", Node::Integer(1))]);
+        assert_eq!(no_comma[2], "delete it, or make it a comment");
+        assert_eq!(advice(&[("open", Node::Bool(true)), ("open", Node::Bool(true))])[0], "duplicate key \"open\"");
+    }
+
+    /// Expected: the one remedy for what a person wrote.
+    #[test]
+    fn the_advice_on_a_number_fits_what_was_written() {
+        const WITHOUT_QUOTES: &str = "write the number without quotes";
+        const DECIMAL_DEGREES: &str = "write decimal degrees, such as 55.7658; south and west are negative";
+        const WITHOUT_UNIT: &str = "write the number without a unit; the key states it";
+        const ASCII: &str = "use ASCII digits, a decimal point and an ASCII minus";
+        for (written, key, due) in [
+            ("55.45.56", "alpha_arcsec", "it has two points; use one decimal point"),
+            ("\u{201C}1.5\u{201D}", "alpha_arcsec", STRAIGHT_QUOTES),
+            ("'1.5'", "alpha_arcsec", WITHOUT_QUOTES),
+            ("'inf'", "alpha_arcsec", ""),
+            ("1.5", "alpha_arcsec", WITHOUT_QUOTES),
+            ("150,0", "alpha_arcsec", "use a decimal point"),
+            ("-1 000,5", "latitude_deg", "use a decimal point"),
+            ("a,b", "alpha_arcsec", ""),
+            ("55°45′56″", "latitude_deg", DECIMAL_DEGREES),
+            ("55 45 56", "latitude_deg", DECIMAL_DEGREES),
+            ("55.7 N", "latitude_deg", DECIMAL_DEGREES),
+            ("55.7°", "latitude_deg", DECIMAL_DEGREES),
+            ("55.7°", "alpha_arcsec", WITHOUT_UNIT),
+            ("12 mA", "jx_ma", WITHOUT_UNIT),
+            ("-.5m", "height_m", WITHOUT_UNIT),
+            ("m 5", "height_m", ""),
+            ("5 (m)", "height_m", ""),
+            ("a,b 1 2", "latitude_deg", ""),
+            ("NORTH", "latitude_deg", ""),
+            ("about 55", "latitude_deg", ""),
+            ("°", "latitude_deg", ASCII),
+            ("\u{2212}5", "alpha_arcsec", ASCII),
+            ("nan", "alpha_arcsec", NOT_FINITE),
+        ] {
+            assert_eq!(number_advice(&text(written), key), due, "{written}");
+        }
+        assert!(number_advice(&text("55.45.56"), "latitude_deg").contains("degrees, minutes and seconds"));
+        assert_eq!(number_advice(&Node::Number(f64::INFINITY), "alpha_arcsec"), NOT_FINITE);
+        assert_eq!(number_advice(&Node::Bool(true), "alpha_arcsec"), "");
+    }
 }

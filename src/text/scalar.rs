@@ -320,4 +320,32 @@ mod tests {
         assert_eq!(day("9999-12-30".parse().unwrap()).1, Timestamp::MAX);
         assert!(day(Date::MIN).1 < day("0001-01-01".parse().unwrap()).0);
     }
+
+    /// Expected: the example of FIPS 180-4 for the message "abc".
+    #[test]
+    fn a_digest_is_that_of_the_standard() {
+        let abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(sha256_hex(b"abc"), abc);
+        assert!(is_sha256_hex(abc));
+    }
+
+    #[test]
+    fn an_identifier_is_shown_as_it_was_written() {
+        let identifier = Identifier::new("SPS-2").unwrap();
+        assert_eq!((identifier.as_str(), identifier.to_string().as_str()), ("SPS-2", "SPS-2"));
+    }
+
+    #[test]
+    fn the_advice_on_a_date_fits_what_was_written() {
+        for (node, advice) in [
+            (Node::Text("\u{201C}2026-11-02\u{201D}".to_owned()), STRAIGHT_QUOTES),
+            (Node::Text("2026-02-30".to_owned()), "month 02 of 2026 has 28 days"),
+            (Node::Text("2.11.2026".to_owned()), FORM_OF_DATE),
+            (Node::Integer(2026), FORM_OF_DATE),
+        ] {
+            let mut problems = Problems::new();
+            assert_eq!(Date::read(&node, &Path::Root, &mut problems), None);
+            assert_eq!(problems.refuse_by_field("f").problems()[0].advice, advice);
+        }
+    }
 }

@@ -448,3 +448,71 @@ fn advice_for_number(text: &str) -> &'static str {
         ""
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Expected: the one remedy for what a person or a program wrote into a cell.
+    #[test]
+    fn the_advice_on_a_cell_fits_what_was_written() {
+        const ASCII: &str = "use ASCII digits, a decimal point and an ASCII minus";
+        const WITHOUT_UNIT: &str = "write the number without a unit; the column name states it";
+        for (written, due) in [
+            ("", "omit the whole row of a reading that was not taken"),
+            ("1;2", "separate columns by commas"),
+            ("1.2.3", "it has two points; use one decimal point"),
+            ("'1.5'", "write the number without quotes"),
+            ("'inf'", ""),
+            ("\u{2212}1.5", ASCII),
+            ("1.5mA", WITHOUT_UNIT),
+            ("-1.5 mA", WITHOUT_UNIT),
+            ("about 1.5", ""),
+            ("a lot", ""),
+            ("1.5 (?)", ""),
+        ] {
+            assert_eq!(advice_for_number(written), due, "{written}");
+        }
+        for (written, due) in [
+            ("'1'", "write the number without quotes"),
+            ("1.0", "write it without a decimal point"),
+            ("1.5", ""),
+            ("0.0", ""),
+            ("-1.0", ""),
+            ("one", ""),
+        ] {
+            assert_eq!(advice_for_index(written), due, "{written}");
+        }
+        assert_eq!((described(""), described("a")), ("nothing".to_owned(), "\"a\"".to_owned()));
+    }
+
+    #[test]
+    fn a_misspelt_column_is_told_from_another() {
+        let known = ["i", "j", "jx_ma", "time_s"];
+        for (found, due) in [
+            ("jx_mA", Some("jx_ma")),
+            ("jy_m", Some("jx_ma")),
+            ("jx_uA", Some("jx_ma")),
+            ("time_min", Some("time_s")),
+            ("time_x", Some("time_s")),
+            ("time", Some("time_s")),
+            ("time_of_day", None),
+            ("k", None),
+            ("remark", None),
+        ] {
+            assert_eq!(meant(&known, found), due, "{found}");
+        }
+    }
+
+    /// Expected: RFC 4180, sections 2.5 to 2.7.
+    #[test]
+    fn quoted_cells_are_those_of_rfc_4180() {
+        let texts = |line: &str| cells(1, line, ',').map(|cells| cells.into_iter().map(|cell| cell.text).collect());
+        let due = |cells: &[&str]| Ok(cells.iter().map(|cell| (*cell).to_owned()).collect::<Vec<String>>());
+        assert_eq!(texts("\"aaa\",\"b,bb\",ccc"), due(&["aaa", "b,bb", "ccc"]));
+        assert_eq!(texts("\"b\"\"bb\" , c"), due(&["b\"bb", "c"]));
+        assert!(texts("\"aaa").is_err() && texts("\"aaa\"b").is_err());
+        let columns: Vec<usize> = cells(1, "µ, \"b\",c", ',').unwrap().iter().map(|at| at.location.column).collect();
+        assert_eq!(columns, [1, 4, 8]);
+    }
+}
