@@ -28,14 +28,6 @@ const PRICE_OF_TWO_NUMBERS: f64 = 4.0;
 /// Maximum number of positions that are examined one by one and in pairs; a stand may have many more.
 const MOST_SUSPECTS: usize = 24;
 
-/// Errors that the residuals do not show, and how to detect them.
-pub(crate) const CANNOT_TELL: &str = "Small residuals do not exclude all errors. The following leave no residuals but change \
-                               the result: the passport of another site (latitude), a base tilted about east, a gyro \
-                               rotated in its seat about the spin axis, the gain and offset of the meter, x and y \
-                               exchanged, one sign reversed. A base rotated in azimuth leaves almost no residuals. To \
-                               detect these errors, check the serial number of the stand, the site of the passport, \
-                               the specification of the gyro and its previous calibration.";
-
 /// Possible causes of readings that do not fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hint {

@@ -6,6 +6,7 @@ use crate::site::{Site, SiteUncertainty, UNKNOWN_DEFLECTION_U_ARCSEC};
 use crate::stand::{ActsOn, Certificate, CertifiedPosition};
 use crate::statistics::propagation::effective_degrees_of_freedom;
 use crate::units::radians_from_arcseconds;
+use std::fmt::{self, Display, Formatter};
 
 /// Input whose uncertainty no file states; the result does not include it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -154,17 +155,36 @@ fn of_common(certificate: &Certificate, on: ActsOn, common_arcsec: Option<f64>) 
     effective_degrees_of_freedom(&parts)
 }
 
-/// Returns a remark if the temperature in the laboratory is outside the range for which the deviations are certified;
-/// otherwise `None`.
-pub(crate) fn temperature_remark(certificate: &Certificate, laboratory: &Laboratory) -> Option<String> {
-    let here = laboratory.temperature_c?;
-    let [low, high] = certificate.temperature_range_c?;
-    (!(low..=high).contains(&here)).then(|| {
-        format!(
-            "the temperature in the laboratory is {here} deg C; the deviations are certified from {low} \
-             to {high} deg C"
+/// Temperature in the laboratory outside the range for which the deviations are certified, °C. Displayed, it is an
+/// English sentence without a full stop; `report` has the words of other languages.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct TemperatureOutside {
+    /// Temperature in the laboratory.
+    pub here_c: f64,
+    /// Lowest certified temperature.
+    pub low_c: f64,
+    /// Highest certified temperature.
+    pub high_c: f64,
+}
+
+impl TemperatureOutside {
+    /// Returns `None` if the temperature is within the range, or if one of them is not stated.
+    pub(crate) fn of(certificate: &Certificate, laboratory: &Laboratory) -> Option<Self> {
+        let here_c = laboratory.temperature_c?;
+        let [low_c, high_c] = certificate.temperature_range_c?;
+        (!(low_c..=high_c).contains(&here_c)).then_some(Self { here_c, low_c, high_c })
+    }
+}
+
+impl Display for TemperatureOutside {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let Self { here_c, low_c, high_c } = self;
+        write!(
+            f,
+            "the temperature in the laboratory is {here_c} deg C; the deviations are certified from {low_c} to \
+             {high_c} deg C"
         )
-    })
+    }
 }
 
 /// Uncertainties of the base at the site, with independent parts kept separate; parts that have no effect are exact.
@@ -197,5 +217,34 @@ impl Known {
             mark_arcsec: if site.azimuth_mark.is_some() { site.earth().azimuth_u_arcsec } else { Some(0.0) },
             level_arcsec: measured.level_arcsec.or(of_site.level_arcsec),
         }
+    }
+}
+
+#[cfg(all(test, feature = "factory"))]
+mod tests {
+    use super::*;
+    use crate::stand::Stand;
+
+    /// Expected: both ends of a certified range belong to it, and nothing is said of what is not stated.
+    #[test]
+    fn a_temperature_outside_the_certified_range_is_told() {
+        let stand = Stand::from_yaml("stand.yaml", include_bytes!("../../passports/SPS-2/0017/stand.yaml")).unwrap();
+        let of = |here_c: Option<f64>, range: Option<[f64; 2]>| {
+            let certificate = Certificate { temperature_range_c: range, ..stand.certificate.clone() };
+            TemperatureOutside::of(&certificate, &Laboratory { temperature_c: here_c, ..Laboratory::paper() })
+        };
+        for (here_c, range) in [(Some(18.0), Some([18.0, 22.0])), (Some(22.0), Some([18.0, 22.0])), (Some(30.0), None)]
+        {
+            assert_eq!(of(here_c, range), None);
+        }
+        assert_eq!(of(None, Some([18.0, 22.0])), None);
+        for here_c in [17.5, 22.5] {
+            let outside = of(Some(here_c), Some([18.0, 22.0]));
+            assert_eq!(outside, Some(TemperatureOutside { here_c, low_c: 18.0, high_c: 22.0 }));
+        }
+        assert_eq!(
+            of(Some(17.5), Some([18.0, 22.0])).unwrap().to_string(),
+            "the temperature in the laboratory is 17.5 deg C; the deviations are certified from 18 to 22 deg C"
+        );
     }
 }

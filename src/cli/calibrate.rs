@@ -11,7 +11,7 @@ use crate::batch::{Purpose, paths};
 use crate::calibration::document::{CalibrationDocument, Subject};
 use crate::calibration::iterative::StopRule;
 use crate::calibration::readings::Exclusion;
-use crate::calibration::stated::temperature_remark;
+use crate::calibration::stated::TemperatureOutside;
 use crate::calibration::verdict::{Decision, Verdict};
 use crate::calibration::{Method, Model, Options as CalibrationOptions, Readings};
 use crate::coefficients::PositionIndex;
@@ -254,7 +254,7 @@ impl Bench<'_> {
     /// Calibrates several gyros, with one line for each.
     fn several(&self) -> Result<Code, Failure> {
         let options = self.options;
-        if let Some(warning) = temperature_remark(&self.passport.content.certificate, &self.laboratory) {
+        if let Some(warning) = TemperatureOutside::of(&self.passport.content.certificate, &self.laboratory) {
             output::complain(&format!("WARNING: {warning}"));
         }
         let mut written = HashMap::new();

@@ -4,7 +4,7 @@ use super::{Failed, json};
 use crate::calibration::document::Subject;
 use crate::calibration::mistake::Mistake;
 use crate::calibration::prediction::{FurtherVisit, best_further_visit, cost_of_missing};
-use crate::calibration::stated::{NotStated, temperature_remark};
+use crate::calibration::stated::{NotStated, TemperatureOutside};
 use crate::calibration::verdict::{Found, Verdict, against_earlier, against_type};
 use crate::calibration::{self, Calibration, CalibrationDocument, Method, Options, Parameter, Readings, Setup};
 use crate::document::sha256_hex;
@@ -53,7 +53,7 @@ pub fn calibrate(
     let prepared = Prepared::new(content, laboratory.unwrap_or(&paper), gyro_type, (name, currents))?;
     let mut remarks: Vec<String> = prepared.readings.remark().map(str::to_owned).into_iter().collect();
     let done = prepared.run(&options, verified, Subject::default(), &[])?;
-    remarks.extend(done.warning);
+    remarks.extend(done.warning.map(|warning| warning.to_string()));
     remarks.extend(done.document.hint.iter().map(|hint| format!("{INCONSISTENT}: {hint}")));
     remarks.extend(done.document.mistake.iter().map(|mistake| format!("{UNLIKE}: {}", json(mistake))));
     let left_out = done.document.left_out.iter().map(ToString::to_string).collect::<Vec<_>>();
@@ -163,7 +163,7 @@ pub(crate) struct Done {
     /// Parameter whose uncertainty takes most of its tolerance, and the single visit that would reduce it most.
     pub further: Option<(Parameter, FurtherVisit)>,
     /// Warning on the conditions in the laboratory.
-    pub warning: Option<String>,
+    pub warning: Option<TemperatureOutside>,
 }
 
 impl<'a> Prepared<'a> {
@@ -238,7 +238,7 @@ impl<'a> Prepared<'a> {
             let result = (&calibration, &found.parameters);
             Some((parameter, best_further_visit(&setup, &readings, result, (parameter, options))?))
         });
-        let warning = temperature_remark(&content.certificate, laboratory);
+        let warning = TemperatureOutside::of(&content.certificate, laboratory);
         Ok(Done { setup, readings, calibration, missing, document, earlier, cost_of_missing, further, warning })
     }
 }

@@ -1,6 +1,5 @@
 //! Result of a calibration as text: the decision, the parameters and the fit come first, the evidence below.
 
-use crate::calibration::diagnosis::CANNOT_TELL;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::mistake::Mistake;
 use crate::calibration::noise::NoiseSource;
@@ -12,6 +11,7 @@ use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{Decision, Found, Verdict, change_in_uncertainties};
 use crate::calibration::{Calibration, Method, MethodResult, Readings};
 use crate::report::page::Language;
+use crate::report::page::texts::calibration as texts;
 use crate::report::{columns, mistake, style};
 use crate::text::printable::printable;
 use crate::units::printed;
@@ -106,7 +106,7 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
         change(&mut out, calibration, context.gravity_m_per_s2, earlier, verdict);
     }
     let _ = writeln!(out);
-    columns::paragraph(&mut out, "", CANNOT_TELL);
+    columns::paragraph(&mut out, "", texts::CANNOT_TELL.of(Language::English));
     out
 }
 

@@ -2,6 +2,7 @@
 
 use super::{CalibrationPage, Section, UsedPassport};
 use crate::calibration::document::ExclusionDocument;
+use crate::calibration::stated::TemperatureOutside;
 use crate::laboratory::Laboratory;
 use crate::passport::accuracy::StatedLaboratory;
 use crate::report::page::language::Languages;
@@ -153,17 +154,14 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
 
 /// Writes a warning if the deviations are certified for other temperatures.
 fn temperature(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let range = page.content().certificate.temperature_range_c;
-    let Some((here, [low, high])) = page.laboratory.and_then(|laboratory| laboratory.temperature_c).zip(range) else {
-        return html! {};
-    };
-    let [here, low, high] = [here, low, high].map(|value| (value, Number::exact(value).markup(languages)));
-    let values = [("here", here.1), ("low", low.1), ("high", high.1)];
+    let certificate = &page.content().certificate;
+    let outside = page.laboratory.and_then(|laboratory| TemperatureOutside::of(certificate, laboratory));
+    let Some(TemperatureOutside { here_c, low_c, high_c }) = outside else { return html! {} };
+    let values = [("here", here_c), ("low", low_c), ("high", high_c)]
+        .map(|(name, c)| (name, Number::exact(c).markup(languages)));
     html! {
-        @if !(low.0..=high.0).contains(&here.0) {
-            div.statement {
-                (languages.paragraph_with(|language| texts::TEMPERATURE_OUTSIDE.marked_up(language, &values)))
-            }
+        div.statement {
+            (languages.paragraph_with(|language| texts::TEMPERATURE_OUTSIDE.marked_up(language, &values)))
         }
     }
 }
