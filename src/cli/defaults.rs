@@ -116,6 +116,7 @@ impl Defaults {
     fn of(workspace: Option<&Workspace>) -> Self {
         let value = |name: &str, stated: Option<OsString>| {
             variable(name).map(|value| (value, ENVIRONMENT)).or(stated.map(|value| (value, FILE)))
+    lists: Option<OsString>,
         };
         let path = |path: &Option<PathBuf>| path.clone().map(OsString::from);
         Self {
@@ -129,11 +130,11 @@ impl Defaults {
     fn for_verb(&self, verb: &str) -> Vec<(&'static str, OsString, &'static str)> {
         let of = |option, value: &Option<(OsString, &'static str)>| {
             value.clone().map(|(value, source)| (option, value, source))
+            lists: workspace.and_then(|workspace| path(&workspace.lists())),
         };
         let passports = |option| self.passports.clone().map(|value| (option, value, FILE));
         let out = passports("--out").filter(|_| WRITE_PASSPORTS.contains(&verb));
-        // Lists of withdrawn passports belong into the folder of the passports, where `register` finds them.
-        let lists = passports("--list").filter(|_| verb == "revoke");
+        let lists = self.lists.clone().filter(|_| verb == "revoke").map(|value| ("--list", value, FILE));
         // `register` has its folder without an option.
         let folder = passports("--passports").filter(|_| verb != "register");
         [of("--key", &self.key), of("--identity", &self.identity), of("--trust", &self.trust)]

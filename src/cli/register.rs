@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 /// List every passport under a folder: in force, superseded, moved, expired, revoked, broken
 #[derive(Args)]
 pub(super) struct Options {
-    /// Folder of passports; revocation lists in it and up to two levels above are used too
+    /// Folder of passports; revocation lists in it, in `revocations` next to it, and up to two levels above are used too
     #[arg(value_name = "DIR", required_unless_present = "passports")]
     folder: Option<PathBuf>,
     /// The same folder, under the name that it has in other commands

@@ -24,7 +24,7 @@ pub(super) struct Options {
     /// Reason, recorded in the list
     #[arg(long, value_name = "TEXT")]
     reason: String,
-    /// Folder of revocation lists; the newest list is extended
+    /// Folder of revocation lists, `revocations` in a workspace; the newest list is extended
     #[arg(long, value_name = "FOLDER")]
     list: PathBuf,
     /// Folder of passports
@@ -50,10 +50,11 @@ struct Written {
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
-    let lists = search::lists(&options.list, &trust, question.time).map_err(|error| match error {
-        NoNewestList::File(error) => Failure::file(error),
-        refused => Failure::refused(refused),
-    })?;
+    let lists =
+        search::lists(&options.list, &options.passports, &trust, question.time).map_err(|error| match error {
+            NoNewestList::File(error) => Failure::file(error),
+            refused => Failure::refused(refused),
+        })?;
     let mut entries = Vec::new();
     for id in &options.ids {
         let path = file_of(id, &options.passports)?;

@@ -20,6 +20,9 @@ const BEGINNING_BYTES: usize = 4096;
 /// Number of parent folders whose lists apply to a register, because its root may be a model or a stand.
 const LEVELS_ABOVE: usize = 2;
 
+/// Name of the folder next to that of the passports in which a workspace keeps its lists.
+pub(crate) const LISTS_FOLDER: &str = "revocations";
+
 /// Files found in a folder.
 #[derive(Debug, Default)]
 pub(crate) struct Found {
@@ -52,6 +55,47 @@ pub(crate) fn find(root: &Path) -> Result<Found, FileError> {
     Ok(found)
 }
 
+impl Found {
+    /// Adds what is in another folder. If that cannot be read, the error is one of a subfolder.
+    fn add(&mut self, folder: &Path) {
+        match find(folder) {
+            Ok(more) => {
+                self.files.extend(more.files);
+                self.links.extend(more.links);
+                self.special.extend(more.special);
+                self.unreadable.extend(more.unreadable);
+            }
+            Err(error) => self.unreadable.push(error),
+        }
+    }
+}
+
+/// Returns the existing folders named `revocations` next to `folder`, and next to the folders up to `levels` above it.
+///
+/// A folder that contains `folder` is omitted. A link counts where it is and where it leads; one that leads nowhere is
+/// also returned, because its lists are unknown.
+fn folders_of_lists(folder: &Path, levels: usize) -> Vec<PathBuf> {
+    let real = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    let named = |above: &Path| above.file_name().is_some();
+    let places = [folder, &real].into_iter().flat_map(|at| at.ancestors().take_while(|at| named(at)).take(levels + 1));
+    let mut found: Vec<(PathBuf, PathBuf)> = Vec::new();
+    for lists in places.map(|at| at.with_file_name(LISTS_FOLDER)).filter(|lists| lists.is_dir() || lists.is_symlink()) {
+        let leads_to = lists.canonicalize().unwrap_or_else(|_| lists.clone());
+        if !real.starts_with(&leads_to) && found.iter().all(|(_, other)| *other != leads_to) {
+            found.push((lists, leads_to));
+        }
+    }
+    found.into_iter().map(|(lists, _)| lists).collect()
+}
+
+/// Returns the folder in which the lists for a folder of passports are kept: the one named `revocations` next to it if
+/// there is one, else the folder of passports itself.
+#[cfg(feature = "cli")]
+pub(crate) fn place_of_lists(passports: &Path) -> PathBuf {
+    let beside = passports.file_name().map(|_| passports.with_file_name(LISTS_FOLDER));
+    beside.filter(|beside| beside.is_dir()).unwrap_or_else(|| passports.to_owned())
+}
+
 /// Returns the files under `root` that claim to be passports, at any depth, with an error for each entry that was not
 /// read. They are recognised by content; nothing in them is verified.
 ///
@@ -68,7 +112,8 @@ pub(crate) fn passports(root: &Path) -> Result<Vec<Result<PathBuf, FileError>>, 
 
 /// Returns the register of a folder and the trust extended by its lists of withdrawn passports.
 ///
-/// Lists in the folders up to two levels above also extend the trust. `threads` threads do the work.
+/// Lists in the folders up to two levels above, and everything in the folders named `revocations` next to these and to
+/// `root`, also count. `threads` threads do the work.
 ///
 /// # Errors
 /// Returns [`FileError::Read`] if `root` cannot be read; an unreadable file or folder below it does not hide the
@@ -89,7 +134,8 @@ pub(crate) fn register_of(
     asked: &Asked,
     threads: usize,
 ) -> Result<(Register, Trust), FileError> {
-    let found = find(root)?;
+    let mut found = find(root)?;
+    folders_of_lists(root, LEVELS_ABOVE).iter().for_each(|lists| found.add(lists));
     let id = stand.map(|stand| format!("\"{stand}/"));
     let elsewhere = |path: &Path, bytes: &[u8]| {
         // A damaged file in the folder of another stand concerns that stand only, and a passport of this stand contains
@@ -257,15 +303,23 @@ pub(crate) enum NoNewestList {
     Series(String),
 }
 
-/// Returns the lists of withdrawn passports under a folder, which a new list may continue.
+/// Returns the lists of withdrawn passports under `folder`, which a new list in it may continue.
+///
+/// The folder of the `passports` and those named `revocations` next to it hold one series: if `folder` is one of them,
+/// the lists in all of them are returned, because otherwise two lists could have the same number.
 ///
 /// # Errors
 /// Returns [`NoNewestList`] if a list is damaged, missing, contradictory, or from a signer who is not trusted.
-pub(crate) fn lists(folder: &Path, trust: &Trust, time: Timestamp) -> Result<Series, NoNewestList> {
-    if !folder.exists() {
-        return Ok(Series::default());
+pub(crate) fn lists(folder: &Path, passports: &Path, trust: &Trust, time: Timestamp) -> Result<Series, NoNewestList> {
+    let mut together = folders_of_lists(passports, 0);
+    together.push(passports.to_owned());
+    let real = |folder: &Path| folder.canonicalize().ok();
+    let is_folder = |other: &PathBuf| other == folder || real(other).is_some_and(|other| Some(other) == real(folder));
+    if !together.iter().any(is_folder) {
+        together = vec![folder.to_owned()];
     }
-    let found = find(folder)?;
+    let mut found = Found::default();
+    together.iter().filter(|folder| folder.exists()).for_each(|folder| found.add(folder));
     if let Some(error) = found.unreadable.into_iter().next() {
         return Err(error.into());
     }

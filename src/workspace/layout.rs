@@ -2,12 +2,13 @@
 
 use super::WORKSPACE_FILE;
 use crate::files::{self, Access, FileError};
+use crate::folder::search::LISTS_FOLDER;
 use crate::text::rule;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folders of a workspace.
-const FOLDERS: [&str; 4] = ["stands", "sites", "readings", "passports"];
+const FOLDERS: [&str; 5] = ["stands", "sites", "readings", "passports", LISTS_FOLDER];
 
 const GITIGNORE: &str = "# Private keys stay on the machine that signs.\n*.key\n";
 
@@ -112,8 +113,9 @@ fn settings(identity: Option<&str>) -> Result<String, NotMade> {
          # Trusted keys: your own, and those of factories whose passports you use.\n\
          trust = \"allowed_signers\"\n\
          \n\
-         # Passports and the signed lists of withdrawn passports; files of stands (MODEL/SERIAL/stand.yaml) and sites.\n\
+         # Passports; new signed lists of withdrawn passports are in the folder revocations next to this one.\n\
          passports = \"passports\"\n\
+         # Files of stands (MODEL/SERIAL/stand.yaml) and of sites.\n\
          stands = \"stands\"\n\
          sites = \"sites\"\n"
     ))
@@ -133,7 +135,7 @@ fn read_me() -> String {
      | `sites/ID.yaml` | a place of use |\n\
      | `readings/` | measured angles and currents |\n\
      | `passports/MODEL/SERIAL/SITE-REVISION.yaml` | signed passports: never edited, never deleted |\n\
-     | `passports/revocation-N.yaml` | signed lists of withdrawn passports: never deleted |\n\
+     | `revocations/revocation-N.yaml` | signed lists of withdrawn passports: never deleted, copied with the passports |\n\
      \n\
      In this folder:\n\
      \n\
@@ -171,6 +173,7 @@ mod tests {
             "dtg-passport.toml",
             "passports",
             "readings",
+            "revocations",
             "sites",
             "stands",
         ];

@@ -11,7 +11,7 @@ pub(crate) use layout::{NotMade, make};
 pub(crate) use status::status;
 
 use crate::files::{self, FileError};
-use crate::folder::Folder;
+use crate::folder::{Folder, search};
 use crate::text::problem::Problem;
 use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Location, Unreadable, name_of};
 use std::path::{Path, PathBuf};
@@ -111,6 +111,12 @@ impl Workspace {
             stands: path(stands),
             sites: path(sites),
         })
+    }
+
+    /// Returns the folder of new lists of withdrawn passports: `revocations` next to the folder of passports, or that
+    /// folder itself in a workspace without `revocations`. `register` finds lists in both.
+    pub(crate) fn lists(&self) -> Option<PathBuf> {
+        self.passports.as_deref().map(search::place_of_lists)
     }
 
     /// Returns the path of the stand file of `MODEL/SERIAL`, or `None` if `name` is not of this form.

@@ -564,6 +564,84 @@ fn lists_above_a_subfolder_count() {
 }
 
 #[test]
+fn lists_in_a_folder_next_to_the_passports_count() {
+    let factory = Factory::new();
+    let ([first, second], list) = factory.one_withdrawn();
+    factory.remove("passports/revocation-1.yaml");
+    let beside = "revocations/revocation-1.yaml";
+    let (folders, without) = (["passports", "passports/SPS-2", STAND], factory.verify(&first));
+    assert!(without.valid(), "{:?}", without.checks());
+    factory.write(beside, &list);
+    for folder in folders {
+        let (register, _) = factory.register(folder, now());
+        assert!(register.alarms.is_empty(), "{folder}: {:?}", register.alarms);
+        let states: Vec<State> = register.passports.iter().map(|line| line.state).collect();
+        assert_eq!(states, [State::Revoked, State::InForce], "{folder}");
+        assert_eq!(code(&factory.verify_in(folder, &first, now()), CheckName::Revocation), "passport_revoked");
+        assert!(factory.verify_in(folder, &second, now()).valid());
+    }
+    // A damaged one may have withdrawn any passport.
+    for (how, bytes) in damaged(&list) {
+        factory.write(beside, bytes);
+        for folder in folders {
+            let asked = factory.verify_in(folder, &second, now());
+            assert_eq!(code(&asked, CheckName::Register), "register_unknown", "{how}, {folder}");
+        }
+    }
+    // That of a stranger is reported and withdraws nothing.
+    factory.write(beside, factory.list_of(&SigningKey::generate().unwrap(), &[&second]));
+    assert!(factory.verify(&second).valid());
+    assert!(factory.alarms().contains("revocation"));
+    // A register of the folder of the lists itself reads each of them once.
+    factory.write(beside, &list);
+    assert!(factory.register("revocations", now()).0.alarms.is_empty());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_of_lists_that_cannot_be_reached_makes_the_answer_unknown() {
+    let factory = Factory::new();
+    let ([first, second], list) = factory.one_withdrawn();
+    factory.remove("passports/revocation-1.yaml");
+    factory.write("elsewhere/revocation-1.yaml", list);
+    std::os::unix::fs::symlink("elsewhere", factory.path("revocations")).unwrap();
+    assert_eq!(code_of_revocation(&factory, &first), "passport_revoked");
+    assert!(factory.verify(&second).valid());
+    fs::rename(factory.path("elsewhere"), factory.path("unmounted")).unwrap();
+    assert_eq!(code(&factory.verify(&second), CheckName::Register), "register_unknown");
+}
+
+#[test]
+fn lists_in_both_places_are_one_series() {
+    let factory = Factory::new();
+    let ([first, second], list) = factory.one_withdrawn();
+    let place = |name: &str| factory.path(name);
+    let newest = |folder: &str| {
+        let lists = search::lists(&place(folder), &place("passports"), &factory.trust, now()).unwrap();
+        lists.newest().map(|list| list.sequence)
+    };
+    // A folder of lists that was made later continues the lists with the passports.
+    assert_eq!(search::place_of_lists(&place("passports")), place("passports"));
+    fs::create_dir(place("revocations")).unwrap();
+    assert_eq!(search::place_of_lists(&place("passports")), place("revocations"));
+    assert_eq!(newest("revocations"), Some(1));
+    let lists = search::lists(&place("revocations"), &place("passports"), &factory.trust, now()).unwrap();
+    let (sha256, reason) = (sha256_hex(second.text.as_bytes()), "wrong site".to_owned());
+    let entry = Entry { id: second.id.clone(), sha256, revoked_at: now(), reason };
+    let next = lists.following(ISSUER, now(), vec![entry]).unwrap();
+    factory.write("revocations/revocation-2.yaml", next.sign(&factory.key).unwrap());
+    assert_eq!([newest("revocations"), newest("passports"), newest("other")], [Some(2), Some(2), None]);
+    let withdrawn = |passport: &Passport| code_of_revocation(&factory, passport) == "passport_revoked";
+    assert!(withdrawn(&first) && withdrawn(&second) && factory.alarms().is_empty());
+    // Each place alone still withdraws what its lists contain.
+    factory.remove("passports/revocation-1.yaml");
+    assert!(withdrawn(&first) && withdrawn(&second));
+    factory.write("passports/revocation-1.yaml", list);
+    factory.remove("revocations/revocation-2.yaml");
+    assert!(withdrawn(&first) && !withdrawn(&second));
+}
+
+#[test]
 fn questions_choose_lines_and_no_alarm() {
     let factory = Factory::new();
     factory.two_revisions();
@@ -633,7 +711,7 @@ fn a_site_that_is_called_revocation_blocks_no_list() {
     let factory = Factory::new();
     let first = factory.passport("revocation", 1, day(0), |_| {});
     factory.put(&first);
-    let lists = || search::lists(&factory.path("passports"), &factory.trust, now());
+    let lists = || search::lists(&factory.path("passports"), &factory.path("passports"), &factory.trust, now());
     let newest = || lists().map(|lists| lists.newest().map(|list| list.sequence));
     assert_eq!(newest().unwrap(), None);
     assert!(factory.verify(&first).valid());
@@ -646,6 +724,6 @@ fn a_site_that_is_called_revocation_blocks_no_list() {
     assert_eq!(newest().unwrap(), Some(1));
     factory.write("passports/older.txt", list.replace("latitude", "longitude"));
     newest().unwrap_err();
-    let none = search::lists(Path::new("no such folder"), &factory.trust, now()).unwrap();
+    let none = search::lists(Path::new("no such folder"), Path::new("none"), &factory.trust, now()).unwrap();
     assert_eq!(none.newest(), None);
 }
