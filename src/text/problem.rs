@@ -2,6 +2,7 @@
 
 use super::Printable;
 use super::excerpt::{Excerpt, Location};
+use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
 
 /// Path from the top of a document to one of its values, such as `positions[3].alpha_arcsec`.
@@ -231,13 +232,8 @@ impl Problems {
             .take(affordable)
             .map(|Group { first: (target, problem), others, last }| {
                 let locate = |target: Option<Target>| target.and_then(|target| locate(&target));
-                let found = match (others, locate(last)) {
-                    (0, _) => problem.found,
-                    (others, Some(at)) => {
-                        format!("{} (and {others} more of this kind, up to line {})", problem.found, at.line)
-                    }
-                    (others, None) => format!("{} (and {others} more of this kind)", problem.found),
-                };
+                let line = |at: Location| at.line;
+                let found = problem.found + &more_of_this_kind(others, locate(last).map(line), !self.more);
                 Problem { location: locate(target), found, ..problem }
             })
             .collect();
@@ -252,6 +248,47 @@ impl Problems {
 
 /// Number of errors of one kind from which only the first is shown.
 const ALIKE: usize = 4;
+
+/// Number of errors in the lines of a list or a table from which no more are counted.
+pub(crate) const MOST_COUNTED: usize = 1_000;
+
+/// Returns the words after what was found first, if there are `others` of this kind, the last of them in line `last`.
+/// Without `all` the errors were not counted to the end.
+fn more_of_this_kind(others: usize, last: Option<usize>, all: bool) -> String {
+    if others == 0 {
+        return String::new();
+    }
+    let (least, beyond) = if all { ("", "") } else { ("at least ", " or beyond") };
+    let up_to = last.map_or_else(String::new, |line| format!(", up to line {line}{beyond}"));
+    format!(" (and {least}{others} more of this kind{up_to})")
+}
+
+/// Returns the errors in the lines of a list or a table, without those after the first of each kind that has many. Its
+/// first error states how many more there are: at least that many if there are [`MOST_COUNTED`] in all.
+///
+/// Errors without a `kind` remain.
+pub(crate) fn counted<K: Ord>(problems: Vec<Problem>, kind: impl Fn(&Problem) -> Option<K>) -> Vec<Problem> {
+    let all = problems.len() < MOST_COUNTED;
+    // For each kind: the index of its first error, the number of errors, and the line of the last one.
+    let mut alike: BTreeMap<K, (usize, usize, usize)> = BTreeMap::new();
+    for (place, problem) in problems.iter().enumerate() {
+        if let Some(kind) = kind(problem) {
+            let (_, count, last) = alike.entry(kind).or_insert((place, 0, 0));
+            *count += 1;
+            *last = problem.location.map_or(0, |at| at.line).max(*last);
+        }
+    }
+    let shown = problems.into_iter().enumerate().filter_map(|(place, mut problem)| {
+        let of_all = kind(&problem).and_then(|kind| alike.get(&kind)).filter(|(_, count, _)| *count >= ALIKE);
+        match of_all {
+            Some((first, ..)) if *first != place => return None,
+            Some((_, count, last)) => problem.found += &more_of_this_kind(count - 1, Some(*last), all),
+            None => {}
+        }
+        Some(problem)
+    });
+    shown.take(MOST_PROBLEMS).collect()
+}
 
 /// Errors of one kind: the first of them, the number of others, and the place of the last.
 struct Group {

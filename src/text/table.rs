@@ -9,10 +9,9 @@
 use super::excerpt::Location;
 use super::kind::{Kind, mistaken};
 use super::node::hand_written_text;
-use super::problem::{MOST_PROBLEMS, Problem, Unreadable};
+use super::problem::{MOST_COUNTED, MOST_PROBLEMS, Problem, Unreadable, counted};
 use super::record::{has_two_points, unquoted};
 use super::scalar::latin;
-use std::collections::BTreeMap;
 
 /// Table: rows of cells, in the order of the requested columns.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,9 +105,7 @@ impl<'a> Table<'a> {
         if problems.is_empty() {
             Ok(Self { name, bytes, columns, rows, left_out, semicolons })
         } else {
-            let mut problems = counted(problems);
-            problems.truncate(MOST_PROBLEMS);
-            Err(Unreadable::of(name, problems))
+            Err(Unreadable::of(name, counted(problems, kind)))
         }
     }
 
@@ -170,15 +167,9 @@ impl<'a> Table<'a> {
     /// Returns the refusal of this table. If many cells need the same advice, only the first is shown, with the number
     /// of others.
     pub(crate) fn refuse(&self, problems: Vec<Problem>) -> Unreadable {
-        Unreadable::of(self.name, counted(problems)).in_text(self.bytes)
+        Unreadable::of(self.name, counted(problems, kind)).in_text(self.bytes)
     }
 }
-
-/// Number of cells or rows of one kind from which only the first is shown.
-const ALIKE: usize = 4;
-
-/// Number of wrong rows from which no more are counted.
-const MOST_COUNTED: usize = 1_000;
 
 /// Returns the kind of an error in a cell, or of a row with too few or too many; `None` for errors of which each is
 /// shown.
@@ -187,30 +178,6 @@ fn kind(problem: &Problem) -> Option<(String, String)> {
     let is_row = problem.field.is_empty() && problem.found.ends_with(" values");
     let counts = problem.location.is_some() && (is_cell || is_row);
     counts.then(|| (problem.expected.clone(), problem.advice.clone()))
-}
-
-fn counted(problems: Vec<Problem>) -> Vec<Problem> {
-    // For each kind: the index of its first error, the number of errors, and the line of the last one.
-    let mut alike: BTreeMap<(String, String), (usize, usize, usize)> = BTreeMap::new();
-    for (place, problem) in problems.iter().enumerate() {
-        if let Some(kind) = kind(problem) {
-            let (_, count, last) = alike.entry(kind).or_insert((place, 0, 0));
-            *count += 1;
-            *last = problem.location.map_or(0, |at| at.line).max(*last);
-        }
-    }
-    let shown = problems.into_iter().enumerate().filter_map(|(place, mut problem)| {
-        let of_all = kind(&problem).and_then(|kind| alike.get(&kind)).filter(|(_, count, _)| *count >= ALIKE);
-        match of_all {
-            Some((first, ..)) if *first != place => return None,
-            Some((_, count, last)) => {
-                problem.found += &format!(" (and {} more of this kind, up to line {last})", count - 1)
-            }
-            None => {}
-        }
-        Some(problem)
-    });
-    shown.collect()
 }
 
 /// Returns the separator that a line `sep=;` of a spreadsheet program declares, or `None` for any other line.

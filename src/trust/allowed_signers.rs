@@ -10,7 +10,6 @@ use super::public_key::fingerprint;
 use super::signer_line::{self, SignerLine};
 use super::sshsig::KeyPoint;
 use crate::text::kind::{Kind, mistaken};
-use crate::text::problem::MOST_PROBLEMS;
 use crate::text::{Printable, Unreadable};
 use jiff::Timestamp;
 use thiserror::Error;
@@ -86,20 +85,7 @@ impl AllowedSigners {
     }
 
     fn read(name: &str, text: &[u8]) -> Result<Self, Unreadable> {
-        let mut kept = Vec::new();
-        let mut problems = Vec::new();
-        for line in lines::of(name, text)? {
-            match signer_line::read(&line) {
-                Ok(line) => kept.push(line),
-                Err(mut found) => problems.append(&mut found),
-            }
-            if problems.len() >= MOST_PROBLEMS {
-                break;
-            }
-        }
-        if !problems.is_empty() {
-            return Err(Unreadable::of(name, problems));
-        }
+        let kept = lines::each(name, &lines::of(name, text)?, signer_line::read)?;
         if kept.is_empty() {
             let advice = "add the line that `keygen` prints";
             return Err(Unreadable::whole(name, None, "no key", "a line for each trusted key", advice));
@@ -338,9 +324,29 @@ mod tests {
         assert!(refused(&format!("a {key}\u{7}")).contains("found control character U+0007"));
         assert!(refused(&format!(" a\"b\" {key}")).starts_with("f:1:3: principals: found a quote within the list"));
         assert!(refused("# nobody so far\n").contains("found no key"));
+    }
+
+    /// Expected: the lines as counted by hand.
+    #[test]
+    fn the_same_mistake_in_many_lines_is_one_error_with_a_count() {
+        let key = key().to_openssh();
+        let of = |lines: usize, line: &str| refused(&format!("# keys\n{}", format!("{line}\n").repeat(lines)));
+        let dated = format!("a valid-before=\"20270101\" {key}");
+        let twenty = of(20, &dated);
+        assert_eq!(twenty.lines().count(), 1, "{twenty}");
+        let due = "f:2:16: valid-before: found \"20270101\" (and 19 more of this kind, up to line 21), expected";
+        assert!(twenty.starts_with(due), "{twenty}");
+        assert_eq!(of(3, &dated).lines().count(), 3);
+        // Another mistake among them is seen.
+        let mixed =
+            refused(&format!("{}a colour {key}\n{}", format!("{dated}\n").repeat(60), format!("{dated}\n").repeat(60)));
+        assert!(mixed.contains("(and 119 more of this kind, up to line 121)"), "{mixed}");
+        assert!(mixed.contains("\nf:61:3: found `colour`, expected") && mixed.lines().count() == 2, "{mixed}");
+        let very_many = of(5_000, &dated);
+        assert!(very_many.contains("(and at least 999 more of this kind, up to line 1001 or beyond)"), "{very_many}");
         let sixty: Vec<_> = (0..60).map(|number| format!("x{number}")).collect();
-        let refused = AllowedSigners::parse("f", format!("a {} {key}", sixty.join(",")).as_bytes()).unwrap_err();
-        assert_eq!(refused.problems().len(), MOST_PROBLEMS);
+        let sixty = refused(&format!("a {} {key}", sixty.join(",")));
+        assert!(sixty.contains("found `x0` (and 59 more of this kind, up to line 1), expected"), "{sixty}");
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::LARGEST_TRUST_FILE_BYTES;
 use crate::text::Unreadable;
 use crate::text::node::is_utf16;
+use crate::text::problem::{MOST_COUNTED, counted};
 use crate::text::{Location, Problem};
 
 /// A line that is neither empty nor a comment.
@@ -40,6 +41,30 @@ impl Line<'_> {
         let found = format!("control character U+{:04X}", u32::from(c));
         Some(self.problem(at, "", found, "text", "retype the line in a text editor"))
     }
+}
+
+/// Reads each line of a trust file.
+///
+/// # Errors
+/// Returns [`Unreadable`] with the errors in the lines. Of many of one kind, which mostly have one cause, only the
+/// first is shown, with the number of others.
+pub(super) fn each<T>(
+    name: &str,
+    lines: &[Line],
+    read: impl Fn(&Line) -> Result<T, Vec<Problem>>,
+) -> Result<Vec<T>, Unreadable> {
+    let (mut kept, mut problems) = (Vec::new(), Vec::new());
+    for line in lines {
+        match read(line) {
+            Ok(line) => kept.push(line),
+            Err(mut found) => problems.append(&mut found),
+        }
+        if problems.len() >= MOST_COUNTED {
+            break;
+        }
+    }
+    let kind = |problem: &Problem| Some((problem.field.clone(), problem.expected.clone(), problem.advice.clone()));
+    if problems.is_empty() { Ok(kept) } else { Err(Unreadable::of(name, counted(problems, kind))) }
 }
 
 /// Returns the lines of a trust file that are neither empty nor comments; line endings are LF or CRLF.

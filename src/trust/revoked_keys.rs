@@ -1,11 +1,11 @@
 //! Revoked keys: OpenSSH's key revocation list (`ssh-keygen -k`), or a list of public keys, one per line.
 
 use super::krl::{self, Revoked};
+use super::public_key::AnyKey;
 use super::signer_line::read_key;
 use super::{LARGEST_TRUST_FILE_BYTES, PublicKey, lines};
 use crate::text::Unreadable;
 use crate::text::kind::{Kind, mistaken};
-use crate::text::problem::MOST_PROBLEMS;
 use sha1::Sha1;
 use sha2::{Digest, Sha256};
 
@@ -79,20 +79,13 @@ fn text(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
         return Err(Unreadable::whole(name, None, "an empty file", "a list of revoked keys", advice));
     }
     let mut revoked = Revoked::default();
-    let mut problems = Vec::new();
-    for line in lines::of(name, bytes)? {
+    let read = |line: &lines::Line| {
         let start = line.text.len() - line.text.trim_start().len();
-        match line.control_character().map_or_else(|| read_key(&line, start), Err) {
-            Ok(key) => {
-                revoked.keys.insert(key.into_blob());
-            }
-            Err(problem) => problems.push(problem),
-        }
-        if problems.len() >= MOST_PROBLEMS {
-            break;
-        }
-    }
-    if problems.is_empty() { Ok(revoked) } else { Err(Unreadable::of(name, problems)) }
+        line.control_character().map_or_else(|| read_key(line, start), Err).map_err(|problem| vec![problem])
+    };
+    let keys = lines::each(name, &lines::of(name, bytes)?, read)?;
+    revoked.keys.extend(keys.into_iter().map(AnyKey::into_blob));
+    Ok(revoked)
 }
 
 #[cfg(all(test, feature = "factory"))]
@@ -140,12 +133,13 @@ mod tests {
     }
 
     #[test]
-    fn every_line_counts_and_fifty_errors_are_enough() {
+    fn every_line_counts_and_many_alike_are_one_error() {
         let (key, other) = (key(), key());
         let lines = format!("{}\n\n{}\n", other.to_openssh(), key.to_openssh());
         assert!(RevokedKeys::parse("keys", lines.as_bytes()).unwrap().revokes(&key).is_some());
         let refused = RevokedKeys::parse("keys", "lost\n".repeat(60).as_bytes()).unwrap_err();
-        assert_eq!(refused.problems().len(), MOST_PROBLEMS);
+        let due = "keys:1:1: key: found only `lost` (and 59 more of this kind, up to line 60), expected a public key";
+        assert!(refused.to_string().starts_with(due), "{refused}");
     }
 
     #[test]

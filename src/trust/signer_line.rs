@@ -6,7 +6,7 @@ use super::pattern::LONGEST_PATTERN;
 use super::public_key::{AnyKey, shortened};
 use super::sshsig::KeyPoint;
 use super::validity;
-use crate::text::problem::{MOST_PROBLEMS, Problem};
+use crate::text::problem::{MOST_COUNTED, Problem};
 use jiff::Timestamp;
 use std::sync::OnceLock;
 
@@ -155,7 +155,7 @@ fn options_end(line: &Line, at: usize) -> Result<usize, Problem> {
 fn options(line: &Line, start: usize, end: usize, problems: &mut Vec<Problem>) -> Options {
     let mut options = Options::default();
     let mut at = start;
-    while at < end && problems.len() < MOST_PROBLEMS {
+    while at < end && problems.len() < MOST_COUNTED {
         let length = option_length(&line.text[at..end]);
         if let Err(problem) = options.read(line, at, &line.text[at..at + length], problems) {
             problems.push(problem);
