@@ -5,10 +5,11 @@ use super::output::Format;
 use super::trust_options::{self, Asked};
 use super::{Code, Failure, defaults, output};
 use crate::batch::{Purpose, paths};
+use crate::document::sha256_hex;
 use crate::passport::{Content, Question, Trust, Verification, read, verify};
-use crate::report::passport_table;
+use crate::report::{exported, passport_table};
 use crate::text::kind::Kind;
-use crate::text::{Field, name_of};
+use crate::text::{Node, name_of};
 use clap::{ArgGroup, Args};
 use std::path::{Path, PathBuf};
 
@@ -93,13 +94,21 @@ impl Reader {
     }
 }
 
+impl Read {
+    /// Returns the passport and the result of its verification, for programs.
+    fn for_programs(&self) -> Node {
+        let verification = self.verification.as_ref().map(|(verification, ..)| verification);
+        exported::shown(&self.content, &sha256_hex(&self.bytes), verification)
+    }
+}
+
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let reader = options.whom.reader()?;
     let table = |read: &Read| passport_table::text(&read.content, read.verification.is_some());
     if let Some(path) = paths::one_file(&options.passports) {
         let read = reader.read(path)?;
         match options.format {
-            Format::Json => output::json(&read.content.write())?,
+            Format::Json => output::json(&read.for_programs())?,
             Format::Text => output::text(&table(&read))?,
         }
         return Ok(0);
@@ -108,7 +117,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let show = |path: &Path| reader.read(path).map(|read| (read, 0));
     inputs::each(&options.passports, Purpose::Passports, show, |shown| {
         let shown = match shown {
-            Each::Done(read) => Each::Done((read.content.write(), format!("{before}{}", table(&read)))),
+            Each::Done(read) => Each::Done((read.for_programs(), format!("{before}{}", table(&read)))),
             Each::Refused { file, refusal } => Each::Refused { file, refusal },
         };
         before = "\n";

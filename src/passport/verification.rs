@@ -225,6 +225,24 @@ pub(crate) fn unreadable(why: &str, question: &Question) -> Verification {
     Verification { checks: run.checks, key: None, content: None }
 }
 
+/// Creates the result for a passport that was not verified on request: no check was run.
+#[cfg(feature = "report")]
+pub(crate) fn not_run() -> Verification {
+    let checks = ALWAYS.map(|name| Check::new(name, Code::NotRun, "not run: the passport was not verified"));
+    Verification { checks: checks.into(), key: None, content: None }
+}
+
+/// Checks that are part of every verification, in their order.
+const ALWAYS: [CheckName; 7] = [
+    CheckName::Grammar,
+    CheckName::Signature,
+    CheckName::Schema,
+    CheckName::Signer,
+    CheckName::Revocation,
+    CheckName::Recomputed,
+    CheckName::InForce,
+];
+
 /// Checks completed so far.
 struct Run {
     checks: Vec<Check>,
@@ -417,14 +435,12 @@ impl Run {
     }
 
     fn note_what_was_not_run(&mut self, question: &Question) {
-        use CheckName::{Grammar, InForce, Issuer, Place, Recomputed, Revocation, Schema, Signature, Signer, Stand};
-        let always = [Grammar, Signature, Schema, Signer, Revocation, Recomputed, InForce];
         let asked = [
-            question.issuer.as_ref().map(|_| Issuer),
-            question.serial.as_ref().map(|_| Stand),
-            question.place.map(|_| Place),
+            question.issuer.as_ref().map(|_| CheckName::Issuer),
+            question.serial.as_ref().map(|_| CheckName::Stand),
+            question.place.map(|_| CheckName::Place),
         ];
-        for name in always.into_iter().chain(asked.into_iter().flatten()) {
+        for name in ALWAYS.into_iter().chain(asked.into_iter().flatten()) {
             if !self.checks.iter().any(|check| check.name == name) {
                 self.note(name, Code::NotRun, "not run: an earlier check failed");
             }

@@ -223,8 +223,10 @@ fn show_has_the_keys_of_the_passport_in_their_order() {
     let passport = folder.json(&format!("show passports/SPS-2/0017/here-2.yaml {TRUST}"), 0);
     assert_eq!(
         passport.names(),
-        "format passport stand certificate datum positions site earth matrices vectors self_check"
+        "format passport stand certificate datum positions site earth matrices vectors self_check verified sha256 \
+         checks"
     );
+    assert_eq!(passport.at("checks").first().names(), "name passed code detail");
     let expected = [
         ("passport", "id revision issued_at issuer valid_until issued_with reissued_from supersedes"),
         ("stand", "manufacturer model serial configuration name"),
@@ -268,6 +270,8 @@ import json, sys, yaml
 shown = json.load(open(sys.argv[2], encoding="utf-8"))
 signed = yaml.safe_load(open(sys.argv[1], encoding="utf-8"))
 del signed["signature"]
+# What the verification found comes after the keys of the file.
+assert [shown.popitem()[0] for _ in range(3)] == ["checks", "sha256", "verified"]
 numbers = 0
 def same(a, b, at):
     global numbers
