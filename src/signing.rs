@@ -7,6 +7,7 @@ use crate::text::{Printable, Unreadable, name_of, shown};
 use crate::trust::{
     AllowedSigners, BadIdentity, KeyError, LARGEST_TRUST_FILE_BYTES, PublicKey, Signature, SigningKey, check_identity,
 };
+use jiff::Timestamp;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -165,6 +166,46 @@ pub(crate) fn public_half(path: &Path) -> Result<PublicKey, KeyFileError> {
     PublicKey::of_key_file(&text).map_err(|error| KeyFileError::Key { path: path.to_owned(), error })
 }
 
+/// Returns the public half of the key with which [`signer`] would sign, as far as this can be checked without a
+/// passphrase and without signing.
+///
+/// # Errors
+/// Returns the errors of [`signer`], except those of a passphrase and of what it decrypts.
+pub(crate) fn key_to_sign_with(path: &Path) -> Result<PublicKey, KeyFileError> {
+    let failed = |error| KeyFileError::Key { path: path.to_owned(), error };
+    let text = text(path)?;
+    if path.extension().is_none_or(|extension| extension != "pub") {
+        if text.contains("PRIVATE KEY") {
+            refuse_exposed(path)?;
+        }
+        return match SigningKey::from_openssh(&text, None) {
+            Ok(key) => Ok(key.public_key()),
+            Err(KeyError::Encrypted | KeyError::SecurityKey) => PublicKey::of_key_file(&text).map_err(failed),
+            Err(error) => Err(failed(error)),
+        };
+    }
+    let public = PublicKey::from_openssh(text.trim_end()).map_err(failed)?;
+    if is_in_agent(&public) {
+        return Ok(public);
+    }
+    let private = path.with_extension("");
+    if !private.exists() {
+        return Err(KeyFileError::NoPrivateHalf { path: path.to_owned(), private });
+    }
+    if key_to_sign_with(&private)? != public {
+        return Err(KeyFileError::OtherPrivateHalf { path: path.to_owned(), private });
+    }
+    Ok(public)
+}
+
+/// Returns the reason why passports that `key` signs as `identity` at `time` would fail verification by `trust`, or
+/// `None` if they would not.
+pub(crate) fn distrust(trust: &Trust, key: &PublicKey, identity: &str, time: Timestamp) -> Option<String> {
+    let authorised = trust.signers.authorise(key, identity, NAMESPACE, time);
+    let revoked = || trust.revoked.iter().find_map(|list| list.revokes(key));
+    authorised.err().map(|miss| miss.to_string()).or_else(revoked)
+}
+
 fn text(path: &Path) -> Result<Zeroizing<String>, KeyFileError> {
     let bytes = Zeroizing::new(files::read(path, LARGEST_KEY_FILE_BYTES)?);
     let text = std::str::from_utf8(&bytes).map_err(|_| KeyFileError::NotText { path: path.to_owned() })?;
@@ -216,9 +257,9 @@ pub fn allowed_signers_line(identity: &str, key: &PublicKey) -> Result<String, B
     Ok(format!("{identity} namespaces=\"{NAMESPACE},dtg-revocation\" {}", key.to_openssh()))
 }
 
-/// Returns the trust of an issuer in what its own key signs, or `None` if that key is not known.
-pub(crate) fn own_trust(identity: &str, signer: &dyn Signer) -> Option<Trust> {
-    let line = allowed_signers_line(identity, &signer.public_key()?).ok()?;
+/// Returns the trust of an issuer in what its own key signs, or `None` for an identity that no list can contain.
+pub(crate) fn own_trust(identity: &str, key: &PublicKey) -> Option<Trust> {
+    let line = allowed_signers_line(identity, key).ok()?;
     AllowedSigners::parse("own key", line.as_bytes()).ok().map(Trust::of)
 }
 

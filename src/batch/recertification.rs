@@ -16,9 +16,10 @@ use crate::passport::{Content, Question, Trust, verify};
 use crate::register::{Asked, Line, Register, State};
 use crate::site::Site;
 use crate::stand::{Excluded, Stand};
-use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, shown};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, rule, shown};
 use jiff::Timestamp;
 use jiff::civil::Date;
+use jiff::tz::TimeZone;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -124,6 +125,9 @@ impl Recertified {
 /// Reason why a stand was not recertified; nothing was written.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum NotRecertified {
+    /// Value that no certificate can state.
+    #[error("{0}")]
+    Order(String),
     /// Rule that the order or the readings break.
     #[error("{0}; nothing was written")]
     Refused(String),
@@ -143,7 +147,7 @@ impl NotRecertified {
     pub(crate) fn is_unusable(&self) -> bool {
         match self {
             Self::Refused(_) | Self::File(FileError::Exists { .. }) => false,
-            Self::Unreadable(_) | Self::File(_) => true,
+            Self::Order(_) | Self::Unreadable(_) | Self::File(_) => true,
             Self::Folder(_, refused) => refused.is_unusable(),
         }
     }
@@ -167,6 +171,7 @@ impl Recertification<'_> {
     /// # Errors
     /// Returns [`NotRecertified`]; nothing is then written.
     pub(crate) fn run(&self, seal: Option<Seal>) -> Result<Recertified, NotRecertified> {
+        self.check()?;
         let bytes = files::read(self.passport, LARGEST_DOCUMENT_BYTES)?;
         let old = self.content(self.passport, &bytes, &self.trust, &self.question)?;
         let old_stand = old.to_stand();
@@ -226,6 +231,26 @@ impl Recertification<'_> {
         })
     }
 
+    /// Checks the values that have no file which a message could name.
+    ///
+    /// # Errors
+    /// Returns [`NotRecertified::Order`] for a value that no certificate can state.
+    pub(crate) fn check(&self) -> Result<(), NotRecertified> {
+        let (number, issued) = (self.number, self.issued);
+        if number.trim().is_empty() || !number.chars().all(rule::allowed_in_string) {
+            return Err(NotRecertified::Order(format!(
+                "--number {number:?}: is empty or contains a character that is not allowed in signed files, expected the \
+                 number of the new certificate, such as C-2027-0009"
+            )));
+        }
+        match self.valid_until.filter(|until| *until < issued) {
+            Some(until) => Err(NotRecertified::Order(format!(
+                "--valid-until {until} is before --issued {issued}; check the years"
+            ))),
+            None => Ok(()),
+        }
+    }
+
     /// Returns the content of a passport that passes every check of `question`.
     fn content(
         &self,
@@ -257,6 +282,13 @@ impl Recertification<'_> {
                 self.issued,
                 Printable(&before.number),
                 before.issued
+            )));
+        }
+        if self.issued > self.issued_at.to_zoned(TimeZone::UTC).date() {
+            return Err(refused(format!(
+                "the new certificate would be dated {}, after its passports, which are issued at {}; check the year of \
+                 --issued",
+                self.issued, self.issued_at
             )));
         }
         self.number.clone_into(&mut header.certificate.number);

@@ -34,7 +34,8 @@ pub(super) struct BatchOptions {
     /// Issue even if the positions of the stand do not determine the parameters of a gyro
     #[arg(long)]
     pub allow_uncalibratable: bool,
-    /// Compute and check everything, and list what would be issued, but write nothing; requires no key
+    /// Compute and check everything, and list what would be issued, but write nothing; requires no key, and checks the
+    /// one given as far as this needs no passphrase
     #[arg(short = 'n', long)]
     dry_run: bool,
     /// Do not sync to disk: faster, but a power failure may lose files
@@ -54,16 +55,24 @@ impl BatchOptions {
         self.key.as_deref().filter(|_| !self.dry_run).map(signer_of).transpose()
     }
 
+    /// Returns the public half of the key, or `None` if there is no key, or if it is not known before `signer` signs. In
+    /// a dry run the key file is checked as far as this needs no passphrase.
+    pub(super) fn public_key(&self, signer: Option<&(dyn Signer + Sync)>) -> Result<Option<PublicKey>, Failure> {
+        match signer {
+            Some(signer) => Ok(signer.public_key()),
+            None => self.key.as_deref().map(key_options::key_to_sign_with).transpose(),
+        }
+    }
+
     /// Warns if a file `allowed_signers` next to the key gives the key to another identity. The file is not trusted:
     /// without `--trust` nothing depends on it.
-    pub(super) fn warn_of_other_identity(&self, signer: Option<&(dyn Signer + Sync)>, issued_at: Timestamp) {
-        let found = self.key.as_deref().zip(signer.and_then(|signer| signer.public_key()));
-        let Some((key, public)) = found else { return };
+    pub(super) fn warn_of_other_identity(&self, public: &PublicKey, issued_at: Timestamp) {
+        let Some(key) = self.key.as_deref() else { return };
         let path = files::folder_of(key).join("allowed_signers");
         let Ok(bytes) = files::read(&path, LARGEST_DOCUMENT_BYTES) else { return };
         let Ok(signers) = AllowedSigners::parse("allowed_signers", &bytes) else { return };
-        if !matches!(signers.authorise(&public, &self.identity, NAMESPACE, issued_at), Err(NotAuthorised::UnknownKey)) {
-            self.warn_unless_authorised(&signers, &public, issued_at, &shown(&path).to_string());
+        if !matches!(signers.authorise(public, &self.identity, NAMESPACE, issued_at), Err(NotAuthorised::UnknownKey)) {
+            self.warn_unless_authorised(&signers, public, issued_at, &shown(&path).to_string());
         }
     }
 

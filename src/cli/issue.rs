@@ -1,6 +1,7 @@
 //! Verb `issue`: one passport for every stand at every site.
 
 use super::batch::BatchOptions;
+use super::key_options::refuse_distrusted;
 use super::{Code, Failure, defaults, inputs, trust_options};
 use crate::batch::issue::{Job, Known};
 use crate::gyro::GyroType;
@@ -58,8 +59,13 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let issued_at = time_of_issue(options.issued_at, now).map_err(Failure::refused)?;
     let signer = options.batch.signer()?;
     let trust = options.trust.as_deref().map(|path| trust_options::load(path, &[], now)).transpose()?;
-    if trust.is_none() {
-        options.batch.warn_of_other_identity(signer.as_deref(), issued_at);
+    let public = options.batch.public_key(signer.as_deref())?;
+    match (&public, &trust) {
+        (Some(public), None) => options.batch.warn_of_other_identity(public, issued_at),
+        (Some(public), Some(trust)) if signer.is_none() => {
+            refuse_distrusted(trust, public, &options.batch.identity, issued_at)?;
+        }
+        _ => {}
     }
     let order = Issue {
         valid_until: options.valid_until,
@@ -67,7 +73,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         allow_uncalibratable: options.batch.allow_uncalibratable,
         ..Issue::first(&options.batch.identity, issued_at)
     };
-    let own = || own_trust(&options.batch.identity, signer.as_deref()?);
+    let own = || own_trust(&options.batch.identity, public.as_ref()?);
     let believed = trust.clone().or_else(own);
     let known = believed.as_ref().map(|trust| Known { trust, time: now.max(order.issued_at) });
     let folder = options.batch.folder(&options.out);

@@ -3,11 +3,13 @@
 
 use super::Failure;
 use crate::document::Signer;
+use crate::passport::Trust;
 pub(super) use crate::signing::PASSPHRASE_VARIABLE;
 use crate::signing::{self, KeyFileError};
 use crate::text::shown;
-use crate::trust::{BadIdentity, check_identity};
+use crate::trust::{BadIdentity, PublicKey, check_identity};
 use clap::Args;
+use jiff::Timestamp;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use zeroize::Zeroizing;
@@ -43,10 +45,34 @@ pub(super) fn identity(text: &str) -> Result<String, BadIdentity> {
 /// Returns the signer for a key file.
 pub(super) fn signer_of(key: &Path) -> Result<Box<dyn Signer + Sync>, Failure> {
     signing::forbid_core_dumps();
-    signing::signer(key, &ask).map_err(|error| match error {
+    signing::signer(key, &ask).map_err(unusable)
+}
+
+/// Returns the public half of the key that would sign, for a dry run: no passphrase is asked for.
+pub(super) fn key_to_sign_with(key: &Path) -> Result<PublicKey, Failure> {
+    signing::forbid_core_dumps();
+    signing::key_to_sign_with(key).map_err(unusable)
+}
+
+/// Refuses a dry run whose passports would fail verification by `trust`, as the passports themselves will be refused.
+pub(super) fn refuse_distrusted(
+    trust: &Trust,
+    key: &PublicKey,
+    identity: &str,
+    issued_at: Timestamp,
+) -> Result<(), Failure> {
+    let Some(why) = signing::distrust(trust, key, identity, issued_at) else { return Ok(()) };
+    Err(Failure::refused(format!(
+        "--identity {identity}: the new passports would fail verification by --trust ({why}); check --key, --identity \
+         and --trust"
+    )))
+}
+
+fn unusable(error: KeyFileError) -> Failure {
+    match error {
         KeyFileError::File(error) => Failure::file(error),
         error => Failure::unusable(error),
-    })
+    }
 }
 
 /// Reads the passphrase of an existing key.

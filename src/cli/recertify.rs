@@ -1,7 +1,7 @@
 //! Verb `recertify`: a new certificate from new readings, and successors of the passports in force, in one step.
 
 use super::exclusion::ExclusionOptions;
-use super::key_options::{self, signer_of};
+use super::key_options::{self, refuse_distrusted, signer_of};
 use super::output::{self, Format};
 use super::render::{Written, languages};
 use super::trust_options::{self, TrustOptions};
@@ -16,7 +16,7 @@ use crate::report::issued::Told;
 use crate::report::page::certification::CertificationPage;
 use crate::report::recertification as report;
 use crate::text::kind::{Kind, mistaken};
-use crate::text::{Identifier, Printable, name_of, rule, shown};
+use crate::text::{Identifier, Printable, name_of, shown};
 use clap::Args;
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -79,7 +79,8 @@ pub(super) struct Options {
     /// Replace an existing record
     #[arg(long)]
     force: bool,
-    /// Compute and check everything, and show it, but write only the record, if --report is given; requires no key
+    /// Compute and check everything, and show it, but write only the record, if --report is given; requires no key, and
+    /// checks the one given as far as this needs no passphrase
     #[arg(short = 'n', long)]
     dry_run: bool,
     /// Output format
@@ -88,7 +89,6 @@ pub(super) struct Options {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    options.check()?;
     let (trust, question) = options.trust.load()?;
     let cancel = long_run::cancelled_by_ctrl_c()?;
     // Before the readings are read: exchanged arguments are then recognised by the file that is there.
@@ -122,13 +122,15 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         stands: stands(options),
         cancel: Some(&cancel),
     };
+    // Before a passphrase is asked for.
+    order.check().map_err(failure)?;
     let signer = options.key.as_deref().filter(|_| !options.dry_run).map(signer_of).transpose()?;
+    if let Some(key) = options.key.as_deref().filter(|_| options.dry_run) {
+        let public = key_options::key_to_sign_with(key)?;
+        refuse_distrusted(&trust, &public, &options.identity, order.issued_at)?;
+    }
     let seal = signer.as_deref().map(|signer| Seal { signer, trust: Some(&trust) });
-    let found = order.run(seal).map_err(|why| match why {
-        NotRecertified::Unreadable(error) => Failure::unreadable(error),
-        why if why.is_unusable() => Failure::unusable(why),
-        why => Failure::refused(why),
-    })?;
+    let found = order.run(seal).map_err(failure)?;
     for finding in found.comparison.findings.iter().filter(|finding| **finding == Finding::SameReadings) {
         output::complain(&format!("{}: WARNING: {finding}; give the new readings", Printable(&name)));
     }
@@ -150,21 +152,12 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     Ok(0)
 }
 
-impl Options {
-    /// Refuses values that the new certificate cannot state: it has no file yet that a message could name.
-    fn check(&self) -> Result<(), Failure> {
-        if self.number.trim().is_empty() || !self.number.chars().all(rule::allowed_in_string) {
-            return Err(Failure::usage(format!(
-                "--number {:?}: is empty or contains a character that is not allowed in signed files, expected the \
-                 number of the new certificate, such as C-2027-0009",
-                self.number
-            )));
-        }
-        if let Some(until) = self.valid_until.filter(|until| *until < self.issued) {
-            let issued = self.issued;
-            return Err(Failure::usage(format!("--valid-until {until} is before --issued {issued}; check the years")));
-        }
-        Ok(())
+fn failure(why: NotRecertified) -> Failure {
+    match why {
+        NotRecertified::Unreadable(error) => Failure::unreadable(error),
+        NotRecertified::Order(why) => Failure::usage(why),
+        why if why.is_unusable() => Failure::unusable(why),
+        why => Failure::refused(why),
     }
 }
 

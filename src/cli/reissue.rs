@@ -71,7 +71,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         allow_uncalibratable: options.batch.allow_uncalibratable,
     };
     let signer = options.batch.signer()?;
-    if let Some(public) = signer.as_deref().and_then(|signer| signer.public_key()) {
+    if let Some(public) = options.batch.public_key(signer.as_deref())? {
         options.batch.warn_unless_authorised(&trust.signers, &public, order.issued_at, "--trust");
     }
     let folder = options.out.as_deref().map(|out| Arc::new(options.batch.folder(out)));

@@ -55,7 +55,7 @@ pub fn issue(
     let order = Issue { accuracy: accuracy.map(stated).transpose()?, ..ordered(order, now)? };
     let trust = signers.map(|signers| trust(signers, &[], now)).transpose()?.map(|(trust, _)| trust);
     let folder = Folder::new(out);
-    let believed = trust.clone().or_else(|| own_trust(&order.issuer, signer));
+    let believed = trust.clone().or_else(|| own_trust(&order.issuer, &signer.public_key()?));
     let known = |trust| folder.against_certificate(stand.stand(), &trust, now.max(order.issued_at));
     let mut words = believed.map_or_else(Vec::new, known);
     let issued = folder.issue(&stand, &site, &order, Seal { signer, trust: trust.as_ref() });

@@ -140,16 +140,15 @@ fn damaged(error: ssh_key::Error) -> KeyError {
 
 /// Decrypts a key. A wrong passphrase and altered bytes cannot be distinguished, because both produce random bytes.
 fn decrypted(file: &PrivateKey, passphrase: Option<&str>) -> Result<PrivateKey, KeyError> {
-    let passphrase = passphrase.ok_or(KeyError::Encrypted)?;
-    match file.kdf() {
-        Kdf::Bcrypt { rounds, .. } if *rounds > MOST_BCRYPT_ROUNDS => {
-            Err(KeyError::Encryption { found: format!("{rounds} rounds of bcrypt") })
-        }
-        _ => file.decrypt(passphrase).map_err(|error| match error {
-            ssh_key::Error::Crypto => KeyError::WrongPassphrase,
-            other => damaged(other),
-        }),
+    if let Kdf::Bcrypt { rounds, .. } = file.kdf()
+        && *rounds > MOST_BCRYPT_ROUNDS
+    {
+        return Err(KeyError::Encryption { found: format!("{rounds} rounds of bcrypt") });
     }
+    file.decrypt(passphrase.ok_or(KeyError::Encrypted)?).map_err(|error| match error {
+        ssh_key::Error::Crypto => KeyError::WrongPassphrase,
+        other => damaged(other),
+    })
 }
 
 impl PublicKey {

@@ -5,7 +5,7 @@ use crate::batch::paths::{is_stand, is_yaml};
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
 use crate::folder::search;
-use crate::passport::{NAMESPACE, Trust};
+use crate::passport::Trust;
 use crate::register::{Asked, Line, Register, State};
 use crate::report::style;
 use crate::signing::{self, KeyFileError};
@@ -206,9 +206,7 @@ fn signing_key(key: &Path, workspace: &Workspace, trust: Option<&Trust>, time: T
     };
     let asked = found.ok().zip(workspace.identity.as_deref()).zip(trust);
     let trusted = asked.map(|((key, identity), trust)| {
-        let revoked = trust.revoked.iter().find_map(|list| list.revokes(&key));
-        let authorised = trust.signers.authorise(&key, identity, NAMESPACE, time).map_err(|miss| miss.to_string());
-        let refused = authorised.err().or(revoked);
+        let refused = signing::distrust(trust, &key, identity, time);
         let trusted = refused.is_none();
         why = why.take().or(refused);
         trusted

@@ -228,8 +228,10 @@ fn a_dry_run_says_all_and_writes_nothing() {
     assert_eq!(said.ids("refused"), BTreeSet::from(["SPS-2/0000/site-00002/1".to_owned()]));
     assert!(said.words.contains("already exists with other content (site height_m 150.0 -> 151.0)"), "{}", said.words);
     assert_eq!(snapshot(&workshop.path(".")), before);
-    // A key that is given is not even opened.
-    let said = workshop.run("issue stands --site sites --identity factory --key no/such/key --dry-run --out new", 0);
+    // A key that is given must be usable.
+    let said = workshop.run("issue stands --site sites --identity factory --key no/such/key --dry-run --out new", 2);
+    assert!(said.words.contains("no/such/key: cannot be read: no such file or folder"), "{}", said.words);
+    let said = workshop.run(&format!("issue stands --site sites {SIGN} --dry-run --out new"), 0);
     assert_eq!(said.results.matches("planned    SPS-2/").count(), 10);
     assert!(!workshop.path("new").exists());
     let said = workshop.run("issue stands --site sites --identity factory", 2);
