@@ -1,13 +1,13 @@
 //! Options of `calibrate` for the uncertainty budget and the Monte Carlo method.
 
 use super::{Failure, long_run, output};
-use crate::calibration::{Calibration, Method, Model, Options as CalibrationOptions, Readings, Setup};
+use crate::calibration::{Calibration, Method, Options as CalibrationOptions, Readings, Setup};
 use crate::gyro::Tolerance;
 use crate::interface::calibrated::distributions;
 use crate::report::{budget as budget_report, monte_carlo as monte_carlo_report, picture};
 use crate::uncertainty::document::{BudgetDocument, MonteCarloDocument};
 use crate::uncertainty::dominant::Dominant;
-use crate::uncertainty::monte_carlo::Trials;
+use crate::uncertainty::monte_carlo::{Trials, check_model};
 use crate::uncertainty::{Budget, MonteCarlo};
 use clap::Args;
 use indicatif::HumanDuration;
@@ -106,11 +106,10 @@ impl UncertaintyOptions {
             return Ok(Found { budget: None, monte_carlo: None });
         }
         let method = calibration.answer().map_or(Method::LeastSquares, |answer| answer.method);
-        if self.monte_carlo && (options.model != Model::Paper || options.drift) {
-            return Err(Failure::unusable(
-                "--monte-carlo has the paper's model with one constant drift; omit it, or --anisoelasticity, --drift and \
-                 --model general",
-            ));
+        // Before the picture is written.
+        if let Some(why) = self.monte_carlo.then(|| check_model(options).err()).flatten() {
+            let advice = "omit --monte-carlo, or --anisoelasticity, --drift and --model general";
+            return Err(Failure::unusable(format!("{why}; {advice}")));
         }
         let budget = Budget::new(setup, readings, method, options).map_err(Failure::refused)?;
         if let Some(path) = &self.budget_svg {
@@ -119,13 +118,18 @@ impl UncertaintyOptions {
                 svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: no input has an uncertainty"))?;
             output::file(path, &svg, self.force)?;
         }
-        let trials = self.monte_carlo.then(|| self.trials(setup, readings, &budget)).transpose()?;
+        let trials = self.monte_carlo.then(|| self.trials(setup, readings, (&budget, options))).transpose()?;
         let sentence = Dominant::of(&budget, tolerance).map(|remedy| remedy.sentence());
         Ok(Found { budget: self.budget.then_some((budget, sentence)), monte_carlo: trials })
     }
 
     /// Runs the trials with a progress bar on a terminal. Ctrl-C ends them with the trials completed so far.
-    fn trials(&self, setup: &Setup, readings: &Readings, budget: &Budget) -> Result<MonteCarlo, Failure> {
+    fn trials(
+        &self,
+        setup: &Setup,
+        readings: &Readings,
+        of: (&Budget, &CalibrationOptions),
+    ) -> Result<MonteCarlo, Failure> {
         let cancel = long_run::cancelled_by_ctrl_c()?;
         let bar = long_run::bar(self.trials.unwrap_or(0), long_run::TRIALS)?;
         let (start, told) = (Instant::now(), AtomicBool::new(false));
@@ -146,7 +150,7 @@ impl UncertaintyOptions {
         if let Some(threads) = self.threads {
             run.threads = threads as usize;
         }
-        let found = distributions(setup, readings, budget, &run);
+        let found = distributions(setup, readings, of, &run);
         bar.finish_and_clear();
         let found = found.map_err(Failure::refused)?;
         long_run::report_interruption(&cancel);

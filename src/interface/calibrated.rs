@@ -94,21 +94,22 @@ pub fn monte_carlo(
     let Done { setup, readings, calibration, .. } = prepared.run(&options, true, Subject::default(), &[])?;
     let method = calibration.answer().map_or(Method::LeastSquares, |answer| answer.method);
     let budget = Budget::new(&setup, &readings, method, &options).map_err(Failed::refused)?;
-    Ok(json(&MonteCarloDocument::new(&distributions(&setup, &readings, &budget, run)?)))
+    Ok(json(&MonteCarloDocument::new(&distributions(&setup, &readings, (&budget, &options), run)?)))
 }
 
 /// Runs the trials of a calibration.
 ///
 /// # Errors
-/// Returns [`Failed`] if the method does not suit the readings, or if the run was cancelled before its first trials were
-/// complete.
+/// Returns [`Failed`] if the method does not suit the readings or the model of `options`, or if the run was cancelled
+/// before its first trials were complete.
 #[cfg(feature = "monte-carlo")]
 pub(crate) fn distributions(
     setup: &Setup,
     readings: &Readings,
-    budget: &Budget,
+    (budget, options): (&Budget, &Options),
     run: &Trials,
 ) -> Result<MonteCarlo, Failed> {
+    uncertainty::monte_carlo::check_model(options).map_err(Failed::refused)?;
     let engine = Engine::new(setup, readings, budget.method, ReadingShape::Normal).map_err(Failed::refused)?;
     let found = uncertainty::monte_carlo(&engine, budget, run);
     if found.trials == 0 {

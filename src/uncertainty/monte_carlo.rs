@@ -8,8 +8,8 @@
 use super::accumulator::{Accumulator, BlockSummary, Histograms, Scale};
 use super::budget::{Budget, COVERAGE, ParameterBudget};
 use super::engine::{BLOCK, Engine};
-use crate::calibration::Method;
 use crate::calibration::parameter::Parameter;
+use crate::calibration::{Method, Model, Options};
 use crate::parallel;
 use crate::statistics::wide_random::WideRandom;
 use crate::text::number::exponent_as_printed;
@@ -29,6 +29,19 @@ const MOST_BLOCKS_IN_A_WAVE: u64 = 512;
 
 /// Number of trials after which an adaptive run stops.
 pub(crate) const MOST_TRIALS: u64 = 200_000_000;
+
+/// Reason why a calibration has no Monte Carlo: its model has parameters that the trials do not have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the Monte Carlo method has the paper's model with one constant drift")]
+pub(crate) struct OtherModel;
+
+/// Checks that the trials can have the model of a calibration.
+///
+/// # Errors
+/// Returns [`OtherModel`] unless it is the paper's model without a drift in time.
+pub(crate) fn check_model(options: &Options) -> Result<(), OtherModel> {
+    if options.model == Model::Paper && !options.drift { Ok(()) } else { Err(OtherModel) }
+}
 
 /// Settings of a Monte Carlo run.
 #[derive(Clone, Copy)]
