@@ -2,7 +2,8 @@
 
 use super::failure::Failure;
 use super::{Cli, UNUSABLE, defaults, help, output};
-use crate::text::printable;
+use crate::text::{printable, shown};
+use crate::workspace::WORKSPACE_FILE;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, FromArgMatches};
@@ -45,7 +46,8 @@ pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
         arguments.iter().map(|argument| printable(argument.to_string_lossy()).into()).collect();
     let refused = parsed(&printed).err();
     if let Some(help) = refused.as_ref().filter(|error| !error.use_stderr()) {
-        help.exit();
+        let written = output::own(&help::fitted(&help.render().ansi().to_string()));
+        return Err(written.map_or_else(|failure| ExitCode::from(failure.code), |()| ExitCode::SUCCESS));
     }
     let advice = refused.as_ref().map(advice).unwrap_or_default();
     if names_json(&arguments) {
@@ -53,7 +55,7 @@ pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
     }
     match refused {
         Some(refused) => {
-            let _ = refused.print();
+            output::usage(&help::fitted(&clearer(&refused.render().ansi().to_string())));
             if !advice.is_empty() {
                 output::complain(advice.trim_start());
             }
@@ -65,7 +67,7 @@ pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
 
 /// Returns clap's message without its mark and its last line feed.
 fn words(error: &clap::Error) -> String {
-    let words = error.render().to_string();
+    let words = clearer(&error.render().to_string());
     let words = words.trim_end();
     words.strip_prefix("error: ").unwrap_or(words).split('\n').map(printable).collect::<Vec<_>>().join("\n")
 }
@@ -100,7 +102,33 @@ fn advice(error: &clap::Error) -> String {
         let mut words = missing.iter().flat_map(|argument| argument.split(|c: char| " <>|".contains(c)));
         words.any(|word| word == option)
     };
-    MISSING.iter().filter(|(option, _)| is_missing(option)).map(|(_, words)| format!("\n{words}")).collect()
+    // Where a workspace is named, it lacks the value.
+    let here = |option: &str, words: &str| match defaults::workspace() {
+        Some(workspace) => {
+            let file = shown(&workspace.root.join(WORKSPACE_FILE)).to_string();
+            words.replace("name a workspace", &format!("state `{}` in {file}", option.trim_start_matches('-')))
+        }
+        None => words.to_owned(),
+    };
+    let missing = MISSING.iter().filter(|(option, _)| is_missing(option));
+    missing.map(|(option, words)| format!("\n{}", here(option, words))).collect()
+}
+
+/// Returns clap's words with its descriptions of numbers replaced by those that users know.
+fn clearer(words: &str) -> String {
+    let line = |line: &str| match line.split_once(" is not in ").and_then(|(before, range)| {
+        let (first, last) = range.trim_end().split_once("..=").or(range.trim_end().split_once(".."))?;
+        let (option, _) = before.rsplit_once(": ")?;
+        let up_to = if last == u64::MAX.to_string() { String::new() } else { format!(" to {last}") };
+        Some(format!("{option}: expected a whole number from {first}{up_to}\n"))
+    }) {
+        Some(line) => line,
+        None => line.to_owned(),
+    };
+    let words: String = words.split_inclusive('\n').map(line).collect();
+    words
+        .replace(": invalid digit found in string", ": expected a whole number")
+        .replace(": invalid float literal", ": expected a number with a decimal point")
 }
 
 /// Returns `true` if the verb was called with `--format json`.

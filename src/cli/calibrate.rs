@@ -101,7 +101,7 @@ pub(super) struct Options {
     #[command(flatten)]
     uncertainty: uncertainty::UncertaintyOptions,
     /// Report to write, for paper, screen and phone, with fields for handwritten signatures
-    #[arg(long, value_name = "FILE.html")]
+    #[arg(long, value_name = "FILE.html", value_parser = output::path_of("html"))]
     report: Option<PathBuf>,
     /// Digital Calibration Certificate of the gyro to write; needs --gyro-serial, --administrative and a verified passport
     #[arg(long, value_name = "FILE.xml", conflicts_with_all = ["no_verify", "anisoelasticity", "drift"])]

@@ -60,7 +60,7 @@ pub(super) struct Options {
     #[command(flatten)]
     exclusions: ExclusionOptions,
     /// Record of the certification for paper to write: readings, tests, uncertainty, signature lines
-    #[arg(long, value_name = "FILE.html")]
+    #[arg(long, value_name = "FILE.html", value_parser = output::path_of("html"))]
     report: Option<PathBuf>,
     /// Languages of the record; the first sets the number format
     #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]

@@ -5,9 +5,9 @@
 
 use super::failure::Failure;
 use super::help;
-use crate::files::FileError;
+use crate::files::{self, FileError};
 use crate::text::shown;
-use crate::workspace::{NoWorkspace, Workspace};
+use crate::workspace::{NoWorkspace, WORKSPACE_FILE, Workspace};
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Command};
@@ -78,6 +78,12 @@ pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure>
 
 fn no_workspace(folder: &Path, error: NoWorkspace) -> Failure {
     match error {
+        NoWorkspace::File(_) if folder.is_file() => {
+            let is_its_file = folder.file_name().is_some_and(|name| name == WORKSPACE_FILE);
+            let meant = is_its_file.then(|| format!("; did you mean {}?", shown(files::folder_of(folder))));
+            let meant = meant.unwrap_or_else(|| "; `init` makes a workspace".to_owned());
+            Failure::unusable(format!("{}: is a file, expected the folder of a workspace{meant}", shown(folder)))
+        }
         NoWorkspace::File(FileError::Read { error, .. }) if error.kind() == std::io::ErrorKind::NotFound => {
             Failure::unusable(format!(
                 "{}: is not a workspace, because it has no dtg-passport.toml; check --workspace or {WORKSPACE_VARIABLE}, \
@@ -110,13 +116,13 @@ struct Defaults {
     identity: Option<(OsString, &'static str)>,
     trust: Option<(OsString, &'static str)>,
     passports: Option<OsString>,
+    lists: Option<OsString>,
 }
 
 impl Defaults {
     fn of(workspace: Option<&Workspace>) -> Self {
         let value = |name: &str, stated: Option<OsString>| {
             variable(name).map(|value| (value, ENVIRONMENT)).or(stated.map(|value| (value, FILE)))
-    lists: Option<OsString>,
         };
         let path = |path: &Option<PathBuf>| path.clone().map(OsString::from);
         Self {
@@ -124,13 +130,13 @@ impl Defaults {
             identity: value(IDENTITY_VARIABLE, workspace.and_then(|at| at.identity.clone().map(OsString::from))),
             trust: value(TRUST_VARIABLE, workspace.and_then(|workspace| path(&workspace.trust))),
             passports: workspace.and_then(|workspace| path(&workspace.passports)),
+            lists: workspace.and_then(|workspace| path(&workspace.lists())),
         }
     }
 
     fn for_verb(&self, verb: &str) -> Vec<(&'static str, OsString, &'static str)> {
         let of = |option, value: &Option<(OsString, &'static str)>| {
             value.clone().map(|(value, source)| (option, value, source))
-            lists: workspace.and_then(|workspace| path(&workspace.lists())),
         };
         let passports = |option| self.passports.clone().map(|value| (option, value, FILE));
         let out = passports("--out").filter(|_| WRITE_PASSPORTS.contains(&verb));

@@ -49,6 +49,13 @@ impl Failure {
         Self { message: failed.message.clone(), code, failed }
     }
 
+    /// Adds what to do.
+    pub(super) fn with_advice(mut self, advice: &str) -> Self {
+        self.message += &format!("; {advice}");
+        self.failed.message += &format!("; {advice}");
+        self
+    }
+
     /// Creates the failure for a folder in place of the file that `expected` describes.
     pub(super) fn folder(path: &Path, expected: &str) -> Self {
         let message = format!("{}: is a folder, expected {expected}; name a file in it", shown(path));

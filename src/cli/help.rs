@@ -5,6 +5,7 @@ use crate::dcc::DCC_FORMAT;
 use crate::gyro::GYRO_FORMAT;
 use crate::laboratory::LABORATORY_FORMAT;
 use crate::passport::content::PASSPORT_FORMAT;
+use crate::report::{columns, style};
 use crate::revocation::REVOCATION_FORMAT;
 use crate::site::SITE_FORMAT;
 use crate::stand::STAND_FORMAT;
@@ -165,6 +166,33 @@ pub(super) fn command() -> Command {
     })
 }
 
+/// Width of a terminal in which every line of the help fits.
+const COLUMNS: usize = 80;
+
+/// Returns clap's words with their usage broken between the arguments, so that it fits: clap itself never breaks it.
+pub(super) fn fitted(words: &str) -> String {
+    let line = |line: &str| {
+        let plain = style::plain(line);
+        let is_wide = plain.starts_with("Usage: ") && plain.trim_end().chars().count() > COLUMNS;
+        if is_wide { columns::fitted(&unbroken(line), COLUMNS) } else { line.to_owned() }
+    };
+    words.split_inclusive('\n').map(line).collect()
+}
+
+/// Returns a usage with non-breaking spaces between each option and its value.
+fn unbroken(usage: &str) -> String {
+    let mut words = usage.split(' ').peekable();
+    let mut text = String::new();
+    while let Some(word) = words.next() {
+        text += word;
+        if words.peek().is_some() {
+            let is_option = style::plain(word).trim_start_matches('<').starts_with("--");
+            text.push(if is_option { '\u{A0}' } else { ' ' });
+        }
+    }
+    text
+}
+
 /// Returns the version, the commit if the build was told it, and the formats.
 ///
 /// The commit comes from variables at build time, so that equal sources and variables give equal bytes.
@@ -213,6 +241,36 @@ mod tests {
             let help = verb.clone().render_long_help().to_string();
             assert!(help.contains("Examples:\n") && help.contains(EXIT_CODES), "{help}");
         }
+    }
+
+    /// Adds what is printed for `--help` and `-h` of a command and of those below it.
+    fn printed(whole: &Command, names: &[String], verb: &Command, all: &mut Vec<(String, String)>) {
+        for flag in ["-h", "--help"] {
+            let arguments = names.iter().cloned().chain([flag.to_owned()]);
+            let help = whole.clone().try_get_matches_from(arguments).unwrap_err();
+            all.push((format!("{} {flag}", names.join(" ")), fitted(&help.render().to_string())));
+        }
+        for below in verb.get_subcommands().filter(|below| below.get_name() != "help") {
+            let names: Vec<String> = names.iter().cloned().chain([below.get_name().to_owned()]).collect();
+            printed(whole, &names, below, all);
+        }
+    }
+
+    #[test]
+    fn help_fits_a_terminal_of_80_columns() {
+        let (whole, mut all) = (command().term_width(COLUMNS), Vec::new());
+        printed(&whole, &["dtg-passport".to_owned()], &whole, &mut all);
+        assert!(all.len() > 50, "{}", all.len());
+        for (name, help) in &all {
+            for line in help.lines() {
+                assert!(line.chars().count() <= COLUMNS, "{name}: {line}");
+            }
+        }
+        // An option and its value stay together, and every word is there.
+        let (_, revoke) = all.iter().find(|(name, _)| name == "dtg-passport revoke -h").unwrap();
+        let usage = "Usage: dtg-passport revoke [OPTIONS] --reason <TEXT> --list <FOLDER> --key <KEY>\n  \
+                     --identity <WHO> --trust <SIGNERS> <PASSPORT-ID>...\n";
+        assert!(revoke.contains(usage), "{revoke}");
     }
 
     /// Returns the words of a verb's help, and of the verbs below it, each with its name.

@@ -25,7 +25,7 @@ pub(super) struct Options {
     #[command(flatten)]
     trust: TrustOptions,
     /// Picture of the time line and of the drift to write
-    #[arg(short, long, value_name = "FILE.svg")]
+    #[arg(short, long, value_name = "FILE.svg", value_parser = output::path_of("svg"))]
     output: Option<PathBuf>,
     /// Replace an existing picture
     #[arg(long)]

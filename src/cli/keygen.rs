@@ -53,6 +53,14 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     // Check first, so that the program does not ask for a passphrase in vain.
     refuse_existing(&options.key)?;
     refuse_existing(&public_path)?;
+    if options.key.extension().is_some_and(|extension| extension == "pub") {
+        let (key, private) = (shown(&options.key), options.key.with_extension(""));
+        return Err(Failure::usage(format!(
+            "{key}: is the name of a public key, expected that of the private key; give {}, and {key} is written next \
+             to it",
+            shown(&private)
+        )));
+    }
     forbid_core_dumps();
     let key = SigningKey::generate().map_err(Failure::unusable)?;
     let line = allowed_signers_line(&identity, &key.public_key()).map_err(Failure::unusable)?;
@@ -95,8 +103,12 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 }
 
 fn refuse_existing(path: &Path) -> Result<(), Failure> {
+    if path.is_dir() {
+        return Err(Failure::usage(format!("{}: is a folder, expected the name of a new file in it", shown(path))));
+    }
     if path.symlink_metadata().is_ok() {
-        return Err(Failure::file(files::FileError::Exists { path: path.to_owned(), replaceable: false }));
+        let exists = files::FileError::Exists { path: path.to_owned(), replaceable: false };
+        return Err(Failure::file(exists).with_advice("keys are never replaced; choose another name"));
     }
     Ok(())
 }

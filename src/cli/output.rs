@@ -4,9 +4,11 @@ use super::Failure;
 use crate::files;
 use crate::report::{columns, style};
 use crate::text::printable::{self, printable};
+use crate::text::shown;
 use clap::ValueEnum;
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use terminal_size::Width;
 
@@ -28,6 +30,22 @@ pub(super) enum TableFormat {
     Json,
     /// CSV for spreadsheets
     Csv,
+}
+
+/// Names of formats that are not written: a viewer would not open such a file.
+const OTHER_FORMATS: [&str; 10] = ["pdf", "png", "jpg", "jpeg", "gif", "eps", "doc", "docx", "svg", "html"];
+
+/// Parser of the path of a picture (`svg`) or a page (`html`) to write; the name of another format is refused.
+pub(super) fn path_of(format: &'static str) -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(move |path| {
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+        match extension.filter(|named| named != format && OTHER_FORMATS.contains(&named.as_str())) {
+            None => Ok(path),
+            Some(_) => {
+                Err(format!("written as {format}; give it a name such as {}", shown(&path.with_extension(format))))
+            }
+        }
+    })
 }
 
 /// Writes a result for people; in a terminal no line is wider than the terminal.
@@ -95,6 +113,11 @@ pub(super) fn say(words: &str) {
 
 /// Beginning of every message.
 const NAME: &str = "dtg-passport: ";
+
+/// Writes clap's message about arguments. Errors are ignored, because there is nowhere left to report them.
+pub(super) fn usage(words: &str) {
+    let _ = anstream::stderr().lock().write_all(words.as_bytes());
+}
 
 /// Writes a message about a failure. Errors are ignored, because there is nowhere left to report them.
 pub(super) fn complain(words: &str) {

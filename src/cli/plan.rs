@@ -43,7 +43,7 @@ pub(super) struct Options {
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
     /// Picture to write
-    #[arg(short, long, value_name = "FILE.svg")]
+    #[arg(short, long, value_name = "FILE.svg", value_parser = output::path_of("svg"))]
     output: Option<PathBuf>,
     /// Replace an existing picture
     #[arg(long)]

@@ -57,6 +57,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let folder = folder.ok_or_else(|| Failure::usage("missing DIR, the folder of passports"))?;
     refuse_file(folder)?;
     let (trust, question) = options.trust.load()?;
+    let serial = question.serial.clone();
     let asked = Asked { question, within_days: options.within };
     let register = search::register(folder, trust, &asked, parallel::processors());
     let (mut register, _) = register.map_err(Failure::file)?;
@@ -65,7 +66,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         (_, true) => REFUSED,
         _ => 0,
     };
-    if let Some(words) = options.no_such_site(&register) {
+    for words in [no_such_stand(serial.as_deref(), &register), options.no_such_site(&register)].into_iter().flatten() {
         output::say(&words);
     }
     // The filters select rows; alarms concern all passports.
@@ -91,6 +92,13 @@ pub(super) fn refuse_file(folder: &Path) -> Result<(), Failure> {
         return Err(Failure::usage(format!("{folder}: {words}")));
     }
     Ok(())
+}
+
+/// Returns a remark if no passport is of the stand asked for, which may be mistyped.
+fn no_such_stand(serial: Option<&str>, register: &Register) -> Option<String> {
+    let serial = serial.filter(|_| register.passports.is_empty())?;
+    let words = "every character counts, also leading zeros";
+    Some(format!("no passport of a stand with the serial number {}; {words}", Printable(serial)))
 }
 
 impl Options {

@@ -23,7 +23,7 @@ pub(super) struct Options {
     #[arg(required = true, value_name = "PASSPORT", value_parser = defaults::passport())]
     passports: Vec<PathBuf>,
     /// HTML file to write, for one passport
-    #[arg(short, long, value_name = "FILE.html", required_unless_present = "out", conflicts_with = "out")]
+    #[arg(short, long, value_name = "FILE.html", value_parser = output::path_of("html"), required_unless_present = "out", conflicts_with = "out")]
     output: Option<PathBuf>,
     /// Folder for the pages of several passports: <model>/<serial>/<site>-<revision>.html
     #[arg(long, value_name = "DIR")]
@@ -85,6 +85,10 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let [passport] = options.passports.as_slice() else {
         return Err(Failure::usage("-o FILE.html is for one passport; give --out DIR for several"));
     };
+    if passport.is_dir() {
+        let words = "is a folder, and -o FILE.html is for one passport; give --out DIR for those in it";
+        return Err(Failure::usage(format!("{}: {words}", shown(passport))));
+    }
     let rendered = write(passport, Some(output))?;
     if options.format == Format::Json {
         output::json(&rendered)?;

@@ -111,7 +111,7 @@ struct ConvergenceArguments {
     #[command(flatten)]
     run: RunArguments,
     /// Figure to write
-    #[arg(short, long, value_name = "FILE.svg")]
+    #[arg(short, long, value_name = "FILE.svg", value_parser = output::path_of("svg"))]
     output: Option<PathBuf>,
     /// Replace an existing figure
     #[arg(long)]

@@ -90,9 +90,15 @@ impl Asked {
 /// Reads the trust files. Lists of withdrawn passports are verified at `time`; the newest list applies.
 pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Result<Trust, Failure> {
     let read = |path: &Path| files::read(path, LARGEST_TRUST_FILE_BYTES).map_err(Failure::file);
+    let keys = |path: &Path| match read(path) {
+        Err(failure) if !path.exists() && !failure.message.ends_with('?') => Err(failure.with_advice(
+            "a factory gives you the file with its key, and `keygen KEY --allowed-signers FILE` writes one with yours",
+        )),
+        read => read,
+    };
     let revoked = revoked.iter().map(|path| Ok((name_of(path), read(path)?)));
     let revoked = revoked.collect::<Result<Vec<_>, Failure>>()?;
-    let found = enquiry::trust((&name_of(signers), &read(signers)?), &revoked, time);
+    let found = enquiry::trust((&name_of(signers), &keys(signers)?), &revoked, time);
     let (trust, remarks) = found.map_err(|why| match why {
         NoTrust::Unreadable(error) => Failure::unreadable(error),
         why => Failure::unusable(why),

@@ -24,7 +24,7 @@ pub(super) struct UncertaintyOptions {
     #[arg(long)]
     budget: bool,
     /// Picture of the budget to write
-    #[arg(long, value_name = "FILE.svg", requires = "budget")]
+    #[arg(long, value_name = "FILE.svg", value_parser = output::path_of("svg"), requires = "budget")]
     budget_svg: Option<PathBuf>,
     /// Replace an existing picture or report
     #[arg(long)]

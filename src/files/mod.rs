@@ -12,7 +12,7 @@ pub(crate) mod walk;
 
 pub(crate) use platform::{is_closed_pipe, sync_folder, wait_for_turn};
 
-use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, shown};
+use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Printable, shown};
 use std::collections::BTreeSet;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Write};
@@ -86,7 +86,13 @@ impl FileError {
             Self::Read { path, error } if is_missing(error) => nearest(path),
             _ => None,
         };
-        near.map_or_else(|| self.to_string(), |near| format!("{self}; did you mean {}?", shown(&near)))
+        let of_a_workspace = "identifiers of passports have a meaning only in a workspace; name it with --workspace, or \
+                              give the file";
+        match near {
+            Some(near) => format!("{self}; did you mean {}?", shown(&near)),
+            None if is_like_an_id(self.path()) => format!("{self}; {of_a_workspace}"),
+            None => self.to_string(),
+        }
     }
 
     /// Returns the path of the file.
@@ -147,11 +153,21 @@ pub(crate) fn reason(error: &io::Error) -> String {
 
 /// Returns the reason of a system error at `path`. Windows does not tell a path below a file from one that is absent.
 fn reason_at(path: &Path, error: &io::Error) -> String {
-    let below_a_file = || path.ancestors().skip(1).any(Path::is_file);
+    let above = || path.ancestors().skip(1).find(|above| above.is_file());
     match error.kind() {
-        io::ErrorKind::NotFound if below_a_file() => reason(&io::ErrorKind::NotADirectory.into()),
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => {
+            above().map_or_else(|| reason(error), |file| format!("{} is a file, not a folder", shown(file)))
+        }
         _ => reason(error),
     }
+}
+
+/// Returns `true` if a path has the form of the identifier of a passport.
+fn is_like_an_id(path: &Path) -> bool {
+    let parts: Vec<&str> = path.to_str().map_or_else(Vec::new, |path| path.split('/').collect());
+    let is_name = |name: &&str| Identifier::new(name).is_ok();
+    matches!(parts.as_slice(), [names @ .., revision] if names.len() == 3
+        && names.iter().all(is_name) && revision.parse::<u32>().is_ok())
 }
 
 /// Reads a file of at most `limit` bytes; memory for a larger file is never used.

@@ -214,7 +214,7 @@ pub(crate) fn date(text: &str) -> Result<Date, String> {
 /// Checks the place of a question, degrees.
 pub(crate) fn place(latitude_deg: f64, longitude_deg: f64) -> Result<Place, String> {
     if !(-90.0..=90.0).contains(&latitude_deg) {
-        return Err(format!("latitude {latitude_deg}, expected -90 to 90"));
+        return Err(format!("latitude {latitude_deg}, expected -90 to 90; give the latitude first"));
     }
     if !(-180.0..=180.0).contains(&longitude_deg) {
         return Err(format!("longitude {longitude_deg}, expected -180 to 180"));

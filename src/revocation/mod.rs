@@ -147,6 +147,9 @@ pub enum NoNewList {
         /// Reason for the withdrawal.
         reason: String,
     },
+    /// The passport is given twice.
+    #[error("{0}: given twice; give each passport once")]
+    Twice(String),
     /// The new list would be dated before the last one.
     #[error("the new list would be issued at {now}, earlier than the last one at {last}; check the clock")]
     BeforeLast {

@@ -143,8 +143,10 @@ impl Series {
             }
         }
         for (index, entry) in new.iter().enumerate() {
-            let twice = new[..index].iter().find(|other| other.sha256 == entry.sha256);
-            if let Some(there) = twice.or_else(|| self.entry(&entry.sha256)) {
+            if new[..index].iter().any(|other| other.sha256 == entry.sha256) {
+                return Err(NoNewList::Twice(entry.id.clone()));
+            }
+            if let Some(there) = self.entry(&entry.sha256) {
                 let Entry { id, revoked_at, reason, .. } = there.clone();
                 return Err(NoNewList::AlreadyRevoked { id, revoked_at, reason });
             }
