@@ -90,7 +90,6 @@ fn folders_of_lists(folder: &Path, levels: usize) -> Vec<PathBuf> {
 
 /// Returns the folder in which the lists for a folder of passports are kept: the one named `revocations` next to it if
 /// there is one, else the folder of passports itself.
-#[cfg(feature = "cli")]
 pub(crate) fn place_of_lists(passports: &Path) -> PathBuf {
     let beside = passports.file_name().map(|_| passports.with_file_name(LISTS_FOLDER));
     beside.filter(|beside| beside.is_dir()).unwrap_or_else(|| passports.to_owned())
