@@ -2,6 +2,7 @@
 
 use crate::history::drift::{ANGLES, DRIFTS, Drift, SUSPECTED, Series};
 use crate::history::{History, PastCertificate, PastPassport, measured};
+use crate::report::picture::history::LETTERS;
 use crate::report::{columns, style};
 use crate::text::printable;
 use serde_json::{Value, json};
@@ -42,7 +43,7 @@ fn drift_json(drift: &Drift) -> Value {
         "drifts": drift.drifts(),
         "tested": drift.tested(),
         "probability": worst.and_then(|series| series.corrected_probability),
-        "sentence": sentence(drift),
+        "sentence": sentence(drift, ANGLES),
         "deviations": drift.series.iter().map(series_json).collect::<Vec<_>>(),
     })
 }
@@ -70,15 +71,15 @@ fn series_json(series: &Series) -> Value {
     })
 }
 
-/// Returns the result of the test for drift, in words.
-pub(crate) fn sentence(drift: &Drift) -> String {
+/// Returns the result of the test for drift in words, with the given names of the angles α, β, γ.
+pub(crate) fn sentence(drift: &Drift, angles: [&str; 3]) -> String {
     let (Some(worst), Some(probability)) =
         (drift.most_significant(), drift.most_significant().and_then(|worst| worst.corrected_probability))
     else {
         let what = "two certificates from different dates that state the uncertainties of the deviations";
         return format!("drift was not tested: this needs {what}");
     };
-    let name = format!("{} of position {}", ANGLES[worst.angle], worst.index);
+    let name = format!("{} of position {}", angles[worst.angle], worst.index);
     let tested = drift.tested();
     let p = columns::probability(probability);
     let by = format!("probability {p}, corrected for {tested} tests");
@@ -189,7 +190,7 @@ fn drift(out: &mut String, drift: &Drift) {
             Some(vec![
                 series.index.i.to_string(),
                 series.index.j.to_string(),
-                ANGLES[series.angle].to_owned(),
+                LETTERS[series.angle].to_owned(),
                 series.values.len().to_string(),
                 columns::signed(change, decimals),
                 columns::signed(line.slope, decimals),
@@ -202,7 +203,7 @@ fn drift(out: &mut String, drift: &Drift) {
         let names = ["i", "j", "angle", "values", "change, arcsec", "arcsec/year", "u", "probability", "corrected", ""];
         columns::table(out, &names, &rows.collect::<Vec<_>>());
     }
-    let sentence = sentence(drift);
+    let sentence = sentence(drift, LETTERS);
     let mut letters = sentence.chars();
     let capital = letters.next().map(|first| first.to_ascii_uppercase().to_string()).unwrap_or_default();
     let _ = writeln!(out);

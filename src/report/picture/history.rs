@@ -29,7 +29,7 @@ const LEFT: f64 = 56.0;
 const COVERAGE_FACTOR: f64 = 2.0;
 
 /// Letters of the angles.
-const LETTERS: [&str; 3] = ["α", "β", "γ"];
+pub(crate) const LETTERS: [&str; 3] = ["α", "β", "γ"];
 
 /// Draws the history as of `now`.
 pub(crate) fn history(history: &History, now: Timestamp) -> String {
@@ -236,8 +236,11 @@ fn in_words(history: &History) -> String {
         let (name, index) = (LETTERS[series.angle], series.index);
         Some(format!("{name} {index} {:+.3} arcsec per year, u {:.3}", fitted.slope, fitted.u_slope))
     });
-    let all: Vec<String> =
-        certificates.chain(passports).chain(drifts).chain([crate::report::history::sentence(&history.drift)]).collect();
+    let all: Vec<String> = certificates
+        .chain(passports)
+        .chain(drifts)
+        .chain([crate::report::history::sentence(&history.drift, LETTERS)])
+        .collect();
     all.join("; ") + "."
 }
 
