@@ -2,6 +2,7 @@
 
 use super::number::Number;
 use super::spacing::spaced;
+use super::symbols::italic;
 use maud::{Markup, html};
 
 /// A language of the pages.
@@ -69,7 +70,7 @@ impl Text {
         html! {
             @for piece in pieces(&self.words(language)) {
                 @match piece {
-                    Piece::Words(words) => (words),
+                    Piece::Words(words) => (italic(words)),
                     Piece::Name(name) => @if let Some(value) = value(name) { (value) },
                 }
             }
@@ -191,7 +192,7 @@ impl Languages {
         html! {
             @for (index, (language, words)) in sayings.iter().enumerate() {
                 @if index > 0 { " / " }
-                span lang=[self.marked(*language)] { (words) }
+                span lang=[self.marked(*language)] { (italic(words)) }
             }
         }
     }
@@ -207,14 +208,14 @@ impl Languages {
         html! {
             @for (index, (language, words)) in sayings.iter().enumerate() {
                 @if index > 0 { " " }
-                span class=[(index > 0).then_some("second")] lang=[self.marked(*language)] { (words) }
+                span class=[(index > 0).then_some("second")] lang=[self.marked(*language)] { (italic(words)) }
             }
         }
     }
 
     /// Writes a paragraph in each language, side by side if there is room.
     pub(crate) fn paragraph(&self, text: Text) -> Markup {
-        self.paragraph_with(|language| html! { (text.words(language)) })
+        self.paragraph_with(|language| italic(&text.words(language)))
     }
 
     /// Writes a paragraph as `paragraph` does; `say` makes it for each language.

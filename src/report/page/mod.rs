@@ -8,6 +8,7 @@
 //! * [`parts`]: tables, figures, forms.
 //! * [`code`]: QR codes.
 //! * [`spacing`]: non-breaking spaces.
+//! * `symbols`: symbols of quantities within texts.
 //! * [`shell`]: the enclosing HTML document, its style and its running heads.
 //! * [`passport`]: the printed passport.
 
@@ -21,6 +22,7 @@ pub(crate) mod parts;
 pub(crate) mod passport;
 pub(crate) mod shell;
 pub(crate) mod spacing;
+pub(crate) mod symbols;
 pub(crate) mod texts;
 
 pub use calibration::{CalibrationPage, UsedPassport};

@@ -1,7 +1,7 @@
 //! Uncertainty budget as a picture file: one panel for each parameter, its largest contributions as bars.
 
 use super::accuracy::unit;
-use super::drawing::{Anchor, Panel, Point, Scale, label, number, plain_symbol, rectangle, symbol, words};
+use super::drawing::{Anchor, Panel, Point, Scale, label, number, plain_symbol, rectangle, symbol, symbols};
 use super::file::file;
 use crate::report::page::language::{Language, Languages};
 use crate::report::page::number::Number;
@@ -35,7 +35,7 @@ pub(crate) fn budget(budget: &Budget) -> Option<String> {
     let corner = |place: usize| [WIDTH * (place % COLUMNS) as f64, HEIGHT * (place / COLUMNS) as f64];
     let drawing = [
         html! { @for (place, line) in budget.parameters.iter().enumerate() { g { (parameter(line, corner(place))) } } },
-        words([14.0, height + 10.0], Anchor::Start, "", WORDS),
+        label([14.0, height + 10.0], Anchor::Start, "", &symbols(WORDS)),
     ];
     let languages = Languages::from(Language::English);
     let panel = Panel { name: "budget", languages: &languages, size: [WIDTH * COLUMNS as f64, height + WORDS_HEIGHT] };
@@ -56,12 +56,12 @@ fn parameter(line: &ParameterBudget, [left, top]: Point) -> Markup {
     let bar = |place: usize, (name, contribution): &(String, f64)| {
         let y = top + TOP + ROW * (place as f64 + 0.5);
         html! {
-            (words([start - 6.0, y + 4.0], Anchor::End, "", name))
+            (label([start - 6.0, y + 4.0], Anchor::End, "", &symbols(name)))
             (rectangle([start, y - BAR_HALF], [scale.clamped(*contribution), y + BAR_HALF], "bar", None))
             (number([end + 6.0, y + 4.0], Anchor::Start, *contribution, &digits(*contribution)))
         }
     };
-    let title = html! { (symbol(line.parameter.symbol())) tspan dy="-3" { ": u = " (with_unit(line)) } };
+    let title = html! { (symbol(line.parameter.symbol())) tspan dy="-3" { ": " (symbols("u = ")) (with_unit(line)) } };
     html! {
         (label([left + 14.0, top + 20.0], Anchor::Start, "title", &title))
         @for (place, named) in bars.iter().enumerate() { (bar(place, named)) }

@@ -6,6 +6,7 @@
 
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{Number, localised};
+use crate::report::page::symbols::{Piece, pieces};
 use maud::{Markup, PreEscaped, html};
 
 /// A point of a drawing: distance to the right and down, in units of the drawing.
@@ -215,6 +216,18 @@ pub(crate) fn symbol(name: &str) -> Markup {
     }
 }
 
+/// Writes words with their symbols.
+pub(crate) fn symbols(words: &str) -> Markup {
+    html! {
+        @for piece in pieces(words) {
+            @match piece {
+                Piece::Words(words) => (words),
+                Piece::Symbol(letter, _) => tspan.letter { (letter) },
+            }
+        }
+    }
+}
+
 /// Returns a symbol of the paper for plain text: `K_x` becomes Kx.
 pub(crate) fn plain_symbol(name: &str) -> String {
     name.replace('_', "")
@@ -236,7 +249,7 @@ pub(crate) fn heading_with(languages: &Languages, at: Point, say: impl Fn(Langua
     }
     let drawn = html! {
         @for (row, (class, line)) in lines.iter().enumerate() {
-            (words([at[0], at[1] + LINE * row as f64], Anchor::Start, class, line))
+            (label([at[0], at[1] + LINE * row as f64], Anchor::Start, class, &symbols(line)))
         }
     };
     (drawn, LINE * (lines.len() - 1) as f64)

@@ -1,7 +1,7 @@
 //! A plan next to the paper's eight positions as a picture file: the uncertainty of each parameter, and what errors
 //! cost that all positions share.
 
-use super::drawing::{Anchor, Panel, Point, Scale, label, number_of, plain_symbol, rectangle, symbol, words};
+use super::drawing::{Anchor, Panel, Point, Scale, label, number_of, plain_symbol, rectangle, symbol, symbols, words};
 use super::file::{caption, file};
 use crate::calibration::parameter::Parameter;
 use crate::plan::sensitivity::Effect;
@@ -33,7 +33,7 @@ pub(crate) fn plan(plan: &Plan) -> String {
     let errors = plan.evaluation.effects.iter().enumerate().map(|(place, effect)| {
         let percent = |effect: &Effect| 100.0 * effect.largest_over_tolerance;
         let paper = plan.paper.as_ref().map(|paper| percent(&paper.effects[place]));
-        (html! { (name_of(effect)) }, percent(effect), paper)
+        (symbols(&name_of(effect)), percent(effect), paper)
     });
     let errors: Vec<Row> = errors.collect();
     let rows = uncertainties.len().max(errors.len());

@@ -12,6 +12,7 @@ use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{self, Number};
 use crate::report::page::parts::{Table, field, fields, heading, quantity, symbol, symbol_and_unit};
 use crate::report::page::passport::characteristics::starts;
+use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::residuals::{AXES, Bars, key};
 use maud::{Markup, html};
@@ -90,7 +91,7 @@ fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
         }
         (noise(calibration, languages))
         @if calibration.drift_test.is_some_and(|test| test.is_significant()) {
-            (languages.paragraph_with(|language| html! { (texts::DRIFTS.filled(language, &[("option", "--drift")])) }))
+            (languages.paragraph_with(|language| italic(&texts::DRIFTS.filled(language, &[("option", "--drift")]))))
         }
     }
 }
@@ -177,11 +178,11 @@ fn what_may_be_wrong(hint: &Hint, languages: &Languages) -> Markup {
         @if hint.explanations.is_empty() {
             (languages.paragraph_with(|language| {
                 let size = Number::significant(hint.size_arcsec, 2).text(language);
-                html! { (texts::HINT_NOTHING.filled(language, &[("size", &size)])) }
+                italic(&texts::HINT_NOTHING.filled(language, &[("size", &size)]))
             }))
         }
         @for explanation in &hint.explanations {
-            (languages.paragraph_with(|language| html! { (explained(explanation, language)) }))
+            (languages.paragraph_with(|language| italic(&explained(explanation, language))))
         }
     }
 }

@@ -24,6 +24,7 @@ use super::language::{Language, Languages, Text};
 use super::parts;
 use super::passport::PassportPage;
 use super::shell::{Margins, document};
+use super::symbols::italic;
 use super::texts::calibration as texts;
 use crate::calibration::document::{CalibrationDocument, ResultDocument};
 use crate::calibration::stated::NotStated;
@@ -231,7 +232,7 @@ impl CalibrationPage<'_> {
             @if !self.verified() { (warning(languages, texts::NOT_VERIFIED, texts::NOT_VERIFIED_WORDS)) }
             @if !self.fits() { (warning(languages, texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS)) }
             @if let Some(mistake) = &self.result().mistake {
-                @let words = languages.paragraph_with(|language| html! { (mistake::words(mistake, language)) });
+                @let words = languages.paragraph_with(|language| italic(&mistake::words(mistake, language)));
                 (boxed("verdict refused", languages.label(texts::MISTAKE), words))
             }
             (self.verdict(languages))

@@ -8,6 +8,7 @@ use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{field, fields, figure, heading, quantity, symbol};
 use crate::report::page::passport::numbers::{Cell, parameters};
+use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::convergence::convergence;
 use maud::{Markup, html};
@@ -115,7 +116,7 @@ fn general(result: &ResultDocument, languages: &Languages) -> Markup {
                 let [further, rest] = test.degrees_of_freedom.map(|known| known.to_string());
                 let (f, p) = (Number::significant(test.f, 3).text(language), Number::significant(test.probability, 2).text(language));
                 let values = [("f", f.as_str()), ("further", &further), ("rest", &rest), ("p", &p)];
-                html! { (texts::MODEL_TEST.filled(language, &values)) }
+                italic(&texts::MODEL_TEST.filled(language, &values))
             }))
         }
     }

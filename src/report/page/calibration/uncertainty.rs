@@ -8,6 +8,7 @@ use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{Table, symbol, symbol_and_unit};
 use crate::report::page::passport::numbers::{Cell, parameters};
 use crate::report::page::spacing::BLANK;
+use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units, words};
 use crate::report::picture::accuracy::unit as parameter_unit;
 use crate::report::picture::drawing::legend_with;
@@ -70,8 +71,8 @@ fn sentences(remedy: &Dominant, worst: Text, languages: &Languages) -> Markup {
         let known = [("parameter", symbol(letter, index)), ("u", words(amount(line.standard_uncertainty, language)))];
         html! {
             (worst.marked_up(language, &known)) " "
-            (share.filled(language, &[("share", &percent), ("source", &cause(first.cause, language))])) " "
-            (effect)
+            (italic(&share.filled(language, &[("share", &percent), ("source", &cause(first.cause, language))]))) " "
+            (italic(&effect))
         }
     })
 }
@@ -157,7 +158,7 @@ fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
         @if !small.is_empty() {
             (languages.paragraph_with(|language| {
                 let names: Vec<String> = small.iter().map(|kind| cause(kind.cause, language)).collect();
-                html! { (texts::BUDGET_NOT_SHOWN.filled(language, &[("names", &names.join(", "))])) }
+                italic(&texts::BUDGET_NOT_SHOWN.filled(language, &[("names", &names.join(", "))]))
             }))
         }
     }
