@@ -145,6 +145,19 @@ function small() {
   return [...found];
 }
 
+/** Symbols of quantities that are not italic: Greek letters, and u and U, alone or before an index. */
+function upright() {
+  const found = [];
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    const parent = node.parentElement;
+    const [symbol] = node.data.match(/(?<![\p{L}°])(?:\p{Script=Greek}|[uU])(?![\p{L}\p{N}])/u) ?? [];
+    if (!symbol || parent.closest("title, desc, pre, code, .given, sub, .index")) continue;
+    if (getComputedStyle(parent).fontStyle !== "italic") found.push(`${symbol} of ${node.data.trim().slice(0, 40)}`);
+  }
+  return found;
+}
+
 /** Decimal marks of a column that are not one below the other: x of the end of the whole part of each number. */
 function misaligned() {
   const found = [];
@@ -176,7 +189,7 @@ function misaligned() {
 function marked() {
   const heads = { H2: 2, H3: 3, CAPTION: 4, THEAD: 5 };
   const found = [];
-  for (const element of document.querySelectorAll("h2, h3, caption, thead, tbody tr, .fields > div, li, p, figure, pre .l:nth-child(-n + 3)")) {
+  for (const element of document.querySelectorAll("h2, h3, caption, thead, tbody tr, .fields > div, li, p, figure, pre > span:nth-child(-n + 3)")) {
     const level = heads[element.tagName] ?? 0;
     if (element.closest(".unseen, .screen, .band, .checked, header") || element.getClientRects().length === 0) continue;
     if (element.matches("p, li") && element.parentElement.closest("table, figure, li, .fields")) continue;
@@ -264,7 +277,7 @@ async function look(browser, folder, name) {
   await page.setViewportSize({ width: Math.floor((180 / 25.4) * 96), height: 1000 });
   result.unfit.print = await page.evaluate(unfit);
   result.crowded.print = await page.evaluate(crowded);
-  result.print = { small: await page.evaluate(small), misaligned: await page.evaluate(misaligned) };
+  result.print = { small: await page.evaluate(small), misaligned: await page.evaluate(misaligned), upright: await page.evaluate(upright) };
   const printed = path.join(folder, `${name}.pdf`);
   await page.pdf({ path: printed, preferCSSPageSize: true });
   const marks = await page.evaluate(marked);

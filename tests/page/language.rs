@@ -36,3 +36,26 @@ fn pages_have_no_leftovers_of_the_other_language() {
         assert_eq!(seen, due, "{}", page.name);
     }
 }
+
+/// The drawing of the stand names its parts and directions in every language of the page.
+#[test]
+fn parts_of_the_stand_are_named_in_every_language() {
+    let names = [("frame", "рамка"), ("platform", "платформа"), ("base", "основание"), ("north", "север")];
+    let mut counted = 0;
+    for page in all_pages().filter(|page| !page.languages.single()) {
+        let words = page.found["said"]["words"].as_array().unwrap();
+        let drawn: String = words
+            .iter()
+            .filter(|word| word["drawn"].as_bool().unwrap())
+            .map(|word| format!("{}\n", word["text"].as_str().unwrap()))
+            .collect();
+        let named = |name: &str| drawn.split(['\n', '/']).any(|word| word.trim() == name);
+        if named("frame") {
+            counted += 1;
+            for (english, russian) in names {
+                assert!(named(english) && named(russian), "{}: {english}, {russian}", page.name);
+            }
+        }
+    }
+    assert!(counted >= 4, "{counted}");
+}

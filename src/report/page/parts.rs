@@ -139,11 +139,18 @@ pub(crate) fn figure(languages: &Languages, id: &str, drawing: &Markup, caption:
 
 /// Writes a text verbatim; the style sheet numbers its lines, and marks where a line goes on.
 pub(crate) fn verbatim(lang: &str, text: &str) -> Markup {
+    // Bytes of a line that a telephone shows whole: it never goes on.
+    const LONGEST: usize = 40;
+    // One word alone, such as a line of a signature, is broken anywhere.
+    let kind = |line: &str| match (line.len() > LONGEST, line.trim().contains(' ')) {
+        (true, true) => Some("c"),
+        (true, false) => Some("c w"),
+        (false, _) => None,
+    };
     html! {
         pre lang=(lang) translate="no" tabindex="0" aria-labelledby="annex-heading" {
             @for line in text.split_inclusive('\n') {
-                // One word alone, such as a line of a signature, is broken anywhere.
-                span.l.w[!line.trim().contains(' ')] { (unbroken_powers(line)) }
+                span class=[kind(line)] { (unbroken_powers(line)) }
             }
         }
     }

@@ -5,8 +5,10 @@ use crate::report::picture;
 use crate::text::printable;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::fmt::Write;
+use std::sync::LazyLock;
 
-const STYLE: &str = include_str!("style.css");
+/// Style of the page and of its pictures, without what only its reader needs.
+static STYLE: LazyLock<String> = LazyLock::new(|| compact(include_str!("style.css")) + &compact(picture::STYLE));
 
 /// Words in the margins of every printed sheet. The page number is at the lower right.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,7 +35,7 @@ pub(crate) fn document(languages: &Languages, title: &str, margins: &Margins, bo
                 meta name="color-scheme" content="light dark";
                 meta name="generator" content=(concat!("dtg-passport ", env!("CARGO_PKG_VERSION")));
                 title { (title) }
-                style { (PreEscaped(STYLE)) (PreEscaped(picture::STYLE)) (PreEscaped(margins.css())) }
+                style { (PreEscaped(STYLE.as_str())) (PreEscaped(margins.css())) }
             }
             body { (body) }
         }
@@ -49,6 +51,15 @@ impl Margins {
              @bottom-left {{ content: {below}; }} }}\n"
         )
     }
+}
+
+/// Returns a style sheet without its comments, indents, and spaces at the ends of declarations.
+fn compact(css: &str) -> String {
+    let without = |part: &str| part.split_once("*/").map_or(part, |(_, rest)| rest).to_owned();
+    let css: String = css.split("/*").map(without).collect();
+    let css: Vec<&str> = css.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    let shorter = [(" { ", "{"), (" {", "{"), ("; }", "}"), (" }", "}"), ("; ", ";")];
+    shorter.into_iter().fold(css.join("\n") + "\n", |css, (long, short)| css.replace(long, short))
 }
 
 /// Returns a CSS string. Characters that could end it, or the style element, are written as escapes (CSS Syntax,
@@ -68,6 +79,12 @@ fn quoted(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_style_sheet_loses_only_what_nothing_shows() {
+        let css = "/* Why. */\na b { c: d e; f: \"g\" h; }\n\n@media x {\n  /* And why. */\n  i,\n  j { k: l }\n}\n";
+        assert_eq!(compact(css), "a b{c: d e;f: \"g\" h}\n@media x{\ni,\nj{k: l}\n}\n");
+    }
 
     #[test]
     fn nothing_ends_a_string_of_css() {

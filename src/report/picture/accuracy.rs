@@ -78,7 +78,7 @@ fn rows(accuracy: &Accuracy, gravity_m_per_s2: f64) -> Vec<Row> {
     };
     let row =
         |parameter: Parameter| Row { parameter, u: standard_uncertainty[parameter.place()], share: share(parameter) };
-    Parameter::EIGHT.map(row).into()
+    Parameter::AS_IN_THE_PAPER.map(row).into()
 }
 
 /// Returns the unit of a parameter on pages.

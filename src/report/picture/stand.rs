@@ -1,7 +1,7 @@
 //! The stand in one large drawing with its parts, axes and angles named; the small pictures of the positions leave the
 //! names out. The frame's axis points to its azimuth at the site.
 
-use super::drawing::{Anchor, Panel, Point, arrow, line, list, panels, words};
+use super::drawing::{Anchor, Panel, Point, arrow, label, line, list, panels, symbols, words};
 use super::label::width;
 use super::positions::{AXIS, AXIS_HEIGHT, GYRO, GYRO_HEIGHT, View, plate, rows, stand as parts};
 use crate::attitude;
@@ -42,8 +42,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
     let axis = |direction: &Vector3<f64>, from: f64| {
         arrow(view.point(&(direction * from)), view.point(&(direction * AXIS)), "axis")
     };
-    let azimuth = Number::exact(frame_axis_azimuth_deg).text(languages.first());
-    let values = [("azimuth", azimuth.as_str())];
+    let azimuth = |language| Number::exact(frame_axis_azimuth_deg).text(language);
     let named = [
         (texts::PART_FRAME, across * 0.8 + xi * 0.4),
         (texts::PART_PLATFORM, (y - x) * 0.42),
@@ -52,7 +51,10 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         (texts::PART_BASE, Vector3::new(1.0, 0.1, -AXIS_HEIGHT)),
         (texts::PART_AXIS, xi * 1.75),
     ];
-    let named = named.map(|(text, at)| (text.filled(languages.first(), &values), view.point(&at)));
+    let named = named.map(|(text, at)| {
+        let name = |language| text.filled(language, &[("azimuth", azimuth(language).as_str())]);
+        (languages.iter().map(name).collect(), view.point(&at))
+    });
     let drawing = [
         plate(&view, &base),
         parts(&view, &base, &frame, &platform),
@@ -73,10 +75,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
     let panel = Panel { name: "stand", languages, size: SIZE };
     let svg = panel.svg(
         |language| texts::STAND_TITLE.of(language).to_owned(),
-        |language| {
-            texts::STAND_DESCRIPTION
-                .filled(language, &[("azimuth", &Number::exact(frame_axis_azimuth_deg).text(language))])
-        },
+        |language| texts::STAND_DESCRIPTION.filled(language, &[("azimuth", &azimuth(language))]),
         &drawing,
     );
     panels(1, PANEL_PIXELS, &[svg], &html! {})
@@ -120,28 +119,36 @@ fn compass_rose(languages: &Languages) -> Markup {
         @for (direction, name) in directions {
             @let [x, y] = view.point(&(direction * 1.1));
             (arrow(COMPASS, view.point(&direction), "meridian"))
-            (words([x, y + if direction.z > 0.0 { 0.0 } else { 6.0 }], if direction.z > 0.0 { Anchor::Middle } else { Anchor::Start }, "", name.of(languages.first())))
+            (words([x, y + if direction.z > 0.0 { 0.0 } else { 6.0 }], if direction.z > 0.0 { Anchor::Middle } else { Anchor::Start }, "", &languages.plain(name)))
         }
     }
 }
 
-/// Writes the names of parts in a column on either side, with a line from each to its part.
-fn leaders(named: &[(String, Point)]) -> Markup {
-    const GAP: f64 = 20.0;
+/// Writes the names of parts in a column on either side, each language on its own line, with a line from each name to its part.
+fn leaders(named: &[(Vec<String>, Point)]) -> Markup {
+    const GAP: f64 = 3.0;
+    const LINE: f64 = 17.0;
     const TOP: f64 = 30.0;
     const EDGE: f64 = 4.0;
-    let mut sorted: Vec<&(String, Point)> = named.iter().collect();
+    let mut sorted: Vec<&(Vec<String>, Point)> = named.iter().collect();
     sorted.sort_by(|(_, one), (_, other)| one[1].total_cmp(&other[1]));
     let mut next = [TOP, TOP];
-    let places = sorted.into_iter().map(|(name, at)| {
+    let places = sorted.into_iter().map(|(names, at)| {
         let right = usize::from(at[0] > CENTRE[0]);
-        let y = at[1].max(next[right]);
-        next[right] = y + GAP;
+        // Two lines begin higher, so that the last stays above the directions.
+        let y = (at[1] - LINE * (names.len() - 1) as f64).max(next[right]);
+        next[right] = y + LINE * names.len() as f64 + GAP;
+        let long = names.iter().map(|name| width(name)).fold(0.0, f64::max);
         let (x, anchor, end) = match right {
-            0 => (EDGE, Anchor::Start, EDGE + 1.14 * width(name) + 3.0),
-            _ => (SIZE[0] - EDGE, Anchor::End, SIZE[0] - EDGE - 1.14 * width(name) - 3.0),
+            0 => (EDGE, Anchor::Start, EDGE + 1.14 * long + 3.0),
+            _ => (SIZE[0] - EDGE, Anchor::End, SIZE[0] - EDGE - 1.14 * long - 3.0),
         };
-        html! { (line([end, y], *at, "leader")) (words([x, y + 4.0], anchor, "", name)) }
+        html! {
+            (line([end, y], *at, "leader"))
+            @for (row, name) in names.iter().enumerate() {
+                (label([x, y + 4.0 + LINE * row as f64], anchor, if row == 0 { "" } else { "soft" }, &symbols(name)))
+            }
+        }
     });
     let places: Vec<Markup> = places.collect();
     html! { @for place in &places { (place) } }

@@ -153,9 +153,9 @@ fn accuracy_is_where_its_axis_says() {
     let per_g = 9.80665 / gravity;
     let due = [
         ("Kx", kx, 0.0475, 1.0),
+        ("Ky", ky, 0.0475, 1.0),
         ("Kxy", kxy, 0.0475, 1.0),
         ("Kyx", kyx, 0.0475, 1.0),
-        ("Ky", ky, 0.0475, 1.0),
         ("ω0x", x, 0.01, 1.0),
         ("ω0y", y, 0.01, 1.0),
         ("ωg", u.omega_g_deg_per_h_per_g, 0.01, per_g),

@@ -321,9 +321,9 @@ fn uncertainties_are_shares_of_the_tolerance() {
     let per_g = 9.80665 / gravity;
     let shares = [
         kx / 0.0475,
+        ky / 0.0475,
         kxy / 0.0475,
         kyx / 0.0475,
-        ky / 0.0475,
         u.omega0_deg_per_h[0] / 0.01,
         u.omega0_deg_per_h[1] / 0.01,
         u.omega_g_deg_per_h_per_g * per_g / 0.01,

@@ -32,6 +32,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
             div.front {
                 (figure(Slot::Stand, &page.content, languages))
                 (proof(page, languages))
+                div.note { (languages.paragraph(texts::PAPER_IS_NOT_SIGNED)) }
             }
             div.checked { (checks::line(page, languages)) }
             (signed(page, languages))
@@ -90,7 +91,6 @@ fn proof(page: &PassportPage, languages: &Languages) -> Markup {
             div.sum {
                 p.sum-name { (languages.label(texts::SHA256)) }
                 p.sha256 { code { (page.sha256) } }
-                (languages.paragraph(texts::PAPER_IS_NOT_SIGNED))
             }
         }
     }

@@ -21,7 +21,7 @@ texts! {
     PART_FRAME { en: "frame", ru: "рамка" }
     PART_PLATFORM { en: "platform", ru: "платформа" }
     PART_PINS { en: "two pins along x", ru: "два штифта по x" }
-    PART_GYRO { en: "gyro, spin axis z", ru: "гироскоп" }
+    PART_GYRO { en: "gyro, spin axis z", ru: "гироскоп с осью z" }
     PART_BASE { en: "base", ru: "основание" }
     PART_AXIS { en: "axis ξ, azimuth {azimuth}°", ru: "ось ξ, азимут {azimuth}°" }
 
