@@ -143,9 +143,11 @@ impl Defaults {
         let lists = self.lists.clone().filter(|_| verb == "revoke").map(|value| ("--list", value, FILE));
         // `register` has its folder without an option.
         let folder = passports("--passports").filter(|_| verb != "register");
+        // Otherwise a passport that the workspace itself withdrew would be valid in it.
+        let register = passports("--register").filter(|_| verb == "verify");
         [of("--key", &self.key), of("--identity", &self.identity), of("--trust", &self.trust)]
             .into_iter()
-            .chain([out, lists, folder])
+            .chain([out, lists, folder, register])
             .flatten()
             .collect()
     }

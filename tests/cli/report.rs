@@ -98,10 +98,10 @@ fn every_number_is_the_results_own_rounded_once() {
         let (page, result) = folder.page(CURRENTS, &[VERIFIED, LABORATORY, GYRO, more, &["--lang", lang]]);
         let mut known = Vec::new();
         numbers(&result, &mut known);
-        // The expanded uncertainty of a parameter is U = 2u.
-        let mut u = Vec::new();
-        numbers(&result["results"][2]["standard_uncertainty"], &mut u);
-        known.extend(u.iter().map(|u| 2.0 * u));
+        // The expanded uncertainty of a parameter is U = k u.
+        for row in result["verdict"]["parameters"].as_array().unwrap() {
+            known.push(row["coverage_factor"].as_f64().unwrap() * row["standard_uncertainty"].as_f64().unwrap());
+        }
         // What the laboratory's file states of its meter.
         known.extend([0.0087, 0.0, 1.0, 1e-6]);
         let marked = marked(&page, second);
