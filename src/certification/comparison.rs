@@ -6,6 +6,7 @@
 //! with the worst, and are excluded from the common rotation. One bad position therefore does not make the others look
 //! bad.
 
+use super::bumped_runs;
 use super::compared::{CommonTurn, ComparedPosition, Test};
 use super::components::{RunModel, Variance, case_turn, turns_at};
 use super::finding::{Finding, Untested, findings};
@@ -108,7 +109,8 @@ pub fn compare(
     let untested = between.err().or(common.test.is_none().then_some(Untested::CommonParts));
     let moved = common.test.is_some_and(|test| test.probability < OUTLIER);
     let same_stand = repeating.len() == places.len() && all.probability >= OUTLIER && !moved;
-    let mut findings = findings(all, &positions, &common, moved, untested);
+    let bumped = again.map_or(&[][..], |again| &again.bumped_runs);
+    let mut findings = findings(all, &positions, &common, bumped, moved, untested);
     if certificate.positions.iter().any(|at| certified_u_arcsec(at).is_none()) {
         findings.push(Finding::TreatedAsExact);
     }
@@ -320,8 +322,17 @@ impl Between {
         let degrees_of_freedom = |runs: f64| 3.0 * (runs - 1.0);
         let of_certificate = evidence.map_or(f64::INFINITY, degrees_of_freedom);
         if runs > 1 {
-            let components = &again.ok_or(Untested::Variation)?.components;
-            let runs = runs as f64;
+            let again = again.ok_or(Untested::Variation)?;
+            let (components, runs) = (&again.components, runs as f64);
+            // An outlier among the runs would inflate the variance by which its own effect on the mean is tested.
+            if let Some(others) = bumped_runs::without_outliers(components, &again.bumped_runs) {
+                return Ok(Self {
+                    runs,
+                    platform_arcsec2: others.platform_arcsec2,
+                    base_arcsec2: others.base_arcsec2,
+                    degrees_of_freedom: degrees_of_freedom(others.runs as f64).min(of_certificate),
+                });
+            }
             return Ok(Self {
                 runs,
                 platform_arcsec2: components.platform.between_runs_arcsec2,

@@ -1,5 +1,6 @@
 //! Findings of a comparison: reasons for its result, and its limits.
 
+use super::bumped_runs::BumpedRun;
 use super::compared::{CommonTurn, ComparedPosition, Test};
 use super::suspects::{OUTLIER, STRAGGLER};
 use std::fmt::{self, Display, Formatter};
@@ -20,6 +21,8 @@ pub(crate) enum Finding {
     Rotated,
     /// Common rotation that is slightly larger than chance explains.
     RotatedSlightly,
+    /// Run of the check that is rotated as a whole relative to its other runs.
+    BumpedRun(BumpedRun),
     /// Rotation of the stand as a whole, which was not tested.
     NotTested(Untested),
     /// Angles without a stated uncertainty.
@@ -63,6 +66,17 @@ impl Display for Finding {
             Self::RotatedSlightly => {
                 "the common rotation of all positions is slightly larger than chance explains; measure more runs"
             }
+            Self::BumpedRun(at) => {
+                let (run, turn, mean) = (at.run, at.turn_arcsec, at.in_the_mean_arcsec);
+                return write!(
+                    f,
+                    "all positions of run {run} of the check are rotated by {turn:+.2} arcsec about {} of the {} relative \
+                     to its other runs; the common rotation includes {mean:+.2} arcsec of it; measure the run again, or \
+                     exclude it with --exclude {run} and --why",
+                    at.axis_name(),
+                    if at.is_of_the_base() { "base" } else { "platform" },
+                );
+            }
             Self::NotTested(why) => return write!(f, "rotation of the stand as a whole was not tested: {why}"),
             Self::TreatedAsExact => {
                 "the certificate does not state the uncertainty of all angles (u_alpha_arcsec etc.); these angles were \
@@ -89,11 +103,13 @@ impl Display for Untested {
 }
 
 /// Returns the findings of a comparison: of `all` positions relative to each other, of each of the `positions`, and of
-/// their `common` rotation, where `moved` states that it is significant.
+/// their `common` rotation, where `moved` states that it is significant. The common rotation of a check with an outlier
+/// among its runs, `bumped`, does not show that the stand has changed.
 pub(super) fn findings(
     all: Test,
     positions: &[ComparedPosition],
     common: &CommonTurn,
+    bumped: &[BumpedRun],
     moved: bool,
     untested: Option<Untested>,
 ) -> Vec<Finding> {
@@ -105,9 +121,11 @@ pub(super) fn findings(
     } else if findings.is_empty() && all.probability < STRAGGLER {
         findings.push(Finding::Slightly);
     }
-    if moved {
+    let outlier = bumped.iter().any(|run| run.probability < OUTLIER);
+    findings.splice(0..0, bumped.iter().copied().map(Finding::BumpedRun));
+    if moved && !outlier {
         findings.push(Finding::Rotated);
-    } else if common.test.is_some_and(|test| test.probability < STRAGGLER) {
+    } else if !moved && common.test.is_some_and(|test| test.probability < STRAGGLER) {
         findings.push(Finding::RotatedSlightly);
     }
     findings.extend(untested.map(Finding::NotTested));

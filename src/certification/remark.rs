@@ -1,6 +1,7 @@
 //! Remarks for the signatory of a certificate, as values. Displayed, a remark is an English sentence without a full stop:
 //! the wording of the comments in a stand file. `report` has the words of other languages.
 
+use super::bumped_runs::BumpedRun;
 use super::suspects::{AXES, OUTLIER, Outlier, Suspects, WorsePosition};
 use crate::stand::remarks::Odd;
 use std::fmt::{self, Display, Formatter};
@@ -12,6 +13,8 @@ pub(crate) enum Remark {
     Worse(WorsePosition),
     /// Reading that differs from those of the other runs.
     Outlier(Outlier),
+    /// Run that is rotated as a whole relative to the other runs.
+    BumpedRun(BumpedRun),
     /// Suspect reading in one of two runs, which do not show which one is wrong.
     TwoRuns(u32, u32),
     /// Single positions that were not compared, because a reading is suspect.
@@ -79,6 +82,20 @@ impl Display for Remark {
                     probability(out.probability)
                 )
             }
+            Self::BumpedRun(at) => {
+                let (run, turn, mean) = (at.run, at.turn_arcsec, at.in_the_mean_arcsec.abs());
+                let of = if at.is_of_the_base() { "base" } else { "platform" };
+                write!(
+                    f,
+                    "{}: all positions of run {run} are rotated by {turn:+.2} arcsec about {} of the {of} relative to the \
+                     other runs (Grubbs' test: probability {}); it was not excluded, and changes certified angles by up \
+                     to {mean:.2} arcsec; find the cause, then measure the run again, or exclude it with --exclude {run} \
+                     and --why",
+                    grade(at.probability),
+                    at.axis_name(),
+                    probability(at.probability)
+                )
+            }
             Self::TwoRuns(one, other) => {
                 write!(f, "two runs do not show whether run {one} or run {other} is wrong; measure a third run")
             }
@@ -93,8 +110,8 @@ impl Display for Remark {
             ),
             Self::AxesDiffer(p) => write!(
                 f,
-                "the variances about x, y and z differ (Bartlett's test: probability {}); repeatability_arcsec is their \
-                 root mean square, which is too large for one axis and too small for another",
+                "the variances about x, y and z differ (Bartlett's test: probability {}); repeatability_arcsec is \
+                 pooled from all three, which is too large for one axis and too small for another",
                 probability(*p)
             ),
             Self::FewRuns { runs, degrees_of_freedom } => write!(

@@ -3,7 +3,7 @@
 use crate::certification::compared::Test;
 use crate::certification::comparison::Comparison;
 use crate::certification::components::{Common, Variance};
-use crate::certification::suspects::{AXES, WorsePosition};
+use crate::certification::suspects::{AXES, OUTLIER, WorsePosition};
 use crate::certification::{Certification, NotCertified};
 use crate::report::{columns, style};
 use crate::statistics::outlier::Bartlett;
@@ -46,6 +46,13 @@ fn certification_json(found: &Certification) -> Value {
     let turns = components.run_turns.iter();
     let turns =
         turns.map(|t| json!({"run": t.run, "platform_arcsec": t.platform_arcsec, "base_arcsec": t.base_arcsec}));
+    let bumped = found.bumped_runs.iter().map(|at| {
+        let of = if at.is_of_the_base() { "base" } else { "platform" };
+        json!({
+            "run": at.run, "part": of, "axis": at.axis_name(), "turn_arcsec": at.turn_arcsec,
+            "in_the_mean_arcsec": at.in_the_mean_arcsec, "probability": at.probability,
+        })
+    });
     json!({
         "stand": found.stand.write().unwrap_or(Node::Null),
         "runs": found.runs,
@@ -62,6 +69,7 @@ fn certification_json(found: &Certification) -> Value {
         "worse_position": found.suspects.worse.first().map(worse),
         "worse_positions": found.suspects.worse.iter().map(worse).collect::<Vec<_>>(),
         "outliers": out.collect::<Vec<_>>(),
+        "bumped_runs": bumped.collect::<Vec<_>>(),
         "twins": found.suspects.twins,
         "warnings": found.warnings,
     })
@@ -200,8 +208,20 @@ fn tests(out: &mut String, found: &Certification) {
         );
     }
     let readings = found.runs.len() * found.components.keeps.nrows();
-    let named = found.suspects.outliers.len();
-    let _ = writeln!(out, "Grubbs' test of {readings} angles: {named} outliers at 5 %");
+    let named = graded(found.suspects.outliers.iter().map(|out| out.probability));
+    let _ = writeln!(out, "Grubbs' test of {readings} angles: {named}");
+    if found.runs.len() > 2 {
+        let axes = 3 + found.components.base_axes;
+        let named = graded(found.bumped_runs.iter().map(|run| run.probability));
+        let _ = writeln!(out, "Grubbs' test of {} runs about {axes} axes: {named}", found.runs.len());
+    }
+}
+
+/// Returns the numbers of stragglers and outliers among the `probabilities` of what a test names.
+fn graded(probabilities: impl Iterator<Item = f64>) -> String {
+    let (outliers, stragglers): (Vec<f64>, Vec<f64>) = probabilities.partition(|p| *p < OUTLIER);
+    let named = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    format!("{} (below 1 %), {} (1 % to 5 %)", named(outliers.len(), "outlier"), named(stragglers.len(), "straggler"))
 }
 
 /// Returns a check run as text.

@@ -24,6 +24,8 @@ fn written(content: &crate::passport::Content, key: &crate::trust::SigningKey) -
     fixtures::signed(&crate::passport::annotations::payload(content), key)
 }
 
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod bumped_runs;
 #[cfg(feature = "monte-carlo")]
 mod calibration;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]

@@ -145,6 +145,14 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
         let name = languages.label_with(|language| texts::GRUBBS.filled(language, &values));
         (name, Some(Number::fixed(out.residual_arcsec, 2)), None, Some(out.probability))
     }));
+    found.extend(page.certification.bumped_runs.iter().map(|at| {
+        let of = if at.is_of_the_base() { texts::GRUBBS_BASE } else { texts::GRUBBS_PLATFORM };
+        let run = at.run.to_string();
+        let name = languages.label_with(|language| {
+            of.filled(language, &[("run", &run), ("axis", &remarks::axis_of_run(at, language))])
+        });
+        (name, Some(Number::fixed(at.turn_arcsec, 2)), None, Some(at.probability))
+    }));
     if suspects.outliers.is_empty() {
         found.push((languages.label(texts::NO_OUTLIER), None, None, None));
     }

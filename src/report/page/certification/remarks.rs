@@ -1,12 +1,13 @@
 //! Remarks on a certification, and findings of a comparison, in the language of the page.
 
+use crate::certification::bumped_runs::BumpedRun;
 use crate::certification::compared::ComparedPosition;
 use crate::certification::finding::{Finding, Untested};
 use crate::certification::remark::Remark;
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::report::page::language::{Language, Text};
 use crate::report::page::number::Number;
-use crate::report::page::texts::remarks as texts;
+use crate::report::page::texts::{certification as terms, remarks as texts};
 use crate::stand::remarks::Odd;
 
 /// Returns a remark as a sentence.
@@ -37,6 +38,17 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
             ];
             fill(if out.line.is_some() { texts::OUTLIER_IN_LINE } else { texts::OUTLIER_READING }, &values)
         }
+        Remark::BumpedRun(at) => {
+            let values = [
+                grade(at.probability),
+                ("run", at.run.to_string()),
+                ("turn", fixed(at.turn_arcsec, 2)),
+                ("axis", axis_of_run(at, language)),
+                ("mean", fixed(at.in_the_mean_arcsec.abs(), 2)),
+                chance(at.probability),
+            ];
+            fill(if at.is_of_the_base() { texts::BUMPED_RUN_BASE } else { texts::BUMPED_RUN_PLATFORM }, &values)
+        }
         Remark::TwoRuns(one, other) => fill(texts::TWO_RUNS, &[("one", one.to_string()), ("other", other.to_string())]),
         Remark::NotCompared => fill(texts::NOT_COMPARED, &[]),
         Remark::Twins(one, other) => fill(texts::TWINS, &[("one", one.to_string()), ("other", other.to_string())]),
@@ -64,6 +76,14 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
     }
 }
 
+/// Returns the name of the axis about which a run is rotated, without platform or base.
+pub(super) fn axis_of_run(at: &BumpedRun, language: Language) -> String {
+    match at.axis {
+        axis @ 0..3 => AXES[axis].to_owned(),
+        axis => [terms::EAST, terms::NORTH, terms::UP][axis - 3].words(language),
+    }
+}
+
 /// Returns a finding of a comparison with the last certificate as a sentence.
 pub(crate) fn finding(finding: &Finding, language: Language) -> String {
     let text = match finding {
@@ -72,6 +92,13 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
             let index = index.to_string();
             let values = [("index", index.as_str()), ("x", &x), ("y", &y), ("z", &z)];
             return texts::POSITION_CHANGED.filled(language, &values);
+        }
+        Finding::BumpedRun(at) => {
+            let [turn, mean] =
+                [at.turn_arcsec, at.in_the_mean_arcsec].map(|value| Number::fixed(value, 2).text(language));
+            let (run, axis) = (at.run.to_string(), axis_of_run(at, language));
+            let text = if at.is_of_the_base() { texts::CHECK_BUMPED_BASE } else { texts::CHECK_BUMPED_PLATFORM };
+            return text.filled(language, &[("run", &run), ("turn", &turn), ("axis", &axis), ("mean", &mean)]);
         }
         Finding::AnotherStand => texts::ANOTHER_STAND,
         Finding::ChangedTogether => texts::CHANGED_TOGETHER,

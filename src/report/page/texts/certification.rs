@@ -73,6 +73,14 @@ texts! {
         en: "Grubbs: position {index}, run {run}, about {axis}, residual, ″",
         ru: "Граббса: положение {index}, серия {run}, вокруг {axis}, остаток, ″"
     }
+    GRUBBS_PLATFORM {
+        en: "Grubbs: run {run}, platform about {axis}, rotation, ″",
+        ru: "Граббса: серия {run}, платформа вокруг {axis}, поворот, ″"
+    }
+    GRUBBS_BASE {
+        en: "Grubbs: run {run}, base about {axis}, rotation, ″",
+        ru: "Граббса: серия {run}, основание, ось «{axis}», поворот, ″"
+    }
     NO_OUTLIER { en: "Grubbs: no outlier at 5 %", ru: "Граббса: выбросов на уровне 5 % нет" }
     TESTS_NOTE {
         en: "Probability of a result at least as extreme by chance. Below 5 % it is a straggler, below 1 % an \

@@ -23,6 +23,19 @@ texts! {
         ru: "{grade}: положение {index}, серия {run} (строка {line} файла показаний), отличие от других серий \
              {residual}″ вокруг {axis} (критерий Граббса, p = {p}). Показание не исключено."
     }
+    BUMPED_RUN_PLATFORM {
+        en: "{grade}: all positions of run {run} are rotated by {turn}″ about {axis} of the platform relative to the other \
+             runs (Grubbs’ test, p = {p}). The run was not excluded; it changes certified angles by up to {mean}″.",
+        ru: "{grade}: все положения серии {run} повёрнуты относительно других серий на {turn}″ вокруг оси {axis} платформы \
+             (критерий Граббса, p = {p}). Серия не исключена; она изменяет аттестованные отклонения не более чем на {mean}″."
+    }
+    BUMPED_RUN_BASE {
+        en: "{grade}: all positions of run {run} are rotated by {turn}″ about {axis} of the base relative to the other runs \
+             (Grubbs’ test, p = {p}). The run was not excluded; it changes certified angles by up to {mean}″.",
+        ru: "{grade}: все положения серии {run} повёрнуты относительно других серий на {turn}″ вокруг оси основания \
+             «{axis}» (критерий Граббса, p = {p}). Серия не исключена; она изменяет аттестованные отклонения не более чем \
+             на {mean}″."
+    }
     TWO_RUNS {
         en: "Two runs do not show whether run {one} or run {other} is wrong; a third run is needed.",
         ru: "По двум сериям нельзя установить, какая из них ошибочна, {one} или {other}; требуется третья серия."
@@ -38,10 +51,10 @@ texts! {
         ru: "Серии {one} и {other} согласуются более чем в 30 раз лучше остальных; возможно, одна из них — копия другой."
     }
     AXES_DIFFER {
-        en: "The variances about x, y and z differ (Bartlett’s test, p = {p}). The repeatability is their root mean \
-             square.",
-        ru: "Дисперсии вокруг x, y и z различаются (критерий Бартлетта, p = {p}). В качестве повторяемости указано их \
-             среднее квадратическое значение."
+        en: "The variances about x, y and z differ (Bartlett’s test, p = {p}). The repeatability is pooled from all \
+             three.",
+        ru: "Дисперсии вокруг x, y и z различаются (критерий Бартлетта, p = {p}). Указана повторяемость, объединённая по \
+             трём осям."
     }
     FEW_RUNS {
         en: "The common part of a run is estimated from {runs} runs with {freedom} degrees of freedom; its uncertainty has \
@@ -103,6 +116,18 @@ texts! {
     ROTATED_SLIGHTLY {
         en: "The common rotation of all positions is slightly larger than chance explains; more runs are needed.",
         ru: "Общий поворот всех положений несколько больше случайного; требуются дополнительные серии."
+    }
+    CHECK_BUMPED_PLATFORM {
+        en: "All positions of run {run} of the check are rotated by {turn}″ about {axis} of the platform relative to its \
+             other runs; the common rotation includes {mean}″ of it.",
+        ru: "Все положения контрольной серии {run} повёрнуты относительно других серий на {turn}″ вокруг оси {axis} \
+             платформы; в общий поворот вошло {mean}″."
+    }
+    CHECK_BUMPED_BASE {
+        en: "All positions of run {run} of the check are rotated by {turn}″ about {axis} of the base relative to its other \
+             runs; the common rotation includes {mean}″ of it.",
+        ru: "Все положения контрольной серии {run} повёрнуты относительно других серий на {turn}″ вокруг оси основания \
+             «{axis}»; в общий поворот вошло {mean}″."
     }
     NOT_TESTED_VARIATION {
         en: "Rotation of the stand as a whole was not tested: the variation between the runs is unknown.",
