@@ -34,6 +34,8 @@ mod certification;
 mod forgeries;
 mod frame_axis;
 mod model;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod other_axes;
 #[cfg(all(feature = "factory", feature = "report"))]
 mod passport_accuracy;
 #[cfg(all(feature = "factory", feature = "report"))]

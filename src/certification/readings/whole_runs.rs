@@ -1,4 +1,4 @@
-//! Errors of a whole run: a copy of another run, another unit, the opposite sign.
+//! Errors of a whole run: a copy of another run, another unit, the opposite sign, exchanged or reversed axes.
 
 use super::{OtherRuns, Reading, averages};
 use crate::text::problem::Problem;
@@ -15,10 +15,14 @@ const FACTOR_MARGIN: f64 = 1.5;
 /// Smallest correlation at which a run is taken to have the angles of the others up to a factor.
 const SAME_ANGLES: f64 = 0.9;
 
-/// Returns a problem for every run that is a copy or has another scale, at the line on which it begins.
+/// Returns a problem for every run that is a copy or has another scale or other axes, at the line on which it begins.
 pub(super) fn problems(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
     let copies = copies(table, rows);
-    if copies.is_empty() { other_scales(table, rows, others) } else { copies }
+    if !copies.is_empty() {
+        return copies;
+    }
+    let other_scales = other_scales(table, rows, others);
+    if other_scales.is_empty() { other_axes(table, rows, others) } else { other_scales }
 }
 
 /// Returns a problem with the `run`, at its first row.
@@ -97,4 +101,72 @@ fn other_scales(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Prob
     }
     // If one run is too small, all others look too large compared with it.
     if small.is_empty() { large } else { small }
+}
+
+/// Names of the angles.
+const ANGLES: [&str; 3] = ["alpha", "beta", "gamma"];
+
+/// Column of the file for each angle, with its sign.
+type Axes = [(usize, f64); 3];
+
+/// Factor by which other axes must reduce the sum of the squared differences from the other runs, a fifth of the
+/// difference. By chance they do not, not even with three positions and angles that are all scatter.
+const CLEARLY: f64 = 25.0;
+
+/// Returns every order of the three columns with every choice of signs, those that change the fewest columns first; the
+/// first changes none. All signs reversed is a matter of scale.
+fn axes_of_runs() -> Vec<Axes> {
+    let orders = [[0, 1, 2], [1, 0, 2], [2, 1, 0], [0, 2, 1], [1, 2, 0], [2, 0, 1]];
+    let signed = orders.into_iter().flat_map(|order| {
+        (0..8_u8)
+            .map(move |signs| [0, 1, 2].map(|axis| (order[axis], if signs & (1 << axis) == 0 { 1.0 } else { -1.0 })))
+    });
+    let mut all: Vec<Axes> = signed.collect();
+    all.sort_by_key(|axes| (0..3).filter(|axis| axes[*axis] != (*axis, 1.0)).count());
+    all
+}
+
+/// Returns a problem for each run whose angles are those of the others once columns are exchanged or signs reversed.
+///
+/// Of two runs the readings do not show which one is wrong, nor whether both only scatter.
+fn other_axes(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
+    let candidates = axes_of_runs();
+    // For each run: the sums of the squared differences from the other runs, for each choice of axes, and the sum of the
+    // squared ranges of the others.
+    let mut sums: BTreeMap<u32, (Vec<f64>, f64)> = BTreeMap::new();
+    for (place, angles, _) in rows {
+        let (sums, ranges) = sums.entry(place.1).or_insert_with(|| (vec![0.0; candidates.len()], 0.0));
+        for axis in 0..3 {
+            let Some(others) = others.get(&(*place, axis)) else { continue };
+            *ranges += (others.most - others.least).powi(2);
+            for (sum, axes) in sums.iter_mut().zip(&candidates) {
+                let (column, sign) = axes[axis];
+                let value = sign * angles[column];
+                *sum += (value - others.nearest_middle(value)).powi(2);
+            }
+        }
+    }
+    if sums.len() < 3 {
+        return Vec::new();
+    }
+    let problem = |(run, (sums, ranges)): (u32, (Vec<f64>, f64))| {
+        let least = sums.iter().copied().fold(f64::INFINITY, f64::min);
+        // Angles that are all scatter agree with nothing; nor do runs of which several have other axes.
+        if CLEARLY * f64::max(least, ranges) >= sums[0] {
+            return None;
+        }
+        // An angle near zero does not show its sign: of about equal candidates the one with the fewest changes.
+        let at = sums.iter().position(|sum| *sum <= 2.0 * least)?;
+        let changed = candidates[at].iter().enumerate().filter(|(axis, of)| **of != (*axis, 1.0));
+        let words: Vec<String> = changed
+            .map(|(axis, (column, sign))| {
+                let sign = if *sign < 0.0 { "-" } else { "" };
+                format!("{sign}{} where the other runs have {}", ANGLES[*column], ANGLES[axis])
+            })
+            .collect();
+        let found = format!("run {run}, which has {}", words.join(", "));
+        let advice = "put the angles into the columns of the other runs, with their signs";
+        at_run(table, rows, run, found, "the axes of the other runs", advice)
+    };
+    sums.into_iter().filter_map(problem).collect()
 }
