@@ -11,7 +11,7 @@ pub(super) struct Successor {
     pub(super) file: String,
     sha256: String,
     pub(super) series: String,
-    withdrawn: bool,
+    pub(super) withdrawn: bool,
     /// Whether the passport was issued by the time of verification; before that, it supersedes nothing.
     issued: bool,
 }

@@ -115,8 +115,8 @@ texts! {
         ru: "в указанной папке нет паспорта, который его заменяет"
     }
     REGISTER_SUPERSEDED {
-        en: "superseded by another passport in the specified folder; use that passport",
-        ru: "заменён другим паспортом из указанной папки; следует применять новый паспорт"
+        en: "superseded by another passport in the specified folder; this one is not in force",
+        ru: "заменён другим паспортом из указанной папки; этот паспорт не действует"
     }
     REGISTER_UNKNOWN {
         en: "unknown: a file in the specified folder is damaged or missing",
