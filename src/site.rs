@@ -200,7 +200,7 @@ impl Site {
     pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
         self.check_latitude(at, problems);
         if let Some(longitude) = self.longitude_deg.filter(|longitude| !(-180.0..=180.0).contains(longitude)) {
-            let advice = decimal_degrees(longitude, 180.0).unwrap_or_default();
+            let advice = beyond_180(longitude).or_else(|| decimal_degrees(longitude, 180.0)).unwrap_or_default();
             problems.at(&at.key("longitude_deg"), format!("{longitude}"), "a number from -180 to 180", advice);
         }
         problems.within(&at.key("height_m"), self.height_m, -500.0, 9000.0);
@@ -386,6 +386,16 @@ fn check_latitude_range(at: &Path, latitude_deg: Option<f64>, longitude_deg: Opt
     let exchange = || exchanged.then(|| "check whether latitude and longitude are exchanged".to_owned());
     let advice = exchange().or_else(|| decimal_degrees(latitude, 90.0)).unwrap_or_default();
     problems.at(at, format!("{latitude}"), "a number from -90 to 90", advice);
+}
+
+/// Returns the advice for a longitude that is counted up to 360 degrees, or `None` for any other.
+fn beyond_180(longitude: f64) -> Option<String> {
+    (longitude.abs() <= 360.0).then(|| {
+        // As many decimals as were given, because 316.8 − 360 is not exactly −43.2.
+        let decimals = format!("{longitude}").split_once('.').map_or(0, |(_, decimals)| decimals.len());
+        let meant = longitude - 360.0_f64.copysign(longitude);
+        format!("count from -180 to 180, negative in the west; this longitude is {meant:.decimals$}")
+    })
 }
 
 /// Returns the advice for an angle beyond `largest` degrees that may be in degrees and minutes, `dddmm.m`, as

@@ -44,7 +44,26 @@ fn exchanged_coordinates_are_recognised() {
     };
     assert!(detail(37.6856, 55.7658).ends_with("; check whether latitude and longitude are exchanged"));
     assert!(detail(40.2455, 116.2240).ends_with("; request a re-issue for this place from the factory"));
+    assert!(detail(55.7658, -37.6856).ends_with("; check the sign of the longitude; it is negative in the west"));
+    assert!(detail(-55.7658, 37.6856).ends_with("; check the sign of the latitude; it is negative in the south"));
+    assert!(detail(-55.7658, -37.6856).contains("; check the signs of latitude and longitude"));
     assert!(detail(-55.7658, 175.0).ends_with("; request a re-issue for this place from the factory"));
+}
+
+/// Expected: the identifier of the stand, or spaces, instead of its serial number: still the wrong stand, with the remedy.
+#[test]
+fn the_model_is_not_part_of_the_serial_number() {
+    let file = read("passports/SPS-2/0017/moscow-bmstu-1.yaml");
+    let detail = |serial: &str| {
+        let answer = verify("good", &file, &trust(), &Question { serial: Some(serial.to_owned()), ..question() });
+        assert_eq!(answer.code(CheckName::Stand), Some(Code::WrongStand));
+        answer.checks().iter().find(|check| check.name == CheckName::Stand).unwrap().detail.clone()
+    };
+    for serial in ["SPS-2/0017", "SPS-2 0017", "0017 ", "SPS-2-0017"] {
+        let due = format!("the passport is for stand SPS-2 0017; give only the serial number, 0017, not {serial:?}");
+        assert_eq!(detail(serial), due);
+    }
+    assert!(detail("SPS-2/0018").ends_with("not SPS-2/0018; its deviations do not apply to stand SPS-2/0018"));
 }
 
 /// Expected: the gyro of docs/currents.csv is the paper's, K_x = 95 °/h/mA, read with the paper's meter.

@@ -423,6 +423,8 @@ impl Run {
             let stand = format!("the passport is for stand {} {found}", content.stand.model);
             let (code, detail) = if found == serial {
                 (Code::Ok, stand)
+            } else if only_the_serial(content.stand.model.as_str(), serial) == found {
+                (Code::WrongStand, format!("{stand}; give only the serial number, {found}, not {serial:?}"))
             } else {
                 (Code::WrongStand, format!("{stand}, not {serial}; its deviations do not apply to stand {serial}"))
             };
@@ -446,4 +448,11 @@ impl Run {
             }
         }
     }
+}
+
+/// Returns `given` without spaces around it and without the model of the stand before the serial number.
+fn only_the_serial<'a>(model: &str, given: &'a str) -> &'a str {
+    let given = given.trim();
+    let after_model = given.strip_prefix(model).and_then(|rest| rest.strip_prefix(['/', ' ', '-', '_', ':']));
+    after_model.map_or(given, str::trim_start)
 }
