@@ -1,9 +1,11 @@
-//! Drift of the certified deviations: a straight line through each over the years, and the test of its slope.
+//! Drift of the certified deviations: a straight line through each over the years, and the tests of the line and of its
+//! slope. A deviation that is not on a line has jumped: it has no rate.
 
 use super::measured;
 use crate::coefficients::PositionIndex;
 use crate::passport::difference::u_of_deviations_arcsec;
 use crate::stand::{ActsOn, CertifiedPosition, Stand};
+use crate::statistics::beta::f_larger;
 use crate::statistics::propagation::effective_degrees_of_freedom;
 use crate::statistics::straight_line::{Point, StraightLine, holm};
 use jiff::civil::Date;
@@ -48,10 +50,27 @@ pub(crate) struct Series {
     /// Values in the order of time.
     pub values: Vec<Value>,
     /// Fitted line in arcseconds over years; `None` without two certificates of different dates that state the
-    /// uncertainty.
+    /// uncertainty, and for a deviation that has jumped.
     pub line: Option<StraightLine>,
+    /// Largest change, if the values are not on a line.
+    pub jump: Option<Jump>,
     /// Probability of the slope or a larger one without drift, corrected for the number of tested deviations.
     pub corrected_probability: Option<f64>,
+}
+
+/// Change of a deviation that a straight line does not describe.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Jump {
+    /// Numbers of the two successive certificates between which the change is largest in units of its uncertainty.
+    pub certificates: [String; 2],
+    /// Change between them, arcsec.
+    pub change_arcsec: f64,
+    /// Standard uncertainty of that change, arcsec.
+    pub u_arcsec: f64,
+    /// Line that was rejected.
+    pub line: StraightLine,
+    /// Probability of a larger chi-square if the values were on a line, corrected for the number of tested deviations.
+    pub corrected_probability: f64,
 }
 
 /// Drift of all deviations of a stand.
@@ -90,12 +109,24 @@ impl Drift {
         for (at, corrected) in tested.into_iter().zip(holm(&probabilities)) {
             series[at].corrected_probability = Some(corrected);
         }
+        reject_lines(&mut series);
         Self { series }
     }
 
     /// Returns the number of tested deviations.
     pub(crate) fn tested(&self) -> usize {
-        self.series.iter().filter(|series| series.line.is_some()).count()
+        self.series.iter().filter(|series| series.line.is_some() || series.jump.is_some()).count()
+    }
+
+    /// Returns the deviations that have jumped, the least probable first.
+    pub(crate) fn jumps(&self) -> Vec<(&Series, &Jump)> {
+        let mut jumps: Vec<_> = self.series.iter().filter_map(|at| Some((at, at.jump.as_ref()?))).collect();
+        jumps.sort_by(|(_, a), (_, b)| {
+            a.corrected_probability
+                .total_cmp(&b.corrected_probability)
+                .then((b.change_arcsec / b.u_arcsec).abs().total_cmp(&(a.change_arcsec / a.u_arcsec).abs()))
+        });
+        jumps
     }
 
     /// Returns the deviation with the least corrected probability, or `None` if none was tested.
@@ -104,9 +135,36 @@ impl Drift {
         tested.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, series)| series)
     }
 
-    /// Returns whether any deviation drifts, or `None` if none was tested.
+    /// Returns whether any deviation drifts steadily, or `None` if none was tested.
     pub(crate) fn drifts(&self) -> Option<bool> {
-        Some(self.most_significant()?.corrected_probability? < DRIFTS)
+        (self.tested() > 0).then(|| {
+            self.most_significant()
+                .and_then(|at| at.corrected_probability)
+                .is_some_and(|probability| probability < DRIFTS)
+        })
+    }
+}
+
+/// Replaces the lines that their own residuals reject by the largest change. The tests are corrected for their number by
+/// Holm's procedure, and F allows for the degrees of freedom of the uncertainties.
+fn reject_lines(series: &mut [Series]) {
+    let probability = |at: &Series| {
+        let line = at.line.filter(|line| line.degrees_of_freedom > 0)?;
+        let fewest = at.values.iter().map(|value| value.degrees_of_freedom).fold(f64::INFINITY, f64::min);
+        let ratio = line.chi_square / line.degrees_of_freedom as f64;
+        Some(f_larger(ratio, line.degrees_of_freedom, fewest))
+    };
+    let (tested, probabilities): (Vec<usize>, Vec<f64>) =
+        series.iter().enumerate().filter_map(|(at, one)| Some((at, probability(one)?))).unzip();
+    for (at, corrected) in tested.into_iter().zip(holm(&probabilities)) {
+        let one = &mut series[at];
+        if corrected < DRIFTS
+            && let Some(jump) = one.largest_change(corrected)
+        {
+            one.jump = Some(jump);
+            one.line = None;
+            one.corrected_probability = None;
+        }
     }
 }
 
@@ -151,7 +209,23 @@ impl Series {
         // A certificate without a stated uncertainty cannot be weighted, so the series is then not tested.
         let points: Option<Vec<Point>> = values.iter().map(point).collect();
         let line = points.and_then(|points| StraightLine::fit(&points));
-        Self { index, angle, values, line, corrected_probability: None }
+        Self { index, angle, values, line, jump: None, corrected_probability: None }
+    }
+
+    /// Returns the largest change between successive certificates in units of its uncertainty, as the jump that makes the
+    /// line improbable.
+    fn largest_change(&self, corrected_probability: f64) -> Option<Jump> {
+        let line = self.line?;
+        let change = |pair: &[Value]| {
+            let [before, after] = pair else { return None };
+            let u_arcsec = before.u_arcsec?.hypot(after.u_arcsec?);
+            let certificates = [before.certificate.clone(), after.certificate.clone()];
+            let change_arcsec = after.arcsec - before.arcsec;
+            Some(Jump { certificates, change_arcsec, u_arcsec, line, corrected_probability })
+        };
+        let size = |jump: &Jump| (jump.change_arcsec / jump.u_arcsec).abs();
+        // Of equal changes, the first.
+        self.values.windows(2).rev().filter_map(change).max_by(|a, b| size(a).total_cmp(&size(b)))
     }
 }
 
@@ -191,6 +265,31 @@ mod tests {
         assert_eq!((found[0].index, found[0].angle), (PositionIndex { i: 2, j: 3 }, 2));
         // Expected: 8 arcsec a year; the years have 365 and 366 days.
         assert!((found[0].line.unwrap().slope - 8.0).abs() < 0.02);
+    }
+
+    /// Expected: a change of 44.5 between the second and the third of four certificates, and one that comes and goes, are no
+    /// rates. The sizes of the uncertainties, near 1, come from the stand file.
+    #[test]
+    fn a_jump_is_no_drift() {
+        for (changes, between, change) in
+            [([0.0, -1.5, 43.0, 43.5], ["C-1", "C-2"], 44.5), ([0.0, 30.0, 0.0, 0.0], ["C-0", "C-1"], 30.0)]
+        {
+            let stands = [0, 1, 2, 3].map(|year| {
+                stand(&format!("20{}-06-01", 20 + year), &format!("C-{year}"), |at| {
+                    if (at.i, at.j) == (2, 3) {
+                        at.gamma_arcsec += changes[year];
+                    }
+                })
+            });
+            let drift = Drift::of(&stands.each_ref());
+            let jumps = drift.jumps();
+            assert_eq!(jumps.len(), 1, "{jumps:?}");
+            let (series, jump) = jumps[0];
+            assert_eq!((series.index, series.angle), (PositionIndex { i: 2, j: 3 }, 2));
+            assert_eq!(jump.certificates, between);
+            assert!((jump.change_arcsec - change).abs() < 1e-9 && series.line.is_none());
+            assert_eq!((drift.tested(), drift.drifts()), (24, Some(false)));
+        }
     }
 
     #[test]

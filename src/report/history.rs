@@ -1,6 +1,6 @@
 //! One stand over the years, as text and as JSON.
 
-use crate::history::drift::{ANGLES, DRIFTS, Drift, SUSPECTED, Series};
+use crate::history::drift::{ANGLES, DRIFTS, Drift, Jump, SUSPECTED, Series};
 use crate::history::{History, PastCertificate, PastPassport, measured};
 use crate::report::picture::history::LETTERS;
 use crate::report::{columns, style};
@@ -65,14 +65,52 @@ fn series_json(series: &Series) -> Value {
         "degrees_of_freedom": line.and_then(|line| finite(line.slope_degrees_of_freedom)),
         "probability": line.map(|line| line.probability()),
         "corrected_probability": series.corrected_probability,
-        "chi_square": line.map(|line| {
+        "chi_square": line.or(series.jump.as_ref().map(|jump| &jump.line)).map(|line| {
             json!({"value": line.chi_square, "degrees_of_freedom": line.degrees_of_freedom})
+        }),
+        "jump": series.jump.as_ref().map(|jump| {
+            json!({
+                "certificates": jump.certificates, "change_arcsec": jump.change_arcsec, "u_arcsec": jump.u_arcsec,
+                "corrected_probability": jump.corrected_probability,
+            })
         }),
     })
 }
 
 /// Returns the result of the test for drift in words, with the given names of the angles α, β, γ.
 pub(crate) fn sentence(drift: &Drift, angles: [&str; 3]) -> String {
+    match drift.jumps().first() {
+        Some((series, jump)) if drift.most_significant().is_none() => jumped(drift, angles, series, jump),
+        Some((series, jump)) => {
+            format!("{}; of the other deviations: {}", jumped(drift, angles, series, jump), of_lines(drift, angles))
+        }
+        None => of_lines(drift, angles),
+    }
+}
+
+/// Returns the sentence on the deviations that are not on a line.
+fn jumped(drift: &Drift, angles: [&str; 3], series: &Series, jump: &Jump) -> String {
+    let decimals = columns::decimals(jump.u_arcsec);
+    let [from, to] = &jump.certificates;
+    format!(
+        "the stand has jumped: {} of {} deviations are not on a straight line and have no rate of drift; most significant \
+         is {} of position {}, {} arcsec (u {:.decimals$}) between certificates {from} and {to}, chi-square of the line \
+         {:.1} with {} degrees of freedom, probability {}, corrected for {} tests",
+        drift.jumps().len(),
+        drift.tested(),
+        angles[series.angle],
+        series.index,
+        columns::signed(jump.change_arcsec, decimals),
+        jump.u_arcsec,
+        jump.line.chi_square,
+        jump.line.degrees_of_freedom,
+        columns::probability(jump.corrected_probability),
+        drift.tested()
+    )
+}
+
+/// Returns the result of the test for drift of the deviations that are on a line.
+fn of_lines(drift: &Drift, angles: [&str; 3]) -> String {
     let (Some(worst), Some(probability)) =
         (drift.most_significant(), drift.most_significant().and_then(|worst| worst.corrected_probability))
     else {
@@ -171,11 +209,29 @@ fn issued_words(passport: &PastPassport, id: &str) -> String {
     format!("{id}, certificate {certificate} ({}){reason}", line.state.words())
 }
 
+/// Returns the row of a deviation that has jumped: its change from the first to the last certificate, and no rate.
+fn jump_row(series: &Series, jump: &Jump) -> Vec<String> {
+    let change = |ends: Option<(f64, f64)>| ends.map_or(0.0, |(first, last)| last - first);
+    let ends = series.values.first().zip(series.values.last()).map(|(first, last)| (first.arcsec, last.arcsec));
+    let mut row = vec![
+        series.index.i.to_string(),
+        series.index.j.to_string(),
+        ANGLES[series.angle].to_owned(),
+        series.values.len().to_string(),
+        columns::signed(change(ends), columns::decimals(jump.u_arcsec)),
+    ];
+    row.extend(["-", "-", "-", "-", "JUMP"].map(str::to_owned));
+    row
+}
+
 fn drift(out: &mut String, drift: &Drift) {
-    let tested: Vec<&Series> = drift.series.iter().filter(|series| series.line.is_some()).collect();
+    let tested: Vec<&Series> = drift.series.iter().filter(|at| at.line.is_some() || at.jump.is_some()).collect();
     if !tested.is_empty() {
         let _ = writeln!(out, "\n{}", style::heading("Drift of the deviations (u: standard uncertainty, k = 1)"));
         let rows = tested.iter().filter_map(|series| {
+            if let Some(jump) = &series.jump {
+                return Some(jump_row(series, jump));
+            }
             let line = series.line.as_ref()?;
             let decimals = columns::decimals(line.u_slope);
             let change = series.values.last()?.arcsec - series.values.first()?.arcsec;

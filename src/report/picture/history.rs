@@ -189,7 +189,16 @@ fn panel(series: &Series, field: &Field, lowest: bool) -> Markup {
     let first = series.values.first().map_or(0.0, |at| at.arcsec);
     let drifts = series.corrected_probability.is_some_and(|p| p < DRIFTS);
     let [left, right] = field.x.places;
-    let title = format!("{} {}{}", LETTERS[series.angle], series.index, if drifts { ": drifts" } else { "" });
+    let title = format!(
+        "{} {}{}",
+        LETTERS[series.angle],
+        series.index,
+        match (drifts, &series.jump) {
+            (true, _) => ": drifts",
+            (false, Some(_)) => ": jump",
+            (false, None) => "",
+        }
+    );
     html! {
         g {
             (field.axes(&years.collect::<Vec<_>>(), &changes))
