@@ -61,7 +61,7 @@ pub(crate) fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unr
         return refuse(None, &found, "a file of dtg-passport", "check that this is the right file");
     }
     if is_utf16(bytes) {
-        return refuse(None, "UTF-16", "UTF-8", "save the file as UTF-8 without a byte order mark");
+        return refuse(None, "UTF-16", "UTF-8", "save the file as UTF-8");
     }
     if bytes.starts_with(&[0xEF, 0xBB, 0xBF]) {
         let advice = "save the file as UTF-8 without a byte order mark";

@@ -81,7 +81,10 @@ texts! {
         en: "Grubbs: run {run}, base about {axis}, rotation, ″",
         ru: "Граббса: серия {run}, основание, ось «{axis}», поворот, ″"
     }
-    NO_OUTLIER { en: "Grubbs: no outlier at 5 %", ru: "Граббса: выбросов на уровне 5 % нет" }
+    NO_OUTLIER {
+        en: "Grubbs: no straggler or outlier among the readings (5 %)",
+        ru: "Граббса: квазивыбросов и выбросов среди показаний нет (5 %)"
+    }
     TESTS_NOTE {
         en: "Probability of a result at least as extreme by chance. Below 5 % it is a straggler, below 1 % an \
              outlier. The tests exclude nothing.",
