@@ -7,6 +7,7 @@ use crate::files;
 use crate::passport::issue::PreparedStand;
 use crate::site::Site;
 use crate::stand::Stand;
+use crate::text::placeholder::refuse_placeholders;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of, shown};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -44,7 +45,9 @@ impl Listed for PreparedStand {
     const NAME: &str = "stand";
 
     fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        Stand::from_yaml(name, bytes).map(Self::new)
+        let stand = Stand::from_yaml(name, bytes)?;
+        refuse_placeholders(name, bytes)?;
+        Ok(Self::new(stand))
     }
 
     fn id(&self) -> String {
@@ -62,7 +65,9 @@ impl Listed for Site {
     const NAME: &str = "site";
 
     fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        Self::from_yaml(name, bytes)
+        let site = Self::from_yaml(name, bytes)?;
+        refuse_placeholders(name, bytes)?;
+        Ok(site)
     }
 
     fn id(&self) -> String {

@@ -44,7 +44,16 @@ pub(super) fn stand(path: &Path) -> Result<Stand, Failure> {
 
 /// Reads a site file, and remarks on a file that has not the name of its site.
 pub(super) fn site(path: &Path) -> Result<Site, Failure> {
-    let site = document(path, Kind::Site.words(), Site::from_yaml)?;
+    site_by(path, Site::from_yaml)
+}
+
+/// Reads a site file to issue for it: without placeholders of the template.
+pub(super) fn site_to_issue(path: &Path) -> Result<Site, Failure> {
+    site_by(path, Site::parse)
+}
+
+fn site_by(path: &Path, reader: impl FnOnce(&str, &[u8]) -> Result<Site, Unreadable>) -> Result<Site, Failure> {
+    let site = document(path, Kind::Site.words(), reader)?;
     if let Some(words) = site.remark(path) {
         output::say(&format!("{}: {words}", shown(path)));
     }

@@ -3,12 +3,10 @@
 
 use super::administrative::{Administrative, Contact, Location, Performed};
 use crate::report::{Language, Languages};
+use crate::text::placeholder::{is_placeholder, refuse_at};
 use crate::text::{Path, Problems};
 use jiff::civil::Date;
 use std::fmt::Display;
-
-/// Word of the template where the user has to enter a value.
-const UNCHANGED: &str = "CHANGE";
 
 /// Facts that a passport or a calibration states.
 #[derive(Debug, Clone, Default)]
@@ -185,8 +183,8 @@ impl Collector {
     fn refuse_unchanged(&mut self, file: Option<&Administrative>) {
         let root = Path::Root;
         let mut refuse = |at: &Path, text: Option<&str>| {
-            if text.is_some_and(|text| text.trim() == UNCHANGED) {
-                self.problems.at(at, format!("{UNCHANGED:?}"), "your value", "replace the word from the template");
+            if let Some(text) = text.filter(|text| is_placeholder(text)) {
+                refuse_at(at, text, &mut self.problems);
             }
         };
         for (key, contact) in file.iter().flat_map(|f| [("laboratory", &f.laboratory), ("customer", &f.customer)]) {

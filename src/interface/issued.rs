@@ -10,6 +10,7 @@ use crate::passport::issue::{Issue, PreparedStand, time_of_issue};
 use crate::signing::{Signer, own_trust};
 use crate::site::Site;
 use crate::stand::Stand;
+use crate::text::placeholder::refuse_placeholders;
 use jiff::Timestamp;
 use serde::Deserialize;
 use std::path::Path;
@@ -49,6 +50,9 @@ pub fn issue(
     out: &Path,
     now: Timestamp,
 ) -> Result<(Issued, Vec<String>), Failed> {
+    for (name, bytes) in [stand, site] {
+        refuse_placeholders(name, bytes)?;
+    }
     let stand = PreparedStand::new(Stand::from_yaml(stand.0, stand.1)?);
     let site = Site::from_yaml(site.0, site.1)?;
     let now = Timestamp::from_second(now.as_second()).unwrap_or(now);

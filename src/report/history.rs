@@ -216,7 +216,7 @@ fn jump_row(series: &Series, jump: &Jump) -> Vec<String> {
     let mut row = vec![
         series.index.i.to_string(),
         series.index.j.to_string(),
-        ANGLES[series.angle].to_owned(),
+        LETTERS[series.angle].to_owned(),
         series.values.len().to_string(),
         columns::signed(change(ends), columns::decimals(jump.u_arcsec)),
     ];

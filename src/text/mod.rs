@@ -18,6 +18,8 @@ pub(crate) mod excerpt;
 pub(crate) mod kind;
 pub(crate) mod node;
 pub(crate) mod number;
+#[cfg(feature = "factory")]
+pub(crate) mod placeholder;
 pub(crate) mod printable;
 pub(crate) mod problem;
 pub(crate) mod record;

@@ -1,0 +1,58 @@
+//! Placeholders of the templates: values that only the user knows, and that must not be signed.
+
+use super::problem::{Problems, Unreadable};
+use super::{Node, Path, yaml};
+
+/// Word that a template contains instead of a value.
+const PLACEHOLDER: &str = "CHANGE";
+
+/// Returns `true` if `text` is a placeholder: the word alone, or the word, a colon and what is to be written.
+pub(crate) fn is_placeholder(text: &str) -> bool {
+    let rest = text.trim().strip_prefix(PLACEHOLDER);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(':'))
+}
+
+/// Records a placeholder `text` at `at`.
+pub(crate) fn refuse_at(at: &Path, text: &str, problems: &mut Problems) {
+    problems.at(at, format!("{text:?}"), "your value", "replace the word from the template");
+}
+
+/// Refuses a hand-written document that contains placeholders; `name` is its name in messages.
+///
+/// # Errors
+/// Returns [`Unreadable`] with every placeholder at its line, column and field.
+pub(crate) fn refuse_placeholders(name: &str, bytes: &[u8]) -> Result<(), Unreadable> {
+    // Most documents contain none, and are not read a second time.
+    if memchr::memmem::find(bytes, PLACEHOLDER.as_bytes()).is_none() {
+        return Ok(());
+    }
+    let (node, text) = yaml::tree(name, bytes)?;
+    let mut problems = Problems::new();
+    find(&node, &Path::Root, &mut problems);
+    if problems.is_empty() { Ok(()) } else { Err(problems.refuse(name, &text).in_text(bytes)) }
+}
+
+fn find(node: &Node, at: &Path, problems: &mut Problems) {
+    match node {
+        Node::Text(text) if is_placeholder(text) => refuse_at(at, text, problems),
+        Node::List(items) => items.iter().enumerate().for_each(|(index, item)| find(item, &at.item(index), problems)),
+        Node::Map(entries) => entries.iter().for_each(|(key, value)| find(value, &at.key(key), problems)),
+        _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Expected: by hand. A comment and another word that begins like the placeholder are none.
+    #[test]
+    fn every_placeholder_is_found_at_its_place() {
+        let text = "a: \"CHANGE\"  # CHANGE\nb: {c: [\"good\", \"CHANGE: where from\"]}\nd: \"CHANGED\"\n";
+        let refused = refuse_placeholders("f.yaml", text.as_bytes()).unwrap_err().to_string();
+        assert!(refused.contains("f.yaml:1:4: a: found \"CHANGE\", expected your value"), "{refused}");
+        assert!(refused.contains("b.c[1]: found \"CHANGE: where from\""), "{refused}");
+        assert_eq!(refused.matches("f.yaml:").count(), 2, "{refused}");
+        assert!(refuse_placeholders("f.yaml", b"a: 1  # CHANGE\nd: \"CHANGED\"\n").is_ok());
+    }
+}
