@@ -218,7 +218,7 @@ impl Series {
         let line = self.line?;
         let change = |pair: &[Value]| {
             let [before, after] = pair else { return None };
-            let u_arcsec = before.u_arcsec?.hypot(after.u_arcsec?);
+            let u_arcsec = libm::hypot(before.u_arcsec?, after.u_arcsec?);
             let certificates = [before.certificate.clone(), after.certificate.clone()];
             let change_arcsec = after.arcsec - before.arcsec;
             Some(Jump { certificates, change_arcsec, u_arcsec, line, corrected_probability })

@@ -5,6 +5,9 @@ use dtg_passport::certification::AngleReadings;
 use dtg_passport::statistics::random::Stream;
 use nalgebra::Vector3;
 
+/// What is wrong with the angles of a run.
+type Change = fn(&mut Vector3<f64>);
+
 /// Columns exchanged, or the sign of one reversed, in one run of three and of five: refused at the line of the run, and
 /// the same run as it should be is not.
 #[test]
@@ -14,7 +17,7 @@ fn a_run_with_other_axes_is_refused() {
     for runs in [3, 5] {
         let angles = [(); 8].map(|()| normal(&mut stream, [60.0; 3]));
         let good = Truth { angles_arcsec: angles, ..small }.measured(&mut stream, runs);
-        let changes: [(fn(&mut Vector3<f64>), &str); 4] = [
+        let changes: [(Change, &str); 4] = [
             (|at| at.swap_rows(0, 1), "beta where the other runs have alpha, alpha where the other runs have beta"),
             (|at| at.z = -at.z, "which has -gamma where the other runs have gamma"),
             (|at| *at = Vector3::new(at.y, at.z, at.x), "gamma where the other runs have alpha"),
