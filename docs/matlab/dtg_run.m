@@ -30,7 +30,12 @@ function words = message(text)
     words = text;
     try
         found = jsondecode(text);
-        words = found.error.message;
+        if isfield(found, 'error')
+            words = found.error.message;
+        else
+            failed = found.checks(arrayfun(@(check) isequal(check.passed, false), found.checks));
+            words = strjoin({failed.detail}, '; ');
+        end
     catch
     end
 end

@@ -427,8 +427,9 @@ def _csv(currents: object) -> tuple[str, bytes]:
     if isinstance(currents, (str, os.PathLike)):
         return named(currents)
     if hasattr(currents, "reset_index"):  # a DataFrame; i and j may be its index, as in `to_dataframe`
-        currents = currents.reset_index() if "i" not in currents else currents
-        currents = {name: currents[name] for name in currents if name != "index"}
+        frame: Any = currents
+        frame = frame if "i" in frame else frame.reset_index()
+        currents = {name: frame[name] for name in frame if name != "index"}
     if isinstance(currents, Mapping):
         columns = [np.asarray(column).tolist() for column in currents.values()]
         rows = [",".join(map(_cell, row)) for row in zip(*columns, strict=True)]
