@@ -169,8 +169,8 @@ pub(crate) struct TemperatureOutside {
 
 impl TemperatureOutside {
     /// Returns `None` if the temperature is within the range, or if one of them is not stated.
-    pub(crate) fn of(certificate: &Certificate, laboratory: &Laboratory) -> Option<Self> {
-        let here_c = laboratory.temperature_c?;
+    pub(crate) fn of(certificate: &Certificate, here_c: Option<f64>) -> Option<Self> {
+        let here_c = here_c?;
         let [low_c, high_c] = certificate.temperature_range_c?;
         (!(low_c..=high_c).contains(&here_c)).then_some(Self { here_c, low_c, high_c })
     }
@@ -231,7 +231,7 @@ mod tests {
         let stand = Stand::from_yaml("stand.yaml", include_bytes!("../../passports/SPS-2/0017/stand.yaml")).unwrap();
         let of = |here_c: Option<f64>, range: Option<[f64; 2]>| {
             let certificate = Certificate { temperature_range_c: range, ..stand.certificate.clone() };
-            TemperatureOutside::of(&certificate, &Laboratory { temperature_c: here_c, ..Laboratory::paper() })
+            TemperatureOutside::of(&certificate, here_c)
         };
         for (here_c, range) in [(Some(18.0), Some([18.0, 22.0])), (Some(22.0), Some([18.0, 22.0])), (Some(30.0), None)]
         {

@@ -6,6 +6,7 @@ use super::output::Format;
 use super::render::{Written, languages};
 use super::show::{Read, Whom};
 use super::simulate::MethodName;
+use super::trust_options::date;
 use super::{Code, Failure, REFUSED, defaults, output, uncertainty};
 use crate::batch::{Purpose, paths};
 use crate::calibration::document::{CalibrationDocument, Subject};
@@ -28,7 +29,9 @@ use crate::text::kind::Kind;
 use crate::text::{Printable, name_of, printable, shown};
 use crate::uncertainty::document::WholeDocument;
 use clap::{Args, ValueEnum};
-use jiff::Timestamp;
+use jiff::civil::Date;
+use jiff::tz::TimeZone;
+use jiff::{SignedDuration, Timestamp};
 use serde::Serialize;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -84,10 +87,10 @@ pub(super) struct Options {
     #[arg(long, value_name = "NAME")]
     operator: Option<String>,
     /// Day of the readings
-    #[arg(long, value_name = "YYYY-MM-DD")]
-    date: Option<jiff::civil::Date>,
+    #[arg(long, value_name = "YYYY-MM-DD", value_parser = date)]
+    date: Option<Date>,
     /// Temperature during the readings, °C
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = temperature)]
     temperature_c: Option<f64>,
     /// Model of the g-sensitive drift: the paper's, or the full 2×3 matrix, with a test whether it is needed
     #[arg(long, value_enum, default_value = "paper")]
@@ -134,6 +137,11 @@ enum ModelName {
 }
 
 /// Parses a stop limit: the largest change in the last step of the iteration.
+fn temperature(text: &str) -> Result<f64, String> {
+    let celsius = text.parse().ok().filter(|celsius| (-90.0..=100.0).contains(celsius));
+    celsius.ok_or_else(|| "degrees Celsius from -90 to 100, with a decimal point, such as 21.5".to_owned())
+}
+
 fn limit(text: &str) -> Result<f64, String> {
     let value = text.parse().ok().filter(|value| (0.0..f64::INFINITY).contains(value));
     value.ok_or_else(|| "a number ≥ 0, with a decimal point".to_owned())
@@ -152,6 +160,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         previous: previous(options)?,
         administrative: AdministrativeFile::read(options.administrative.as_deref())?,
     };
+    bench.check_date()?;
     match one {
         Some(currents) => bench.one(currents),
         None => bench.several(),
@@ -198,6 +207,21 @@ struct Line<'a> {
 }
 
 impl Bench<'_> {
+    /// Refuses readings of a day that has not come, in any time zone.
+    fn check_date(&self) -> Result<(), Failure> {
+        const LARGEST_OFFSET: SignedDuration = SignedDuration::from_hours(14);
+        let verified_for = self.passport.verification.as_ref().map(|(_, _, question)| question.time);
+        let Some((date, time)) = self.options.date.zip(verified_for) else { return Ok(()) };
+        let today =
+            time.saturating_add(LARGEST_OFFSET).map_or(Date::MAX, |latest| TimeZone::UTC.to_datetime(latest).date());
+        if date <= today {
+            return Ok(());
+        }
+        Err(Failure::unusable(format!(
+            "--date {date} is later than the time of the verification, {time}; check the date"
+        )))
+    }
+
     /// Calibrates the gyro whose currents are at `path`.
     fn calibrate(&self, path: &Path) -> Result<Found, Failure> {
         let (options, content) = (self.options, &self.passport.content);
@@ -254,7 +278,8 @@ impl Bench<'_> {
     /// Calibrates several gyros, with one line for each.
     fn several(&self) -> Result<Code, Failure> {
         let options = self.options;
-        if let Some(warning) = TemperatureOutside::of(&self.passport.content.certificate, &self.laboratory) {
+        if let Some(warning) = TemperatureOutside::of(&self.passport.content.certificate, self.laboratory.temperature_c)
+        {
             output::complain(&format!("WARNING: {warning}"));
         }
         let mut written = HashMap::new();

@@ -194,6 +194,8 @@ impl<'a> Prepared<'a> {
         previous: &[CalibrationDocument],
     ) -> Result<Done, Stopped> {
         let Self { content, laboratory, gyro_type, setup, mut missing, currents_sha256, readings } = self;
+        // What was read during the calibration comes before what the laboratory usually has.
+        let here_c = subject.temperature_c.or(laboratory.temperature_c);
         let subject = Subject { currents_sha256, ..subject };
         if let Some([before, now]) = subject.another_gyro(previous) {
             let [before, now] = [before, now].map(printable::printable);
@@ -239,7 +241,7 @@ impl<'a> Prepared<'a> {
             let result = (&calibration, &found.parameters);
             Some((parameter, best_further_visit(&setup, &readings, result, (parameter, options))?))
         });
-        let warning = TemperatureOutside::of(&content.certificate, laboratory);
+        let warning = TemperatureOutside::of(&content.certificate, here_c);
         Ok(Done { setup, readings, calibration, missing, document, earlier, cost_of_missing, further, warning })
     }
 }

@@ -155,7 +155,9 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
 /// Writes a warning if the deviations are certified for other temperatures.
 fn temperature(page: &CalibrationPage, languages: &Languages) -> Markup {
     let certificate = &page.content().certificate;
-    let outside = page.laboratory.and_then(|laboratory| TemperatureOutside::of(certificate, laboratory));
+    let stated = page.document.subject.as_ref().and_then(|subject| subject.temperature_c);
+    let here_c = stated.or(page.laboratory.and_then(|laboratory| laboratory.temperature_c));
+    let outside = TemperatureOutside::of(certificate, here_c);
     let Some(TemperatureOutside { here_c, low_c, high_c }) = outside else { return html! {} };
     let values = [("here", here_c), ("low", low_c), ("high", high_c)]
         .map(|(name, c)| (name, Number::exact(c).markup(languages)));
