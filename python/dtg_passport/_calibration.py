@@ -121,20 +121,17 @@ class Calibration(Frozen):
     @property
     def chi_square(self) -> float:
         """Chi-square of the fit, from all stated uncertainties."""
-        value: float = self._result["chi_square"]["value"]
-        return value
+        return float(self._result["chi_square"]["value"])
 
     @property
     def dof(self) -> int:
         """Degrees of freedom of the fit."""
-        dof: int = self._result["chi_square"]["degrees_of_freedom"]
-        return dof
+        return int(self._result["chi_square"]["degrees_of_freedom"])
 
     @property
     def probability(self) -> float:
         """Probability of a larger chi-square; NaN without degrees of freedom."""
-        probability: float = self._result["chi_square"].get("probability", np.nan)
-        return probability
+        return float(self._result["chi_square"].get("probability", np.nan))
 
     @property
     def ij(self) -> Array:
@@ -148,8 +145,7 @@ class Calibration(Frozen):
 
     @property
     def _residuals(self) -> list[dict[str, Any]]:
-        residuals: list[dict[str, Any]] = self._result.get("residuals_deg_per_h", [])
-        return residuals
+        return list(self._result.get("residuals_deg_per_h", ()))
 
     @property
     def not_stated(self) -> tuple[str, ...]:
@@ -164,14 +160,12 @@ class Calibration(Frozen):
     @property
     def consistent(self) -> bool:
         """Whether the readings fit the stand. If not, the parameters are not valid, and `remarks` has possible causes."""
-        consistent: bool = self._document["consistent"]
-        return consistent
+        return bool(self._document["consistent"])
 
     @property
     def verified(self) -> bool:
         """Whether the passport was verified."""
-        verified: bool = self._document["passport_verified"]
-        return verified
+        return bool(self._document["passport_verified"])
 
     @property
     def verdict(self) -> dict[str, Any] | None:

@@ -437,7 +437,7 @@ def _csv(currents: object) -> tuple[str, bytes]:
     table = np.asarray(currents, dtype=np.float64)
     if table.ndim != 2 or table.shape[1] != 4:
         raise ValueError(f"currents: found an array of shape {table.shape}, expected (N, 4): i, j, jx_ma, jy_ma")
-    return "currents", _dtg_passport.currents_csv(table.tolist())
+    return _csv(dict(zip(("i", "j", "jx_ma", "jy_ma"), table.T)))
 
 
 def _cell(value: Any) -> str:

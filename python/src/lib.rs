@@ -281,12 +281,6 @@ impl Content {
     }
 }
 
-/// Returns rows of i, j, jx_ma, jy_ma as CSV.
-#[pyfunction]
-fn currents_csv(rows: Vec<[f64; 4]>) -> Vec<u8> {
-    interface::currents_csv(&rows)
-}
-
 /// Issues a passport; `accuracy` is a gyro type and a laboratory. Returns its id, path and SHA-256, whether it is new, and
 /// remarks.
 #[pyfunction]
@@ -333,5 +327,5 @@ mod _dtg_passport {
     #[expect(non_upper_case_globals)]
     const __version__: &str = env!("CARGO_PKG_VERSION");
     #[pymodule_export]
-    use super::{Answer, Content, Enquiry, currents_csv, issue, plan};
+    use super::{Answer, Content, Enquiry, issue, plan};
 }
