@@ -80,7 +80,7 @@ def uncertainty(result, path):
     if path[0] == "results":
         return at(result, (*path[:2], "standard_uncertainty", *path[2:]))
     if path[0] in ("verdict", "change") and last in ("deviation", "expanded_uncertainty"):
-        return at(result, (*head, "expanded_uncertainty")) / 2
+        return at(result, (*head, "expanded_uncertainty")) / at(result, (*head, "coverage_factor"))
     if path[0] == "budget" and last == "value":
         return at(result, (*head, "standard_uncertainty"))
     if path[0] == "budget" and last == "expanded_uncertainty":
@@ -154,7 +154,7 @@ class Report:
             lines = (result.get(part) or {}).get("parameters", [])
             # Expanded uncertainties of the values, and how many of how many pass.
             for line in lines:
-                self.known.setdefault(2 * line["standard_uncertainty"], []).append(())
+                self.known.setdefault(line["coverage_factor"] * line["standard_uncertainty"], []).append(())
             self.known.setdefault(sum(line["guarded"] == "pass" for line in lines), []).append(())
             self.known.setdefault(len(lines), []).append(())
         for value in files:
@@ -332,9 +332,9 @@ class Report:
                 self.wrong.append(f"{part}: {name} stands in the row of {line['parameter']}")
             u = line["standard_uncertainty"]
             self.cell(f"{part}, {name}, value", row[1], line["value"], u)
-            self.cell(f"{part}, {name}, U of the value", row[2], 2 * u, u)
+            self.cell(f"{part}, {name}, U of the value", row[2], line["coverage_factor"] * u, u)
             self.cell(f"{part}, {name}, reference", row[3], line["reference_value"], u)
-            u = line["expanded_uncertainty"] / 2
+            u = line["expanded_uncertainty"] / line["coverage_factor"]
             self.cell(f"{part}, {name}, deviation", row[4], line["deviation"], u)
             self.cell(f"{part}, {name}, U", row[5], line["expanded_uncertainty"], u)
             self.cell(f"{part}, {name}, tolerance", row[6], line["tolerance"])
