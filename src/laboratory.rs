@@ -5,6 +5,9 @@ use crate::text::{Path, Problems, record};
 /// Value of `format` in a laboratory file.
 pub(crate) const LABORATORY_FORMAT: &str = "dtg-laboratory/1";
 
+/// Lowest and highest temperature of a laboratory, °C.
+pub(crate) const TEMPERATURES_C: [f64; 2] = [-90.0, 100.0];
+
 record! {
     /// Current meter. All values except the range are standard uncertainties.
     pub struct Meter {
@@ -91,7 +94,8 @@ impl Laboratory {
             problems.within(&at.key("azimuth_arcsec"), azimuth_arcsec, 0.0, f64::MAX);
             problems.within(&at.key("level_arcsec"), level_arcsec, 0.0, f64::MAX);
         }
-        problems.within(&at.key("temperature_c"), self.temperature_c, -90.0, 100.0);
+        let [low, high] = TEMPERATURES_C;
+        problems.within(&at.key("temperature_c"), self.temperature_c, low, high);
     }
 
     /// Creates a laboratory with a meter of the paper's accuracy, ±0.015 % of the reading (paper, before the table),

@@ -8,7 +8,7 @@ use crate::trust::{
     AllowedSigners, BadIdentity, KeyError, LARGEST_TRUST_FILE_BYTES, PublicKey, Signature, SigningKey, check_identity,
 };
 use jiff::Timestamp;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::{Mutex, PoisonError};
@@ -111,18 +111,11 @@ pub fn signer(path: &Path, ask: AskPassphrase) -> Result<Box<dyn Signer + Sync>,
     let ssh_keygen = |public_key, in_agent| -> Box<dyn Signer + Sync> {
         Box::new(SshKeygen { key: path.to_owned(), public_key, in_agent, turn: Mutex::new(()) })
     };
-    if path.extension().is_none_or(|extension| extension != "pub") {
+    if !is_public(path) {
         return Ok(private_key(path, ask)?.map_or_else(|| ssh_keygen(None, false), |key| Box::new(key)));
     }
-    let public = PublicKey::from_openssh(text(path)?.trim_end());
-    let public = public.map_err(|error| KeyFileError::Key { path: path.to_owned(), error })?;
-    if is_in_agent(&public) {
-        return Ok(ssh_keygen(Some(public), true));
-    }
-    let private = path.with_extension("");
-    if !private.exists() {
-        return Err(KeyFileError::NoPrivateHalf { path: path.to_owned(), private });
-    }
+    let (public, private) = private_half(path)?;
+    let Some(private) = private else { return Ok(ssh_keygen(Some(public), true)) };
     match private_key(&private, ask)? {
         Some(key) if key.public_key() != public => {
             Err(KeyFileError::OtherPrivateHalf { path: path.to_owned(), private })
@@ -132,13 +125,27 @@ pub fn signer(path: &Path, ask: AskPassphrase) -> Result<Box<dyn Signer + Sync>,
     }
 }
 
+fn is_public(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "pub")
+}
+
+/// Returns the key in a `.pub` file, and the file with its private half, or `None` if ssh-agent has that.
+fn private_half(path: &Path) -> Result<(PublicKey, Option<PathBuf>), KeyFileError> {
+    let public = PublicKey::from_openssh(text(path)?.trim_end());
+    let public = public.map_err(|error| KeyFileError::Key { path: path.to_owned(), error })?;
+    if is_in_agent(&public) {
+        return Ok((public, None));
+    }
+    let private = path.with_extension("");
+    if !private.exists() {
+        return Err(KeyFileError::NoPrivateHalf { path: path.to_owned(), private });
+    }
+    Ok((public, Some(private)))
+}
+
 /// Returns the key in a private key file, or `None` if the file is only the handle of a key on a token.
 fn private_key(path: &Path, ask: AskPassphrase) -> Result<Option<SigningKey>, KeyFileError> {
-    let text = text(path)?;
-    // What is not a private key may be readable; it is refused as what it is.
-    if text.contains("PRIVATE KEY") {
-        refuse_exposed(path)?;
-    }
+    let text = private_text(path)?;
     let key = match SigningKey::from_openssh(&text, None) {
         Err(KeyError::Encrypted) => {
             let asked = ask(path);
@@ -154,48 +161,28 @@ fn private_key(path: &Path, ask: AskPassphrase) -> Result<Option<SigningKey>, Ke
     }
 }
 
-/// Returns the public half of a key from its file, private or public. A private key need not be decrypted for this.
-///
-/// # Errors
-/// Returns the errors of [`signer`] for the file itself.
-pub(crate) fn public_half(path: &Path) -> Result<PublicKey, KeyFileError> {
-    let text = text(path)?;
-    if text.contains("PRIVATE KEY") {
-        refuse_exposed(path)?;
-    }
-    PublicKey::of_key_file(&text).map_err(|error| KeyFileError::Key { path: path.to_owned(), error })
-}
-
 /// Returns the public half of the key with which [`signer`] would sign, as far as this can be checked without a
 /// passphrase and without signing.
 ///
 /// # Errors
 /// Returns the errors of [`signer`], except those of a passphrase and of what it decrypts.
 pub(crate) fn key_to_sign_with(path: &Path) -> Result<PublicKey, KeyFileError> {
-    let failed = |error| KeyFileError::Key { path: path.to_owned(), error };
-    let text = text(path)?;
-    if path.extension().is_none_or(|extension| extension != "pub") {
-        if text.contains("PRIVATE KEY") {
-            refuse_exposed(path)?;
-        }
-        return match SigningKey::from_openssh(&text, None) {
-            Ok(key) => Ok(key.public_key()),
-            Err(KeyError::Encrypted | KeyError::SecurityKey) => PublicKey::of_key_file(&text).map_err(failed),
-            Err(error) => Err(failed(error)),
+    if is_public(path) {
+        let (public, private) = private_half(path)?;
+        return match private {
+            Some(private) if key_to_sign_with(&private)? != public => {
+                Err(KeyFileError::OtherPrivateHalf { path: path.to_owned(), private })
+            }
+            _ => Ok(public),
         };
     }
-    let public = PublicKey::from_openssh(text.trim_end()).map_err(failed)?;
-    if is_in_agent(&public) {
-        return Ok(public);
-    }
-    let private = path.with_extension("");
-    if !private.exists() {
-        return Err(KeyFileError::NoPrivateHalf { path: path.to_owned(), private });
-    }
-    if key_to_sign_with(&private)? != public {
-        return Err(KeyFileError::OtherPrivateHalf { path: path.to_owned(), private });
-    }
-    Ok(public)
+    let text = private_text(path)?;
+    let public = match SigningKey::from_openssh(&text, None) {
+        Ok(key) => Ok(key.public_key()),
+        Err(KeyError::Encrypted | KeyError::SecurityKey) => PublicKey::of_key_file(&text),
+        Err(error) => Err(error),
+    };
+    public.map_err(|error| KeyFileError::Key { path: path.to_owned(), error })
 }
 
 /// Returns the reason why passports that `key` signs as `identity` at `time` would fail verification by `trust`, or
@@ -204,6 +191,15 @@ pub(crate) fn distrust(trust: &Trust, key: &PublicKey, identity: &str, time: Tim
     let authorised = trust.signers.authorise(key, identity, NAMESPACE, time);
     let revoked = || trust.revoked.iter().find_map(|list| list.revokes(key));
     authorised.err().map(|miss| miss.to_string()).or_else(revoked)
+}
+
+/// Returns the text of a file for a private key. Others may read the file only if it contains none.
+fn private_text(path: &Path) -> Result<Zeroizing<String>, KeyFileError> {
+    let text = text(path)?;
+    if text.contains("PRIVATE KEY") {
+        refuse_exposed(path)?;
+    }
+    Ok(text)
 }
 
 fn text(path: &Path) -> Result<Zeroizing<String>, KeyFileError> {
@@ -282,7 +278,7 @@ pub(crate) enum NotAppended {
 /// Returns [`NotAppended`] if the file cannot be read, or if the result is not a list of allowed signers.
 pub(crate) fn with_signer(path: &Path, line: &str) -> Result<Vec<u8>, NotAppended> {
     let mut text = match files::read(path, LARGEST_TRUST_FILE_BYTES) {
-        Err(FileError::Read { error, .. }) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
+        Err(error) if error.is_missing() => Vec::new(),
         read => read?,
     };
     if text.last().is_some_and(|last| *last != b'\n') {

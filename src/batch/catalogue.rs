@@ -7,7 +7,7 @@ use crate::files;
 use crate::passport::issue::PreparedStand;
 use crate::site::Site;
 use crate::stand::Stand;
-use crate::text::placeholder::refuse_placeholders;
+use crate::text::placeholder::filled_in;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of, shown};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -45,9 +45,7 @@ impl Listed for PreparedStand {
     const NAME: &str = "stand";
 
     fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        let stand = Stand::from_yaml(name, bytes)?;
-        refuse_placeholders(name, bytes)?;
-        Ok(Self::new(stand))
+        filled_in(name, bytes, Stand::from_yaml).map(Self::new)
     }
 
     fn id(&self) -> String {
@@ -65,9 +63,7 @@ impl Listed for Site {
     const NAME: &str = "site";
 
     fn parse(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        let site = Self::from_yaml(name, bytes)?;
-        refuse_placeholders(name, bytes)?;
-        Ok(site)
+        filled_in(name, bytes, Self::from_yaml)
     }
 
     fn id(&self) -> String {

@@ -11,10 +11,14 @@ use super::readings::{Exclusion, Readings};
 use super::result::Calibration;
 use super::scatter::Scatter;
 use super::stated::NotStated;
-use super::verdict::{Found, Verdict};
+use super::verdict::{Found, Verdict, against_earlier, against_type};
 use crate::coefficients::PositionIndex;
+use crate::gyro::GyroType;
 use crate::text::Location;
 use crate::text::Unreadable;
+use jiff::civil::Date;
+use jiff::tz::TimeZone;
+use jiff::{SignedDuration, Timestamp};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -46,6 +50,12 @@ pub struct CalibrationDocument {
     /// `false` if the readings do not fit this stand, so that the parameters are not valid; `hint` then has the causes.
     #[serde(default)]
     pub(crate) consistent: bool,
+    /// Effective degrees of freedom of the adopted uncertainties, in the order of [`Parameter::EIGHT`]; null where they are
+    /// unlimited.
+    ///
+    /// [`Parameter::EIGHT`]: super::Parameter::EIGHT
+    #[serde(skip_serializing_if = "unlimited", default)]
+    pub(crate) degrees_of_freedom: [Option<f64>; 8],
     /// Results, one for each method.
     pub(crate) results: Vec<ResultDocument>,
     /// Inputs whose uncertainty certificate, site and laboratory do not state; the result does not include it.
@@ -94,10 +104,13 @@ pub(crate) struct Subject {
     pub operator: Option<String>,
     /// Day of the readings, YYYY-MM-DD.
     #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub date: Option<jiff::civil::Date>,
+    pub date: Option<Date>,
     /// Temperature during the readings, °C.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub temperature_c: Option<f64>,
+    /// Time for which the passport was verified; it may be in the past.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub passport_verified_as_of: Option<Timestamp>,
     /// SHA-256 of the file of currents.
     pub currents_sha256: String,
 }
@@ -119,6 +132,10 @@ pub(crate) struct ExclusionDocument {
     pub(crate) why: String,
 }
 
+fn unlimited(degrees_of_freedom: &[Option<f64>; 8]) -> bool {
+    degrees_of_freedom.iter().all(Option::is_none)
+}
+
 /// Skips the decisions in an earlier result, because they are made again.
 fn left_aside<'de, T, D: Deserializer<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
     IgnoredAny::deserialize(deserializer).map(|_| None)
@@ -129,6 +146,13 @@ fn left_aside_whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D:
 }
 
 impl Subject {
+    /// Returns `true` if the day of the readings has not begun at `time`, in any time zone.
+    pub(crate) fn is_ahead_of(&self, time: Timestamp) -> bool {
+        const LARGEST_OFFSET: SignedDuration = SignedDuration::from_hours(14);
+        let latest = time.saturating_add(LARGEST_OFFSET).unwrap_or(Timestamp::MAX);
+        self.date.is_some_and(|date| date > TimeZone::UTC.to_datetime(latest).date())
+    }
+
     /// Returns the serial numbers of two gyros if the results are known to be those of different ones.
     pub(crate) fn another_gyro<'a>(&'a self, earlier: &'a [CalibrationDocument]) -> Option<[&'a str; 2]> {
         let mut known = earlier.iter().filter_map(CalibrationDocument::gyro_serial).chain(self.gyro_serial.as_deref());
@@ -159,6 +183,7 @@ impl CalibrationDocument {
             left_out: Vec::new(),
             adopted: calibration.answer().map_or_else(String::new, |answer| answer.method.key().to_owned()),
             consistent: calibration.hint.is_none(),
+            degrees_of_freedom: [None; 8],
             results: calibration.results.iter().map(|result| ResultDocument::new(result, calibration)).collect(),
             not_stated: not_stated.iter().map(|what| what.words().to_owned()).collect(),
             scatter: calibration.scatter,
@@ -194,7 +219,7 @@ impl CalibrationDocument {
     }
 
     /// Returns the day of the readings, if it was stated.
-    pub(crate) fn date(&self) -> Option<jiff::civil::Date> {
+    pub(crate) fn date(&self) -> Option<Date> {
         self.subject.as_ref()?.date
     }
 
@@ -225,6 +250,23 @@ impl CalibrationDocument {
     /// Returns the adopted result: least squares if present, otherwise the last method; `None` if there is no result.
     pub fn answer(&self) -> Option<Found> {
         let best = self.results.iter().find(|result| result.method == "least-squares").or(self.results.last())?;
-        Some(best.found(self.gravity_m_per_s2, self.gravity_u_m_per_s2))
+        let degrees_of_freedom = self.degrees_of_freedom.map(|known| known.unwrap_or(f64::INFINITY));
+        Some(Found { degrees_of_freedom, ..best.found(self.gravity_m_per_s2, self.gravity_u_m_per_s2) })
+    }
+
+    /// Returns the comparison of the adopted result with a gyro type; `None` if there is no result. Nothing passes if the
+    /// readings do not fit the stand.
+    pub(crate) fn judged(&self, gyro_type: &GyroType) -> Option<Verdict> {
+        Some(self.withheld(against_type(&self.answer()?, gyro_type)))
+    }
+
+    /// Returns the comparison of the adopted result with an earlier one, within the tolerance of a gyro type, as `judged`
+    /// does.
+    pub(crate) fn changed(&self, earlier: &Found, gyro_type: &GyroType) -> Option<Verdict> {
+        Some(self.withheld(against_earlier(&self.answer()?, earlier, gyro_type)))
+    }
+
+    fn withheld(&self, verdict: Verdict) -> Verdict {
+        if self.hint.is_none() { verdict } else { verdict.without_passes() }
     }
 }

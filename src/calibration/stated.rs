@@ -1,5 +1,6 @@
 //! Standard uncertainties of the inputs, as stated by certificate, site and laboratory.
 
+use super::document::Subject;
 use super::inputs::{InputUncertainty, MeterUncertainty, NoSetup, Setup};
 use crate::laboratory::{Base, Laboratory};
 use crate::site::{Site, SiteUncertainty, UNKNOWN_DEFLECTION_U_ARCSEC};
@@ -168,9 +169,10 @@ pub(crate) struct TemperatureOutside {
 }
 
 impl TemperatureOutside {
-    /// Returns `None` if the temperature is within the range, or if one of them is not stated.
-    pub(crate) fn of(certificate: &Certificate, here_c: Option<f64>) -> Option<Self> {
-        let here_c = here_c?;
+    /// Returns `None` if the temperature is within the range, or if one of them is not stated. What was read during the
+    /// calibration comes before what the laboratory states.
+    pub(crate) fn of(certificate: &Certificate, subject: &Subject, laboratory: Option<&Laboratory>) -> Option<Self> {
+        let here_c = subject.temperature_c.or(laboratory.and_then(|laboratory| laboratory.temperature_c))?;
         let [low_c, high_c] = certificate.temperature_range_c?;
         (!(low_c..=high_c).contains(&here_c)).then_some(Self { here_c, low_c, high_c })
     }
@@ -231,7 +233,14 @@ mod tests {
         let stand = Stand::from_yaml("stand.yaml", include_bytes!("../../passports/SPS-2/0017/stand.yaml")).unwrap();
         let of = |here_c: Option<f64>, range: Option<[f64; 2]>| {
             let certificate = Certificate { temperature_range_c: range, ..stand.certificate.clone() };
-            TemperatureOutside::of(&certificate, here_c)
+            let subject = Subject { temperature_c: here_c, ..Subject::default() };
+            let laboratory = Laboratory { temperature_c: here_c, ..Laboratory::paper() };
+            let other = Laboratory { temperature_c: Some(99.0), ..Laboratory::paper() };
+            let outside = TemperatureOutside::of(&certificate, &Subject::default(), Some(&laboratory));
+            if here_c.is_some() {
+                assert_eq!(TemperatureOutside::of(&certificate, &subject, Some(&other)), outside);
+            }
+            outside
         };
         for (here_c, range) in [(Some(18.0), Some([18.0, 22.0])), (Some(22.0), Some([18.0, 22.0])), (Some(30.0), None)]
         {

@@ -201,14 +201,12 @@ pub(crate) fn change_in_uncertainties(found: &Found, earlier: &Found) -> [f64; 8
 }
 
 impl Verdict {
-    /// Withholds every pass, because the readings do not fit the stand and the parameters are not valid.
-    pub(crate) fn withhold(&mut self) {
+    /// Returns the comparison with every pass undecided, for parameters that are not valid.
+    pub(super) fn without_passes(mut self) -> Self {
         for row in self.parameters.iter_mut().filter(|row| row.guarded == Decision::Pass) {
             row.guarded = Decision::Undecided;
         }
-        if self.overall == Decision::Pass {
-            self.overall = Decision::Undecided;
-        }
+        Self::of(self.gravity_m_per_s2, self.parameters)
     }
 
     fn of(gravity_m_per_s2: f64, parameters: Vec<ParameterVerdict>) -> Self {
@@ -222,6 +220,12 @@ impl Verdict {
         };
         Self { overall, gravity_m_per_s2, parameters }
     }
+}
+
+/// Returns the first scale factor whose nominal value is 0, so that a tolerance in percent of it says nothing.
+pub(crate) fn without_nominal(gyro_type: &GyroType) -> Option<Parameter> {
+    let nominal = gyro_type.nominal.to_model().to_vector();
+    Parameter::EIGHT.into_iter().find(|parameter| parameter.place() < 4 && nominal[parameter.place()] == 0.0)
 }
 
 /// Returns the coverage factor for an uncertainty that rests on `degrees_of_freedom`.
@@ -256,7 +260,9 @@ fn judge(
     };
     let deviation = (value - reference_value) * scale;
     let coverage_factor = coverage_factor(degrees_of_freedom);
-    let (simple, guarded, specific_risk) = decide(deviation, (u * scale, degrees_of_freedom), limit);
+    let expanded_uncertainty = coverage_factor * u * scale;
+    let (simple, guarded) = decide(deviation, expanded_uncertainty, limit);
+    let specific_risk = risk(deviation, (u * scale, degrees_of_freedom), limit);
     ParameterVerdict {
         parameter: parameter.key(),
         value,
@@ -265,7 +271,7 @@ fn judge(
         unit,
         deviation,
         tolerance: limit,
-        expanded_uncertainty: coverage_factor * u * scale,
+        expanded_uncertainty,
         coverage_factor,
         expanded_uncertainty_from_gravity: (from_gravity > 0.0).then_some(coverage_factor * from_gravity),
         simple,
@@ -274,14 +280,8 @@ fn judge(
     }
 }
 
-/// Decides by simple and by guarded acceptance; also returns the probability that the simple decision is wrong.
-fn decide(deviation: f64, (u, degrees_of_freedom): (f64, f64), limit: f64) -> (Decision, Decision, f64) {
-    let expanded_uncertainty = coverage_factor(degrees_of_freedom) * u;
-    let below = |x: f64| {
-        let beyond = 0.5 * student_beyond(x, degrees_of_freedom);
-        if x < 0.0 { beyond } else { 1.0 - beyond }
-    };
-    let within = deviation.abs() <= limit;
+/// Decides by simple and by guarded acceptance.
+fn decide(deviation: f64, expanded_uncertainty: f64, limit: f64) -> (Decision, Decision) {
     let guarded = if deviation.abs() + expanded_uncertainty <= limit {
         Decision::Pass
     } else if deviation.abs() - expanded_uncertainty > limit {
@@ -289,17 +289,22 @@ fn decide(deviation: f64, (u, degrees_of_freedom): (f64, f64), limit: f64) -> (D
     } else {
         Decision::Undecided
     };
-    // The two tails are computed separately, so that a small risk keeps its significant digits.
-    let outside = below((-limit - deviation) / u) + below((deviation - limit) / u);
-    let inside = if deviation > 0.0 {
-        below((limit - deviation) / u) - below((-limit - deviation) / u)
+    (if deviation.abs() <= limit { Decision::Pass } else { Decision::Fail }, guarded)
+}
+
+/// Returns the probability that the decision by simple acceptance is wrong.
+fn risk(deviation: f64, (u, degrees_of_freedom): (f64, f64), limit: f64) -> f64 {
+    if u == 0.0 {
+        return 0.0;
+    }
+    let below = |x: f64| {
+        let beyond = 0.5 * student_beyond(x, degrees_of_freedom);
+        if x < 0.0 { beyond } else { 1.0 - beyond }
+    };
+    // Each tail is computed by itself, so that a small risk keeps its significant digits.
+    if deviation.abs() <= limit {
+        below((-limit - deviation) / u) + below((deviation - limit) / u)
     } else {
-        below((limit + deviation) / u) - below((deviation - limit) / u)
-    };
-    let specific_risk = match (u > 0.0, within) {
-        (false, _) => 0.0,
-        (true, true) => outside,
-        (true, false) => inside,
-    };
-    (if within { Decision::Pass } else { Decision::Fail }, guarded, specific_risk)
+        below((limit - deviation.abs()) / u) - below((-limit - deviation.abs()) / u)
+    }
 }

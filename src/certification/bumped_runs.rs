@@ -8,7 +8,7 @@
 //! * the rotations about all axes of the platform, or of the base, with their pooled variance, because a few runs agree
 //!   about one of six axes by chance.
 
-use super::components::{Components, RunModel};
+use super::components::{Components, RunModel, RunTurn};
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
 use super::{AngleReadings, Header, turns_of};
 use crate::statistics::outlier::bonferroni_student;
@@ -38,15 +38,20 @@ impl BumpedRun {
         self.axis >= 3
     }
 
+    /// Returns the part that is rotated.
+    pub(crate) fn part(&self) -> &'static str {
+        if self.is_of_the_base() { "base" } else { "platform" }
+    }
+
     /// Returns the name of the axis, without platform or base.
     pub(crate) fn axis_name(&self) -> &'static str {
         [AXES, ["east", "north", "up"]].as_flattened()[self.axis]
     }
 }
 
-/// Variances of the rotations of the runs that are not outliers, per axis.
+/// Variances between the rotations of those runs that are no outliers, per axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct OtherRuns {
+pub(crate) struct RunVariance {
     /// Number of these runs.
     pub runs: usize,
     /// Variance of the platform, arcsec².
@@ -79,24 +84,31 @@ pub(crate) fn bumped(
     found
 }
 
-/// Returns the variances of the rotations of those runs of `components` that are no outliers among the `bumped`, or
-/// `None` if no run is one.
-pub(crate) fn without_outliers(components: &Components, bumped: &[BumpedRun]) -> Option<OtherRuns> {
+/// Returns the variances between the runs of `components`. An outlier among the `bumped` would inflate the variance by which
+/// its own effect on the mean is tested, and is omitted.
+pub(crate) fn variance(components: &Components, bumped: &[BumpedRun]) -> RunVariance {
     let out: Vec<u32> = bumped.iter().filter(|run| run.probability < OUTLIER).map(|run| run.run).collect();
+    if out.is_empty() {
+        return RunVariance {
+            runs: components.run_turns.len(),
+            platform_arcsec2: components.platform.between_runs_arcsec2,
+            base_arcsec2: components.base.map_or(0.0, |base| base.between_runs_arcsec2),
+        };
+    }
     let left: Vec<Turn> = turns(components).into_iter().filter(|(run, _)| !out.contains(run)).collect();
-    let variance = |axes: Range<usize>, count: usize| {
+    let between = |axes: Range<usize>, count: usize| {
         let sum = axes.map(|axis| squares(&left, axis)).sum::<f64>();
         sum / (count.max(1) * (left.len() - 1)) as f64
     };
-    (!out.is_empty()).then(|| OtherRuns {
+    RunVariance {
         runs: left.len(),
-        platform_arcsec2: variance(0..3, 3),
-        base_arcsec2: variance(3..6, components.base_axes),
-    })
+        platform_arcsec2: between(0..3, 3),
+        base_arcsec2: between(3..6, components.base_axes),
+    }
 }
 
 fn turns(components: &Components) -> Vec<Turn> {
-    let six = |turn: &super::components::RunTurn| {
+    let six = |turn: &RunTurn| {
         let ([x, y, z], [east, north, up]) = (turn.platform_arcsec, turn.base_arcsec);
         (turn.run, [x, y, z, east, north, up])
     };

@@ -323,21 +323,12 @@ impl Between {
         let of_certificate = evidence.map_or(f64::INFINITY, degrees_of_freedom);
         if runs > 1 {
             let again = again.ok_or(Untested::Variation)?;
-            let (components, runs) = (&again.components, runs as f64);
-            // An outlier among the runs would inflate the variance by which its own effect on the mean is tested.
-            if let Some(others) = bumped_runs::without_outliers(components, &again.bumped_runs) {
-                return Ok(Self {
-                    runs,
-                    platform_arcsec2: others.platform_arcsec2,
-                    base_arcsec2: others.base_arcsec2,
-                    degrees_of_freedom: degrees_of_freedom(others.runs as f64).min(of_certificate),
-                });
-            }
+            let of_check = bumped_runs::variance(&again.components, &again.bumped_runs);
             return Ok(Self {
-                runs,
-                platform_arcsec2: components.platform.between_runs_arcsec2,
-                base_arcsec2: components.base.map_or(0.0, |base| base.between_runs_arcsec2),
-                degrees_of_freedom: degrees_of_freedom(runs).min(of_certificate),
+                runs: runs as f64,
+                platform_arcsec2: of_check.platform_arcsec2,
+                base_arcsec2: of_check.base_arcsec2,
+                degrees_of_freedom: degrees_of_freedom(of_check.runs as f64).min(of_certificate),
             });
         }
         let evidence = evidence.ok_or(Untested::NumberOfRuns)?;

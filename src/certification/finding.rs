@@ -74,7 +74,7 @@ impl Display for Finding {
                      to its other runs; the common rotation includes {mean:+.2} arcsec of it; measure the run again, or \
                      exclude it with --exclude {run} and --why",
                     at.axis_name(),
-                    if at.is_of_the_base() { "base" } else { "platform" },
+                    at.part(),
                 );
             }
             Self::NotTested(why) => return write!(f, "rotation of the stand as a whole was not tested: {why}"),

@@ -2,7 +2,7 @@
 
 use crate::coefficients::PositionIndex;
 use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity, STAND_FORMAT, Stand};
-use crate::text::placeholder::refuse_placeholders;
+use crate::text::placeholder;
 use crate::text::{Path, Problems, Unreadable, record, yaml};
 
 record! {
@@ -90,17 +90,13 @@ impl Header {
         header.positions.sort_by_key(NominalPosition::index);
         Ok(header)
     }
-}
 
-impl Header {
     /// Reads a header to certify from it, as [`Header::from_yaml`] does, and refuses the placeholders of the template.
     ///
     /// # Errors
     /// Returns the errors of [`Header::from_yaml`], and every placeholder at its line, column and field.
     pub(crate) fn filled_in(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        let header = Self::from_yaml(name, bytes)?;
-        refuse_placeholders(name, bytes)?;
-        Ok(header)
+        placeholder::filled_in(name, bytes, Self::from_yaml)
     }
 }
 

@@ -84,15 +84,15 @@ impl Display for Remark {
             }
             Self::BumpedRun(at) => {
                 let (run, turn, mean) = (at.run, at.turn_arcsec, at.in_the_mean_arcsec.abs());
-                let of = if at.is_of_the_base() { "base" } else { "platform" };
                 write!(
                     f,
-                    "{}: all positions of run {run} are rotated by {turn:+.2} arcsec about {} of the {of} relative to the \
-                     other runs (Grubbs' test: probability {}); it was not excluded, and changes certified angles by up \
-                     to {mean:.2} arcsec; find the cause, then measure the run again, or exclude it with --exclude {run} \
-                     and --why",
+                    "{}: all positions of run {run} are rotated by {turn:+.2} arcsec about {} of the {} relative to the other \
+                     runs (Grubbs' test: probability {}); it was not excluded, and changes certified angles by up to \
+                     {mean:.2} arcsec; find the cause, then measure the run again, or exclude it with --exclude {run} and \
+                     --why",
                     grade(at.probability),
                     at.axis_name(),
+                    at.part(),
                     probability(at.probability)
                 )
             }

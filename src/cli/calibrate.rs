@@ -21,7 +21,7 @@ use crate::document::sha256_hex;
 use crate::files;
 use crate::gyro::GyroType;
 use crate::interface::calibrated::{Done, Prepared};
-use crate::laboratory::Laboratory;
+use crate::laboratory::{Laboratory, TEMPERATURES_C};
 use crate::passport::{Content, Question, Trust, Verification};
 use crate::report::calibration as report;
 use crate::report::page::{CalibrationPage, PassportPage, UsedPassport};
@@ -29,9 +29,8 @@ use crate::text::kind::Kind;
 use crate::text::{Printable, name_of, printable, shown};
 use crate::uncertainty::document::WholeDocument;
 use clap::{Args, ValueEnum};
+use jiff::Timestamp;
 use jiff::civil::Date;
-use jiff::tz::TimeZone;
-use jiff::{SignedDuration, Timestamp};
 use serde::Serialize;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -136,12 +135,14 @@ enum ModelName {
     General,
 }
 
-/// Parses a stop limit: the largest change in the last step of the iteration.
+/// Parses a temperature; the limits are those of a laboratory file.
 fn temperature(text: &str) -> Result<f64, String> {
-    let celsius = text.parse().ok().filter(|celsius| (-90.0..=100.0).contains(celsius));
-    celsius.ok_or_else(|| "degrees Celsius from -90 to 100, with a decimal point, such as 21.5".to_owned())
+    let [low, high] = TEMPERATURES_C;
+    let celsius = text.parse().ok().filter(|celsius| (low..=high).contains(celsius));
+    celsius.ok_or_else(|| format!("degrees Celsius from {low} to {high}, with a decimal point, such as 21.5"))
 }
 
+/// Parses a stop limit: the largest change in the last step of the iteration.
 fn limit(text: &str) -> Result<f64, String> {
     let value = text.parse().ok().filter(|value| (0.0..f64::INFINITY).contains(value));
     value.ok_or_else(|| "a number ≥ 0, with a decimal point".to_owned())
@@ -207,19 +208,20 @@ struct Line<'a> {
 }
 
 impl Bench<'_> {
-    /// Refuses readings of a day that has not come, in any time zone.
+    /// Returns the time for which the passport was verified, or `None` if it was not.
+    fn verified_as_of(&self) -> Option<Timestamp> {
+        self.passport.verification.as_ref().map(|(_, _, question)| question.time)
+    }
+
+    /// Refuses readings of a day that has not come.
     fn check_date(&self) -> Result<(), Failure> {
-        const LARGEST_OFFSET: SignedDuration = SignedDuration::from_hours(14);
-        let verified_for = self.passport.verification.as_ref().map(|(_, _, question)| question.time);
-        let Some((date, time)) = self.options.date.zip(verified_for) else { return Ok(()) };
-        let today =
-            time.saturating_add(LARGEST_OFFSET).map_or(Date::MAX, |latest| TimeZone::UTC.to_datetime(latest).date());
-        if date <= today {
-            return Ok(());
+        match self.options.date.zip(self.verified_as_of()).filter(|(_, time)| self.options.subject().is_ahead_of(*time))
+        {
+            None => Ok(()),
+            Some((date, time)) => Err(Failure::unusable(format!(
+                "--date {date} is later than the time of the verification, {time}; check the date"
+            ))),
         }
-        Err(Failure::unusable(format!(
-            "--date {date} is later than the time of the verification, {time}; check the date"
-        )))
     }
 
     /// Calibrates the gyro whose currents are at `path`.
@@ -234,8 +236,9 @@ impl Bench<'_> {
             output::say(remark);
         }
         let asked = options.asked();
-        let verified = self.passport.verification.is_some();
-        let done = prepared.run(&asked, verified, options.subject(), &self.previous);
+        let passport_verified_as_of = self.verified_as_of();
+        let subject = Subject { passport_verified_as_of, ..options.subject() };
+        let done = prepared.run(&asked, passport_verified_as_of.is_some(), subject, &self.previous);
         let done = done.map_err(Failure::stopped)?;
         let tolerance = self.gyro_type.as_ref().map(|gyro_type| &gyro_type.tolerance);
         let asked = (&asked, tolerance);
@@ -278,8 +281,8 @@ impl Bench<'_> {
     /// Calibrates several gyros, with one line for each.
     fn several(&self) -> Result<Code, Failure> {
         let options = self.options;
-        if let Some(warning) = TemperatureOutside::of(&self.passport.content.certificate, self.laboratory.temperature_c)
-        {
+        let certificate = &self.passport.content.certificate;
+        if let Some(warning) = TemperatureOutside::of(certificate, &options.subject(), Some(&self.laboratory)) {
             output::complain(&format!("WARNING: {warning}"));
         }
         let mut written = HashMap::new();
@@ -373,7 +376,7 @@ impl Bench<'_> {
         let (done, document) = (&found.done, &found.done.document);
         let context = report::Context {
             passport_id: &self.passport.content.passport.id,
-            passport_verified: self.passport.verification.is_some(),
+            verified_as_of: document.subject.as_ref().and_then(|subject| subject.passport_verified_as_of),
             gravity_m_per_s2: (document.gravity_m_per_s2, document.gravity_u_m_per_s2),
             missing: &done.missing,
             meter_assumed: self.options.laboratory.is_none(),
@@ -427,7 +430,7 @@ impl Options {
             operator: self.operator.clone(),
             date: self.date,
             temperature_c: self.temperature_c,
-            currents_sha256: String::new(),
+            ..Subject::default()
         }
     }
 }

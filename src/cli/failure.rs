@@ -1,7 +1,8 @@
 //! Failure of a verb: a message and an exit code for people, and the same as JSON for programs.
 
 use super::{Code, REFUSED, UNUSABLE};
-use crate::files::FileError;
+use crate::files::{self, FileError};
+use crate::folder::Folder;
 use crate::interface::calibrated::Stopped;
 use crate::interface::{self, CheckLine, Failed, Place};
 use crate::passport::Verification;
@@ -11,6 +12,9 @@ use std::path::Path;
 
 /// Code of a failure in JSON, besides those of the library and of a passport's checks.
 const USAGE: &str = "usage";
+
+const IN_A_WORKSPACE: &str =
+    "identifiers of passports have a meaning only in a workspace; name it with --workspace, or give the file";
 
 /// A failure that ends a verb at once: a message and an exit code.
 #[derive(Debug)]
@@ -44,9 +48,13 @@ impl Failure {
 
     /// Converts an error of a file: an existing file is a refusal, any other error is not.
     pub(super) fn file(error: FileError) -> Self {
+        let path = error.path();
+        let is_id = Folder::new("").path_of_id(&path.to_string_lossy()).is_some();
+        let names_no_file = is_id && error.is_missing() && files::nearest(path).is_none();
         let failed = Failed::from(error);
         let code = if failed.code == interface::EXISTS { REFUSED } else { UNUSABLE };
-        Self { message: failed.message.clone(), code, failed }
+        let failure = Self { message: failed.message.clone(), code, failed };
+        if names_no_file { failure.with_advice(IN_A_WORKSPACE) } else { failure }
     }
 
     /// Adds what to do.

@@ -89,16 +89,16 @@ impl Asked {
 
 /// Reads the trust files. Lists of withdrawn passports are verified at `time`; the newest list applies.
 pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Result<Trust, Failure> {
-    let read = |path: &Path| files::read(path, LARGEST_TRUST_FILE_BYTES).map_err(Failure::file);
-    let keys = |path: &Path| match read(path) {
-        Err(failure) if !path.exists() && !failure.message.ends_with('?') => Err(failure.with_advice(
-            "a factory gives you the file with its key, and `keygen KEY --allowed-signers FILE` writes one with yours",
-        )),
-        read => read,
-    };
-    let revoked = revoked.iter().map(|path| Ok((name_of(path), read(path)?)));
+    let read = |path: &Path| files::read(path, LARGEST_TRUST_FILE_BYTES);
+    let keys = read(signers).map_err(|error| {
+        let misnamed = !error.is_missing() || files::nearest(signers).is_some();
+        let advice = "a factory sends its file of trusted keys; for your own key, `keygen KEY --allowed-signers FILE` writes one";
+        let failure = Failure::file(error);
+        if misnamed { failure } else { failure.with_advice(advice) }
+    });
+    let revoked = revoked.iter().map(|path| Ok((name_of(path), read(path).map_err(Failure::file)?)));
     let revoked = revoked.collect::<Result<Vec<_>, Failure>>()?;
-    let found = enquiry::trust((&name_of(signers), &keys(signers)?), &revoked, time);
+    let found = enquiry::trust((&name_of(signers), &keys?), &revoked, time);
     let (trust, remarks) = found.map_err(|why| match why {
         NoTrust::Unreadable(error) => Failure::unreadable(error),
         why => Failure::unusable(why),

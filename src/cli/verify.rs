@@ -50,7 +50,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
                 let advice = "list its passports with `register`, or give the files";
                 let words = match error {
                     FileError::Folder { .. } => format!("{error}; {advice}"),
-                    error => error.with_nearest(),
+                    error => Failure::file(error).message,
                 };
                 output::complain(&words);
                 code = code.max(UNUSABLE);

@@ -12,7 +12,7 @@ pub(crate) mod walk;
 
 pub(crate) use platform::{is_closed_pipe, sync_folder, wait_for_turn};
 
-use crate::text::{Identifier, LARGEST_DOCUMENT_BYTES, Printable, shown};
+use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, shown};
 use std::collections::BTreeSet;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Write};
@@ -81,18 +81,13 @@ impl FileError {
         if let Self::Folder { .. } = self {
             return format!("{self}; name a file in it");
         }
-        let is_missing = |error: &io::Error| error.kind() == io::ErrorKind::NotFound;
-        let near = match self {
-            Self::Read { path, error } if is_missing(error) => nearest(path),
-            _ => None,
-        };
-        let of_a_workspace = "identifiers of passports have a meaning only in a workspace; name it with --workspace, or \
-                              give the file";
-        match near {
-            Some(near) => format!("{self}; did you mean {}?", shown(&near)),
-            None if is_like_an_id(self.path()) => format!("{self}; {of_a_workspace}"),
-            None => self.to_string(),
-        }
+        let near = if self.is_missing() { nearest(self.path()) } else { None };
+        near.map_or_else(|| self.to_string(), |near| format!("{self}; did you mean {}?", shown(&near)))
+    }
+
+    /// Returns `true` if there is no file at the path.
+    pub(crate) fn is_missing(&self) -> bool {
+        matches!(self, Self::Read { error, .. } if error.kind() == io::ErrorKind::NotFound)
     }
 
     /// Returns the path of the file.
@@ -160,14 +155,6 @@ fn reason_at(path: &Path, error: &io::Error) -> String {
         }
         _ => reason(error),
     }
-}
-
-/// Returns `true` if a path has the form of the identifier of a passport.
-fn is_like_an_id(path: &Path) -> bool {
-    let parts: Vec<&str> = path.to_str().map_or_else(Vec::new, |path| path.split('/').collect());
-    let is_name = |name: &&str| Identifier::new(name).is_ok();
-    matches!(parts.as_slice(), [names @ .., revision] if names.len() == 3
-        && names.iter().all(is_name) && revision.parse::<u32>().is_ok())
 }
 
 /// Reads a file of at most `limit` bytes; memory for a larger file is never used.

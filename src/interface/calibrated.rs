@@ -1,11 +1,12 @@
 //! Calibration with a passport: from currents as CSV to the JSON of `calibrate`.
 
 use super::{Failed, json};
+use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::document::Subject;
 use crate::calibration::mistake::Mistake;
 use crate::calibration::prediction::{FurtherVisit, best_further_visit, cost_of_missing};
 use crate::calibration::stated::{NotStated, TemperatureOutside};
-use crate::calibration::verdict::{Found, Verdict, against_earlier, against_type};
+use crate::calibration::verdict::{Found, Verdict, without_nominal};
 use crate::calibration::{self, Calibration, CalibrationDocument, Method, Options, Parameter, Readings, Setup};
 use crate::document::sha256_hex;
 use crate::gyro::GyroType;
@@ -18,7 +19,6 @@ use crate::uncertainty::document::MonteCarloDocument;
 #[cfg(feature = "monte-carlo")]
 use crate::uncertainty::{self, Engine, MonteCarlo, ReadingShape, Trials};
 
-const INCONSISTENT: &str = "the readings are not consistent with this stand, so the parameters are not valid";
 const UNLIKE: &str = "the readings fit, but the parameters are far from the gyro's; this would explain it";
 
 /// Result of a calibration by one method.
@@ -178,6 +178,13 @@ impl<'a> Prepared<'a> {
         let stated = Setup::stated(&content.certificate, &content.positions, &content.site, laboratory);
         let (setup, missing) = stated.map_err(|error| Stopped::Refused(error.to_string()))?;
         let setup = setup.of_gyro(gyro_type.and_then(|gyro_type| gyro_type.noise.as_ref()));
+        if let Some(parameter) = gyro_type.and_then(without_nominal) {
+            return Err(Stopped::Refused(format!(
+                "the gyro type has no tolerance of {}: it is in percent of the nominal value, which is 0; state a nominal \
+                 value of k_deg_per_h_per_ma that is not 0, or calibrate without a gyro type",
+                parameter.symbol()
+            )));
+        }
         let readings = Readings::from_csv(name, currents, setup.coefficients(), laboratory.meter.range_ma);
         let readings = readings.map_err(Stopped::Unreadable)?;
         let currents_sha256 = sha256_hex(currents);
@@ -194,8 +201,7 @@ impl<'a> Prepared<'a> {
         previous: &[CalibrationDocument],
     ) -> Result<Done, Stopped> {
         let Self { content, laboratory, gyro_type, setup, mut missing, currents_sha256, readings } = self;
-        // What was read during the calibration comes before what the laboratory usually has.
-        let here_c = subject.temperature_c.or(laboratory.temperature_c);
+        let warning = TemperatureOutside::of(&content.certificate, &subject, Some(laboratory));
         let subject = Subject { currents_sha256, ..subject };
         if let Some([before, now]) = subject.another_gyro(previous) {
             let [before, now] = [before, now].map(printable::printable);
@@ -210,38 +216,27 @@ impl<'a> Prepared<'a> {
         let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
         let mut document = CalibrationDocument::new(&content.passport.id, verified, gravity, &calibration, &missing);
         document.record(subject, &readings);
-        let Some(mut found) = document.answer() else {
+        let budget =
+            calibration.answer().and_then(|answer| Budget::new(&setup, &readings, answer.method, options).ok());
+        document.degrees_of_freedom = budget.map_or([None; 8], |budget| budget.degrees_of_freedom());
+        let Some(found) = document.answer() else {
             let words = calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key()));
             return Err(Stopped::Refused(words.collect::<Vec<_>>().join("\n")));
         };
-        if gyro_type.is_some()
-            && let Some(answer) = calibration.answer()
-        {
-            let budget = Budget::new(&setup, &readings, answer.method, options);
-            for line in budget.into_iter().flat_map(|budget| budget.parameters) {
-                if let Some(place) = Parameter::EIGHT.iter().position(|parameter| *parameter == line.parameter) {
-                    found.degrees_of_freedom[place] = line.effective_degrees_of_freedom;
-                }
-            }
-        }
         let earlier = previous.last().and_then(CalibrationDocument::answer);
         // Without a type or an earlier result, the nominal values of the paper's gyro still reveal an error by a
         // factor of a thousand.
         let usual = earlier.as_ref().map_or_else(|| GyroType::gvk_6().nominal.to_model(), |found| found.parameters);
         let rate = content.earth.rate(&content.site);
         document.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type, &usual);
-        document.verdict = gyro_type.map(|gyro_type| against_type(&found, gyro_type));
+        document.verdict = gyro_type.and_then(|gyro_type| document.judged(gyro_type));
         let judged = earlier.as_ref().zip(gyro_type);
-        document.change = judged.map(|(earlier, gyro_type)| against_earlier(&found, earlier, gyro_type));
-        if !document.consistent {
-            document.verdict.iter_mut().chain(&mut document.change).for_each(Verdict::withhold);
-        }
+        document.change = judged.and_then(|(earlier, gyro_type)| document.changed(earlier, gyro_type));
         let cost_of_missing = cost_of_missing(&setup, &readings, &found.parameters);
         let further = document.verdict.as_ref().and_then(Verdict::least_certain).and_then(|parameter| {
             let result = (&calibration, &found.parameters);
             Some((parameter, best_further_visit(&setup, &readings, result, (parameter, options))?))
         });
-        let warning = TemperatureOutside::of(&content.certificate, here_c);
         Ok(Done { setup, readings, calibration, missing, document, earlier, cost_of_missing, further, warning })
     }
 }
@@ -300,6 +295,16 @@ mod tests {
         let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
         assert_eq!((&json["consistent"], &json["verdict"]["overall"]), (&true.into(), &"pass".into()));
         assert_eq!((&json["adopted"], found.remarks), (&"least-squares".into(), Vec::new()));
+    }
+
+    #[test]
+    fn a_tolerance_in_percent_of_nothing_is_refused() {
+        let content = content_from_anyone("p", PASSPORT).unwrap();
+        let currents: (&str, &[u8]) = ("c", include_bytes!("../../docs/currents.csv"));
+        let mut gyro = GyroType::gvk_6();
+        gyro.nominal.k_deg_per_h_per_ma[0][1] = 0.0;
+        let refused = calibrate(&content, true, currents, "least-squares", None, Some(&gyro)).unwrap_err();
+        assert!(refused.to_string().contains("no tolerance of K_xy"), "{refused}");
     }
 
     #[test]

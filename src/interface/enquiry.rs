@@ -83,7 +83,7 @@ impl Enquiry {
         question: &str,
         now: Timestamp,
     ) -> Result<Self, Failed> {
-        let asked: Asked = asked(question)?;
+        let asked: Asked = asked("question", question)?;
         let refuse = |key: &str, why: String| Failed::unusable(format!("{key}: expected {why}"));
         let time = match &asked.time {
             Some(text) => time(text).map_err(|form| refuse("time", format!("{form}; found {text:?}")))?,
@@ -91,7 +91,7 @@ impl Enquiry {
         };
         let place = asked.at.map(|at| match at[..] {
             [latitude_deg, longitude_deg] => place(latitude_deg, longitude_deg),
-            _ => Err(format!("{} numbers, expected latitude and longitude in degrees", at.len())),
+            _ => Err(format!("found {at:?}, expected [latitude, longitude] in degrees")),
         });
         let place = place.transpose().map_err(|why| Failed::unusable(format!("at: {why}")))?;
         let listed = asked.revoked.into_iter().enumerate().map(|(index, list)| match list {
@@ -264,7 +264,7 @@ mod tests {
             (r#"{"at": [91, 0]}"#, "latitude 91"),
             (r#"{"at": [0, 181]}"#, "longitude 181"),
             (r#"{"at": [1e999, 0]}"#, "JSON"),
-            (r#"{"at": [0]}"#, "at: 1 numbers, expected latitude"),
+            (r#"{"at": [0]}"#, "at: found [0.0], expected [latitude, longitude]"),
             (r#"{"revoked": ["rubbish"]}"#, "revoked[0]"),
             (r#"{"revoked": [[83, 83, 72, 75, 82, 76, 10, 0]]}"#, "revoked[0]"),
         ] {

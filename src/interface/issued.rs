@@ -10,7 +10,7 @@ use crate::passport::issue::{Issue, PreparedStand, time_of_issue};
 use crate::signing::{Signer, own_trust};
 use crate::site::Site;
 use crate::stand::Stand;
-use crate::text::placeholder::refuse_placeholders;
+use crate::text::placeholder::filled_in;
 use jiff::Timestamp;
 use serde::Deserialize;
 use std::path::Path;
@@ -50,11 +50,8 @@ pub fn issue(
     out: &Path,
     now: Timestamp,
 ) -> Result<(Issued, Vec<String>), Failed> {
-    for (name, bytes) in [stand, site] {
-        refuse_placeholders(name, bytes)?;
-    }
-    let stand = PreparedStand::new(Stand::from_yaml(stand.0, stand.1)?);
-    let site = Site::from_yaml(site.0, site.1)?;
+    let stand = PreparedStand::new(filled_in(stand.0, stand.1, Stand::from_yaml)?);
+    let site = filled_in(site.0, site.1, Site::from_yaml)?;
     let now = Timestamp::from_second(now.as_second()).unwrap_or(now);
     let order = Issue { accuracy: accuracy.map(stated).transpose()?, ..ordered(order, now)? };
     let trust = signers.map(|signers| trust(signers, &[], now)).transpose()?.map(|(trust, _)| trust);
@@ -76,7 +73,7 @@ pub fn issue(
 
 /// Parses an order; its accuracy is not in it.
 fn ordered(order: &str, now: Timestamp) -> Result<Issue, Failed> {
-    let asked: Asked = asked(order)?;
+    let asked: Asked = asked("order", order)?;
     let expected =
         |key: &str, form: String, found: &str| Failed::unusable(format!("{key}: expected {form}; found {found:?}"));
     let issued_at = asked.issued_at.map(|text| time(&text).map_err(|form| expected("issued_at", form, &text)));

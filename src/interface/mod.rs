@@ -196,12 +196,12 @@ pub fn content_json(content: &Content) -> String {
     json(content)
 }
 
-/// Reads a question or an order, a JSON object.
-fn asked<T: DeserializeOwned>(text: &str) -> Result<T, Failed> {
+/// Reads a question or an order, a JSON object; `what` names it in messages.
+fn asked<T: DeserializeOwned>(what: &str, text: &str) -> Result<T, Failed> {
     // An array could give the values without their keys.
     let object: serde_json::Result<serde_json::Map<_, _>> = serde_json::from_str(text);
     let asked = object.and_then(|object| serde_json::from_value(object.into()));
-    asked.map_err(|error| Failed::unusable(format!("the question is not usable JSON: {error}")))
+    asked.map_err(|error| Failed::unusable(format!("the {what} is not usable JSON: {error}")))
 }
 
 /// Returns a value as JSON with invisible characters escaped. The values of this module have only text keys and finite

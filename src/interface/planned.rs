@@ -49,7 +49,7 @@ pub fn plan(
     let gyro = gyro.map_or_else(|| Ok(GyroType::gvk_6()), |(name, bytes)| GyroType::from_yaml(name, bytes))?;
     let paper = || Ok(Laboratory::paper());
     let laboratory = laboratory.map_or_else(paper, |(name, bytes)| Laboratory::from_yaml(name, bytes))?;
-    let asked: Asked = asked(question)?;
+    let asked: Asked = asked("question", question)?;
     let expected = |words: String| Failed::unusable(words);
     if !(FEWEST_READINGS..=MOST_READINGS).contains(&asked.readings) {
         let found = asked.readings;

@@ -357,12 +357,11 @@ impl Register {
             let (series, revision) = series_of(id);
             if let Some(by) = self.successors.by(&sha256, series, revision) {
                 let advice = if by.withdrawn {
-                    "which was withdrawn later; neither is in force; ask the issuer for a new passport"
+                    ", which was withdrawn later; neither is in force; ask the issuer for a new passport"
                 } else {
-                    "use that passport"
+                    "; use that passport"
                 };
-                let separator = if by.withdrawn { ", " } else { "; " };
-                (Code::Superseded, format!("superseded by {} ({}){separator}{advice}", by.id, by.file))
+                (Code::Superseded, format!("superseded by {} ({}){advice}", by.id, by.file))
             } else if let Some(other) = self.other_original(id, &sha256) {
                 let advice = "neither is in force until all but one have been withdrawn";
                 (Code::Superseded, format!("another file has the same id ({other}); {advice}"))

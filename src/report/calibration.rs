@@ -1,5 +1,6 @@
 //! Result of a calibration as text: the decision, the parameters and the fit come first, the evidence below.
 
+use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::mistake::Mistake;
 use crate::calibration::noise::NoiseSource;
@@ -22,8 +23,8 @@ use std::fmt::Write;
 pub(crate) struct Context<'a> {
     /// Id of the passport.
     pub passport_id: &'a str,
-    /// `true` if the passport was verified.
-    pub passport_verified: bool,
+    /// Time for which the passport was verified, or `None` if it was not.
+    pub verified_as_of: Option<jiff::Timestamp>,
     /// Value of g that the drifts refer to, m/s², and its standard uncertainty if stated, m/s².
     pub gravity_m_per_s2: (f64, Option<f64>),
     /// Inputs whose uncertainty no file states.
@@ -56,8 +57,9 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
         let (style, mark, words) = headline(name, verdict);
         let _ = writeln!(out, "{}", style(&format!("{mark}  {words}")));
     }
-    let state = if context.passport_verified { "verified" } else { "NOT VERIFIED" };
-    let _ = writeln!(out, "Calibrated with passport {} ({state})", context.passport_id);
+    let state =
+        context.verified_as_of.map_or_else(|| "NOT VERIFIED".to_owned(), |time| format!("verified as of {time}"));
+    columns::paragraph(&mut out, "", &format!("Calibrated with passport {} ({state})", context.passport_id));
     let gravity = match context.gravity_m_per_s2 {
         (gravity, Some(u)) => format!("{gravity:.0$} m/s² (u {u:.0$})", columns::decimals(u)),
         (gravity, None) => format!("{gravity} m/s²"),
@@ -79,15 +81,14 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
     }
     fit(&mut out, calibration, context.missing);
     if context.meter_assumed {
-        let words = "No laboratory was given: u takes the meter as that of the paper, 0.0087 % of the reading.";
-        columns::paragraph(&mut out, "", words);
+        columns::paragraph(&mut out, "", texts::METER_ASSUMED.of(Language::English));
     }
     methods(&mut out, calibration);
     residuals(&mut out, calibration);
     if let Some((name, verdict)) = context.verdict {
         let _ = writeln!(
             out,
-            "\nComparison with gyro type {name}, in the unit of the tolerance; U: 95 %, k = {};",
+            "\nComparison with gyro type {name}, in the unit of the tolerance; U = k u, k = {};",
             factors(verdict)
         );
         let _ = writeln!(out, "g-sensitive drifts refer to the g of the type, {} m/s²:", verdict.gravity_m_per_s2);
@@ -112,14 +113,13 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
 
 /// Returns what makes the parameters unusable, a sentence each.
 pub(crate) fn warnings(calibration: &Calibration, mistake: Option<&Mistake>) -> Vec<String> {
-    let inconsistent = "WARNING: the readings are not consistent with this stand. The parameters are not valid until the \
-                        cause has been found.";
+    let inconsistent = calibration.hint.iter().map(|_| format!("WARNING: {INCONSISTENT}."));
     let mistake = mistake.map(|mistake| format!("WARNING: {}", mistake::words(mistake, Language::English)));
     let other = calibration.refused.iter().find(|(method, _)| *method == Method::LeastSquares);
     let other = other.zip(calibration.answer()).map(|((_, why), answer)| {
         format!("WARNING: least squares gave no result ({why}); this is that of the {} method.", answer.method.key())
     });
-    calibration.hint.iter().map(|_| inconsistent.to_owned()).chain(mistake).chain(other).collect()
+    inconsistent.chain(mistake).chain(other).collect()
 }
 
 /// Returns the result for one of several gyros in one line: the decision, or the fit if no type was given.

@@ -47,9 +47,8 @@ fn certification_json(found: &Certification) -> Value {
     let turns =
         turns.map(|t| json!({"run": t.run, "platform_arcsec": t.platform_arcsec, "base_arcsec": t.base_arcsec}));
     let bumped = found.bumped_runs.iter().map(|at| {
-        let of = if at.is_of_the_base() { "base" } else { "platform" };
         json!({
-            "run": at.run, "part": of, "axis": at.axis_name(), "turn_arcsec": at.turn_arcsec,
+            "run": at.run, "part": at.part(), "axis": at.axis_name(), "turn_arcsec": at.turn_arcsec,
             "in_the_mean_arcsec": at.in_the_mean_arcsec, "probability": at.probability,
         })
     });

@@ -79,7 +79,7 @@ fn series_json(series: &Series) -> Value {
 
 /// Returns the result of the test for drift in words, with the given names of the angles α, β, γ.
 pub(crate) fn sentence(drift: &Drift, angles: [&str; 3]) -> String {
-    match drift.jumps().first() {
+    match drift.worst_jump() {
         Some((series, jump)) if drift.most_significant().is_none() => jumped(drift, angles, series, jump),
         Some((series, jump)) => {
             format!("{}; of the other deviations: {}", jumped(drift, angles, series, jump), of_lines(drift, angles))
@@ -96,7 +96,7 @@ fn jumped(drift: &Drift, angles: [&str; 3], series: &Series, jump: &Jump) -> Str
         "the stand has jumped: {} of {} deviations are not on a straight line and have no rate of drift; most significant \
          is {} of position {}, {} arcsec (u {:.decimals$}) between certificates {from} and {to}, chi-square of the line \
          {:.1} with {} degrees of freedom, probability {}, corrected for {} tests",
-        drift.jumps().len(),
+        drift.jumps().count(),
         drift.tested(),
         angles[series.angle],
         series.index,
@@ -209,32 +209,12 @@ fn issued_words(passport: &PastPassport, id: &str) -> String {
     format!("{id}, certificate {certificate} ({}){reason}", line.state.words())
 }
 
-/// Returns the row of a deviation that has jumped: its change from the first to the last certificate, and no rate.
-fn jump_row(series: &Series, jump: &Jump) -> Vec<String> {
-    let change = |ends: Option<(f64, f64)>| ends.map_or(0.0, |(first, last)| last - first);
-    let ends = series.values.first().zip(series.values.last()).map(|(first, last)| (first.arcsec, last.arcsec));
-    let mut row = vec![
-        series.index.i.to_string(),
-        series.index.j.to_string(),
-        LETTERS[series.angle].to_owned(),
-        series.values.len().to_string(),
-        columns::signed(change(ends), columns::decimals(jump.u_arcsec)),
-    ];
-    row.extend(["-", "-", "-", "-", "JUMP"].map(str::to_owned));
-    row
-}
-
-fn drift(out: &mut String, drift: &Drift) {
-    let tested: Vec<&Series> = drift.series.iter().filter(|at| at.line.is_some() || at.jump.is_some()).collect();
-    if !tested.is_empty() {
-        let _ = writeln!(out, "\n{}", style::heading("Drift of the deviations (u: standard uncertainty, k = 1)"));
-        let rows = tested.iter().filter_map(|series| {
-            if let Some(jump) = &series.jump {
-                return Some(jump_row(series, jump));
-            }
-            let line = series.line.as_ref()?;
+/// Returns the row of a tested deviation, or `None` if it was not tested. One that has jumped has no rate.
+fn row(series: &Series) -> Option<Vec<String>> {
+    let (u, rest) = match (&series.jump, &series.line) {
+        (Some(jump), _) => (jump.u_arcsec, ["-", "-", "-", "-", "JUMP"].map(str::to_owned)),
+        (None, Some(line)) => {
             let decimals = columns::decimals(line.u_slope);
-            let change = series.values.last()?.arcsec - series.values.first()?.arcsec;
             let p = series.corrected_probability?;
             let mark = if p < DRIFTS {
                 "DRIFTS"
@@ -243,21 +223,35 @@ fn drift(out: &mut String, drift: &Drift) {
             } else {
                 ""
             };
-            Some(vec![
-                series.index.i.to_string(),
-                series.index.j.to_string(),
-                LETTERS[series.angle].to_owned(),
-                series.values.len().to_string(),
-                columns::signed(change, decimals),
+            let rest = [
                 columns::signed(line.slope, decimals),
                 format!("{:.decimals$}", line.u_slope),
                 columns::probability(line.probability()),
                 columns::probability(p),
                 mark.to_owned(),
-            ])
-        });
+            ];
+            (line.u_slope, rest)
+        }
+        (None, None) => return None,
+    };
+    let change = series.values.last()?.arcsec - series.values.first()?.arcsec;
+    let mut row = vec![
+        series.index.i.to_string(),
+        series.index.j.to_string(),
+        LETTERS[series.angle].to_owned(),
+        series.values.len().to_string(),
+        columns::signed(change, columns::decimals(u)),
+    ];
+    row.extend(rest);
+    Some(row)
+}
+
+fn drift(out: &mut String, drift: &Drift) {
+    let rows: Vec<_> = drift.series.iter().filter_map(row).collect();
+    if !rows.is_empty() {
+        let _ = writeln!(out, "\n{}", style::heading("Drift of the deviations (u: standard uncertainty, k = 1)"));
         let names = ["i", "j", "angle", "values", "change, arcsec", "arcsec/year", "u", "probability", "corrected", ""];
-        columns::table(out, &names, &rows.collect::<Vec<_>>());
+        columns::table(out, &names, &rows);
     }
     let sentence = sentence(drift, LETTERS);
     let mut letters = sentence.chars();

@@ -1,13 +1,14 @@
 //! Text of documents: strict YAML input, canonical output, and errors with their location in the file.
 //!
 //! * `rule`: allowed content of signed texts, form of strings, and the check of both.
-//! * `number`: form of numbers.
+//! * `number`: form of numbers; `number_advice`: what to do about text in place of one.
 //! * `canonical`: canonical form of content, and its reader.
 //! * `sink`: destinations of a document.
 //! * `node`: documents as trees.
 //! * `record`: conversion of trees to Rust structs and back; every error is reported, not only the first.
 //! * `scalar`: identifiers, dates and times.
 //! * `table`: tables of numbers (CSV).
+//! * `placeholder`: words of the templates that the user must replace.
 //! * `yaml`: conversion of hand-written YAML to a tree; the location of a value is found again if an error needs it.
 //! * `printable`: safe display of text from other sources.
 //! * `kind`: what a file is that was given instead of another.
@@ -18,6 +19,7 @@ pub(crate) mod excerpt;
 pub(crate) mod kind;
 pub(crate) mod node;
 pub(crate) mod number;
+mod number_advice;
 #[cfg(feature = "factory")]
 pub(crate) mod placeholder;
 pub(crate) mod printable;

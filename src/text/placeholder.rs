@@ -17,19 +17,24 @@ pub(crate) fn refuse_at(at: &Path, text: &str, problems: &mut Problems) {
     problems.at(at, format!("{text:?}"), "your value", "replace the word from the template");
 }
 
-/// Refuses a hand-written document that contains placeholders; `name` is its name in messages.
+/// Reads a hand-written document with `read`, and refuses its placeholders; `name` is its name in messages.
 ///
 /// # Errors
-/// Returns [`Unreadable`] with every placeholder at its line, column and field.
-pub(crate) fn refuse_placeholders(name: &str, bytes: &[u8]) -> Result<(), Unreadable> {
+/// Returns the error of `read`, or [`Unreadable`] with every placeholder at its line, column and field.
+pub(crate) fn filled_in<T>(
+    name: &str,
+    bytes: &[u8],
+    read: impl FnOnce(&str, &[u8]) -> Result<T, Unreadable>,
+) -> Result<T, Unreadable> {
+    let document = read(name, bytes)?;
     // Most documents contain none, and are not read a second time.
     if memchr::memmem::find(bytes, PLACEHOLDER.as_bytes()).is_none() {
-        return Ok(());
+        return Ok(document);
     }
     let (node, text) = yaml::tree(name, bytes)?;
     let mut problems = Problems::new();
     find(&node, &Path::Root, &mut problems);
-    if problems.is_empty() { Ok(()) } else { Err(problems.refuse(name, &text).in_text(bytes)) }
+    if problems.is_empty() { Ok(document) } else { Err(problems.refuse(name, &text).in_text(bytes)) }
 }
 
 fn find(node: &Node, at: &Path, problems: &mut Problems) {
@@ -49,10 +54,10 @@ mod tests {
     #[test]
     fn every_placeholder_is_found_at_its_place() {
         let text = "a: \"CHANGE\"  # CHANGE\nb: {c: [\"good\", \"CHANGE: where from\"]}\nd: \"CHANGED\"\n";
-        let refused = refuse_placeholders("f.yaml", text.as_bytes()).unwrap_err().to_string();
+        let refused = filled_in("f.yaml", text.as_bytes(), |_, _| Ok(())).unwrap_err().to_string();
         assert!(refused.contains("f.yaml:1:4: a: found \"CHANGE\", expected your value"), "{refused}");
         assert!(refused.contains("b.c[1]: found \"CHANGE: where from\""), "{refused}");
         assert_eq!(refused.matches("f.yaml:").count(), 2, "{refused}");
-        assert!(refuse_placeholders("f.yaml", b"a: 1  # CHANGE\nd: \"CHANGED\"\n").is_ok());
+        assert!(filled_in("f.yaml", b"a: 1  # CHANGE\nd: \"CHANGED\"\n", |_, _| Ok(())).is_ok());
     }
 }

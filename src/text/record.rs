@@ -1,7 +1,8 @@
 //! Conversion of a [`Node`] to a Rust struct and back; the declaration in `record!` defines the format.
 
 use super::canonical::Scanner;
-use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
+use super::number_advice;
+use super::scalar::latin;
 use super::sink::{Sink, Tree};
 use super::{Node, Path, Problems};
 use std::collections::HashSet;
@@ -222,7 +223,12 @@ impl Field for f64 {
             Node::Number(value) if value.is_finite() => Some(*value + 0.0),
             Node::Integer(value) => Some(*value as f64),
             other => {
-                problems.at(at, other.describe(), expected_number(at.last_key()), number_advice(other, at.last_key()));
+                problems.at(
+                    at,
+                    other.describe(),
+                    expected_number(at.last_key()),
+                    number_advice::in_yaml(other, at.last_key()),
+                );
                 None
             }
         }
@@ -239,64 +245,6 @@ impl Field for f64 {
     fn scan(scanner: &mut Scanner) -> Option<Self> {
         scanner.number().filter(|value| value.is_finite())
     }
-}
-
-const NOT_FINITE: &str = "use a finite number, because NaN and infinity are not measured values";
-
-fn number_advice(node: &Node, key: &str) -> &'static str {
-    match node {
-        Node::Text(text) if has_two_points(text) && key.ends_with("_deg") => {
-            "it has two points; write degrees, minutes and seconds as decimal degrees, with one point"
-        }
-        Node::Text(text) if has_two_points(text) => "it has two points; use one decimal point",
-        Node::Text(text) if unquoted(text).parse::<f64>().is_ok_and(f64::is_finite) && unquoted(text) != text => {
-            if typographic_quote(text).is_some() {
-                STRAIGHT_QUOTES
-            } else {
-                "write the number without quotes"
-            }
-        }
-        Node::Text(text) if text.contains(',') && text.chars().all(|c| c.is_ascii_digit() || "+-,. ".contains(c)) => {
-            "use a decimal point"
-        }
-        Node::Text(text) if text.parse::<f64>().is_ok_and(f64::is_finite) => "write the number without quotes",
-        Node::Text(text) if key.ends_with("_deg") && is_in_minutes(text) => {
-            "write decimal degrees, such as 55.7658; south and west are negative"
-        }
-        Node::Text(text) if has_unit(text) => "write the number without a unit; the key states it",
-        Node::Text(text) if !text.is_ascii() => "use ASCII digits, a decimal point and an ASCII minus",
-        Node::Text(text) if text.parse::<f64>().is_ok() => NOT_FINITE,
-        Node::Number(_) => NOT_FINITE,
-        _ => "",
-    }
-}
-
-/// Returns `true` for an angle with a sign of degrees, in several numbers, or with the letter of a hemisphere.
-fn is_in_minutes(text: &str) -> bool {
-    let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.').filter(|part| !part.is_empty()).count();
-    numbers > 1 && !text.contains(',') || numbers > 0 && text.contains(|c| "°′″NSEW".contains(c))
-}
-
-/// Returns `true` for a number that is followed by a unit.
-fn has_unit(text: &str) -> bool {
-    if text.parse::<f64>().is_ok() {
-        return false;
-    }
-    let number = text.trim_start_matches(['+', '-']);
-    let rest = number.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
-    rest.len() < number.len() && rest.trim_start().starts_with(|c: char| c.is_alphabetic() || "°%″′µ".contains(c))
-}
-
-/// Returns a text without the quotes around it, straight or typographic.
-pub(crate) fn unquoted(text: &str) -> &str {
-    text.trim_matches(|c| "\"'“”„‟«»‘’".contains(c)).trim()
-}
-
-/// Returns `true` for digits with two points between them.
-pub(crate) fn has_two_points(text: &str) -> bool {
-    let digits = text.trim_start_matches(['+', '-']);
-    digits.matches('.').count() == 2
-        && digits.split('.').all(|part| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
 impl Field for u32 {
@@ -477,16 +425,6 @@ mod tests {
         assert!(read::<f64>(Node::Number(-0.0)).0.unwrap().is_sign_positive());
     }
 
-    #[test]
-    fn digits_with_two_points_are_neither_number_nor_other_text() {
-        for text in ["12.5.6", "+1.2.3", "-55.45.0"] {
-            assert!(has_two_points(text), "{text}");
-        }
-        for text in ["12.5", "1.2.3.4", "1..2", ".1.2", "1.2.", "a.b.c", "1.2.x", ""] {
-            assert!(!has_two_points(text), "{text}");
-        }
-    }
-
     record! {
         /// Record with every kind of value.
         pub struct Place {
@@ -574,44 +512,5 @@ mod tests {
         let no_comma = advice(&[("height_m", Node::Integer(12)), ("4", Node::Integer(1))]);
         assert_eq!(no_comma[2], "delete it, or make it a comment");
         assert_eq!(advice(&[("open", Node::Bool(true)), ("open", Node::Bool(true))])[0], "duplicate key \"open\"");
-    }
-
-    /// Expected: the one remedy for what a person wrote.
-    #[test]
-    fn the_advice_on_a_number_fits_what_was_written() {
-        const WITHOUT_QUOTES: &str = "write the number without quotes";
-        const DECIMAL_DEGREES: &str = "write decimal degrees, such as 55.7658; south and west are negative";
-        const WITHOUT_UNIT: &str = "write the number without a unit; the key states it";
-        const ASCII: &str = "use ASCII digits, a decimal point and an ASCII minus";
-        for (written, key, due) in [
-            ("55.45.56", "alpha_arcsec", "it has two points; use one decimal point"),
-            ("\u{201C}1.5\u{201D}", "alpha_arcsec", STRAIGHT_QUOTES),
-            ("'1.5'", "alpha_arcsec", WITHOUT_QUOTES),
-            ("'inf'", "alpha_arcsec", ""),
-            ("1.5", "alpha_arcsec", WITHOUT_QUOTES),
-            ("150,0", "alpha_arcsec", "use a decimal point"),
-            ("-1 000,5", "latitude_deg", "use a decimal point"),
-            ("a,b", "alpha_arcsec", ""),
-            ("55°45′56″", "latitude_deg", DECIMAL_DEGREES),
-            ("55 45 56", "latitude_deg", DECIMAL_DEGREES),
-            ("55.7 N", "latitude_deg", DECIMAL_DEGREES),
-            ("55.7°", "latitude_deg", DECIMAL_DEGREES),
-            ("55.7°", "alpha_arcsec", WITHOUT_UNIT),
-            ("12 mA", "jx_ma", WITHOUT_UNIT),
-            ("-.5m", "height_m", WITHOUT_UNIT),
-            ("m 5", "height_m", ""),
-            ("5 (m)", "height_m", ""),
-            ("a,b 1 2", "latitude_deg", ""),
-            ("NORTH", "latitude_deg", ""),
-            ("about 55", "latitude_deg", ""),
-            ("°", "latitude_deg", ASCII),
-            ("\u{2212}5", "alpha_arcsec", ASCII),
-            ("nan", "alpha_arcsec", NOT_FINITE),
-        ] {
-            assert_eq!(number_advice(&text(written), key), due, "{written}");
-        }
-        assert!(number_advice(&text("55.45.56"), "latitude_deg").contains("degrees, minutes and seconds"));
-        assert_eq!(number_advice(&Node::Number(f64::INFINITY), "alpha_arcsec"), NOT_FINITE);
-        assert_eq!(number_advice(&Node::Bool(true), "alpha_arcsec"), "");
     }
 }

@@ -9,8 +9,8 @@
 use super::excerpt::Location;
 use super::kind::{Kind, mistaken};
 use super::node::hand_written_text;
+use super::number_advice::{self, unquoted};
 use super::problem::{MOST_COUNTED, MOST_PROBLEMS, Problem, Unreadable, counted};
-use super::record::{has_two_points, unquoted};
 use super::scalar::latin;
 
 /// Table: rows of cells, in the order of the requested columns.
@@ -135,7 +135,7 @@ impl<'a> Table<'a> {
                 None
             }
             Err(_) => {
-                let advice = advice_for_number(&cell.text);
+                let advice = number_advice::in_csv(&cell.text);
                 problems.push(self.problem(cell, column, described(&cell.text), "a number", advice));
                 None
             }
@@ -396,50 +396,12 @@ fn advice_for_index(text: &str) -> &'static str {
     }
 }
 
-fn advice_for_number(text: &str) -> &'static str {
-    if text.is_empty() {
-        "omit the whole row of a reading that was not taken"
-    } else if text.contains(';') {
-        "separate columns by commas"
-    } else if has_two_points(text) {
-        "it has two points; use one decimal point"
-    } else if unquoted(text) != text && unquoted(text).parse::<f64>().is_ok_and(f64::is_finite) {
-        "write the number without quotes"
-    } else if !text.is_ascii() {
-        "use ASCII digits, a decimal point and an ASCII minus"
-    } else if text.ends_with(|c: char| c.is_ascii_alphabetic())
-        && text.starts_with(|c: char| c.is_ascii_digit() || c == '-')
-    {
-        "write the number without a unit; the column name states it"
-    } else {
-        ""
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Expected: the one remedy for what a person or a program wrote into a cell.
     #[test]
-    fn the_advice_on_a_cell_fits_what_was_written() {
-        const ASCII: &str = "use ASCII digits, a decimal point and an ASCII minus";
-        const WITHOUT_UNIT: &str = "write the number without a unit; the column name states it";
-        for (written, due) in [
-            ("", "omit the whole row of a reading that was not taken"),
-            ("1;2", "separate columns by commas"),
-            ("1.2.3", "it has two points; use one decimal point"),
-            ("'1.5'", "write the number without quotes"),
-            ("'inf'", ""),
-            ("\u{2212}1.5", ASCII),
-            ("1.5mA", WITHOUT_UNIT),
-            ("-1.5 mA", WITHOUT_UNIT),
-            ("about 1.5", ""),
-            ("a lot", ""),
-            ("1.5 (?)", ""),
-        ] {
-            assert_eq!(advice_for_number(written), due, "{written}");
-        }
+    fn the_advice_on_an_index_fits_what_was_written() {
         for (written, due) in [
             ("'1'", "write the number without quotes"),
             ("1.0", "write it without a decimal point"),

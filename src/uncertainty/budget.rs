@@ -94,6 +94,15 @@ impl Budget {
         Ok(Self { method, inputs, spread, parameters })
     }
 
+    /// Returns the effective degrees of freedom of the eight parameters of the paper, in the order of
+    /// [`Parameter::EIGHT`]; `None` where they are unlimited, and for parameters that the model does not have.
+    pub(crate) fn degrees_of_freedom(&self) -> [Option<f64>; 8] {
+        Parameter::EIGHT.map(|parameter| {
+            let line = self.parameters.iter().find(|line| line.parameter == parameter)?;
+            Some(line.effective_degrees_of_freedom).filter(|known| known.is_finite())
+        })
+    }
+
     /// Returns the covariance of the parameters, in their order; 8×8, 9×9 or 12×12.
     pub fn covariance(&self) -> DMatrix<f64> {
         crate::calibration::propagation::covariance(&self.spread)

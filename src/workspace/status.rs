@@ -18,7 +18,6 @@ use jiff::civil::Date;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::io::ErrorKind;
 use std::path::Path;
 
 /// Number of days before the expiry date from which a passport or certificate is listed as expiring.
@@ -188,8 +187,8 @@ fn keys(trust: &Trust, time: Timestamp) -> Vec<KeyLine> {
 
 /// Returns the public half of the signing key. It is in both files of a key, and never encrypted.
 fn public_half(key: &Path) -> Result<PublicKey, String> {
-    signing::public_half(key).map_err(|error| match &error {
-        KeyFileError::File(FileError::Read { error: reason, .. }) if reason.kind() == ErrorKind::NotFound => format!(
+    signing::key_to_sign_with(key).map_err(|error| match &error {
+        KeyFileError::File(file) if file.is_missing() => format!(
             "{}: missing; create the key with `keygen`, or state the path of yours as `key` in {WORKSPACE_FILE}",
             shown(key)
         ),

@@ -1,4 +1,4 @@
-//! A run whose columns are exchanged, or with the sign of one reversed, is refused as one in another unit is.
+//! Runs with exchanged columns, or with the sign of a column reversed, are refused like runs in another unit.
 
 use crate::inside::simulated_stands::{Truth, csv, header, normal, read};
 use dtg_passport::certification::AngleReadings;

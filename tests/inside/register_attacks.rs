@@ -543,17 +543,21 @@ fn of_two_with_one_id_the_one_that_is_left_is_in_force_again() {
     assert!(!factory.alarms().contains("duplicate_id"));
 }
 
+fn only_the_first_is_withdrawn(factory: &Factory, folder: &str, [first, second]: [&Passport; 2]) {
+    let (register, _) = factory.register(folder, now());
+    assert!(register.alarms.is_empty(), "{folder}: {:?}", register.alarms);
+    let states: Vec<State> = register.passports.iter().map(|line| line.state).collect();
+    assert_eq!(states, [State::Revoked, State::InForce], "{folder}");
+    assert_eq!(code(&factory.verify_in(folder, first, now()), CheckName::Revocation), "passport_revoked");
+    assert!(factory.verify_in(folder, second, now()).valid());
+}
+
 #[test]
 fn lists_above_a_subfolder_count() {
     let factory = Factory::new();
     let ([first, second], list) = factory.one_withdrawn();
     for folder in ["passports", "passports/SPS-2", STAND] {
-        let (register, _) = factory.register(folder, now());
-        assert!(register.alarms.is_empty(), "{folder}: {:?}", register.alarms);
-        let states: Vec<State> = register.passports.iter().map(|line| line.state).collect();
-        assert_eq!(states, [State::Revoked, State::InForce], "{folder}");
-        assert_eq!(code(&factory.verify_in(folder, &first, now()), CheckName::Revocation), "passport_revoked");
-        assert!(factory.verify_in(folder, &second, now()).valid());
+        only_the_first_is_withdrawn(&factory, folder, [&first, &second]);
     }
     // A damaged one is no less missed from below; a forged one, or other text, is nothing to a register below.
     factory.write("passports/revocation-1.yaml", list.replace("latitude", "longitude"));
@@ -573,12 +577,7 @@ fn lists_in_a_folder_next_to_the_passports_count() {
     assert!(without.valid(), "{:?}", without.checks());
     factory.write(beside, &list);
     for folder in folders {
-        let (register, _) = factory.register(folder, now());
-        assert!(register.alarms.is_empty(), "{folder}: {:?}", register.alarms);
-        let states: Vec<State> = register.passports.iter().map(|line| line.state).collect();
-        assert_eq!(states, [State::Revoked, State::InForce], "{folder}");
-        assert_eq!(code(&factory.verify_in(folder, &first, now()), CheckName::Revocation), "passport_revoked");
-        assert!(factory.verify_in(folder, &second, now()).valid());
+        only_the_first_is_withdrawn(&factory, folder, [&first, &second]);
     }
     // A damaged one may have withdrawn any passport.
     for (how, bytes) in damaged(&list) {

@@ -131,7 +131,7 @@ fn scatter_is_judged_in_both_tails() {
     let setup = bench(2e-5);
     let context = report::Context {
         passport_id: "SPS-2/0017/here/1",
-        passport_verified: true,
+        verified_as_of: Some(jiff::Timestamp::UNIX_EPOCH),
         gravity_m_per_s2: (9.8, None),
         missing: &[],
         meter_assumed: false,
@@ -240,7 +240,7 @@ fn too_few_readings_to_judge() {
     );
     let context = report::Context {
         passport_id: "a/b/c/1",
-        passport_verified: true,
+        verified_as_of: Some(jiff::Timestamp::UNIX_EPOCH),
         gravity_m_per_s2: (9.8, None),
         missing: &[],
         meter_assumed: false,

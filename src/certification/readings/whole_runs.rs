@@ -128,7 +128,7 @@ fn axes_of_runs() -> Vec<Axes> {
 
 /// Returns a problem for each run whose angles are those of the others once columns are exchanged or signs reversed.
 ///
-/// Of two runs the readings do not show which one is wrong, nor whether both only scatter.
+/// With two runs, the readings show neither which one is wrong nor whether both merely scatter; they give no problem.
 fn other_axes(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
     let candidates = axes_of_runs();
     // For each run: the sums of the squared differences from the other runs, for each choice of axes, and the sum of the

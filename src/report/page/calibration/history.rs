@@ -3,7 +3,7 @@
 use super::CalibrationPage;
 use super::parameters::name_of;
 use crate::calibration::parameter::Parameter;
-use crate::calibration::verdict::{COVERAGE_FACTOR, Found, Verdict, against_type};
+use crate::calibration::verdict::{COVERAGE_FACTOR, Found, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::Languages;
 use crate::report::page::number::{Number, column};
@@ -30,7 +30,7 @@ pub(super) fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     let all: Vec<Past> = results
         .filter_map(|result| {
             let found = result.answer()?;
-            let verdict = page.gyro.map(|gyro| against_type(&found, gyro));
+            let verdict = page.gyro.and_then(|gyro| result.judged(gyro));
             Some(Past { date: result.date(), found, verdict })
         })
         .collect();

@@ -155,9 +155,8 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
 /// Writes a warning if the deviations are certified for other temperatures.
 fn temperature(page: &CalibrationPage, languages: &Languages) -> Markup {
     let certificate = &page.content().certificate;
-    let stated = page.document.subject.as_ref().and_then(|subject| subject.temperature_c);
-    let here_c = stated.or(page.laboratory.and_then(|laboratory| laboratory.temperature_c));
-    let outside = TemperatureOutside::of(certificate, here_c);
+    let subject = page.document.subject.as_ref();
+    let outside = subject.and_then(|subject| TemperatureOutside::of(certificate, subject, page.laboratory));
     let Some(TemperatureOutside { here_c, low_c, high_c }) = outside else { return html! {} };
     let values = [("here", here_c), ("low", low_c), ("high", high_c)]
         .map(|(name, c)| (name, Number::exact(c).markup(languages)));

@@ -169,25 +169,25 @@ texts! {
 
     CONFORMITY { en: "Comparison with gyro type {type}", ru: "Сравнение с типом {type}" }
     VERDICT_CAPTION {
-        en: "Deviation from the nominal value in the unit of the tolerance; expanded uncertainty U (k = 2, or Student's t); drifts refer \
-             to the g of the type",
-        ru: "Отклонение от номинального значения в единицах допуска; расширенная неопределённость U (k = 2 или по Стьюденту); \
-             составляющие дрейфа отнесены к g типа"
+        en: "Deviation from the nominal value in the unit of the tolerance; expanded uncertainty U (k = 2, or Student's \
+             t); drifts refer to the g of the type",
+        ru: "Отклонение от номинального значения в единицах допуска; расширенная неопределённость U (k = 2 или по \
+             Стьюденту); составляющие дрейфа отнесены к g типа"
     }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
     HISTORY { en: "All calibrations of this gyro", ru: "Все калибровки этого гироскопа" }
     HISTORY_CAPTION {
-        en: "Parameters from the earliest calibration to this one, with expanded uncertainty U\u{a0}=\u{a0}2u; drifts refer \
-             to one g",
-        ru: "Параметры от первой калибровки до этой, с расширенной неопределённостью U\u{a0}=\u{a0}2u; составляющие дрейфа \
-             отнесены к одному g"
+        en: "Parameters from the earliest calibration to this one, with expanded uncertainty U\u{a0}=\u{a0}2u (for the \
+             marks after Student's t); drifts refer to one g",
+        ru: "Параметры от первой калибровки до этой, с расширенной неопределённостью U\u{a0}=\u{a0}2u (для отметок — \
+             по Стьюденту); составляющие дрейфа отнесены к одному g"
     }
     CALIBRATED { en: "Calibration", ru: "Калибровка" }
     CHANGE_CAPTION {
-        en: "Change in the unit of the tolerance, which also limits the instability; expanded uncertainty U (k = 2, or Student's t); \
-             drifts refer to the g of the type",
-        ru: "Изменение в единицах допуска (он же — допуск на нестабильность); расширенная неопределённость U (k = 2 или по Стьюденту); \
-             составляющие дрейфа отнесены к g типа"
+        en: "Change in the unit of the tolerance, which also limits the instability; expanded uncertainty U (k = 2, or \
+             Student's t); drifts refer to the g of the type",
+        ru: "Изменение в единицах допуска (он же — допуск на нестабильность); расширенная неопределённость U (k = 2 или \
+             по Стьюденту); составляющие дрейфа отнесены к g типа"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     UNIT { en: "Unit", ru: "Единица" }
