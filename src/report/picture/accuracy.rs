@@ -1,7 +1,7 @@
 //! Expected calibration uncertainty: the standard uncertainty of every parameter against the tolerance of a gyro type.
 
 use super::drawing::{
-    Anchor, Panel, Scale, Ticks, label, legend, line, nothing, number, panels, plain_symbol, rectangle, symbol, words,
+    Anchor, Panel, Scale, Ticks, label, legend, line, nothing, panels, plain_symbol, rectangle, symbol, words,
 };
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Found, against_type};
@@ -13,7 +13,7 @@ use maud::{Markup, html};
 
 const PANEL_PIXELS: u32 = 330;
 const WIDTH: f64 = 460.0;
-const BARS: [f64; 2] = [44.0, 300.0];
+const BARS: [f64; 2] = [44.0, 450.0];
 const TOP: f64 = 12.0;
 const ROW: f64 = 17.0;
 const BAR_HALF: f64 = 5.0;
@@ -42,7 +42,7 @@ pub(crate) fn accuracy(languages: &Languages, accuracy: &Accuracy, gravity_m_per
         panel.hatch("beyond"),
         rectangle([scale.place(1.0), TOP], [BARS[1], bottom], "beyond", Some(&panel.filled_with("beyond"))),
         grid(languages, &scale, bottom),
-        html! { @for (place, row) in rows.iter().enumerate() { (bar(languages, row, &scale, TOP + ROW * (place as f64 + 0.5))) } },
+        html! { @for (place, row) in rows.iter().enumerate() { (bar(row, &scale, TOP + ROW * (place as f64 + 0.5))) } },
         line([BARS[0], TOP], [BARS[0], bottom], "zero"),
         line([scale.place(1.0), TOP - 5.0], [scale.place(1.0), bottom + 5.0], "limit"),
     ];
@@ -104,8 +104,7 @@ fn grid(languages: &Languages, scale: &Scale, bottom: f64) -> Markup {
     }
 }
 
-fn bar(languages: &Languages, row: &Row, scale: &Scale, y: f64) -> Markup {
-    let printed = Number::uncertainty(row.u).text(languages.first());
+fn bar(row: &Row, scale: &Scale, y: f64) -> Markup {
     let bars = row.share.map_or_else(nothing, |share| {
         let end = |share: f64, half: f64| [scale.clamped(share), y + half];
         html! {
@@ -116,8 +115,6 @@ fn bar(languages: &Languages, row: &Row, scale: &Scale, y: f64) -> Markup {
     html! {
         (label([36.0, y + 4.0], Anchor::End, "", &symbol(row.parameter.symbol())))
         (bars)
-        (number([350.0, y + 4.0], Anchor::End, row.u, &printed))
-        (words([355.0, y + 4.0], Anchor::Start, "small", &languages.plain(unit(row.parameter))))
     }
 }
 

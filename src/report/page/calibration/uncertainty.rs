@@ -182,8 +182,12 @@ fn kinds(budget: &Budget) -> Vec<&Contribution> {
 fn input(part: &Contribution, languages: &Languages) -> Markup {
     let u = part.cause.shown(part.standard_uncertainty[1]);
     languages.label_with(|language| {
-        let (name, u) = (cause(part.cause, language), of_input(part.cause, u, language));
-        texts::INPUT.filled(language, &[("input", &name), ("u", &u)])
+        let name = cause(part.cause, language);
+        // The number stands once.
+        if language != languages.first() {
+            return name;
+        }
+        texts::INPUT.filled(language, &[("input", &name), ("u", &of_input(part.cause, u, language))])
     })
 }
 

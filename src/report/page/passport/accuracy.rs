@@ -82,20 +82,20 @@ pub(crate) fn meter(laboratory: &StatedLaboratory, languages: &Languages) -> Mar
 
 fn uncertainties(accuracy: &Accuracy, languages: &Languages) -> Markup {
     let tolerance = &accuracy.gyro.tolerance;
-    let (main, cross) = (tolerance.k_main_percent, tolerance.k_cross_percent);
+    let percent = |limit| Cell::Words(quantity(languages, &Number::exact(limit), units::PERCENT));
+    let absolute = |limit| Cell::Number(Number::exact(limit));
     let limits = [
-        (main, units::PERCENT),
-        (main, units::PERCENT),
-        (cross, units::PERCENT),
-        (cross, units::PERCENT),
-        (tolerance.omega0_deg_per_h, units::DEG_PER_H),
-        (tolerance.omega0_deg_per_h, units::DEG_PER_H),
-        (tolerance.omega_g_deg_per_h_per_g, units::DEG_PER_H_PER_G),
-        (tolerance.omega_k_deg_per_h_per_g, units::DEG_PER_H_PER_G),
+        percent(tolerance.k_main_percent),
+        percent(tolerance.k_main_percent),
+        percent(tolerance.k_cross_percent),
+        percent(tolerance.k_cross_percent),
+        absolute(tolerance.omega0_deg_per_h),
+        absolute(tolerance.omega0_deg_per_h),
+        absolute(tolerance.omega_g_deg_per_h_per_g),
+        absolute(tolerance.omega_k_deg_per_h_per_g),
     ];
     let nominal = numbers_of(&accuracy.gyro.nominal).map(|value| Cell::Number(Number::exact(value)));
     let us = numbers_of(&accuracy.standard_uncertainty).map(|u| Cell::Number(Number::uncertainty(u)));
-    let limits = limits.map(|(limit, unit)| Cell::Words(quantity(languages, &Number::exact(limit), unit)));
     let rows = vec![
         (languages.label(texts::NOMINAL), nominal),
         (symbol("u", ""), us),

@@ -166,21 +166,21 @@ pub(crate) fn parameters(languages: &Languages, caption: Option<Markup>, rows: V
         std::iter::once(name.clone()).chain(cells).collect()
     });
     let rows: Vec<Vec<Markup>> = rows.collect();
-    let groups = [texts::SCALE_FACTORS_MAIN, texts::SCALE_FACTORS_CROSS, texts::DRIFT_CONSTANT, texts::DRIFT_G];
-    let columns = [
-        ("K", "x", units::DEG_PER_H_PER_MA),
-        ("K", "y", units::DEG_PER_H_PER_MA),
-        ("K", "xy", units::DEG_PER_H_PER_MA),
-        ("K", "yx", units::DEG_PER_H_PER_MA),
-        ("ω", "0x", units::DEG_PER_H),
-        ("ω", "0y", units::DEG_PER_H),
-        ("ω", "g", units::DEG_PER_H_PER_G),
-        ("ω", "k", units::DEG_PER_H_PER_G),
+    let groups = [
+        (texts::SCALE_FACTORS_MAIN, units::DEG_PER_H_PER_MA),
+        (texts::SCALE_FACTORS_CROSS, units::DEG_PER_H_PER_MA),
+        (texts::DRIFT_CONSTANT, units::DEG_PER_H),
+        (texts::DRIFT_G, units::DEG_PER_H_PER_G),
     ];
-    let columns = columns.map(|(letter, subscript, unit)| symbol_and_unit(languages, &symbol(letter, subscript), unit));
+    let groups = groups.map(|(name, unit)| {
+        let heading = |language| format!("{}, {}", name.words(language), unit.of(language));
+        (2, languages.label_with(heading))
+    });
+    let columns = [("K", "x"), ("K", "y"), ("K", "xy"), ("K", "yx"), ("ω", "0x"), ("ω", "0y"), ("ω", "g"), ("ω", "k")];
+    let columns = columns.map(|(letter, subscript)| symbol(letter, subscript));
     Table {
         caption,
-        groups: groups.map(|name| (2, languages.label(name))).into(),
+        groups: groups.into(),
         headings: std::iter::once(html! {}).chain(columns).collect(),
         rows,
         row_headings: 1,
