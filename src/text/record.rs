@@ -468,6 +468,8 @@ mod tests {
             assert_eq!(place.write(), Some(tree));
             assert_eq!(crate::text::canonical::write_bare(&place), written);
             assert_eq!(crate::text::canonical::read(&written), Ok(place));
+            let unnamed = written.replacen("a \\\"b\\\" \\\\ c", "", 1);
+            assert!(unnamed.starts_with("name: \"\"\n") && crate::text::canonical::read::<Place>(&unnamed).is_err());
         }
     }
 
@@ -493,6 +495,8 @@ mod tests {
         ] {
             assert_eq!(f64::expected(key), unit);
         }
+        assert_eq!([Place::expected(""), <Vec<f64>>::expected("")], ["a mapping", "a list"]);
+        assert_eq!(<[f64; 3]>::expected(""), "a list of 3 items");
     }
 
     #[test]

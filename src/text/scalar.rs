@@ -263,6 +263,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn what_belongs_under_a_key_is_said() {
+        assert!(Identifier::expected("").starts_with("1 to 64 ASCII letters, digits,"));
+        assert_eq!(Date::expected(""), "a date such as \"2026-11-02\"");
+        assert_eq!(Timestamp::expected(""), "a time such as \"2026-11-02T09:30:00Z\"");
+    }
+
+    #[test]
     fn identifiers_are_safe_file_names() {
         for good in ["a", "SPS-2", "0017", "moscow-bmstu", "A.b_c-9", "con-1", "COM", "COM10", "lpt-1", "a.con", "nul1"]
         {

@@ -400,6 +400,40 @@ fn advice_for_index(text: &str) -> &'static str {
 mod tests {
     use super::*;
 
+    /// Expected: of equal errors in cells, and of rows of a wrong length, one is shown; of all others each.
+    #[test]
+    fn equal_errors_in_cells_are_counted() {
+        let at = Some(Location { line: 2, column: 1 });
+        for (location, field, found, expected, advice, counts) in [
+            (at, "jx_ma", "\"1;5\"", "a current", "separate columns by commas", true),
+            (at, "jx_ma", "\"a lot\"", "a number", "", true),
+            (at, "jx_ma", "3 values", "text", "", false),
+            (at, "", "3 values", "4", "", true),
+            (at, "", "3 rows", "4", "add one", false),
+            (None, "jx_ma", "\"1;5\"", "a current", "separate columns by commas", false),
+            (None, "", "3 values", "4", "", false),
+        ] {
+            let [field, found, expected, advice] = [field, found, expected, advice].map(str::to_owned);
+            let due = counts.then(|| (expected.clone(), advice.clone()));
+            let problem = Problem { location, field, found, expected, advice };
+            assert_eq!(kind(&problem), due, "{problem:?}");
+        }
+    }
+
+    #[test]
+    fn a_spreadsheet_declares_its_separator_in_one_line() {
+        for (line, due) in [
+            ("sep=;", Some(';')),
+            ("\"SEP=,\"", Some(',')),
+            ("sep=;;", None),
+            ("sep=x", None),
+            ("sep=", None),
+            ("i,j", None),
+        ] {
+            assert_eq!(declared_separator(line), due, "{line}");
+        }
+    }
+
     #[test]
     fn the_advice_on_an_index_fits_what_was_written() {
         for (written, due) in [
@@ -426,6 +460,7 @@ mod tests {
             ("time_x", Some("time_s")),
             ("time", Some("time_s")),
             ("time_of_day", None),
+            ("jx_turns", None),
             ("k", None),
             ("remark", None),
         ] {
