@@ -7,6 +7,7 @@ pub(crate) use result::{
 };
 
 use super::mistake::Mistake;
+use super::parameter::Parameter;
 use super::readings::{Exclusion, Readings};
 use super::result::Calibration;
 use super::scatter::Scatter;
@@ -21,6 +22,7 @@ use jiff::tz::TimeZone;
 use jiff::{SignedDuration, Timestamp};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer, Serialize};
+use std::collections::BTreeMap;
 
 /// JSON result of a calibration, with the keys in the order of writing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -50,12 +52,10 @@ pub struct CalibrationDocument {
     /// `false` if the readings do not fit this stand, so that the parameters are not valid; `hint` then has the causes.
     #[serde(default)]
     pub(crate) consistent: bool,
-    /// Effective degrees of freedom of the adopted uncertainties, in the order of [`Parameter::EIGHT`]; null where they are
+    /// Effective degrees of freedom of the adopted uncertainties by the keys of the parameters; those without a key are
     /// unlimited.
-    ///
-    /// [`Parameter::EIGHT`]: super::Parameter::EIGHT
-    #[serde(skip_serializing_if = "unlimited", default)]
-    pub(crate) degrees_of_freedom: [Option<f64>; 8],
+    #[serde(skip_serializing_if = "BTreeMap::is_empty", default)]
+    pub(crate) degrees_of_freedom: BTreeMap<String, f64>,
     /// Results, one for each method.
     pub(crate) results: Vec<ResultDocument>,
     /// Inputs whose uncertainty certificate, site and laboratory do not state; the result does not include it.
@@ -132,10 +132,6 @@ pub(crate) struct ExclusionDocument {
     pub(crate) why: String,
 }
 
-fn unlimited(degrees_of_freedom: &[Option<f64>; 8]) -> bool {
-    degrees_of_freedom.iter().all(Option::is_none)
-}
-
 /// Skips the decisions in an earlier result, because they are made again.
 fn left_aside<'de, T, D: Deserializer<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
     IgnoredAny::deserialize(deserializer).map(|_| None)
@@ -183,7 +179,7 @@ impl CalibrationDocument {
             left_out: Vec::new(),
             adopted: calibration.answer().map_or_else(String::new, |answer| answer.method.key().to_owned()),
             consistent: calibration.hint.is_none(),
-            degrees_of_freedom: [None; 8],
+            degrees_of_freedom: BTreeMap::new(),
             results: calibration.results.iter().map(|result| ResultDocument::new(result, calibration)).collect(),
             not_stated: not_stated.iter().map(|what| what.words().to_owned()).collect(),
             scatter: calibration.scatter,
@@ -250,7 +246,8 @@ impl CalibrationDocument {
     /// Returns the adopted result: least squares if present, otherwise the last method; `None` if there is no result.
     pub fn answer(&self) -> Option<Found> {
         let best = self.results.iter().find(|result| result.method == "least-squares").or(self.results.last())?;
-        let degrees_of_freedom = self.degrees_of_freedom.map(|known| known.unwrap_or(f64::INFINITY));
+        let of = |parameter: Parameter| self.degrees_of_freedom.get(parameter.key()).copied();
+        let degrees_of_freedom = Parameter::EIGHT.map(|parameter| of(parameter).unwrap_or(f64::INFINITY));
         Some(Found { degrees_of_freedom, ..best.found(self.gravity_m_per_s2, self.gravity_u_m_per_s2) })
     }
 

@@ -18,6 +18,7 @@ use crate::uncertainty::Budget;
 use crate::uncertainty::document::MonteCarloDocument;
 #[cfg(feature = "monte-carlo")]
 use crate::uncertainty::{self, Engine, MonteCarlo, ReadingShape, Trials};
+use std::collections::BTreeMap;
 
 const UNLIKE: &str = "the readings fit, but the parameters are far from the gyro's; this would explain it";
 
@@ -218,7 +219,7 @@ impl<'a> Prepared<'a> {
         document.record(subject, &readings);
         let budget =
             calibration.answer().and_then(|answer| Budget::new(&setup, &readings, answer.method, options).ok());
-        document.degrees_of_freedom = budget.map_or([None; 8], |budget| budget.degrees_of_freedom());
+        document.degrees_of_freedom = budget.map_or_else(BTreeMap::new, |budget| budget.degrees_of_freedom());
         let Some(found) = document.answer() else {
             let words = calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key()));
             return Err(Stopped::Refused(words.collect::<Vec<_>>().join("\n")));

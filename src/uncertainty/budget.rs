@@ -13,6 +13,7 @@ use crate::calibration::{Method, Model, Options, Readings, Setup};
 use crate::statistics::beta::student_factor;
 use crate::statistics::propagation;
 use nalgebra::DMatrix;
+use std::collections::BTreeMap;
 
 /// Coverage probability of expanded uncertainties.
 pub(crate) const COVERAGE: f64 = 0.95;
@@ -94,13 +95,10 @@ impl Budget {
         Ok(Self { method, inputs, spread, parameters })
     }
 
-    /// Returns the effective degrees of freedom of the eight parameters of the paper, in the order of
-    /// [`Parameter::EIGHT`]; `None` where they are unlimited, and for parameters that the model does not have.
-    pub(crate) fn degrees_of_freedom(&self) -> [Option<f64>; 8] {
-        Parameter::EIGHT.map(|parameter| {
-            let line = self.parameters.iter().find(|line| line.parameter == parameter)?;
-            Some(line.effective_degrees_of_freedom).filter(|known| known.is_finite())
-        })
+    /// Returns the effective degrees of freedom of the parameters by their keys, without unlimited ones.
+    pub(crate) fn degrees_of_freedom(&self) -> BTreeMap<String, f64> {
+        let limited = self.parameters.iter().filter(|line| line.effective_degrees_of_freedom.is_finite());
+        limited.map(|line| (line.parameter.key().to_owned(), line.effective_degrees_of_freedom)).collect()
     }
 
     /// Returns the covariance of the parameters, in their order; 8×8, 9×9 or 12×12.
