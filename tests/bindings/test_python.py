@@ -19,7 +19,7 @@ import dtg_passport
 import numpy as np
 import pytest
 import yaml
-from conftest import PROJECT, SHIPPED, SIGNERS, TIME, Corpus, program
+from conftest import PROJECT, SHIPPED, SIGNERS, TIME, Corpus, program, result_of
 
 PASSPORT = PROJECT / "passports/SPS-2/0017/moscow-bmstu-1.yaml"
 CURRENTS = PROJECT / "docs/currents.csv"
@@ -373,7 +373,7 @@ def test_a_calibration_is_that_of_the_program(method: str) -> None:
     printed = program("calibrate", PASSPORT, CURRENTS, "--trust", SIGNERS, "--time", TIME, "--method", method, *options,
                       "--format", "json")  # fmt: skip
     found = load().calibrate(CURRENTS, gyro=options[1], laboratory=options[3], method=method)
-    assert found.document == json.loads(printed)
+    assert found.document == result_of(printed)
     [result] = found.document["results"]
     assert found.K.tobytes() == bits(result["k_deg_per_h_per_ma"])
     assert found.u.K.tobytes() == bits(result["standard_uncertainty"]["k_deg_per_h_per_ma"])

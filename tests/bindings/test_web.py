@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from conftest import PROJECT, SIGNERS, TIME, Corpus, program
+from conftest import PROJECT, SIGNERS, TIME, Corpus, program, result_of
 
 WEB = PROJECT / "target/web"
 PASSPORT = PROJECT / "passports/SPS-2/0017/moscow-bmstu-1.yaml"
@@ -108,7 +108,7 @@ def test_every_function_and_question() -> None:
     assert "time: expected" in found[9]["message"] and found[10]["code"] == "unreadable" and found[10]["problems"]
     assert found[11]["valid"] is False and found[11]["checks"][0]["code"] == "malformed"
     due = program("calibrate", PASSPORT, CURRENTS, "--trust", SIGNERS, "--time", TIME, "--method", "least-squares", "--format", "json")
-    assert found[12] == json.loads(due)
+    assert found[12] == result_of(due)
     assert found[13]["code"] == "unreadable" and found[14]["valid"] is False
     assert found[15].startswith("<!DOCTYPE html>") and "SPS-2/0017/moscow-bmstu/1" in found[15]
     assert found[16]["valid"] is False

@@ -89,6 +89,32 @@ fn few_degrees_of_freedom_need_a_larger_factor() {
     }
 }
 
+/// Expected: table G.2 of JCGM 100. The order of the keys is not that of the parameters.
+#[test]
+fn an_earlier_result_is_judged_by_its_own_degrees_of_freedom() {
+    let u = r#"{"k_deg_per_h_per_ma": [[0.01, 0.01], [0.01, 0.01]], "omega0_deg_per_h": [0.002, 0.002],
+        "omega_n_deg_per_h_per_g": [[0, 0], [0, 0]], "omega_g_deg_per_h_per_g": 0.002, "omega_k_deg_per_h_per_g": 0.002}"#;
+    let result = format!(
+        r#"{{"passport_id": "a/b/c/1", "passport_verified": true, "gravity_m_per_s2": 9.80665,
+        "degrees_of_freedom": {{"omega_0y": 10, "k_y": 3, "k_xy": 2}}, "results": [{{"method": "analytic",
+        "k_deg_per_h_per_ma": [[95, 9.5], [9.5, 95]], "omega0_deg_per_h": [20, 20],
+        "omega_n_deg_per_h_per_g": [[10, -10], [10, 10]], "omega_g_deg_per_h_per_g": 10, "omega_k_deg_per_h_per_g": 10,
+        "standard_uncertainty": {u}, "chi_square": {{"value": 1, "degrees_of_freedom": 8, "probability": 0.9}},
+        "residuals_deg_per_h": []}}]}}"#
+    );
+    let earlier = CalibrationDocument::from_json("earlier.json", result.as_bytes()).unwrap();
+    let verdict = against_type(&earlier.answer().unwrap(), &GyroType::gvk_6());
+    for row in verdict.parameters {
+        let k = match row.parameter {
+            "k_xy" => 4.53,
+            "k_y" => 3.31,
+            "omega_0y" => 2.28,
+            _ => 2.0,
+        };
+        assert!((row.coverage_factor - k).abs() <= 0.005, "{row:?}");
+    }
+}
+
 /// Expected: docs/model.md: 10 °/h/g moves by 0.5 % from equator to pole.
 #[test]
 fn drifts_are_brought_to_the_types_gravity() {
