@@ -28,7 +28,7 @@ const PRICE_OF_TWO_NUMBERS: f64 = 4.0;
 /// Maximum number of positions that are examined one by one and in pairs; a stand may have many more.
 const MOST_SUSPECTS: usize = 24;
 
-/// What readings that do not fit mean, without a full stop.
+/// Consequence of readings that do not fit the stand, as a sentence without a full stop.
 pub(crate) const INCONSISTENT: &str =
     "the readings are not consistent with this stand; the parameters are not valid until the cause has been found";
 

@@ -142,11 +142,13 @@ fn left_aside_whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D:
 }
 
 impl Subject {
-    /// Returns `true` if the day of the readings has not begun at `time`, in any time zone.
-    pub(crate) fn is_ahead_of(&self, time: Timestamp) -> bool {
+    /// Returns the day of the readings and the time of the verification if the day has not begun by then in any time zone,
+    /// or `None` if it has, or if one of them is not stated.
+    pub(crate) fn day_after_verification(&self) -> Option<(Date, Timestamp)> {
         const LARGEST_OFFSET: SignedDuration = SignedDuration::from_hours(14);
+        let (date, time) = self.date.zip(self.passport_verified_as_of)?;
         let latest = time.saturating_add(LARGEST_OFFSET).unwrap_or(Timestamp::MAX);
-        self.date.is_some_and(|date| date > TimeZone::UTC.to_datetime(latest).date())
+        (date > TimeZone::UTC.to_datetime(latest).date()).then_some((date, time))
     }
 
     /// Returns the serial numbers of two gyros if the results are known to be those of different ones.
@@ -264,6 +266,7 @@ impl CalibrationDocument {
     }
 
     fn withheld(&self, verdict: Verdict) -> Verdict {
+        // Results of earlier versions have no `consistent`, but a hint.
         if self.hint.is_none() { verdict } else { verdict.without_passes() }
     }
 }

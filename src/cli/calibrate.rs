@@ -213,10 +213,21 @@ impl Bench<'_> {
         self.passport.verification.as_ref().map(|(_, _, question)| question.time)
     }
 
+    /// Returns what is calibrated and under which conditions, without the digest of the currents.
+    fn subject(&self) -> Subject {
+        Subject {
+            gyro_serial: self.options.gyro_serial.clone(),
+            operator: self.options.operator.clone(),
+            date: self.options.date,
+            temperature_c: self.options.temperature_c,
+            passport_verified_as_of: self.verified_as_of(),
+            ..Subject::default()
+        }
+    }
+
     /// Refuses readings of a day that has not come.
     fn check_date(&self) -> Result<(), Failure> {
-        match self.options.date.zip(self.verified_as_of()).filter(|(_, time)| self.options.subject().is_ahead_of(*time))
-        {
+        match self.subject().day_after_verification() {
             None => Ok(()),
             Some((date, time)) => Err(Failure::unusable(format!(
                 "--date {date} is later than the time of the verification, {time}; check the date"
@@ -236,9 +247,8 @@ impl Bench<'_> {
             output::say(remark);
         }
         let asked = options.asked();
-        let passport_verified_as_of = self.verified_as_of();
-        let subject = Subject { passport_verified_as_of, ..options.subject() };
-        let done = prepared.run(&asked, passport_verified_as_of.is_some(), subject, &self.previous);
+        let verified = self.verified_as_of().is_some();
+        let done = prepared.run(&asked, verified, self.subject(), &self.previous);
         let done = done.map_err(Failure::stopped)?;
         let tolerance = self.gyro_type.as_ref().map(|gyro_type| &gyro_type.tolerance);
         let asked = (&asked, tolerance);
@@ -282,7 +292,7 @@ impl Bench<'_> {
     fn several(&self) -> Result<Code, Failure> {
         let options = self.options;
         let certificate = &self.passport.content.certificate;
-        if let Some(warning) = TemperatureOutside::of(certificate, &options.subject(), Some(&self.laboratory)) {
+        if let Some(warning) = TemperatureOutside::of(certificate, &self.subject(), Some(&self.laboratory)) {
             output::complain(&format!("WARNING: {warning}"));
         }
         let mut written = HashMap::new();
@@ -376,7 +386,7 @@ impl Bench<'_> {
         let (done, document) = (&found.done, &found.done.document);
         let context = report::Context {
             passport_id: &self.passport.content.passport.id,
-            verified_as_of: document.subject.as_ref().and_then(|subject| subject.passport_verified_as_of),
+            verified_as_of: self.verified_as_of(),
             gravity_m_per_s2: (document.gravity_m_per_s2, document.gravity_u_m_per_s2),
             missing: &done.missing,
             meter_assumed: self.options.laboratory.is_none(),
@@ -420,17 +430,6 @@ impl Options {
                 ModelName::General => Model::General,
             },
             drift: self.drift,
-        }
-    }
-
-    /// Returns what was calibrated, and under which conditions.
-    fn subject(&self) -> Subject {
-        Subject {
-            gyro_serial: self.gyro_serial.clone(),
-            operator: self.operator.clone(),
-            date: self.date,
-            temperature_c: self.temperature_c,
-            ..Subject::default()
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Failure of a verb: a message and an exit code for people, and the same as JSON for programs.
 
 use super::{Code, REFUSED, UNUSABLE};
-use crate::files::{self, FileError};
+use crate::files::FileError;
 use crate::folder::Folder;
 use crate::interface::calibrated::Stopped;
 use crate::interface::{self, CheckLine, Failed, Place};
@@ -48,13 +48,11 @@ impl Failure {
 
     /// Converts an error of a file: an existing file is a refusal, any other error is not.
     pub(super) fn file(error: FileError) -> Self {
-        let path = error.path();
-        let is_id = Folder::new("").path_of_id(&path.to_string_lossy()).is_some();
-        let names_no_file = is_id && error.is_missing() && files::nearest(path).is_none();
+        let is_id = Folder::new("").path_of_id(&error.path().to_string_lossy()).is_some() && error.is_unlike_any();
         let failed = Failed::from(error);
         let code = if failed.code == interface::EXISTS { REFUSED } else { UNUSABLE };
         let failure = Self { message: failed.message.clone(), code, failed };
-        if names_no_file { failure.with_advice(IN_A_WORKSPACE) } else { failure }
+        if is_id { failure.with_advice(IN_A_WORKSPACE) } else { failure }
     }
 
     /// Adds what to do.

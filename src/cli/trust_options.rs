@@ -91,10 +91,11 @@ impl Asked {
 pub(super) fn load(signers: &Path, revoked: &[PathBuf], time: Timestamp) -> Result<Trust, Failure> {
     let read = |path: &Path| files::read(path, LARGEST_TRUST_FILE_BYTES);
     let keys = read(signers).map_err(|error| {
-        let misnamed = !error.is_missing() || files::nearest(signers).is_some();
-        let advice = "a factory sends its file of trusted keys; for your own key, `keygen KEY --allowed-signers FILE` writes one";
+        let advice =
+            "ask the factory for its allowed_signers file; `keygen KEY --allowed-signers FILE` writes one for your key";
+        let unknown = error.is_unlike_any();
         let failure = Failure::file(error);
-        if misnamed { failure } else { failure.with_advice(advice) }
+        if unknown { failure.with_advice(advice) } else { failure }
     });
     let revoked = revoked.iter().map(|path| Ok((name_of(path), read(path).map_err(Failure::file)?)));
     let revoked = revoked.collect::<Result<Vec<_>, Failure>>()?;

@@ -81,13 +81,21 @@ impl FileError {
         if let Self::Folder { .. } = self {
             return format!("{self}; name a file in it");
         }
-        let near = if self.is_missing() { nearest(self.path()) } else { None };
-        near.map_or_else(|| self.to_string(), |near| format!("{self}; did you mean {}?", shown(&near)))
+        self.nearest().map_or_else(|| self.to_string(), |near| format!("{self}; did you mean {}?", shown(&near)))
     }
 
-    /// Returns `true` if there is no file at the path.
+    /// Returns `true` if the path does not exist.
     pub(crate) fn is_missing(&self) -> bool {
         matches!(self, Self::Read { error, .. } if error.kind() == io::ErrorKind::NotFound)
+    }
+
+    /// Returns `true` if neither the path nor a similar one exists.
+    pub(crate) fn is_unlike_any(&self) -> bool {
+        self.is_missing() && self.nearest().is_none()
+    }
+
+    fn nearest(&self) -> Option<PathBuf> {
+        if self.is_missing() { nearest(self.path()) } else { None }
     }
 
     /// Returns the path of the file.

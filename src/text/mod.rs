@@ -1,7 +1,7 @@
 //! Text of documents: strict YAML input, canonical output, and errors with their location in the file.
 //!
 //! * `rule`: allowed content of signed texts, form of strings, and the check of both.
-//! * `number`: form of numbers; `number_advice`: what to do about text in place of one.
+//! * `number`: form of numbers; `number_advice`: advice on text where a number is expected.
 //! * `canonical`: canonical form of content, and its reader.
 //! * `sink`: destinations of a document.
 //! * `node`: documents as trees.

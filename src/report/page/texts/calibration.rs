@@ -178,8 +178,8 @@ texts! {
     HISTORY { en: "All calibrations of this gyro", ru: "Все калибровки этого гироскопа" }
     HISTORY_CAPTION {
         en: "Parameters from the earliest calibration to this one, with expanded uncertainty U\u{a0}=\u{a0}2u (for the \
-             marks after Student's t); drifts refer to one g",
-        ru: "Параметры от первой калибровки до этой, с расширенной неопределённостью U\u{a0}=\u{a0}2u (для отметок — \
+             marks, U after Student's t); drifts refer to one g",
+        ru: "Параметры от первой калибровки до этой, с расширенной неопределённостью U\u{a0}=\u{a0}2u (для отметок U — \
              по Стьюденту); составляющие дрейфа отнесены к одному g"
     }
     CALIBRATED { en: "Calibration", ru: "Калибровка" }
