@@ -73,6 +73,15 @@ struct Differences {
     base_axes: DMatrix<f64>,
 }
 
+impl Comparison {
+    /// Returns `true` if outliers among the readings of the check, and nothing else, are why the stand seems to have
+    /// changed.
+    pub(crate) fn is_undecided(&self) -> bool {
+        let is_any = |of: fn(&Finding) -> bool| self.findings.iter().any(of);
+        !self.same_stand && is_any(Finding::is_outlier) && !is_any(Finding::is_change)
+    }
+}
+
 /// Compares `readings` of the stand of `header` with its certificate. `again` is the certification from these readings
 /// alone, if they contain two runs or more.
 ///
@@ -109,8 +118,7 @@ pub fn compare(
     let untested = between.err().or(common.test.is_none().then_some(Untested::CommonParts));
     let moved = common.test.is_some_and(|test| test.probability < OUTLIER);
     let same_stand = repeating.len() == places.len() && all.probability >= OUTLIER && !moved;
-    let bumped = again.map_or(&[][..], |again| &again.bumped_runs);
-    let mut findings = findings(all, &positions, &common, bumped, moved, untested);
+    let mut findings = findings(all, &positions, &common, again, moved, untested);
     if certificate.positions.iter().any(|at| certified_u_arcsec(at).is_none()) {
         findings.push(Finding::TreatedAsExact);
     }

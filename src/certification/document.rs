@@ -2,6 +2,7 @@
 
 use super::Certification;
 use crate::stand::{ActsOn, Stand};
+use crate::text::record::File;
 use crate::text::{Unreadable, canonical};
 
 impl Certification {
@@ -11,7 +12,7 @@ impl Certification {
     /// Returns [`Unreadable`] if its reader refuses the file, for instance because a mean is outside the certifiable
     /// range.
     pub fn to_yaml(&self, name: &str) -> Result<String, Unreadable> {
-        let text = canonical::write(&self.stand, &|path| self.comments(path));
+        let text = canonical::write(&File(self.stand.clone()), &|path| self.comments(path));
         let read = Stand::from_yaml(name, text.as_bytes())?;
         if read != self.stand {
             return Err(Unreadable::whole(name, None, "other content than was written", "the same", "report this"));

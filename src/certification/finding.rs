@@ -1,8 +1,9 @@
 //! Findings of a comparison: reasons for its result, and its limits.
 
+use super::Certification;
 use super::bumped_runs::BumpedRun;
 use super::compared::{CommonTurn, ComparedPosition, Test};
-use super::suspects::{OUTLIER, STRAGGLER};
+use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
 use std::fmt::{self, Display, Formatter};
 
 /// Reason for the result of a comparison, or a limit of it. Displayed, it is an English sentence without a full stop;
@@ -23,6 +24,8 @@ pub(crate) enum Finding {
     RotatedSlightly,
     /// Run of the check that is rotated as a whole relative to its other runs.
     BumpedRun(BumpedRun),
+    /// Outlier among the readings of the check, and its part in the mean of the position, arcsec.
+    Outlier(Outlier, f64),
     /// Rotation of the stand as a whole, which was not tested.
     NotTested(Untested),
     /// Angles without a stated uncertainty.
@@ -77,6 +80,15 @@ impl Display for Finding {
                     at.part(),
                 );
             }
+            Self::Outlier(Outlier { index, run, residual_arcsec: residual, axis, .. }, mean) => {
+                return write!(
+                    f,
+                    "the reading of position {index} in run {run} of the check differs by {residual:+.2} arcsec about {} from \
+                     its other runs; the change of the position includes {mean:+.2} arcsec of it; measure the run again, or \
+                     exclude the reading with --exclude {},{},{run} and --why",
+                    AXES[*axis], index.i, index.j
+                );
+            }
             Self::NotTested(why) => return write!(f, "rotation of the stand as a whole was not tested: {why}"),
             Self::TreatedAsExact => {
                 "the certificate does not state the uncertainty of all angles (u_alpha_arcsec etc.); these angles were \
@@ -102,14 +114,33 @@ impl Display for Untested {
     }
 }
 
+impl Finding {
+    /// Returns `true` for an outlier among the readings or the runs of a check, with which nothing is decided.
+    pub(crate) fn is_outlier(&self) -> bool {
+        matches!(self, Self::Outlier(..)) || matches!(self, Self::BumpedRun(run) if run.probability < OUTLIER)
+    }
+
+    /// Returns `true` for a change of the stand.
+    pub(crate) fn is_change(&self) -> bool {
+        matches!(self, Self::AnotherStand | Self::Changed(_) | Self::ChangedTogether | Self::Rotated)
+    }
+
+    /// Returns `true` if an outlier among the readings explains the change of the position: the rest is within 3 u.
+    fn explains(&self, at: &ComparedPosition) -> bool {
+        let Self::Outlier(out, mean) = self else { return false };
+        let part = |axis: usize| if axis == out.axis { *mean } else { 0.0 };
+        out.index == at.index && (0..3).all(|axis| (at.turn_arcsec[axis] - part(axis)).abs() <= 3.0 * at.u_arcsec[axis])
+    }
+}
+
 /// Returns the findings of a comparison: of `all` positions relative to each other, of each of the `positions`, and of
-/// their `common` rotation, where `moved` states that it is significant. The common rotation of a check with an outlier
-/// among its runs, `bumped`, does not show that the stand has changed.
+/// their `common` rotation, where `moved` states that it is significant. An outlier among the readings of the check,
+/// whose certification is `again`, or among its runs does not show that the position, or the stand, has changed.
 pub(super) fn findings(
     all: Test,
     positions: &[ComparedPosition],
     common: &CommonTurn,
-    bumped: &[BumpedRun],
+    again: Option<&Certification>,
     moved: bool,
     untested: Option<Untested>,
 ) -> Vec<Finding> {
@@ -121,13 +152,24 @@ pub(super) fn findings(
     } else if findings.is_empty() && all.probability < STRAGGLER {
         findings.push(Finding::Slightly);
     }
-    let outlier = bumped.iter().any(|run| run.probability < OUTLIER);
-    findings.splice(0..0, bumped.iter().copied().map(Finding::BumpedRun));
-    if moved && !outlier {
+    let suspect: Vec<Finding> = again.map_or_else(Vec::new, suspect);
+    let explained = |at: &ComparedPosition| suspect.iter().any(|found| found.explains(at));
+    findings.retain(|found| !matches!(found, Finding::Changed(at) if explained(at)));
+    let bumped = suspect.iter().any(|found| matches!(found, Finding::BumpedRun(_)) && found.is_outlier());
+    if moved && !bumped {
         findings.push(Finding::Rotated);
     } else if !moved && common.test.is_some_and(|test| test.probability < STRAGGLER) {
         findings.push(Finding::RotatedSlightly);
     }
+    findings.splice(0..0, suspect);
     findings.extend(untested.map(Finding::NotTested));
     findings
+}
+
+/// Returns what is suspect in the readings of a check itself.
+fn suspect(check: &Certification) -> Vec<Finding> {
+    let runs = check.runs.len() as f64;
+    let outliers = check.suspects.outliers.iter().filter(|out| out.probability < OUTLIER);
+    let outliers = outliers.map(|out| Finding::Outlier(*out, out.residual_arcsec / runs));
+    check.bumped_runs.iter().copied().map(Finding::BumpedRun).chain(outliers).collect()
 }

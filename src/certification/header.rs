@@ -1,8 +1,9 @@
 //! Header of a certification: a stand file whose positions have no angles yet.
 
 use crate::coefficients::PositionIndex;
-use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity, STAND_FORMAT, Stand};
+use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity, Stand};
 use crate::text::placeholder;
+use crate::text::record::Document;
 use crate::text::{Path, Problems, Unreadable, record, yaml};
 
 record! {
@@ -53,8 +54,6 @@ impl From<&CertifiedPosition> for NominalPosition {
 record! {
     /// Stand file (`dtg-stand/1`) before the measurement: stand, certificate, and positions without deviations.
     pub struct Header {
-        /// Always "dtg-stand/1".
-        pub format: String,
         /// Identity of the stand.
         pub stand: Identity,
         /// Certificate, without the results of the measurement.
@@ -66,6 +65,10 @@ record! {
     }
 }
 
+impl Document for Header {
+    const FORMAT: &'static str = Stand::FORMAT;
+}
+
 impl Header {
     /// Reads a header; `name` is its name in messages.
     ///
@@ -73,7 +76,7 @@ impl Header {
     /// Returns [`Unreadable`] with every error at its line, column and field: those of a stand file, and numbers that
     /// the certification computes itself.
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        let read = yaml::read_document(name, bytes, STAND_FORMAT, |header: &Self, problems| {
+        let read = yaml::read_document(name, bytes, |header: &Self, problems| {
             let positions: Vec<_> = header.positions.iter().map(|at| at.with_angles([0.0; 3])).collect();
             stand::check(&header.certificate, &positions, problems);
             check_not_measured(&header.certificate, problems);
@@ -119,7 +122,6 @@ impl From<&Stand> for Header {
             ..stand.certificate.clone()
         };
         Self {
-            format: stand.format.clone(),
             stand: stand.stand.clone(),
             certificate,
             datum: stand.datum.clone(),

@@ -168,7 +168,6 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     let worse: Vec<usize> = suspects.worse.iter().map(|at| at.place).collect();
     let scatter = components.scatter_of_positions(&worse).filter(|_| !worse.is_empty());
     let mut stand = Stand {
-        format: header.format.clone(),
         stand: header.stand.clone(),
         certificate: header.certificate.clone(),
         datum: header.datum.clone(),
