@@ -12,7 +12,7 @@ texts! {
     PREDECESSOR { en: "Signed passport that was re-issued", ru: "Перевыпущенный подписанный паспорт" }
     TRACEABILITY { en: "Traceability", ru: "Прослеживаемость" }
     VALID_UNTIL { en: "Valid until (inclusive)", ru: "Действителен по (включительно)" }
-    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Температура применения" }
+    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Диапазон температур" }
     LOWEST { en: "Lowest temperature", ru: "Наименьшая температура" }
     HIGHEST { en: "Highest temperature", ru: "Наибольшая температура" }
     LEVEL { en: "Datum surface for levelling", ru: "Базовая поверхность для горизонтирования" }

@@ -7,6 +7,7 @@ use crate::certification::suspects::{AXES, OUTLIER, WorsePosition};
 use crate::certification::{Certification, NotCertified};
 use crate::report::{columns, style};
 use crate::statistics::outlier::Bartlett;
+use crate::text::record::File;
 use crate::text::{Field, Node, Printable};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -53,7 +54,7 @@ fn certification_json(found: &Certification) -> Value {
         })
     });
     json!({
-        "stand": found.stand.write().unwrap_or(Node::Null),
+        "stand": File(found.stand.clone()).write().unwrap_or(Node::Null),
         "runs": found.runs,
         "repeated_rows": found.repeated_rows,
         "own_arcsec": components.own_arcsec2.iter().map(variance).collect::<Vec<_>>(),
@@ -228,6 +229,7 @@ pub(crate) fn comparison(found: &Comparison) -> String {
     let mut out = String::new();
     let answer = match found.same_stand {
         true => style::good(&format!("{} THE SAME STAND", style::PASSED)),
+        false if found.is_undecided() => style::bad(&format!("{} UNDECIDED", style::FAILED)),
         false => style::bad(&format!("{} NOT AS CERTIFIED", style::FAILED)),
     };
     let runs = if found.runs == 1 { "run" } else { "runs" };

@@ -245,7 +245,7 @@ fn what_nobody_stated_is_named() {
     let folder = Folder::new();
     let (page, result) = folder.page(CURRENTS, &[VERIFIED]);
     assert_eq!(result["not_stated"].as_array().unwrap().len(), 6);
-    let gyro = ["gyro from visit to visit", "gyro from turn-on to turn-on"];
+    let gyro = ["gyro noise from visit to visit", "gyro noise from turn-on to turn-on"];
     for words in ["latitude", "azimuth of the base", "level of the base", "gyro seat"].into_iter().chain(gyro) {
         assert!(page.contains(&format!("{words}</")), "{words}");
     }

@@ -102,7 +102,7 @@ fn full(name: &'static str, languages: &[Language]) -> Case {
         changed: "site: deflection_arcsec, azimuth_mark".to_owned(),
     };
     let order = Issue {
-        accuracy: Some(Stated { gyro: gyro.into(), laboratory: laboratory.into() }),
+        accuracy: Some(Stated { gyro, laboratory }),
         revision: 2,
         reissued: Some(Reissued { from: predecessor, supersedes: true }),
         ..Issue::first(fixtures::ISSUER, fixtures::at(fixtures::ISSUED_AT))

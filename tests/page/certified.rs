@@ -188,7 +188,7 @@ fn a_record_says_whether_the_stand_has_changed() {
     assert_eq!(headline("record-en"), "The readings were not compared with an earlier certificate.");
     assert_eq!(
         headline("record-both"),
-        "Изменился после сертификата C-2026-0142 Changed since certificate C-2026-0142"
+        "Стенд изменился после сертификата C-2026-0142 Changed since certificate C-2026-0142"
     );
     let said = &CERTIFIED.found["record-both"]["said"];
     assert_eq!(strings(&said["sections"]), ["1", "2", "3", "4", "5", "6"]);

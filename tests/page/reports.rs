@@ -189,7 +189,7 @@ fn the_headline_is_the_verdict() {
         ("plain-ru", "Параметры определены", false),
         ("unverified-many-en", "Passport NOT VERIFIED", true),
     ];
-    let failed = format!("NOT within the tolerance of gyro type {HOSTILE_TYPE}");
+    let failed = format!("NOT within the tolerances of gyro type {HOSTILE_TYPE}");
     for (name, words, refused) in due.into_iter().chain([("failed-en", failed.as_str(), true)]) {
         let said = REPORTED.said(name);
         assert_eq!(said["headline"].as_str().unwrap(), words, "{name}");
@@ -212,18 +212,28 @@ fn sections_are_counted() {
 #[test]
 fn what_the_budget_comes_to_is_said_in_every_language() {
     let due = [
-        ("whole-ru", "ru", "Наибольшая неопределённость относительно допуска: ", "Без этого источника u составила бы "),
+        (
+            "whole-ru",
+            "ru",
+            "Наибольшая неопределённость относительно допуска без учёта местного g: ",
+            "Без этого источника u составила бы ",
+        ),
         (
             "changed-both",
             "ru",
-            "Наибольшая неопределённость относительно допуска: ",
+            "Наибольшая неопределённость относительно допуска без учёта местного g: ",
             "Без этого источника u составила бы ",
         ),
-        ("changed-both", "en", "Largest uncertainty relative to tolerance: ", "Without this source, u would be "),
+        (
+            "changed-both",
+            "en",
+            "Largest uncertainty relative to tolerance, that of local g aside: ",
+            "Without this source, u would be ",
+        ),
         (
             "repeated-en",
             "en",
-            "Largest uncertainty relative to tolerance: ",
+            "Largest uncertainty relative to tolerance, that of local g aside: ",
             "To halve u, reduce the uncertainty of this source to ",
         ),
         ("unverified-many-en", "en", "Largest uncertainty relative to the value: ", "Without this source, u would be "),

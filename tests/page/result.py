@@ -40,7 +40,7 @@ PLACES = {
     "ωk": ("omega_k_deg_per_h_per_g",),
 }
 METHODS = {
-    "least-squares": ("weighted least squares", "метод наименьших квадратов"),
+    "least-squares": ("least squares", "метод наименьших квадратов"),
     "analytic": ("analytic", "аналитический"),
     "iterative": ("iterative", "итерационный"),
 }
@@ -214,7 +214,7 @@ class Report:
             return self.parameters(heads, table)
         if heads[:2] == ["i", "j"]:
             return self.residuals(table)
-        if len(heads) == 10:
+        if len(heads) in (9, 10):
             return self.verdict(table)
         if heads[1:2] in (["Calibration"], ["Калибровка"]):
             return self.of_course(table)
@@ -325,27 +325,30 @@ class Report:
         return "course"
 
     def verdict(self, table):
-        part = "change" if table["heads"][4].startswith(("Change", "Изменение")) else "verdict"
+        part = "change" if any(head.startswith(("Change", "Изменение")) for head in table["heads"]) else "verdict"
         for row, line in zip(table["rows"], self.result[part]["parameters"], strict=True):
             name = row[0]["text"].split(",")[0]
             if name != symbol_of(line["parameter"]):
                 self.wrong.append(f"{part}: {name} stands in the row of {line['parameter']}")
             u = line["standard_uncertainty"]
             self.cell(f"{part}, {name}, value", row[1], line["value"], u)
-            self.cell(f"{part}, {name}, U of the value", row[2], line["coverage_factor"] * u, u)
-            self.cell(f"{part}, {name}, reference", row[3], line["reference_value"], u)
+            # The uncertainty of a change is not that of the value, which stands in the verdict.
+            if part == "verdict":
+                self.cell(f"{part}, {name}, U of the value", row[2], line["coverage_factor"] * u, u)
+                row = row[:2] + row[3:]
+            self.cell(f"{part}, {name}, reference", row[2], line["reference_value"], u)
             u = line["expanded_uncertainty"] / line["coverage_factor"]
-            self.cell(f"{part}, {name}, deviation", row[4], line["deviation"], u)
-            self.cell(f"{part}, {name}, U", row[5], line["expanded_uncertainty"], u)
-            self.cell(f"{part}, {name}, tolerance", row[6], line["tolerance"])
-            for column, key in ((8, "guarded"), (9, "simple")):
+            self.cell(f"{part}, {name}, deviation", row[3], line["deviation"], u)
+            self.cell(f"{part}, {name}, U", row[4], line["expanded_uncertainty"], u)
+            self.cell(f"{part}, {name}, tolerance", row[5], line["tolerance"])
+            for column, key in ((7, "guarded"), (8, "simple")):
                 mark = {"pass": "●", "undecided": "○", "fail": "✕"}[line[key]]
                 if not row[column]["text"].startswith(mark):
                     self.wrong.append(f"{part}, {name}: {row[column]['text']}, and {line[key]} in the result")
-            if row[9]["values"]:
-                self.cell(f"{part}, {name}, risk", row[9], line["specific_risk"])
-            elif "<" not in row[9]["text"] or line["specific_risk"] >= 1e-6:
-                self.wrong.append(f"{part}, {name}: risk {row[9]['text']}, and {line['specific_risk']} in the result")
+            if row[8]["values"]:
+                self.cell(f"{part}, {name}, risk", row[8], line["specific_risk"])
+            elif "<" not in row[8]["text"] or line["specific_risk"] >= 1e-6:
+                self.wrong.append(f"{part}, {name}: risk {row[8]['text']}, and {line['specific_risk']} in the result")
         return part
 
 

@@ -74,6 +74,7 @@ impl CertificationPage<'_> {
             }
             (contents(languages, texts::SAVE, (&data_address("text/csv", self.readings.1), self.readings_name()), &SECTIONS))
             main {
+                (change::verdict(self, languages))
                 (part(languages, "subject", "1", texts::SUBJECT, &html! {
                     (general::stand(&stand.stand, languages))
                     (general::certificate(&stand.certificate, languages))

@@ -59,6 +59,21 @@ pub(crate) fn wide_field(languages: &Languages, name: Text, value: Option<Markup
     }
 }
 
+/// Writes a name and its value, or that the signed file does not state it: it is not to be completed by hand.
+pub(crate) fn stated(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
+    field(languages, name, Some(value.unwrap_or_else(|| not_stated(languages))))
+}
+
+/// Writes a field as [`stated`] does, over the full width.
+pub(crate) fn wide_stated(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
+    wide_field(languages, name, Some(value.unwrap_or_else(|| not_stated(languages))))
+}
+
+/// Writes that the signed file does not state a value.
+pub(crate) fn not_stated(languages: &Languages) -> Markup {
+    html! { span.absent { (languages.inline(words::NOT_STATED)) } }
+}
+
 /// Writes fields in as many columns as fit.
 pub(crate) fn fields(fields: impl IntoIterator<Item = Markup>) -> Markup {
     html! { dl.fields { @for field in fields { (field) } } }

@@ -57,6 +57,7 @@ pub(crate) mod units {
         M_PER_S2 { en: "m/s²", ru: "м/с²" }
         CELSIUS { en: "°C", ru: "°C" }
         PERCENT { en: "%", ru: "%" }
+        PER_G { en: "1/g", ru: "1/g" }
         ONE { en: "1", ru: "1" }
     }
 }
@@ -67,6 +68,7 @@ pub(crate) mod words {
 
     texts! {
         EMPTY { en: "empty field, to be filled in by hand", ru: "пустое поле, заполняется от руки" }
+        NOT_STATED { en: "not stated", ru: "не указано" }
         CONTENTS { en: "Contents", ru: "Содержание" }
         FIGURE { en: "Figure", ru: "Рисунок" }
         YES { en: "yes", ru: "да" }

@@ -63,7 +63,7 @@ fn key(languages: &Languages) -> Markup {
 }
 
 fn rows(accuracy: &Accuracy, gravity_m_per_s2: f64) -> Vec<Row> {
-    let gyro = accuracy.gyro.to_type();
+    let gyro = &accuracy.gyro;
     let standard_uncertainty = accuracy.standard_uncertainty.to_model().to_vector();
     // The verdict on a gyro with exactly this uncertainty gives tolerance and uncertainty in one unit and at one g.
     // The passport states its values per local g, so the uncertainty of g is not included.
@@ -71,7 +71,7 @@ fn rows(accuracy: &Accuracy, gravity_m_per_s2: f64) -> Vec<Row> {
     let degrees_of_freedom = [f64::INFINITY; 8];
     let found =
         Found { parameters, standard_uncertainty, degrees_of_freedom, gravity_m_per_s2, gravity_u_m_per_s2: 0.0 };
-    let verdict = against_type(&found, &gyro);
+    let verdict = against_type(&found, gyro);
     let share = |parameter: Parameter| {
         let row = verdict.parameters.iter().find(|row| row.parameter == parameter.key())?;
         (row.tolerance > 0.0).then(|| row.expanded_uncertainty / COVERAGE_FACTOR / row.tolerance)

@@ -12,8 +12,8 @@ const BAR_HALF: f64 = 8.0;
 /// Least lengths of a part with room for its letter, and for letter and percentage.
 const ROOM: [f64; 2] = [14.0, 34.0];
 
-/// Names of the parts. What remains of a variance has none.
-pub(crate) const LETTERS: [&str; 5] = ["A", "B", "C", "D", "E"];
+/// Names of the parts: not A and B, which are types of evaluation. What remains of a variance has none.
+pub(crate) const LETTERS: [&str; 5] = ["P", "Q", "R", "S", "T"];
 
 /// The axis: percent of the variance.
 const PERCENT: Scale = Scale { values: [0.0, 100.0], places: BARS };

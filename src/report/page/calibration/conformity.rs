@@ -27,7 +27,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
         @if let Some(result) = adopted { (parameters::beyond_the_eight(result, languages)) }
         @if let Some(change) = &page.result().change {
             (heading(languages, texts::CHANGE))
-            (table(languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY]))
+            (table(languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY], false))
         }
         (history::table(page, languages))
     };
@@ -37,15 +37,15 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
 fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, languages: &Languages) -> Markup {
     html! {
         h3 { (languages.label_with(|language| texts::CONFORMITY.filled(language, &[("type", &gyro.r#type)]))) }
-        (table(languages, verdict, texts::VERDICT_CAPTION, [texts::NOMINAL, texts::DEVIATION]))
+        (table(languages, verdict, texts::VERDICT_CAPTION, [texts::NOMINAL, texts::DEVIATION], true))
         (key(languages))
         (languages.paragraph(texts::RISK_NOTE))
         (from_gravity(page, verdict, languages))
     }
 }
 
-/// Writes how many parameters pass, and which are undecided or fail.
-pub(super) fn counted(verdict: &Verdict, languages: &Languages) -> Markup {
+/// Writes how many parameters pass, and which are undecided or fail; `of` says of which comparison if it is the second.
+pub(super) fn counted(verdict: &Verdict, of_what: Option<Text>, languages: &Languages) -> Markup {
     let of = |decision: Decision| verdict.parameters.iter().filter(move |row| row.guarded == decision);
     let names = |decision: Decision| {
         let names: Vec<Markup> = of(decision).map(parameter).collect();
@@ -55,6 +55,7 @@ pub(super) fn counted(verdict: &Verdict, languages: &Languages) -> Markup {
     let rest = [(Decision::Undecided, texts::ARE_UNDECIDED), (Decision::Fail, texts::FAIL)];
     languages.paragraph_with(|language| {
         html! {
+            @if let Some(what) = of_what { (what.words(language)) " " }
             (texts::PASSED.marked_up(language, &values))
             @for (decision, text) in rest.iter().filter(|(decision, _)| of(*decision).count() > 0) {
                 (text.marked_up(language, &[("names", names(*decision))]))
@@ -94,7 +95,14 @@ fn alone(page: &CalibrationPage, languages: &Languages) -> Markup {
     table.markup(languages.spoken(texts::RESULT_CAPTION))
 }
 
-fn table(languages: &Languages, verdict: &Verdict, caption: Text, [reference, deviation]: [Text; 2]) -> Markup {
+/// Writes a comparison; `with_u` says whether the standard uncertainty of a row is that of its value.
+fn table(
+    languages: &Languages,
+    verdict: &Verdict,
+    caption: Text,
+    [reference, deviation]: [Text; 2],
+    with_u: bool,
+) -> Markup {
     let rows = &verdict.parameters;
     let strips = Strips::of([verdict]);
     let numbers = |number: &dyn Fn(&ParameterVerdict) -> Number| {
@@ -109,7 +117,7 @@ fn table(languages: &Languages, verdict: &Verdict, caption: Text, [reference, de
     let risks = column(languages, &known.collect::<Vec<_>>()).into_iter().zip(rows);
     let risks = risks.map(|(number, row)| {
         let risk = number.unwrap_or_else(|| probability(languages, row.specific_risk));
-        Some(html! { (mark_of(languages, row.simple)) " " (risk) })
+        Some(html! { (mark_of(languages, row)) " " (risk) })
     });
     let risks = risks.collect();
     let tolerances = numbers(&|row| Number::exact(row.tolerance)).into_iter().zip(rows);
@@ -117,7 +125,7 @@ fn table(languages: &Languages, verdict: &Verdict, caption: Text, [reference, de
         Some(html! { (number.unwrap_or_default()) " " span.unit { (languages.spoken(unit_of(row))) } })
     });
     let tolerances = tolerances.collect();
-    let columns: [(Text, Vec<Option<Markup>>); 9] = [
+    let mut columns: Vec<(Text, Vec<Option<Markup>>)> = vec![
         (texts::FOUND, numbers(&|row| Number::measured(row.value, row.standard_uncertainty))),
         (
             texts::PLUS_MINUS,
@@ -131,18 +139,22 @@ fn table(languages: &Languages, verdict: &Verdict, caption: Text, [reference, de
         (texts::GUARDED, each(&|row| decided(languages, row.guarded))),
         (texts::SIMPLE, risks),
     ];
+    if !with_u {
+        columns.remove(1);
+    }
+    let in_tolerance = 1 + columns.iter().take_while(|(heading, _)| *heading != texts::IN_TOLERANCE).count();
     let cells =
         |place: usize| columns.iter().map(move |(_, cells)| cells.get(place).cloned().flatten().unwrap_or_default());
     let headings = std::iter::once(texts::PARAMETER).chain(columns.iter().map(|(heading, _)| *heading));
     let foot = (0..=columns.len()).map(|place| {
-        if place == 7 {
+        if place == in_tolerance {
             strips.axis(languages)
         } else {
             html! {}
         }
     });
     let table = Table {
-        caption: Some(languages.label(caption)),
+        caption: Some(with_gravity(languages, caption, verdict.gravity_m_per_s2)),
         headings: headings.map(|text| languages.label(text)).collect(),
         rows: rows
             .iter()
@@ -154,7 +166,12 @@ fn table(languages: &Languages, verdict: &Verdict, caption: Text, [reference, de
         class: "numbers result",
         ..Table::default()
     };
-    table.markup(languages.spoken(caption))
+    table.markup(languages.spoken(texts::RESULT))
+}
+
+/// Writes the caption of a table whose drifts refer to this g.
+pub(super) fn with_gravity(languages: &Languages, caption: Text, gravity_m_per_s2: f64) -> Markup {
+    languages.label_with(|language| caption.filled(language, &[("g", &Number::exact(gravity_m_per_s2).text(language))]))
 }
 
 /// Writes the expanded uncertainty that the local g adds to the drifts converted to the type's g, where it is most of it.
@@ -182,10 +199,11 @@ fn parameter(row: &ParameterVerdict) -> Markup {
     name_of(parameter_of(row).map_or(row.parameter, Parameter::symbol))
 }
 
-/// Writes the mark of a decision; screen readers say the word.
-fn mark_of(languages: &Languages, found: Decision) -> Markup {
-    let (class, mark) = mark(found);
-    html! { span class=(class) { (mark) span.unseen { " " (languages.spoken(decision(found))) } } }
+/// Writes the mark of simple acceptance, in colour only if guarded acceptance decides; screen readers say the word.
+fn mark_of(languages: &Languages, row: &ParameterVerdict) -> Markup {
+    let (class, mark) = mark(row.simple);
+    let class = if row.guarded == Decision::Undecided { "state" } else { class };
+    html! { span class=(class) { (mark) span.unseen { " " (languages.spoken(decision(row.simple))) } } }
 }
 
 /// Writes a decision with its mark, in the first language only: the key below the table has the mark in all of them.

@@ -85,7 +85,12 @@ fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
             }
             None => {}
         }
-        @if let Some(visits) = &calibration.scatter { (agreement(visits, texts::SCATTER, languages)) }
+        @if let Some(visits) = &calibration.scatter {
+            (agreement(visits, texts::SCATTER, languages))
+            @if visits.agreement() == Agreement::More && calibration.visit_noise.source == NoiseSource::Estimated {
+                (languages.paragraph(texts::NOISE_ADDED))
+            }
+        }
         @if let Some(turn_ons) = &calibration.turn_on_scatter {
             (agreement(turn_ons, texts::TURN_ON_SCATTER, languages))
         }

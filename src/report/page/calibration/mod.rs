@@ -146,7 +146,11 @@ impl CalibrationPage<'_> {
         let id = &self.content().passport.id;
         let margins = Margins {
             top_left: texts::MARGIN.filled(languages.first(), &[("id", id)]),
-            top_right: if self.verified() { String::new() } else { languages.plain(texts::NOT_VERIFIED) },
+            top_right: match (self.verified(), self.fits()) {
+                (false, _) => languages.plain(texts::NOT_VERIFIED),
+                (true, false) => languages.plain(texts::DOES_NOT_FIT),
+                (true, true) => String::new(),
+            },
             bottom_left: texts::MARGIN_SHA256.filled(languages.first(), &[("sha256", &self.currents.1)]),
         };
         let title = format!("{} {id}", languages.plain(texts::TITLE));
@@ -235,6 +239,7 @@ impl CalibrationPage<'_> {
                 @let words = languages.paragraph_with(|language| italic(&mistake::words(mistake, language)));
                 (boxed("verdict refused", languages.label(texts::MISTAKE), words))
             }
+            (subject::temperature(self, languages))
             (self.verdict(languages))
         }
     }
@@ -253,7 +258,13 @@ impl CalibrationPage<'_> {
             Decision::Fail => ("verdict refused", texts::CONFORMS_NOT),
         };
         let name = |language: Language| text.filled(language, &[("type", &gyro.r#type)]);
-        let words = html! { (conformity::counted(verdict, languages)) (languages.paragraph(texts::RULE)) };
+        let words = html! {
+            (conformity::counted(verdict, None, languages))
+            @if let Some(change) = &self.result().change {
+                (conformity::counted(change, Some(texts::CHANGE_COUNTED), languages))
+            }
+            (languages.paragraph(texts::RULE))
+        };
         boxed(class, languages.label_with(name), words)
     }
 }

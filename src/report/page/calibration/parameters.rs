@@ -1,5 +1,6 @@
 //! Parameters by every method, and what the methods say besides: steps, matrices, drift in time.
 
+use super::conformity::with_gravity;
 use super::{CalibrationPage, Section, method};
 use crate::calibration::document::{ResultDocument, UncertaintyDocument};
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
@@ -43,21 +44,22 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
             Parameter::AS_IN_THE_PAPER
                 .map(|parameter| Some(parameter).filter(found).map_or_else(Cell::none, |at| Cell::Number(number(at))))
         };
-        let name = match result.method.as_str() {
-            "least-squares" => texts::LEAST_SQUARES,
-            other => method(other),
-        };
+        let adopted = page.adopted().is_some_and(|adopted| adopted.method == result.method);
+        let name = languages.label_with(|language| match (adopted, method(&result.method).words(language)) {
+            (true, name) => texts::ADOPTED.filled(language, &[("method", &name)]),
+            (false, name) => name,
+        });
         let found = cells(&|parameter| Number::measured(values[parameter.place()], u[parameter.place()]));
         let uncertainty = cells(&|parameter| Number::uncertainty(u[parameter.place()]));
-        let mut rows = vec![(html! { strong { (languages.label(name)) } }, found), (symbol("u", ""), uncertainty)];
+        let mut rows = vec![(html! { strong { (name) } }, found), (symbol("u", ""), uncertainty)];
         rows.extend(result.from_least_squares.map(|off| {
             let cells = cells(&|parameter| Number::fixed(off[parameter.place()], 1));
             (languages.label(texts::OFF_BY), cells)
         }));
         rows
     });
-    let caption = Some(languages.label(texts::PARAMETERS_CAPTION));
-    parameters(languages, caption, rows.collect()).markup(languages.spoken(texts::PARAMETERS_CAPTION))
+    let caption = Some(with_gravity(languages, texts::PARAMETERS_CAPTION, page.result().gravity_m_per_s2));
+    parameters(languages, caption, rows.collect()).markup(languages.spoken(texts::METHODS))
 }
 
 /// Writes the terms of a model that goes beyond the eight parameters.

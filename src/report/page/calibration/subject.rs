@@ -4,7 +4,6 @@ use super::{CalibrationPage, Section, UsedPassport};
 use crate::calibration::document::ExclusionDocument;
 use crate::calibration::stated::TemperatureOutside;
 use crate::laboratory::Laboratory;
-use crate::passport::accuracy::StatedLaboratory;
 use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
 use crate::report::page::parts::{self, blank, field, fields, given, heading, quantity, symbol, time, wide_field};
@@ -90,7 +89,6 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
                 texts::SITE,
                 Some(given(content.site.name.as_deref().unwrap_or(content.site.id.as_str()))),
             ),
-            field(languages, texts::TIME, Some(time(languages, page.time))),
             field(languages, texts::CURRENTS, Some(given(page.currents_name()))),
             wide_field(languages, texts::CURRENTS_SHA256, Some(html! { code { (page.currents.1) } })),
         ]
@@ -137,7 +135,6 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
         (quantity(languages, &Number::measured(g, u.unwrap_or(0.0)), units::M_PER_S2))
         @if let Some(u) = u { ", " (symbol("u", "")) " " (quantity(languages, &Number::uncertainty(u), units::M_PER_S2)) }
     };
-    let stated = StatedLaboratory::from(laboratory.clone());
     html! {
         (fields([
             field(languages, texts::LABORATORY_NAME, laboratory.name.as_deref().map(given)),
@@ -145,15 +142,14 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
             field(languages, texts::PROCEDURE, None),
             field(languages, texts::TEMPERATURE, laboratory.temperature_c.map(celsius)),
             field(languages, texts::GRAVITY, Some(gravity)),
-            wide_field(languages, passport_texts::METER, Some(accuracy::meter(&stated, languages))),
+            wide_field(languages, passport_texts::METER, Some(accuracy::meter(&laboratory, languages))),
         ]))
         @if page.laboratory.is_none() { div.statement { (languages.paragraph(texts::METER_ASSUMED)) } }
-        (temperature(page, languages))
     }
 }
 
 /// Writes a warning if the deviations are certified for other temperatures.
-fn temperature(page: &CalibrationPage, languages: &Languages) -> Markup {
+pub(super) fn temperature(page: &CalibrationPage, languages: &Languages) -> Markup {
     let certificate = &page.content().certificate;
     let subject = page.document.subject.as_ref();
     let outside = subject.and_then(|subject| TemperatureOutside::of(certificate, subject, page.laboratory));
@@ -161,7 +157,8 @@ fn temperature(page: &CalibrationPage, languages: &Languages) -> Markup {
     let values = [("here", here_c), ("low", low_c), ("high", high_c)]
         .map(|(name, c)| (name, Number::exact(c).markup(languages)));
     html! {
-        div.statement {
+        div.verdict.neutral {
+            p.headline { (languages.label(texts::TEMPERATURE_IS_OUTSIDE)) }
             (languages.paragraph_with(|language| texts::TEMPERATURE_OUTSIDE.marked_up(language, &values)))
         }
     }

@@ -3,6 +3,7 @@
 use super::{CalibrationPage, Section};
 use crate::calibration::causes::Cause;
 use crate::calibration::parameter::Parameter;
+use crate::calibration::verdict::ParameterVerdict;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{Table, symbol, symbol_and_unit};
@@ -30,7 +31,13 @@ pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup 
     html! {
         @if let Some(budget) = page.budget {
             @let tolerance = page.gyro.map(|gyro| &gyro.tolerance);
-            @let worst = if tolerance.is_some() { texts::BUDGET_WORST } else { texts::BUDGET_WORST_OF_SIZE };
+            @let worst = match page.judged() {
+                None => texts::BUDGET_WORST_OF_SIZE,
+                Some((_, verdict)) if verdict.parameters.iter().any(ParameterVerdict::is_mostly_from_gravity) => {
+                    texts::BUDGET_WORST_BUT_GRAVITY
+                }
+                Some(_) => texts::BUDGET_WORST,
+            };
             (page.section(languages, Section::Budget, &html! {
                 @if let Some(remedy) = Dominant::of(budget, tolerance) { (sentences(&remedy, worst, languages)) }
                 (shares(budget, languages))
@@ -241,21 +248,21 @@ fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
         Parameter::AS_IN_THE_PAPER.map(|parameter| line(parameter).map_or_else(Cell::none, cell))
     };
     let measured = |value: f64, line: &Distribution| Cell::Number(Number::measured(value, line.standard_uncertainty));
-    let rows = vec![
+    let mut rows = vec![
         (languages.label(texts::MEAN), each(&|line| measured(line.mean, line))),
         (symbol("u", ""), each(&|line| Cell::Number(Number::uncertainty(line.standard_uncertainty)))),
         (languages.label(texts::LOWER), each(&|line| measured(line.symmetric[0], line))),
         (languages.label(texts::UPPER), each(&|line| measured(line.symmetric[1], line))),
-        (
-            languages.label(texts::FIRST_ORDER),
-            each(&|line| match line.first_order.valid {
-                Some(true) => Cell::Words(languages.label(words::YES)),
-                Some(false) => Cell::Words(languages.label(words::NO)),
-                // There were too few trials to decide.
-                None => Cell::none(),
-            }),
-        ),
     ];
+    // Too few trials decide nothing.
+    if found.parameters.iter().any(|line| line.first_order.valid.is_some()) {
+        let valid = each(&|line| match line.first_order.valid {
+            Some(true) => Cell::Words(languages.label(words::YES)),
+            Some(false) => Cell::Words(languages.label(words::NO)),
+            None => Cell::none(),
+        });
+        rows.push((languages.label(texts::FIRST_ORDER), valid));
+    }
     let (trials, seed) = (found.trials.to_string(), found.seed.to_string());
     let values = [("trials", trials.as_str()), ("seed", &seed)];
     let caption = Some(languages.label_with(|language| texts::MONTE_CARLO_CAPTION.filled(language, &values)));

@@ -12,18 +12,17 @@ use crate::report::page::texts::{certification as texts, pictures, units};
 use crate::report::picture::residuals::{Bars, key_of};
 use maud::{Markup, html};
 
-pub(super) fn section(page: &CertificationPage, languages: &Languages) -> Markup {
-    let body = match &page.change {
-        None => html! { div.verdict.neutral { p.headline { (languages.label(texts::NOT_COMPARED)) } } },
-        Some((comparison, changes)) => compared(comparison, changes, languages),
+/// Writes whether the stand has changed since its last certificate, and the reasons.
+pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup {
+    let Some((comparison, _)) = &page.change else {
+        return html! { div.verdict.neutral { p.headline { (languages.label(texts::NOT_COMPARED)) } } };
     };
-    part(languages, "change", "6", texts::CHANGE, &body)
-}
-
-fn compared(comparison: &Comparison, changes: &[NumberDifference], languages: &Languages) -> Markup {
+    let (class, verdict) = match comparison.same_stand {
+        true => ("verdict", texts::SAME),
+        false if comparison.is_undecided() => ("verdict refused", texts::UNDECIDED),
+        false => ("verdict refused", texts::CHANGED),
+    };
     let number = [("number", comparison.certificate.as_str())];
-    let (class, verdict) =
-        if comparison.same_stand { ("verdict", texts::SAME) } else { ("verdict refused", texts::CHANGED) };
     html! {
         div class=(class) {
             p.headline { (languages.label_with(|language| verdict.filled(language, &number))) }
@@ -35,11 +34,26 @@ fn compared(comparison: &Comparison, changes: &[NumberDifference], languages: &L
                 }
             }
         }
+    }
+}
+
+pub(super) fn section(page: &CertificationPage, languages: &Languages) -> Markup {
+    let body = match &page.change {
+        None => languages.paragraph(texts::NOT_COMPARED),
+        Some((comparison, changes)) => compared(comparison, changes, languages),
+    };
+    part(languages, "change", "6", texts::CHANGE, &body)
+}
+
+fn compared(comparison: &Comparison, changes: &[NumberDifference], languages: &Languages) -> Markup {
+    let number = [("number", comparison.certificate.as_str())];
+    let common = comparison.common.test.as_ref();
+    html! {
         (heading(languages, texts::ROTATIONS))
         (rotations(comparison, languages))
         (fields([
             field(languages, texts::ALL_TOGETHER, Some(test(&comparison.all, languages))),
-            field(languages, texts::COMMON_TURN, comparison.common.test.as_ref().map(|of| test(of, languages))),
+            field(languages, texts::COMMON_TURN, Some(common.map_or_else(|| html! { "–" }, |of| test(of, languages)))),
         ]))
         p { (languages.label_with(|language| texts::CHANGE_CAPTION.filled(language, &number))) }
         (table(changes, languages))

@@ -100,6 +100,13 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
             let text = if at.is_of_the_base() { texts::CHECK_BUMPED_BASE } else { texts::CHECK_BUMPED_PLATFORM };
             return text.filled(language, &[("run", &run), ("turn", &turn), ("axis", &axis), ("mean", &mean)]);
         }
+        Finding::Outlier(out, mean) => {
+            let [residual, mean] = [out.residual_arcsec, *mean].map(|value| Number::fixed(value, 2).text(language));
+            let (index, run) = (out.index.to_string(), out.run.to_string());
+            let values =
+                [("index", &*index), ("run", &run), ("residual", &residual), ("axis", AXES[out.axis]), ("mean", &mean)];
+            return texts::CHECK_OUTLIER.filled(language, &values);
+        }
         Finding::AnotherStand => texts::ANOTHER_STAND,
         Finding::ChangedTogether => texts::CHANGED_TOGETHER,
         Finding::Slightly => texts::CHANGED_SLIGHTLY,

@@ -3,11 +3,12 @@
 use super::PassportPage;
 use super::figures::{Slot, figure};
 use super::numbers::{Cell, numbers_of, parameters};
-use crate::passport::accuracy::{Accuracy, StatedLaboratory};
+use crate::laboratory::Laboratory;
+use crate::passport::accuracy::Accuracy;
 use crate::passport::annotations::{Absence, absent};
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::Number;
-use crate::report::page::parts::{field, fields, given, heading, quantity, section as part, symbol, wide_field};
+use crate::report::page::parts::{fields, given, heading, quantity, section as part, stated, symbol, wide_stated};
 use crate::report::page::texts::{absences, passport as texts, units};
 use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
 use maud::{Markup, html};
@@ -42,23 +43,23 @@ fn stated_for(accuracy: &Accuracy, languages: &Languages) -> Markup {
     let base = laboratory.base.as_ref();
     let temperature = laboratory.temperature_c;
     fields([
-        field(languages, texts::GYRO_TYPE, Some(given(&gyro.r#type))),
-        field(languages, texts::GYRO_GRAVITY, gravity),
-        field(languages, texts::CALIBRATING_LABORATORY, laboratory.name.as_deref().map(given)),
-        field(
+        stated(languages, texts::GYRO_TYPE, Some(given(&gyro.r#type))),
+        stated(languages, texts::GYRO_GRAVITY, gravity),
+        stated(languages, texts::CALIBRATING_LABORATORY, laboratory.name.as_deref().map(given)),
+        stated(
             languages,
             texts::LABORATORY_TEMPERATURE,
             temperature.map(|t| quantity(languages, &Number::exact(t), units::CELSIUS)),
         ),
-        field(languages, texts::SEATING, seat),
-        field(languages, texts::BASE_AZIMUTH_U, base.and_then(|base| base.azimuth_arcsec).map(arcsec)),
-        field(languages, texts::BASE_LEVEL_U, base.and_then(|base| base.level_arcsec).map(arcsec)),
-        wide_field(languages, texts::METER, Some(meter(laboratory, languages))),
+        stated(languages, texts::SEATING, seat),
+        stated(languages, texts::BASE_AZIMUTH_U, base.and_then(|base| base.azimuth_arcsec).map(arcsec)),
+        stated(languages, texts::BASE_LEVEL_U, base.and_then(|base| base.level_arcsec).map(arcsec)),
+        wide_stated(languages, texts::METER, Some(meter(laboratory, languages))),
     ])
 }
 
 /// Writes one sentence about the current meter.
-pub(crate) fn meter(laboratory: &StatedLaboratory, languages: &Languages) -> Markup {
+pub(crate) fn meter(laboratory: &Laboratory, languages: &Languages) -> Markup {
     let meter = &laboratory.meter;
     let values = [
         ("reading", meter.reading_percent),

@@ -5,7 +5,7 @@ use super::figures::{Slot, figure};
 use crate::report::page::language::{Language, Languages};
 use crate::report::page::number::{LARGEST_IN_ARCSEC, Number, column};
 use crate::report::page::parts::{
-    Table, blank, field, fields, given, heading, quantity, section as part, symbol, symbol_and_unit, wide_field,
+    Table, fields, given, heading, not_stated, quantity, section as part, stated, symbol, symbol_and_unit, wide_stated,
 };
 use crate::report::page::texts::{passport as texts, units};
 use crate::report::picture::deviations::{ANGLES, Bars};
@@ -129,13 +129,13 @@ pub(crate) fn common(certificate: &Certificate, languages: &Languages) -> Markup
             (evidence.runs) ", SHA-256 " code { (evidence.readings_sha256) }
             @for excluded in excluded { br; (excluded) }
         };
-        wide_field(languages, texts::EVIDENCE, Some(value))
+        wide_stated(languages, texts::EVIDENCE, Some(value))
     });
     let common = [
-        field(languages, texts::REPEATABILITY, certificate.repeatability_arcsec.map(arcsec)),
-        field(languages, texts::REPEATABILITY_DOF, freedom.map(|number| Number::exact(number).markup(languages))),
-        field(languages, texts::COMMON_PLATFORM, certificate.common_platform_arcsec.map(arcsec)),
-        field(languages, texts::COMMON_BASE, certificate.common_base_arcsec.map(arcsec)),
+        stated(languages, texts::REPEATABILITY, certificate.repeatability_arcsec.map(arcsec)),
+        stated(languages, texts::REPEATABILITY_DOF, freedom.map(|number| Number::exact(number).markup(languages))),
+        stated(languages, texts::COMMON_PLATFORM, certificate.common_platform_arcsec.map(arcsec)),
+        stated(languages, texts::COMMON_BASE, certificate.common_base_arcsec.map(arcsec)),
     ];
     fields(common.into_iter().chain(type_b).chain(evidence))
 }
@@ -153,15 +153,15 @@ fn type_b(line: &TypeB, languages: &Languages) -> Markup {
         @if let Some(freedom) = freedom { ", " (symbol("ν", "")) " " (freedom) }
         ": " (given(&line.source))
     };
-    field(languages, part, Some(value))
+    stated(languages, part, Some(value))
 }
 
 pub(crate) fn datum(datum: Option<&Datum>, languages: &Languages) -> Markup {
     let surface = |name: Option<&String>| name.map(|name| given(name));
     fields([
-        field(languages, texts::DATUM_LEVEL, surface(datum.and_then(|datum| datum.level.as_ref()))),
-        field(languages, texts::DATUM_AZIMUTH, surface(datum.and_then(|datum| datum.azimuth.as_ref()))),
-        field(languages, texts::DATUM_SEAT, surface(datum.and_then(|datum| datum.gyro_seat.as_ref()))),
+        stated(languages, texts::DATUM_LEVEL, surface(datum.and_then(|datum| datum.level.as_ref()))),
+        stated(languages, texts::DATUM_AZIMUTH, surface(datum.and_then(|datum| datum.azimuth.as_ref()))),
+        stated(languages, texts::DATUM_SEAT, surface(datum.and_then(|datum| datum.gyro_seat.as_ref()))),
     ])
 }
 
@@ -182,29 +182,29 @@ fn place(site: &Site, languages: &Languages) -> Markup {
         },
     });
     let frame_axis =
-        site.frame_axis_azimuth_deg.map(|azimuth_deg| field(languages, texts::FRAME_AXIS, Some(degrees(azimuth_deg))));
+        site.frame_axis_azimuth_deg.map(|azimuth_deg| stated(languages, texts::FRAME_AXIS, Some(degrees(azimuth_deg))));
     // A site states one of the two latitudes, never both.
     let latitude = match site.astronomic_latitude_deg {
         Some(astronomic) => {
-            field(languages, texts::ASTRONOMIC_LATITUDE, Some(angle(astronomic, latitude_u, languages)))
+            stated(languages, texts::ASTRONOMIC_LATITUDE, Some(angle(astronomic, latitude_u, languages)))
         }
-        None => field(languages, texts::LATITUDE, site.latitude_deg.map(|value| angle(value, latitude_u, languages))),
+        None => stated(languages, texts::LATITUDE, site.latitude_deg.map(|value| angle(value, latitude_u, languages))),
     };
     html! {
         (fields([
-            field(languages, texts::SITE_ID, Some(given(site.id.as_str()))),
+            stated(languages, texts::SITE_ID, Some(given(site.id.as_str()))),
             latitude,
-            field(languages, texts::LONGITUDE, site.longitude_deg.map(degrees)),
-            field(languages, texts::HEIGHT,
+            stated(languages, texts::LONGITUDE, site.longitude_deg.map(degrees)),
+            stated(languages, texts::HEIGHT,
                 site.height_m.map(|height| quantity(languages, &Number::exact(height), units::METRES))),
-            field(languages, texts::DEFLECTION, deflection),
-            field(languages, texts::GRAVITY_MEASURED, gravity_measured(site, languages)),
+            stated(languages, texts::DEFLECTION, deflection),
+            stated(languages, texts::GRAVITY_MEASURED, gravity_measured(site, languages)),
             frame_axis.unwrap_or_default(),
-            field(languages, texts::LATITUDE_U, base.and_then(|base| base.latitude_arcsec).map(u)),
-            field(languages, texts::AZIMUTH_U, base.and_then(|base| base.azimuth_arcsec).map(u)),
-            field(languages, texts::LEVEL_U, base.and_then(|base| base.level_arcsec).map(u)),
-            wide_field(languages, texts::SITE_NAME, site.name.as_deref().map(given)),
-            wide_field(languages, texts::SOURCE, site.source.as_deref().map(given)),
+            stated(languages, texts::LATITUDE_U, base.and_then(|base| base.latitude_arcsec).map(u)),
+            stated(languages, texts::AZIMUTH_U, base.and_then(|base| base.azimuth_arcsec).map(u)),
+            stated(languages, texts::LEVEL_U, base.and_then(|base| base.level_arcsec).map(u)),
+            wide_stated(languages, texts::SITE_NAME, site.name.as_deref().map(given)),
+            wide_stated(languages, texts::SOURCE, site.source.as_deref().map(given)),
         ]))
         (mark(site, languages))
     }
@@ -243,10 +243,10 @@ fn mark(site: &Site, languages: &Languages) -> Markup {
     };
     let metres = |u: f64| quantity(languages, &Number::uncertainty(u), units::METRES);
     fields([
-        field(languages, texts::MARK, mark.name.as_deref().map(given)),
-        field(languages, texts::MARK_POSITION, Some(pair(mark.latitude_deg, mark.longitude_deg))),
-        field(languages, texts::PILLAR_POSITION, Some(pair(mark.pillar_latitude_deg, mark.pillar_longitude_deg))),
-        field(languages, texts::POSITION_U, mark.position_u_m.map(metres)),
+        stated(languages, texts::MARK, mark.name.as_deref().map(given)),
+        stated(languages, texts::MARK_POSITION, Some(pair(mark.latitude_deg, mark.longitude_deg))),
+        stated(languages, texts::PILLAR_POSITION, Some(pair(mark.pillar_latitude_deg, mark.pillar_longitude_deg))),
+        stated(languages, texts::POSITION_U, mark.position_u_m.map(metres)),
     ])
 }
 
@@ -260,23 +260,23 @@ fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
             (symbol("u", "")) " " (quantity(languages, &Number::uncertainty(u), units::ARCSEC))
         },
         None => html! {
-            (angle(azimuth, None, languages)) ", " (symbol("u", "")) " " (blank(languages))
+            (angle(azimuth, None, languages)) ", " (symbol("u", "")) " " (not_stated(languages))
         },
     });
     let latitude_u = site.uncertainty.as_ref().and_then(|base| base.latitude_arcsec);
     let latitude = angle(earth.latitude_deg, latitude_u, languages);
     fields([
-        field(languages, texts::EARTH_RATE, Some(rate(earth.rate_deg_per_h))),
-        field(languages, texts::EARTH_LATITUDE, Some(latitude)),
-        field(languages, texts::HORIZONTAL, Some(rate(earth.horizontal_deg_per_h))),
-        field(languages, texts::VERTICAL, Some(rate(earth.vertical_deg_per_h))),
-        field(languages, texts::GRAVITY, Some(gravity(earth.gravity_m_per_s2, u, languages))),
-        field(
+        stated(languages, texts::EARTH_RATE, Some(rate(earth.rate_deg_per_h))),
+        stated(languages, texts::EARTH_LATITUDE, Some(latitude)),
+        stated(languages, texts::HORIZONTAL, Some(rate(earth.horizontal_deg_per_h))),
+        stated(languages, texts::VERTICAL, Some(rate(earth.vertical_deg_per_h))),
+        stated(languages, texts::GRAVITY, Some(gravity(earth.gravity_m_per_s2, u, languages))),
+        stated(
             languages,
             texts::RADIUS,
             Some(quantity(languages, &Number::fixed(earth.valid_radius_m, 0), units::METRES)),
         ),
-        field(languages, texts::RADIUS_WITHIN, Some(within)),
-        field(languages, texts::AZIMUTH, azimuth),
+        stated(languages, texts::RADIUS_WITHIN, Some(within)),
+        stated(languages, texts::AZIMUTH, azimuth),
     ])
 }

@@ -7,7 +7,8 @@ use crate::passport::{Check, CheckName, Code, Dated};
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::Number;
 use crate::report::page::parts::{Table, date_text, time_text};
-use crate::report::page::texts::checks as texts;
+use crate::report::page::spacing::BLANK;
+use crate::report::page::texts::{checks as texts, units};
 use maud::{Markup, html};
 
 /// Every check, in the order of the report.
@@ -72,6 +73,11 @@ impl State {
     }
 }
 
+/// Returns `true` if nothing shows whether the passport has been withdrawn.
+pub(crate) fn withdrawal_not_checked(page: &PassportPage) -> bool {
+    State::of(page, CheckName::Revocation) == State::NotAsked
+}
+
 /// Writes every check as a mark with its name, and the number of checks with each result.
 pub(crate) fn line(page: &PassportPage, languages: &Languages) -> Markup {
     let count = |state| CHECKS.into_iter().filter(|name| State::of(page, *name) == state).count();
@@ -103,7 +109,9 @@ pub(crate) fn refusal(page: &PassportPage, languages: &Languages) -> Markup {
             div.verdict.refused {
                 p.headline { (languages.label_with(|language| headline(page, language))) }
                 (languages.paragraph_with(|language| {
-                    html! { (texts::GENUINE.filled(language, &[("time", &time_text(language, page.question.time))])) }
+                    let why: Vec<String> = failed(page).map(|check| words(page, check, language)).collect();
+                    let time = time_text(language, page.question.time);
+                    html! { (texts::GENUINE.filled(language, &[("time", &time), ("why", &why.join("; "))])) }
                 }))
             }
         }
@@ -249,7 +257,12 @@ fn place(page: &PassportPage, language: Language) -> String {
     let Some(place) = page.question.place else { return String::new() };
     let nearness = Nearness::of(&page.content, place);
     let text = if nearness.within() { texts::PLACE_OK } else { texts::PLACE_WRONG };
-    let [distance, radius] =
-        [nearness.distance_m, nearness.radius_m].map(|metres| Number::fixed(metres, 0).text(language));
+    let [distance, radius] = [nearness.distance_m, nearness.radius_m].map(|metres| length(metres, language));
     text.filled(language, &[("distance", &distance), ("radius", &radius)])
+}
+
+/// Returns a length in metres, or in kilometres above 10 km.
+fn length(metres: f64, language: Language) -> String {
+    let (value, unit) = if metres < 1e4 { (metres, units::METRES) } else { (metres / 1000.0, units::KILOMETRES) };
+    format!("{}{BLANK}{}", Number::fixed(value, 0).text(language), unit.words(language))
 }

@@ -5,7 +5,7 @@ use super::{PassportPage, checks};
 use crate::report::page::code;
 use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
-use crate::report::page::parts::{band, date, field, fields, given, quantity, time, wide_field};
+use crate::report::page::parts::{band, date, date_text, field, fields, given, quantity, stated, time, wide_stated};
 use crate::report::page::texts::{calibration, checks as check_texts, passport as texts, record, units, words};
 use maud::{Markup, html};
 
@@ -51,9 +51,15 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
         @if valid { p.headline { (languages.label(status)) } } @else { span.failed { (languages.label(status)) } }
     };
     let until = match content.last_day() {
-        Some((day, _)) => {
-            html! { p.large { (languages.inline(texts::UNTIL)) " " (date(languages, day)) } p { (languages.label(texts::INCLUSIVE)) } }
+        Some((day, _)) if valid => {
+            let checked = !checks::withdrawal_not_checked(page);
+            let words = if checked { texts::INCLUSIVE } else { texts::INCLUSIVE_NOT_CHECKED };
+            html! { p.large { (languages.inline(texts::UNTIL)) " " (date(languages, day)) } p { (languages.label(words)) } }
         }
+        // Below "Not to be used", "until" would say that it may be used later.
+        Some((day, _)) => html! {
+            p { (languages.label_with(|language| texts::PERIOD.filled(language, &[("day", &date_text(language, day))]))) }
+        },
         None => html! { p { (languages.label(texts::NO_END)) } },
     };
     let degrees = |value: f64| quantity(languages, &Number::exact(value), units::DEGREES);
@@ -66,6 +72,9 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
     };
     let word = html! {
         p { (given(&certificate.laboratory)) }
+        @if content.positions.iter().any(|at| at.u_alpha_arcsec.is_none()) {
+            p { (languages.label(texts::WITHOUT_UNCERTAINTY)) }
+        }
         p { (languages.inline(texts::SIGNED_BY)) }
         p { (given(&content.passport.issuer)) }
     };
@@ -99,11 +108,11 @@ fn proof(page: &PassportPage, languages: &Languages) -> Markup {
 fn signed(page: &PassportPage, languages: &Languages) -> Markup {
     let header = &page.content.passport;
     fields([
-        field(languages, texts::REVISION, Some(html! { (header.revision) })),
-        field(languages, texts::ISSUED, Some(time(languages, header.issued_at))),
-        field(languages, texts::VALID_UNTIL, header.valid_until.map(|day| date(languages, day))),
-        field(languages, texts::ISSUED_WITH, header.issued_with.as_deref().map(given)),
-        wide_field(languages, texts::KEY, Some(html! { code { (page.key.fingerprint()) } })),
+        stated(languages, texts::REVISION, Some(html! { (header.revision) })),
+        stated(languages, texts::ISSUED, Some(time(languages, header.issued_at))),
+        stated(languages, texts::VALID_UNTIL, header.valid_until.map(|day| date(languages, day))),
+        stated(languages, texts::ISSUED_WITH, header.issued_with.as_deref().map(given)),
+        wide_stated(languages, texts::KEY, Some(html! { code { (page.key.fingerprint()) } })),
     ])
 }
 
@@ -111,10 +120,10 @@ fn predecessor(page: &PassportPage, languages: &Languages) -> Markup {
     let Some(old) = &page.content.passport.reissued_from else { return html! {} };
     let superseded = if page.content.passport.supersedes == Some(true) { words::YES } else { words::NO };
     fields([
-        field(languages, texts::REISSUED_FROM, Some(given(&old.id))),
-        field(languages, texts::REISSUE_SUPERSEDES, Some(languages.inline(superseded))),
-        wide_field(languages, texts::REISSUE_REASON, Some(given(&old.reason))),
-        wide_field(languages, texts::REISSUE_CHANGED, Some(given(&old.changed))),
-        wide_field(languages, texts::REISSUED_SHA256, Some(html! { code { (old.sha256) } })),
+        stated(languages, texts::REISSUED_FROM, Some(given(&old.id))),
+        stated(languages, texts::REISSUE_SUPERSEDES, Some(languages.inline(superseded))),
+        wide_stated(languages, texts::REISSUE_REASON, Some(given(&old.reason))),
+        wide_stated(languages, texts::REISSUE_CHANGED, Some(given(&old.changed))),
+        wide_stated(languages, texts::REISSUED_SHA256, Some(html! { code { (old.sha256) } })),
     ])
 }

@@ -4,7 +4,7 @@
 use super::PassportPage;
 use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
-use crate::report::page::parts::{date, field, fields, given, heading, quantity, section as part, wide_field};
+use crate::report::page::parts::{date, field, fields, given, heading, quantity, section as part, stated, wide_stated};
 use crate::report::page::texts::{passport as texts, record, units};
 use crate::stand::{Certificate, Identity};
 use maud::{Markup, html};
@@ -23,13 +23,13 @@ pub(crate) fn stand(stand: &Identity, languages: &Languages) -> Markup {
     html! {
         (heading(languages, texts::STAND))
         (fields([
-            field(languages, texts::MODEL, Some(given(stand.model.as_str()))),
-            field(languages, texts::SERIAL, Some(given(stand.serial.as_str()))),
-            field(languages, texts::NAME, stand.name.as_deref().map(given)),
-            field(languages, texts::CONFIGURATION, stand.configuration.as_deref().map(given)),
-            field(languages, texts::MANUFACTURER, stand.manufacturer.as_deref().map(given)),
+            stated(languages, texts::MODEL, Some(given(stand.model.as_str()))),
+            stated(languages, texts::SERIAL, Some(given(stand.serial.as_str()))),
+            stated(languages, texts::NAME, stand.name.as_deref().map(given)),
+            stated(languages, texts::CONFIGURATION, stand.configuration.as_deref().map(given)),
+            stated(languages, texts::MANUFACTURER, stand.manufacturer.as_deref().map(given)),
             field(languages, record::MANUFACTURED, None),
-            field(languages, texts::CUSTOMER, stand.customer.as_deref().map(given)),
+            stated(languages, texts::CUSTOMER, stand.customer.as_deref().map(given)),
             field(languages, record::CUSTOMER_CONTACT, None),
         ]))
     }
@@ -45,20 +45,20 @@ pub(crate) fn certificate(certificate: &Certificate, languages: &Languages) -> M
     html! {
         (heading(languages, texts::CERTIFICATE))
         (fields([
-            field(languages, texts::CERTIFICATE_NUMBER, Some(given(&certificate.number))),
-            field(languages, texts::CERTIFICATE_ISSUED, Some(day(certificate.issued))),
-            field(languages, texts::PERFORMED, certificate.performed.map(day)),
-            field(languages, texts::RECEIVED, certificate.received.map(day)),
-            field(languages, texts::CERTIFICATE_VALID_UNTIL, certificate.valid_until.map(day)),
-            field(languages, texts::VALID_UNTIL_BASIS, certificate.valid_until_basis.as_deref().map(given)),
-            field(languages, texts::LABORATORY, Some(given(&certificate.laboratory))),
-            field(languages, texts::ADDRESS, certificate.address.as_deref().map(given)),
-            field(languages, texts::AUTHORISED_BY, certificate.authorized_by.as_deref().map(given)),
-            field(languages, texts::ACCREDITATION, certificate.accreditation.as_deref().map(given)),
-            field(languages, texts::TEMPERATURE, certificate.temperature_c.map(celsius)),
-            field(languages, texts::TEMPERATURE_RANGE, range),
-            wide_field(languages, texts::METHOD, certificate.method.as_deref().map(given)),
-            wide_field(languages, texts::TRACEABILITY, certificate.traceability.as_deref().map(given)),
+            stated(languages, texts::CERTIFICATE_NUMBER, Some(given(&certificate.number))),
+            stated(languages, texts::CERTIFICATE_ISSUED, Some(day(certificate.issued))),
+            stated(languages, texts::PERFORMED, certificate.performed.map(day)),
+            stated(languages, texts::RECEIVED, certificate.received.map(day)),
+            stated(languages, texts::CERTIFICATE_VALID_UNTIL, certificate.valid_until.map(day)),
+            stated(languages, texts::VALID_UNTIL_BASIS, certificate.valid_until_basis.as_deref().map(given)),
+            stated(languages, texts::LABORATORY, Some(given(&certificate.laboratory))),
+            stated(languages, texts::ADDRESS, certificate.address.as_deref().map(given)),
+            stated(languages, texts::AUTHORISED_BY, certificate.authorized_by.as_deref().map(given)),
+            stated(languages, texts::ACCREDITATION, certificate.accreditation.as_deref().map(given)),
+            stated(languages, texts::TEMPERATURE, certificate.temperature_c.map(celsius)),
+            stated(languages, texts::TEMPERATURE_RANGE, range),
+            wide_stated(languages, texts::METHOD, certificate.method.as_deref().map(given)),
+            wide_stated(languages, texts::TRACEABILITY, certificate.traceability.as_deref().map(given)),
         ]))
     }
 }

@@ -18,6 +18,7 @@ const DECIMALS: usize = 9;
 pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
     let body = html! {
+        (languages.paragraph(texts::DIGITS_NOTE))
         @match &content.matrices {
             Some(m) => {
                 (heading(languages, texts::MATRICES))
@@ -35,7 +36,6 @@ pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
             (languages.paragraph(texts::SELF_CHECK_NOTE))
             (self_check(check, languages))
         }
-        (languages.paragraph(texts::DIGITS_NOTE))
     };
     part(languages, "numbers", "3", texts::NUMBERS, &body)
 }
@@ -55,9 +55,9 @@ fn matrices(m: &MatrixRows, languages: &Languages) -> Markup {
         row(symbol("Δ", ""), units::ONE, &m.delta),
         row(symbol("B", ""), units::DEG_PER_H, &m.b_deg_per_h),
         row(symbol("C", ""), units::DEG_PER_H_PER_G, &m.c_deg_per_h_per_g),
-        row(symbol("n", "1"), units::ONE, &m.n1),
-        row(symbol("n", "2"), units::ONE, &m.n2),
-        row(inverse, units::ONE, &m.n2_inverse),
+        row(symbol("n", "1"), units::G, &m.n1),
+        row(symbol("n", "2"), units::G, &m.n2),
+        row(inverse, units::PER_G, &m.n2_inverse),
         row(symbol("ω", "31"), units::DEG_PER_H, &m.omega1_deg_per_h),
         row(symbol("ω", "32"), units::DEG_PER_H, &m.omega2_deg_per_h),
     ];

@@ -29,14 +29,14 @@ texts! {
         en: "The parameters are not valid until the cause has been found.",
         ru: "До выяснения причины найденные параметры недействительны."
     }
-    CONFORMS { en: "Within the tolerance of gyro type {type}", ru: "Соответствует допускам типа {type}" }
-    CONFORMS_NOT { en: "NOT within the tolerance of gyro type {type}", ru: "НЕ соответствует допускам типа {type}" }
+    CONFORMS { en: "Within the tolerances of gyro type {type}", ru: "Соответствует допускам типа {type}" }
+    CONFORMS_NOT { en: "NOT within the tolerances of gyro type {type}", ru: "НЕ соответствует допускам типа {type}" }
     UNDECIDED { en: "Conformity with gyro type {type} is undecided", ru: "Соответствие типу {type} не определено" }
     RULE {
         en: "Decision rule: guarded acceptance with a guard band equal to the expanded uncertainty U, \
              k = 2 or that of Student's t (JCGM 106, 8.3).",
         ru: "Правило принятия решения: приёмка с защитной полосой, равной расширенной неопределённости \
-             U, k = 2 или по Стьюденту (JCGM 106, 8.3)."
+             U, k = 2 или коэффициент Стьюдента (JCGM 106, 8.3)."
     }
     NO_TYPE { en: "Parameters determined", ru: "Параметры определены" }
     NO_TYPE_WORDS {
@@ -105,6 +105,10 @@ texts! {
              равномерно; другие составляющие неопределённости лаборатории не учтены."
     }
     TEMPERATURE { en: "Temperature", ru: "Температура" }
+    TEMPERATURE_IS_OUTSIDE {
+        en: "The temperature is outside the certified range",
+        ru: "Температура вне диапазона, указанного в сертификате"
+    }
     TEMPERATURE_OUTSIDE {
         en: "The temperature in the laboratory is {here} °C; the deviations of the stand are certified from \
              {low} °C to {high} °C.",
@@ -123,6 +127,7 @@ texts! {
         ru: "Параметры и их стандартная неопределённость u (k = 1); составляющие дрейфа отнесены к местному g"
     }
     PASSED { en: "{passed} of {all} parameters pass", ru: "Соответствуют допускам {passed} из {all} параметров" }
+    CHANGE_COUNTED { en: "Change since the previous calibration:", ru: "Изменение после предыдущей калибровки." }
     ARE_UNDECIDED { en: "; undecided: {names}", ru: "; не определено: {names}" }
     FAIL { en: "; fail: {names}", ru: "; не соответствуют: {names}" }
     PLUS_MINUS { en: "± U", ru: "± U" }
@@ -130,14 +135,11 @@ texts! {
     METHODS { en: "Methods and convergence", ru: "Методы и сходимость" }
     NEGLIGIBLE { en: "negligible, below a thousandth of u", ru: "пренебрежимо мала, менее тысячной доли u" }
     PARAMETERS_CAPTION {
-        en: "Values, each with its standard uncertainty u (k = 1) below it; drifts refer to local g",
+        en: "Values, each with its standard uncertainty u (k = 1) below it; drifts refer to local g, {g} m/s²",
         ru: "Значения и под ними стандартная неопределённость u (k = 1); составляющие дрейфа отнесены к \
-             местному g"
+             местному g, {g} м/с²"
     }
-    LEAST_SQUARES {
-        en: "weighted least squares (adopted result)",
-        ru: "метод наименьших квадратов (принятый результат)"
-    }
+    ADOPTED { en: "{method} (adopted result)", ru: "{method} (принятый результат)" }
     LEAST_SQUARES_NAME { en: "least squares", ru: "метод наименьших квадратов" }
     ANALYTIC { en: "analytic method", ru: "аналитический метод" }
     ITERATIVE { en: "iterative method", ru: "итерационный метод" }
@@ -170,9 +172,9 @@ texts! {
     CONFORMITY { en: "Comparison with gyro type {type}", ru: "Сравнение с типом {type}" }
     VERDICT_CAPTION {
         en: "Deviation from the nominal value in the unit of the tolerance; expanded uncertainty U (k = 2, or Student's \
-             t); drifts refer to the g of the type",
-        ru: "Отклонение от номинального значения в единицах допуска; расширенная неопределённость U (k = 2 или по \
-             Стьюденту); составляющие дрейфа отнесены к g типа"
+             t); drifts refer to the g of the type, {g} m/s²",
+        ru: "Отклонение от номинального значения в тех же единицах, что и допуск; расширенная неопределённость U (k = 2 \
+             или коэффициент Стьюдента); составляющие дрейфа отнесены к g типа, {g} м/с²"
     }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
     HISTORY { en: "All calibrations of this gyro", ru: "Все калибровки этого гироскопа" }
@@ -180,14 +182,14 @@ texts! {
         en: "Parameters from the earliest calibration to this one, with expanded uncertainty U\u{a0}=\u{a0}2u (for the \
              marks, U after Student's t); drifts refer to one g",
         ru: "Параметры от первой калибровки до этой, с расширенной неопределённостью U\u{a0}=\u{a0}2u (для отметок U — \
-             по Стьюденту); составляющие дрейфа отнесены к одному g"
+             с коэффициентом Стьюдента); составляющие дрейфа отнесены к одному g"
     }
     CALIBRATED { en: "Calibration", ru: "Калибровка" }
     CHANGE_CAPTION {
         en: "Change in the unit of the tolerance, which also limits the instability; expanded uncertainty U (k = 2, or \
-             Student's t); drifts refer to the g of the type",
-        ru: "Изменение в единицах допуска (он же — допуск на нестабильность); расширенная неопределённость U (k = 2 или \
-             по Стьюденту); составляющие дрейфа отнесены к g типа"
+             Student's t); drifts refer to the g of the type, {g} m/s²",
+        ru: "Изменение в тех же единицах, что и допуск (он же — допуск на нестабильность); расширенная неопределённость \
+             U (k = 2 или коэффициент Стьюдента); составляющие дрейфа отнесены к g типа, {g} м/с²"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     UNIT { en: "Unit", ru: "Единица" }
@@ -264,6 +266,12 @@ texts! {
     DRIFT_X { en: "Drift in time about x", ru: "Изменение дрейфа во времени, ось x" }
     DRIFT_Y { en: "Drift in time about y", ru: "Изменение дрейфа во времени, ось y" }
     ENLARGED { en: "Factor applied to the variance", ru: "Коэффициент увеличения дисперсии" }
+    NOISE_ADDED {
+        en: "The variation between visits is larger than the stated uncertainties explain. The noise of the gyro was \
+             estimated from it and is included in all uncertainties.",
+        ru: "Рассеяние между установками больше, чем объясняют указанные неопределённости. По нему оценён шум \
+             гироскопа, который учтён во всех неопределённостях."
+    }
     LESS_THAN_STATED {
         en: "The variation is less than stated. Readings taken without leaving the position belong to one visit.",
         ru: "Рассеяние меньше указанного. Показания, снятые без выхода из положения, относятся к одной установке."
@@ -318,8 +326,8 @@ texts! {
     NOT_STATED_LATITUDE { en: "latitude", ru: "широта" }
     NOT_STATED_DEFLECTION { en: "deflection of the vertical", ru: "уклонение отвесной линии" }
     NOT_STATED_MARK { en: "azimuth of the mark", ru: "азимут ориентирного пункта" }
-    NOT_STATED_VISITS { en: "gyro from visit to visit", ru: "шум гироскопа от установки к установке" }
-    NOT_STATED_TURN_ONS { en: "gyro from turn-on to turn-on", ru: "нестабильность гироскопа от запуска к запуску" }
+    NOT_STATED_VISITS { en: "gyro noise from visit to visit", ru: "шум гироскопа от установки к установке" }
+    NOT_STATED_TURN_ONS { en: "gyro noise from turn-on to turn-on", ru: "нестабильность гироскопа от запуска к запуску" }
     NOT_STATED_GRAVITY { en: "gravity", ru: "ускорение свободного падения" }
     NOT_STATED_AZIMUTH { en: "azimuth of the base", ru: "азимут основания" }
     NOT_STATED_LEVEL { en: "level of the base", ru: "горизонтирование основания" }
@@ -327,8 +335,10 @@ texts! {
 
     BUDGET { en: "Uncertainty budget", ru: "Бюджет неопределённости" }
     BUDGET_CAPTION {
-        en: "Contributions of the inputs, by kind, to the standard uncertainty of each parameter",
-        ru: "Вклады входных величин по видам в стандартную неопределённость каждого параметра"
+        en: "Contributions of the inputs, by kind, to the standard uncertainty of each parameter; drifts refer to local \
+             g, whose own uncertainty is not included",
+        ru: "Вклады входных величин по видам в стандартную неопределённость каждого параметра; составляющие дрейфа \
+             отнесены к местному g, неопределённость которого не включена"
     }
     SHARES_CAPTION {
         en: "Standard uncertainty u of each parameter, and where its variance u² comes from",
@@ -347,6 +357,10 @@ texts! {
     BUDGET_WORST {
         en: "Largest uncertainty relative to tolerance: {parameter}, u = {u}.",
         ru: "Наибольшая неопределённость относительно допуска: {parameter}, u = {u}."
+    }
+    BUDGET_WORST_BUT_GRAVITY {
+        en: "Largest uncertainty relative to tolerance, that of local g aside: {parameter}, u = {u}.",
+        ru: "Наибольшая неопределённость относительно допуска без учёта местного g: {parameter}, u = {u}."
     }
     BUDGET_WORST_OF_SIZE {
         en: "Largest uncertainty relative to the value: {parameter}, u = {u}.",
@@ -371,7 +385,7 @@ texts! {
     BUDGET_LEAVES { en: "Without this source, u would be {rest}.", ru: "Без этого источника u составила бы {rest}." }
     COMBINED { en: "combined, u", ru: "суммарная, u" }
     EFFECTIVE_FREEDOM { en: "effective degrees of freedom", ru: "эффективное число степеней свободы" }
-    EXPANDED { en: "expanded, U for 95 %", ru: "расширенная, U для 95 %" }
+    EXPANDED { en: "expanded, U for 95 % (Student’s t)", ru: "расширенная, U для 95 % (Стьюдент)" }
     INPUT { en: "{input}: u = {u}", ru: "{input}: u = {u}" }
     CAUSE_ANGLE { en: "certified angles", ru: "аттестованные углы" }
     CAUSE_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
@@ -381,12 +395,12 @@ texts! {
     CAUSE_DIFFERENCES { en: "differences between visits", ru: "разности между установками" }
     CAUSE_TURN_ON { en: "gyro, turn-ons, axis {axis}", ru: "гироскоп, запуски, ось {axis}" }
     CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
-    CAUSE_PLATFORM { en: "platform about {axis}", ru: "платформа вокруг {axis}" }
-    CAUSE_SEAT { en: "gyro seat about {axis}", ru: "посадочная поверхность вокруг {axis}" }
-    CAUSE_BASE { en: "base of the stand about {axis}", ru: "основание стенда вокруг {axis}" }
+    CAUSE_PLATFORM { en: "rotation of the platform about {axis}", ru: "поворот платформы вокруг {axis}" }
+    CAUSE_SEAT { en: "rotation of the gyro seat about {axis}", ru: "поворот посадочной поверхности вокруг {axis}" }
+    CAUSE_BASE { en: "rotation of the base of the stand about {axis}", ru: "поворот основания стенда вокруг {axis}" }
     ABOUT_EAST { en: "east", ru: "направления на восток" }
     ABOUT_NORTH { en: "north", ru: "направления на север" }
-    ABOUT_UP { en: "up", ru: "вертикали" }
+    ABOUT_UP { en: "the vertical", ru: "вертикали" }
     CAUSE_LEVEL { en: "level of the base about {axis}", ru: "наклон основания вокруг {axis}" }
     CAUSE_AZIMUTH { en: "azimuth of the base", ru: "азимут основания" }
     CAUSE_MARK { en: "azimuth of the mark", ru: "азимут ориентирного пункта" }
@@ -398,7 +412,7 @@ texts! {
     MONTE_CARLO { en: "Monte Carlo method", ru: "Метод Монте-Карло" }
     MONTE_CARLO_CAPTION {
         en: "{trials} trials, seed {seed}; probabilistically symmetric 95 % coverage intervals",
-        ru: "Число испытаний {trials}, начальное число {seed}; вероятностно симметричные интервалы охвата для вероятности 95 %"
+        ru: "Число испытаний {trials}, начальное значение генератора {seed}; вероятностно симметричные интервалы охвата для вероятности 95 %"
     }
     MEAN { en: "mean", ru: "среднее" }
     LOWER { en: "lower end", ru: "нижняя граница" }

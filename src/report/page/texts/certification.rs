@@ -66,8 +66,8 @@ texts! {
     STATISTIC { en: "Statistic", ru: "Статистика" }
     FREEDOM { en: "Degrees of freedom", ru: "Число степеней свободы" }
     PROBABILITY { en: "Probability", ru: "Вероятность" }
-    BARTLETT_POSITIONS { en: "Bartlett: all positions scatter alike", ru: "Бартлетта: разброс всех положений одинаков" }
-    BARTLETT_AXES { en: "Bartlett: x, y and z scatter alike", ru: "Бартлетта: разброс вокруг x, y и z одинаков" }
+    BARTLETT_POSITIONS { en: "Bartlett: equal variances of all positions", ru: "Бартлетта: равенство дисперсий всех положений" }
+    BARTLETT_AXES { en: "Bartlett: equal variances about x, y and z", ru: "Бартлетта: равенство дисперсий вокруг x, y и z" }
     COCHRAN { en: "Cochran: position {index} scatters more, ratio", ru: "Кохрена: наибольший разброс в положении {index}, отношение" }
     GRUBBS {
         en: "Grubbs: position {index}, run {run}, about {axis}, residual, ″",
@@ -98,8 +98,12 @@ texts! {
         en: "The readings were not compared with an earlier certificate.",
         ru: "Показания не сравнивались с прежним сертификатом."
     }
-    SAME { en: "Unchanged since certificate {number}", ru: "Не изменился после сертификата {number}" }
-    CHANGED { en: "Changed since certificate {number}", ru: "Изменился после сертификата {number}" }
+    SAME { en: "Unchanged since certificate {number}", ru: "Стенд не изменился после сертификата {number}" }
+    CHANGED { en: "Changed since certificate {number}", ru: "Стенд изменился после сертификата {number}" }
+    UNDECIDED {
+        en: "Undecided whether the stand has changed since certificate {number}: the readings have outliers",
+        ru: "Изменился ли стенд после сертификата {number}, не установлено: в показаниях есть выбросы"
+    }
     CHANGE_CAPTION {
         en: "Deviations of certificate {number} and of this one; u: standard uncertainty of the change",
         ru: "Отклонения по сертификату {number} и по новому; u — стандартная неопределённость изменения"

@@ -22,10 +22,7 @@ texts! {
 
     IN_FORCE { en: "In force", ru: "Действует" }
     NOT_TO_BE_USED { en: "Not to be used", ru: "Не применять" }
-    GENUINE {
-        en: "The passport is authentic, but must not be used as of {time}, or not at this place.",
-        ru: "Паспорт подлинный, но на {time} или в этом месте применению не подлежит."
-    }
+    GENUINE { en: "The passport is authentic. As of {time}: {why}.", ru: "Паспорт подлинный. На {time}: {why}." }
     EXPIRED { en: "expired", ru: "срок действия истёк" }
     NOT_YET { en: "not yet in force", ru: "ещё не вступил в силу" }
     ANOTHER_STAND { en: "for another stand", ru: "относится к другому стенду" }
@@ -100,13 +97,12 @@ texts! {
     STAND_NOT_ASKED { en: "no serial number was given", ru: "заводской номер не задан" }
     PLACE { en: "Place", ru: "Место" }
     PLACE_OK {
-        en: "{distance} m from the site; validity radius {radius} m",
-        ru: "{distance} м от места установки; радиус применимости {radius} м"
+        en: "{distance} from the site; validity radius {radius}",
+        ru: "{distance} от места установки; радиус применимости {radius}"
     }
     PLACE_WRONG {
-        en: "{distance} m from the site; validity radius {radius} m; request a re-issue for this place",
-        ru: "{distance} м от места установки; радиус применимости {radius} м; следует запросить перевыпуск \
-             для этого места"
+        en: "{distance} from the site; validity radius {radius}; request a re-issue for this place",
+        ru: "{distance} от места установки; радиус применимости {radius}; следует запросить перевыпуск для этого места"
     }
     PLACE_NOT_ASKED { en: "no place was given", ru: "место не задано" }
     REGISTER { en: "Register", ru: "Реестр" }

@@ -10,12 +10,18 @@ texts! {
     STATUS { en: "Status", ru: "Состояние" }
     UNTIL { en: "until", ru: "по" }
     INCLUSIVE { en: "inclusive", ru: "включительно" }
+    INCLUSIVE_NOT_CHECKED {
+        en: "inclusive; withdrawal not checked",
+        ru: "включительно; отзыв не\u{a0}проверен"
+    }
+    PERIOD { en: "validity period until {day} (inclusive)", ru: "срок действия по {day} включительно" }
     NO_END { en: "no expiry date is stated", ru: "срок действия не указан" }
-    WHERE { en: "Place of use: within", ru: "Применять в радиусе" }
+    WHERE { en: "Place of use: within", ru: "Применять в пределах" }
     AROUND { en: "of latitude and longitude", ru: "от точки с координатами" }
     AROUND_PARALLEL { en: "north or south of latitude", ru: "к северу и югу от широты" }
-    WORD { en: "On the word of certificate", ru: "На основании сертификата" }
-    SIGNED_BY { en: "signed by", ru: "подписал" }
+    WORD { en: "Based on certificate", ru: "На основании сертификата" }
+    WITHOUT_UNCERTAINTY { en: "no uncertainty stated", ru: "неопределённость не указана" }
+    SIGNED_BY { en: "passport signed by", ru: "паспорт подписал" }
     CHECKING { en: "How to check", ru: "Как проверить" }
     CHECKING_HOW {
         en: "of the file: scan the code and compare, or run dtg-passport verify",
@@ -72,7 +78,7 @@ texts! {
     METHOD { en: "Method", ru: "Методика" }
     TRACEABILITY { en: "Traceability", ru: "Прослеживаемость" }
     TEMPERATURE { en: "Temperature during measurement", ru: "Температура при измерениях" }
-    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Температура применения" }
+    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Диапазон температур" }
     FROM_TO { en: "{low} to {high}", ru: "от {low} до {high}" }
     THIS_ITEM_ONLY {
         en: "The results relate only to the stand identified here. This passport shall not be reproduced except in \
@@ -91,12 +97,12 @@ texts! {
     DEVIATIONS_NOTE {
         en: "Position (i, j): frame angle θ about ξ, then platform angle φ about the spin axis. α, β, γ transform \
              coordinates from the nominal to the actual platform, eq. (4). u: standard uncertainty \
-             (k = 1) of the certified mean, own part of the position; ν: degrees of freedom of u. \
+             (k = 1) of the certified mean, own part of the position; ν: degrees of freedom of u (–: not stated). \
              Uncertainties have two significant digits; values are rounded to the same decimal place.",
         ru: "Положение (i, j): угол рамки θ вокруг ξ, затем угол платформы φ вокруг оси собственного вращения. α, β, γ \
              преобразуют координаты от номинальной платформы к реальной, формула (4). u — стандартная \
              неопределённость (k = 1) аттестованного среднего, собственная составляющая положения; ν — \
-             число её степеней свободы. В неопределённостях две значащие цифры, значения — до того же разряда."
+             число её степеней свободы (– : не указано). В неопределённостях две значащие цифры, значения — до того же разряда."
     }
     FIGURE_POSITIONS {
         en: "The stand in its positions (i, j), viewed from above and south-south-east.",
@@ -106,7 +112,7 @@ texts! {
         en: "Uncertainty common to all positions (k = 1)",
         ru: "Неопределённость, общая для всех положений (k = 1)"
     }
-    REPEATABILITY { en: "Repeatability of positioning, per axis", ru: "Повторяемость (по осям)" }
+    REPEATABILITY { en: "Repeatability of positioning, per axis", ru: "Повторяемость положений (по осям)" }
     REPEATABILITY_DOF { en: "Degrees of freedom of the repeatability", ru: "Число её степеней свободы" }
     COMMON_PLATFORM { en: "Common part, per axis of the platform", ru: "Общая, по осям платформы" }
     COMMON_BASE { en: "Common part, per axis of the base", ru: "Общая, по осям основания" }
@@ -150,10 +156,7 @@ texts! {
     EARTH_LATITUDE { en: "Astronomic latitude Φ", ru: "Астрономическая широта Φ" }
     HORIZONTAL { en: "Horizontal component, Ω\u{a0}cos\u{a0}Φ", ru: "Горизонтальная, Ω\u{a0}cos\u{a0}Φ" }
     VERTICAL { en: "Vertical component, Ω\u{a0}sin\u{a0}Φ", ru: "Вертикальная, Ω\u{a0}sin\u{a0}Φ" }
-    GRAVITY {
-        en: "Gravity g to which the drifts refer",
-        ru: "Ускорение g, к которому отнесены составляющие дрейфа"
-    }
+    GRAVITY { en: "Gravity g, local", ru: "Ускорение g, местное" }
     RADIUS { en: "Validity radius", ru: "Радиус применимости" }
     RADIUS_WITHIN {
         en: "Change of the Earth-rate components at this radius",
@@ -230,7 +233,7 @@ texts! {
         ru: "Неопределённости в сравнении с допусками."
     }
     GYRO_TYPE { en: "Gyro type", ru: "Тип гироскопа" }
-    GYRO_GRAVITY { en: "g to which its drifts refer", ru: "g составляющих дрейфа" }
+    GYRO_GRAVITY { en: "g to which the type’s drifts refer", ru: "g, к которому отнесён дрейф типа" }
     CALIBRATING_LABORATORY { en: "Calibrating laboratory", ru: "Лаборатория" }
     METER { en: "Current meter (k = 1)", ru: "Измеритель тока (k = 1)" }
     METER_WORDS {
@@ -241,11 +244,11 @@ texts! {
     }
     METER_NOISE { en: "; noise of a reading {noise} mA", ru: "; шум показания {noise} мА" }
     SEATING { en: "u of the gyro seat about x, y, z", ru: "u посадки вокруг x, y, z" }
-    BASE_AZIMUTH_U { en: "u of the azimuth of the base", ru: "u азимута основания" }
-    BASE_LEVEL_U { en: "u of the level of the base", ru: "u горизонтирования основания" }
+    BASE_AZIMUTH_U { en: "u of the azimuth, in this laboratory", ru: "u азимута в лаборатории" }
+    BASE_LEVEL_U { en: "u of the level, in this laboratory", ru: "u горизонтирования в лаборатории" }
     LABORATORY_TEMPERATURE { en: "Temperature in the laboratory", ru: "Температура в лаборатории" }
     NOMINAL { en: "Nominal value", ru: "Номинальное значение" }
-    TOLERANCE { en: "Tolerance", ru: "Допуск" }
+    TOLERANCE { en: "Tolerance (%: of nominal)", ru: "Допуск (% — от номинального)" }
 
     ABSENCES { en: "Information not stated", ru: "Неуказанные сведения" }
     ABSENCES_NONE {

@@ -9,8 +9,8 @@ texts! {
     CONDITION { en: "Condition of the stand", ru: "Состояние стенда" }
     MANUFACTURED { en: "Date of manufacture", ru: "Дата изготовления" }
     METHOD_CHANGES { en: "Deviations from the method", ru: "Отступления от методики" }
-    ADJUSTMENT { en: "Results before adjustment or repair", ru: "До юстировки или ремонта" }
-    EXTERNAL { en: "Results from external providers", ru: "От внешних поставщиков" }
+    ADJUSTMENT { en: "Results before adjustment or repair", ru: "Данные до юстировки или ремонта" }
+    EXTERNAL { en: "Results from external providers", ru: "Результаты внешних поставщиков" }
     SIGNATURE { en: "Signature", ru: "Подпись" }
 
     RECORD { en: "Record of the stand", ru: "Учёт изделия" }
@@ -18,7 +18,7 @@ texts! {
         en: "The forms of this section are filled in by hand on the printed passport.",
         ru: "Формы этого раздела заполняют от\u{a0}руки в отпечатанном паспорте."
     }
-    COMPLETENESS { en: "Completeness", ru: "Комплектность" }
+    COMPLETENESS { en: "Scope of delivery", ru: "Комплектность" }
     DESIGNATION { en: "Designation", ru: "Обозначение" }
     ITEM { en: "Item", ru: "Наименование" }
     QUANTITY { en: "Quantity", ru: "Кол-во" }
@@ -42,14 +42,14 @@ texts! {
     PERIOD { en: "Valid for, years", ru: "Срок действия, годы" }
     WHO { en: "Position, name, signature", ru: "Должность, фамилия, подпись" }
 
-    PACKING { en: "Certificate of packing", ru: "Свидетельство об упаковывании" }
+    PACKING { en: "Packing certificate", ru: "Свидетельство об упаковывании" }
     PACKING_WORDS {
         en: "Stand {model} No. {serial} has been packed by the organisation named below in accordance with the \
              technical documentation in force.",
         ru: "Стенд {model} № {serial} упакован указанной ниже организацией согласно требованиям действующей \
              технической документации."
     }
-    ACCEPTANCE { en: "Certificate of acceptance", ru: "Свидетельство о приёмке" }
+    ACCEPTANCE { en: "Acceptance certificate", ru: "Свидетельство о приёмке" }
     ACCEPTANCE_WORDS {
         en: "Stand {model} No. {serial} has been manufactured and accepted in accordance with the mandatory \
              requirements of standards and the technical documentation in force, and has been found fit for use.",

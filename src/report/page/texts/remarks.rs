@@ -129,6 +129,12 @@ texts! {
         ru: "Все положения контрольной серии {run} повёрнуты относительно других серий на {turn}″ вокруг оси основания \
              «{axis}»; в общий поворот вошло {mean}″."
     }
+    CHECK_OUTLIER {
+        en: "The reading of position {index} in run {run} of the check differs by {residual}″ about {axis} from its other \
+             runs; the change of the position includes {mean}″ of it.",
+        ru: "Показание положения {index} в контрольной серии {run} отличается от других серий на {residual}″ вокруг {axis}; \
+             в изменение положения вошло {mean}″."
+    }
     NOT_TESTED_VARIATION {
         en: "Rotation of the stand as a whole was not tested: the variation between the runs is unknown.",
         ru: "Общий поворот стенда не проверен: изменчивость от серии к серии неизвестна."
