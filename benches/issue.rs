@@ -13,7 +13,7 @@ mod fleet;
 
 use dtg_passport::folder::Folder;
 use dtg_passport::passport::issue::draft;
-use dtg_passport::site::{SITE_FORMAT, Site};
+use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
 use ed25519_dalek::Signer as _;
 use fleet::{Time, median, on_threads, scratch, timed, write_and_rename};
@@ -56,7 +56,7 @@ impl Job {
         fs::create_dir_all(inputs.join("sites")).expect("a folder");
         for site in &sites {
             let mut file = json!(site);
-            file["format"] = json!(SITE_FORMAT);
+            file["format"] = json!("dtg-site/1");
             let path = inputs.join("sites").join(format!("{}.yaml", site.id));
             fs::write(path, file.to_string()).expect("a site");
         }

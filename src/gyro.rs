@@ -4,6 +4,7 @@
 
 use crate::coefficients::PositionCoefficients;
 use crate::earth::STANDARD_GRAVITY_M_PER_S2;
+use crate::text::record::Document;
 use crate::text::{Path, Problems, record};
 use nalgebra::{Matrix2, Vector2};
 
@@ -95,8 +96,6 @@ record! {
 record! {
     /// Gyro type: nominal parameters and their tolerances (`dtg-gyro/1`).
     pub struct GyroType {
-        /// Always "dtg-gyro/1".
-        pub format: String,
         /// Name of the type.
         pub r#type: String,
         /// Nominal parameters.
@@ -110,8 +109,9 @@ record! {
     }
 }
 
-/// Value of `format` in a gyro type file.
-pub(crate) const GYRO_FORMAT: &str = "dtg-gyro/1";
+impl Document for GyroType {
+    const FORMAT: &'static str = "dtg-gyro/1";
+}
 
 impl GyroType {
     /// Reads a `dtg-gyro/1` file; `name` is the file name in messages.
@@ -120,9 +120,7 @@ impl GyroType {
     /// Returns [`crate::text::Unreadable`] with the line, column and field of every error.
     #[cfg(feature = "factory")]
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
-        crate::text::yaml::read_document(name, bytes, GYRO_FORMAT, |gyro: &Self, problems| {
-            gyro.check(&Path::Root, problems)
-        })
+        crate::text::yaml::read_document(name, bytes, |gyro: &Self, problems| gyro.check(&Path::Root, problems))
     }
 
     /// Checks the content of a gyro type.
@@ -158,7 +156,6 @@ impl GyroType {
     /// Creates the type of the paper's gyro, GVK-6, with its nominal values and tolerances (paper, table).
     pub fn gvk_6() -> Self {
         Self {
-            format: GYRO_FORMAT.to_owned(),
             r#type: "GVK-6".to_owned(),
             nominal: Parameters {
                 k_deg_per_h_per_ma: [[95.0, 9.5], [9.5, 95.0]],

@@ -1,9 +1,7 @@
 //! The laboratory file (`dtg-laboratory/1`): current meter, gyro seat and base.
 
+use crate::text::record::Document;
 use crate::text::{Path, Problems, record};
-
-/// Value of `format` in a laboratory file.
-pub(crate) const LABORATORY_FORMAT: &str = "dtg-laboratory/1";
 
 /// Lowest and highest temperature of a laboratory, °C.
 pub(crate) const TEMPERATURES_C: [f64; 2] = [-90.0, 100.0];
@@ -53,8 +51,6 @@ record! {
 record! {
     /// Laboratory (`dtg-laboratory/1`).
     pub struct Laboratory {
-        /// Always "dtg-laboratory/1".
-        pub format: String,
         /// Name of the laboratory.
         pub name: Option<String>,
         /// Current meter.
@@ -68,6 +64,10 @@ record! {
     }
 }
 
+impl Document for Laboratory {
+    const FORMAT: &'static str = "dtg-laboratory/1";
+}
+
 impl Laboratory {
     /// Reads a `dtg-laboratory/1` file; `name` is the file name in messages.
     ///
@@ -75,7 +75,7 @@ impl Laboratory {
     /// Returns [`crate::text::Unreadable`] with the line, column and field of every error.
     #[cfg(feature = "factory")]
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
-        crate::text::yaml::read_document(name, bytes, LABORATORY_FORMAT, |laboratory: &Self, problems| {
+        crate::text::yaml::read_document(name, bytes, |laboratory: &Self, problems| {
             laboratory.check(&Path::Root, problems);
         })
     }
@@ -104,7 +104,6 @@ impl Laboratory {
     /// The limits are taken as those of a uniform distribution (GUM, 4.3.7): 0.015 %/√3 = 0.0087 %.
     pub fn paper() -> Self {
         Self {
-            format: LABORATORY_FORMAT.to_owned(),
             name: None,
             meter: Meter {
                 range_ma: 1.0,

@@ -6,13 +6,10 @@ mod consistency;
 use crate::attitude::PAPER_FRAME_AXIS_AZIMUTH_DEG;
 use crate::coefficients::EarthRate;
 use crate::earth::{self, LaplaceCorrection, Place};
+use crate::text::record::Document;
 use crate::text::scalar::Identifier;
-use crate::text::sink::Sink;
-use crate::text::{Field, Node, Path, Problems, number, record};
+use crate::text::{Path, Problems, number, record};
 use crate::units::{ARCSECONDS_PER_DEGREE, sin_cos_of_degrees};
-
-/// Value of `format` in a site file.
-pub const SITE_FORMAT: &str = "dtg-site/1";
 
 /// Standard uncertainty of a deflection component that is unknown and taken as 0, arcsec.
 pub(crate) const UNKNOWN_DEFLECTION_U_ARCSEC: f64 = 10.0;
@@ -76,7 +73,7 @@ record! {
 }
 
 record! {
-    /// Site file without `format`, as contained in a passport.
+    /// Site: the place of delivery of a stand (`dtg-site/1`).
     pub struct Site {
         /// Identifier of the site, which is also the file name.
         pub id: Identifier,
@@ -109,40 +106,8 @@ record! {
     }
 }
 
-/// A site file: `format`, then the keys of [`Site`].
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
-pub(crate) struct SiteFile {
-    /// Always "dtg-site/1".
-    pub format: String,
-    /// The site itself, its keys beside `format`.
-    #[cfg_attr(feature = "cli", schemars(flatten))]
-    pub site: Site,
-}
-
-impl Field for SiteFile {
-    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
-        let Node::Map(entries) = node else {
-            problems.at(at, node.describe(), "a mapping", "");
-            return None;
-        };
-        let format = crate::text::record::read_field(entries, "format", at, problems);
-        let site = Site::read_beside(node, &["format"], at, problems);
-        Some(Self { format: format?, site: site? })
-    }
-
-    fn is_mapping(&self) -> bool {
-        true
-    }
-
-    fn emit<S: Sink>(&self, sink: &mut S) {
-        sink.mapping(false, |sink| {
-            if sink.key("format") {
-                sink.text(&self.format);
-            }
-            self.site.emit_entries(sink);
-        });
-    }
+impl Document for Site {
+    const FORMAT: &'static str = "dtg-site/1";
 }
 
 record! {
@@ -188,11 +153,10 @@ impl Site {
     /// Returns [`crate::text::Unreadable`] with the line, column and field of every error.
     #[cfg(feature = "factory")]
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
-        let check = |file: &SiteFile, problems: &mut Problems| {
-            file.site.check(&Path::Root, problems);
-            file.site.check_consistency(&Path::Root, problems);
-        };
-        Ok(crate::text::yaml::read_document(name, bytes, SITE_FORMAT, check)?.site)
+        crate::text::yaml::read_document(name, bytes, |site: &Self, problems| {
+            site.check(&Path::Root, problems);
+            site.check_consistency(&Path::Root, problems);
+        })
     }
 
     /// Checks the content of a site. The rules of [`Site::check_consistency`] are separate because they apply only to

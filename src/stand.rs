@@ -8,14 +8,12 @@ pub use type_b::{ActsOn, Evidence, TypeB};
 
 use crate::attitude::Deviation;
 use crate::coefficients::{EIGHT_POSITIONS, Position, PositionIndex, SingularPositions, StandGeometry};
+use crate::text::record::Document;
 use crate::text::scalar::Identifier;
 use crate::text::{Path, Problems, record};
 use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
 use jiff::civil::Date;
 use std::collections::BTreeSet;
-
-/// Value of `format` in a stand file.
-pub const STAND_FORMAT: &str = "dtg-stand/1";
 
 /// Largest deviation that can be certified, in either direction, degrees.
 pub(crate) const LARGEST_DEVIATION_DEG: f64 = 45.0;
@@ -159,8 +157,6 @@ impl CertifiedPosition {
 record! {
     /// Stand file: stand, certificate and positions (`dtg-stand/1`).
     pub struct Stand {
-        /// Always "dtg-stand/1".
-        pub format: String,
         /// Identity of the stand.
         pub stand: Identity,
         /// Calibration certificate of the stand.
@@ -173,6 +169,10 @@ record! {
     }
 }
 
+impl Document for Stand {
+    const FORMAT: &'static str = "dtg-stand/1";
+}
+
 impl Stand {
     /// Reads a `dtg-stand/1` file; `name` is the file name in messages.
     ///
@@ -180,7 +180,7 @@ impl Stand {
     /// Returns [`crate::text::Unreadable`] with the line, column and field of every error.
     #[cfg(feature = "factory")]
     pub fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, crate::text::Unreadable> {
-        let read = crate::text::yaml::read_document(name, bytes, STAND_FORMAT, |stand: &Self, problems| {
+        let read = crate::text::yaml::read_document(name, bytes, |stand: &Self, problems| {
             check(&stand.certificate, &stand.positions, problems);
         });
         let mut stand = read.map_err(|refused| without_angles(&refused).unwrap_or(refused))?;

@@ -8,7 +8,7 @@ use dtg_passport::earth::normal_gravity_m_per_s2;
 use dtg_passport::passport::issue::Issue;
 use dtg_passport::simulation::Stream;
 use dtg_passport::site::{Deflection, Site, SiteUncertainty};
-use dtg_passport::stand::{Certificate, CertifiedPosition, Datum, Identity, STAND_FORMAT, Stand};
+use dtg_passport::stand::{Certificate, CertifiedPosition, Datum, Identity, Stand};
 use dtg_passport::text::Identifier;
 use jiff::civil::date;
 use std::fs::{self, File};
@@ -50,7 +50,6 @@ fn stand(number: usize, stream: &mut Stream) -> Stand {
         degrees_of_freedom: Some(4.0),
     });
     Stand {
-        format: STAND_FORMAT.to_owned(),
         stand: Identity {
             manufacturer: text("Example Stand Works"),
             model: identifier("SPS-2"),

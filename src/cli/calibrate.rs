@@ -7,7 +7,7 @@ use super::render::{Written, languages};
 use super::show::{Read, Whom};
 use super::simulate::MethodName;
 use super::trust_options::date;
-use super::{Code, Failure, REFUSED, defaults, output, uncertainty};
+use super::{Code, Failure, REFUSED, defaults, exclusion, output, uncertainty};
 use crate::batch::{Purpose, paths};
 use crate::calibration::document::{CalibrationDocument, Subject};
 use crate::calibration::iterative::StopRule;
@@ -274,8 +274,7 @@ impl Bench<'_> {
             write_dcc(options, path, &calibrated.map_err(Failure::refused)?, &self.administrative)?;
         }
         if let Some(path) = &options.report {
-            output::file(path, &self.page(&found)?, options.uncertainty.force)?;
-            output::say(&format!("wrote {}", shown(path)));
+            output::saved(path, &self.page(&found)?, options.uncertainty.force)?;
         }
         match options.format {
             Format::Json => {
@@ -446,8 +445,7 @@ fn write_dcc(
         let refused = administrative.refuse(problems);
         Failure { code: REFUSED, ..Failure::unreadable(refused) }
     })?;
-    output::file(path, &dcc.xml, options.uncertainty.force)?;
-    output::say(&format!("wrote {}", shown(path)));
+    output::saved(path, &dcc.xml, options.uncertainty.force)?;
     output::say("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");
     Ok(())
 }
@@ -483,15 +481,9 @@ fn previous(options: &Options) -> Result<Vec<CalibrationDocument>, Failure> {
 
 /// Leaves out the visits that `--exclude` names.
 fn exclude(options: &Options, readings: &mut Readings) -> Result<(), Failure> {
-    if options.why.len() > 1 && options.why.len() != options.exclude.len() {
-        let (visits, reasons) = (options.exclude.len(), options.why.len());
-        return Err(Failure::unusable(format!(
-            "{visits} --exclude and {reasons} --why; give one --why for each, or for all"
-        )));
-    }
-    let reasons = options.why.iter().chain(options.why.last().into_iter().cycle());
+    let reasons = exclusion::reasons(options.exclude.len(), &options.why)?;
     for (&(index, visit, cycle), why) in options.exclude.iter().zip(reasons) {
-        readings.exclude(Exclusion { index, visit, cycle, why: why.clone() }).map_err(Failure::unusable)?;
+        readings.exclude(Exclusion { index, visit, cycle, why }).map_err(Failure::unusable)?;
     }
     Ok(())
 }

@@ -194,8 +194,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
         output::say(&format!("wrote {}", shown(path)));
     }
     if let Some((path, page)) = &page {
-        output::file(path, page, options.force)?;
-        output::say(&format!("wrote {}", shown(path)));
+        output::saved(path, page, options.force)?;
     }
     match options.format {
         Format::Json => output::json(&report::to_json(certified.as_ref(), refused.as_ref(), comparison.as_ref()))?,

@@ -29,22 +29,24 @@ fn exclusion(text: &str) -> Result<Excluded, String> {
 impl ExclusionOptions {
     /// Returns the exclusions with their reasons.
     pub(super) fn excluded(&self) -> Result<Vec<Excluded>, Failure> {
-        let (exclude, why) = (&self.exclude, &self.why);
-        if why.len() > 1 && why.len() != exclude.len() {
-            let (found, due) = (why.len(), exclude.len());
-            return Err(Failure::unusable(format!(
-                "found {found} --why for {due} --exclude; give one for each, or one for all"
-            )));
-        }
-        if let Some(bad) = why.iter().find(|why| why.is_empty() || !why.chars().all(rule::allowed_in_string)) {
-            let words = "the reason is empty or contains a character that is not allowed in signed files; state in plain \
-                         words why the reading is left out";
-            return Err(Failure::unusable(format!("--why {:?}: {words}", Printable(bad).to_string())));
-        }
-        let each = exclude.iter().enumerate().map(|(at, excluded)| {
-            let why = why.get(at).or_else(|| why.first()).cloned().unwrap_or_default();
-            Excluded { why, ..excluded.clone() }
-        });
+        let reasons = reasons(self.exclude.len(), &self.why)?;
+        let each = self.exclude.iter().zip(reasons).map(|(excluded, why)| Excluded { why, ..excluded.clone() });
         Ok(each.collect())
     }
+}
+
+/// Returns the reason of each `--exclude`, from one `--why` for each, or one for all.
+pub(super) fn reasons(excluded: usize, why: &[String]) -> Result<Vec<String>, Failure> {
+    if why.len() > 1 && why.len() != excluded {
+        let found = why.len();
+        return Err(Failure::unusable(format!(
+            "found {found} --why for {excluded} --exclude; give one for each, or one for all"
+        )));
+    }
+    if let Some(bad) = why.iter().find(|why| why.is_empty() || !why.chars().all(rule::allowed_in_string)) {
+        let words = "the reason is empty or contains a character that is not allowed in signed files; state in plain words \
+                     why the reading is left out";
+        return Err(Failure::unusable(format!("--why {:?}: {words}", Printable(bad).to_string())));
+    }
+    Ok(why.iter().chain(why.last().into_iter().cycle()).take(excluded).cloned().collect())
 }

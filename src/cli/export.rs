@@ -219,8 +219,7 @@ impl Run<'_> {
         };
         let mut written = Vec::new();
         for (target, text, sha256) in new {
-            output::file(&target, &text, self.options.force)?;
-            output::say(&format!("wrote {}", shown(&target)));
+            output::saved(&target, &text, self.options.force)?;
             written.push(name_of(&target));
             self.written.insert(target, (sha256, path.clone()));
         }

@@ -1,14 +1,8 @@
 //! Help: the command line as declared, with examples and exit codes for each verb, and the version.
 
 use super::Cli;
-use crate::dcc::DCC_FORMAT;
-use crate::gyro::GYRO_FORMAT;
-use crate::laboratory::LABORATORY_FORMAT;
-use crate::passport::content::PASSPORT_FORMAT;
 use crate::report::{columns, style};
-use crate::revocation::REVOCATION_FORMAT;
-use crate::site::SITE_FORMAT;
-use crate::stand::STAND_FORMAT;
+use crate::text::kind::FORMATS;
 use clap::{Command, CommandFactory};
 
 const EXIT_CODES: &str = "\
@@ -18,129 +12,63 @@ Exit codes:
   2  wrong usage, or a file that cannot be read as what it should be";
 
 /// Two examples for each verb, without the name of the program.
-const EXAMPLES: [(&str, [&str; 2]); 24] = [
-    ("demo", ["demo", "demo --out story"]),
-    ("init", ["init factory --identity factory@example.org", "init laboratory"]),
-    (
-        "new",
-        [
-            "new site sites/moscow-bmstu.yaml --at 55.7658,37.6856 --height-m 150",
-            "new readings readings.csv --runs 5 --from-plan plan.json",
-        ],
-    ),
-    ("status", ["status --workspace factory", "status --workspace factory --format json"]),
-    (
-        "keygen",
-        [
-            "keygen factory.key --identity factory@example.org",
-            "keygen factory.key --identity factory@example.org --allowed-signers allowed_signers",
-        ],
-    ),
-    (
-        "certify",
-        ["certify angles.csv --stand header.yaml -o stand.yaml", "certify readings --stand headers --out stands"],
-    ),
-    (
-        "issue",
-        [
-            "issue stand.yaml --site sites/moscow-bmstu.yaml --key factory.key --identity factory@example.org",
-            "issue stands --site sites --key factory.key --identity factory@example.org --dry-run",
-        ],
-    ),
-    (
-        "reissue",
-        [
-            "reissue moscow-bmstu-1.yaml --site sites/beijing-nim.yaml --moved --reason \"moved to Beijing\" \
-             --key factory.key --identity factory@example.org --trust allowed_signers",
-            "reissue passports --reason \"new key\" --key 2027.key --identity factory@example.org \
-             --trust allowed_signers",
-        ],
-    ),
-    (
-        "verify",
-        [
-            "verify moscow-bmstu-1.yaml --trust allowed_signers --serial 0017 --at 55.7660,37.6850",
-            "verify moscow-bmstu-1.yaml --trust allowed_signers --register passports --format json",
-        ],
-    ),
-    (
-        "show",
-        ["show moscow-bmstu-1.yaml --trust allowed_signers", "show passports --trust allowed_signers --format json"],
-    ),
-    (
-        "render",
-        [
-            "render moscow-bmstu-1.yaml -o passport.html --trust allowed_signers",
-            "render 'passports/SPS-2/*/*.yaml' --out pages --trust allowed_signers --lang en,ru",
-        ],
-    ),
-    (
-        "calibrate",
-        [
-            "calibrate moscow-bmstu-1.yaml currents.csv --trust allowed_signers --serial 0017 --gyro gvk-6.yaml \
-             --laboratory laboratory.yaml",
-            "calibrate moscow-bmstu-1.yaml gyros --trust allowed_signers --gyro gvk-6.yaml --laboratory laboratory.yaml \
-             --out results",
-        ],
-    ),
-    (
-        "register",
-        [
-            "register passports --trust allowed_signers",
-            "register passports --trust allowed_signers --state expiring --within 90 --format csv",
-        ],
-    ),
-    (
-        "revoke",
-        [
-            "revoke SPS-2/0017/moscow-bmstu/1 --reason \"stand dropped\" --list passports --key factory.key \
-             --identity factory@example.org --trust allowed_signers",
-            "revoke passports/SPS-2/0017/moscow-bmstu-1.yaml --reason \"wrong site\" --list passports \
-             --key factory.key --identity factory@example.org --trust allowed_signers",
-        ],
-    ),
-    (
-        "plan",
-        [
-            "plan --site sites/moscow-bmstu.yaml",
-            "plan --site sites/moscow-bmstu.yaml --readings 24 --frame-axis east,north --criterion worst -o plan.svg",
-        ],
-    ),
-    (
-        "recertify",
-        [
-            "recertify passports/SPS-2/0017/moscow-bmstu-1.yaml angles.csv --number C-2027-0009 --issued 2027-11-02 \
-             --reason \"yearly\" --key factory.key --identity factory@example.org --trust allowed_signers --dry-run",
-            "recertify moscow-bmstu-1.yaml angles.csv --number C-2027-0009 --issued 2027-11-02 --reason \"yearly\" \
-             --key factory.key --identity factory@example.org --trust allowed_signers --out passports",
-        ],
-    ),
-    (
-        "history",
-        [
-            "history SPS-2/0017 --passports passports --trust allowed_signers",
-            "history SPS-2/0017 --passports passports --trust allowed_signers -o history.svg",
-        ],
-    ),
-    (
-        "diff",
-        [
-            "diff moscow-bmstu-1.yaml moscow-bmstu-2.yaml --trust allowed_signers",
-            "diff moscow-bmstu-1.yaml moscow-bmstu-2.yaml --trust allowed_signers --format json",
-        ],
-    ),
-    (
-        "export",
-        [
-            "export moscow-bmstu-1.yaml --to stand,site --out files --trust allowed_signers",
-            "export moscow-bmstu-1.yaml --to dcc --administrative dcc.yaml --trust allowed_signers",
-        ],
-    ),
-    ("simulate", ["simulate accuracy --trials 100000", "simulate convergence -o convergence.svg"]),
-    ("selftest", ["selftest", "selftest --format json"]),
-    ("schema", ["schema stand", "schema stand,site,passport --format markdown"]),
-    ("completions", ["completions bash", "completions fish"]),
-    ("man", ["man man1", "man man1 --force"]),
+#[rustfmt::skip]
+const EXAMPLES: [&str; 48] = [
+    "demo",
+    "demo --out story",
+    "init factory --identity factory@example.org",
+    "init laboratory",
+    "new site sites/moscow-bmstu.yaml --at 55.7658,37.6856 --height-m 150",
+    "new readings readings.csv --runs 5 --from-plan plan.json",
+    "status --workspace factory",
+    "status --workspace factory --format json",
+    "keygen factory.key --identity factory@example.org",
+    "keygen factory.key --identity factory@example.org --allowed-signers allowed_signers",
+    "certify angles.csv --stand header.yaml -o stand.yaml",
+    "certify readings --stand headers --out stands",
+    "issue stand.yaml --site sites/moscow-bmstu.yaml --key factory.key --identity factory@example.org",
+    "issue stands --site sites --key factory.key --identity factory@example.org --dry-run",
+    "reissue moscow-bmstu-1.yaml --site sites/beijing-nim.yaml --moved --reason \"moved to Beijing\" --key \
+     factory.key --identity factory@example.org --trust allowed_signers",
+    "reissue passports --reason \"new key\" --key 2027.key --identity factory@example.org --trust allowed_signers",
+    "verify moscow-bmstu-1.yaml --trust allowed_signers --serial 0017 --at 55.7660,37.6850",
+    "verify moscow-bmstu-1.yaml --trust allowed_signers --register passports --format json",
+    "show moscow-bmstu-1.yaml --trust allowed_signers",
+    "show passports --trust allowed_signers --format json",
+    "render moscow-bmstu-1.yaml -o passport.html --trust allowed_signers",
+    "render 'passports/SPS-2/*/*.yaml' --out pages --trust allowed_signers --lang en,ru",
+    "calibrate moscow-bmstu-1.yaml currents.csv --trust allowed_signers --serial 0017 --gyro gvk-6.yaml --laboratory \
+     laboratory.yaml",
+    "calibrate moscow-bmstu-1.yaml gyros --trust allowed_signers --gyro gvk-6.yaml --laboratory laboratory.yaml --out \
+     results",
+    "register passports --trust allowed_signers",
+    "register passports --trust allowed_signers --state expiring --within 90 --format csv",
+    "revoke SPS-2/0017/moscow-bmstu/1 --reason \"stand dropped\" --list passports --key factory.key --identity \
+     factory@example.org --trust allowed_signers",
+    "revoke passports/SPS-2/0017/moscow-bmstu-1.yaml --reason \"wrong site\" --list passports --key factory.key \
+     --identity factory@example.org --trust allowed_signers",
+    "plan --site sites/moscow-bmstu.yaml",
+    "plan --site sites/moscow-bmstu.yaml --readings 24 --frame-axis east,north --criterion worst -o plan.svg",
+    "recertify passports/SPS-2/0017/moscow-bmstu-1.yaml angles.csv --number C-2027-0009 --issued 2027-11-02 --reason \
+     \"yearly\" --key factory.key --identity factory@example.org --trust allowed_signers --dry-run",
+    "recertify moscow-bmstu-1.yaml angles.csv --number C-2027-0009 --issued 2027-11-02 --reason \"yearly\" --key \
+     factory.key --identity factory@example.org --trust allowed_signers --out passports",
+    "history SPS-2/0017 --passports passports --trust allowed_signers",
+    "history SPS-2/0017 --passports passports --trust allowed_signers -o history.svg",
+    "diff moscow-bmstu-1.yaml moscow-bmstu-2.yaml --trust allowed_signers",
+    "diff moscow-bmstu-1.yaml moscow-bmstu-2.yaml --trust allowed_signers --format json",
+    "export moscow-bmstu-1.yaml --to stand,site --out files --trust allowed_signers",
+    "export moscow-bmstu-1.yaml --to dcc --administrative dcc.yaml --trust allowed_signers",
+    "simulate accuracy --trials 100000",
+    "simulate convergence -o convergence.svg",
+    "selftest",
+    "selftest --format json",
+    "schema stand",
+    "schema stand,site,passport --format markdown",
+    "completions bash",
+    "completions fish",
+    "man man1",
+    "man man1 --force",
 ];
 
 /// How to install completions, where shells look for them.
@@ -157,13 +85,16 @@ pub(super) fn command() -> Command {
     let command = Cli::command().version(env!("CARGO_PKG_VERSION")).long_version(long_version());
     let verbs: Vec<String> = command.get_subcommands().map(|verb| verb.get_name().to_owned()).collect();
     verbs.iter().fold(command.after_long_help(EXIT_CODES), |command, name| {
-        let examples = EXAMPLES.iter().find(|(verb, _)| verb == name).map(|(_, examples)| examples);
-        let lines: String =
-            examples.into_iter().flatten().map(|example| format!("  dtg-passport {example}\n")).collect();
+        let lines: String = examples(name).map(|example| format!("  dtg-passport {example}\n")).collect();
         let more = if name == "completions" { COMPLETIONS } else { "" };
         let text = format!("Examples:\n{lines}\n{more}{EXIT_CODES}");
         command.mut_subcommand(name, |verb| verb.after_long_help(text))
     })
+}
+
+/// Returns the examples of a verb.
+fn examples(verb: &str) -> impl Iterator<Item = &'static str> {
+    EXAMPLES.into_iter().filter(move |example| example.split(' ').next() == Some(verb))
 }
 
 /// Width of a terminal in which every line of the help fits.
@@ -205,9 +136,7 @@ fn long_version() -> &'static str {
             (Some(commit), None) => format!("\ncommit {commit}"),
             _ => String::new(),
         };
-        let formats =
-            [STAND_FORMAT, SITE_FORMAT, GYRO_FORMAT, LABORATORY_FORMAT, DCC_FORMAT, PASSPORT_FORMAT, REVOCATION_FORMAT]
-                .join(", ");
+        let formats = FORMATS.map(|(format, _)| format).join(", ");
         format!("{}{commit}\nformats {formats}", env!("CARGO_PKG_VERSION"))
     })
 }
@@ -231,10 +160,9 @@ mod tests {
         let command = command();
         for verb in command.get_subcommands() {
             let name = verb.get_name();
-            let (_, examples) = EXAMPLES.iter().find(|(verb, _)| *verb == name).unwrap_or_else(|| panic!("{name}"));
-            assert_ne!(examples[0], examples[1]);
+            let examples: Vec<&str> = examples(name).collect();
+            assert!(examples.len() == 2 && examples[0] != examples[1], "{name}");
             for example in examples {
-                assert!(example.split(' ').next() == Some(name), "{example}");
                 let parsed = command.clone().try_get_matches_from(words(example));
                 assert!(parsed.is_ok(), "{example}\n{}", parsed.unwrap_err());
             }

@@ -62,8 +62,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         )));
     };
     if let Some(path) = &options.output {
-        output::file(path, &picture::history(&history, question.time), options.force)?;
-        output::say(&format!("wrote {}", shown(path)));
+        output::saved(path, &picture::history(&history, question.time), options.force)?;
     }
     match options.format {
         Format::Json => output::json(&report::to_json(&history))?,

@@ -87,5 +87,5 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 fn stated(options: &Options) -> Result<Stated, Failure> {
     let gyro = inputs::gyro(options.gyro.as_deref())?.unwrap_or_else(GyroType::gvk_6);
     let laboratory = inputs::laboratory(options.laboratory.as_deref())?;
-    Ok(Stated { gyro: gyro.into(), laboratory: laboratory.into() })
+    Ok(Stated { gyro, laboratory })
 }

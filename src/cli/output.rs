@@ -96,6 +96,13 @@ pub(super) fn file(path: &Path, text: &str, force: bool) -> Result<(), Failure> 
     files::write_replaceable(path, text.as_bytes(), force).map_err(Failure::file)
 }
 
+/// Writes a result to a file as [`file`] does, and says so.
+pub(super) fn saved(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
+    file(path, text, force)?;
+    say(&format!("wrote {}", shown(path)));
+    Ok(())
+}
+
 /// Whether only failures are reported.
 static QUIET: AtomicBool = AtomicBool::new(false);
 

@@ -113,7 +113,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     };
     let found = plan(&question).map_err(Failure::refused)?;
     if let Some(path) = &options.output {
-        output::file(path, &picture::plan(&found), options.force)?;
+        output::saved(path, &picture::plan(&found), options.force)?;
     }
     match options.format {
         Format::Json => output::json(&PlanDocument::from(&found))?,

@@ -16,7 +16,7 @@ use crate::report::issued::Told;
 use crate::report::page::certification::CertificationPage;
 use crate::report::recertification as report;
 use crate::text::kind::{Kind, mistaken};
-use crate::text::{Identifier, Printable, name_of, shown};
+use crate::text::{Identifier, Printable, name_of};
 use clap::Args;
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -137,8 +137,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if let Some(path) = &options.report {
         let change = Some((&found.comparison, found.changes.clone()));
         let page = CertificationPage { certification: &found.certification, readings: (&name, &bytes), change };
-        output::file(path, &page.html(&languages(&options.lang)), options.force)?;
-        output::say(&format!("wrote {}", shown(path)));
+        output::saved(path, &page.html(&languages(&options.lang)), options.force)?;
     }
     match options.format {
         Format::Json => output::json(&report::to_json(&found, options.dry_run))?,

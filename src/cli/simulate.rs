@@ -185,7 +185,7 @@ fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
     if let Some(path) = &arguments.output {
         let svg = picture::convergence(&found);
         let svg = svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: no rows"))?;
-        output::file(path, &svg, arguments.force)?;
+        output::saved(path, &svg, arguments.force)?;
     }
     match arguments.run.format {
         Format::Json => output::json(&found)?,

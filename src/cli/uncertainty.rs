@@ -116,7 +116,7 @@ impl UncertaintyOptions {
             let svg = picture::budget::budget(&budget);
             let svg =
                 svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: no input has an uncertainty"))?;
-            output::file(path, &svg, self.force)?;
+            output::saved(path, &svg, self.force)?;
         }
         let trials = self.monte_carlo.then(|| self.trials(setup, readings, (&budget, options))).transpose()?;
         let sentence = Dominant::of(&budget, tolerance).map(|remedy| remedy.sentence());

@@ -4,12 +4,10 @@
 
 use super::countries::is_country;
 use crate::report::Language;
+use crate::text::record::Document;
 use crate::text::sink::Sink;
 use crate::text::{Field, Node, Path, Problems, Unreadable, record, yaml};
 use jiff::civil::Date;
-
-/// Value of `format` in an administrative file.
-pub(crate) const DCC_FORMAT: &str = "dtg-dcc/1";
 
 /// Place of the measurements, in the words of the DCC.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, schemars::JsonSchema)]
@@ -140,8 +138,6 @@ record! {
     /// Administrative data of a Digital Calibration Certificate (`dtg-dcc/1`). A key that is absent is needed unless
     /// the passport, or the calibration of the gyro, states the same; the program names all that are missing.
     pub struct Administrative {
-        /// Always "dtg-dcc/1".
-        pub format: String,
         /// Country in which the certificate is issued: two capital letters of ISO 3166-1.
         pub country: Option<String>,
         /// Mandatory language of the certificate, "en" or "ru"; if absent, the first of `--lang`.
@@ -169,13 +165,17 @@ record! {
     }
 }
 
+impl Document for Administrative {
+    const FORMAT: &'static str = "dtg-dcc/1";
+}
+
 impl Administrative {
     /// Reads a `dtg-dcc/1` file; `name` is the file name in messages.
     ///
     /// # Errors
     /// Returns [`Unreadable`] with the line, column and field of every error.
     pub(crate) fn from_yaml(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        yaml::read_document(name, bytes, DCC_FORMAT, |file: &Self, problems| file.check(problems))
+        yaml::read_document(name, bytes, |file: &Self, problems| file.check(problems))
     }
 
     fn check(&self, problems: &mut Problems) {

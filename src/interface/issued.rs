@@ -91,7 +91,7 @@ fn stated([gyro, laboratory]: [Option<File>; 2]) -> Result<Stated, Failed> {
     let gyro = gyro.map_or_else(|| Ok(GyroType::gvk_6()), |(name, bytes)| GyroType::from_yaml(name, bytes))?;
     let paper = || Ok(Laboratory::paper());
     let laboratory = laboratory.map_or_else(paper, |(name, bytes)| Laboratory::from_yaml(name, bytes))?;
-    Ok(Stated { gyro: gyro.into(), laboratory: laboratory.into() })
+    Ok(Stated { gyro, laboratory })
 }
 
 #[cfg(test)]

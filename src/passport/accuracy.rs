@@ -8,82 +8,21 @@ use crate::calibration::least_squares::NoLeastSquares;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::readings::NoReadings;
 use crate::calibration::{Method, NoSetup, Options, Readings, Setup, calibrate};
-use crate::gyro::{GYRO_FORMAT, GyroNoise, GyroParameters, GyroType, Parameters, Tolerance};
-use crate::laboratory::{Base, LABORATORY_FORMAT, Laboratory, Meter, Seating};
+use crate::gyro::{GyroParameters, GyroType, Parameters};
+use crate::laboratory::Laboratory;
 use crate::site::Site;
 use crate::stand::{Certificate, CertifiedPosition};
 use crate::text::{Path, Problems, record};
 
 record! {
-    /// Gyro type as specified, without `format`.
-    pub struct StatedGyro {
-        /// Name of the type.
-        pub r#type: String,
-        /// Nominal parameters.
-        pub nominal: Parameters,
-        /// Tolerances of the parameters.
-        pub tolerance: Tolerance,
-        /// Value of g to which the drifts of the type refer; 9.80665 if absent.
-        pub gravity_m_per_s2: Option<f64>,
-        /// Noise of the gyro's own drift.
-        pub noise: Option<GyroNoise>,
-    }
-}
-
-record! {
-    /// Laboratory as specified, without `format`.
-    pub struct StatedLaboratory {
-        /// Name of the laboratory.
-        pub name: Option<String>,
-        /// Current meter.
-        pub meter: Meter,
-        /// Standard uncertainties of the gyro seat.
-        pub seating_arcsec: Option<Seating>,
-        /// Standard uncertainties of the base's azimuth and level.
-        pub base: Option<Base>,
-        /// Temperature during the calibration.
-        pub temperature_c: Option<f64>,
-    }
-}
-
-record! {
     /// Expected uncertainty of a calibration of a gyro of this type in this laboratory.
     pub struct Accuracy {
         /// Gyro type.
-        pub gyro: StatedGyro,
+        pub gyro: GyroType,
         /// Laboratory.
-        pub laboratory: StatedLaboratory,
+        pub laboratory: Laboratory,
         /// Standard uncertainties of the parameters; drifts per local g.
         pub standard_uncertainty: Parameters,
-    }
-}
-
-impl From<GyroType> for StatedGyro {
-    fn from(gyro: GyroType) -> Self {
-        let GyroType { r#type, nominal, tolerance, gravity_m_per_s2, noise, .. } = gyro;
-        Self { r#type, nominal, tolerance, gravity_m_per_s2, noise }
-    }
-}
-
-impl StatedGyro {
-    /// Returns the gyro type as its file states it.
-    pub(crate) fn to_type(&self) -> GyroType {
-        let Self { r#type, nominal, tolerance, gravity_m_per_s2, noise } = self.clone();
-        GyroType { format: GYRO_FORMAT.to_owned(), r#type, nominal, tolerance, gravity_m_per_s2, noise }
-    }
-}
-
-impl From<Laboratory> for StatedLaboratory {
-    fn from(laboratory: Laboratory) -> Self {
-        let Laboratory { name, meter, seating_arcsec, base, temperature_c, .. } = laboratory;
-        Self { name, meter, seating_arcsec, base, temperature_c }
-    }
-}
-
-impl StatedLaboratory {
-    fn to_laboratory(&self) -> Laboratory {
-        let Self { name, meter, seating_arcsec, base, temperature_c } = self.clone();
-        Laboratory { format: LABORATORY_FORMAT.to_owned(), name, meter, seating_arcsec, base, temperature_c }
     }
 }
 
@@ -91,9 +30,9 @@ impl StatedLaboratory {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stated {
     /// Gyro type.
-    pub gyro: StatedGyro,
+    pub gyro: GyroType,
     /// Laboratory.
-    pub laboratory: StatedLaboratory,
+    pub laboratory: Laboratory,
 }
 
 /// Reason why no accuracy can be stated.
@@ -130,10 +69,9 @@ impl Stated {
         positions: &[CertifiedPosition],
         site: &Site,
     ) -> Result<Accuracy, NoAccuracy> {
-        let laboratory = self.laboratory.to_laboratory();
-        let (setup, _) = Setup::stated(certificate, positions, site, &laboratory)?;
+        let (setup, _) = Setup::stated(certificate, positions, site, &self.laboratory)?;
         let setup = setup.of_gyro(self.gyro.noise.as_ref());
-        let gyro = at_gravity(&self.gyro.to_type(), site.earth().gravity_m_per_s2);
+        let gyro = at_gravity(&self.gyro, site.earth().gravity_m_per_s2);
         let each = setup.coefficients().positions.iter().map(|at| Some((at.index, gyro.currents_ma(at)?)));
         let currents: Vec<_> = each.collect::<Option<_>>().ok_or(NoAccuracy::SingularGyro)?;
         let readings = Readings::new(setup.coefficients(), &currents)?;
@@ -164,7 +102,7 @@ pub(crate) fn at_gravity(gyro: &GyroType, gravity_m_per_s2: f64) -> GyroParamete
 impl Accuracy {
     /// Checks the inputs by the rules of the files that they came from.
     pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
-        self.gyro.to_type().check(&at.key("gyro"), problems);
-        self.laboratory.to_laboratory().check(&at.key("laboratory"), problems);
+        self.gyro.check(&at.key("gyro"), problems);
+        self.laboratory.check(&at.key("laboratory"), problems);
     }
 }

@@ -9,7 +9,7 @@ use crate::document::is_sha256_hex;
 use crate::gyro::{GyroParameters, Parameters};
 use crate::laboratory::Laboratory;
 use crate::site::{Earth, Site};
-use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity, STAND_FORMAT, Stand};
+use crate::stand::{self, Certificate, CertifiedPosition, Datum, Identity, Stand};
 use crate::text::scalar::{Identifier, day};
 use crate::text::{Path, Problems, record};
 use jiff::Timestamp;
@@ -369,7 +369,6 @@ impl Content {
     /// Returns the stand as the factory's file states it.
     pub(crate) fn to_stand(&self) -> Stand {
         Stand {
-            format: STAND_FORMAT.to_owned(),
             stand: self.stand.clone(),
             certificate: self.certificate.clone(),
             datum: self.datum.clone(),

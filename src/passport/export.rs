@@ -1,8 +1,9 @@
 //! Stand and site of a passport as files again, number for number: the inputs of another issue.
 
 use super::content::Content;
-use crate::site::{SITE_FORMAT, Site, SiteFile};
+use crate::site::Site;
 use crate::stand::Stand;
+use crate::text::record::File;
 use crate::text::{Unreadable, canonical};
 
 /// Returns the stand file (`dtg-stand/1`) of a passport. It is read back and compared first.
@@ -15,7 +16,7 @@ pub(crate) fn stand_file(content: &Content) -> Result<String, Unreadable> {
     const NAME: &str = "the exported stand file";
     let stand = content.to_stand();
     let comment = "Stand exported from a verified passport, number for number. Standard uncertainties (k = 1).";
-    let text = canonical::write(&stand, &|path| above_the_format(path, comment));
+    let text = canonical::write(&File(stand.clone()), &|path| above_the_format(path, comment));
     let read = Stand::from_yaml(NAME, text.as_bytes())?;
     if read == stand { Ok(text) } else { Err(other_content(NAME)) }
 }
@@ -27,9 +28,8 @@ pub(crate) fn stand_file(content: &Content) -> Result<String, Unreadable> {
 /// for new site files.
 pub(crate) fn site_file(content: &Content) -> Result<String, Unreadable> {
     const NAME: &str = "the exported site file";
-    let file = SiteFile { format: SITE_FORMAT.to_owned(), site: content.site.clone() };
     let comment = "Site exported from a verified passport, number for number.";
-    let text = canonical::write(&file, &|path| above_the_format(path, comment));
+    let text = canonical::write(&File(content.site.clone()), &|path| above_the_format(path, comment));
     let read = Site::from_yaml(NAME, text.as_bytes())?;
     if read == content.site { Ok(text) } else { Err(other_content(NAME)) }
 }

@@ -30,7 +30,7 @@ pub mod reissue;
 pub(crate) mod verification;
 
 pub use crate::document::Malformed;
-pub use accuracy::{Accuracy, NoAccuracy, Stated, StatedGyro, StatedLaboratory};
+pub use accuracy::{Accuracy, NoAccuracy, Stated};
 pub use checks::{Check, CheckName, Code};
 pub use content::{
     Content, Dated, Header, MatrixRows, PositionCurrents, PositionVectors, Predecessor, Rows, SelfCheck,

@@ -64,7 +64,7 @@ uncertainty: {}
         };
         let order = Issue {
             reissued: Some(Reissued { from: predecessor, supersedes: true }),
-            accuracy: Some(Stated { gyro: GyroType::gvk_6().into(), laboratory: Laboratory::paper().into() }),
+            accuracy: Some(Stated { gyro: GyroType::gvk_6(), laboratory: Laboratory::paper() }),
             ..Issue::first("factory@example.org", "2026-11-09T08:00:00Z".parse().unwrap())
         };
         draft(&stand, &site, &order).unwrap().payload().to_owned()

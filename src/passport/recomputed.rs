@@ -1,7 +1,7 @@
 //! Recomputation of every number of a passport that follows from its inputs, and comparison with the stated ones.
 
 use super::accuracy::Stated;
-use super::content::{Content, Derived, PositionCurrents, PositionVectors, REFERENCE_GYRO, SelfCheck, derive};
+use super::content::{Content, Derived, REFERENCE_GYRO, SelfCheck, derive};
 use crate::earth::{AZIMUTH_QUANTUM_DEG, LENGTH_QUANTUM_M};
 use crate::text::{Field, Node};
 
@@ -67,128 +67,79 @@ fn states_the_same(content: &Content, derived: &Derived) -> bool {
         && content.self_check == derived.self_check
 }
 
-/// Compares number by number, within the limits.
+/// Compares number by number, within the limits: each key of a matrix or of all positions relative to its own largest
+/// element.
 fn compare_derived(content: &Content, derived: &Derived, wrong: &mut Vec<WrongNumber>) {
-    for (key, stated, computed) in [
+    let set = |field: &str| field.split('[').map(|part| part.split_once(']').map_or(part, |(_, key)| key)).collect();
+    for (path, stated, computed) in [
         ("earth", content.earth.write(), derived.earth.write()),
         ("matrices", content.matrices.write(), derived.matrices.write()),
-        ("self_check", parameters(&content.self_check), parameters(&derived.self_check)),
+        ("self_check", content.self_check.write(), derived.self_check.write()),
+        ("vectors", content.vectors.write(), derived.vectors.write()),
     ] {
-        compare_entries(key, &stated, &computed, wrong);
+        compare_numbers(&numbers(path, stated), &numbers(path, computed), set, wrong);
     }
-    let currents = |check: &Option<SelfCheck>| check.as_ref().map_or_else(Vec::new, |check| check.currents.clone());
-    let (stated, computed) = (currents(&content.self_check), currents(&derived.self_check));
-    compare_sets("self_check.currents", &stated, &computed, &CURRENTS, wrong);
-    compare_sets("vectors", &content.vectors, &derived.vectors, &VECTORS, wrong);
 }
 
 /// Compares the expected calibration uncertainty, each number by itself.
 fn compare_accuracy(content: &Content, wrong: &mut Vec<WrongNumber>) {
     let Some(accuracy) = &content.accuracy else { return };
     let computed = Stated::of(accuracy).accuracy(&content.certificate, &content.positions, &content.site);
-    let numbers = |node: Option<Node>| {
-        let mut numbers = Vec::new();
-        if let Some(node) = node {
-            collect(&node, "accuracy.standard_uncertainty", &mut numbers);
-        }
-        numbers
-    };
+    let numbers = |node| numbers("accuracy.standard_uncertainty", node);
     let stated = numbers(accuracy.standard_uncertainty.write());
     let computed = numbers(computed.ok().and_then(|found| found.standard_uncertainty.write()));
-    for (index, number) in stated.iter().enumerate() {
-        let computed = computed.get(index).map_or(&[][..], std::slice::from_ref);
-        compare_numbers(std::slice::from_ref(number), computed, 0.0, wrong);
-    }
-}
-
-/// Compares the values of two mappings key by key, each value relative to its own largest element.
-fn compare_entries(path: &str, stated: &Option<Node>, computed: &Option<Node>, wrong: &mut Vec<WrongNumber>) {
-    let entries = |node: &Option<Node>| match node {
-        Some(Node::Map(entries)) => entries.clone(),
-        _ => Vec::new(),
-    };
-    let (stated, computed) = (entries(stated), entries(computed));
-    let keys = stated.iter().chain(&computed).map(|(key, _)| key);
-    let mut seen: Vec<&String> = Vec::new();
-    for key in keys {
-        if seen.contains(&key) {
-            continue;
-        }
-        seen.push(key);
-        let numbers = |entries: &[(String, Node)]| {
-            let mut numbers = Vec::new();
-            if let Some((_, node)) = entries.iter().find(|(name, _)| name == key) {
-                collect(node, &format!("{path}.{key}"), &mut numbers);
-            }
-            numbers
-        };
-        compare_numbers(&numbers(&stated), &numbers(&computed), quantum(key), wrong);
-    }
+    compare_numbers(&stated, &computed, str::to_owned, wrong);
 }
 
 /// Returns the step to which a number was rounded, because another platform's trigonometry may round it the other way.
-fn quantum(key: &str) -> f64 {
-    match key {
-        "valid_radius_m" => LENGTH_QUANTUM_M,
-        "azimuth_deg" => AZIMUTH_QUANTUM_DEG,
-        "azimuth_u_arcsec" => 1e-6,
+fn quantum(field: &str) -> f64 {
+    match field {
+        "earth.valid_radius_m" => LENGTH_QUANTUM_M,
+        "earth.azimuth_deg" => AZIMUTH_QUANTUM_DEG,
+        "earth.azimuth_u_arcsec" => 1e-6,
         _ => 0.0,
     }
 }
 
-fn collect(node: &Node, path: &str, numbers: &mut Vec<(String, f64)>) {
+/// Returns all numbers of a node with their fields, in the order of the file.
+fn numbers(path: &str, node: Option<Node>) -> Vec<(String, f64)> {
     match node {
-        Node::Number(value) => numbers.push((path.to_owned(), *value)),
-        Node::Integer(value) => numbers.push((path.to_owned(), *value as f64)),
-        Node::List(items) => {
-            for (index, item) in items.iter().enumerate() {
-                collect(item, &format!("{path}[{index}]"), numbers);
-            }
+        Some(Node::Number(value)) => vec![(path.to_owned(), value)],
+        Some(Node::Integer(value)) => vec![(path.to_owned(), value as f64)],
+        Some(Node::List(items)) => {
+            let items = items.into_iter().enumerate();
+            items.flat_map(|(index, item)| numbers(&format!("{path}[{index}]"), Some(item))).collect()
         }
-        Node::Map(entries) => {
-            for (key, value) in entries {
-                collect(value, &format!("{path}.{key}"), numbers);
-            }
+        Some(Node::Map(entries)) => {
+            entries.into_iter().flat_map(|(key, value)| numbers(&format!("{path}.{key}"), Some(value))).collect()
         }
-        _ => {}
+        _ => Vec::new(),
     }
 }
 
-/// Returns the parameters of a self-check; its currents are compared as a set of vectors.
-fn parameters(self_check: &Option<SelfCheck>) -> Option<Node> {
-    self_check.as_ref().and_then(|check| check.parameters().write())
-}
-
-/// Numbers of a position that are compared together, relative to the largest of them in any position.
-type Set<T> = (&'static str, fn(&T) -> Vec<f64>);
-
-/// Sets of numbers in the vectors: specific forces, Earth rates, and the indices, which may be large.
-const VECTORS: [Set<PositionVectors>; 4] = [
-    ("i, j", |at| vec![f64::from(at.i), f64::from(at.j)]),
-    ("specific_force_g", |at| at.specific_force_g.to_vec()),
-    ("specific_force_z_g", |at| vec![at.specific_force_z_g]),
-    ("omega_deg_per_h", |at| at.omega_deg_per_h.to_vec()),
-];
-
-/// Sets of numbers in the currents of the self-check: one for each axis, because their sizes may differ.
-const CURRENTS: [Set<PositionCurrents>; 3] = [
-    ("i, j", |at| vec![f64::from(at.i), f64::from(at.j)]),
-    ("jx_ma", |at| vec![at.jx_ma]),
-    ("jy_ma", |at| vec![at.jy_ma]),
-];
-
-fn compare_sets<T>(path: &str, stated: &[T], computed: &[T], sets: &[Set<T>], wrong: &mut Vec<WrongNumber>) {
-    for (key, of) in sets {
-        let numbers = |positions: &[T]| -> Vec<(String, f64)> {
-            let each = positions.iter().enumerate();
-            each.flat_map(|(index, at)| of(at).into_iter().map(move |x| (format!("{path}[{index}].{key}"), x)))
-                .collect()
+/// Compares numbers that stand in the same place of their set, where `set` names the set to which a field belongs.
+fn compare_numbers(
+    stated: &[(String, f64)],
+    computed: &[(String, f64)],
+    set: impl Fn(&str) -> String,
+    wrong: &mut Vec<WrongNumber>,
+) {
+    let mut sets: Vec<String> = Vec::new();
+    for name in stated.iter().chain(computed).map(|(field, _)| set(field)) {
+        if !sets.contains(&name) {
+            sets.push(name);
+        }
+    }
+    for name in &sets {
+        let of_set = |numbers: &[(String, f64)]| -> Vec<(String, f64)> {
+            numbers.iter().filter(|(field, _)| set(field) == *name).cloned().collect()
         };
-        compare_numbers(&numbers(stated), &numbers(computed), 0.0, wrong);
+        compare_set(&of_set(stated), &of_set(computed), quantum(name), wrong);
     }
 }
 
-fn compare_numbers(stated: &[(String, f64)], computed: &[(String, f64)], quantum: f64, wrong: &mut Vec<WrongNumber>) {
+/// Compares the numbers of one set, relative to the largest of them.
+fn compare_set(stated: &[(String, f64)], computed: &[(String, f64)], quantum: f64, wrong: &mut Vec<WrongNumber>) {
     let largest = computed.iter().fold(0.0, |largest: f64, (_, value)| largest.max(value.abs()));
     // Allow 1.5 steps: neighbouring rounded values, plus their own binary64 rounding.
     let limit = (LIMIT * largest).max(1.5 * quantum);

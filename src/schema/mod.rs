@@ -4,40 +4,41 @@ mod reference;
 
 pub(crate) use reference::tables;
 
-use crate::dcc::{Administrative, DCC_FORMAT};
-use crate::gyro::{GYRO_FORMAT, GyroType};
-use crate::laboratory::{LABORATORY_FORMAT, Laboratory};
+use crate::dcc::Administrative;
+use crate::gyro::GyroType;
+use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::passport::content::PASSPORT_FORMAT;
 use crate::revocation::{REVOCATION_FORMAT, RevocationList};
-use crate::site::{SITE_FORMAT, SiteFile};
-use crate::stand::{STAND_FORMAT, Stand};
+use crate::site::Site;
+use crate::stand::Stand;
+use crate::text::record::Document;
 use schemars::{JsonSchema, Schema, schema_for};
 use serde_json::{Value, json};
 
 /// Returns the JSON Schema of a stand file.
 pub(crate) fn stand() -> Schema {
-    with_format(schema_for!(Stand), STAND_FORMAT)
+    of_file::<Stand>()
 }
 
 /// Returns the JSON Schema of a site file.
 pub(crate) fn site() -> Schema {
-    with_format(schema_for!(SiteFile), SITE_FORMAT)
+    of_file::<Site>()
 }
 
 /// Returns the JSON Schema of a gyro type.
 pub(crate) fn gyro() -> Schema {
-    with_format(schema_for!(GyroType), GYRO_FORMAT)
+    of_file::<GyroType>()
 }
 
 /// Returns the JSON Schema of a laboratory.
 pub(crate) fn laboratory() -> Schema {
-    with_format(schema_for!(Laboratory), LABORATORY_FORMAT)
+    of_file::<Laboratory>()
 }
 
 /// Returns the JSON Schema of an administrative file.
 pub(crate) fn dcc() -> Schema {
-    with_format(schema_for!(Administrative), DCC_FORMAT)
+    of_file::<Administrative>()
 }
 
 /// Returns the JSON Schema of a passport with its signature. Text that fits the schema need not be a valid passport:
@@ -67,6 +68,23 @@ pub(crate) fn revocation() -> Schema {
         signature: String,
     }
     with_format(schema_for!(Signed), REVOCATION_FORMAT)
+}
+
+/// Returns the schema of a file: `format`, then the keys of the document.
+fn of_file<T: JsonSchema + Document>() -> Schema {
+    let mut schema = schema_for!(T);
+    let format = json!({"description": format!("Always {:?}.", T::FORMAT), "type": "string"});
+    let object = schema.ensure_object();
+    if let Some(Value::Object(properties)) = object.get_mut("properties") {
+        properties.shift_insert(0, "format".to_owned(), format);
+    }
+    match object.get_mut("required") {
+        Some(Value::Array(required)) => required.insert(0, json!("format")),
+        _ => {
+            object.insert("required".to_owned(), json!(["format"]));
+        }
+    }
+    with_format(schema, T::FORMAT)
 }
 
 /// Fixes the value of `format`, and removes null from the schema, because an absent key is omitted and never null.

@@ -31,11 +31,6 @@ fn printed(
     Case { example, quantity: quantity.to_owned(), source, expected, tolerance, found, digits: None }
 }
 
-/// Returns the failed case of an example that cannot be computed.
-fn fails(example: &'static str) -> Vec<Case> {
-    vec![printed(example, "JCGM 100:2008", "cannot be computed", 0.0, 0, f64::NAN)]
-}
-
 /// Returns the cases of H.1, nm: the length of an end gauge at 20 °C, l = l_S + d − l_S (δα θ + α_S δθ).
 fn end_gauge() -> Vec<Case> {
     const EXAMPLE: &str = "GUM H.1 end gauge";
@@ -67,7 +62,7 @@ fn end_gauge() -> Vec<Case> {
     };
     let variances = DVector::from_iterator(6, inputs.iter().map(|(u, _)| u * u));
     let estimates = DVector::from_row_slice(&ESTIMATES);
-    let Ok(found) = propagate(model, &estimates, &DMatrix::from_diagonal(&variances)) else { return fails(EXAMPLE) };
+    let found = propagate(model, &estimates, &DMatrix::from_diagonal(&variances));
     let gradient = model(&estimates).gradient;
     let contributions: Vec<(f64, f64)> = inputs.iter().zip(gradient.iter()).map(|((u, nu), c)| (u * c, *nu)).collect();
     let case =
@@ -117,7 +112,7 @@ fn impedance() -> Vec<Case> {
             gradient: DMatrix::from_row_slice(3, 3, &gradient),
         }
     };
-    let Ok(found) = propagate(model, &means.values, &means.covariance) else { return fails(EXAMPLE) };
+    let found = propagate(model, &means.values, &means.covariance);
     let case =
         |source, quantity, expected, decimals, found| printed(EXAMPLE, source, quantity, expected, decimals, found);
     let (u, r) = (|at| found.standard_uncertainty(at), |one, other| found.correlation(one, other));
@@ -163,7 +158,9 @@ fn thermometer() -> Vec<Case> {
     ];
     let design = DMatrix::from_fn(11, 2, |row, column| if column == 0 { 1.0 } else { READINGS[row].0 - 20.0 });
     let mut right = DMatrix::from_fn(11, 1, |row, _| READINGS[row].1);
-    let Ok(model) = Factorised::new(design) else { return fails(EXAMPLE) };
+    let Ok(model) = Factorised::new(design) else {
+        return vec![printed(EXAMPLE, LINE, "cannot be computed", 0.0, 0, f64::NAN)];
+    };
     model.rotate(&mut right);
     let (line, _) = model.solve_rotated(&right);
     let variance = right.rows(2, 9).norm_squared() / 9.0;
@@ -173,7 +170,7 @@ fn thermometer() -> Vec<Case> {
         values: DVector::from_element(1, y[0] + 10.0 * y[1]),
         gradient: DMatrix::from_row_slice(1, 2, &[1.0, 10.0]),
     };
-    let Ok(correction) = propagate(at_30, &line.values, &line.covariance) else { return fails(EXAMPLE) };
+    let correction = propagate(at_30, &line.values, &line.covariance);
     let case =
         |source, quantity, expected, decimals, found| printed(EXAMPLE, source, quantity, expected, decimals, found);
     vec![

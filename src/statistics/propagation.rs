@@ -36,86 +36,16 @@ impl Propagated {
     }
 }
 
-/// Reason why a matrix cannot be a covariance. Quantities count from 0.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub(crate) enum NotACovariance {
-    /// Number of rows or columns that differs from the number of quantities.
-    #[error("{rows} rows and {columns} columns for {quantities} quantities")]
-    Shape {
-        /// Number of rows of the matrix.
-        rows: usize,
-        /// Number of columns of the matrix.
-        columns: usize,
-        /// Number of quantities, which both should equal.
-        quantities: usize,
-    },
-    /// Variance that is negative or not finite.
-    #[error("the variance of quantity {0} is {1}")]
-    Variance(usize, f64),
-    /// Pair of mirrored elements that differ.
-    #[error("the covariance of quantities {0} and {1} is not that of {1} and {0}")]
-    NotSymmetric(usize, usize),
-    /// Correlation coefficient beyond ±1.
-    #[error("the correlation of quantities {0} and {1} is {2}, beyond 1")]
-    Correlation(usize, usize, f64),
-    /// Correlations that are possible for each pair, but not for all together.
-    #[error(
-        "such correlations cannot be: some sum of the quantities would have a negative variance (eigenvalue {0:.2e})"
-    )]
-    NotPositive(f64),
-}
-
-/// Checks that a matrix can be the covariance of `quantities` quantities: symmetric and positive semidefinite, within
-/// rounding.
-///
-/// # Errors
-/// Returns [`NotACovariance`] with the first violation.
-pub(crate) fn check_covariance(covariance: &DMatrix<f64>, quantities: usize) -> Result<(), NotACovariance> {
-    /// Rounding error that is allowed in a correlation coefficient.
-    const ROUNDING: f64 = 1e-12;
-    let (rows, columns) = covariance.shape();
-    if (rows, columns) != (quantities, quantities) {
-        return Err(NotACovariance::Shape { rows, columns, quantities });
-    }
-    let variance = |place: usize| covariance[(place, place)];
-    if let Some(place) = (0..rows).find(|&place| !(variance(place).is_finite() && variance(place) >= 0.0)) {
-        return Err(NotACovariance::Variance(place, variance(place)));
-    }
-    let beyond = |found: f64, limit: f64| found.is_nan() || found > limit;
-    let mut correlations = DMatrix::identity(rows, rows);
-    for one in 0..rows {
-        for other in 0..one {
-            let scale = (variance(one) * variance(other)).sqrt();
-            let (found, mirrored) = (covariance[(one, other)], covariance[(other, one)]);
-            let correlation = if found == 0.0 { 0.0 } else { found / scale };
-            if beyond((found - mirrored).abs(), ROUNDING * scale) {
-                return Err(NotACovariance::NotSymmetric(other, one));
-            }
-            if beyond(correlation.abs(), 1.0 + ROUNDING) {
-                return Err(NotACovariance::Correlation(other, one, correlation));
-            }
-            correlations[(one, other)] = correlation;
-            correlations[(other, one)] = correlation;
-        }
-    }
-    let smallest = correlations.symmetric_eigenvalues().iter().copied().fold(f64::INFINITY, f64::min);
-    if smallest < -ROUNDING * rows as f64 { Err(NotACovariance::NotPositive(smallest)) } else { Ok(()) }
-}
-
 /// Returns the results of `model` at `estimates`, with their covariance C_y = G C_x G' from the `covariance` C_x of the
 /// estimates.
-///
-/// # Errors
-/// Returns [`NotACovariance`] if `covariance` cannot be a covariance of the estimates.
 pub(crate) fn propagate(
     model: impl Fn(&DVector<f64>) -> Linearised,
     estimates: &DVector<f64>,
     covariance: &DMatrix<f64>,
-) -> Result<Propagated, NotACovariance> {
-    check_covariance(covariance, estimates.len())?;
+) -> Propagated {
     let Linearised { values, gradient } = model(estimates);
     let covariance = &gradient * covariance * gradient.transpose();
-    Ok(Propagated { values, covariance })
+    Propagated { values, covariance }
 }
 
 /// Returns the means of simultaneous readings (rows: readings, columns: quantities) and the covariance of the means.
@@ -151,32 +81,11 @@ mod tests {
             gradient: DMatrix::from_row_slice(2, 2, &[x[1], x[0], 1.0, 1.0]),
         };
         let covariance = DMatrix::from_row_slice(2, 2, &[0.01, 0.01, 0.01, 0.04]);
-        let found = propagate(model, &DVector::from_vec(vec![2.0, 3.0]), &covariance).unwrap();
+        let found = propagate(model, &DVector::from_vec(vec![2.0, 3.0]), &covariance);
         assert!((found.standard_uncertainty(0) - 0.37_f64.sqrt()).abs() < 1e-15);
         assert!((found.standard_uncertainty(1) - 0.07_f64.sqrt()).abs() < 1e-15);
         // G C G' off the diagonal: 3 (0.01 + 0.01) + 2 (0.01 + 0.04).
         assert!((found.correlation(0, 1) - 0.16 / (0.37_f64 * 0.07).sqrt()).abs() < 1e-14);
-    }
-
-    /// By hand: three quantities of unit variance whose sum has the variance 3 + 6 r, negative below r = −1/2.
-    #[test]
-    fn what_is_no_covariance_is_refused() {
-        let equal = |r: f64| DMatrix::from_fn(3, 3, |row, column| if row == column { 1.0 } else { r });
-        assert_eq!(check_covariance(&equal(-0.5), 3), Ok(()));
-        assert_eq!(check_covariance(&equal(1.0), 3), Ok(()));
-        assert!(matches!(check_covariance(&equal(-0.6), 3), Err(NotACovariance::NotPositive(_))));
-        assert_eq!(check_covariance(&equal(1.2), 3), Err(NotACovariance::Correlation(0, 1, 1.2)));
-        let shape = NotACovariance::Shape { rows: 3, columns: 3, quantities: 2 };
-        assert_eq!(check_covariance(&equal(0.0), 2), Err(shape));
-        let two = |elements: [f64; 4]| check_covariance(&DMatrix::from_row_slice(2, 2, &elements), 2);
-        assert_eq!(two([-1.0, 0.0, 0.0, 1.0]), Err(NotACovariance::Variance(0, -1.0)));
-        assert!(matches!(two([1.0, 0.0, 0.0, f64::NAN]), Err(NotACovariance::Variance(1, _))));
-        assert_eq!(two([1.0, 0.1, 0.2, 1.0]), Err(NotACovariance::NotSymmetric(0, 1)));
-        assert!(two([1.0, f64::NAN, f64::NAN, 1.0]).is_err() && two([0.0, 0.1, 0.1, 1.0]).is_err());
-        assert_eq!(two([0.0, 0.0, 0.0, 1.0]), Ok(()));
-        let model = |x: &DVector<f64>| Linearised { values: x.clone(), gradient: DMatrix::identity(3, 3) };
-        let refused = propagate(model, &DVector::zeros(3), &equal(-0.6)).unwrap_err().to_string();
-        assert!(refused.contains("negative variance (eigenvalue -2.00e-1)"), "{refused}");
     }
 
     /// By hand: means 2 and 4 of (1, 3, 2) and (2, 6, 4), twice the first: correlation 1.

@@ -45,7 +45,7 @@ pub(crate) enum Kind {
 }
 
 /// Formats of YAML documents.
-const FORMATS: [(&str, Kind); 7] = [
+pub(crate) const FORMATS: [(&str, Kind); 7] = [
     ("dtg-stand/1", Kind::Stand),
     ("dtg-site/1", Kind::Site),
     ("dtg-gyro/1", Kind::Gyro),

@@ -172,16 +172,6 @@ impl Problems {
         self.note(target, at.key(key).to_string(), MISSING.to_owned(), expected.into(), advice.into());
     }
 
-    /// Replaces expected content and advice of the key `field` if it was recorded as missing.
-    #[cfg(feature = "factory")]
-    pub(crate) fn expect_missing(&mut self, field: &str, expected: &str, advice: &str) {
-        let missing = self.found.iter_mut().find(|(_, problem)| problem.field == field && problem.found == MISSING);
-        if let Some((_, problem)) = missing {
-            problem.expected = expected.to_owned();
-            problem.advice = advice.to_owned();
-        }
-    }
-
     /// Records an error if the number is present and not within `low..=high`.
     pub(crate) fn within(&mut self, at: &Path, value: Option<f64>, low: f64, high: f64) {
         let Some(value) = value else { return };

@@ -46,6 +46,48 @@ pub(crate) trait Field: Sized + Clone + Send + Sync + 'static {
     }
 }
 
+/// Type whose fields are the keys of a mapping.
+pub(crate) trait Record: Field {
+    /// Writes the keys of the record into a mapping that may also have others.
+    fn emit_entries<S: Sink>(&self, sink: &mut S);
+
+    /// Reads the record from a mapping that also has the keys `beside`, which the caller reads.
+    fn read_beside(node: &Node, beside: &[&str], at: &Path, problems: &mut Problems) -> Option<Self>;
+}
+
+/// Record that a file of its own holds, after the key `format`.
+pub(crate) trait Document: Record {
+    /// Value of `format`.
+    const FORMAT: &'static str;
+}
+
+/// The content of a file: `format`, then the keys of the document.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct File<T>(pub(crate) T);
+
+impl<T: Document> Field for File<T> {
+    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
+        if let (Node::Map(_), None) = (node, node.get("format")) {
+            let advice = "add the format in the first line, or check that this is the right file";
+            problems.missing(at, "format", format!("{:?}", T::FORMAT), advice);
+        }
+        T::read_beside(node, &["format"], at, problems).map(Self)
+    }
+
+    fn is_mapping(&self) -> bool {
+        true
+    }
+
+    fn emit<S: Sink>(&self, sink: &mut S) {
+        sink.mapping(false, |sink| {
+            if sink.key("format") {
+                sink.text(T::FORMAT);
+            }
+            self.0.emit_entries(sink);
+        });
+    }
+}
+
 /// Declares a struct whose fields are the keys of a mapping, in the order in which they are written.
 ///
 /// A field of type `Option` may be absent; every other field is required. Unknown and duplicate keys are refused.
@@ -62,7 +104,7 @@ macro_rules! record {
                 at: &$crate::text::Path,
                 problems: &mut $crate::text::Problems,
             ) -> Option<Self> {
-                Self::read_beside(node, &[], at, problems)
+                $crate::text::record::Record::read_beside(node, &[], at, problems)
             }
 
             fn is_mapping(&self) -> bool {
@@ -71,7 +113,7 @@ macro_rules! record {
 
             fn emit<S: $crate::text::sink::Sink>(&self, sink: &mut S) {
                 let empty = true $(&& $crate::text::Field::is_absent(&self.$field))*;
-                sink.mapping(empty, |sink| self.emit_entries(sink));
+                sink.mapping(empty, |sink| $crate::text::record::Record::emit_entries(self, sink));
             }
 
             fn scan(scanner: &mut $crate::text::canonical::Scanner) -> Option<Self> {
@@ -88,9 +130,8 @@ macro_rules! record {
             }
         }
 
-        impl $name {
-            /// Writes the keys of the record into a mapping that may also have others.
-            pub(crate) fn emit_entries<S: $crate::text::sink::Sink>(&self, sink: &mut S) {
+        impl $crate::text::record::Record for $name {
+            fn emit_entries<S: $crate::text::sink::Sink>(&self, sink: &mut S) {
                 $(if !$crate::text::Field::is_absent(&self.$field)
                     && sink.key(const { $crate::text::record::key(stringify!($field)) })
                 {
@@ -98,8 +139,7 @@ macro_rules! record {
                 })*
             }
 
-            /// Reads the record from a mapping that also has the keys `beside`, which the caller reads.
-            pub(crate) fn read_beside(
+            fn read_beside(
                 node: &$crate::text::Node,
                 beside: &[&str],
                 at: &$crate::text::Path,

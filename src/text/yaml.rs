@@ -4,6 +4,7 @@ use super::excerpt::Location;
 use super::kind::{Kind, mistaken};
 use super::node::{MOST_BRACKETS, hand_written_text, location_of};
 use super::problem::{Problems, Step, Target, Unreadable};
+use super::record::{Document, File};
 use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
 use super::{Field, Node, Path};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
@@ -318,29 +319,23 @@ const RIGHT_FILE: &str = "check that this is the right file";
 
 /// Reads a document of the record type `T`: first the tree, then its `format`, then the fields, and finally the rules
 /// of its content (`check`). Every error of the stage that fails is reported.
-pub(crate) fn read_document<T: Field>(
+pub(crate) fn read_document<T: Document>(
     name: &str,
     bytes: &[u8],
-    format: &str,
     check: impl FnOnce(&T, &mut Problems),
 ) -> Result<T, Unreadable> {
-    parse(name, bytes, format, check).map_err(|unreadable| {
-        let expected = Kind::of_format(format).map_or(format, |kind| kind.words());
+    parse(name, bytes, check).map_err(|unreadable| {
+        let expected = Kind::of_format(T::FORMAT).map_or(T::FORMAT, |kind| kind.words());
         // The message about another format shows its line.
         let other = mistaken(name, bytes, expected, Kind::is_yaml);
         other.unwrap_or_else(|| unreadable.in_text(bytes))
     })
 }
 
-fn parse<T: Field>(
-    name: &str,
-    bytes: &[u8],
-    format: &str,
-    check: impl FnOnce(&T, &mut Problems),
-) -> Result<T, Unreadable> {
+fn parse<T: Document>(name: &str, bytes: &[u8], check: impl FnOnce(&T, &mut Problems)) -> Result<T, Unreadable> {
     let (node, text) = tree(name, bytes)?;
     let mut problems = Problems::new();
-    let expected = format!("{format:?}");
+    let format = T::FORMAT;
     if let Some(found) = node.get("format").filter(|found| **found != Node::Text(format.to_owned())) {
         let advice = match found {
             Node::Text(text) if typographic_quote(text).is_some() => STRAIGHT_QUOTES.to_owned(),
@@ -349,16 +344,10 @@ fn parse<T: Field>(
                 .map_or_else(|| RIGHT_FILE.to_owned(), |(_, odd)| format!("type the {odd} again, as a Latin letter")),
             _ => RIGHT_FILE.to_owned(),
         };
-        problems.at(&Path::Root.key("format"), found.describe(), expected, advice);
+        problems.at(&Path::Root.key("format"), found.describe(), format!("{format:?}"), advice);
         return Err(problems.refuse(name, &text));
     }
-    let value = T::read(&node, &Path::Root, &mut problems);
-    problems.expect_missing(
-        "format",
-        &expected,
-        "add the format in the first line, or check that this is the right \
-         file",
-    );
+    let value = File::<T>::read(&node, &Path::Root, &mut problems).map(|File(value)| value);
     if let Some(value) = &value {
         check(value, &mut problems);
     }

@@ -20,8 +20,9 @@ use dtg_passport::passport::issue::{Issue, draft};
 use dtg_passport::passport::{NAMESPACE, Question, Trust, annotations, read, verify};
 use dtg_passport::report::passport_table;
 use dtg_passport::revocation::{REVOCATION_NAMESPACE, RevocationList};
-use dtg_passport::site::{SITE_FORMAT, Site, SiteFile};
+use dtg_passport::site::Site;
 use dtg_passport::stand::Stand;
+use dtg_passport::text::record::{Document, File};
 use dtg_passport::text::{Field, Unreadable, canonical, rule};
 use dtg_passport::trust::{AllowedSigners, PublicKey, RevokedKeys, Signature, SigningKey};
 use std::fmt::Debug;
@@ -108,16 +109,19 @@ fn refused(error: &Unreadable, bytes: &[u8]) -> bool {
 }
 
 /// A document of the kind that people write: written in its one form, it is read as the same, and that form is stable.
-fn document<T: Field + PartialEq + Debug>(bytes: &[u8], from_yaml: fn(&str, &[u8]) -> Result<T, Unreadable>) -> bool {
+fn document<T: Document + PartialEq + Debug>(
+    bytes: &[u8],
+    from_yaml: fn(&str, &[u8]) -> Result<T, Unreadable>,
+) -> bool {
     let value = match from_yaml("f", bytes) {
         Ok(value) => value,
         Err(error) => return refused(&error, bytes),
     };
-    let text = written(&value);
+    let text = written(&File(value.clone()));
     rule::check("written", text.as_bytes()).expect("what is written obeys the text rule");
     let again = from_yaml("written", text.as_bytes()).expect("what is written is read");
     assert_eq!(again, value);
-    assert_eq!(written(&again), text);
+    assert_eq!(written(&File(again)), text);
     true
 }
 
@@ -130,7 +134,7 @@ fn stand(bytes: &[u8]) -> bool {
 }
 
 fn site(bytes: &[u8]) -> bool {
-    document(bytes, |name, bytes| Ok(SiteFile { format: SITE_FORMAT.to_owned(), site: Site::from_yaml(name, bytes)? }))
+    document(bytes, Site::from_yaml)
 }
 
 fn gyro(bytes: &[u8]) -> bool {

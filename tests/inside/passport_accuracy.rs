@@ -34,7 +34,7 @@ fn order(accuracy: Option<Stated>) -> Issue {
 fn paper() -> Stated {
     let seating_arcsec = Some(Seating { about_x: 5.0, about_y: 5.0, about_z: 30.0 });
     let laboratory = Laboratory { seating_arcsec, ..Laboratory::paper() };
-    Stated { gyro: GyroType::gvk_6().into(), laboratory: laboratory.into() }
+    Stated { gyro: GyroType::gvk_6(), laboratory }
 }
 
 /// The code of `recomputed` after the text was changed and signed by the rightful key.

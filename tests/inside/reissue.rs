@@ -28,7 +28,7 @@ fn of_a_passport_that_may_only_be_named_nothing_but_its_id_and_hash_is_taken_ove
     let stand = Stand::from_yaml("stand.yaml", include_bytes!("../cmd/files/stand.yaml")).unwrap();
     let site = Site::from_yaml("here.yaml", include_bytes!("../cmd/files/sites/here.yaml")).unwrap();
     let issue = Issue {
-        accuracy: Some(Stated { gyro: GyroType::gvk_6().into(), laboratory: Laboratory::paper().into() }),
+        accuracy: Some(Stated { gyro: GyroType::gvk_6(), laboratory: Laboratory::paper() }),
         issuer: "factory".to_owned(),
         issued_at: time("2026-11-03T00:00:00Z"),
         valid_until: Some("2027-11-02".parse().unwrap()),

@@ -23,7 +23,7 @@ pub fn passport(stand: &str, site: &str) -> (Content, String) {
     let site = Site::from_yaml("site.yaml", site.as_bytes()).unwrap();
     let gyro = GyroType::gvk_6();
     let mut order = Issue::first(fixtures::ISSUER, fixtures::at(fixtures::ISSUED_AT));
-    order.accuracy = Some(Stated { gyro: gyro.into(), laboratory: Laboratory::paper().into() });
+    order.accuracy = Some(Stated { gyro, laboratory: Laboratory::paper() });
     let draft = draft(&stand, &site, &order).unwrap();
     (draft.content().clone(), draft.payload().to_owned())
 }

@@ -8,7 +8,7 @@ use crate::inside::{fixtures, written};
 use dtg_passport::folder::search::register;
 use dtg_passport::gyro::GyroType;
 use dtg_passport::laboratory::Laboratory;
-use dtg_passport::passport::accuracy::{Accuracy, StatedGyro};
+use dtg_passport::passport::accuracy::Accuracy;
 use dtg_passport::passport::annotations::payload;
 use dtg_passport::passport::content::{Content, PositionVectors};
 use dtg_passport::passport::{CheckName, Code, Trust, verify};
@@ -29,9 +29,9 @@ fn with_positions(count: usize) -> Content {
         ..of.clone()
     });
     content.positions.extend(more);
-    let gyro: StatedGyro = GyroType::gvk_6().into();
+    let gyro = GyroType::gvk_6();
     let standard_uncertainty = gyro.nominal.clone();
-    content.accuracy = Some(Accuracy { gyro, laboratory: Laboratory::paper().into(), standard_uncertainty });
+    content.accuracy = Some(Accuracy { gyro, laboratory: Laboratory::paper(), standard_uncertainty });
     content
 }
 
