@@ -2,6 +2,7 @@
 //! from repeated visits and cycles.
 
 use super::offsets::{Condensed, Differences};
+use crate::text::words;
 use nalgebra::Matrix2;
 
 /// Steps of the search for the noise of a visit.
@@ -10,26 +11,17 @@ const MOST_STEPS: usize = 100;
 /// Largest relative distance of the sum of squares from its expectation at the noise found.
 const FOUND: f64 = 1e-9;
 
-/// Source of a noise of the gyro.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum NoiseSource {
-    /// Stated by the gyro type.
-    Stated,
-    /// Estimated from the readings.
-    Estimated,
-    /// Neither stated nor shown by repeated readings; the result does not include it.
-    NotStated,
-}
-
-impl NoiseSource {
-    /// Returns the name of the source in results.
-    pub(crate) fn key(self) -> &'static str {
-        match self {
-            Self::Stated => "stated",
-            Self::Estimated => "estimated",
-            Self::NotStated => "not_stated",
-        }
+words! {
+    /// Source of a noise of the gyro.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum NoiseSource: pub(crate) key {
+        /// Stated by the gyro type.
+        Stated = "stated",
+        /// Estimated from the readings.
+        Estimated = "estimated",
+        /// Neither stated nor shown by repeated readings; the result does not include it.
+        NotStated = "not_stated",
     }
 }
 

@@ -3,7 +3,7 @@
 use super::administrative::AdministrativeFile;
 use super::inputs::{self, Each};
 use super::output::Format;
-use super::render::{Written, languages};
+use super::render::languages;
 use super::show::{Read, Whom};
 use super::simulate::MethodName;
 use super::trust_options::date;
@@ -23,6 +23,7 @@ use crate::gyro::GyroType;
 use crate::interface::calibrated::{Done, Prepared};
 use crate::laboratory::{Laboratory, TEMPERATURES_C};
 use crate::passport::{Content, Question, Trust, Verification};
+use crate::report::Language;
 use crate::report::calibration as report;
 use crate::report::page::{CalibrationPage, PassportPage, UsedPassport};
 use crate::text::kind::Kind;
@@ -113,7 +114,7 @@ pub(super) struct Options {
     administrative: Option<PathBuf>,
     /// Languages of --report and --dcc; the first sets the number format: en, ru, or en,ru for both side by side
     #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
-    lang: Vec<Written>,
+    lang: Vec<Language>,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,

@@ -3,7 +3,7 @@
 use super::diff::Past;
 use super::exclusion::ExclusionOptions;
 use super::output::Format;
-use super::render::{Written, languages};
+use super::render::languages;
 use super::trust_options::OptionalTrust;
 use super::{Code, Failure, REFUSED, inputs, output};
 use crate::batch::{Purpose, paths};
@@ -13,6 +13,7 @@ use crate::files;
 use crate::folder::archive::Superseded;
 use crate::passport::content::claims_to_be_a_passport;
 use crate::passport::difference::of_deviations;
+use crate::report::Language;
 use crate::report::certification as report;
 use crate::report::page::certification::CertificationPage;
 use crate::stand::Stand;
@@ -64,7 +65,7 @@ pub(super) struct Options {
     report: Option<PathBuf>,
     /// Languages of the record; the first sets the number format
     #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
-    lang: Vec<Written>,
+    lang: Vec<Language>,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,

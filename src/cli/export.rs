@@ -3,7 +3,7 @@
 use super::administrative::{AdministrativeFile, DCC_IS_NOT_SIGNED};
 use super::inputs::{self, Each};
 use super::output::Format;
-use super::render::{Written as Language, languages};
+use super::render::languages;
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, REFUSED, UNUSABLE, defaults, output};
 use crate::batch::{Purpose, paths};
@@ -14,6 +14,7 @@ use crate::parallel;
 use crate::passport::export::{site_file, stand_file};
 use crate::passport::verification::unreadable;
 use crate::passport::{Content, Question, Trust, Verification, verify};
+use crate::report::Language;
 use crate::report::{exported, issued};
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of, printable, shown};
 use clap::{Args, ValueEnum};

@@ -3,7 +3,7 @@
 use super::exclusion::ExclusionOptions;
 use super::key_options::{self, refuse_distrusted, signer_of};
 use super::output::{self, Format};
-use super::render::{Written, languages};
+use super::render::languages;
 use super::trust_options::{self, TrustOptions};
 use super::{Code, Failure, defaults, inputs, long_run};
 use crate::batch::recertification::{AtSite, NotRecertified, Recertification};
@@ -12,6 +12,7 @@ use crate::certification::finding::Finding;
 use crate::files;
 use crate::folder::Seal;
 use crate::passport::issue::time_of_issue;
+use crate::report::Language;
 use crate::report::issued::Told;
 use crate::report::page::certification::CertificationPage;
 use crate::report::recertification as report;
@@ -75,7 +76,7 @@ pub(super) struct Options {
     report: Option<PathBuf>,
     /// Languages of the record; the first sets the number format
     #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
-    lang: Vec<Written>,
+    lang: Vec<Language>,
     /// Replace an existing record
     #[arg(long)]
     force: bool,

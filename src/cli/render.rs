@@ -4,7 +4,6 @@ use super::output::Format;
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, defaults, inputs, output, register};
 use crate::batch::Purpose;
-pub(super) use crate::dcc::Written;
 use crate::folder::Folder;
 use crate::report::page::{Language, Languages, PassportPage};
 use crate::report::{style, verdict};
@@ -35,7 +34,7 @@ pub(super) struct Options {
     register: Option<PathBuf>,
     /// Page languages; the first sets the number format: en, ru, or en,ru for both side by side
     #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
-    lang: Vec<Written>,
+    lang: Vec<Language>,
     /// Replace an existing page
     #[arg(long)]
     force: bool,
@@ -53,8 +52,8 @@ struct Rendered {
 }
 
 /// Returns the languages of a page: English if none is specified.
-pub(super) fn languages(written: &[Written]) -> Languages {
-    let mut languages = written.iter().copied().map(Language::from);
+pub(super) fn languages(written: &[Language]) -> Languages {
+    let mut languages = written.iter().copied();
     let first = languages.next().unwrap_or(Language::English);
     Languages::new(first, languages)
 }

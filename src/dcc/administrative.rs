@@ -5,98 +5,29 @@
 use super::countries::is_country;
 use crate::report::Language;
 use crate::text::record::Document;
-use crate::text::sink::Sink;
-use crate::text::{Field, Node, Path, Problems, Unreadable, record, yaml};
+use crate::text::{Path, Problems, Unreadable, record, word_of_a_key, words, yaml};
 use jiff::civil::Date;
 
-/// Place of the measurements, in the words of the DCC.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, schemars::JsonSchema)]
-#[schemars(rename_all = "camelCase")]
-pub enum Location {
-    /// Permanent laboratory.
-    Laboratory,
-    /// Premises of the customer.
-    Customer,
-    /// Branch of the laboratory.
-    LaboratoryBranch,
-    /// Branch of the customer.
-    CustomerBranch,
-    /// Another place.
-    Other,
-}
-
-impl Location {
-    const ALL: [Self; 5] =
-        [Self::Laboratory, Self::Customer, Self::LaboratoryBranch, Self::CustomerBranch, Self::Other];
-
-    /// Returns the value of `location`, which is also that of `dcc:performanceLocation`.
-    pub(super) fn word(self) -> &'static str {
-        match self {
-            Self::Laboratory => "laboratory",
-            Self::Customer => "customer",
-            Self::LaboratoryBranch => "laboratoryBranch",
-            Self::CustomerBranch => "customerBranch",
-            Self::Other => "other",
-        }
+words! {
+    /// Place of the measurements, in the words of the DCC.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, schemars::JsonSchema)]
+    #[schemars(rename_all = "camelCase")]
+    pub enum Location: pub(super) word {
+        /// Permanent laboratory.
+        Laboratory = "laboratory",
+        /// Premises of the customer.
+        Customer = "customer",
+        /// Branch of the laboratory.
+        LaboratoryBranch = "laboratoryBranch",
+        /// Branch of the customer.
+        CustomerBranch = "customerBranch",
+        /// Another place.
+        Other = "other",
     }
 }
 
-impl Field for Location {
-    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
-        let found = Self::ALL.into_iter().find(|one| matches!(node, Node::Text(text) if text == one.word()));
-        if found.is_none() {
-            problems.at(at, node.describe(), Self::expected(""), "");
-        }
-        found
-    }
-
-    fn expected(_: &str) -> String {
-        "\"laboratory\", \"customer\", \"laboratoryBranch\", \"customerBranch\" or \"other\"".to_owned()
-    }
-
-    fn emit<S: Sink>(&self, sink: &mut S) {
-        sink.text(self.word());
-    }
-}
-
-/// Language of a page or a DCC by its code in ISO 639-1, in files and options.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum, schemars::JsonSchema)]
-#[schemars(rename_all = "lowercase")]
-pub enum Written {
-    /// English.
-    En,
-    /// Russian.
-    Ru,
-}
-
-impl From<Written> for Language {
-    fn from(written: Written) -> Self {
-        match written {
-            Written::En => Self::English,
-            Written::Ru => Self::Russian,
-        }
-    }
-}
-
-impl Field for Written {
-    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
-        let found = [Self::En, Self::Ru]
-            .into_iter()
-            .find(|one| matches!(node, Node::Text(text) if text == Language::from(*one).tag()));
-        if found.is_none() {
-            problems.at(at, node.describe(), Self::expected(""), "");
-        }
-        found
-    }
-
-    fn expected(_: &str) -> String {
-        "\"en\" or \"ru\" (ISO 639-1), the languages in which this program writes".to_owned()
-    }
-
-    fn emit<S: Sink>(&self, sink: &mut S) {
-        sink.text(Language::from(*self).tag());
-    }
-}
+word_of_a_key!(Location, word, "");
+word_of_a_key!(Language, tag, " (ISO 639-1), the languages in which this program writes");
 
 record! {
     /// Name and address of the laboratory or of the customer.
@@ -141,7 +72,7 @@ record! {
         /// Country in which the certificate is issued: two capital letters of ISO 3166-1.
         pub country: Option<String>,
         /// Mandatory language of the certificate, "en" or "ru"; if absent, the first of `--lang`.
-        pub language: Option<Written>,
+        pub language: Option<Language>,
         /// Place of the measurements: "laboratory", "customer", "laboratoryBranch", "customerBranch" or "other".
         pub location: Option<Location>,
         /// Calibration laboratory.

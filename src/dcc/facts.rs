@@ -155,7 +155,7 @@ impl Collector {
             let expected = "absent, because the certificate states no traceability";
             self.problems.at(&at.key("traceable"), "true", expected, "delete it");
         }
-        let mandatory = file.and_then(|file| file.language).map(Language::from);
+        let mandatory = file.and_then(|file| file.language);
         let first = lang.map(Languages::first).or(mandatory).unwrap_or(Language::English);
         let others = lang.into_iter().flat_map(Languages::iter).chain(mandatory);
         persons?;

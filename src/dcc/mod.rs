@@ -20,7 +20,7 @@ mod stand;
 pub(crate) mod words;
 mod xml;
 
-pub(crate) use administrative::{Administrative, Written};
+pub(crate) use administrative::Administrative;
 pub(crate) use gyro::{Calibrated, of_gyro};
 pub(crate) use stand::of_stand;
 

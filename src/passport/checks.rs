@@ -1,129 +1,86 @@
 //! Checks of a verification: names, result codes and details.
 
 use crate::text::printable;
+use crate::text::words;
 use std::fmt::Display;
 
-/// Name of a check; the variants are in the order of the report.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
-pub enum CheckName {
-    /// Text rule, split into text and signature, and form of the signature.
-    Grammar,
-    /// Signature over the text.
-    Signature,
-    /// Canonical form of the content, and all of its rules.
-    Schema,
-    /// Key of the issuer, trusted for passports at the time of issue.
-    Signer,
-    /// Revocation of the key, and withdrawal of the passport.
-    Revocation,
-    /// Recomputation of every number from the signed inputs.
-    Recomputed,
-    /// Time of verification, compared with the time of issue and the expiry date.
-    InForce,
-    /// Issuer, compared with the required one.
-    Issuer,
-    /// Serial number of the stand, compared with the required one.
-    Stand,
-    /// Distance from the site, compared with the validity radius.
-    Place,
-    /// Absence of a superseding successor in the given register folder.
-    Register,
-}
-
-impl CheckName {
-    /// Returns the name that `verify --format json` uses.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Grammar => "grammar",
-            Self::Signature => "signature",
-            Self::Schema => "schema",
-            Self::Signer => "signer",
-            Self::Revocation => "revocation",
-            Self::Recomputed => "recomputed",
-            Self::InForce => "in_force",
-            Self::Issuer => "issuer",
-            Self::Stand => "stand",
-            Self::Place => "place",
-            Self::Register => "register",
-        }
+words! {
+    /// Name of a check; the variants are in the order of the report.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+    #[non_exhaustive]
+    pub enum CheckName: pub as_str {
+        /// Text rule, split into text and signature, and form of the signature.
+        Grammar = "grammar",
+        /// Signature over the text.
+        Signature = "signature",
+        /// Canonical form of the content, and all of its rules.
+        Schema = "schema",
+        /// Key of the issuer, trusted for passports at the time of issue.
+        Signer = "signer",
+        /// Revocation of the key, and withdrawal of the passport.
+        Revocation = "revocation",
+        /// Recomputation of every number from the signed inputs.
+        Recomputed = "recomputed",
+        /// Time of verification, compared with the time of issue and the expiry date.
+        InForce = "in_force",
+        /// Issuer, compared with the required one.
+        Issuer = "issuer",
+        /// Serial number of the stand, compared with the required one.
+        Stand = "stand",
+        /// Distance from the site, compared with the validity radius.
+        Place = "place",
+        /// Absence of a superseding successor in the given register folder.
+        Register = "register",
     }
 }
 
-/// Result code of a check, for programs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Code {
-    /// The check passed.
-    Ok,
-    /// Not run, because it depends on an earlier check that failed.
-    NotRun,
-    /// The file could not be opened or read.
-    Unreadable,
-    /// The text rule, the split or the armor is broken.
-    Malformed,
-    /// The text is not the one that was signed.
-    Altered,
-    /// The signature was made for another kind of document.
-    WrongNamespace,
-    /// The content breaks a rule or is not in canonical form.
-    BadContent,
-    /// No trusted signer has this key.
-    UnknownKey,
-    /// The key belongs to another signer.
-    WrongPrincipal,
-    /// The passport was issued before the validity of the key began.
-    KeyNotYetValid,
-    /// The passport was issued after the validity of the key had ended.
-    KeyExpired,
-    /// The key is revoked.
-    KeyRevoked,
-    /// The passport is withdrawn.
-    PassportRevoked,
-    /// A number does not follow from the signed inputs.
-    WrongNumber,
-    /// The time of issue is later than the time of verification.
-    NotYetValid,
-    /// The expiry date has passed.
-    Expired,
-    /// The passport is from another issuer.
-    WrongIssuer,
-    /// The passport is for another stand.
-    WrongStand,
-    /// The passport is for another place.
-    WrongPlace,
-    /// A successor supersedes the passport.
-    Superseded,
-    /// A file in the register that may supersede or withdraw the passport cannot be read.
-    RegisterUnknown,
-}
-
-impl Code {
-    /// Returns the code that `verify --format json` writes.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Ok => "ok",
-            Self::NotRun => "not_run",
-            Self::Unreadable => "unreadable",
-            Self::Malformed => "malformed",
-            Self::Altered => "altered",
-            Self::WrongNamespace => "wrong_namespace",
-            Self::BadContent => "bad_content",
-            Self::UnknownKey => "unknown_key",
-            Self::WrongPrincipal => "wrong_principal",
-            Self::KeyNotYetValid => "key_not_yet_valid",
-            Self::KeyExpired => "key_expired",
-            Self::KeyRevoked => "key_revoked",
-            Self::PassportRevoked => "passport_revoked",
-            Self::WrongNumber => "wrong_number",
-            Self::NotYetValid => "not_yet_valid",
-            Self::Expired => "expired",
-            Self::WrongIssuer => "wrong_issuer",
-            Self::WrongStand => "wrong_stand",
-            Self::WrongPlace => "wrong_place",
-            Self::Superseded => "superseded",
-            Self::RegisterUnknown => "register_unknown",
-        }
+words! {
+    /// Result code of a check, for programs.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum Code: pub as_str {
+        /// The check passed.
+        Ok = "ok",
+        /// Not run, because it depends on an earlier check that failed.
+        NotRun = "not_run",
+        /// The file could not be opened or read.
+        Unreadable = "unreadable",
+        /// The text rule, the split or the armor is broken.
+        Malformed = "malformed",
+        /// The text is not the one that was signed.
+        Altered = "altered",
+        /// The signature was made for another kind of document.
+        WrongNamespace = "wrong_namespace",
+        /// The content breaks a rule or is not in canonical form.
+        BadContent = "bad_content",
+        /// No trusted signer has this key.
+        UnknownKey = "unknown_key",
+        /// The key belongs to another signer.
+        WrongPrincipal = "wrong_principal",
+        /// The passport was issued before the validity of the key began.
+        KeyNotYetValid = "key_not_yet_valid",
+        /// The passport was issued after the validity of the key had ended.
+        KeyExpired = "key_expired",
+        /// The key is revoked.
+        KeyRevoked = "key_revoked",
+        /// The passport is withdrawn.
+        PassportRevoked = "passport_revoked",
+        /// A number does not follow from the signed inputs.
+        WrongNumber = "wrong_number",
+        /// The time of issue is later than the time of verification.
+        NotYetValid = "not_yet_valid",
+        /// The expiry date has passed.
+        Expired = "expired",
+        /// The passport is from another issuer.
+        WrongIssuer = "wrong_issuer",
+        /// The passport is for another stand.
+        WrongStand = "wrong_stand",
+        /// The passport is for another place.
+        WrongPlace = "wrong_place",
+        /// A successor supersedes the passport.
+        Superseded = "superseded",
+        /// A file in the register that may supersede or withdraw the passport cannot be read.
+        RegisterUnknown = "register_unknown",
     }
 }
 

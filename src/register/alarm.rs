@@ -3,6 +3,7 @@
 use super::successors::Successor;
 use super::{Examined, Line, series_of};
 use crate::revocation::{ListRefused, RevocationList, SeriesAlarm};
+use crate::text::words;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,51 +33,34 @@ pub enum Concern {
     Stand(String),
 }
 
-/// Kind of an [`Alarm`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum AlarmKind {
-    /// Two or more successors of one passport.
-    Forked,
-    /// Two or more files with one id.
-    DuplicateId,
-    /// Missing predecessor of a passport, or missing revision between two others.
-    Missing,
-    /// Stand in force under two certificates, or under one that was replaced.
-    Certificates,
-    /// File of a passport or of a list that is altered, truncated, empty or in another encoding.
-    Damaged,
-    /// File in another place than its content requires.
-    Misplaced,
-    /// Link, which may lead out of the folder.
-    Link,
-    /// Pipe, device or socket.
-    Special,
-    /// File larger than any document.
-    TooLarge,
-    /// File or folder that cannot be read.
-    Unreadable,
-    /// Refused or irregular lists of withdrawn passports.
-    Revocation,
-}
-
-impl AlarmKind {
-    /// Returns the name of the kind, for programs.
-    pub(crate) fn key(self) -> &'static str {
-        match self {
-            Self::Forked => "forked",
-            Self::DuplicateId => "duplicate_id",
-            Self::Missing => "missing",
-            Self::Certificates => "certificates",
-            Self::Damaged => "damaged",
-            Self::Misplaced => "misplaced",
-            Self::Link => "link",
-            Self::Special => "special",
-            Self::TooLarge => "too_large",
-            Self::Unreadable => "unreadable",
-            Self::Revocation => "revocation",
-        }
+words! {
+    /// Kind of an [`Alarm`].
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+    #[serde(rename_all = "snake_case")]
+    #[non_exhaustive]
+    pub enum AlarmKind: pub(crate) key {
+        /// Two or more successors of one passport.
+        Forked = "forked",
+        /// Two or more files with one id.
+        DuplicateId = "duplicate_id",
+        /// Missing predecessor of a passport, or missing revision between two others.
+        Missing = "missing",
+        /// Stand in force under two certificates, or under one that was replaced.
+        Certificates = "certificates",
+        /// File of a passport or of a list that is altered, truncated, empty or in another encoding.
+        Damaged = "damaged",
+        /// File in another place than its content requires.
+        Misplaced = "misplaced",
+        /// Link, which may lead out of the folder.
+        Link = "link",
+        /// Pipe, device or socket.
+        Special = "special",
+        /// File larger than any document.
+        TooLarge = "too_large",
+        /// File or folder that cannot be read.
+        Unreadable = "unreadable",
+        /// Refused or irregular lists of withdrawn passports.
+        Revocation = "revocation",
     }
 }
 

@@ -13,6 +13,7 @@ use crate::passport::checks::{Check, CheckName, Code};
 use crate::passport::content::Content;
 use crate::passport::verification::{Question, Trust, Verification, verify};
 use crate::revocation::Series;
+use crate::text::words;
 use alarm::{absent_predecessors, duplicate_ids, gaps, misplaced};
 use certificates::Certificates;
 use jiff::Timestamp;
@@ -21,29 +22,31 @@ use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 use successors::Successors;
 
-/// State of a passport in a register.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum State {
-    /// Issued and not expired.
-    InForce,
-    /// In force, but expires within the given number of days.
-    Expiring,
-    /// Superseded by its successor at the same site.
-    Superseded,
-    /// Superseded, because the stand has moved to another site.
-    Moved,
-    /// Past its expiry date.
-    Expired,
-    /// Issued later than the time of verification.
-    NotYetValid,
-    /// Withdrawn, or signed with a revoked key.
-    Revoked,
-    /// In force unless an unreadable or missing file in the register supersedes or withdraws the passport.
-    Unknown,
-    /// Failed verification.
-    Broken,
+words! {
+    /// State of a passport in a register.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+    #[serde(rename_all = "snake_case")]
+    #[non_exhaustive]
+    pub enum State: pub key {
+        /// Issued and not expired.
+        InForce = "in_force",
+        /// In force, but expires within the given number of days.
+        Expiring = "expiring",
+        /// Superseded by its successor at the same site.
+        Superseded = "superseded",
+        /// Superseded, because the stand has moved to another site.
+        Moved = "moved",
+        /// Past its expiry date.
+        Expired = "expired",
+        /// Issued later than the time of verification.
+        NotYetValid = "not_yet_valid",
+        /// Withdrawn, or signed with a revoked key.
+        Revoked = "revoked",
+        /// In force unless an unreadable or missing file in the register supersedes or withdraws the passport.
+        Unknown = "unknown",
+        /// Failed verification.
+        Broken = "broken",
+    }
 }
 
 /// Register entry of one file.
@@ -69,37 +72,6 @@ pub struct Line {
     pub valid_until: Option<Date>,
     /// Reason for the state: the successor, the failed check, or the reason for the withdrawal.
     pub why: String,
-}
-
-impl State {
-    /// All states, in the order of the register.
-    #[cfg(feature = "cli")]
-    pub(crate) const ALL: [Self; 9] = [
-        Self::InForce,
-        Self::Expiring,
-        Self::Superseded,
-        Self::Moved,
-        Self::Expired,
-        Self::NotYetValid,
-        Self::Revoked,
-        Self::Unknown,
-        Self::Broken,
-    ];
-
-    /// Returns the name of the state, for programs.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::InForce => "in_force",
-            Self::Expiring => "expiring",
-            Self::Superseded => "superseded",
-            Self::Moved => "moved",
-            Self::Expired => "expired",
-            Self::NotYetValid => "not_yet_valid",
-            Self::Revoked => "revoked",
-            Self::Unknown => "unknown",
-            Self::Broken => "broken",
-        }
-    }
 }
 
 /// Register of a folder.

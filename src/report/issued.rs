@@ -9,6 +9,7 @@ use crate::calibration::prediction::NoiseGrowth;
 use crate::folder::Issued;
 use crate::passport::issue::Remarks;
 use crate::text::printable::json;
+use crate::text::words;
 use crate::text::{Printable, name_of, printable};
 use serde::Serialize;
 use std::fmt::Write;
@@ -19,32 +20,21 @@ const FEW: usize = 20;
 /// Largest number of different remarks that are printed; further ones are only counted.
 const REMARKS_TOLD: usize = 50;
 
-/// The result of an order, in one word.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum State {
-    /// The passport is new.
-    Issued,
-    /// An equal passport was there, and was left.
-    Unchanged,
-    /// A dry run: it would be issued.
-    Planned,
-    /// The work was done before.
-    Skipped,
-    /// Nothing was written.
-    Refused,
-}
-
-impl State {
-    /// Returns its name in tables and results.
-    fn key(self) -> &'static str {
-        match self {
-            Self::Issued => "issued",
-            Self::Unchanged => "unchanged",
-            Self::Planned => "planned",
-            Self::Skipped => "skipped",
-            Self::Refused => "refused",
-        }
+words! {
+    /// The result of an order, in one word.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+    #[serde(rename_all = "lowercase")]
+    pub(crate) enum State: key {
+        /// The passport is new.
+        Issued = "issued",
+        /// An equal passport was there, and was left.
+        Unchanged = "unchanged",
+        /// A dry run: it would be issued.
+        Planned = "planned",
+        /// The work was done before.
+        Skipped = "skipped",
+        /// Nothing was written.
+        Refused = "refused",
     }
 }
 

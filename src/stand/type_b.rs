@@ -4,53 +4,24 @@
 use super::{Certificate, CertifiedPosition};
 use crate::coefficients::PositionIndex;
 use crate::text::scalar::is_sha256_hex;
-use crate::text::sink::Sink;
-use crate::text::{Field, Node, Path, Problems, record};
+use crate::text::{Path, Problems, record, word_of_a_key, words};
 
-/// What a contribution of type B turns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(rename_all = "snake_case"))]
-#[non_exhaustive]
-pub enum ActsOn {
-    /// Each position by itself, per axis of the platform; part of u_alpha_arcsec, u_beta_arcsec and u_gamma_arcsec.
-    Position,
-    /// All positions together, per axis of the platform; part of common_platform_arcsec.
-    Platform,
-    /// All positions together, per axis of the base; part of common_base_arcsec.
-    Base,
-}
-
-impl ActsOn {
-    /// All variants, in the order of declaration.
-    pub(crate) const ALL: [Self; 3] = [Self::Position, Self::Platform, Self::Base];
-
-    /// Returns the value of `acts_on` in a file.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Self::Position => "position",
-            Self::Platform => "platform",
-            Self::Base => "base",
-        }
+words! {
+    /// What a contribution of type B turns.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(rename_all = "snake_case"))]
+    #[non_exhaustive]
+    pub enum ActsOn: pub(crate) word {
+        /// Each position by itself, per axis of the platform; part of u_alpha_arcsec, u_beta_arcsec and u_gamma_arcsec.
+        Position = "position",
+        /// All positions together, per axis of the platform; part of common_platform_arcsec.
+        Platform = "platform",
+        /// All positions together, per axis of the base; part of common_base_arcsec.
+        Base = "base",
     }
 }
 
-impl Field for ActsOn {
-    fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
-        let found = Self::ALL.into_iter().find(|on| matches!(node, Node::Text(text) if text == on.word()));
-        if found.is_none() {
-            problems.at(at, node.describe(), Self::expected(""), "");
-        }
-        found
-    }
-
-    fn expected(_: &str) -> String {
-        "\"position\", \"platform\" or \"base\"".to_owned()
-    }
-
-    fn emit<S: Sink>(&self, sink: &mut S) {
-        sink.text(self.word());
-    }
-}
+word_of_a_key!(ActsOn, word, "");
 
 record! {
     /// Contribution to the uncertainty that repeated measurements do not show (type B), such as the calibration of an

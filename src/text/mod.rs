@@ -6,6 +6,7 @@
 //! * `sink`: destinations of a document.
 //! * `node`: documents as trees.
 //! * `record`: conversion of trees to Rust structs and back; every error is reported, not only the first.
+//! * `words`: enums whose variants are words.
 //! * `scalar`: identifiers, dates and times.
 //! * `table`: tables of numbers (CSV).
 //! * `placeholder`: words of the templates that the user must replace.
@@ -29,6 +30,7 @@ pub(crate) mod rule;
 pub(crate) mod scalar;
 pub(crate) mod sink;
 pub(crate) mod table;
+pub(crate) mod words;
 #[cfg(feature = "factory")]
 pub(crate) mod yaml;
 
@@ -39,6 +41,7 @@ pub(crate) use problem::{Path, Problems};
 pub use problem::{Problem, Unreadable};
 pub(crate) use record::{Field, record};
 pub use scalar::{Identifier, NotAnIdentifier};
+pub(crate) use words::{word_of_a_key, words};
 
 /// Size of the largest document that is read, in bytes.
 ///

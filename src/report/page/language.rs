@@ -3,25 +3,21 @@
 use super::number::Number;
 use super::spacing::spaced;
 use super::symbols::italic;
+use crate::text::words;
 use maud::{Markup, html};
 
-/// A language of the pages.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Language {
-    /// English, with decimal points.
-    English,
-    /// Russian, with decimal commas.
-    Russian,
-}
-
-impl Language {
-    /// Returns the language tag used in HTML and on the command line (BCP 47).
-    pub fn tag(self) -> &'static str {
-        match self {
-            Self::English => "en",
-            Self::Russian => "ru",
-        }
+words! {
+    /// A language of the pages and of a DCC; its word is its code in ISO 639-1.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(feature = "cli", derive(clap::ValueEnum, schemars::JsonSchema))]
+    #[non_exhaustive]
+    pub enum Language: pub tag {
+        /// English.
+        #[cfg_attr(feature = "cli", value(name = "en"), schemars(rename = "en"))]
+        English = "en",
+        /// Russian.
+        #[cfg_attr(feature = "cli", value(name = "ru"), schemars(rename = "ru"))]
+        Russian = "ru",
     }
 }
 

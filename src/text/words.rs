@@ -1,0 +1,68 @@
+//! Enums each of whose variants is a word in files and results.
+
+use super::{Node, Path, Problems};
+
+/// Declares an enum whose variants have words; the function after the colon returns the word, `ALL` is in the order of
+/// declaration.
+macro_rules! words {
+    ($(#[$about:meta])* $vis:vis enum $name:ident : $fn_vis:vis $word:ident {
+        $($(#[$doc:meta])* $variant:ident = $text:literal,)*
+    }) => {
+        $(#[$about])*
+        $vis enum $name { $($(#[$doc])* $variant,)* }
+
+        impl $name {
+            /// All variants.
+            #[allow(dead_code)]
+            pub(crate) const ALL: [Self; [$($text),*].len()] = [$(Self::$variant),*];
+
+            /// Returns the word of the variant in files and results.
+            $fn_vis fn $word(self) -> &'static str {
+                match self { $(Self::$variant => $text,)* }
+            }
+        }
+    };
+}
+
+/// Lets an enum declared by [`words!`] be the value of a key. The text after the words says more of what is expected.
+macro_rules! word_of_a_key {
+    ($name:ident, $word:ident, $more:literal) => {
+        impl $crate::text::Field for $name {
+            fn read(
+                node: &$crate::text::Node,
+                at: &$crate::text::Path,
+                problems: &mut $crate::text::Problems,
+            ) -> Option<Self> {
+                let place = $crate::text::words::read(&Self::ALL.map(Self::$word), $more, node, at, problems)?;
+                Some(Self::ALL[place])
+            }
+
+            fn expected(_: &str) -> String {
+                $crate::text::words::listed(&Self::ALL.map(Self::$word)) + $more
+            }
+
+            fn emit<S: $crate::text::sink::Sink>(&self, sink: &mut S) {
+                sink.text(self.$word());
+            }
+        }
+    };
+}
+pub(crate) use {word_of_a_key, words};
+
+/// Returns the place of the word that a node states, or `None` after an error.
+pub(crate) fn read(words: &[&str], more: &str, node: &Node, at: &Path, problems: &mut Problems) -> Option<usize> {
+    let place = words.iter().position(|word| matches!(node, Node::Text(text) if text == word));
+    if place.is_none() {
+        problems.at(at, node.describe(), listed(words) + more, "");
+    }
+    place
+}
+
+/// Lists words in quotation marks: "a", "b" or "c".
+pub(crate) fn listed(words: &[&str]) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("{word:?}")).collect();
+    match quoted.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+        _ => quoted.concat(),
+    }
+}
