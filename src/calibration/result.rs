@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 
 /// Method of calibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[non_exhaustive]
 pub enum Method {
     /// The paper's analytic method.

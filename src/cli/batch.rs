@@ -1,7 +1,7 @@
 //! Common part of `issue` and `reissue`: running a batch and reporting its progress.
 
 use super::key_options::{self, signer_of};
-use super::output::{self, TableFormat};
+use super::output;
 use super::{Code, Failure, REFUSED, UNUSABLE, long_run};
 use crate::batch::shard::Shard;
 use crate::batch::{Batch, Event, Listener, Outcome};
@@ -46,7 +46,7 @@ pub(super) struct BatchOptions {
     threads: Option<u16>,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
-    format: TableFormat,
+    format: Form,
 }
 
 impl BatchOptions {
@@ -134,12 +134,7 @@ struct Reporter {
 }
 
 impl Reporter {
-    fn new(format: TableFormat, cancel: Arc<AtomicBool>) -> Result<Self, Failure> {
-        let form = match format {
-            TableFormat::Text => Form::Text,
-            TableFormat::Json => Form::Json,
-            TableFormat::Csv => Form::Csv,
-        };
+    fn new(form: Form, cancel: Arc<AtomicBool>) -> Result<Self, Failure> {
         let bar = long_run::bar(0, "{wide_bar} {human_pos} of {human_len} passports, {per_sec}, {eta} left")?;
         let out = if form == Form::Text { output::text } else { output::result };
         Ok(Self { reports: Reports::new(form), told: Told::default(), bar, code: 0, cancel, unwritten: None, out })

@@ -5,7 +5,6 @@ use super::inputs::{self, Each};
 use super::output::Format;
 use super::render::languages;
 use super::show::{Read, Whom};
-use super::simulate::MethodName;
 use super::trust_options::date;
 use super::{Code, Failure, REFUSED, defaults, exclusion, output, uncertainty};
 use crate::batch::{Purpose, paths};
@@ -57,7 +56,7 @@ pub(super) struct Options {
     out: Option<PathBuf>,
     /// Calibration methods; least squares gives the adopted result
     #[arg(long, value_enum, value_delimiter = ',', default_value = "analytic,iterative,least-squares")]
-    method: Vec<MethodName>,
+    method: Vec<Method>,
     /// Gyro type (dtg-gyro/1) for the decision on conformity
     #[arg(long, value_name = "FILE")]
     gyro: Option<PathBuf>,
@@ -422,7 +421,7 @@ impl Options {
     /// Returns how the library shall calibrate.
     fn asked(&self) -> CalibrationOptions {
         CalibrationOptions {
-            methods: self.method.iter().copied().map(Method::from).collect(),
+            methods: self.method.clone(),
             stop_rule: StopRule { delta1_percent: self.delta1_percent, delta2_deg_per_h: self.delta2_deg_per_h },
             model: match self.model {
                 _ if self.anisoelasticity => Model::Anisoelastic,

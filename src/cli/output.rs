@@ -21,17 +21,6 @@ pub(super) enum Format {
     Json,
 }
 
-/// The form of a result that is a table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum TableFormat {
-    /// Text for a terminal
-    Text,
-    /// JSON for programs
-    Json,
-    /// CSV for spreadsheets
-    Csv,
-}
-
 /// Names of formats that are not written: a viewer would not open such a file.
 const OTHER_FORMATS: [&str; 10] = ["pdf", "png", "jpg", "jpeg", "gif", "eps", "doc", "docx", "svg", "html"];
 

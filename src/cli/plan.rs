@@ -36,9 +36,9 @@ pub(super) struct Options {
     /// Azimuths of the frame's axis to choose from [default: that of the site]
     #[arg(long, value_enum, value_delimiter = ',')]
     frame_axis: Vec<FrameAxis>,
-    /// What plans are compared by
+    /// Criterion by which plans are compared
     #[arg(long, value_enum, default_value = "a")]
-    criterion: CriterionName,
+    criterion: Criterion,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
@@ -56,16 +56,6 @@ enum FrameAxis {
     East,
     /// 0 degrees
     North,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum CriterionName {
-    /// Sum of (u/tolerance)²
-    A,
-    /// Determinant of the covariance
-    D,
-    /// Largest u/tolerance
-    Worst,
 }
 
 fn readings() -> clap::builder::RangedI64ValueParser<u32> {
@@ -96,11 +86,6 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if azimuths_deg.is_empty() {
         azimuths_deg.push(of_site);
     }
-    let criterion = match options.criterion {
-        CriterionName::A => Criterion::A,
-        CriterionName::D => Criterion::D,
-        CriterionName::Worst => Criterion::Worst,
-    };
     let question = Question {
         site: &site,
         stand: stand.as_ref(),
@@ -109,7 +94,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         laboratory: &laboratory,
         readings: options.readings,
         azimuths_deg,
-        criterion,
+        criterion: options.criterion,
     };
     let found = plan(&question).map_err(Failure::refused)?;
     if let Some(path) = &options.output {

@@ -1,12 +1,13 @@
 //! Verb `register`: the passports in a folder and their states.
 
-use super::output::{self, TableFormat};
+use super::output;
 use super::trust_options::{TrustOptions, date};
 use super::{Code, Failure, REFUSED, UNUSABLE};
 use crate::folder::search;
 use crate::parallel;
 use crate::passport::{Question, Trust};
 use crate::register::{Asked, Line, Register, State};
+use crate::report::issued::Form;
 use crate::report::register as report;
 use crate::text::{Printable, shown};
 use clap::{Args, ValueEnum};
@@ -42,7 +43,7 @@ pub(super) struct Options {
     by: By,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
-    format: TableFormat,
+    format: Form,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -77,9 +78,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         By::Issuer => register.passports.sort_by(|a, b| a.issuer.cmp(&b.issuer)),
     }
     match options.format {
-        TableFormat::Text => output::text(&report::text(&register))?,
-        TableFormat::Json => output::json(&register)?,
-        TableFormat::Csv => output::result(&report::csv(&register))?,
+        Form::Text => output::text(&report::text(&register))?,
+        Form::Json => output::json(&register)?,
+        Form::Csv => output::result(&report::csv(&register))?,
     }
     Ok(code)
 }

@@ -12,7 +12,7 @@ use crate::simulation::convergence::{ConvergenceOptions, convergence};
 use crate::simulation::draw::CurrentError;
 use crate::stand::{CertifiedPosition, LARGEST_DEVIATION_DEG};
 use crate::statistics::random::Run;
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
 /// Simulate calibrations: the paper's table and its Fig. 4
@@ -26,33 +26,6 @@ pub(super) struct Options {
 enum What {
     Accuracy(AccuracyArguments),
     Convergence(ConvergenceArguments),
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Sharing {
-    /// One error for every reading
-    Independent,
-    /// One error for all readings of x, another for all of y
-    Channel,
-    /// One error for all readings
-    Common,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum MethodName {
-    Analytic,
-    Iterative,
-    LeastSquares,
-}
-
-impl From<MethodName> for Method {
-    fn from(name: MethodName) -> Self {
-        match name {
-            MethodName::Analytic => Self::Analytic,
-            MethodName::Iterative => Self::Iterative,
-            MethodName::LeastSquares => Self::LeastSquares,
-        }
-    }
 }
 
 #[derive(Args)]
@@ -94,10 +67,10 @@ struct AccuracyArguments {
     current_percent: f64,
     /// Readings that share an error
     #[arg(long, value_enum, default_value = "independent")]
-    current_error: Sharing,
+    current_error: CurrentError,
     /// Calibration methods
     #[arg(long, value_enum, value_delimiter = ',', default_value = "analytic,least-squares")]
-    method: Vec<MethodName>,
+    method: Vec<Method>,
     #[command(flatten)]
     run: RunArguments,
 }
@@ -158,12 +131,8 @@ fn run_accuracy(arguments: &AccuracyArguments) -> Result<Code, Failure> {
         gyro: inputs::gyro(arguments.gyro.as_deref())?.unwrap_or_else(GyroType::gvk_6),
         within_tolerance: arguments.within_tolerance,
         current_percent: arguments.current_percent,
-        current_error: match arguments.current_error {
-            Sharing::Independent => CurrentError::Independent,
-            Sharing::Channel => CurrentError::Channel,
-            Sharing::Common => CurrentError::Common,
-        },
-        methods: arguments.method.iter().copied().map(Method::from).collect(),
+        current_error: arguments.current_error,
+        methods: arguments.method.clone(),
     };
     const TRIALS: u64 = 10_000;
     let found = watched(&arguments.run, TRIALS, 1, |run| accuracy(&options, run))?;

@@ -13,14 +13,15 @@ const SMALLEST_PIVOT: f64 = 1e-11;
 /// Places of ω_0x and ω_0y among the eight parameters.
 const OMEGA0: [usize; 2] = [4, 5];
 
-/// What plans are compared by.
+/// Criterion by which plans are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub(crate) enum Criterion {
-    /// Σ (u/T)².
+    /// Sum of (u/tolerance)².
     A,
-    /// ln det of the covariance.
+    /// Determinant of the covariance.
     D,
-    /// Largest u/T.
+    /// Largest u/tolerance.
     Worst,
 }
 

@@ -212,14 +212,15 @@ impl Totals {
     }
 }
 
-/// The output form of the reports.
+/// The output form of a result that is a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub(crate) enum Form {
-    /// Text for people.
+    /// Text for a terminal.
     Text,
-    /// JSON array.
+    /// JSON for programs.
     Json,
-    /// CSV with the header `state,id,file,sha256,reason`.
+    /// CSV for spreadsheets.
     Csv,
 }
 

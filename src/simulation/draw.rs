@@ -56,6 +56,7 @@ pub(crate) fn gyro(stream: &mut Stream, gyro_type: &GyroType) -> GyroParameters 
 
 /// Correlation of the errors of the readings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[non_exhaustive]
 pub enum CurrentError {
     /// Separate error for every reading: the usual case in a laboratory.
