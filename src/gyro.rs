@@ -55,6 +55,17 @@ record! {
 }
 
 impl Parameters {
+    /// Converts vectors and matrices to lists of numbers.
+    pub(crate) fn of(model: &GyroParameters) -> Self {
+        let k = &model.k_deg_per_h_per_ma;
+        Self {
+            k_deg_per_h_per_ma: [[k.m11, k.m12], [k.m21, k.m22]],
+            omega0_deg_per_h: model.omega0_deg_per_h.into(),
+            omega_g_deg_per_h_per_g: model.omega_g_deg_per_h_per_g,
+            omega_k_deg_per_h_per_g: model.omega_k_deg_per_h_per_g,
+        }
+    }
+
     /// Converts the parameters to vectors and matrices.
     pub fn to_model(&self) -> GyroParameters {
         let [[kx, kxy], [kyx, ky]] = self.k_deg_per_h_per_ma;

@@ -2,9 +2,7 @@
 
 mod result;
 
-pub(crate) use result::{
-    ChangeDocument, ResidualDocument, ResultDocument, RowScatterDocument, StopRuleDocument, UncertaintyDocument,
-};
+pub(crate) use result::{ChangeDocument, ResidualDocument, ResultDocument, RowScatterDocument, StopRuleDocument};
 
 use super::mistake::Mistake;
 use super::parameter::Parameter;

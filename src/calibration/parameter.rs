@@ -1,6 +1,6 @@
 //! The unknowns of the drift model, eq. (2).
 
-use crate::gyro::GyroParameters;
+use crate::gyro::{GyroParameters, Tolerance};
 use nalgebra::{Matrix2, Vector2};
 
 /// Unknown of the drift model (paper, eq. (2)).
@@ -90,6 +90,11 @@ impl Parameter {
         }
     }
 
+    /// Returns `true` for the elements of K, whose tolerances are in percent.
+    pub(crate) fn is_scale_factor(self) -> bool {
+        matches!(self, Self::Kx | Self::Kxy | Self::Kyx | Self::Ky)
+    }
+
     /// Returns the symbol of the parameter in the paper.
     pub fn symbol(self) -> &'static str {
         match self {
@@ -127,6 +132,27 @@ impl Parameter {
 
 const G_KEYS: [[&str; 3]; 2] = [["g_xx", "g_xy", "g_xz"], ["g_yx", "g_yy", "g_yz"]];
 const G_SYMBOLS: [[&str; 3]; 2] = [["G_xx", "G_xy", "G_xz"], ["G_yx", "G_yy", "G_yz"]];
+
+impl Tolerance {
+    /// Returns the tolerance of one of the eight parameters: in percent for scale factors, otherwise in the unit of the
+    /// parameter; infinite for other parameters, of which a type states nothing.
+    pub(crate) fn of(&self, parameter: Parameter) -> f64 {
+        match parameter {
+            Parameter::Kx | Parameter::Ky => self.k_main_percent,
+            Parameter::Kxy | Parameter::Kyx => self.k_cross_percent,
+            Parameter::Omega0x | Parameter::Omega0y => self.omega0_deg_per_h,
+            Parameter::OmegaG => self.omega_g_deg_per_h_per_g,
+            Parameter::OmegaK => self.omega_k_deg_per_h_per_g,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Returns the tolerance of a parameter of this `size` in the unit of the parameter.
+    pub(crate) fn absolute(&self, parameter: Parameter, size: f64) -> f64 {
+        let of_size = if parameter.is_scale_factor() { size.abs() / 100.0 } else { 1.0 };
+        self.of(parameter) * of_size
+    }
+}
 
 impl GyroParameters {
     /// Returns the eight parameters in the order of [`Parameter::EIGHT`].

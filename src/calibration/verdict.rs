@@ -225,7 +225,7 @@ impl Verdict {
 /// Returns the first scale factor whose nominal value is 0, so that a tolerance in percent of it says nothing.
 pub(crate) fn without_nominal(gyro_type: &GyroType) -> Option<Parameter> {
     let nominal = gyro_type.nominal.to_model().to_vector();
-    Parameter::EIGHT.into_iter().find(|parameter| parameter.place() < 4 && nominal[parameter.place()] == 0.0)
+    Parameter::EIGHT.into_iter().find(|parameter| parameter.is_scale_factor() && nominal[parameter.place()] == 0.0)
 }
 
 /// Returns the coverage factor for an uncertainty that rests on `degrees_of_freedom`.
@@ -242,18 +242,10 @@ fn judge(
     from_gravity: f64,
     gyro_type: &GyroType,
 ) -> ParameterVerdict {
-    let tolerance = &gyro_type.tolerance;
-    let limit = match parameter {
-        Parameter::Kx | Parameter::Ky => tolerance.k_main_percent,
-        Parameter::Kxy | Parameter::Kyx => tolerance.k_cross_percent,
-        Parameter::Omega0x | Parameter::Omega0y => tolerance.omega0_deg_per_h,
-        Parameter::OmegaG => tolerance.omega_g_deg_per_h_per_g,
-        _ => tolerance.omega_k_deg_per_h_per_g,
-    };
+    let limit = gyro_type.tolerance.of(parameter);
     let nominal = gyro_type.nominal.to_model().to_vector().get(parameter.place()).copied().unwrap_or(0.0);
-    let is_scale_factor = parameter.place() < 4;
     // With a nominal value of 0, a tolerance in percent permits no deviation.
-    let (unit, limit, scale) = match (is_scale_factor, nominal == 0.0) {
+    let (unit, limit, scale) = match (parameter.is_scale_factor(), nominal == 0.0) {
         (true, false) => ("%", limit, 100.0 / nominal.abs()),
         (true, true) => (parameter.unit(), 0.0, 1.0),
         (false, _) => (parameter.unit(), limit, 1.0),

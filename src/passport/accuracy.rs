@@ -78,12 +78,7 @@ impl Stated {
         let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
         let calibration = calibrate(&setup, &readings, &options)?;
         let u = |parameter| calibration.answer().and_then(|found| found.standard_uncertainty(parameter)).unwrap_or(0.0);
-        let standard_uncertainty = Parameters {
-            k_deg_per_h_per_ma: [[u(Parameter::Kx), u(Parameter::Kxy)], [u(Parameter::Kyx), u(Parameter::Ky)]],
-            omega0_deg_per_h: [u(Parameter::Omega0x), u(Parameter::Omega0y)],
-            omega_g_deg_per_h_per_g: u(Parameter::OmegaG),
-            omega_k_deg_per_h_per_g: u(Parameter::OmegaK),
-        };
+        let standard_uncertainty = Parameters::of(&GyroParameters::from_vector(&Parameter::EIGHT.map(u)));
         Ok(Accuracy { gyro: self.gyro.clone(), laboratory: self.laboratory.clone(), standard_uncertainty })
     }
 }

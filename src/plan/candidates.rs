@@ -270,18 +270,11 @@ fn candidate(
 /// # Errors
 /// Returns [`NoPlan::NoTolerance`] if one is 0.
 fn tolerances(gyro: &GyroType) -> Result<[f64; 8], NoPlan> {
-    let of = &gyro.tolerance;
     let nominal = gyro.nominal.to_model().to_vector();
     let mut tolerances = [0.0; 8];
     for parameter in Parameter::EIGHT {
         let place = parameter.place();
-        tolerances[place] = match parameter {
-            Parameter::Kx | Parameter::Ky => of.k_main_percent / 100.0 * nominal[place].abs(),
-            Parameter::Kxy | Parameter::Kyx => of.k_cross_percent / 100.0 * nominal[place].abs(),
-            Parameter::Omega0x | Parameter::Omega0y => of.omega0_deg_per_h,
-            Parameter::OmegaG => of.omega_g_deg_per_h_per_g,
-            _ => of.omega_k_deg_per_h_per_g,
-        };
+        tolerances[place] = gyro.tolerance.absolute(parameter, nominal[place]);
         if tolerances[place] <= 0.0 {
             return Err(NoPlan::NoTolerance(parameter));
         }

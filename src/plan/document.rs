@@ -239,12 +239,5 @@ impl From<&Effect> for EffectOnDesign {
 }
 
 fn parameters(values: &[f64; 8]) -> Parameters {
-    let GyroParameters { k_deg_per_h_per_ma: k, omega0_deg_per_h, omega_g_deg_per_h_per_g, omega_k_deg_per_h_per_g } =
-        GyroParameters::from_vector(values);
-    Parameters {
-        k_deg_per_h_per_ma: [[k.m11, k.m12], [k.m21, k.m22]],
-        omega0_deg_per_h: omega0_deg_per_h.into(),
-        omega_g_deg_per_h_per_g,
-        omega_k_deg_per_h_per_g,
-    }
+    Parameters::of(&GyroParameters::from_vector(values))
 }

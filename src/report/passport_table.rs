@@ -1,10 +1,12 @@
 //! Passport in a terminal: aligned tables, units in the headings.
 
+use crate::calibration::parameter::Parameter;
 use crate::passport::Content;
 use crate::passport::content::Rows;
 use crate::report::{columns, deviations, style};
 use crate::stand::{Evidence, TypeB};
 use crate::text::number;
+use crate::units::printed;
 use std::fmt::{Display, Write};
 
 /// Width of the names on the left, in characters.
@@ -238,25 +240,17 @@ fn accuracy(out: &mut String, content: &Content) {
     let seat = laboratory.seating_arcsec.as_ref();
     option(out, "gyro seat, arcsec", seat.map(|seat| format!("{}, {}, {}", seat.about_x, seat.about_y, seat.about_z)));
     let u = &accuracy.standard_uncertainty;
-    let (k, nominal) = (&u.k_deg_per_h_per_ma, &gyro.nominal.k_deg_per_h_per_ma);
-    let rows = [("K_x", 0, 0), ("K_xy", 0, 1), ("K_yx", 1, 0), ("K_y", 1, 1)].map(|(name, row, column)| {
-        let percent = 100.0 * k[row][column] / nominal[row][column].abs();
-        let percent = if percent.is_finite() { format!("{percent:.4}") } else { String::new() };
-        let limit = if row == column { gyro.tolerance.k_main_percent } else { gyro.tolerance.k_cross_percent };
-        vec![name.to_owned(), format!("{:.6} °/(h·mA)", k[row][column]), percent, format!("{limit} %")]
+    let (us, nominal) = (u.to_model().to_vector(), gyro.nominal.to_model().to_vector());
+    let rows = Parameter::EIGHT.map(|parameter| {
+        let (u, unit, limit) = (us[parameter.place()], printed(parameter.unit()), gyro.tolerance.of(parameter));
+        let percent = 100.0 * u / nominal[parameter.place()].abs();
+        let (percent, limit) = match parameter.is_scale_factor() {
+            true if percent.is_finite() => (format!("{percent:.4}"), format!("{limit} %")),
+            true => (String::new(), format!("{limit} %")),
+            false => (String::new(), format!("{limit} {unit}")),
+        };
+        vec![parameter.symbol().to_owned(), format!("{u:.6} {unit}"), percent, limit]
     });
-    let tolerance = &gyro.tolerance;
-    let [x, y] = u.omega0_deg_per_h;
-    let drifts = [
-        ("ω_0x", x, "°/h", tolerance.omega0_deg_per_h),
-        ("ω_0y", y, "°/h", tolerance.omega0_deg_per_h),
-        ("ω_g", u.omega_g_deg_per_h_per_g, "°/(h·g)", tolerance.omega_g_deg_per_h_per_g),
-        ("ω_k", u.omega_k_deg_per_h_per_g, "°/(h·g)", tolerance.omega_k_deg_per_h_per_g),
-    ];
-    let drifts = drifts.map(|(name, u, unit, limit)| {
-        vec![name.to_owned(), format!("{u:.6} {unit}"), String::new(), format!("{limit} {unit}")]
-    });
-    let rows: Vec<Vec<String>> = rows.into_iter().chain(drifts).collect();
     columns::table(out, &["", "u", "u, %", "tolerance"], &rows);
 }
 

@@ -2,7 +2,6 @@
 
 use super::budget::{Budget, Contribution, ParameterBudget};
 use crate::calibration::causes::Cause;
-use crate::calibration::parameter::Parameter;
 use crate::gyro::Tolerance;
 use crate::units::printed;
 
@@ -13,15 +12,7 @@ const NEARLY_ALL: f64 = 0.9;
 /// parameter.
 fn weight(line: &ParameterBudget, tolerance: Option<&Tolerance>) -> f64 {
     let size = line.value.abs();
-    let allowed = tolerance.map_or(size, |tolerance| match line.parameter {
-        Parameter::Kx | Parameter::Ky => tolerance.k_main_percent / 100.0 * size,
-        Parameter::Kxy | Parameter::Kyx => tolerance.k_cross_percent / 100.0 * size,
-        Parameter::Omega0x | Parameter::Omega0y => tolerance.omega0_deg_per_h,
-        Parameter::OmegaG => tolerance.omega_g_deg_per_h_per_g,
-        Parameter::OmegaK => tolerance.omega_k_deg_per_h_per_g,
-        // A type states nothing of these.
-        _ => f64::INFINITY,
-    });
+    let allowed = tolerance.map_or(size, |tolerance| tolerance.absolute(line.parameter, size));
     if allowed > 0.0 { line.standard_uncertainty / allowed } else { 0.0 }
 }
 
@@ -107,8 +98,7 @@ impl<'a> Dominant<'a> {
 
 /// Returns an uncertainty of a scale factor in percent of it, or `None` for other parameters and for a factor of 0.
 pub(crate) fn percent(line: &ParameterBudget, u: f64) -> Option<f64> {
-    let of_factor = matches!(line.parameter, Parameter::Kx | Parameter::Kxy | Parameter::Kyx | Parameter::Ky);
-    (of_factor && line.value != 0.0).then(|| 100.0 * u / line.value.abs())
+    (line.parameter.is_scale_factor() && line.value != 0.0).then(|| 100.0 * u / line.value.abs())
 }
 
 /// Returns an uncertainty of a parameter as text: in percent for a scale factor, otherwise in the unit of the

@@ -303,7 +303,7 @@ impl ResultDocument {
         }
     }
 
-    pub(super) fn found(&self, gravity_m_per_s2: f64, gravity_u_m_per_s2: Option<f64>) -> Found {
+    pub(crate) fn found(&self, gravity_m_per_s2: f64, gravity_u_m_per_s2: Option<f64>) -> Found {
         let [[kx, kxy], [kyx, ky]] = self.k_deg_per_h_per_ma;
         let u = &self.standard_uncertainty;
         let [[u_kx, u_kxy], [u_kyx, u_ky]] = u.k_deg_per_h_per_ma;

@@ -1,7 +1,7 @@
 //! The result: every parameter with its expanded uncertainty, within the tolerance of the type if one was specified, and
 //! its change since an earlier result.
 
-use super::parameters::{self, name_of, uncertainties, values};
+use super::parameters::{self, name_of, values};
 use super::{CalibrationPage, Section, history};
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
@@ -68,7 +68,7 @@ pub(super) fn counted(verdict: &Verdict, of_what: Option<Text>, languages: &Lang
 /// Writes the parameters without a type: values and expanded uncertainties.
 fn alone(page: &CalibrationPage, languages: &Languages) -> Markup {
     let Some(result) = page.adopted() else { return html! {} };
-    let (values, us) = (values(result), uncertainties(&result.standard_uncertainty));
+    let [values, us] = values(result);
     let found = Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| !values[parameter.place()].is_nan());
     let found: Vec<(Parameter, f64, f64)> =
         found.map(|parameter| (parameter, values[parameter.place()], us[parameter.place()])).collect();

@@ -2,7 +2,7 @@
 
 use super::conformity::with_gravity;
 use super::{CalibrationPage, Section, method};
-use crate::calibration::document::{ResultDocument, UncertaintyDocument};
+use crate::calibration::document::ResultDocument;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::parameter::Parameter;
 use crate::report::page::language::{Languages, Text};
@@ -37,7 +37,7 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     let results = &page.result().results;
     // The adopted result comes first: it is the last of the methods.
     let rows = results.iter().rev().flat_map(|result| {
-        let (values, u) = (values(result), uncertainties(&result.standard_uncertainty));
+        let [values, u] = values(result);
         let cells = |number: &dyn Fn(Parameter) -> Number| {
             // The general model has no ω_g and ω_k.
             let found = |parameter: &Parameter| !values[parameter.place()].is_nan();
@@ -67,20 +67,10 @@ pub(super) fn beyond_the_eight(result: &ResultDocument, languages: &Languages) -
     html! { (anisoelasticity(result, languages)) (general(result, languages)) (changing(result, languages)) }
 }
 
-/// Returns the eight parameters in the order of [`Parameter::EIGHT`].
-pub(super) fn values(result: &ResultDocument) -> [f64; 8] {
-    let [[kx, kxy], [kyx, ky]] = result.k_deg_per_h_per_ma;
-    let [w0x, w0y] = result.omega0_deg_per_h;
-    let [wg, wk] = [result.omega_g_deg_per_h_per_g, result.omega_k_deg_per_h_per_g].map(|w| w.unwrap_or(f64::NAN));
-    [kx, kxy, kyx, ky, w0x, w0y, wg, wk]
-}
-
-/// Returns the standard uncertainties of the eight parameters in the order of `Parameter::EIGHT`.
-pub(super) fn uncertainties(u: &UncertaintyDocument) -> [f64; 8] {
-    let [[kx, kxy], [kyx, ky]] = u.k_deg_per_h_per_ma;
-    let [w0x, w0y] = u.omega0_deg_per_h;
-    let [wg, wk] = [u.omega_g_deg_per_h_per_g, u.omega_k_deg_per_h_per_g].map(|w| w.unwrap_or(f64::NAN));
-    [kx, kxy, kyx, ky, w0x, w0y, wg, wk]
+/// Returns the eight parameters and their standard uncertainties in the order of [`Parameter::EIGHT`].
+pub(super) fn values(result: &ResultDocument) -> [[f64; 8]; 2] {
+    let found = result.found(1.0, None);
+    [found.parameters.to_vector(), found.standard_uncertainty]
 }
 
 fn anisoelasticity(result: &ResultDocument, languages: &Languages) -> Markup {

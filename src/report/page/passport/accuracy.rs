@@ -3,6 +3,7 @@
 use super::PassportPage;
 use super::figures::{Slot, figure};
 use super::numbers::{Cell, numbers_of, parameters};
+use crate::calibration::parameter::Parameter;
 use crate::laboratory::Laboratory;
 use crate::passport::accuracy::Accuracy;
 use crate::passport::annotations::{Absence, absent};
@@ -83,18 +84,13 @@ pub(crate) fn meter(laboratory: &Laboratory, languages: &Languages) -> Markup {
 
 fn uncertainties(accuracy: &Accuracy, languages: &Languages) -> Markup {
     let tolerance = &accuracy.gyro.tolerance;
-    let percent = |limit| Cell::Words(quantity(languages, &Number::exact(limit), units::PERCENT));
-    let absolute = |limit| Cell::Number(Number::exact(limit));
-    let limits = [
-        percent(tolerance.k_main_percent),
-        percent(tolerance.k_main_percent),
-        percent(tolerance.k_cross_percent),
-        percent(tolerance.k_cross_percent),
-        absolute(tolerance.omega0_deg_per_h),
-        absolute(tolerance.omega0_deg_per_h),
-        absolute(tolerance.omega_g_deg_per_h_per_g),
-        absolute(tolerance.omega_k_deg_per_h_per_g),
-    ];
+    let limits = Parameter::AS_IN_THE_PAPER.map(|parameter| {
+        let limit = Number::exact(tolerance.of(parameter));
+        match parameter.is_scale_factor() {
+            true => Cell::Words(quantity(languages, &limit, units::PERCENT)),
+            false => Cell::Number(limit),
+        }
+    });
     let nominal = numbers_of(&accuracy.gyro.nominal).map(|value| Cell::Number(Number::exact(value)));
     let us = numbers_of(&accuracy.standard_uncertainty).map(|u| Cell::Number(Number::uncertainty(u)));
     let rows = vec![

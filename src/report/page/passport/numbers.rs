@@ -3,6 +3,7 @@
 use super::PassportPage;
 use super::characteristics::starts;
 use super::figures::{Slot, figure};
+use crate::calibration::parameter::Parameter;
 use crate::gyro::Parameters;
 use crate::passport::Content;
 use crate::passport::content::{MatrixRows, Rows, SelfCheck};
@@ -191,7 +192,6 @@ pub(crate) fn parameters(languages: &Languages, caption: Option<Markup>, rows: V
 
 /// Returns the numbers of the eight parameters: K_x, K_y, K_xy, K_yx, ω_0x, ω_0y, ω_g, ω_k.
 pub(crate) fn numbers_of(parameters: &Parameters) -> [f64; 8] {
-    let [[kx, kxy], [kyx, ky]] = parameters.k_deg_per_h_per_ma;
-    let [w0x, w0y] = parameters.omega0_deg_per_h;
-    [kx, ky, kxy, kyx, w0x, w0y, parameters.omega_g_deg_per_h_per_g, parameters.omega_k_deg_per_h_per_g]
+    let values = parameters.to_model().to_vector();
+    Parameter::AS_IN_THE_PAPER.map(|parameter| values[parameter.place()])
 }
