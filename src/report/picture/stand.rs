@@ -9,7 +9,7 @@ use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
 use crate::report::page::texts::{pictures as texts, words as compass};
 use maud::{Markup, html};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 const PANEL_PIXELS: u32 = 300;
 const SIZE: Point = [500.0, 316.0];
@@ -48,7 +48,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         (texts::PART_PLATFORM, (y - x) * 0.42),
         (texts::PART_PINS, x * -0.5),
         (texts::PART_GYRO, z * GYRO_HEIGHT),
-        (texts::PART_BASE, Vector3::new(1.0, 0.1, -AXIS_HEIGHT)),
+        (texts::PART_BASE, near_the_right_corner(&view, &base)),
         (texts::PART_AXIS, xi * 1.75),
     ];
     let named = named.map(|(text, at)| {
@@ -79,6 +79,15 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         &drawing,
     );
     panels(1, PANEL_PIXELS, &[svg], &html! {})
+}
+
+/// Returns a point of the plate near its rightmost corner, beside the posts.
+fn near_the_right_corner(view: &View, base: &Matrix3<f64>) -> Vector3<f64> {
+    let [xi, eta, _] = rows(base);
+    let corners = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
+        .map(|(along, across)| xi * (1.4 * along) + eta * (0.6 * across) - Vector3::z() * AXIS_HEIGHT);
+    let right = |at: &Vector3<f64>| view.point(at)[0];
+    corners.into_iter().max_by(|one, other| right(one).total_cmp(&right(other))).unwrap_or_default()
 }
 
 /// Returns the place of the letter θ: outside the middle of its arc.

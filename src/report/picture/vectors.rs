@@ -13,6 +13,7 @@ use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::Number;
 use crate::report::page::texts::{pictures as texts, units};
 use maud::{Markup, html};
+use std::collections::BTreeSet;
 
 /// Largest number of positions in a panel; of more there is a panel for each frame index.
 const MOST_IN_A_PANEL: usize = 12;
@@ -66,14 +67,14 @@ pub(crate) fn vectors(languages: &Languages, content: &Content) -> Markup {
     let subjects = subjects(content);
     if content.positions.len() > MOST_IN_A_PANEL {
         let each = subjects.map(|subject| small_multiples(languages, &subject));
-        return html! { @for row in &each { (row) } (key(languages)) };
+        return html! { @for row in &each { (row) } (key(languages, content)) };
     }
     let whole = |subject: &Subject| {
         let plane = Plane::about(WHOLE, &subject.pairs);
         differences_of(languages, subject, &plane, &subject.pairs, None)
     };
     let drawings: Vec<Markup> = subjects.iter().map(whole).collect();
-    panels(WHOLE.columns, WHOLE.pixels, &drawings, &key(languages))
+    panels(WHOLE.columns, WHOLE.pixels, &drawings, &key(languages, content))
 }
 
 /// Draws a panel for each frame index, all to one scale.
@@ -89,8 +90,13 @@ fn small_multiples(languages: &Languages, subject: &Subject) -> Markup {
     panels(SMALL.columns, SMALL.pixels, &drawings, &nothing())
 }
 
-fn key(languages: &Languages) -> Markup {
-    let marks = html! { (mark([5.0, 7.0], 1, "mark")) (mark([14.0, 7.0], 2, "mark")) (mark([23.0, 7.0], 3, "mark")) };
+fn key(languages: &Languages, content: &Content) -> Markup {
+    // The marks that the drawing has, of four in all.
+    let frames: BTreeSet<u32> = content.positions.iter().map(|at| (at.i.max(1) - 1) % 4 + 1).collect();
+    let apart = 28.0 / frames.len() as f64;
+    let marks =
+        frames.iter().enumerate().map(|(place, frame)| mark([(place as f64 + 0.5) * apart, 7.0], *frame, "mark"));
+    let marks = html! { @for mark in marks { (mark) } };
     let entries = [(arrow([2.0, 7.0], [26.0, 7.0], "real"), texts::VECTOR_DIFFERENCE), (marks, texts::VECTOR_MARKS)];
     legend(languages, &entries)
 }
