@@ -159,6 +159,16 @@ impl Site {
         })
     }
 
+    /// Returns the standard uncertainty of the component ξ of the deflection of the vertical, which converts a geodetic
+    /// latitude to the astronomic one; 0 if the latitude is astronomic, `None` if it is not stated.
+    pub(crate) fn deflection_u_arcsec(&self) -> Option<f64> {
+        match (self.latitude_deg, &self.deflection_arcsec) {
+            (Some(_), Some(deflection)) => deflection.u,
+            (Some(_), None) => Some(UNKNOWN_DEFLECTION_U_ARCSEC),
+            (None, _) => Some(0.0),
+        }
+    }
+
     /// Checks the content of a site. The rules of [`Site::check_consistency`] are separate because they apply only to
     /// site files and new passports: earlier passports of sites that break them stay valid.
     pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {

@@ -13,7 +13,6 @@ use super::stated::NotStated;
 use super::verdict::{Found, Verdict, against_earlier, against_type};
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroType;
-use crate::text::Location;
 use crate::text::Unreadable;
 use jiff::civil::Date;
 use jiff::tz::TimeZone;
@@ -232,14 +231,8 @@ impl CalibrationDocument {
     /// Returns [`Unreadable`] with line and column if `bytes` is not such a result.
     pub fn from_json(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         serde_json::from_slice(bytes).map_err(|error| {
-            let location = (error.line() > 0).then(|| Location { line: error.line(), column: error.column().max(1) });
-            let mut found = error.to_string();
-            if let Some(at) = found.find(" at line ") {
-                found.truncate(at);
-            }
-            let found = format!("unsuitable JSON ({found})");
             let advice = "create it with `calibrate --format json`";
-            Unreadable::whole(name, location, found, "the JSON result of an earlier calibration", advice).in_text(bytes)
+            Unreadable::json(name, bytes, &error, "the JSON result of an earlier calibration", advice)
         })
     }
 

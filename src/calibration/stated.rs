@@ -3,7 +3,7 @@
 use super::document::Subject;
 use super::inputs::{InputUncertainty, MeterUncertainty, NoSetup, Setup};
 use crate::laboratory::{Base, Laboratory};
-use crate::site::{Site, SiteUncertainty, UNKNOWN_DEFLECTION_U_ARCSEC};
+use crate::site::{Site, SiteUncertainty};
 use crate::stand::{ActsOn, Certificate, CertifiedPosition};
 use crate::statistics::propagation::effective_degrees_of_freedom;
 use crate::units::radians_from_arcseconds;
@@ -204,15 +204,9 @@ impl Known {
         let of_site = site.uncertainty.as_ref().unwrap_or(&none);
         let none = Base { azimuth_arcsec: None, level_arcsec: None };
         let measured = laboratory.base.as_ref().unwrap_or(&none);
-        // ξ converts a geodetic latitude to the astronomic one.
-        let deflection = match (site.latitude_deg, &site.deflection_arcsec) {
-            (Some(_), Some(deflection)) => deflection.u,
-            (Some(_), None) => Some(UNKNOWN_DEFLECTION_U_ARCSEC),
-            (None, _) => Some(0.0),
-        };
         Self {
             latitude_arcsec: of_site.latitude_arcsec,
-            deflection_arcsec: deflection,
+            deflection_arcsec: site.deflection_u_arcsec(),
             // `azimuth_arcsec`: from the mark to the base, stated or measured. `mark_arcsec`: from the pillar to the
             // mark, computed.
             azimuth_arcsec: measured.azimuth_arcsec.or(of_site.azimuth_arcsec),

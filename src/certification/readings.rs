@@ -254,7 +254,7 @@ fn not_there(rows: &[Reading], excluded: &[Excluded]) -> Vec<Problem> {
     let missing = excluded.iter().filter(|excluded| !rows.iter().any(|(place, ..)| is_excluded(excluded, *place)));
     let problem = |excluded: &Excluded| {
         let found = format!("no reading of {} to exclude", excluded.describe());
-        whole_file(found, "a reading of the file", "check --exclude")
+        Problem::whole(found, "a reading of the file", "check --exclude")
     };
     missing.map(problem).collect()
 }
@@ -273,12 +273,12 @@ fn incomplete(positions: &[NominalPosition], rows: &[Reading], excluded: &[Exclu
         let left = runs.len() - missing.len();
         if left < 2 && missing.iter().any(|run| of_exclusions(*run)) {
             let found = format!("{left} readings of position {} after the exclusions", at.index());
-            problems.push(whole_file(found, "at least two", "measure the position again"));
+            problems.push(Problem::whole(found, "at least two", "measure the position again"));
             continue;
         }
         if missing.len() == runs.len() {
             let advice = "check that these are the readings of this stand";
-            problems.push(whole_file(
+            problems.push(Problem::whole(
                 format!("no reading of position {}", at.index()),
                 "a reading of every position",
                 advice,
@@ -289,7 +289,7 @@ fn incomplete(positions: &[NominalPosition], rows: &[Reading], excluded: &[Exclu
         let advice = "measure it, or omit the whole run, because only complete runs show their common part";
         for run in missing.into_iter().take(MOST_PROBLEMS - problems.len()) {
             let found = format!("no reading of position {} in run {run}", at.index());
-            problems.push(whole_file(found, "every position in every run", advice));
+            problems.push(Problem::whole(found, "every position in every run", advice));
         }
     }
     problems
@@ -381,9 +381,4 @@ fn slip(value: f64, usual: f64, spread: f64) -> Option<&'static str> {
     } else {
         Some("check the digits, the sign and the position")
     }
-}
-
-fn whole_file(found: String, expected: &str, advice: &str) -> Problem {
-    let (expected, advice) = (expected.to_owned(), advice.to_owned());
-    Problem { location: None, field: String::new(), found, expected, advice }
 }

@@ -6,8 +6,8 @@ use crate::calibration::NotStated;
 use crate::coefficients::PositionIndex;
 use crate::gyro::{GyroParameters, Parameters};
 use crate::stand::MOST_POSITIONS;
+use crate::text::Unreadable;
 use crate::text::kind::Kind;
-use crate::text::{Location, Unreadable};
 use serde::{Deserialize, Serialize};
 
 /// JSON form of a plan, with the keys in the order of writing.
@@ -127,21 +127,16 @@ impl Planned {
     /// # Errors
     /// Returns [`Unreadable`] if `bytes` is not such a plan.
     pub(crate) fn from_json(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
-        let refused = |location: Option<Location>, found: String| {
-            let advice = "create it with `plan --format json`";
-            Unreadable::whole(name, location, found, "the JSON of a plan", advice).in_text(bytes)
-        };
+        const EXPECTED: &str = "the JSON of a plan";
+        const ADVICE: &str = "create it with `plan --format json`";
+        let refused = |found: String| Unreadable::whole(name, None, found, EXPECTED, ADVICE).in_text(bytes);
         if let Some(kind) = Kind::of(bytes) {
-            return Err(refused(None, kind.words().to_owned()));
+            return Err(refused(kind.words().to_owned()));
         }
-        let plan: Self = serde_json::from_slice(bytes).map_err(|error| {
-            let location = (error.line() > 0).then(|| Location { line: error.line(), column: error.column().max(1) });
-            let mut found = error.to_string();
-            found.truncate(found.find(" at line ").unwrap_or(found.len()));
-            refused(location, format!("unsuitable JSON ({found})"))
-        })?;
+        let plan: Self =
+            serde_json::from_slice(bytes).map_err(|error| Unreadable::json(name, bytes, &error, EXPECTED, ADVICE))?;
         match plan.contradiction() {
-            Some(found) => Err(refused(None, found)),
+            Some(found) => Err(refused(found)),
             None => Ok(plan),
         }
     }

@@ -93,6 +93,14 @@ pub struct Problem {
     pub advice: String,
 }
 
+impl Problem {
+    /// Creates the report of an error in a whole document.
+    pub(crate) fn whole(found: impl Into<String>, expected: &str, advice: &str) -> Self {
+        let (expected, advice) = (expected.to_owned(), advice.to_owned());
+        Self { location: None, field: String::new(), found: found.into(), expected, advice }
+    }
+}
+
 impl Display for Problem {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         let Self { field, found, expected, advice, .. } = self;
@@ -341,14 +349,17 @@ impl Unreadable {
         expected: impl Into<String>,
         advice: impl Into<String>,
     ) -> Self {
-        let problem = Problem {
-            location,
-            field: String::new(),
-            found: found.into(),
-            expected: expected.into(),
-            advice: advice.into(),
-        };
+        let (found, expected, advice) = (found.into(), expected.into(), advice.into());
+        let problem = Problem { location, field: String::new(), found, expected, advice };
         Self::of(name, vec![problem])
+    }
+
+    /// Creates the refusal of JSON that cannot be read as what is `expected`.
+    pub(crate) fn json(name: &str, bytes: &[u8], error: &serde_json::Error, expected: &str, advice: &str) -> Self {
+        let location = (error.line() > 0).then(|| Location { line: error.line(), column: error.column().max(1) });
+        let mut found = error.to_string();
+        found.truncate(found.find(" at line ").unwrap_or(found.len()));
+        Self::whole(name, location, format!("unsuitable JSON ({found})"), expected, advice).in_text(bytes)
     }
 
     /// Creates a refusal with several errors whose locations are already known.

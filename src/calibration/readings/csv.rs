@@ -112,7 +112,9 @@ fn perhaps_mistaken(coefficients: &Coefficients, readings: &[Reading]) -> Vec<Pr
     );
     let missing = coefficients.positions.iter().filter(|at| count(at.index) == 0);
     missing
-        .map(|at| whole_file(format!("no reading of position {}", at.index), "a reading of every position", &advice))
+        .map(|at| {
+            Problem::whole(format!("no reading of position {}", at.index), "a reading of every position", &advice)
+        })
         .collect()
 }
 
@@ -183,7 +185,7 @@ fn lone_cycles(readings: &[Reading]) -> Vec<Problem> {
     let lone = positions.iter().filter(|(_, at)| at.len() == 1).map(|(cycle, _)| *cycle);
     let advice = "leave this cycle out, or check the column cycle: it counts the turn-ons of the gyro";
     lone.map(|cycle| {
-        whole_file(format!("one position alone in cycle {cycle}"), "at least two positions in every cycle", advice)
+        Problem::whole(format!("one position alone in cycle {cycle}"), "at least two positions in every cycle", advice)
     })
     .collect()
 }
@@ -192,7 +194,7 @@ fn lone_cycles(readings: &[Reading]) -> Vec<Problem> {
 fn without_current(readings: &[Reading]) -> Vec<Problem> {
     if readings.is_empty() {
         let (expected, advice) = ("a row for every reading", "add the rows with i, j, jx_ma and jy_ma");
-        return vec![whole_file("no readings".to_owned(), expected, advice)];
+        return vec![Problem::whole("no readings".to_owned(), expected, advice)];
     }
     let zero = |axis: usize| readings.iter().all(|row| row.current_ma[axis] == 0.0);
     let (found, advice) = match (zero(0), zero(1)) {
@@ -201,10 +203,5 @@ fn without_current(readings: &[Reading]) -> Vec<Problem> {
         (false, true) => ("a current J_y that is zero in every position", "add the readings of both axes"),
         (false, false) => return Vec::new(),
     };
-    vec![whole_file(found.to_owned(), "currents of both axes", advice)]
-}
-
-fn whole_file(found: String, expected: &str, advice: &str) -> Problem {
-    let (expected, advice) = (expected.to_owned(), advice.to_owned());
-    Problem { location: None, field: String::new(), found, expected, advice }
+    vec![Problem::whole(found.to_owned(), "currents of both axes", advice)]
 }

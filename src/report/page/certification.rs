@@ -10,7 +10,7 @@ mod evidence;
 pub(crate) mod remarks;
 
 use super::language::{Languages, Text};
-use super::parts::{contents, data_address, field, fields, heading, section as part, verbatim};
+use super::parts::{contents, data_address, heading, section as part, signature_of, verbatim};
 use super::passport::{characteristics, general};
 use super::shell::{Margins, document};
 use super::texts::{calibration as calibration_texts, certification as texts, passport as passport_texts};
@@ -117,25 +117,11 @@ impl CertificationPage<'_> {
 }
 
 fn signatures(languages: &Languages) -> Markup {
-    let names = [
-        calibration_texts::POST_AND_NAME,
-        calibration_texts::SIGNATURE,
-        calibration_texts::DATE,
-        calibration_texts::STAMP,
-    ];
-    let signature = |who: Text| {
-        html! {
-            div.part.pen {
-                (heading(languages, who))
-                (fields(names.map(|name| field(languages, name, None))))
-            }
-        }
-    };
     let body = html! {
         div.pair {
-            (signature(texts::MEASURED_BY))
-            (signature(texts::CHECKED_BY))
-            (signature(texts::AUTHORISED_BY))
+            (signature_of(languages, texts::MEASURED_BY))
+            (signature_of(languages, texts::CHECKED_BY))
+            (signature_of(languages, texts::AUTHORISED_BY))
         }
         div.statement { (languages.paragraph(calibration_texts::VALID_WHEN_SIGNED)) }
     };

@@ -196,7 +196,8 @@ impl Tail {
 }
 
 /// Writes a column of numbers with aligned decimal marks.
-pub(crate) fn column(languages: &Languages, numbers: &[Option<Number>]) -> Vec<Option<Markup>> {
+pub(crate) fn column(languages: &Languages, numbers: impl IntoIterator<Item = Option<Number>>) -> Vec<Option<Markup>> {
+    let numbers: Vec<Option<Number>> = numbers.into_iter().collect();
     let tails = numbers.iter().flatten().map(|number| Tail::of(&number.text(languages.first())));
     let longest = tails.fold(Tail::default(), Tail::or_longer);
     numbers.iter().map(|number| number.as_ref().map(|number| number.aligned(languages, &longest))).collect()

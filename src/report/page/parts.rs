@@ -3,7 +3,7 @@
 use super::language::{Language, Languages, Text};
 use super::number::Number;
 use super::spacing::BLANK;
-use super::texts::{units, words};
+use super::texts::{calibration, units, words};
 use base64ct::{Base64, Encoding};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -72,6 +72,17 @@ pub(crate) fn wide_stated(languages: &Languages, name: Text, value: Option<Marku
 /// Writes that the signed file does not state a value.
 pub(crate) fn not_stated(languages: &Languages) -> Markup {
     html! { span.absent { (languages.inline(words::NOT_STATED)) } }
+}
+
+/// Writes the fields of a signature.
+pub(crate) fn signature(languages: &Languages) -> Markup {
+    let names = [calibration::POST_AND_NAME, calibration::SIGNATURE, calibration::DATE, calibration::STAMP];
+    fields(names.map(|name| field(languages, name, None)))
+}
+
+/// Writes the form for the signature of a person.
+pub(crate) fn signature_of(languages: &Languages, who: Text) -> Markup {
+    html! { div.part.pen { (heading(languages, who)) (signature(languages)) } }
 }
 
 /// Writes fields in as many columns as fit.

@@ -1,8 +1,8 @@
 //! Signature lines of the calibration report, and its annex: the result as JSON.
 
 use super::CalibrationPage;
-use crate::report::page::language::{Languages, Text};
-use crate::report::page::parts::{field, fields, heading, section as part, verbatim};
+use crate::report::page::language::Languages;
+use crate::report::page::parts::{section as part, signature_of, verbatim};
 use crate::report::page::texts::calibration as texts;
 use maud::{Markup, html};
 use serde::Serialize;
@@ -13,22 +13,12 @@ use std::io::{self, Write};
 pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
     let signatures = html! {
         (languages.paragraph(texts::ONLY_THIS_ONE))
-        div.pair { (signature(languages, texts::CALIBRATED_BY)) (signature(languages, texts::APPROVED_BY)) }
+        div.pair { (signature_of(languages, texts::CALIBRATED_BY)) (signature_of(languages, texts::APPROVED_BY)) }
         div.statement { (languages.paragraph(texts::VALID_WHEN_SIGNED)) }
     };
     html! {
         (part(languages, "signatures", "", texts::SIGNATURES, &signatures))
         (annex(page, languages))
-    }
-}
-
-fn signature(languages: &Languages, who: Text) -> Markup {
-    let names = [texts::POST_AND_NAME, texts::SIGNATURE, texts::DATE, texts::STAMP];
-    html! {
-        div.part.pen {
-            (heading(languages, who))
-            (fields(names.map(|name| field(languages, name, None))))
-        }
     }
 }
 

@@ -72,8 +72,8 @@ fn alone(page: &CalibrationPage, languages: &Languages) -> Markup {
     let found = Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| !values[parameter.place()].is_nan());
     let found: Vec<(Parameter, f64, f64)> =
         found.map(|parameter| (parameter, values[parameter.place()], us[parameter.place()])).collect();
-    let value = column(languages, &found.iter().map(|(_, x, u)| Some(Number::measured(*x, *u))).collect::<Vec<_>>());
-    let u = column(languages, &found.iter().map(|(.., u)| Some(Number::uncertainty(*u))).collect::<Vec<_>>());
+    let value = column(languages, found.iter().map(|(_, x, u)| Some(Number::measured(*x, *u))));
+    let u = column(languages, found.iter().map(|(.., u)| Some(Number::uncertainty(*u))));
     let rows = found.iter().zip(value).zip(u).map(|(((parameter, ..), value), u)| {
         let name = name_of(parameter.symbol());
         vec![name, value.unwrap_or_default(), u.unwrap_or_default(), languages.inline(unit(*parameter))]
@@ -105,16 +105,15 @@ fn table(
 ) -> Markup {
     let rows = &verdict.parameters;
     let strips = Strips::of([verdict]);
-    let numbers = |number: &dyn Fn(&ParameterVerdict) -> Number| {
-        column(languages, &rows.iter().map(|row| Some(number(row))).collect::<Vec<_>>())
-    };
+    let numbers =
+        |number: &dyn Fn(&ParameterVerdict) -> Number| column(languages, rows.iter().map(|row| Some(number(row))));
     let each = |cell: &dyn Fn(&ParameterVerdict) -> Markup| rows.iter().map(|row| Some(cell(row))).collect();
     let with_unit = |row: &ParameterVerdict| {
         let unit = parameter_of(row).map_or(units::PERCENT, unit);
         html! { (parameter(row)) ", " (languages.spoken(unit)) }
     };
     let known = rows.iter().map(|row| (row.specific_risk >= LEAST_RISK).then(|| probability_number(row.specific_risk)));
-    let risks = column(languages, &known.collect::<Vec<_>>()).into_iter().zip(rows);
+    let risks = column(languages, known).into_iter().zip(rows);
     let risks = risks.map(|(number, row)| {
         let risk = number.unwrap_or_else(|| probability(languages, row.specific_risk));
         Some(html! { (mark_of(languages, row)) " " (risk) })

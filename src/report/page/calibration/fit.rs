@@ -9,7 +9,7 @@ use crate::calibration::noise::NoiseSource;
 use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
 use crate::report::page::language::{Language, Languages, Text};
-use crate::report::page::number::{self, Number};
+use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{Table, field, fields, heading, quantity, symbol, symbol_and_unit};
 use crate::report::page::passport::characteristics::starts;
 use crate::report::page::symbols::italic;
@@ -138,10 +138,9 @@ fn table(result: &ResultDocument, languages: &Languages) -> Markup {
     let columns = AXES.into_iter().flat_map(|(_, of)| {
         let value = |at: &ResidualDocument| Some(Number::measured(of(at).0, of(at).1.unwrap_or(0.0)));
         let u = |at: &ResidualDocument| of(at).1.map(Number::uncertainty);
-        let column = |numbers: Vec<Option<Number>>| number::column(languages, &numbers);
         [
-            column(residuals.iter().map(value).collect()),
-            column(residuals.iter().map(u).collect()),
+            column(languages, residuals.iter().map(value)),
+            column(languages, residuals.iter().map(u)),
             residuals.iter().map(|at| Some(bars.bar(of(at)))).collect(),
         ]
     });

@@ -54,7 +54,7 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
     });
     let each: Vec<_> = each.collect();
     let numbers = |number: &dyn Fn(f64, f64) -> Number| {
-        column(languages, &each.iter().map(|(.., value, u)| Some(number(*value, *u))).collect::<Vec<_>>())
+        column(languages, each.iter().map(|(.., value, u)| Some(number(*value, *u))))
     };
     let values = numbers(&Number::measured);
     let us = numbers(&|_, u| Number::measured(COVERAGE_FACTOR * u, u));

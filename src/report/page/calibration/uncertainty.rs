@@ -94,8 +94,8 @@ fn shares(budget: &Budget, languages: &Languages) -> Markup {
     };
     let lines = Parameter::AS_IN_THE_PAPER.into_iter().filter_map(|parameter| line_of(budget, parameter));
     let lines: Vec<&ParameterBudget> = lines.collect();
-    let us: Vec<_> = lines.iter().map(|line| Some(Number::uncertainty(line.standard_uncertainty))).collect();
-    let rows = lines.iter().zip(column(languages, &us)).map(|(line, u)| {
+    let us = lines.iter().map(|line| Some(Number::uncertainty(line.standard_uncertainty)));
+    let rows = lines.iter().zip(column(languages, us)).map(|(line, u)| {
         let (letter, index) = line.parameter.symbol().split_once('_').unwrap_or((line.parameter.symbol(), ""));
         let name = symbol_and_unit(languages, &symbol(letter, index), parameter_unit(line.parameter));
         let parts: Vec<f64> = named.iter().map(|kind| of(line, kind)).collect();

@@ -76,13 +76,13 @@ fn rotations(comparison: &Comparison, languages: &Languages) -> Markup {
         headings.push(symbol_and_unit(languages, &symbol(name, ""), units::ARCSEC));
         headings.push(symbol("u", ""));
         let values = positions.iter().map(|at| Some(Number::measured(at.turn_arcsec[axis], at.u_arcsec[axis])));
-        columns.push(column(languages, &values.collect::<Vec<_>>()));
+        columns.push(column(languages, values));
         let us = positions.iter().map(|at| Some(Number::uncertainty(at.u_arcsec[axis])));
-        columns.push(column(languages, &us.collect::<Vec<_>>()));
+        columns.push(column(languages, us));
     }
     headings.push(languages.label(texts::PROBABILITY));
     let p = positions.iter().map(|at| Some(Number::scientific(at.test.probability, 2)));
-    columns.push(column(languages, &p.collect::<Vec<_>>()));
+    columns.push(column(languages, p));
     headings.push(html! {});
     let word = |repeats: bool| languages.inline(if repeats { texts::REPEATS } else { texts::REPEATS_NOT });
     columns.push(positions.iter().map(|at| Some(word(at.repeats))).collect());
@@ -94,18 +94,18 @@ fn rotations(comparison: &Comparison, languages: &Languages) -> Markup {
 fn table(changes: &[NumberDifference], languages: &Languages) -> Markup {
     let of = |number: fn(&NumberDifference) -> Option<f64>| -> Vec<Option<Markup>> {
         let each = changes.iter().map(|at| Some(Number::measured(number(at)?, at.standard_uncertainty.unwrap_or(0.0))));
-        column(languages, &each.collect::<Vec<_>>())
+        column(languages, each)
     };
-    let us: Vec<_> = changes.iter().map(|at| at.standard_uncertainty.map(Number::uncertainty)).collect();
-    let ratios: Vec<_> = changes.iter().map(|at| at.ratio().map(|ratio| Number::fixed(ratio, 1))).collect();
+    let us = changes.iter().map(|at| at.standard_uncertainty.map(Number::uncertainty));
+    let ratios = changes.iter().map(|at| at.ratio().map(|ratio| Number::fixed(ratio, 1)));
     let change = |at: &NumberDifference| Some((at.difference()?, at.standard_uncertainty));
     let bars = Bars::over(changes.iter().filter_map(change));
     let columns = [
         of(|at| at.a),
         of(|at| at.b),
         of(NumberDifference::difference),
-        column(languages, &us),
-        column(languages, &ratios),
+        column(languages, us),
+        column(languages, ratios),
         changes.iter().map(|at| change(at).map(|change| bars.bar(change))).collect(),
     ];
     let headings = vec![

@@ -79,10 +79,10 @@ fn components(page: &CertificationPage, languages: &Languages) -> Markup {
     found.extend(components.base.iter().map(|base| run(texts::BASE, base)));
     let root = (page.certification.runs.len() as f64).sqrt();
     let columns = [
-        column(languages, &found.iter().map(|(_, s, ..)| Some(Number::fixed(*s, 2))).collect::<Vec<_>>()),
-        column(languages, &found.iter().map(|(_, _, freedom, _)| Some(Number::fixed(*freedom, 1))).collect::<Vec<_>>()),
-        column(languages, &found.iter().map(|(_, s, ..)| Some(Number::fixed(s / root, 2))).collect::<Vec<_>>()),
-        column(languages, &found.iter().map(|(.., upper)| upper.map(|s| Number::fixed(s, 2))).collect::<Vec<_>>()),
+        column(languages, found.iter().map(|(_, s, ..)| Some(Number::fixed(*s, 2)))),
+        column(languages, found.iter().map(|(_, _, freedom, _)| Some(Number::fixed(*freedom, 1)))),
+        column(languages, found.iter().map(|(_, s, ..)| Some(Number::fixed(s / root, 2)))),
+        column(languages, found.iter().map(|(.., upper)| upper.map(|s| Number::fixed(s, 2)))),
     ];
     let arcsec = |markup: Markup| symbol_and_unit(languages, &markup, units::ARCSEC);
     let headings = vec![
@@ -102,10 +102,7 @@ fn run_turns(page: &CertificationPage, languages: &Languages) -> Markup {
         let value = |turn: &crate::certification::components::RunTurn| {
             turn.platform_arcsec.iter().chain(&turn.base_arcsec).nth(number).copied()
         };
-        column(
-            languages,
-            &turns.iter().map(|turn| value(turn).map(|value| Number::fixed(value, 2))).collect::<Vec<_>>(),
-        )
+        column(languages, turns.iter().map(|turn| value(turn).map(|value| Number::fixed(value, 2))))
     };
     let mut headings = vec![languages.label(texts::RUN)];
     headings.extend(AXES.map(|axis| symbol(axis, "")));
@@ -157,9 +154,9 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
         found.push((languages.label(texts::NO_OUTLIER), None, None, None));
     }
     let columns = [
-        column(languages, &found.iter().map(|(_, value, ..)| value.clone()).collect::<Vec<_>>()),
-        column(languages, &found.iter().map(|(_, _, freedom, _)| freedom.clone()).collect::<Vec<_>>()),
-        column(languages, &found.iter().map(|(.., p)| p.map(|p| Number::scientific(p, 2))).collect::<Vec<_>>()),
+        column(languages, found.iter().map(|(_, value, ..)| value.clone())),
+        column(languages, found.iter().map(|(_, _, freedom, _)| freedom.clone())),
+        column(languages, found.iter().map(|(.., p)| p.map(|p| Number::scientific(p, 2)))),
     ];
     let headings =
         [texts::TEST, texts::STATISTIC, texts::FREEDOM, texts::PROBABILITY].map(|text| languages.label(text));

@@ -11,7 +11,7 @@ use crate::report::page::texts::{passport as texts, units};
 use crate::report::picture::deviations::{ANGLES, Bars};
 use crate::site::{Earth, Site};
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Datum, Excluded, TypeB};
-use crate::units::ARCSECONDS_PER_DEGREE;
+use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
 use maud::{Markup, html};
 
 pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
@@ -44,9 +44,8 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
 /// Writes the deviations with their bars.
 pub(crate) fn positions(positions: &[CertifiedPosition], languages: &Languages) -> Markup {
     let bars = Bars::of(positions);
-    let numbers = |number: &dyn Fn(&CertifiedPosition) -> Option<Number>| {
-        column(languages, &positions.iter().map(number).collect::<Vec<_>>())
-    };
+    let numbers =
+        |number: &dyn Fn(&CertifiedPosition) -> Option<Number>| column(languages, positions.iter().map(number));
     let mut columns =
         vec![numbers(&|at| Some(Number::exact(at.theta_deg))), numbers(&|at| Some(Number::exact(at.phi_deg)))];
     // One angle with degrees and minutes, and all are marked in their cells.
@@ -251,7 +250,14 @@ fn mark(site: &Site, languages: &Languages) -> Markup {
 }
 
 fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
-    let rate = |value: f64| quantity(languages, &Number::fixed(value, 9), units::DEG_PER_H);
+    let latitude_u = site.uncertainty.as_ref().and_then(|base| base.latitude_arcsec);
+    let latitude_u = libm::hypot(latitude_u.unwrap_or(0.0), site.deflection_u_arcsec().unwrap_or(0.0));
+    // The derivative of one component by the latitude is the other one; the Earth rate is known.
+    let rate = |value: f64, slope: f64| {
+        let u = slope.abs() * radians_from_arcseconds(latitude_u);
+        let number = if u > 0.0 { Number::measured(value, u) } else { Number::fixed(value, 9) };
+        quantity(languages, &number, units::DEG_PER_H)
+    };
     let u = site.gravity_u_m_per_s2();
     let within = quantity(languages, &Number::exact(earth.valid_within_deg_per_h), units::DEG_PER_H);
     let azimuth = earth.azimuth_deg.map(|azimuth| match earth.azimuth_u_arcsec {
@@ -263,13 +269,13 @@ fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
             (angle(azimuth, None, languages)) ", " (symbol("u", "")) " " (not_stated(languages))
         },
     });
-    let latitude_u = site.uncertainty.as_ref().and_then(|base| base.latitude_arcsec);
-    let latitude = angle(earth.latitude_deg, latitude_u, languages);
+    let latitude = angle(earth.latitude_deg, Some(latitude_u), languages);
+    let [horizontal, vertical] = [earth.horizontal_deg_per_h, earth.vertical_deg_per_h];
     fields([
-        stated(languages, texts::EARTH_RATE, Some(rate(earth.rate_deg_per_h))),
+        stated(languages, texts::EARTH_RATE, Some(rate(earth.rate_deg_per_h, 0.0))),
         stated(languages, texts::EARTH_LATITUDE, Some(latitude)),
-        stated(languages, texts::HORIZONTAL, Some(rate(earth.horizontal_deg_per_h))),
-        stated(languages, texts::VERTICAL, Some(rate(earth.vertical_deg_per_h))),
+        stated(languages, texts::HORIZONTAL, Some(rate(horizontal, vertical))),
+        stated(languages, texts::VERTICAL, Some(rate(vertical, horizontal))),
         stated(languages, texts::GRAVITY, Some(gravity(earth.gravity_m_per_s2, u, languages))),
         stated(
             languages,

@@ -5,8 +5,10 @@ use super::{PassportPage, checks};
 use crate::report::page::code;
 use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
-use crate::report::page::parts::{band, date, date_text, field, fields, given, quantity, stated, time, wide_stated};
-use crate::report::page::texts::{calibration, checks as check_texts, passport as texts, record, units, words};
+use crate::report::page::parts::{
+    band, date, date_text, fields, given, quantity, signature, stated, time, wide_stated,
+};
+use crate::report::page::texts::{checks as check_texts, passport as texts, record, units, words};
 use maud::{Markup, html};
 
 /// Writes the head of the page: kind of the document, the stand, and the id.
@@ -92,11 +94,10 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
 
 /// Writes the SHA-256 as a QR code and as text, next to the fields for signature and stamp.
 fn proof(page: &PassportPage, languages: &Languages) -> Markup {
-    let names = [calibration::POST_AND_NAME, calibration::SIGNATURE, calibration::DATE, calibration::STAMP];
     html! {
         div.proof {
             @if let Some(picture) = code::picture(&page.sha256, languages.spoken(texts::CODE)) { (picture) }
-            (fields(names.map(|name| field(languages, name, None))))
+            (signature(languages))
             div.sum {
                 p.sum-name { (languages.label(texts::SHA256)) }
                 p.sha256 { code { (page.sha256) } }

@@ -42,8 +42,8 @@ pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
 }
 
 fn numbers(languages: &Languages, values: &[Option<f64>]) -> Vec<Markup> {
-    let numbers: Vec<_> = values.iter().map(|value| value.map(|value| Number::fixed(value, DECIMALS))).collect();
-    column(languages, &numbers).into_iter().map(|cell| cell.unwrap_or_else(|| html! { "–" })).collect()
+    let numbers = values.iter().map(|value| value.map(|value| Number::fixed(value, DECIMALS)));
+    column(languages, numbers).into_iter().map(|cell| cell.unwrap_or_else(|| html! { "–" })).collect()
 }
 
 fn matrices(m: &MatrixRows, languages: &Languages) -> Markup {
@@ -155,7 +155,7 @@ pub(crate) fn parameters(languages: &Languages, caption: Option<Markup>, rows: V
             Cell::Number(number) => Some(number.clone()),
             Cell::Words(_) => None,
         });
-        column(languages, &numbers.collect::<Vec<_>>())
+        column(languages, numbers)
     };
     let columns: Vec<_> = (0..8).map(aligned).collect();
     let cell = |row: usize, place: usize, cell: &Cell| match cell {
