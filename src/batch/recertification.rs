@@ -318,7 +318,12 @@ impl Recertification<'_> {
                   For a stand that was rebuilt, use `certify` and `reissue --stand`",
             ));
         }
-        Ok((certification, comparison))
+        match comparison.findings.iter().find(|finding| finding.is_of_the_certificate()) {
+            Some(finding) => Err(of_readings(&format!(
+                "{finding}; to correct the certificate without new readings, use `certify` and `reissue --stand`"
+            ))),
+            None => Ok((certification, comparison)),
+        }
     }
 
     /// Returns the folder of passports into which the new files are written.

@@ -131,7 +131,7 @@ impl Cause {
             Self::Platform(_) => "certificate: common_platform_arcsec",
             Self::Base(_) => "certificate: common_base_arcsec",
             Self::Reading(..) => "laboratory: meter.reading_percent",
-            Self::Floor(..) => "laboratory: meter.floor_ma",
+            Self::Floor(..) => "laboratory: meter.floor_ma, or the last digit recorded",
             Self::Noise(..) => "laboratory: meter.noise_ma, or repeated rows",
             Self::Visits(..) => "gyro type: noise.visit_deg_per_h, or repeated visits",
             Self::Differences(_) => "all of a visit",

@@ -7,6 +7,7 @@ pub(crate) use result::{ChangeDocument, ResidualDocument, ResultDocument, RowSca
 use super::mistake::Mistake;
 use super::parameter::Parameter;
 use super::readings::{Exclusion, Readings};
+use super::recorded::Digits;
 use super::result::Calibration;
 use super::scatter::Scatter;
 use super::stated::NotStated;
@@ -70,6 +71,9 @@ pub struct CalibrationDocument {
     /// Scatter of the rows of a visit; present if there are several rows.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) row_scatter: Option<RowScatterDocument>,
+    /// Rounding of the currents, and repeated readings without scatter; absent if there is nothing to state.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub(crate) digits: Option<Digits>,
     /// Possible causes if the readings do not fit, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) hint: Option<String>,
@@ -185,6 +189,7 @@ impl CalibrationDocument {
             turn_on_scatter: calibration.turn_on_scatter,
             drift_probability: calibration.drift_test.map(|test| test.probability),
             row_scatter: calibration.row_scatter.as_ref().map(RowScatterDocument::new),
+            digits: calibration.digits,
             hint: calibration.hint.as_ref().map(ToString::to_string),
             mistake: None,
             verdict: None,
@@ -244,20 +249,22 @@ impl CalibrationDocument {
         Some(Found { degrees_of_freedom, ..best.found(self.gravity_m_per_s2, self.gravity_u_m_per_s2) })
     }
 
-    /// Returns the comparison of the adopted result with a gyro type; `None` if there is no result. Nothing passes if the
-    /// readings do not fit the stand.
+    /// Returns the comparison of the adopted result with a gyro type; `None` if there is no result. Nothing is
+    /// decided if the readings do not fit the stand.
     pub(crate) fn judged(&self, gyro_type: &GyroType) -> Option<Verdict> {
         Some(self.withheld(against_type(&self.answer()?, gyro_type)))
     }
 
     /// Returns the comparison of the adopted result with an earlier one, within the tolerance of a gyro type, as `judged`
-    /// does.
+    /// does. Nothing is decided if both results are from the same readings.
     pub(crate) fn changed(&self, earlier: &Found, gyro_type: &GyroType) -> Option<Verdict> {
-        Some(self.withheld(against_earlier(&self.answer()?, earlier, gyro_type)))
+        let found = self.answer()?;
+        let change = against_earlier(&found, earlier, gyro_type);
+        Some(if found.is_same(earlier) { change.undecided() } else { self.withheld(change) })
     }
 
     fn withheld(&self, verdict: Verdict) -> Verdict {
         // Results of earlier versions have no `consistent`, but a hint.
-        if self.hint.is_none() { verdict } else { verdict.without_passes() }
+        if self.hint.is_none() { verdict } else { verdict.undecided() }
     }
 }

@@ -222,6 +222,12 @@ impl Setup {
         self
     }
 
+    /// Returns the setup with another floor of the meter, mA.
+    pub(crate) fn with_floor(mut self, floor_ma: f64) -> Self {
+        self.uncertainty.meter.floor_ma = floor_ma;
+        self
+    }
+
     /// Returns the coefficients of the calibration equations.
     pub fn coefficients(&self) -> &Coefficients {
         &self.coefficients
@@ -232,18 +238,20 @@ impl Setup {
         &self.uncertainty
     }
 
-    /// Returns the setup with the positions that have readings; closed methods then need all of the paper's eight.
+    /// Returns the setup with the positions that have readings, and with the rounding of the readings where it is larger
+    /// than the floor of the meter. Closed methods need all of the paper's eight positions.
     pub(crate) fn of_readings(&self, readings: &Readings) -> Cow<'_, Self> {
         let left_out = |place: &usize| readings.left_out().contains(&self.coefficients.positions[*place].index);
         let places: Vec<usize> = (0..self.coefficients.positions.len()).filter(left_out).collect();
+        let recorded = readings.recorded().applied_to(self);
         if places.is_empty() {
-            return Cow::Borrowed(self);
+            return recorded;
         }
         let eight = |place: &usize| {
             EIGHT_POSITIONS.iter().any(|(index, ..)| *index == self.coefficients.positions[*place].index)
         };
         let matrices = if places.iter().any(eight) { None } else { self.coefficients.matrices };
-        let mut rest = places.iter().rev().fold(self.clone(), |rest, place| rest.without(*place));
+        let mut rest = places.iter().rev().fold(recorded.into_owned(), |rest, place| rest.without(*place));
         rest.coefficients.matrices = matrices;
         Cow::Owned(rest)
     }

@@ -8,6 +8,7 @@
 //! * `least_squares`: weighted least squares on all readings of any positions.
 //! * `procedure`: all methods side by side; `result`: their results with uncertainties and residuals.
 //! * `data`: mean currents with their errors, and fits to them; `chi_square`: the test of a fit.
+//! * `recorded`: rounding of the readings, and repeated readings without scatter.
 //! * `repeats`: numbers of visits and readings, and the errors assumed for each.
 //! * `scatter`: agreement of the rows of a visit, of the visits of a position and of the turn-ons with what was stated.
 //! * `noise`: the gyro's own noise; `offsets`: drift that changes during a run.
@@ -61,6 +62,7 @@ pub(crate) mod prediction;
 pub(crate) mod procedure;
 pub(crate) mod propagation;
 pub(crate) mod readings;
+pub(crate) mod recorded;
 pub(crate) mod repeats;
 pub(crate) mod result;
 pub(crate) mod scatter;

@@ -45,6 +45,7 @@ impl Default for Options {
 /// Returns [`NoLeastSquares`] if the readings are for other positions or do not determine a gyro; the results of other
 /// methods would then be meaningless. A refusal of a single method is in [`Calibration::refused`].
 pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Result<Calibration, NoLeastSquares> {
+    let digits = readings.recorded().digits(&setup.uncertainty().meter);
     let setup = &*setup.of_readings(readings);
     let indices = readings.positions().iter().map(|position| position.index);
     if !indices.eq(setup.coefficients().positions.iter().map(|at| at.index)) {
@@ -66,6 +67,7 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
     let mut calibration = Calibration {
         results: Vec::new(),
         refused: Vec::new(),
+        digits,
         scatter: seen.visits,
         row_scatter: seen.rows,
         turn_on_scatter: seen.turn_ons,
@@ -120,7 +122,10 @@ fn drift_test(setup: &Setup, readings: &Readings, options: &Options) -> Option<D
     let Observation { data, fit, .. } = Observation::new(setup, readings, options.model, true).ok()?;
     let (drift, covariance) = fit.drift(&data.offsets)?;
     let chi_square = drift.dot(&(covariance.try_inverse()? * drift));
-    Some(DriftTest { drift_deg_per_h_per_h: drift, probability: chi_square_larger(chi_square, 2) })
+    let probability = chi_square_larger(chi_square, 2);
+    let rest = super::chi_square::chi_square(setup, &fit, &data);
+    let explains = !rest.judges() || rest.probability >= diagnosis::ALARM;
+    Some(DriftTest { drift_deg_per_h_per_h: drift, probability, explains })
 }
 
 /// First-order response of a calibration to small changes of all its inputs.

@@ -5,6 +5,7 @@
 
 mod csv;
 
+use super::recorded::Recorded;
 use crate::coefficients::{Coefficients, PositionIndex};
 use nalgebra::Vector2;
 use std::collections::{BTreeMap, BTreeSet};
@@ -90,7 +91,7 @@ pub(crate) enum NotExcluded {
 }
 
 impl PositionReadings {
-    fn new(index: PositionIndex, visits: Vec<Visit>) -> Self {
+    pub(super) fn new(index: PositionIndex, visits: Vec<Visit>) -> Self {
         let mean_ma = mean(visits.iter().map(|visit| &visit.mean_ma));
         Self { index, visits, mean_ma }
     }
@@ -113,6 +114,7 @@ pub struct Readings {
     positions: Vec<PositionReadings>,
     left_out: Vec<PositionIndex>,
     exclusions: Vec<Exclusion>,
+    recorded: Recorded,
     remark: Option<String>,
 }
 
@@ -172,7 +174,7 @@ impl Readings {
                 None => left_out.push(at.index),
             }
         }
-        Ok(Self { positions, left_out, exclusions: Vec::new(), remark: None })
+        Ok(Self { positions, left_out, exclusions: Vec::new(), recorded: Recorded::default(), remark: None })
     }
 
     /// Leaves a visit out, with the reason on record.
@@ -245,6 +247,11 @@ impl Readings {
 
     fn visits(&self) -> impl Iterator<Item = &Visit> {
         self.positions.iter().flat_map(|at| &at.visits)
+    }
+
+    /// Returns what the digits of the readings show; nothing if they were not read from a file.
+    pub(crate) fn recorded(&self) -> &Recorded {
+        &self.recorded
     }
 
     /// Returns a remark that lists the columns which were not used, or `None` if there is nothing to report.

@@ -7,6 +7,7 @@ use super::iterative::{NoIterativeSolution, StepChange, StopRule};
 use super::least_squares::NoLeastSquares;
 use super::noise::{DriftNoise, NoiseSource};
 use super::parameter::Parameter;
+use super::recorded::Digits;
 use super::scatter::{RowScatter, Scatter};
 use super::stated::NotStated;
 use super::unknowns::Model;
@@ -50,6 +51,8 @@ pub struct Calibration {
     pub results: Vec<MethodResult>,
     /// Methods without a result, each with the reason.
     pub refused: Vec<(Method, MethodRefusal)>,
+    /// What must be stated about the digits of the readings, or `None`.
+    pub(crate) digits: Option<Digits>,
     /// Agreement of the visits of each position; `None` if every position was visited once.
     pub scatter: Option<Scatter>,
     /// Scatter of the rows of each visit; `None` if every visit has one row.
@@ -136,12 +139,14 @@ pub struct DriftTest {
     pub drift_deg_per_h_per_h: Vector2<f64>,
     /// Probability of a larger drift if there is none.
     pub probability: f64,
+    /// `true` if the readings agree with a fit that includes the drift.
+    pub explains: bool,
 }
 
 impl DriftTest {
     /// Returns `true` if the drift should be fitted.
     pub(crate) fn is_significant(&self) -> bool {
-        self.probability < ALARM
+        self.explains && self.probability < ALARM
     }
 }
 

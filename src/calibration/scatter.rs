@@ -129,7 +129,11 @@ impl Repeats {
         let returns: Vec<_> = (0..positions.len()).map(|place| sensitivity.of_return(place)).collect();
         let reading = k * k.transpose() * (self.noise_ma * self.noise_ma);
         let of_noise = |place: usize, visit: usize| reading / positions[place].visits[visit].each_ma.len() as f64;
-        let known = |place: usize, visit: usize| returns[place] + of_noise(place, visit);
+        // A rounding in place of the floor is one of each visit.
+        let meter = &setup.uncertainty().meter;
+        let rounding_ma = Some(readings.recorded().rounding_ma(meter)).filter(|rounding| *rounding >= meter.floor_ma);
+        let rounding = k * k.transpose() * rounding_ma.unwrap_or(0.0).powi(2);
+        let known = |place: usize, visit: usize| returns[place] + rounding + of_noise(place, visit);
         let stated = self.visit.deg_per_h * self.visit.deg_per_h;
         let of_stated = |place, visit| known(place, visit) + Matrix2::from_diagonal_element(stated);
         let found = differences.condensed(&k, of_stated);

@@ -9,7 +9,7 @@ use crate::statistics::propagation::effective_degrees_of_freedom;
 use crate::units::radians_from_arcseconds;
 use std::fmt::{self, Display, Formatter};
 
-/// Input whose uncertainty no file states; the result does not include it.
+/// Input whose uncertainty no file states, or one states as 0; the result does not include it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NotStated {
@@ -33,6 +33,10 @@ pub enum NotStated {
     Level,
     /// Gyro seat.
     Seat,
+    /// Gain of the meter.
+    Gain,
+    /// Offset of the meter.
+    Offset,
     /// Noise of the gyro from visit to visit.
     Visits,
     /// Noise of the gyro from turn-on to turn-on.
@@ -55,6 +59,8 @@ impl NotStated {
             Self::Mark => "azimuth of the mark (position_u_m, deflection_arcsec.u)",
             Self::Level => "level of the base (level_arcsec)",
             Self::Seat => "gyro seat (seating_arcsec)",
+            Self::Gain => "gain of the meter (meter.gain_percent)",
+            Self::Offset => "offset of the meter (meter.offset_ma)",
             Self::Visits => "gyro from visit to visit (noise.visit_deg_per_h, or repeated visits)",
             Self::TurnOns => "gyro from turn-on to turn-on (noise.turn_on_deg_per_h, or repeated cycles)",
             Self::Gravity => "gravity (gravity_u_m_per_s2)",
@@ -81,7 +87,10 @@ impl Stated {
     ) -> Self {
         let mut missing = Vec::new();
         let mut angle = |arcsec: Option<f64>, what: NotStated| {
-            if arcsec.is_none() && !missing.contains(&what) {
+            // A 0 that `certify` writes is an estimate from readings.
+            let estimated = certificate.evidence.is_some()
+                && matches!(what, NotStated::Angles | NotStated::Return | NotStated::Platform | NotStated::Base);
+            if !arcsec.is_some_and(|u| u > 0.0 || estimated) && !missing.contains(&what) {
                 missing.push(what);
             }
             radians_from_arcseconds(arcsec.unwrap_or(0.0))
@@ -108,18 +117,25 @@ impl Stated {
             common_platform_rad: angle(certificate.common_platform_arcsec, NotStated::Platform),
             common_base_rad: angle(certificate.common_base_arcsec, NotStated::Base),
             latitude_rad: angle(base.latitude_arcsec, NotStated::Latitude),
-            deflection_rad: angle(base.deflection_arcsec, NotStated::Deflection),
+            deflection_rad: if site.latitude_deg.is_some() {
+                angle(base.deflection_arcsec, NotStated::Deflection)
+            } else {
+                0.0
+            },
             azimuth_rad: angle(base.azimuth_arcsec, NotStated::Azimuth),
-            mark_rad: angle(base.mark_arcsec, NotStated::Mark),
+            mark_rad: if site.azimuth_mark.is_some() { angle(base.mark_arcsec, NotStated::Mark) } else { 0.0 },
             level_rad: angle(base.level_arcsec, NotStated::Level),
             seating_rad: seat.map(|u| angle(u, NotStated::Seat)),
             meter: MeterUncertainty::from(&laboratory.meter),
             visit_deg_per_h: None,
             turn_on_deg_per_h: None,
         };
-        if site.gravity_u_m_per_s2().is_none() {
-            missing.push(NotStated::Gravity);
-        }
+        let others = [
+            (uncertainty.meter.gain, NotStated::Gain),
+            (uncertainty.meter.offset_ma, NotStated::Offset),
+            (site.gravity_u_m_per_s2().unwrap_or(0.0), NotStated::Gravity),
+        ];
+        missing.extend(others.into_iter().filter(|(u, _)| *u == 0.0).map(|(_, what)| what));
         Self { uncertainty, missing }
     }
 }
@@ -189,7 +205,7 @@ impl Display for TemperatureOutside {
     }
 }
 
-/// Uncertainties of the base at the site, with independent parts kept separate; parts that have no effect are exact.
+/// Uncertainties of the base at the site, with independent parts kept separate.
 struct Known {
     latitude_arcsec: Option<f64>,
     deflection_arcsec: Option<f64>,
@@ -210,7 +226,7 @@ impl Known {
             // `azimuth_arcsec`: from the mark to the base, stated or measured. `mark_arcsec`: from the pillar to the
             // mark, computed.
             azimuth_arcsec: measured.azimuth_arcsec.or(of_site.azimuth_arcsec),
-            mark_arcsec: if site.azimuth_mark.is_some() { site.earth().azimuth_u_arcsec } else { Some(0.0) },
+            mark_arcsec: site.earth().azimuth_u_arcsec,
             level_arcsec: measured.level_arcsec.or(of_site.level_arcsec),
         }
     }

@@ -89,6 +89,14 @@ impl Verdict {
 }
 
 impl ParameterVerdict {
+    /// Returns `true` if the parameter is undecided because of its uncertainty, not because the result is not valid.
+    pub(crate) fn is_close(&self) -> bool {
+        let within = |deviation: f64| deviation <= self.tolerance;
+        let (least, most) =
+            (self.deviation.abs() - self.expanded_uncertainty, self.deviation.abs() + self.expanded_uncertainty);
+        self.guarded == Decision::Undecided && within(least) && !within(most)
+    }
+
     /// Returns `true` if more than half of the variance comes from the local g.
     pub(crate) fn is_mostly_from_gravity(&self) -> bool {
         let of_gravity = self.expanded_uncertainty_from_gravity.unwrap_or(0.0);
@@ -111,7 +119,19 @@ pub struct Found {
     pub gravity_u_m_per_s2: f64,
 }
 
+/// Difference of two results, in units of their standard uncertainties, below which both are from the same readings.
+const SAME_READINGS: f64 = 1e-6;
+
 impl Found {
+    /// Returns `true` if both results agree so closely that they are from the same readings.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        let (here, there) = (self.parameters.to_vector(), other.parameters.to_vector());
+        // The drifts per g depend on the local g.
+        let same =
+            |place: usize| (here[place] - there[place]).abs() <= SAME_READINGS * self.standard_uncertainty[place];
+        Parameter::EIGHT.iter().filter(|parameter| !PER_G.contains(parameter)).all(|parameter| same(parameter.place()))
+    }
+
     /// Returns the result with g-sensitive drifts per exactly `gravity_m_per_s2` instead of the local g. The drift per
     /// m/s² belongs to the gyro, so the uncertainty of the local g enters here.
     #[must_use]
@@ -201,9 +221,9 @@ pub(crate) fn change_in_uncertainties(found: &Found, earlier: &Found) -> [f64; 8
 }
 
 impl Verdict {
-    /// Returns the comparison with every pass undecided, for parameters that are not valid.
-    pub(super) fn without_passes(mut self) -> Self {
-        for row in self.parameters.iter_mut().filter(|row| row.guarded == Decision::Pass) {
+    /// Returns the comparison with nothing decided, for parameters that are not valid.
+    pub(crate) fn undecided(mut self) -> Self {
+        for row in &mut self.parameters {
             row.guarded = Decision::Undecided;
         }
         Self::of(self.gravity_m_per_s2, self.parameters)

@@ -19,6 +19,9 @@ use crate::statistics::beta::f_larger;
 use crate::statistics::least_squares::Factorised;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
+/// Probability by chance below which a check agrees better with the certificate than a new measurement can.
+const TOO_CLOSE: f64 = 1e-6;
+
 /// Reason why readings were not compared with a certificate.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -74,8 +77,8 @@ struct Differences {
 }
 
 impl Comparison {
-    /// Returns `true` if outliers among the readings of the check, and nothing else, are why the stand seems to have
-    /// changed.
+    /// Returns `true` if the readings of the check do not show whether the stand has changed: because of outliers among
+    /// them, or because they are those of the certificate.
     pub(crate) fn is_undecided(&self) -> bool {
         let is_any = |of: fn(&Finding) -> bool| self.findings.iter().any(of);
         !self.same_stand && is_any(Finding::is_outlier) && !is_any(Finding::is_change)
@@ -125,7 +128,13 @@ pub fn compare(
     let evidence = certificate.certificate.evidence.as_ref();
     if evidence.is_some_and(|evidence| readings.sha256() == Some(&evidence.readings_sha256)) {
         findings.push(Finding::SameReadings);
+    } else if let Some(certified) = evidence
+        && let Some(test) = differences.of_repeatability(scatter, [certified.runs as usize, readings.runs().len()])
+        && 1.0 - test.probability < TOO_CLOSE
+    {
+        findings.push(Finding::TooClose);
     }
+    let same_stand = same_stand && !findings.iter().any(Finding::is_of_the_certificate);
     let words = findings.iter().map(ToString::to_string).collect();
     let certificate = certificate.certificate.number.clone();
     Ok(Comparison { certificate, runs, all, positions, common, same_stand, findings, words })
@@ -214,6 +223,21 @@ impl Differences {
         let (shared, _) = model.solve_rotated(&right);
         let rest = right.column(0).rows(model.columns(), rows.len() - model.columns()).norm_squared();
         Some((shared, model.r_inverse().clone(), rest))
+    }
+
+    /// Returns the chi-square test of all positions relative to each other if only the repeatability acts, which `scatter`
+    /// is for one visit, in certificate and check with their numbers of `runs`.
+    fn of_repeatability(&self, scatter: Variance, runs: [usize; 2]) -> Option<Test> {
+        let variance: f64 = runs.into_iter().map(|runs| scatter.value / runs as f64).sum();
+        let places: Vec<usize> = (0..self.u_arcsec.len() / 3).collect();
+        let of_runs = Self {
+            turns_arcsec: self.turns_arcsec.clone(),
+            u_arcsec: DVector::repeat(self.u_arcsec.len(), variance.sqrt()),
+            degrees_of_freedom: scatter.degrees_of_freedom,
+            design: self.design.clone(),
+            base_axes: self.base_axes.clone(),
+        };
+        of_runs.rest(&places)
     }
 
     /// Returns the chi-square test of positions relative to each other, or `None` if they leave no degrees of freedom.

@@ -32,6 +32,8 @@ pub(crate) enum Finding {
     TreatedAsExact,
     /// Readings that are those of the certificate.
     SameReadings,
+    /// Readings that agree better with the certificate than a new measurement can.
+    TooClose,
 }
 
 /// Reason why the rotation of the stand as a whole was not tested.
@@ -97,6 +99,10 @@ impl Display for Finding {
             Self::SameReadings => {
                 "the certificate was computed from these readings, so they do not show the present state of the stand"
             }
+            Self::TooClose => {
+                "the readings agree with the certificate better than the repeatability of the stand allows; check whether \
+                 they are those of the certificate, and measure the stand again"
+            }
         })
     }
 }
@@ -115,9 +121,17 @@ impl Display for Untested {
 }
 
 impl Finding {
-    /// Returns `true` for an outlier among the readings or the runs of a check, with which nothing is decided.
+    /// Returns `true` for readings that are not a new measurement.
+    pub(crate) fn is_of_the_certificate(&self) -> bool {
+        matches!(self, Self::SameReadings | Self::TooClose)
+    }
+
+    /// Returns `true` for an outlier among the readings or the runs of a check, or readings that are not new; nothing is
+    /// decided with these.
     pub(crate) fn is_outlier(&self) -> bool {
-        matches!(self, Self::Outlier(..)) || matches!(self, Self::BumpedRun(run) if run.probability < OUTLIER)
+        self.is_of_the_certificate()
+            || matches!(self, Self::Outlier(..))
+            || matches!(self, Self::BumpedRun(run) if run.probability < OUTLIER)
     }
 
     /// Returns `true` for a change of the stand.

@@ -99,6 +99,9 @@ impl AngleReadings {
             }
         }
         if problems.is_empty() {
+            problems = torn(&table, &rows);
+        }
+        if problems.is_empty() {
             problems = not_there(&rows, excluded);
             rows.retain(|(place, ..)| !excluded.iter().any(|excluded| is_excluded(excluded, *place)));
         }
@@ -247,6 +250,27 @@ fn angle(table: &Table, row: &Row, column: usize, problems: &mut Vec<Problem>) -
 /// Returns `true` if the reading at a place is excluded.
 fn is_excluded(excluded: &Excluded, (index, run): Place) -> bool {
     excluded.run == run && excluded.index().is_none_or(|of| of == index)
+}
+
+/// Returns a problem for the first row that continues a run at a position after another position: the platform has moved
+/// away, so it is no repeated reading of the same visit.
+fn torn(table: &Table, rows: &[Reading]) -> Vec<Problem> {
+    let mut ended = BTreeSet::new();
+    for pair in rows.windows(2) {
+        let [(before, ..), (place, _, row)] = pair else { continue };
+        if before != place {
+            ended.insert(*before);
+            if ended.contains(place) {
+                let (index, run) = place;
+                let found = format!("run {run} of position {index} again, after another position");
+                let expected = "the rows of a position and run one after the other";
+                let advice =
+                    "give the second visit the number of another run, or put the readings of one visit together";
+                return vec![table.problem(&row.cells[2], 2, found, expected, advice)];
+            }
+        }
+    }
+    Vec::new()
 }
 
 /// Returns a problem for each exclusion that concerns no reading of the file.

@@ -106,7 +106,7 @@ impl Display for Remark {
             Self::Twins(one, other) => write!(
                 f,
                 "runs {one} and {other} agree more than 30 times better than other runs; check whether one is a copy of \
-                 the other"
+                 the other, or whether another run contains an error"
             ),
             Self::AxesDiffer(p) => write!(
                 f,

@@ -31,6 +31,7 @@ use crate::uncertainty::document::WholeDocument;
 use clap::{Args, ValueEnum};
 use jiff::Timestamp;
 use jiff::civil::Date;
+use nalgebra::Vector2;
 use serde::Serialize;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -295,8 +296,19 @@ impl Bench<'_> {
             output::complain(&format!("WARNING: {warning}"));
         }
         let mut written = HashMap::new();
+        let mut calibrated: Vec<(Vec<Vector2<f64>>, String)> = Vec::new();
         let calibrate = |path: &Path| {
             let found = self.calibrate(path)?;
+            let (currents_ma, file) = (found.done.readings.means_ma(), found.currents.0.clone());
+            if let Some((_, other)) = calibrated.iter().find(|(other, _)| *other == currents_ma) {
+                let words = format!(
+                    "{}: found the currents of {}, expected those of another gyro",
+                    Printable(&file),
+                    Printable(other)
+                );
+                return Err(Failure::refused(words));
+            }
+            calibrated.push((currents_ma, file));
             if let Some(folder) = &options.out {
                 self.write(folder, path, &found, &mut written)?;
             }

@@ -8,7 +8,6 @@ use super::trust_options::{self, TrustOptions};
 use super::{Code, Failure, defaults, inputs, long_run};
 use crate::batch::recertification::{AtSite, NotRecertified, Recertification};
 use crate::certification::Header;
-use crate::certification::finding::Finding;
 use crate::files;
 use crate::folder::Seal;
 use crate::passport::issue::time_of_issue;
@@ -17,7 +16,7 @@ use crate::report::issued::Told;
 use crate::report::page::certification::CertificationPage;
 use crate::report::recertification as report;
 use crate::text::kind::{Kind, mistaken};
-use crate::text::{Identifier, Printable, name_of};
+use crate::text::{Identifier, name_of};
 use clap::Args;
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -132,9 +131,6 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     let seal = signer.as_deref().map(|signer| Seal { signer, trust: Some(&trust) });
     let found = order.run(seal).map_err(failure)?;
-    for finding in found.comparison.findings.iter().filter(|finding| **finding == Finding::SameReadings) {
-        output::complain(&format!("{}: WARNING: {finding}; give the new readings", Printable(&name)));
-    }
     if let Some(path) = &options.report {
         let change = Some((&found.comparison, found.changes.clone()));
         let page = CertificationPage { certification: &found.certification, readings: (&name, &bytes), change };

@@ -90,8 +90,8 @@ texts! {
     LOWER_LIMIT { en: "Lower limit of the tolerance", ru: "Нижняя граница допуска" }
     UPPER_LIMIT { en: "Upper limit of the tolerance", ru: "Верхняя граница допуска" }
     NOT_STATED {
-        en: "Not stated, and not included in any uncertainty",
-        ru: "Не указано и не учтено в неопределённости"
+        en: "Not stated, or stated as 0, and not included in any uncertainty",
+        ru: "Не указано (или указано равным нулю) и не учтено в неопределённости"
     }
     NOT_SIGNED {
         en: "This DCC is not signed. The passport of the stand is signed; its SHA-256 is given with the equipment.",

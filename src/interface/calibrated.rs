@@ -20,6 +20,8 @@ use crate::uncertainty::document::MonteCarloDocument;
 use crate::uncertainty::{self, Engine, MonteCarlo, ReadingShape, Trials};
 use std::collections::BTreeMap;
 
+const RECORDED: &str = "what the digits of the currents show";
+
 const UNLIKE: &str = "the readings fit, but the parameters are far from the gyro's; this would explain it";
 
 /// Result of a calibration by one method.
@@ -56,6 +58,7 @@ pub fn calibrate(
     let done = prepared.run(&options, verified, Subject::default(), &[])?;
     remarks.extend(done.warning.map(|warning| warning.to_string()));
     remarks.extend(done.document.hint.iter().map(|hint| format!("{INCONSISTENT}: {hint}")));
+    remarks.extend(done.document.digits.iter().map(|digits| format!("{RECORDED}: {}", json(digits))));
     remarks.extend(done.document.mistake.iter().map(|mistake| format!("{UNLIKE}: {}", json(mistake))));
     let left_out = done.document.left_out.iter().map(ToString::to_string).collect::<Vec<_>>();
     remarks.extend((!left_out.is_empty()).then(|| format!("positions without a reading: {}", left_out.join(", "))));

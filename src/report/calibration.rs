@@ -9,11 +9,11 @@ use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
 use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
-use crate::calibration::verdict::{Decision, Found, Verdict, change_in_uncertainties};
+use crate::calibration::verdict::{Decision, Found, ParameterVerdict, Verdict, change_in_uncertainties};
 use crate::calibration::{Calibration, Method, MethodResult, Readings};
 use crate::report::page::Language;
 use crate::report::page::texts::calibration as texts;
-use crate::report::{columns, mistake, style};
+use crate::report::{columns, mistake, recorded, style};
 use crate::text::printable::printable;
 use crate::units::printed;
 use std::fmt::Write;
@@ -327,13 +327,16 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
         let _ = writeln!(out);
         columns::paragraph(out, "", words);
     }
+    for words in calibration.digits.iter().flat_map(|digits| recorded::words(digits, Language::English)) {
+        columns::paragraph(out, "  ", &words);
+    }
     scatter(out, calibration);
     if let Some(hint) = &calibration.hint {
         columns::paragraph(out, "", &format!("WARNING: {hint}."));
     }
     if !missing.is_empty() {
         let missing: Vec<&str> = missing.iter().map(|what| what.words()).collect();
-        let words = format!("Not stated, and not included in any u: {}.", missing.join("; "));
+        let words = format!("Not stated, or stated as 0, and not included in any u: {}.", missing.join("; "));
         columns::paragraph(out, "", &words);
     }
 }
@@ -471,7 +474,7 @@ fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
     let names = ["", "result", deviation, "U", "tolerance", "simple", "risk", "guarded"];
     columns::table(out, &names, &rows);
     let _ = writeln!(out, "  Overall, by guarded acceptance: {}", word(verdict.overall).to_uppercase());
-    if verdict.overall == Decision::Undecided {
+    if verdict.parameters.iter().any(ParameterVerdict::is_close) && verdict.overall == Decision::Undecided {
         columns::paragraph(out, "  ", "undecided: the uncertainty does not permit a decision.");
     }
     for row in verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()) {
@@ -494,7 +497,8 @@ fn change(
     verdict: Option<&Verdict>,
 ) {
     let Some(answer) = calibration.answer() else { return };
-    let change = change_in_uncertainties(&answer.found(gravity, u.unwrap_or(0.0)), earlier);
+    let found = answer.found(gravity, u.unwrap_or(0.0));
+    let change = change_in_uncertainties(&found, earlier);
     let words: Vec<String> = Parameter::EIGHT
         .iter()
         .zip(change)
@@ -506,6 +510,9 @@ fn change(
         "\nChange since the previous result, in units of its standard uncertainty (drifts at the same g):"
     );
     columns::paragraph(out, "  ", &(words.join(", ") + "."));
+    if found.is_same(earlier) {
+        columns::paragraph(out, "  ", &format!("WARNING: {}", texts::SAME_READINGS_WORDS.of(Language::English)));
+    }
     if let Some(verdict) = verdict {
         let _ =
             writeln!(out, "Change compared with the tolerance of the type, which the paper states as an instability:");

@@ -1,6 +1,6 @@
 //! Text in columns that fits the terminal. Where there is none, lines have at most 100 characters.
 
-use super::page::number::superscripts;
+use super::page::number::{THIN_BLANK, superscripts};
 use super::style;
 use crate::text::printable;
 use std::fmt::Write;
@@ -101,8 +101,8 @@ fn wrapped(out: &mut String, mut column: usize, indent: usize, words: &str, colu
             out.push(' ');
             column += 1;
         }
-        // The non-breaking spaces of pages have done their work in `unbroken`.
-        out.push_str(&word.replace('\u{A0}', " "));
+        // The non-breaking spaces of pages have done their work in `unbroken`; a terminal groups no digits.
+        out.push_str(&word.replace('\u{A0}', " ").replace(THIN_BLANK, ""));
         column += width;
     }
     out.push('\n');

@@ -17,6 +17,7 @@
 //! * `plan`: the best positions, and what they cannot see.
 //! * `picture`: the contents of a document as pictures.
 //! * `recertification`: a new certificate of a stand, and the successors of its passports.
+//! * `recorded`: what the digits of the currents show.
 //! * `register`: the passports in a folder and their states.
 //! * `selftest`: the reference cases.
 //! * `simulation`: the tables of simulations.
@@ -42,6 +43,7 @@ pub(crate) mod picture;
 pub(crate) mod plan;
 #[cfg(feature = "factory")]
 pub(crate) mod recertification;
+pub(crate) mod recorded;
 pub(crate) mod register;
 pub(crate) mod selftest;
 pub(crate) mod simulation;

@@ -13,6 +13,9 @@ const FARTHEST_PILLAR_M: f64 = 5_000.0;
 /// Largest distance of the mark from the pillar, m.
 const FARTHEST_MARK_M: f64 = 50_000.0;
 
+/// Ratio of the distances from the site to the pillar and to the mark above which the two are taken to be exchanged.
+const MARK_AT_THE_SITE: f64 = 5.0;
+
 /// Largest difference between measured and normal gravity, m/s².
 const LARGEST_ANOMALY_M_PER_S2: f64 = 5e-3;
 
@@ -69,6 +72,13 @@ impl Site {
             let found = format!("{}, {metres:.0} m{in_latitude} from the site at {of_site}", coordinates(pillar));
             let advice = advice("site and pillar", site, |place| earth::distance_m(place, pillar) <= FARTHEST_PILLAR_M);
             let expected = format!("a pillar within {FARTHEST_PILLAR_M} m of the site");
+            problems.at(&at.key("pillar_latitude_deg"), found, expected, advice);
+        }
+        let [to_pillar, to_mark] = [pillar, mark].map(|to| earth::distance_m(site, to));
+        if self.longitude_deg.is_some() && to_pillar <= FARTHEST_PILLAR_M && to_pillar > MARK_AT_THE_SITE * to_mark {
+            let found =
+                format!("{}, {to_pillar:.0} m from the site, but the mark {to_mark:.0} m from it", coordinates(pillar));
+            let (expected, advice) = ("a pillar at the site", "check whether pillar and mark are exchanged");
             problems.at(&at.key("pillar_latitude_deg"), found, expected, advice);
         }
         if let Some(metres) = farther_than(FARTHEST_MARK_M, pillar, mark) {

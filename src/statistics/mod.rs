@@ -6,6 +6,7 @@
 //! * `scaled_f`: the distribution of a chi-square whose covariance was partly estimated.
 //! * [`outlier`]: Bartlett's test for unequal variances, Cochran's for the largest variance, Grubbs' for an outlier.
 //! * [`propagation`]: the law of propagation of uncertainty for any model with its gradient.
+//! * `coincidences`: readings that are copies of earlier ones.
 //! * [`random`]: streams of random numbers that do not depend on the number of threads or on the platform.
 //! * [`wide_random`]: many random numbers at a time; [`elementary`]: the sine, cosine and logarithm for them.
 //! * [`straight_line`]: a straight line through points of known uncertainty; Holm's correction for many tests.
@@ -15,6 +16,7 @@
 pub(crate) mod beta;
 #[cfg(feature = "monte-carlo")]
 pub(crate) mod bins;
+pub(crate) mod coincidences;
 pub(crate) mod distributions;
 pub(crate) mod elementary;
 pub(crate) mod least_squares;

@@ -51,6 +51,10 @@ fn replaced(place: &str, column: usize, value: impl Fn(&str) -> String) -> Strin
     lines.collect()
 }
 
+fn angles_of(line: &str) -> [String; 3] {
+    std::array::from_fn(|axis| line.split(',').nth(3 + axis).unwrap().to_owned())
+}
+
 #[test]
 fn bad_readings_are_refused_with_their_place() {
     let folder = folder("bad");
@@ -64,6 +68,20 @@ fn bad_readings_are_refused_with_their_place() {
         .collect();
     let degrees = |text: &str| format!("{}", text.parse::<f64>().unwrap() / 3600.0);
     let twice = |text: &str| format!("{}", text.parse::<f64>().unwrap() * 3600.0);
+    // The readings of a run replaced: by its row and all lines of readings, those of run 1 first.
+    let readings: Vec<String> = good.lines().filter(|line| line.starts_with(['1', '2'])).map(str::to_owned).collect();
+    let of_run = |run: &str, angles: fn(usize, &[String]) -> [String; 3]| {
+        let mut row = 0;
+        let lines = good.lines().map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            if cells.get(2) != Some(&run) {
+                return format!("{line}\n");
+            }
+            row += 1;
+            format!("{},{},{run},{}\n", cells[0], cells[1], angles(row - 1, &readings).join(","))
+        });
+        lines.collect::<String>()
+    };
     let cases: Vec<(String, i32, &[&str])> = vec![
         (one_run, 1, &["one run", "repeatability can be estimated", "better five"]),
         (without("2,3,4,"), 2, &["no reading of position (2, 3) in run 4", "omit the whole run"]),
@@ -75,6 +93,27 @@ fn bad_readings_are_refused_with_their_place() {
         (replaced("1,1,2,", 3, |_| "170000".into()), 2, &["45 degrees", "in arcseconds"]),
         (replaced("1,1,2,", 3, |_| "x".into()), 2, &["r.csv:11:7", "a number"]),
         (replaced("1,1,2,", 2, |_| "0".into()), 2, &["run", "a whole number from 1"]),
+        (of_run("2", |_, _| ["0", "0", "0"].map(str::to_owned)), 2, &["r.csv:11:5", "run 2, whose angles are all 0"]),
+        (
+            of_run("3", |row, lines| angles_of(&lines[(row + 1) % 8])),
+            2,
+            &["r.csv:19:5", "in the row below", "are shifted"],
+        ),
+        (of_run("3", |row, lines| angles_of(&lines[(row + 7) % 8])), 2, &["r.csv:19:5", "in the row above"]),
+        (
+            of_run("4", |row, lines| angles_of(&lines[if row < 4 { row } else { row + 24 }])),
+            2,
+            &[
+                "r.csv:27:7",
+                "the angles of run 1 again in run 4 of position (1, 1)",
+                "and 3 more of this kind, up to line 30",
+            ],
+        ),
+        (
+            good.clone() + &good.lines().last().unwrap().replace("2,4,5", "1,1,5") + "\n",
+            2,
+            &["again, after another position"],
+        ),
         (good.replace("run,", ""), 2, &["no column run"]),
         (String::new(), 2, &["empty file"]),
     ];
@@ -119,9 +158,9 @@ fn form_does_not_matter() {
     let lines: Vec<String> = example("angles.csv").lines().skip(1).map(str::to_owned).collect();
     let turned = lines.iter().rev().map(|line| line.split(',').rev().collect::<Vec<_>>().join(" , "));
     let mut turned: Vec<String> = turned.collect();
-    turned.insert(0, turned[turned.len() - 1].clone());
-    let last = turned.len() - 1;
-    turned[last] = turned[1].clone();
+    let header = turned.pop().unwrap();
+    turned.insert(0, header);
+    turned.insert(1, turned[1].clone());
     fs::write(folder.join("r.csv"), turned.join("\r\n")).unwrap();
     let (code, text, said) = run(&folder, "r.csv --stand header.yaml -o other.yaml");
     assert_eq!(code, 0, "{said}");
@@ -159,7 +198,18 @@ fn a_check_has_an_exit_code() {
     let found: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert!(code == 1 && found["comparison"]["same_stand"] == false, "{text}");
     assert!(found["not_certified"].as_str().unwrap().starts_with("found one run"));
-    let (code, text, said) = run(&folder, "angles.csv --against stand.yaml --format json");
+    // Those of the certificate, saved anew, show nothing new; two of its runs agree as closely as another measurement.
+    for (name, again) in
+        [("same.csv", example("angles.csv")), ("anew.csv", example("angles.csv").replace('\n', "\r\n"))]
+    {
+        fs::write(folder.join(name), again).unwrap();
+        let (code, text, _) = run(&folder, &format!("{name} --against stand.yaml"));
+        assert!(code == 1 && text.starts_with("✕ UNDECIDED"), "{text}");
+    }
+    let two_runs = |line: &&str| line.starts_with(['#', 'i']) || matches!(line.split(',').nth(2), Some("1" | "2"));
+    let two_runs: String = example("angles.csv").lines().filter(two_runs).map(|line| format!("{line}\n")).collect();
+    fs::write(folder.join("two.csv"), two_runs).unwrap();
+    let (code, text, said) = run(&folder, "two.csv --against stand.yaml --format json");
     let found: serde_json::Value = serde_json::from_str(&text).unwrap();
     assert!(code == 0 && found["comparison"]["same_stand"] == true, "{said}{text}");
     assert_eq!(found["certification"]["stand"]["positions"].as_array().unwrap().len(), 8);

@@ -127,13 +127,9 @@ impl Way {
 
     fn recertification(&mut self) {
         let old = fs::read_to_string(programs::project("docs/angles.csv")).unwrap();
-        // Other readings of the same stand: copies are refused.
-        let new = old.lines().enumerate().map(|(number, line)| match line.rsplit_once(',') {
-            Some((rest, gamma)) if gamma.parse::<f64>().is_ok() => {
-                format!("{rest},{:.2}\n", gamma.parse::<f64>().unwrap() + (number * 7 % 13) as f64 / 26.0)
-            }
-            _ => format!("{line}\n"),
-        });
+        // Two of the runs: the same readings are refused, and so are those that hardly differ from them.
+        let first_two = |line: &&str| line.starts_with(['#', 'i']) || matches!(line.split(',').nth(2), Some("1" | "2"));
+        let new = old.lines().filter(first_two).map(|line| format!("{line}\n"));
         fs::write(self.path("readings/0017-2.csv"), new.collect::<String>()).unwrap();
         if self.workspace {
             self.types(

@@ -244,9 +244,12 @@ fn readings_that_do_not_fit_are_said_not_to() {
 fn what_nobody_stated_is_named() {
     let folder = Folder::new();
     let (page, result) = folder.page(CURRENTS, &[VERIFIED]);
-    assert_eq!(result["not_stated"].as_array().unwrap().len(), 6);
+    assert_eq!(result["not_stated"].as_array().unwrap().len(), 8);
     let gyro = ["gyro noise from visit to visit", "gyro noise from turn-on to turn-on"];
-    for words in ["latitude", "azimuth of the base", "level of the base", "gyro seat"].into_iter().chain(gyro) {
+    let meter = ["gain of the meter", "offset of the meter"];
+    for words in
+        ["latitude", "azimuth of the base", "level of the base", "gyro seat"].into_iter().chain(meter).chain(gyro)
+    {
         assert!(page.contains(&format!("{words}</")), "{words}");
     }
     assert!(page.contains("No gyro type was specified"), "and no verdict is made up");

@@ -158,16 +158,20 @@ fn visits(text: &str) -> Vec<(u32, u32, usize)> {
 /// another cycle begins a new one; with it the number counts, in any order of rows.
 #[test]
 fn visits_are_told_by_the_column_or_by_the_order() {
-    let plain = "i,j,jx_ma,jy_ma\n1,1,0.1,0.2\n1,1,0.1,0.2\n1,2,0.1,0.3\n1,1,0.1,0.2\n";
+    let plain = "i,j,jx_ma,jy_ma\n1,1,0.1,0.2\n1,1,0.1,0.3\n1,2,0.1,0.3\n1,1,0.1,0.4\n";
     assert_eq!(visits(plain), [(1, 1, 2), (1, 2, 1)]);
     let header = "i,j,jx_ma,jy_ma,cycle,visit,time_s\n";
     let numbered =
-        ["1,1,0.1,0.2,1,2,5.5", "1,1,0.1,0.2,1,1,0", "1,1,0.1,0.2,2,1,12", "1,2,0.1,0.2,2,1,13", "1,1,0.1,0.2,1,2,9"]
+        ["1,1,0.1,0.2,1,2,5.5", "1,1,0.1,0.3,1,1,0", "1,1,0.1,0.2,2,1,12", "1,2,0.1,0.2,2,1,13", "1,1,0.1,0.5,1,2,9"]
             .join("\n");
     assert_eq!(visits(&format!("{header}{numbered}\n")), [(1, 2, 2), (1, 1, 1), (2, 1, 1)]);
     let setup = paper();
     let good = good(&setup);
-    let cycles: String = good.lines().skip(1).flat_map(|line| [1, 2, 2].map(|c| format!("{line},{c}\n"))).collect();
+    let thrice = |line: &str| {
+        let x = line.rsplit_once(',').unwrap().0;
+        [(1, 1), (2, 2), (3, 2)].map(|(row, cycle)| format!("{x},0.{row},{cycle}\n"))
+    };
+    let cycles: String = good.lines().skip(1).flat_map(thrice).collect();
     let readings = read(&setup, &format!("i,j,jx_ma,jy_ma,cycle\n{cycles}")).unwrap();
     let first: Vec<_> = readings.positions()[0].visits.iter().map(|v| (v.cycle, v.number, v.each_ma.len())).collect();
     assert_eq!(first, [(1, 1, 1), (2, 1, 2)]);

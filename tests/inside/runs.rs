@@ -341,6 +341,16 @@ fn a_drift_is_named() {
     assert!(fitted.refused[0].1.to_string().contains("need least squares"), "{:?}", fitted.refused);
     assert!(fitted.drift_test.is_none());
 
+    // An error of one reading looks like a drift, which does not explain it.
+    let mut row = 0;
+    let slip = || {
+        row += 1;
+        if row == 8 { Vector2::new(1.0, 0.0) } else { Vector2::zeros() }
+    };
+    let found = solved(&setup, &Drifting::none().read(&setup, &plan, slip), &Options::default());
+    let test = found.drift_test.unwrap();
+    assert!(test.probability < 1e-6 && !test.is_significant() && found.hint.is_some(), "{test:?}");
+
     let untimed = crate::inside::reference::readings(&setup, &currents(&setup, &gvk_6()));
     assert_eq!(calibrate(&setup, &untimed, &drifting(Model::Paper)).unwrap_err(), NoLeastSquares::NoTimes);
     let at_once: Vec<Planned> = plan.iter().map(|(place, cycle, _)| (*place, *cycle, 5.0)).collect();

@@ -199,6 +199,10 @@ fn exchanged_coordinates_and_wrong_signs_are_named() {
         &format!("{{latitude_deg: 37.6856, longitude_deg: {mark}"),
     );
     refused(&exchanged, &["azimuth_mark.latitude_deg: ", "latitude and longitude exchanged"]);
+    // Mark and pillar exchanged, 2 km apart: the site is at the mark.
+    let far = place_at(Place { latitude_deg: moscow[0], longitude_deg: moscow[1] }, 180.0, 2000.0);
+    let words = ["azimuth_mark.pillar_latitude_deg: ", "2000 m from the site", "whether pillar and mark are exchanged"];
+    refused(&with_pillar(moscow, [far.latitude_deg, far.longitude_deg], 2000.0), &words);
     // Latitudes that are none, next to longitudes that could be latitudes: Beijing.
     refused("latitude_deg: 116.3856\nlongitude_deg: 39.9658", &["here.yaml:3:15: latitude_deg: ", "exchanged"]);
     refused("astronomic_latitude_deg: 116.3856\nlongitude_deg: 39.9658", &["here.yaml:3:", "exchanged"]);

@@ -283,16 +283,18 @@ fn inputs_as_stated() {
     assert_eq!(stated.uncertainty.deflection_rad, arcsec(10.0));
     assert_eq!(stated.uncertainty.azimuth_rad, arcsec(30.0));
     let words: Vec<&str> = stated.missing.iter().map(|what| what.words()).collect();
-    assert_eq!(words, ["common part of the base (common_base_arcsec)", "gyro seat (seating_arcsec)"]);
+    let [gain, offset] = ["gain of the meter (meter.gain_percent)", "offset of the meter (meter.offset_ma)"];
+    assert_eq!(words, ["common part of the base (common_base_arcsec)", "gyro seat (seating_arcsec)", gain, offset]);
     laboratory.base = Some(dtg_passport::laboratory::Base { azimuth_arcsec: Some(10.0), level_arcsec: None });
     let stated = Stated::new(&stand.certificate, &stand.positions, &site, &laboratory);
     assert_eq!(stated.uncertainty.azimuth_rad, arcsec(10.0));
     assert_eq!(stated.uncertainty.level_rad, arcsec(5.0));
     let (setup, missing) = Setup::stated(&stand.certificate, &stand.positions, &site, &laboratory).unwrap();
-    assert_eq!((setup.coefficients().positions.len(), missing.len()), (1, 2));
+    assert_eq!((setup.coefficients().positions.len(), missing.len()), (1, 4));
 }
 
-/// One part that is stated does not hide another that is not: latitude and deflection, base and mark, g.
+/// One part that is stated does not hide another that is not: latitude and deflection, base and mark, g. A stated 0 is as
+/// good as none.
 #[test]
 fn every_part_that_is_not_stated_is_named() {
     let stand = Stand::from_yaml("stand.yaml", STAND.as_bytes()).unwrap();
@@ -302,7 +304,7 @@ fn every_part_that_is_not_stated_is_named() {
         let missing = Stated::new(&stand.certificate, &stand.positions, &site, &laboratory).missing;
         missing
             .into_iter()
-            .filter(|what| ![NotStated::Base, NotStated::Seat].contains(what))
+            .filter(|what| ![NotStated::Base, NotStated::Seat, NotStated::Gain, NotStated::Offset].contains(what))
             .map(NotStated::words)
             .collect::<Vec<_>>()
     };
@@ -317,6 +319,7 @@ fn every_part_that_is_not_stated_is_named() {
     ];
     assert!(missing(SITE).is_empty());
     assert_eq!(missing(&SITE.replace("latitude_arcsec: 1.0, ", "")), [latitude]);
+    assert_eq!(missing(&SITE.replace("latitude_arcsec: 1.0, ", "latitude_arcsec: 0.0, ")), [latitude]);
     assert_eq!(missing(&format!("{SITE}deflection_arcsec: {{xi: 1.0, eta: 2.0}}\n")), [deflection]);
     assert_eq!(missing(&format!("{}{mark}", SITE.replace("azimuth_arcsec: 30.0, ", ""))), [azimuth]);
     assert_eq!(missing(&format!("{SITE}{}", mark.replace(", position_u_m: 0.02", ""))), [of_mark]);

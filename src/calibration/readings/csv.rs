@@ -1,7 +1,9 @@
 //! Currents from CSV: `i,j,jx_ma,jy_ma`, and optionally `cycle`, `visit`, `time_s`.
 
-use super::{Reading, Readings};
+use super::{PositionReadings, Reading, Readings};
+use crate::calibration::recorded::Recorded;
 use crate::coefficients::{Coefficients, PositionIndex};
+use crate::statistics::coincidences::{self, Coincidence};
 use crate::text::Unreadable;
 use crate::text::problem::{MOST_PROBLEMS, Problem};
 use crate::text::table::{Row, Table};
@@ -57,9 +59,15 @@ impl Readings {
         if !problems.is_empty() {
             return Err(table.refuse(problems));
         }
-        let readings = Self::of_rows(coefficients, &readings)
+        let rows = readings;
+        let mut readings = Self::of_rows(coefficients, &rows)
             .map_err(|error| Unreadable::whole(name, None, error.to_string(), "a reading of every position", ""))?;
-        Ok(Self { remark: table.remark(), ..readings })
+        let recorded = Recorded::of(&mut readings.positions);
+        problems = copies(&table, &rows, &readings.positions);
+        if !problems.is_empty() {
+            return Err(table.refuse(problems));
+        }
+        Ok(Self { recorded, remark: table.remark(), ..readings })
     }
 }
 
@@ -188,6 +196,26 @@ fn lone_cycles(readings: &[Reading]) -> Vec<Problem> {
         Problem::whole(format!("one position alone in cycle {cycle}"), "at least two positions in every cycle", advice)
     })
     .collect()
+}
+
+/// Returns a problem for each reading of `kept` that is a copy of an earlier one of its position, if there are more than
+/// chance explains.
+fn copies(table: &Table, readings: &[Reading], kept: &[PositionReadings]) -> Vec<Problem> {
+    let each = |at: &PositionReadings| -> Vec<[f64; 2]> {
+        at.visits.iter().flat_map(|visit| &visit.each_ma).map(|row| (*row).into()).collect()
+    };
+    let numbers: Vec<Vec<[f64; 2]>> = kept.iter().map(each).collect();
+    let problem = |Coincidence { quantity, reading, .. }: Coincidence| {
+        let alike = |(row, _): &(&Reading, _)| {
+            row.index == kept[quantity].index && <[f64; 2]>::from(row.current_ma) == numbers[quantity][reading]
+        };
+        let mut rows = readings.iter().zip(&table.rows).filter(alike).map(|(_, row)| row);
+        let (earlier, row) = (rows.next()?, rows.next_back()?);
+        let found = format!("the currents of line {} again", earlier.cells[0].location.line);
+        let advice = "delete the copy and measure again, or, if both were measured, record more digits";
+        Some(table.problem(&row.cells[2], 2, found, "independent readings", advice))
+    };
+    coincidences::copies(&numbers).into_iter().filter_map(problem).take(MOST_PROBLEMS).collect()
 }
 
 /// Returns a problem if the currents of an axis are all zero.

@@ -1,9 +1,13 @@
-//! Errors of a whole run: a copy of another run, another unit, the opposite sign, exchanged or reversed axes.
+//! Errors of a run: copies from another run, all zeros, another unit, the opposite sign, exchanged or reversed axes, rows
+//! of other positions.
 
 use super::{OtherRuns, Reading, averages};
-use crate::text::problem::Problem;
+use crate::coefficients::PositionIndex;
+use crate::statistics::coincidences::{self, Coincidence};
+use crate::text::problem::{MOST_PROBLEMS, Problem};
 use crate::text::table::Table;
-use std::collections::BTreeMap;
+use nalgebra::Vector3;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Factors by which the angles of a run in another unit are too small, with the name of the unit.
 const UNITS: [(f64, &str); 3] =
@@ -17,18 +21,54 @@ const SAME_ANGLES: f64 = 0.9;
 
 /// Returns a problem for every run that is a copy or has another scale or other axes, at the line on which it begins.
 pub(super) fn problems(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
-    let copies = copies(table, rows);
-    if !copies.is_empty() {
-        return copies;
-    }
-    let other_scales = other_scales(table, rows, others);
-    if other_scales.is_empty() { other_axes(table, rows, others) } else { other_scales }
+    let each: [&dyn Fn() -> Vec<Problem>; 6] = [
+        &|| zeros(table, rows),
+        &|| copies(table, rows),
+        &|| single_copies(table, rows),
+        &|| other_scales(table, rows, others),
+        &|| other_axes(table, rows, others),
+        &|| other_rows(table, rows, others),
+    ];
+    each.iter().map(|problems| problems()).find(|problems| !problems.is_empty()).unwrap_or_default()
 }
 
 /// Returns a problem with the `run`, at its first row.
 fn at_run(table: &Table, rows: &[Reading], run: u32, found: String, expected: &str, advice: &str) -> Option<Problem> {
     let (.., row) = rows.iter().find(|((_, of), ..)| *of == run)?;
     Some(table.problem(&row.cells[2], 2, found, expected, advice))
+}
+
+/// Returns a problem for each run whose angles are all 0, unless those of all runs are.
+fn zeros(table: &Table, rows: &[Reading]) -> Vec<Problem> {
+    let measured: BTreeSet<u32> =
+        rows.iter().filter(|(_, angles, _)| *angles != Vector3::zeros()).map(|((_, run), ..)| *run).collect();
+    let runs: BTreeSet<u32> = rows.iter().map(|((_, run), ..)| *run).collect();
+    let zeros = runs.difference(&measured).filter(|_| !measured.is_empty());
+    let problem = |run: &u32| {
+        let found = format!("run {run}, whose angles are all 0");
+        at_run(table, rows, *run, found, "measured angles", "fill in the readings, or delete the run")
+    };
+    zeros.filter_map(problem).collect()
+}
+
+/// Returns a problem for each reading that is a copy of that of an earlier run, if there are more than chance explains.
+fn single_copies(table: &Table, rows: &[Reading]) -> Vec<Problem> {
+    let mut of_position: BTreeMap<PositionIndex, Vec<(u32, Vector3<f64>)>> = BTreeMap::new();
+    for ((index, run), (angles, _)) in averages(rows) {
+        of_position.entry(index).or_default().push((run, angles));
+    }
+    let numbers: Vec<Vec<[f64; 3]>> =
+        of_position.values().map(|readings| readings.iter().map(|(_, angles)| (*angles).into()).collect()).collect();
+    let places: Vec<_> = of_position.iter().collect();
+    let problem = |copy: Coincidence| {
+        let (index, readings) = places[copy.quantity];
+        let [(run, _), (earlier, _)] = [readings[copy.reading], readings[copy.earlier]];
+        let (.., row) = rows.iter().find(|(place, ..)| *place == (*index, run))?;
+        let found = format!("the angles of run {earlier} again in run {run} of position {index}");
+        let advice = "measure the copied readings, or, if all were measured, record more digits";
+        Some(table.problem(&row.cells[3], 3, found, "independent readings", advice))
+    };
+    coincidences::copies(&numbers).into_iter().filter_map(problem).take(MOST_PROBLEMS).collect()
 }
 
 /// Returns a problem for each run whose angles are exactly those of an earlier run.
@@ -169,4 +209,42 @@ fn other_axes(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Proble
         at_run(table, rows, run, found, "the axes of the other runs", advice)
     };
     sums.into_iter().filter_map(problem).collect()
+}
+
+/// Returns a problem for each run whose angles are those that the other runs have one row further up or down.
+///
+/// With two runs, the readings do not show which one is wrong; they give no problem.
+fn other_rows(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Problem> {
+    let mut of_run: BTreeMap<u32, Vec<&Reading>> = BTreeMap::new();
+    for row in rows {
+        of_run.entry(row.0.1).or_default().push(row);
+    }
+    if of_run.len() < 3 {
+        return Vec::new();
+    }
+    // Squared difference of angles from the other runs at the position of another row, and the squared range of those.
+    let difference = |angles: &Vector3<f64>, (at, ..): &Reading| -> Option<[f64; 2]> {
+        (0..3).try_fold([0.0; 2], |[sum, ranges], axis| {
+            let others = others.get(&(*at, axis))?;
+            let range = others.most - others.least;
+            Some([sum + (angles[axis] - others.nearest_middle(angles[axis])).powi(2), ranges + range * range])
+        })
+    };
+    let problem = |(run, readings): (u32, Vec<&Reading>)| {
+        let fits = |by: &isize| {
+            let (mut now, mut shifted, mut ranges, mut rows) = (0.0, 0.0, 0.0, 0);
+            for (place, reading) in readings.iter().enumerate() {
+                let Some(other) = place.checked_add_signed(*by).and_then(|place| readings.get(place)) else { continue };
+                let own = difference(&reading.1, reading).zip(difference(&reading.1, other));
+                let Some(([here, _], [there, range])) = own else { continue };
+                (now, shifted, ranges, rows) = (now + here, shifted + there, ranges + range, rows + 1);
+            }
+            rows > 2 && CLEARLY * f64::max(shifted, ranges) < now
+        };
+        let way = if [1, -1].into_iter().find(fits)? > 0 { "below" } else { "above" };
+        let found = format!("run {run}, whose angles the other runs have in the row {way}");
+        let advice = "the rows of the run are shifted; put the angles into the rows of their positions";
+        at_run(table, rows, run, found, "the angles of each position in its own row", advice)
+    };
+    of_run.into_iter().filter_map(problem).collect()
 }

@@ -15,6 +15,7 @@ use crate::report::page::passport::characteristics::starts;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::residuals::{AXES, Bars, key};
+use crate::report::recorded;
 use maud::{Markup, html};
 
 pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
@@ -71,6 +72,9 @@ fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
     let calibration = page.calibration;
     let rows = calibration.row_scatter.as_ref();
     html! {
+        @if let Some(digits) = &calibration.digits {
+            (languages.paragraph_with(|language| html! { (recorded::words(digits, language).join(" ")) }))
+        }
         @match rows.map(|rows| (rows, &rows.against_stated)) {
             Some((_, Some(stated))) => { (agreement(stated, texts::ROW_SCATTER, languages)) }
             Some((rows, None)) => {
@@ -223,6 +227,8 @@ pub(crate) fn not_stated(what: NotStated) -> Text {
         NotStated::Mark => texts::NOT_STATED_MARK,
         NotStated::Level => texts::NOT_STATED_LEVEL,
         NotStated::Seat => texts::NOT_STATED_SEAT,
+        NotStated::Gain => texts::NOT_STATED_GAIN,
+        NotStated::Offset => texts::NOT_STATED_OFFSET,
         NotStated::Visits => texts::NOT_STATED_VISITS,
         NotStated::TurnOns => texts::NOT_STATED_TURN_ONS,
         NotStated::Gravity => texts::NOT_STATED_GRAVITY,

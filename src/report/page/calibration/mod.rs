@@ -230,6 +230,10 @@ impl CalibrationPage<'_> {
         }
     }
 
+    fn is_from_the_readings_of(&self, earlier: &CalibrationDocument) -> bool {
+        self.result().answer().zip(earlier.answer()).is_some_and(|(found, earlier)| found.is_same(&earlier))
+    }
+
     /// Writes the warnings at the head of the report, the most serious first.
     fn headlines(&self, languages: &Languages) -> Markup {
         html! {
@@ -238,6 +242,9 @@ impl CalibrationPage<'_> {
             @if let Some(mistake) = &self.result().mistake {
                 @let words = languages.paragraph_with(|language| italic(&mistake::words(mistake, language)));
                 (boxed("verdict refused", languages.label(texts::MISTAKE), words))
+            }
+            @if self.previous.iter().any(|earlier| self.is_from_the_readings_of(earlier)) {
+                (warning(languages, texts::SAME_READINGS, texts::SAME_READINGS_WORDS))
             }
             (subject::temperature(self, languages))
             (self.verdict(languages))

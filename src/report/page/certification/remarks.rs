@@ -117,6 +117,7 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
         Finding::NotTested(Untested::CommonParts) => texts::NOT_TESTED_COMMON_PARTS,
         Finding::TreatedAsExact => texts::TREATED_AS_EXACT,
         Finding::SameReadings => texts::SAME_READINGS,
+        Finding::TooClose => texts::TOO_CLOSE,
     };
     text.words(language)
 }

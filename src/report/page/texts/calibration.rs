@@ -76,6 +76,13 @@ texts! {
         ru: "все токи занижены в {factor} раз"
     }
 
+    SAME_READINGS { en: "No change can be shown", ru: "Изменение установить нельзя" }
+    SAME_READINGS_WORDS {
+        en: "The previous result is from these same readings, so it does not show a change. Compare with the result of \
+             an earlier calibration.",
+        ru: "Прежний результат получен по этим же показаниям и изменения не показывает. Следует сравнить с \
+             результатом более ранней калибровки."
+    }
     SUBJECT { en: "Object, place and equipment of the calibration", ru: "Объект, место и средства калибровки" }
     TYPE { en: "Type", ru: "Тип" }
     SERIAL { en: "Serial number of the gyro", ru: "Заводской номер гироскопа" }
@@ -272,6 +279,26 @@ texts! {
         ru: "Рассеяние между установками больше, чем объясняют указанные неопределённости. По нему оценён шум \
              гироскопа, который учтён во всех неопределённостях."
     }
+    LAST_DIGIT {
+        en: "The currents are recorded to {digit} mA. Rounding to this digit has a standard uncertainty of {u} mA, which \
+             is larger than the stated constant part of the meter's error and takes its place. To reduce it, record more \
+             digits.",
+        ru: "Токи записаны с точностью до {digit} мА. Стандартная неопределённость округления {u} мА больше указанной \
+             постоянной части погрешности измерителя и принята вместо неё. Для уменьшения следует записывать больше \
+             знаков."
+    }
+    IDENTICAL_ROWS {
+        en: "All readings of a visit are identical, so they show no scatter: they are copies, or the last digit is too \
+             coarse. They count as one reading.",
+        ru: "Все показания одной установки одинаковы и не обнаруживают рассеяния: это копии, или последний знак слишком \
+             груб. Они учтены как одно показание."
+    }
+    IDENTICAL_VISITS {
+        en: "All visits to a position are identical, so they show no scatter: they are copies, or the last digit is too \
+             coarse. They count as one visit.",
+        ru: "Все установки в одно положение дали одинаковые показания и не обнаруживают рассеяния: это копии, или \
+             последний знак слишком груб. Они учтены как одна установка."
+    }
     LESS_THAN_STATED {
         en: "The variation is less than stated. Readings taken without leaving the position belong to one visit.",
         ru: "Рассеяние меньше указанного. Показания, снятые без выхода из положения, относятся к одной установке."
@@ -315,8 +342,8 @@ texts! {
              паспорту, технические условия на гироскоп и результаты его предыдущей калибровки."
     }
     NOT_STATED {
-        en: "Not stated, and not included in any uncertainty:",
-        ru: "Не указано и не учтено в неопределённости:"
+        en: "Not stated, or stated as 0, and not included in any uncertainty:",
+        ru: "Не указано (или указано равным нулю) и не учтено в неопределённости:"
     }
     ALL_STATED { en: "All relevant uncertainties are stated.", ru: "Все учитываемые неопределённости указаны." }
     NOT_STATED_ANGLES { en: "certified angles", ru: "аттестованные углы" }
@@ -326,6 +353,8 @@ texts! {
     NOT_STATED_LATITUDE { en: "latitude", ru: "широта" }
     NOT_STATED_DEFLECTION { en: "deflection of the vertical", ru: "уклонение отвесной линии" }
     NOT_STATED_MARK { en: "azimuth of the mark", ru: "азимут ориентирного пункта" }
+    NOT_STATED_GAIN { en: "gain of the meter", ru: "коэффициент преобразования измерителя" }
+    NOT_STATED_OFFSET { en: "offset of the meter", ru: "смещение нуля измерителя" }
     NOT_STATED_VISITS { en: "gyro noise from visit to visit", ru: "шум гироскопа от установки к установке" }
     NOT_STATED_TURN_ONS { en: "gyro noise from turn-on to turn-on", ru: "нестабильность гироскопа от запуска к запуску" }
     NOT_STATED_GRAVITY { en: "gravity", ru: "ускорение свободного падения" }

@@ -47,8 +47,10 @@ texts! {
              стандартное отклонение."
     }
     TWINS {
-        en: "Runs {one} and {other} agree more than 30 times better than other runs; one may be a copy of the other.",
-        ru: "Серии {one} и {other} согласуются более чем в 30 раз лучше остальных; возможно, одна из них — копия другой."
+        en: "Runs {one} and {other} agree more than 30 times better than other runs; one may be a copy of \
+             the other, or another run may contain an error.",
+        ru: "Серии {one} и {other} согласуются более чем в 30 раз лучше остальных; возможно, одна \
+             из них — копия другой, или ошибка содержится в другой серии."
     }
     AXES_DIFFER {
         en: "The variances about x, y and z differ (Bartlett’s test, p = {p}). The repeatability is pooled from all \
@@ -155,6 +157,12 @@ texts! {
              appear more significant than they are.",
         ru: "Неопределённость некоторых углов в сертификате не указана; эти углы приняты точными, поэтому значимость \
              различий завышена."
+    }
+    TOO_CLOSE {
+        en: "The readings agree with the certificate better than the repeatability of the stand allows; they may be those of \
+             the certificate.",
+        ru: "Показания согласуются с сертификатом лучше, чем допускает повторяемость стенда; возможно, по ним и выдан \
+             сертификат."
     }
     SAME_READINGS {
         en: "The certificate was computed from these readings; they do not show the present state of the stand.",

@@ -1,0 +1,151 @@
+//! The last digit of readings, and readings that are identical to an earlier one more often than chance explains: copies.
+
+use super::distributions::chi_square_larger;
+use std::collections::BTreeMap;
+
+/// Probability by chance below which identical readings are taken for copies.
+const COPIED: f64 = 1e-4;
+
+/// Decimals of a number in scientific notation that count; further ones are rounding of a computation in binary.
+const MOST_DECIMALS: usize = 14;
+
+/// Ratio of a last digit to the number below which the number was computed.
+const COMPUTED: f64 = 1e-11;
+
+/// Reading that is identical to an earlier one of the same quantity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Coincidence {
+    /// Quantity, counted from 0.
+    pub(crate) quantity: usize,
+    /// Reading, counted from 0 among those of the quantity.
+    pub(crate) reading: usize,
+    /// First reading with the same numbers.
+    pub(crate) earlier: usize,
+}
+
+/// Returns the readings that are identical to an earlier one in all `N` numbers if there are more than chance explains;
+/// otherwise none. `quantities` contains the independent readings of each quantity.
+///
+/// Two readings agree in one number with at most the ratio of its step to the usual difference of two readings as
+/// probability, so that coincidences of readings with few digits are not taken for copies. The number of coincidences by
+/// chance has about a Poisson distribution.
+pub(crate) fn copies<const N: usize>(quantities: &[Vec<[f64; N]>]) -> Vec<Coincidence> {
+    let mut found = Vec::new();
+    for (quantity, readings) in quantities.iter().enumerate() {
+        let mut first = BTreeMap::new();
+        for (reading, numbers) in readings.iter().enumerate() {
+            let earlier = *first.entry(numbers.map(|number| (number + 0.0).to_bits())).or_insert(reading);
+            if earlier != reading {
+                found.push(Coincidence { quantity, reading, earlier });
+            }
+        }
+    }
+    if found.is_empty() {
+        return found;
+    }
+    let agree = |column: usize| {
+        let of = |readings: &Vec<[f64; N]>| readings.iter().map(|reading| reading[column]).collect::<Vec<_>>();
+        let step = step(&quantities.iter().map(of).collect::<Vec<_>>());
+        let differing = quantities.iter().flat_map(|readings| readings.windows(2)).filter(|pair| pair[0] != pair[1]);
+        let mut differences: Vec<f64> = differing.map(|pair| (pair[1][column] - pair[0][column]).abs()).collect();
+        differences.sort_by(f64::total_cmp);
+        let usual = differences.get(differences.len() / 2).copied().unwrap_or(0.0);
+        if usual > step { step / usual } else { 1.0 }
+    };
+    let pairs: f64 =
+        quantities.iter().map(|readings| readings.len() as f64 * (readings.len() as f64 - 1.0) / 2.0).sum();
+    let expected = pairs * (0..N).map(agree).product::<f64>();
+    // P(N ≥ k) of a Poisson distribution with mean λ is P(χ² < 2λ) with 2k degrees of freedom.
+    let chance = 1.0 - chi_square_larger(2.0 * expected, 2 * found.len());
+    if chance > COPIED { Vec::new() } else { found }
+}
+
+/// Returns the step of numbers, a multiple of their last digit, or, if they were computed, their smallest difference within
+/// a quantity.
+fn step(quantities: &[Vec<f64>]) -> f64 {
+    let all = || quantities.iter().flatten().copied();
+    let (last, largest) = (last_digit(all()), all().fold(0.0, |largest: f64, number| largest.max(number.abs())));
+    if last > COMPUTED * largest {
+        return last * all().map(|number| (number / last).abs().round() as u64).fold(0, common_divisor) as f64;
+    }
+    let smallest = quantities.iter().filter_map(|numbers| {
+        let mut sorted = numbers.clone();
+        sorted.sort_by(f64::total_cmp);
+        let gaps = sorted.windows(2).map(|pair| pair[1] - pair[0]);
+        gaps.filter(|gap| *gap > COMPUTED * largest).reduce(f64::min)
+    });
+    smallest.reduce(f64::min).unwrap_or(largest)
+}
+
+/// Returns the greatest common divisor of two numbers, one of which may be 0.
+fn common_divisor(one: u64, other: u64) -> u64 {
+    if other == 0 { one } else { common_divisor(other, one % other) }
+}
+
+/// Returns the last decimal digit to which any of the numbers is written, or 0 if all are 0.
+pub(crate) fn last_digit(numbers: impl Iterator<Item = f64>) -> f64 {
+    let of_one = |number: f64| {
+        let written = format!("{number:.MOST_DECIMALS$e}");
+        let (mantissa, exponent) = written.split_once('e')?;
+        let decimals = mantissa.trim_end_matches('0').split_once('.')?.1.len() as i32;
+        let exponent: i32 = exponent.parse().ok()?;
+        (number != 0.0).then(|| libm::pow(10.0, f64::from(exponent - decimals)))
+    };
+    numbers.filter_map(of_one).reduce(f64::min).unwrap_or(0.0)
+}
+
+#[cfg(all(test, feature = "monte-carlo"))]
+mod tests {
+    use super::*;
+    use crate::statistics::random::Stream;
+
+    /// Normal readings of `quantities` in several runs, rounded to a `step` in standard deviations.
+    fn read<const N: usize>(stream: &mut Stream, [quantities, runs]: [usize; 2], step: f64) -> Vec<Vec<[f64; N]>> {
+        let reading = |stream: &mut Stream| [(); N].map(|()| (stream.normal() / step).round() * step);
+        (0..quantities).map(|_| (0..runs).map(|_| reading(stream)).collect()).collect()
+    }
+
+    /// Independent readings are no copies, with fine and with coarse steps. The bound on the probability is far from reached,
+    /// so that none of 6,000 sets may be.
+    #[test]
+    fn independent_readings_are_no_copies() {
+        let mut stream = Stream::new(51);
+        for step in [1e-3, 0.1, 0.3, 1.0, 3.0, 10.0] {
+            for _ in 0..500 {
+                assert_eq!(copies(&read::<3>(&mut stream, [8, 5], step)), []);
+                assert_eq!(copies(&read::<2>(&mut stream, [8, 3], step)), []);
+            }
+        }
+    }
+
+    /// Means of two rows have no last digit; on a coarse grid they are often identical all the same.
+    #[test]
+    fn means_of_coarse_readings_are_no_copies() {
+        let mut stream = Stream::new(53);
+        for step in [0.3, 1.0, 3.0] {
+            for _ in 0..300 {
+                let rows = [(); 3].map(|()| read::<3>(&mut stream, [8, 5], step));
+                let mean = |quantity: usize, run: usize| {
+                    std::array::from_fn(|axis| rows.iter().map(|rows| rows[quantity][run][axis]).sum::<f64>() / 3.0)
+                };
+                let means: Vec<Vec<[f64; 3]>> = (0..8).map(|at| (0..5).map(|run| mean(at, run)).collect()).collect();
+                assert_eq!(copies(&means), []);
+            }
+        }
+    }
+
+    /// Two readings of run 1 that stand again in run 4 are found, each with its first place.
+    #[test]
+    fn copies_are_found_at_their_places() {
+        let mut stream = Stream::new(52);
+        for _ in 0..100 {
+            let mut angles = read::<3>(&mut stream, [8, 5], 1e-3);
+            (angles[2][3], angles[6][3]) = (angles[2][0], angles[6][0]);
+            let copy = |quantity| Coincidence { quantity, reading: 3, earlier: 0 };
+            assert_eq!(copies(&angles), [copy(2), copy(6)]);
+            let mut currents = read::<2>(&mut stream, [8, 3], 1e-3);
+            currents.iter_mut().for_each(|readings| readings[2] = readings[1]);
+            assert_eq!(copies(&currents).len(), 8);
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Digits of the readings: their rounding, and repeated readings that are identical.
+
+use crate::inside::reference::*;
+use dtg_passport::calibration::parameter::Parameter;
+use dtg_passport::calibration::{Calibration, InputUncertainty, Options, Readings, Setup, calibrate};
+use dtg_passport::statistics::random::Stream;
+use nalgebra::Vector2;
+
+/// Last digit of a meter that shows milliamperes with four decimals.
+const DIGIT_MA: f64 = 1e-4;
+
+/// A stand with an exact certificate, and a meter whose stated floor is far below the digit.
+fn bench(seed: u64, noise_ma: f64) -> Setup {
+    let mut u = InputUncertainty::of_meter(paper_meter());
+    (u.meter.reading, u.meter.noise_ma) = (1e-7, noise_ma);
+    with_uncertainty(&drawn_stand(&mut Stream::new(seed), 2.0), LATITUDE_DEG, u)
+}
+
+/// CSV of `rows` readings of each position with normal noise, mA, each written with `decimals`.
+fn written(setup: &Setup, rows: usize, (stream, noise_ma): (&mut Stream, f64), decimals: usize) -> Vec<u8> {
+    let mut csv = "i,j,jx_ma,jy_ma\n".to_owned();
+    for (at, exact) in setup.coefficients().positions.iter().zip(currents(setup, &gvk_6())) {
+        for _ in 0..rows {
+            let read = exact.map(|j| j + noise_ma * stream.normal());
+            csv += &format!("{},{},{:.decimals$},{:.decimals$}\n", at.index.i, at.index.j, read.x, read.y);
+        }
+    }
+    csv.into_bytes()
+}
+
+fn solved(setup: &Setup, csv: &[u8]) -> Calibration {
+    let readings = Readings::from_csv("currents.csv", csv, setup.coefficients(), 1.0).unwrap();
+    calibrate(setup, &readings, &Options::default()).unwrap()
+}
+
+fn u(calibration: &Calibration, parameter: Parameter) -> f64 {
+    calibration.answer().unwrap().standard_uncertainty(parameter).unwrap()
+}
+
+/// Mean of chi-square per degree of freedom, and the share of the parameters of `count` gyros on different stands that are
+/// within two standard uncertainties of the truth.
+fn over_stands(count: u64, rows: usize, noise_ma: f64, stated_ma: f64) -> (f64, f64) {
+    let (mut fit, mut covered) = (0.0, 0.0);
+    for seed in 0..count {
+        let (setup, mut stream) = (bench(seed, stated_ma), Stream::new(seed + 1000));
+        let found = solved(&setup, &written(&setup, rows, (&mut stream, noise_ma), 4));
+        let answer = found.answer().unwrap();
+        fit += answer.chi_square.value / answer.chi_square.degrees_of_freedom as f64;
+        let (values, truth) = (answer.parameters.to_vector(), gvk_6().to_vector());
+        let near = |parameter: &Parameter| {
+            let place = parameter.place();
+            (values[place] - truth[place]).abs() <= 2.0 * u(&found, *parameter)
+        };
+        covered += Parameter::EIGHT.iter().filter(|parameter| near(parameter)).count() as f64 / 8.0;
+    }
+    (fit / count as f64, covered / count as f64)
+}
+
+/// Expected: a digit of 1e-4 mA has the standard uncertainty 1e-4/√12 mA (JCGM 100, F.2.2.1). With it chi-square has its
+/// degrees of freedom as the mean, and two standard uncertainties cover 95 % of a normal distribution; the mean of 200
+/// fits with 8 degrees of freedom has a standard deviation of √(2/8/200) = 0.035.
+#[test]
+fn readings_with_few_digits_have_the_uncertainty_of_their_rounding() {
+    let (fit, covered) = over_stands(200, 1, 0.0, 0.0);
+    assert!((fit - 1.0).abs() < 4.0 * 0.035, "{fit}");
+    assert!((0.93..0.975).contains(&covered), "{covered}");
+}
+
+/// Expected: as above; noise of one digit makes the roundings of ten rows independent, so that their mean is better than
+/// the digit. The noise is estimated from the rows.
+#[test]
+fn noise_that_spreads_over_digits_takes_the_rounding_with_it() {
+    let (fit, covered) = over_stands(200, 10, DIGIT_MA, 0.0);
+    assert!((fit - 1.0).abs() < 4.0 * 0.035, "{fit}");
+    assert!((0.93..0.975).contains(&covered), "{covered}");
+    let setup = bench(1, 0.0);
+    let found = solved(&setup, &written(&setup, 10, (&mut Stream::new(2), DIGIT_MA), 4));
+    assert_eq!(found.digits, None);
+}
+
+/// Expected: the uncertainty is proportional to the digit, and does not change where the stated floor is larger.
+#[test]
+fn the_rounding_takes_the_place_of_a_smaller_floor_only() {
+    let mut setup = bench(1, 0.0);
+    let found = [2, 3, 4].map(|decimals| solved(&setup, &written(&setup, 1, (&mut Stream::new(2), 0.0), decimals)));
+    let digits = found.each_ref().map(|found| found.digits.unwrap().last_digit_ma.unwrap());
+    for (digit, expected) in digits.into_iter().zip([1e-2, 1e-3, 1e-4]) {
+        assert!((digit / expected - 1.0).abs() < 1e-12, "{digit}");
+    }
+    let [_, coarse, fine] = found.each_ref().map(|found| u(found, Parameter::Omega0x));
+    assert!((coarse / fine / 10.0 - 1.0).abs() < 0.02, "{coarse} {fine}");
+    let seven = solved(&setup, &written(&setup, 1, (&mut Stream::new(2), 0.0), 7));
+    assert_eq!(seven.digits, None);
+    setup = setup.with_floor(3e-5);
+    let stated = solved(&setup, &written(&setup, 1, (&mut Stream::new(2), 0.0), 4));
+    assert_eq!(stated.digits, None);
+    assert!((u(&stated, Parameter::Omega0x) / fine - 3e-5 / (1e-4 / 12_f64.sqrt())).abs() < 1e-3);
+}
+
+/// Expected: copies of rows or of visits add nothing to one reading, neither a smaller uncertainty nor a noise of 0.
+#[test]
+fn copies_of_readings_count_as_one() {
+    let setup = bench(1, 2e-6);
+    let once = written(&setup, 1, (&mut Stream::new(2), 2e-6), 8);
+    let rows: Vec<&str> = std::str::from_utf8(&once).unwrap().lines().skip(1).collect();
+    let one = solved(&setup, &once);
+    let thrice = |repeated: Vec<String>, head: &str| format!("{head}\n{}\n", repeated.join("\n")).into_bytes();
+    let of_rows = thrice(rows.iter().flat_map(|row| [*row; 3].map(str::to_owned)).collect(), "i,j,jx_ma,jy_ma");
+    let numbered = |number: usize| rows.iter().map(move |row| format!("{number},{row}"));
+    let of = |what: &str| thrice((1..=3).flat_map(numbered).collect(), &format!("{what},i,j,jx_ma,jy_ma"));
+    for (csv, [identical_rows, identical_visits]) in
+        [(of_rows, [true, false]), (of("visit"), [false, true]), (of("cycle"), [false, true])]
+    {
+        let found = solved(&setup, &csv);
+        let digits = found.digits.unwrap();
+        assert_eq!([digits.identical_rows, digits.identical_visits], [identical_rows, identical_visits]);
+        assert_eq!(
+            (&found.results, found.visit_noise, found.turn_on_noise),
+            (&one.results, one.visit_noise, one.turn_on_noise)
+        );
+        assert_eq!((found.row_scatter, found.scatter), (None, None));
+        assert_eq!(found.noise_not_stated().count(), 2);
+    }
+}
+
+/// A number from a computation in binary has no last digit, but one that a spreadsheet converted from microamperes has.
+#[test]
+fn the_last_digit_is_that_of_the_decimal_number() {
+    let setup = bench(1, 0.0);
+    let each = |scale: fn(f64) -> f64| {
+        let rows = setup.coefficients().positions.iter().zip(currents(&setup, &gvk_6()));
+        let csv = rows.map(|(at, exact)| {
+            let read: Vector2<f64> = exact.map(scale);
+            format!("{},{},{},{}\n", at.index.i, at.index.j, read.x, read.y)
+        });
+        solved(&setup, format!("i,j,jx_ma,jy_ma\n{}", csv.collect::<String>()).as_bytes()).digits
+    };
+    assert_eq!(each(|exact| exact), None);
+    let converted = each(|exact| (exact * 1e4).round() * 0.1 * 1e-3).unwrap().last_digit_ma.unwrap();
+    assert!((converted / DIGIT_MA - 1.0).abs() < 1e-12, "{converted}");
+}
+
+/// Expected: visits that differ by their rounding alone show no noise of the gyro beyond a third of that rounding.
+#[test]
+fn rounding_is_not_taken_for_noise_of_the_gyro() {
+    let setup = bench(3, 0.0);
+    let mut noises = Vec::new();
+    for seed in 0..50 {
+        // Readings within half a digit of each other, which are rounded to different digits here and there.
+        let rows = written(&setup, 3, (&mut Stream::new(seed), 0.15 * DIGIT_MA), 4);
+        let rows = std::str::from_utf8(&rows).unwrap().lines().skip(1).enumerate();
+        let visits: String = rows.map(|(row, line)| format!("{line},{}\n", row % 3 + 1)).collect();
+        let found = solved(&setup, format!("i,j,jx_ma,jy_ma,visit\n{visits}").as_bytes());
+        assert!(found.digits.unwrap().last_digit_ma.is_some());
+        noises.push(found.visit_noise.deg_per_h / (95.0 * DIGIT_MA / 12_f64.sqrt()));
+    }
+    let mean = noises.iter().sum::<f64>() / noises.len() as f64;
+    assert!(mean < 0.5, "{mean}");
+}
