@@ -14,6 +14,7 @@ use super::stated::NotStated;
 use super::verdict::{Found, Verdict, against_earlier, against_type};
 use crate::coefficients::PositionIndex;
 use crate::gyro::GyroType;
+use crate::stand::Certificate;
 use crate::text::Unreadable;
 use jiff::civil::Date;
 use jiff::tz::TimeZone;
@@ -150,6 +151,13 @@ impl Subject {
         let (date, time) = self.date.zip(self.passport_verified_as_of)?;
         let latest = time.saturating_add(LARGEST_OFFSET).unwrap_or(Timestamp::MAX);
         (date > TimeZone::UTC.to_datetime(latest).date()).then_some((date, time))
+    }
+
+    /// Returns the day of the readings and that on which the stand was measured for its `certificate` if the readings are
+    /// older, or `None` if they are not, or if one of the days is not stated.
+    pub(crate) fn day_before_certification(&self, certificate: &Certificate) -> Option<[Date; 2]> {
+        let (date, performed) = self.date.zip(certificate.performed)?;
+        (date < performed).then_some([date, performed])
     }
 
     /// Returns the serial numbers of two gyros if the results are known to be those of different ones.

@@ -226,9 +226,16 @@ impl Bench<'_> {
         }
     }
 
-    /// Refuses readings of a day that has not come.
+    /// Refuses readings of a day that has not come, and warns of those from before the stand was measured.
     fn check_date(&self) -> Result<(), Failure> {
-        match self.subject().day_after_verification() {
+        let subject = self.subject();
+        if let Some([date, performed]) = subject.day_before_certification(&self.passport.content.certificate) {
+            let words = "check the date; nothing shows that the stand was then as it is certified";
+            output::complain(&format!(
+                "WARNING: --date {date} is before the stand was measured for its certificate, {performed}; {words}"
+            ));
+        }
+        match subject.day_after_verification() {
             None => Ok(()),
             Some((date, time)) => Err(Failure::unusable(format!(
                 "--date {date} is later than the time of the verification, {time}; check the date"

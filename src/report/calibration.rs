@@ -457,8 +457,8 @@ fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
         .parameters
         .iter()
         .map(|row| {
-            let digits = columns::decimals(row.expanded_uncertainty / row.coverage_factor);
-            let places = columns::decimals(row.standard_uncertainty);
+            let digits = columns::decimals(row.expanded_uncertainty);
+            let places = columns::decimals(row.coverage_factor * row.standard_uncertainty);
             vec![
                 symbol_of(row.parameter).to_owned(),
                 format!("{:.places$}", row.value),

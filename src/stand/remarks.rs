@@ -2,6 +2,8 @@
 
 use super::{Certificate, CertifiedPosition};
 use crate::coefficients::PositionIndex;
+use jiff::Span;
+use jiff::civil::Date;
 use std::fmt::{self, Display, Formatter};
 
 /// Usual temperatures of a room in which stands are measured and used, °C.
@@ -12,6 +14,9 @@ const ZERO_CELSIUS_K: f64 = 273.15;
 
 /// Ratio to the larger angles of the other positions above which an angle is unusual.
 const FAR_OUT: f64 = 20.0;
+
+/// Longest usual validity of a certificate, years.
+const MOST_YEARS: i64 = 10;
 
 /// Size below which an angle is never unusual, arcsec.
 const SMALL_ARCSEC: f64 = 60.0;
@@ -25,6 +30,10 @@ pub(crate) enum Odd {
     Temperature { key: &'static str, celsius: f64 },
     /// Temperature of the measurement outside the certified range.
     OutsideRange { celsius: f64, range: [f64; 2] },
+    /// Measurement more than a year before the certificate was issued.
+    OldMeasurement { performed: Date, issued: Date },
+    /// Certificate that is valid for more than ten years.
+    LongValidity { valid_until: Date, issued: Date },
 }
 
 impl Display for Odd {
@@ -45,6 +54,13 @@ impl Display for Odd {
                 }
                 Ok(())
             }
+            Self::OldMeasurement { performed, issued } => {
+                write!(f, "performed is {performed}, more than a year before issued, {issued}; check the years")
+            }
+            Self::LongValidity { valid_until, issued } => write!(
+                f,
+                "valid_until is {valid_until}, more than {MOST_YEARS} years after issued, {issued}; check the years"
+            ),
             Self::OutsideRange { celsius, range: [low, high] } => write!(
                 f,
                 "temperature_c is {celsius} deg C, but temperature_range_c is {low} to {high} deg C; the deviations were \
@@ -57,6 +73,7 @@ impl Display for Odd {
 /// Returns the unusual values in a certificate and its positions.
 pub(crate) fn of(certificate: &Certificate, positions: &[CertifiedPosition]) -> Vec<Odd> {
     let mut found = temperatures(certificate);
+    found.extend(dates(certificate));
     type Angle = fn(&CertifiedPosition) -> f64;
     let angles: [Angle; 3] = [|at| at.alpha_arcsec, |at| at.beta_arcsec, |at| at.gamma_arcsec];
     for (number, angle) in angles.into_iter().enumerate() {
@@ -76,6 +93,15 @@ pub(crate) fn of(certificate: &Certificate, positions: &[CertifiedPosition]) -> 
         found.extend(positions.iter().filter(odd).map(far));
     }
     found
+}
+
+fn dates(certificate: &Certificate) -> impl Iterator<Item = Odd> {
+    let issued = certificate.issued;
+    let years_later = |date: Date, years: i64| date.saturating_add(Span::new().years(years));
+    let old = certificate.performed.filter(|performed| issued > years_later(*performed, 1));
+    let long = certificate.valid_until.filter(|until| *until > years_later(issued, MOST_YEARS));
+    let old = old.map(|performed| Odd::OldMeasurement { performed, issued });
+    old.into_iter().chain(long.map(|valid_until| Odd::LongValidity { valid_until, issued }))
 }
 
 fn temperatures(certificate: &Certificate) -> Vec<Odd> {
@@ -111,6 +137,14 @@ mod tests {
             let stand = Stand::from_yaml("stand.yaml", stand.as_bytes()).unwrap();
             assert_eq!(super::of(&stand.certificate, &stand.positions), []);
         }
+    }
+
+    #[test]
+    fn years_that_cannot_be_are_said() {
+        let old = said_of("performed: \"2026-10-29\"", "performed: \"2006-10-29\"");
+        assert!(old[0].contains("performed is 2006-10-29, more than a year before issued"), "{old:?}");
+        let long = said_of("valid_until: \"2028-11-01\"", "valid_until: \"2128-11-01\"");
+        assert!(long[0].contains("valid_until is 2128-11-01, more than 10 years after issued"), "{long:?}");
     }
 
     #[test]

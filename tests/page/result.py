@@ -69,7 +69,7 @@ def at(node, path):
 
 
 def uncertainty(result, path):
-    """The standard uncertainty that says how many digits the number at a path has; None where it has none."""
+    """The uncertainty that says how many digits the number at a path has; None where it has none."""
     *head, last = path
     if path[0].startswith("gravity"):
         return result.get("gravity_u_m_per_s2")
@@ -80,7 +80,7 @@ def uncertainty(result, path):
     if path[0] == "results":
         return at(result, (*path[:2], "standard_uncertainty", *path[2:]))
     if path[0] in ("verdict", "change") and last in ("deviation", "expanded_uncertainty"):
-        return at(result, (*head, "expanded_uncertainty")) / at(result, (*head, "coverage_factor"))
+        return at(result, (*head, "expanded_uncertainty"))
     if path[0] == "budget" and last == "value":
         return at(result, (*head, "standard_uncertainty"))
     if path[0] == "budget" and last == "expanded_uncertainty":
@@ -320,7 +320,7 @@ class Report:
                 shown = [float(one) for one in cell["values"]]
                 if len(shown) != 1 or not math.isclose(shown[0], number, rel_tol=1e-14):
                     self.wrong.append(f"{symbol}, {row[1]['text']}: {cell['text']} {shown}, and in its result {number}")
-                elif printed(cell["text"], self.said["lang"] == "ru")[1] != place_of(u):
+                elif printed(cell["text"], self.said["lang"] == "ru")[1] != place_of(2 * u):
                     self.wrong.append(f"{symbol}, {row[1]['text']}: {cell['text']} has not the digits of its uncertainty {u}")
         return "course"
 
@@ -330,14 +330,14 @@ class Report:
             name = row[0]["text"].split(",")[0]
             if name != symbol_of(line["parameter"]):
                 self.wrong.append(f"{part}: {name} stands in the row of {line['parameter']}")
-            u = line["standard_uncertainty"]
+            u = line["coverage_factor"] * line["standard_uncertainty"]
             self.cell(f"{part}, {name}, value", row[1], line["value"], u)
             # The uncertainty of a change is not that of the value, which stands in the verdict.
             if part == "verdict":
-                self.cell(f"{part}, {name}, U of the value", row[2], line["coverage_factor"] * u, u)
+                self.cell(f"{part}, {name}, U of the value", row[2], u, u)
                 row = row[:2] + row[3:]
             self.cell(f"{part}, {name}, reference", row[2], line["reference_value"], u)
-            u = line["expanded_uncertainty"] / line["coverage_factor"]
+            u = line["expanded_uncertainty"]
             self.cell(f"{part}, {name}, deviation", row[3], line["deviation"], u)
             self.cell(f"{part}, {name}, U", row[4], line["expanded_uncertainty"], u)
             self.cell(f"{part}, {name}, tolerance", row[5], line["tolerance"])

@@ -10,7 +10,7 @@ mod evidence;
 pub(crate) mod remarks;
 
 use super::language::{Languages, Text};
-use super::parts::{contents, data_address, heading, section as part, signature_of, verbatim};
+use super::parts::{contents, data_address, given, heading, section as part, signature_of, verbatim};
 use super::passport::{characteristics, general};
 use super::shell::{Margins, document};
 use super::texts::{calibration as calibration_texts, certification as texts, passport as passport_texts};
@@ -69,7 +69,7 @@ impl CertificationPage<'_> {
         html! {
             header.title {
                 p.kind { (languages.label(texts::TITLE)) }
-                h1 { (stand.certificate.number) }
+                h1 { (given(stand.stand.model.as_str())) " №\u{a0}" (given(stand.stand.serial.as_str())) ", " (given(&stand.certificate.number)) }
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
             (contents(languages, texts::SAVE, (&data_address("text/csv", self.readings.1), self.readings_name()), &SECTIONS))

@@ -182,6 +182,18 @@ impl Languages {
         self.inline_with(|language| text.words(language))
     }
 
+    /// Writes a unit within a line, the second language in brackets: a solidus would be part of the unit.
+    pub(crate) fn in_brackets(&self, unit: Text) -> Markup {
+        let sayings = self.sayings(|language| unit.words(language));
+        html! {
+            @for (index, (language, words)) in sayings.iter().enumerate() {
+                @if index > 0 { " (" }
+                span lang=[self.marked(*language)] { (words) }
+                @if index > 0 { ")" }
+            }
+        }
+    }
+
     /// Writes words as `inline` does; `say` makes them for each language.
     pub(crate) fn inline_with(&self, say: impl Fn(Language) -> String) -> Markup {
         let sayings = self.sayings(say);

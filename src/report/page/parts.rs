@@ -113,7 +113,7 @@ pub(crate) fn quantity(languages: &Languages, number: &Number, unit: Text) -> Ma
 /// Writes a unit after its number, without a space before the marks of angles (SI Brochure, 5.4.3).
 fn unit_after(languages: &Languages, unit: Text) -> Markup {
     let close = unit == units::ARCSEC || unit == units::DEGREES;
-    html! { @if !close { (BLANK) } (languages.inline(unit)) }
+    html! { @if !close { (BLANK) } (languages.in_brackets(unit)) }
 }
 
 /// Writes a date in the format of the page's first language.

@@ -45,7 +45,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
     let azimuth = |language| Number::exact(frame_axis_azimuth_deg).text(language);
     let named = [
         (texts::PART_FRAME, across * 0.8 + xi * 0.4),
-        (texts::PART_PLATFORM, (y - x) * 0.42),
+        (texts::PART_PLATFORM, x * -0.12 - y * 0.5),
         (texts::PART_PINS, x * -0.5),
         (texts::PART_GYRO, z * GYRO_HEIGHT),
         (texts::PART_BASE, near_the_right_corner(&view, &base)),

@@ -72,14 +72,14 @@ impl Strips {
 
 /// Draws what the parts of a strip mean.
 pub(crate) fn key(languages: &Languages) -> Markup {
-    let entry = |decision: Decision, text: Text| (decided([14.0, 7.0], decision), text);
+    let entry = |decision: Decision, text: Text| (decided([21.0, 7.0], decision), text);
     let entries = [
         entry(Decision::Pass, texts::DECISION_PASS),
         entry(Decision::Undecided, texts::DECISION_UNDECIDED),
         entry(Decision::Fail, texts::DECISION_FAIL),
         (whisker(2.0, 26.0, 7.0, 4.0), texts::TOLERANCES_WHISKER),
         (rectangle([2.0, 2.0], [26.0, 12.0], "limits", None), texts::TOLERANCES_GUARDED),
-        (line([14.0, 0.0], [14.0, 14.0], "limit"), texts::TOLERANCES_LIMIT),
+        (line([21.0, 0.0], [21.0, 14.0], "limit"), texts::TOLERANCES_LIMIT),
     ];
     legend(languages, &entries)
 }
@@ -100,10 +100,10 @@ fn decided([x, y]: Point, decision: Decision) -> Markup {
     }
 }
 
-/// Returns deviation and expanded uncertainty, rounded to the second digit of the standard uncertainty.
+/// Returns deviation and expanded uncertainty, rounded to the second digit of the latter.
 pub(crate) fn printed(row: &ParameterVerdict) -> (Number, Number) {
-    let u = row.expanded_uncertainty / row.coverage_factor;
-    (Number::measured(row.deviation, u), Number::measured(row.expanded_uncertainty, u))
+    let u = row.expanded_uncertainty;
+    (Number::measured(row.deviation, u), Number::uncertainty(u))
 }
 
 /// Returns the parameter of a line of a verdict, or `None` if its key is unknown.

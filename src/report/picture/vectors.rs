@@ -195,8 +195,7 @@ fn differences_of(
     let tips: Vec<(Point, PositionIndex)> =
         pairs.iter().map(|pair| (plane.point(pair.difference()), pair.index)).collect();
     let lines: Vec<Point> = tips.iter().flat_map(|(tip, _)| along(origin, *tip)).collect();
-    let named: Vec<(Point, String)> =
-        tips.iter().map(|(at, index)| (*at, format!("{},{}", index.i, index.j))).collect();
+    let named: Vec<(Point, String)> = tips.iter().map(|(at, index)| (*at, index.to_string())).collect();
     let [[left, top], [right, bottom]] = plane.layout.field;
     let axis = labels::Area { low: [left, top], high: [left + 86.0, top + 18.0] };
     let field = labels::Area { low: [left, top], high: [right, bottom] };

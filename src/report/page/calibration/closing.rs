@@ -26,9 +26,10 @@ pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup 
 pub(super) fn json(page: &CalibrationPage) -> String {
     // Every number of a result is finite, and its keys are strings. So this JSON can always be written.
     let mut json = Vec::new();
-    let mut writer = Serializer::with_formatter(&mut json, Lines { depth: 0 });
+    let mut writer = Serializer::with_formatter(&mut json, Lines { depth: 0, in_list: false });
     match page.result().serialize(&mut writer) {
-        Ok(()) => String::from_utf8(json).unwrap_or_default() + "\n",
+        // A space before an object that begins a line; a string contains no line feed.
+        Ok(()) => String::from_utf8(json).unwrap_or_default().replace(", \n", ",\n") + "\n",
         Err(_) => String::new(),
     }
 }
@@ -39,18 +40,20 @@ fn annex(page: &CalibrationPage, languages: &Languages) -> Markup {
             div.file {
     (verbatim("en", &json(page)))
             p.end {
-                (languages.label_with(|language| texts::END.filled(language, &[("id", &page.content().passport.id)])))
+                (languages.label_with(|language| texts::END.filled(language, &[("name", &page.name())])))
             }
             }
         };
     part(languages, "annex", "", texts::ANNEX, &body)
 }
 
-/// A JSON formatter that writes each key of the document and of each result on its own line. Matrices and lists stay on
-/// one line.
+/// A JSON formatter that writes each key of the document and of each result on its own line, and so each object of a list.
+/// Matrices and lists of numbers stay on one line.
 struct Lines {
     /// Number of open objects.
     depth: usize,
+    /// `true` if the value that begins is one of a list.
+    in_list: bool,
 }
 
 impl Lines {
@@ -65,6 +68,10 @@ impl Lines {
 impl Formatter for Lines {
     fn begin_object<W: Write + ?Sized>(&mut self, writer: &mut W) -> io::Result<()> {
         self.depth += 1;
+        if self.in_list && self.depth > Self::DEEPEST {
+            self.new_line(writer)?;
+        }
+        self.in_list = false;
         writer.write_all(b"{")
     }
 
@@ -89,10 +96,12 @@ impl Formatter for Lines {
     }
 
     fn begin_object_value<W: Write + ?Sized>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.in_list = false;
         writer.write_all(b": ")
     }
 
     fn begin_array_value<W: Write + ?Sized>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        self.in_list = true;
         writer.write_all(if first { b"" } else { b", " })
     }
 }

@@ -104,6 +104,7 @@ fn table(
     with_u: bool,
 ) -> Markup {
     let rows = &verdict.parameters;
+    let expanded = |row: &ParameterVerdict| row.coverage_factor * row.standard_uncertainty;
     let strips = Strips::of([verdict]);
     let numbers =
         |number: &dyn Fn(&ParameterVerdict) -> Number| column(languages, rows.iter().map(|row| Some(number(row))));
@@ -125,12 +126,9 @@ fn table(
     });
     let tolerances = tolerances.collect();
     let mut columns: Vec<(Text, Vec<Option<Markup>>)> = vec![
-        (texts::FOUND, numbers(&|row| Number::measured(row.value, row.standard_uncertainty))),
-        (
-            texts::PLUS_MINUS,
-            numbers(&|row| Number::measured(row.coverage_factor * row.standard_uncertainty, row.standard_uncertainty)),
-        ),
-        (reference, numbers(&|row| Number::measured(row.reference_value, row.standard_uncertainty))),
+        (texts::FOUND, numbers(&|row| Number::measured(row.value, expanded(row)))),
+        (texts::PLUS_MINUS, numbers(&|row| Number::uncertainty(expanded(row)))),
+        (reference, numbers(&|row| Number::measured(row.reference_value, expanded(row)))),
         (deviation, numbers(&|row| printed(row).0)),
         (texts::PLUS_MINUS, numbers(&|row| printed(row).1)),
         (texts::TOLERANCE, tolerances),
@@ -153,7 +151,7 @@ fn table(
         }
     });
     let table = Table {
-        caption: Some(with_gravity(languages, caption, verdict.gravity_m_per_s2)),
+        caption: Some(with_gravity(languages, caption, &Number::exact(verdict.gravity_m_per_s2))),
         headings: headings.map(|text| languages.label(text)).collect(),
         rows: rows
             .iter()
@@ -169,8 +167,8 @@ fn table(
 }
 
 /// Writes the caption of a table whose drifts refer to this g.
-pub(super) fn with_gravity(languages: &Languages, caption: Text, gravity_m_per_s2: f64) -> Markup {
-    languages.label_with(|language| caption.filled(language, &[("g", &Number::exact(gravity_m_per_s2).text(language))]))
+pub(super) fn with_gravity(languages: &Languages, caption: Text, gravity_m_per_s2: &Number) -> Markup {
+    languages.label_with(|language| caption.filled(language, &[("g", &gravity_m_per_s2.text(language))]))
 }
 
 /// Writes the expanded uncertainty that the local g adds to the drifts converted to the type's g, where it is most of it.

@@ -56,8 +56,8 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
     let numbers = |number: &dyn Fn(f64, f64) -> Number| {
         column(languages, each.iter().map(|(.., value, u)| Some(number(*value, *u))))
     };
-    let values = numbers(&Number::measured);
-    let us = numbers(&|_, u| Number::measured(COVERAGE_FACTOR * u, u));
+    let values = numbers(&|value, u| Number::measured(value, COVERAGE_FACTOR * u));
+    let us = numbers(&|_, u| Number::uncertainty(COVERAGE_FACTOR * u));
     let mut cells = Vec::with_capacity(each.len());
     let starts: Vec<usize> = (1..each.len()).filter(|place| each[*place].0 != each[*place - 1].0).collect();
     for (place, ((parameter, number, past, ..), (value, u))) in each.iter().zip(values.into_iter().zip(us)).enumerate()

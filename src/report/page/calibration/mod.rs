@@ -143,9 +143,9 @@ pub struct CalibrationPage<'a> {
 impl CalibrationPage<'_> {
     /// Returns the report as one self-contained HTML document.
     pub fn html(&self, languages: &Languages) -> String {
-        let id = &self.content().passport.id;
+        let name = self.name();
         let margins = Margins {
-            top_left: texts::MARGIN.filled(languages.first(), &[("id", id)]),
+            top_left: texts::MARGIN.filled(languages.first(), &[("name", &name)]),
             top_right: match (self.verified(), self.fits()) {
                 (false, _) => languages.plain(texts::NOT_VERIFIED),
                 (true, false) => languages.plain(texts::DOES_NOT_FIT),
@@ -153,7 +153,7 @@ impl CalibrationPage<'_> {
             },
             bottom_left: texts::MARGIN_SHA256.filled(languages.first(), &[("sha256", &self.currents.1)]),
         };
-        let title = format!("{} {id}", languages.plain(texts::TITLE));
+        let title = format!("{} {name}, {}", languages.plain(texts::TITLE), self.content().passport.id);
         document(languages, &title, &margins, &self.body(languages))
     }
 
@@ -196,6 +196,14 @@ impl CalibrationPage<'_> {
         Path::new(self.currents.0).file_name().and_then(|name| name.to_str()).unwrap_or(self.currents.0)
     }
 
+    /// Returns the type and the serial number of the gyro, or the id of the passport if neither is known.
+    fn name(&self) -> String {
+        let of_type = self.gyro.map(|gyro| gyro.r#type.clone());
+        let serial = self.result().subject.as_ref().and_then(|subject| subject.gyro_serial.as_deref());
+        let name: Vec<String> = of_type.into_iter().chain(serial.map(|serial| format!("№\u{a0}{serial}"))).collect();
+        if name.is_empty() { self.content().passport.id.clone() } else { name.join(" ") }
+    }
+
     fn verified(&self) -> bool {
         matches!(self.passport, UsedPassport::Verified(_))
     }
@@ -208,7 +216,7 @@ impl CalibrationPage<'_> {
         html! {
             header.title {
                 p.kind { (languages.label(texts::TITLE)) }
-                h1 { (self.gyro.map_or(self.content().passport.id.as_str(), |gyro| gyro.r#type.as_str())) }
+                h1 { (self.name()) }
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
             (parts::contents(
@@ -247,6 +255,7 @@ impl CalibrationPage<'_> {
                 (warning(languages, texts::SAME_READINGS, texts::SAME_READINGS_WORDS))
             }
             (subject::temperature(self, languages))
+            (subject::date_of_readings(self, languages))
             (self.verdict(languages))
         }
     }

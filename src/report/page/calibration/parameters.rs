@@ -58,7 +58,9 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
         }));
         rows
     });
-    let caption = Some(with_gravity(languages, texts::PARAMETERS_CAPTION, page.result().gravity_m_per_s2));
+    let (g, u) = (page.result().gravity_m_per_s2, page.result().gravity_u_m_per_s2);
+    let caption = with_gravity(languages, texts::PARAMETERS_CAPTION, &Number::measured(g, u.unwrap_or(0.0)));
+    let caption = Some(caption);
     parameters(languages, caption, rows.collect()).markup(languages.spoken(texts::METHODS))
 }
 

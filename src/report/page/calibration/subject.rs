@@ -6,7 +6,9 @@ use crate::calibration::stated::TemperatureOutside;
 use crate::laboratory::Laboratory;
 use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
-use crate::report::page::parts::{self, blank, field, fields, given, heading, quantity, symbol, time, wide_field};
+use crate::report::page::parts::{
+    self, blank, date_text, field, fields, given, heading, quantity, symbol, time, wide_field,
+};
 use crate::report::page::passport::{accuracy, checks};
 use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units};
 use maud::{Markup, html};
@@ -27,7 +29,7 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     let content = page.content();
     let subject = page.result().subject.as_ref();
     let serial = subject.and_then(|subject| subject.gyro_serial.as_deref());
-    let date = subject.and_then(|subject| subject.date).map(|date| given(&date.to_string()));
+    let date = subject.and_then(|subject| subject.date).map(|date| parts::date(languages, date));
     let stand = html! { (given(content.stand.model.as_str())) " №\u{a0}" (given(content.stand.serial.as_str())) };
     let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
     let verified = match &page.passport {
@@ -57,8 +59,8 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
     let subject = result.subject.as_ref();
     let celsius = |value: f64| quantity(languages, &Number::exact(value), units::CELSIUS);
     let excluded = |at: &ExclusionDocument| {
-        let cycle = at.cycle.map(|cycle| format!(",{cycle}")).unwrap_or_default();
-        format!("{},{},{}{cycle}: {}", at.i, at.j, at.visit, at.why)
+        let cycle = at.cycle.map(|cycle| format!(", {cycle}")).unwrap_or_default();
+        format!("({}, {}), {}{cycle}: {}", at.i, at.j, at.visit, at.why)
     };
     let excluded: Vec<String> = result.excluded.iter().map(excluded).collect();
     let left_out: Vec<String> = result.left_out.iter().map(|at| format!("({}, {})", at.i, at.j)).collect();
@@ -75,7 +77,7 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
             field(
                 languages,
                 texts::MEASURED,
-                subject.and_then(|subject| subject.date).map(|date| given(&date.to_string())),
+                subject.and_then(|subject| subject.date).map(|date| parts::date(languages, date)),
             ),
             field(languages, texts::OPERATOR, subject.and_then(|subject| subject.operator.as_deref()).map(given)),
             field(
@@ -111,19 +113,19 @@ fn passport(page: &CalibrationPage, languages: &Languages) -> Markup {
         UsedPassport::NotVerified { .. } => None,
     };
     // The signer of an unverified passport is unknown. So these fields are left out, not printed empty.
+    let signer = signed.into_iter().flat_map(|passport| {
+        [
+            field(languages, passport_texts::ISSUER, Some(given(&header.issuer))),
+            wide_field(languages, passport_texts::KEY, Some(html! { code { (passport.key().fingerprint()) } })),
+        ]
+    });
     html! {
         (fields([
             field(languages, passport_texts::ID, Some(given(&header.id))),
             field(languages, passport_texts::ISSUED, Some(time(languages, header.issued_at))),
             wide_field(languages, texts::PASSPORT_SHA256, Some(html! { code { (page.passport.sha256()) } })),
-        ]))
-        @if let Some(passport) = signed {
-            (fields([
-                field(languages, passport_texts::ISSUER, Some(given(&header.issuer))),
-                wide_field(languages, passport_texts::KEY, Some(html! { code { (passport.key().fingerprint()) } })),
-            ]))
-            (checks::table(passport, languages))
-        }
+        ].into_iter().chain(signer)))
+        @if let Some(passport) = signed { (checks::table(passport, languages)) }
     }
 }
 
@@ -145,6 +147,23 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
             wide_field(languages, passport_texts::METER, Some(accuracy::meter(&laboratory, languages))),
         ]))
         @if page.laboratory.is_none() { div.statement { (languages.paragraph(texts::METER_ASSUMED)) } }
+    }
+}
+
+/// Writes a warning if the readings are older than the measurement of the stand.
+pub(super) fn date_of_readings(page: &CalibrationPage, languages: &Languages) -> Markup {
+    let subject = page.document.subject.as_ref();
+    let Some(days) = subject.and_then(|subject| subject.day_before_certification(&page.content().certificate)) else {
+        return html! {};
+    };
+    html! {
+        div.verdict.neutral {
+            p.headline { (languages.label(texts::READINGS_ARE_OLDER)) }
+            (languages.paragraph_with(|language| {
+                let [date, performed] = days.map(|day| date_text(language, day));
+                html! { (texts::READINGS_OLDER.filled(language, &[("date", &date), ("performed", &performed)])) }
+            }))
+        }
     }
 }
 

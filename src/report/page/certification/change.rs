@@ -15,7 +15,19 @@ use maud::{Markup, html};
 /// Writes whether the stand has changed since its last certificate, and the reasons.
 pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup {
     let Some((comparison, _)) = &page.change else {
-        return html! { div.verdict.neutral { p.headline { (languages.label(texts::NOT_COMPARED)) } } };
+        let certification = page.certification;
+        let values = [certification.stand.positions.len(), certification.runs.len()].map(|count| count.to_string());
+        let [positions, runs] = &values;
+        return html! {
+            div.verdict.neutral {
+                p.headline {
+                    (languages.label_with(|language| {
+                        texts::CERTIFIED.filled(language, &[("positions", positions), ("runs", runs)])
+                    }))
+                }
+                (languages.paragraph(texts::NOT_COMPARED))
+            }
+        };
     };
     let (class, verdict) = match comparison.same_stand {
         true => ("verdict", texts::SAME),

@@ -7,6 +7,7 @@ use crate::certification::remark::Remark;
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::report::page::language::{Language, Text};
 use crate::report::page::number::Number;
+use crate::report::page::parts::date_text;
 use crate::report::page::texts::{certification as terms, remarks as texts};
 use crate::stand::remarks::Odd;
 
@@ -70,6 +71,14 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
             fill(texts::FAR_ANGLE, &values)
         }
         Remark::Odd(Odd::Temperature { celsius, .. }) => fill(texts::TEMPERATURE, &[("value", exact(*celsius))]),
+        Remark::Odd(Odd::OldMeasurement { performed, issued }) => fill(
+            texts::OLD_MEASUREMENT,
+            &[("performed", date_text(language, *performed)), ("issued", date_text(language, *issued))],
+        ),
+        Remark::Odd(Odd::LongValidity { valid_until, issued }) => fill(
+            texts::LONG_VALIDITY,
+            &[("until", date_text(language, *valid_until)), ("issued", date_text(language, *issued))],
+        ),
         Remark::Odd(Odd::OutsideRange { celsius, range: [low, high] }) => {
             fill(texts::OUTSIDE_RANGE, &[("value", exact(*celsius)), ("low", exact(*low)), ("high", exact(*high))])
         }

@@ -13,13 +13,18 @@ use crate::report::page::parts::{Table, heading, section as part, symbol, symbol
 use crate::report::page::texts::{passport as texts, units};
 use maud::{Markup, html};
 
+/// Paper from which the equations are numbered.
+const PAPER: &str = "doi:10.18698/2308-6033-2017-10-1691";
+
 /// Decimals of numbers without an uncertainty: 1e-9 °/h and 1e-9 g are far below the resolution of any reading.
 const DECIMALS: usize = 9;
 
 pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
     let body = html! {
-        (languages.paragraph(texts::DIGITS_NOTE))
+        (languages.paragraph_with(|language| {
+            html! { (texts::DIGITS_NOTE.words(language)) " " (texts::EQUATIONS_NOTE.filled(language, &[("source", PAPER)])) }
+        }))
         @match &content.matrices {
             Some(m) => {
                 (heading(languages, texts::MATRICES))

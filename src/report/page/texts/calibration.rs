@@ -10,9 +10,9 @@ texts! {
         ru: "Масштабные коэффициенты и составляющие дрейфа в осях корпуса, найденные по токам датчиков момента в \
              положениях стенда с аттестованными отклонениями"
     }
-    MARGIN { en: "Calibration with passport {id}", ru: "Калибровка по паспорту {id}" }
+    MARGIN { en: "Calibration report {name}", ru: "Отчёт о калибровке {name}" }
     MARGIN_SHA256 { en: "SHA-256 of the file of currents {sha256}", ru: "SHA-256 файла токов {sha256}" }
-    END { en: "End of the calibration report, passport {id}", ru: "Конец отчёта о калибровке, паспорт {id}" }
+    END { en: "End of the calibration report {name}", ru: "Конец отчёта о калибровке {name}" }
 
     NOT_VERIFIED { en: "Passport NOT VERIFIED", ru: "Паспорт НЕ ПРОВЕРЕН" }
     NOT_VERIFIED_WORDS {
@@ -34,7 +34,7 @@ texts! {
     UNDECIDED { en: "Conformity with gyro type {type} is undecided", ru: "Соответствие типу {type} не определено" }
     RULE {
         en: "Decision rule: guarded acceptance with a guard band equal to the expanded uncertainty U, \
-             k = 2 or that of Student's t (JCGM 106, 8.3).",
+             k = 2 or that of Student’s t (JCGM 106, 8.3).",
         ru: "Правило принятия решения: приёмка с защитной полосой, равной расширенной неопределённости \
              U, k = 2 или коэффициент Стьюдента (JCGM 106, 8.3)."
     }
@@ -112,6 +112,16 @@ texts! {
              равномерно; другие составляющие неопределённости лаборатории не учтены."
     }
     TEMPERATURE { en: "Temperature", ru: "Температура" }
+    READINGS_ARE_OLDER {
+        en: "The readings are older than the measurement of the stand",
+        ru: "Показания сняты до измерения углов стенда"
+    }
+    READINGS_OLDER {
+        en: "The readings are of {date}; the stand was measured for its certificate on {performed}. Nothing shows that it \
+             then agreed with the certificate.",
+        ru: "Показания сняты {date}; углы стенда измерены для сертификата {performed}. Ничто не подтверждает, что на дату \
+             показаний стенд соответствовал сертификату."
+    }
     TEMPERATURE_IS_OUTSIDE {
         en: "The temperature is outside the certified range",
         ru: "Температура вне диапазона, указанного в сертификате"
@@ -178,25 +188,25 @@ texts! {
 
     CONFORMITY { en: "Comparison with gyro type {type}", ru: "Сравнение с типом {type}" }
     VERDICT_CAPTION {
-        en: "Deviation from the nominal value in the unit of the tolerance; expanded uncertainty U (k = 2, or Student's \
+        en: "Deviation from the nominal value in the unit of the tolerance; expanded uncertainty U (k = 2, or Student’s \
              t); drifts refer to the g of the type, {g} m/s²",
         ru: "Отклонение от номинального значения в тех же единицах, что и допуск; расширенная неопределённость U (k = 2 \
-             или коэффициент Стьюдента); составляющие дрейфа отнесены к g типа, {g} м/с²"
+             или коэффициент Стьюдента); составляющие дрейфа отнесены к g, указанному для типа: {g} м/с²"
     }
     CHANGE { en: "Change since the previous calibration", ru: "Изменение после предыдущей калибровки" }
     HISTORY { en: "All calibrations of this gyro", ru: "Все калибровки этого гироскопа" }
     HISTORY_CAPTION {
         en: "Parameters from the earliest calibration to this one, with expanded uncertainty U\u{a0}=\u{a0}2u (for the \
-             marks, U after Student's t); drifts refer to one g",
+             marks, U after Student’s t); drifts refer to one g",
         ru: "Параметры от первой калибровки до этой, с расширенной неопределённостью U\u{a0}=\u{a0}2u (для отметок U — \
              с коэффициентом Стьюдента); составляющие дрейфа отнесены к одному g"
     }
     CALIBRATED { en: "Calibration", ru: "Калибровка" }
     CHANGE_CAPTION {
         en: "Change in the unit of the tolerance, which also limits the instability; expanded uncertainty U (k = 2, or \
-             Student's t); drifts refer to the g of the type, {g} m/s²",
+             Student’s t); drifts refer to the g of the type, {g} m/s²",
         ru: "Изменение в тех же единицах, что и допуск (он же — допуск на нестабильность); расширенная неопределённость \
-             U (k = 2 или коэффициент Стьюдента); составляющие дрейфа отнесены к g типа, {g} м/с²"
+             U (k = 2 или коэффициент Стьюдента); составляющие дрейфа отнесены к g, указанному для типа: {g} м/с²"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     UNIT { en: "Unit", ru: "Единица" }

@@ -59,7 +59,7 @@ texts! {
     OF_BASE { en: "base", ru: "основание" }
     EAST { en: "east", ru: "восток" }
     NORTH { en: "north", ru: "север" }
-    UP { en: "up", ru: "вверх" }
+    UP { en: "up", ru: "верх" }
 
     TESTS { en: "Tests", ru: "Статистические критерии" }
     TEST { en: "Test", ru: "Критерий" }
@@ -94,6 +94,10 @@ texts! {
     WARNINGS { en: "Warnings of the program", ru: "Предупреждения программы" }
 
     CHANGE { en: "Change since the previous certificate", ru: "Изменение с прошлой калибровки" }
+    CERTIFIED {
+        en: "Positions certified: {positions}; runs: {runs}",
+        ru: "Аттестовано положений: {positions}; серий: {runs}"
+    }
     NOT_COMPARED {
         en: "The readings were not compared with an earlier certificate.",
         ru: "Показания не сравнивались с прежним сертификатом."

@@ -78,7 +78,7 @@ texts! {
     METHOD { en: "Method", ru: "Методика" }
     TRACEABILITY { en: "Traceability", ru: "Прослеживаемость" }
     TEMPERATURE { en: "Temperature during measurement", ru: "Температура при измерениях" }
-    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Диапазон температур" }
+    TEMPERATURE_RANGE { en: "Temperature range of validity", ru: "Диапазон температур применимости" }
     FROM_TO { en: "{low} to {high}", ru: "от {low} до {high}" }
     THIS_ITEM_ONLY {
         en: "The results relate only to the stand identified here. This passport shall not be reproduced except in \
@@ -102,7 +102,7 @@ texts! {
         ru: "Положение (i, j): угол рамки θ вокруг ξ, затем угол платформы φ вокруг оси собственного вращения. α, β, γ \
              преобразуют координаты от номинальной платформы к реальной, формула (4). u — стандартная \
              неопределённость (k = 1) аттестованного среднего, собственная составляющая положения; ν — \
-             число её степеней свободы (– : не указано). В неопределённостях две значащие цифры, значения — до того же разряда."
+             число её степеней свободы (прочерк — не указано). В неопределённостях две значащие цифры, значения — до того же разряда."
     }
     FIGURE_POSITIONS {
         en: "The stand in its positions (i, j), viewed from above and south-south-east.",
@@ -113,9 +113,9 @@ texts! {
         ru: "Неопределённость, общая для всех положений (k = 1)"
     }
     REPEATABILITY { en: "Repeatability of positioning, per axis", ru: "Повторяемость положений (по осям)" }
-    REPEATABILITY_DOF { en: "Degrees of freedom of the repeatability", ru: "Число её степеней свободы" }
-    COMMON_PLATFORM { en: "Common part, per axis of the platform", ru: "Общая, по осям платформы" }
-    COMMON_BASE { en: "Common part, per axis of the base", ru: "Общая, по осям основания" }
+    REPEATABILITY_DOF { en: "Degrees of freedom of the repeatability", ru: "Число степеней свободы повторяемости" }
+    COMMON_PLATFORM { en: "Common part, per axis of the platform", ru: "Общая составляющая, по осям платформы" }
+    COMMON_BASE { en: "Common part, per axis of the base", ru: "Общая составляющая, по осям основания" }
     TYPE_B_POSITION { en: "Type B, part of u(α), u(β), u(γ)", ru: "По типу B, в составе u(α), u(β), u(γ)" }
     TYPE_B_PLATFORM {
         en: "Type B, in the common part of the platform",
@@ -160,7 +160,7 @@ texts! {
     RADIUS { en: "Validity radius", ru: "Радиус применимости" }
     RADIUS_WITHIN {
         en: "Change of the Earth-rate components at this radius",
-        ru: "Изменение угловых скоростей на границе"
+        ru: "Изменение угловых скоростей на границе радиуса применимости"
     }
     AZIMUTH { en: "Astronomic azimuth of the mark", ru: "Астрономический азимут пункта" }
 
@@ -198,6 +198,10 @@ texts! {
         en: "From the currents J of the self-check (use all digits given in the annex), laboratory software should \
              obtain these parameters:",
         ru: "По токам J контрольного примера (все цифры — в приложении) программа лаборатории должна получить:"
+    }
+    EQUATIONS_NOTE {
+        en: "Numbers of equations: Tang and Podchezertsev (2017), {source}.",
+        ru: "Номера формул: Синюань Т., Подчерзцев В. П. (2017), {source}."
     }
     DIGITS_NOTE {
         en: "The numbers in this section are rounded to nine decimals. For computation, use the annex, which gives all \

@@ -63,8 +63,8 @@ texts! {
     VECTORS_DESCRIPTION { en: "In {unit}: {list}.", ru: "В {unit}: {list}." }
     VECTOR_DIFFERENCE { en: "actual minus ideal stand", ru: "отличие от идеального стенда" }
     VECTOR_MARKS {
-        en: "one symbol for each frame index i; labels are i,j",
-        ru: "для каждого индекса рамки i свой знак; подписи — i,j"
+        en: "one symbol for each frame index i; labels are (i, j)",
+        ru: "для каждого индекса рамки i свой знак; подписи — (i, j)"
     }
 
     PLACE_TITLE { en: "Area of validity of the passport", ru: "Область применимости паспорта" }

@@ -88,6 +88,14 @@ texts! {
         en: "A temperature of {value} °C is unusual for a laboratory.",
         ru: "Температура {value} °C необычна для лаборатории."
     }
+    OLD_MEASUREMENT {
+        en: "The stand was measured on {performed}, more than a year before the certificate was issued on {issued}.",
+        ru: "Углы стенда измерены {performed}, более чем за год до выдачи сертификата {issued}."
+    }
+    LONG_VALIDITY {
+        en: "The certificate of {issued} is valid until {until}, for more than ten years.",
+        ru: "Сертификат от {issued} действителен до {until}, более десяти лет."
+    }
     OUTSIDE_RANGE {
         en: "The temperature of {value} °C is outside the certified range of {low} °C to {high} °C.",
         ru: "Температура {value} °C вне диапазона, указанного в сертификате: от {low} до {high} °C."
