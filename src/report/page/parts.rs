@@ -3,6 +3,7 @@
 use super::language::{Language, Languages, Text};
 use super::number::Number;
 use super::spacing::BLANK;
+use super::symbols::index;
 use super::texts::{calibration, units, words};
 use base64ct::{Base64, Encoding};
 use jiff::Timestamp;
@@ -144,7 +145,7 @@ pub(crate) fn time_text(language: Language, time: Timestamp) -> String {
 
 /// Writes a symbol with its subscript.
 pub(crate) fn symbol(letter: &str, subscript: &str) -> Markup {
-    html! { span.symbol { i { (letter) } @if !subscript.is_empty() { sub { (subscript) } } } }
+    html! { span.symbol { i { (letter) } @if !subscript.is_empty() { (index(subscript)) } } }
 }
 
 /// Writes a symbol with its unit for the head of a column; a second language's unit is below the first.

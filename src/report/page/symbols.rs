@@ -55,6 +55,18 @@ fn is_symbol(before: Option<char>, letter: char, after: &str) -> bool {
     begins && ends && !abbreviated
 }
 
+/// Writes the index of a symbol: names of axes and running numbers are italic, words upright (ISO 80000-1, 7.1.2).
+pub(crate) fn index(index: &str) -> Markup {
+    let running = index.chars().all(|c| c.is_ascii_digit() || "ijxyz".contains(c));
+    html! {
+        sub {
+            @for c in index.chars() {
+                @if running && c.is_ascii_alphabetic() { i { (c) } } @else { (c) }
+            }
+        }
+    }
+}
+
 /// Writes a text with its symbols.
 pub(crate) fn italic(text: &str) -> Markup {
     html! {
@@ -62,7 +74,7 @@ pub(crate) fn italic(text: &str) -> Markup {
             @match piece {
                 Piece::Words(words) => (words),
                 Piece::Symbol(letter, "") => i { (letter) },
-                Piece::Symbol(letter, index) => { i { (letter) } sub { (index) } },
+                Piece::Symbol(letter, below) => { i { (letter) } (index(below)) },
             }
         }
     }

@@ -153,7 +153,7 @@ impl CalibrationPage<'_> {
             },
             bottom_left: texts::MARGIN_SHA256.filled(languages.first(), &[("sha256", &self.currents.1)]),
         };
-        let title = format!("{} {name}, {}", languages.plain(texts::TITLE), self.content().passport.id);
+        let title = format!("{} {name}", languages.plain(texts::TITLE));
         document(languages, &title, &margins, &self.body(languages))
     }
 
@@ -196,12 +196,24 @@ impl CalibrationPage<'_> {
         Path::new(self.currents.0).file_name().and_then(|name| name.to_str()).unwrap_or(self.currents.0)
     }
 
+    /// Returns the serial number of the gyro, if it was stated.
+    fn serial(&self) -> Option<&str> {
+        self.result().subject.as_ref().and_then(|subject| subject.gyro_serial.as_deref())
+    }
+
     /// Returns the type and the serial number of the gyro, or the id of the passport if neither is known.
-    fn name(&self) -> String {
+    fn gyro_name(&self) -> String {
         let of_type = self.gyro.map(|gyro| gyro.r#type.clone());
-        let serial = self.result().subject.as_ref().and_then(|subject| subject.gyro_serial.as_deref());
-        let name: Vec<String> = of_type.into_iter().chain(serial.map(|serial| format!("№\u{a0}{serial}"))).collect();
+        let name: Vec<_> = of_type.into_iter().chain(self.serial().map(|serial| format!("№\u{a0}{serial}"))).collect();
         if name.is_empty() { self.content().passport.id.clone() } else { name.join(" ") }
+    }
+
+    /// Returns the name of the gyro, and the id of the passport if it has no serial number.
+    fn name(&self) -> String {
+        match (self.gyro, self.serial()) {
+            (Some(gyro), None) => format!("{}, {}", gyro.r#type, self.content().passport.id),
+            _ => self.gyro_name(),
+        }
     }
 
     fn verified(&self) -> bool {
@@ -216,7 +228,7 @@ impl CalibrationPage<'_> {
         html! {
             header.title {
                 p.kind { (languages.label(texts::TITLE)) }
-                h1 { (self.name()) }
+                h1 { (self.gyro_name()) }
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
             (parts::contents(

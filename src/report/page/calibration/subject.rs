@@ -137,15 +137,19 @@ fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
         (quantity(languages, &Number::measured(g, u.unwrap_or(0.0)), units::M_PER_S2))
         @if let Some(u) = u { ", " (symbol("u", "")) " " (quantity(languages, &Number::uncertainty(u), units::M_PER_S2)) }
     };
+    // A blank invites a second reading of the temperature beside the first.
+    let measured = page.result().subject.as_ref().is_some_and(|subject| subject.temperature_c.is_some());
+    let temperature = (laboratory.temperature_c.is_some() || !measured)
+        .then(|| field(languages, texts::TEMPERATURE, laboratory.temperature_c.map(celsius)));
     html! {
         (fields([
-            field(languages, texts::LABORATORY_NAME, laboratory.name.as_deref().map(given)),
-            field(languages, passport_texts::ADDRESS, None),
-            field(languages, texts::PROCEDURE, None),
-            field(languages, texts::TEMPERATURE, laboratory.temperature_c.map(celsius)),
-            field(languages, texts::GRAVITY, Some(gravity)),
-            wide_field(languages, passport_texts::METER, Some(accuracy::meter(&laboratory, languages))),
-        ]))
+            Some(field(languages, texts::LABORATORY_NAME, laboratory.name.as_deref().map(given))),
+            Some(field(languages, passport_texts::ADDRESS, None)),
+            Some(field(languages, texts::PROCEDURE, None)),
+            temperature,
+            Some(field(languages, texts::GRAVITY, Some(gravity))),
+            Some(wide_field(languages, passport_texts::METER, Some(accuracy::meter(&laboratory, languages)))),
+        ].into_iter().flatten()))
         @if page.laboratory.is_none() { div.statement { (languages.paragraph(texts::METER_ASSUMED)) } }
     }
 }

@@ -10,7 +10,7 @@ use crate::report::page::parts::{Table, symbol, symbol_and_unit};
 use crate::report::page::passport::numbers::{Cell, parameters};
 use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
-use crate::report::page::texts::{calibration as texts, units, words};
+use crate::report::page::texts::{calibration as texts, pictures, units, words};
 use crate::report::picture::accuracy::unit as parameter_unit;
 use crate::report::picture::drawing::legend_with;
 use crate::report::picture::shares as strips;
@@ -259,13 +259,15 @@ fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
         let valid = each(&|line| match line.first_order.valid {
             Some(true) => Cell::Words(languages.label(words::YES)),
             Some(false) => Cell::Words(languages.label(words::NO)),
-            None => Cell::none(),
+            None => Cell::Words(languages.label(pictures::DECISION_UNDECIDED)),
         });
         rows.push((languages.label(texts::FIRST_ORDER), valid));
     }
-    let (trials, seed) = (found.trials.to_string(), found.seed.to_string());
-    let values = [("trials", trials.as_str()), ("seed", &seed)];
-    let caption = Some(languages.label_with(|language| texts::MONTE_CARLO_CAPTION.filled(language, &values)));
+    let seed = found.seed.to_string();
+    let caption = Some(languages.label_with(|language| {
+        let trials = Number::fixed(found.trials as f64, 0).text(language);
+        texts::MONTE_CARLO_CAPTION.filled(language, &[("trials", &trials), ("seed", &seed)])
+    }));
     html! {
         (parameters(languages, caption, rows).markup(languages.spoken(texts::MONTE_CARLO)))
         @if !found.stable { (languages.paragraph(texts::NOT_STABLE)) }
