@@ -43,6 +43,7 @@ mod pictures;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod plan;
 mod readings;
+#[cfg(feature = "monte-carlo")]
 mod recorded;
 #[cfg(feature = "factory")]
 mod register_attacks;
