@@ -121,9 +121,8 @@ fn drift_test(setup: &Setup, readings: &Readings, options: &Options) -> Option<D
     drift_can_be_fitted(readings).ok()?;
     let Observation { data, fit, .. } = Observation::new(setup, readings, options.model, true).ok()?;
     let (drift, covariance) = fit.drift(&data.offsets)?;
-    let chi_square = drift.dot(&(covariance.try_inverse()? * drift));
-    let probability = chi_square_larger(chi_square, 2);
-    let rest = super::chi_square::chi_square(setup, &fit, &data);
+    let probability = chi_square_larger(drift.dot(&(covariance.try_inverse()? * drift)), 2);
+    let rest = chi_square(setup, &fit, &data);
     let explains = !rest.judges() || rest.probability >= diagnosis::ALARM;
     Some(DriftTest { drift_deg_per_h_per_h: drift, probability, explains })
 }

@@ -24,7 +24,7 @@ pub(crate) struct Recorded {
     pub(crate) identical_visits: bool,
 }
 
-/// What a result must state about the digits of its readings.
+/// Limits of the readings that a result must state.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Digits {
@@ -69,7 +69,7 @@ impl Recorded {
         if spread < SPREAD_OVER_DIGITS * self.last_digit_ma { rounding_of(self.last_digit_ma) } else { 0.0 }
     }
 
-    /// Returns what a result with the stated uncertainties of `meter` must state.
+    /// Returns the limits that a result must state, given the stated uncertainties of `meter`; `None` if there are none.
     pub(crate) fn digits(&self, meter: &MeterUncertainty) -> Option<Digits> {
         let last_digit_ma = (self.rounding_ma(meter) > meter.floor_ma).then_some(self.last_digit_ma);
         let Self { identical_rows, identical_visits, .. } = *self;
@@ -77,7 +77,7 @@ impl Recorded {
         (found != Digits::default()).then_some(found)
     }
 
-    /// Returns the setup with the rounding in place of the floor of the meter, if it is larger.
+    /// Returns the setup, in which the rounding replaces the floor of the meter if it is larger.
     pub(crate) fn applied_to(self, setup: &Setup) -> Cow<'_, Setup> {
         let meter = &setup.uncertainty().meter;
         let rounding_ma = self.rounding_ma(meter);

@@ -51,7 +51,7 @@ pub struct Calibration {
     pub results: Vec<MethodResult>,
     /// Methods without a result, each with the reason.
     pub refused: Vec<(Method, MethodRefusal)>,
-    /// What must be stated about the digits of the readings, or `None`.
+    /// Limits of the readings that their digits show; `None` if there are none.
     pub(crate) digits: Option<Digits>,
     /// Agreement of the visits of each position; `None` if every position was visited once.
     pub scatter: Option<Scatter>,

@@ -129,7 +129,7 @@ impl Repeats {
         let returns: Vec<_> = (0..positions.len()).map(|place| sensitivity.of_return(place)).collect();
         let reading = k * k.transpose() * (self.noise_ma * self.noise_ma);
         let of_noise = |place: usize, visit: usize| reading / positions[place].visits[visit].each_ma.len() as f64;
-        // A rounding in place of the floor is one of each visit.
+        // Each visit has its own rounding, so the visits differ by it.
         let meter = &setup.uncertainty().meter;
         let rounding_ma = Some(readings.recorded().rounding_ma(meter)).filter(|rounding| *rounding >= meter.floor_ma);
         let rounding = k * k.transpose() * rounding_ma.unwrap_or(0.0).powi(2);

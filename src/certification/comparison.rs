@@ -68,6 +68,7 @@ pub struct Comparison {
 
 /// Differences between check and certificate as rotations of the case, with their standard uncertainties and the design
 /// matrix of the common rotation.
+#[derive(Clone)]
 struct Differences {
     turns_arcsec: DVector<f64>,
     u_arcsec: DVector<f64>,
@@ -81,7 +82,8 @@ impl Comparison {
     /// them, or because they are those of the certificate.
     pub(crate) fn is_undecided(&self) -> bool {
         let is_any = |of: fn(&Finding) -> bool| self.findings.iter().any(of);
-        !self.same_stand && is_any(Finding::is_outlier) && !is_any(Finding::is_change)
+        let unusable = is_any(Finding::is_outlier) || is_any(Finding::is_of_the_certificate);
+        !self.same_stand && unusable && !is_any(Finding::is_change)
     }
 }
 
@@ -225,19 +227,13 @@ impl Differences {
         Some((shared, model.r_inverse().clone(), rest))
     }
 
-    /// Returns the chi-square test of all positions relative to each other if only the repeatability acts, which `scatter`
-    /// is for one visit, in certificate and check with their numbers of `runs`.
+    /// Returns the chi-square test of all positions relative to each other if only the repeatability acts. `scatter` is the
+    /// variance of one visit, and `runs` the numbers of runs of certificate and check.
     fn of_repeatability(&self, scatter: Variance, runs: [usize; 2]) -> Option<Test> {
         let variance: f64 = runs.into_iter().map(|runs| scatter.value / runs as f64).sum();
         let places: Vec<usize> = (0..self.u_arcsec.len() / 3).collect();
-        let of_runs = Self {
-            turns_arcsec: self.turns_arcsec.clone(),
-            u_arcsec: DVector::repeat(self.u_arcsec.len(), variance.sqrt()),
-            degrees_of_freedom: scatter.degrees_of_freedom,
-            design: self.design.clone(),
-            base_axes: self.base_axes.clone(),
-        };
-        of_runs.rest(&places)
+        let u_arcsec = DVector::repeat(self.u_arcsec.len(), variance.sqrt());
+        Self { u_arcsec, degrees_of_freedom: scatter.degrees_of_freedom, ..self.clone() }.rest(&places)
     }
 
     /// Returns the chi-square test of positions relative to each other, or `None` if they leave no degrees of freedom.

@@ -121,17 +121,14 @@ impl Display for Untested {
 }
 
 impl Finding {
-    /// Returns `true` for readings that are not a new measurement.
+    /// Returns `true` for readings that are not a new measurement, with which nothing is decided.
     pub(crate) fn is_of_the_certificate(&self) -> bool {
         matches!(self, Self::SameReadings | Self::TooClose)
     }
 
-    /// Returns `true` for an outlier among the readings or the runs of a check, or readings that are not new; nothing is
-    /// decided with these.
+    /// Returns `true` for an outlier among the readings or the runs of a check, with which nothing is decided.
     pub(crate) fn is_outlier(&self) -> bool {
-        self.is_of_the_certificate()
-            || matches!(self, Self::Outlier(..))
-            || matches!(self, Self::BumpedRun(run) if run.probability < OUTLIER)
+        matches!(self, Self::Outlier(..)) || matches!(self, Self::BumpedRun(run) if run.probability < OUTLIER)
     }
 
     /// Returns `true` for a change of the stand.

@@ -293,8 +293,8 @@ fn inputs_as_stated() {
     assert_eq!((setup.coefficients().positions.len(), missing.len()), (1, 4));
 }
 
-/// One part that is stated does not hide another that is not: latitude and deflection, base and mark, g. A stated 0 is as
-/// good as none.
+/// A stated part does not hide one that is missing: latitude and deflection, base and mark, g. A stated 0 counts as
+/// missing.
 #[test]
 fn every_part_that_is_not_stated_is_named() {
     let stand = Stand::from_yaml("stand.yaml", STAND.as_bytes()).unwrap();

@@ -28,7 +28,6 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
 pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     let content = page.content();
     let subject = page.result().subject.as_ref();
-    let serial = subject.and_then(|subject| subject.gyro_serial.as_deref());
     let date = subject.and_then(|subject| subject.date).map(|date| parts::date(languages, date));
     let stand = html! { (given(content.stand.model.as_str())) " №\u{a0}" (given(content.stand.serial.as_str())) };
     let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
@@ -42,7 +41,7 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
         [
             (
                 texts::SERIAL,
-                serial.map_or_else(|| blank(languages), given),
+                page.serial().map_or_else(|| blank(languages), given),
                 html! { @if let Some(date) = date { p { (languages.inline(texts::MEASURED)) ": " (date) } } },
             ),
             (texts::STAND, stand, html! { p { (given(site)) } }),
@@ -68,7 +67,7 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
     fields(
         [
             field(languages, texts::TYPE, page.gyro.map(|gyro| given(&gyro.r#type))),
-            field(languages, texts::SERIAL, subject.and_then(|subject| subject.gyro_serial.as_deref()).map(given)),
+            field(languages, texts::SERIAL, page.serial().map(given)),
             field(languages, texts::CONDITION, None),
             field(languages, texts::REPORT_NUMBER, None),
             field(languages, texts::CUSTOMER, None),
