@@ -2,6 +2,7 @@
 
 use crate::history::drift::{ANGLES, DRIFTS, Drift, Jump, SUSPECTED, Series};
 use crate::history::{History, PastCertificate, PastPassport, measured};
+use crate::report::page::language::capital;
 use crate::report::picture::history::LETTERS;
 use crate::report::{columns, style};
 use crate::text::printable;
@@ -254,8 +255,6 @@ fn drift(out: &mut String, drift: &Drift) {
         columns::table(out, &names, &rows);
     }
     let sentence = sentence(drift, LETTERS);
-    let mut letters = sentence.chars();
-    let capital = letters.next().map(|first| first.to_ascii_uppercase().to_string()).unwrap_or_default();
     let _ = writeln!(out);
-    columns::paragraph(out, "", &format!("{capital}{}.", letters.as_str()));
+    columns::paragraph(out, "", &format!("{}.", capital(&sentence)));
 }

@@ -39,7 +39,9 @@ impl StraightLine {
     /// Fits a line to points with independent ordinates. Returns `None` unless there are two different abscissas and all
     /// uncertainties are positive.
     pub(crate) fn fit(points: &[Point]) -> Option<Self> {
-        if points.iter().any(|at| !(at.u > 0.0 && at.u.is_finite())) {
+        // The spread of equal abscissas would be rounding error, not 0.
+        let differ = points.iter().any(|at| at.x != points[0].x);
+        if !differ || points.iter().any(|at| !(at.u > 0.0 && at.u.is_finite())) {
             return None;
         }
         let weight = |at: &Point| 1.0 / (at.u * at.u);

@@ -229,12 +229,12 @@ class Report:
             self.wrong.append(f"{what}: {cell['text']} has not the digits of its uncertainty {u}")
 
     def parameters(self, heads, table):
-        names = [row[0]["text"] for row in table["rows"]]
+        names = [row[0]["text"].lower() for row in table["rows"]]
         if any(name.startswith(("combined", "суммарная", "mean", "среднее")) for name in names):
             return self.of_uncertainty(heads, table)
         method = None
         for row in table["rows"]:
-            name = row[0]["text"]
+            name = row[0]["text"].lower()
             for index, result in enumerate(self.result["results"]):
                 if name.startswith(METHODS[result["method"]]):
                     method, kind = index, ()
@@ -254,7 +254,7 @@ class Report:
 
     def of_uncertainty(self, heads, table):
         """Of a budget or a Monte Carlo, whose parameters stand in a list."""
-        part = "monte_carlo" if table["rows"][0][0]["text"].startswith(("mean", "среднее")) else "budget"
+        part = "monte_carlo" if table["rows"][0][0]["text"].lower().startswith(("mean", "среднее")) else "budget"
         keys = {
             "u": ("standard_uncertainty",),
             "combined": ("standard_uncertainty",),
@@ -270,7 +270,7 @@ class Report:
         }
         lines = {symbol_of(line["parameter"]): line for line in self.result[part]["parameters"]}
         for row in table["rows"]:
-            key = next((keys[word] for word in keys if row[0]["text"].replace(",", "").split(" ")[0] == word), None)
+            key = next((keys[word] for word in keys if row[0]["text"].lower().replace(",", "").split(" ")[0] == word), None)
             for symbol, cell in zip(heads[1:], row[1:]):
                 line = lines[symbol]
                 if key:

@@ -105,13 +105,9 @@ impl CertificationPage<'_> {
     fn annex(&self, languages: &Languages) -> Markup {
         let (_, bytes) = self.readings;
         let number = &self.certification.stand.certificate.number;
-        let body = html! {
-                    (languages.paragraph(texts::ANNEX_NOTE))
-                    div.file {
-        (verbatim("", &String::from_utf8_lossy(bytes).replace("\r\n", "\n")))
-                    p.end { (languages.label_with(|language| texts::END.filled(language, &[("number", number)]))) }
-                }
-                };
+        let text = String::from_utf8_lossy(bytes).replace("\r\n", "\n");
+        let end = languages.label_with(|language| texts::END.filled(language, &[("number", number)]));
+        let body = html! { (languages.paragraph(texts::ANNEX_NOTE)) (verbatim("", &text, &end)) };
         part(languages, "annex", "", texts::ANNEX, &body)
     }
 }

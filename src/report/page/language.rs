@@ -74,6 +74,12 @@ impl Text {
     }
 }
 
+/// Returns words with a capital first letter, as at the beginning of a row or a sentence.
+pub(crate) fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
+}
+
 /// A part of a text.
 enum Piece<'a> {
     Words(&'a str),

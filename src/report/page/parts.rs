@@ -164,8 +164,8 @@ pub(crate) fn figure(languages: &Languages, id: &str, drawing: &Markup, caption:
     }
 }
 
-/// Writes a text verbatim; the style sheet numbers its lines, and marks where a line goes on.
-pub(crate) fn verbatim(lang: &str, text: &str) -> Markup {
+/// Writes a text verbatim, and the words at its end; the style sheet numbers its lines, and marks where a line goes on.
+pub(crate) fn verbatim(lang: &str, text: &str, end: &Markup) -> Markup {
     // Bytes of a line that a telephone shows whole: it never goes on.
     const LONGEST: usize = 40;
     // One word alone, such as a line of a signature, is broken anywhere.
@@ -175,10 +175,13 @@ pub(crate) fn verbatim(lang: &str, text: &str) -> Markup {
         (false, _) => None,
     };
     html! {
-        pre lang=(lang) translate="no" tabindex="0" aria-labelledby="annex-heading" {
-            @for line in text.split_inclusive('\n') {
-                span class=[kind(line)] { (unbroken_powers(line)) }
+        div.file {
+            pre lang=(lang) translate="no" tabindex="0" aria-labelledby="annex-heading" {
+                @for line in text.split_inclusive('\n') {
+                    span class=[kind(line)] { (unbroken_powers(line)) }
+                }
             }
+            p.end { (end) }
         }
     }
 }

@@ -87,9 +87,10 @@ fn axes(languages: &Languages, field: &Field) -> Markup {
     let every = usize::try_from((high - low) / 6 + 1).unwrap_or(1);
     let decades = (low..=high).rev().step_by(every);
     let decades: Vec<_> = decades.map(|exponent| (f64::from(exponent), decade(exponent, language))).collect();
-    let [_, [right, bottom]] = FIELD;
+    let [[_, top], [right, bottom]] = FIELD;
     html! {
         (field.axes(&steps, &decades))
+        (label([right, top + 10.0], Anchor::End, "small", &html! { (languages.plain(texts::CONVERGENCE_SHARE)) }))
         (label([right, bottom + 32.0], Anchor::End, "small", &html! { (languages.plain(texts::CONVERGENCE_STEP)) }))
     }
 }

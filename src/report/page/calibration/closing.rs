@@ -35,15 +35,8 @@ pub(super) fn json(page: &CalibrationPage) -> String {
 }
 
 fn annex(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let body = html! {
-            (languages.paragraph(texts::ANNEX_NOTE))
-            div.file {
-    (verbatim("en", &json(page)))
-            p.end {
-                (languages.label_with(|language| texts::END.filled(language, &[("name", &page.name())])))
-            }
-            }
-        };
+    let end = languages.label_with(|language| texts::END.filled(language, &[("name", &page.name())]));
+    let body = html! { (languages.paragraph(texts::ANNEX_NOTE)) (verbatim("en", &json(page), &end)) };
     part(languages, "annex", "", texts::ANNEX, &body)
 }
 

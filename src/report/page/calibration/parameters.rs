@@ -78,10 +78,7 @@ pub(super) fn values(result: &ResultDocument) -> [[f64; 8]; 2] {
 fn anisoelasticity(result: &ResultDocument, languages: &Languages) -> Markup {
     let u = result.standard_uncertainty.anisoelasticity_deg_per_h_per_g2;
     let Some((value, u)) = result.anisoelasticity_deg_per_h_per_g2.zip(u) else { return html! {} };
-    let value = html! {
-        (quantity(languages, &Number::measured(value, u), units::DEG_PER_H_PER_G2)) ", " (symbol("u", "")) " = "
-        (quantity(languages, &Number::uncertainty(u), units::DEG_PER_H_PER_G2))
-    };
+    let value = with_uncertainty(languages, value, u, units::DEG_PER_H_PER_G2);
     fields([field(languages, texts::ANISOELASTICITY, Some(value))])
 }
 
@@ -185,7 +182,7 @@ fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
         ),
     ]);
     html! {
-        (heading(languages, texts::ITERATION))
+        (heading(languages, texts::ITERATIVE))
         @match convergence(languages, result) {
             Some(drawing) => div.with-figure {
                 (steps)

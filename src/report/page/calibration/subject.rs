@@ -1,6 +1,6 @@
 //! Object of the calibration: gyro, stand, passport and readings.
 
-use super::{CalibrationPage, Section, UsedPassport};
+use super::{CalibrationPage, Section, UsedPassport, boxed};
 use crate::calibration::document::ExclusionDocument;
 use crate::calibration::stated::TemperatureOutside;
 use crate::laboratory::Laboratory;
@@ -85,12 +85,12 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
                 subject.and_then(|subject| subject.temperature_c).map(celsius),
             ),
             field(languages, texts::STAND, Some(given(&stand))),
-            field(
+            field(languages, texts::CURRENTS, Some(given(page.currents_name()))),
+            wide_field(
                 languages,
                 texts::SITE,
                 Some(given(content.site.name.as_deref().unwrap_or(content.site.id.as_str()))),
             ),
-            field(languages, texts::CURRENTS, Some(given(page.currents_name()))),
             wide_field(languages, texts::CURRENTS_SHA256, Some(html! { code { (page.currents.1) } })),
         ]
         .into_iter()
@@ -159,15 +159,11 @@ pub(super) fn date_of_readings(page: &CalibrationPage, languages: &Languages) ->
     let Some(days) = subject.and_then(|subject| subject.day_before_certification(&page.content().certificate)) else {
         return html! {};
     };
-    html! {
-        div.verdict.neutral {
-            p.headline { (languages.label(texts::READINGS_ARE_OLDER)) }
-            (languages.paragraph_with(|language| {
-                let [date, performed] = days.map(|day| date_text(language, day));
-                html! { (texts::READINGS_OLDER.filled(language, &[("date", &date), ("performed", &performed)])) }
-            }))
-        }
-    }
+    let words = languages.paragraph_with(|language| {
+        let [date, performed] = days.map(|day| date_text(language, day));
+        html! { (texts::READINGS_OLDER.filled(language, &[("date", &date), ("performed", &performed)])) }
+    });
+    boxed("verdict neutral", languages.label(texts::READINGS_ARE_OLDER), words)
 }
 
 /// Writes a warning if the deviations are certified for other temperatures.
@@ -178,10 +174,6 @@ pub(super) fn temperature(page: &CalibrationPage, languages: &Languages) -> Mark
     let Some(TemperatureOutside { here_c, low_c, high_c }) = outside else { return html! {} };
     let values = [("here", here_c), ("low", low_c), ("high", high_c)]
         .map(|(name, c)| (name, Number::exact(c).markup(languages)));
-    html! {
-        div.verdict.neutral {
-            p.headline { (languages.label(texts::TEMPERATURE_IS_OUTSIDE)) }
-            (languages.paragraph_with(|language| texts::TEMPERATURE_OUTSIDE.marked_up(language, &values)))
-        }
-    }
+    let words = languages.paragraph_with(|language| texts::TEMPERATURE_OUTSIDE.marked_up(language, &values));
+    boxed("verdict neutral", languages.label(texts::TEMPERATURE_IS_OUTSIDE), words)
 }

@@ -4,7 +4,7 @@ use super::{CalibrationPage, Section};
 use crate::calibration::causes::Cause;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::ParameterVerdict;
-use crate::report::page::language::{Language, Languages, Text};
+use crate::report::page::language::{Language, Languages, Text, capital};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{Table, symbol, symbol_and_unit};
 use crate::report::page::passport::numbers::{Cell, parameters};
@@ -189,7 +189,7 @@ fn kinds(budget: &Budget) -> Vec<&Contribution> {
 fn input(part: &Contribution, languages: &Languages) -> Markup {
     let u = part.cause.shown(part.standard_uncertainty[1]);
     languages.label_with(|language| {
-        let name = cause(part.cause, language);
+        let name = capital(&cause(part.cause, language));
         // The number stands once.
         if language != languages.first() {
             return name;

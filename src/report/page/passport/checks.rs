@@ -143,22 +143,31 @@ fn reason(code: Code) -> Text {
     }
 }
 
-/// Writes every check with its result.
+/// Writes every check with its result; those that were not asked have one row.
 pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
     let caption = languages
         .label_with(|language| texts::CAPTION.filled(language, &[("time", &time_text(language, page.question.time))]));
-    let rows = CHECKS.into_iter().map(|check| {
-        let state = State::of(page, check);
-        let found = page.verification.checks().iter().find(|one| one.name == check);
-        let words = |language| match (state, found) {
-            (State::NotAsked, _) | (_, None) => absent(check).words(language),
-            (_, Some(found)) => words(page, found, language),
+    let (not_asked, asked): (Vec<_>, Vec<_>) =
+        CHECKS.into_iter().partition(|check| State::of(page, *check) == State::NotAsked);
+    let found = |check| page.verification.checks().iter().find(|one| one.name == check);
+    let mut rows: Vec<_> = asked
+        .into_iter()
+        .filter_map(found)
+        .map(|found| {
+            let words = languages.label_with(|language| words(page, found, language));
+            vec![languages.label(name(found.name)), State::of(page, found.name).named(languages), words]
+        })
+        .collect();
+    if !not_asked.is_empty() {
+        let joined = |of: fn(CheckName) -> Text, between| {
+            let words = |language| not_asked.iter().map(|check| of(*check).words(language)).collect::<Vec<_>>();
+            languages.label_with(|language| words(language).join(between))
         };
-        vec![languages.label(name(check)), state.named(languages), languages.label_with(words)]
-    });
+        rows.push(vec![joined(name, ", "), State::NotAsked.named(languages), joined(absent, "; ")]);
+    }
     let table = Table {
         headings: [texts::CHECK, texts::RESULT, texts::FOUND].map(|text| languages.label(text)).into(),
-        rows: rows.collect(),
+        rows,
         row_headings: 1,
         class: "checks",
         ..Table::default()

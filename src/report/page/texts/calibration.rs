@@ -157,10 +157,10 @@ texts! {
              местному g, {g} м/с²"
     }
     ADOPTED { en: "{method} (adopted result)", ru: "{method} (принятый результат)" }
-    LEAST_SQUARES_NAME { en: "least squares", ru: "метод наименьших квадратов" }
-    ANALYTIC { en: "analytic method", ru: "аналитический метод" }
-    ITERATIVE { en: "iterative method", ru: "итерационный метод" }
-    OFF_BY { en: "difference from least squares, in its u", ru: "отличие от МНК в единицах его\u{a0}u" }
+    LEAST_SQUARES_NAME { en: "Least squares", ru: "Метод наименьших квадратов" }
+    ANALYTIC { en: "Analytic method", ru: "Аналитический метод" }
+    ITERATIVE { en: "Iterative method", ru: "Итерационный метод" }
+    OFF_BY { en: "Difference from least squares, in its u", ru: "Отличие от МНК в единицах его\u{a0}u" }
     OFF_BY_NOTE {
         en: "Difference from least squares: in units of the standard uncertainty of that difference. The same input \
              errors act on both methods.",
@@ -168,7 +168,6 @@ texts! {
              разности; на оба метода действуют одни и те же погрешности."
     }
     ANISOELASTICITY { en: "Anisoelastic coefficient", ru: "Коэффициент неравножёсткости" }
-    ITERATION { en: "Iterative method", ru: "Итерационный метод" }
     SPECTRAL_RADIUS { en: "Spectral radius", ru: "Спектральный радиус" }
     STEPS { en: "Number of steps", ru: "Число шагов" }
     STEPS_PREDICTED { en: "Predicted number of steps", ru: "Предсказанное число шагов" }
@@ -178,7 +177,7 @@ texts! {
         en: "Remaining error of the g-sensitive drifts, at most",
         ru: "Остаточная погрешность составляющих дрейфа, зависящих от g, не более"
     }
-    NO_RESULT { en: "No result by this method: {method}.", ru: "Результат этим методом не получен: {method}." }
+    NO_RESULT { en: "{method}: no result.", ru: "{method}: результат не получен." }
     CONVERGENCE_CAPTION {
         en: "Convergence: change in each step, relative to the limit at which the iteration stops. The first approximation \
              counts as a step.",
@@ -383,7 +382,7 @@ texts! {
         en: "Standard uncertainty u of each parameter, and where its variance u² comes from",
         ru: "Стандартная неопределённость u каждого параметра и составляющие её дисперсии u²"
     }
-    SHARES { en: "share of the variance, %", ru: "доля дисперсии, %" }
+    SHARES { en: "Share of the variance, %", ru: "Доля дисперсии, %" }
     OTHER_INPUTS { en: "other inputs", ru: "прочие входные величины" }
     BUDGET_DASH {
         en: "–: no contribution, or one that rounds to zero.",
@@ -422,9 +421,9 @@ texts! {
         ru: "Для уменьшения u вдвое неопределённость этого источника не должна превышать {limit}."
     }
     BUDGET_LEAVES { en: "Without this source, u would be {rest}.", ru: "Без этого источника u составила бы {rest}." }
-    COMBINED { en: "combined, u", ru: "суммарная, u" }
-    EFFECTIVE_FREEDOM { en: "effective degrees of freedom", ru: "эффективное число степеней свободы" }
-    EXPANDED { en: "expanded, U for 95 % (Student’s t)", ru: "расширенная, U для 95 % (Стьюдент)" }
+    COMBINED { en: "Combined, u", ru: "Суммарная, u" }
+    EFFECTIVE_FREEDOM { en: "Effective degrees of freedom", ru: "Эффективное число степеней свободы" }
+    EXPANDED { en: "Expanded, U for 95 % (Student’s t)", ru: "Расширенная, U для 95 % (Стьюдент)" }
     INPUT { en: "{input}: u = {u}", ru: "{input}: u = {u}" }
     CAUSE_ANGLE { en: "certified angles", ru: "аттестованные углы" }
     CAUSE_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
@@ -453,10 +452,10 @@ texts! {
         en: "{trials} trials, seed {seed}; probabilistically symmetric 95 % coverage intervals",
         ru: "Число испытаний {trials}, начальное значение генератора {seed}; вероятностно симметричные интервалы охвата для вероятности 95 %"
     }
-    MEAN { en: "mean", ru: "среднее" }
-    LOWER { en: "lower end", ru: "нижняя граница" }
-    UPPER { en: "upper end", ru: "верхняя граница" }
-    FIRST_ORDER { en: "linear approximation valid", ru: "линейное приближение применимо" }
+    MEAN { en: "Mean", ru: "Среднее" }
+    LOWER { en: "Lower end", ru: "Нижняя граница" }
+    UPPER { en: "Upper end", ru: "Верхняя граница" }
+    FIRST_ORDER { en: "Linear approximation valid", ru: "Линейное приближение применимо" }
     NOT_STABLE {
         en: "Not all stated digits are stable; more trials would change some of them.",
         ru: "Не все приведённые цифры установились; при большем числе испытаний некоторые изменятся."

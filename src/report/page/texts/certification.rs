@@ -55,8 +55,8 @@ texts! {
     BASE { en: "Run, base, per axis", ru: "Серия, основание, по осям" }
     UPPER { en: "Upper limit of s (95 %), ″", ru: "Верхняя граница s (95 %), ″" }
     RUN_TURNS { en: "Rotation of each run relative to the mean, ″", ru: "Поворот каждой серии относительно среднего, ″" }
-    OF_PLATFORM { en: "platform", ru: "платформа" }
-    OF_BASE { en: "base", ru: "основание" }
+    OF_PLATFORM { en: "Platform", ru: "Платформа" }
+    OF_BASE { en: "Base", ru: "Основание" }
     EAST { en: "east", ru: "восток" }
     NORTH { en: "north", ru: "север" }
     UP { en: "up", ru: "верх" }
