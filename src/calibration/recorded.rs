@@ -2,7 +2,7 @@
 
 use super::inputs::{MeterUncertainty, Setup};
 use super::readings::{PositionReadings, Visit};
-use crate::statistics::coincidences::last_digit;
+use crate::statistics::coincidences::digit_of_meter;
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -14,7 +14,8 @@ const SPREAD_OVER_DIGITS: f64 = 0.5;
 /// Digits and scatter of the currents of a file.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Recorded {
-    /// Last decimal digit of the coarser channel, mA; 0 if the currents were computed.
+    /// Last decimal digit of the coarser channel, mA, that of its largest current if the number of significant digits is
+    /// fixed; 0 if the currents were computed.
     pub(crate) last_digit_ma: f64,
     /// Standard deviation of the readings of a position within a turn-on, mA; `None` if no position has several.
     pub(crate) spread_ma: Option<f64>,
@@ -49,7 +50,7 @@ impl Recorded {
         let visits = || positions.iter().flat_map(|at| &at.visits);
         let same_rows = |visit: &Visit| visit.each_ma.iter().all(|row| *row == visit.each_ma[0]);
         let identical_rows = visits().any(|visit| visit.each_ma.len() > 1) && visits().all(same_rows);
-        let [x, y] = [0, 1].map(|axis| last_digit(visits().flat_map(|visit| &visit.each_ma).map(|row| row[axis])));
+        let [x, y] = [0, 1].map(|axis| digit_of_meter(visits().flat_map(|visit| &visit.each_ma).map(|row| row[axis])));
         for visit in positions.iter_mut().flat_map(|at| &mut at.visits).filter(|_| identical_rows) {
             visit.each_ma.truncate(1);
             visit.mean_ma = visit.each_ma[0];

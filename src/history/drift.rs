@@ -47,7 +47,7 @@ pub(crate) struct Series {
     pub index: PositionIndex,
     /// Angle: 0, 1, 2 for α, β, γ.
     pub angle: usize,
-    /// Values in the order of time.
+    /// Values in the order of time, also those without an uncertainty, which cannot be weighted and are not tested.
     pub values: Vec<Value>,
     /// Fitted line in arcseconds over years; `None` without two certificates of different dates that state the
     /// uncertainty, and for a deviation that has jumped.
@@ -208,10 +208,14 @@ impl Series {
         let point = |at: &Value| {
             Some(Point { x: at.years, y: at.arcsec, u: at.u_arcsec?, degrees_of_freedom: at.degrees_of_freedom })
         };
-        // A certificate without a stated uncertainty cannot be weighted, so the series is then not tested.
-        let points: Option<Vec<Point>> = values.iter().map(point).collect();
-        let line = points.and_then(|points| StraightLine::fit(&points));
+        let points: Vec<Point> = values.iter().filter_map(point).collect();
+        let line = StraightLine::fit(&points);
         Self { index, angle, values, line, jump: None, corrected_probability: None }
+    }
+
+    /// Returns the values that were tested: those with an uncertainty.
+    pub(crate) fn tested_values(&self) -> impl DoubleEndedIterator<Item = &Value> {
+        self.values.iter().filter(|at| at.u_arcsec.is_some())
     }
 
     /// Returns the largest change between successive certificates in units of its uncertainty, as the jump that makes the
@@ -226,8 +230,9 @@ impl Series {
             Some(Jump { certificates, change_arcsec, u_arcsec, line, corrected_probability })
         };
         let size = |jump: &Jump| (jump.change_arcsec / jump.u_arcsec).abs();
+        let known: Vec<Value> = self.tested_values().cloned().collect();
         // Of equal changes, the first.
-        self.values.windows(2).rev().filter_map(change).max_by(|a, b| size(a).total_cmp(&size(b)))
+        known.windows(2).rev().filter_map(change).max_by(|a, b| size(a).total_cmp(&size(b)))
     }
 }
 
@@ -293,6 +298,22 @@ mod tests {
         }
     }
 
+    /// Expected: positions that only the later certificates contain have one value and no rate; they are no tests for which
+    /// the others are corrected.
+    #[test]
+    fn a_position_added_later_is_not_tested() {
+        let mut later = stand("2026-07-16", "C-1", |_| {});
+        let added = CertifiedPosition { i: 5, theta_deg: 270.0, ..later.positions[0].clone() };
+        later.positions.push(added);
+        for more in [false, true] {
+            let mut last = later.clone();
+            last.certificate.number = "C-2".to_owned();
+            let stands = [&stand("2020-06-01", "C-0", |_| {}), &later, &last];
+            let found = Drift::of(&stands[..2 + usize::from(more)]);
+            assert_eq!((found.series.len(), found.tested()), (27, 24), "{more}");
+        }
+    }
+
     #[test]
     fn one_certificate_shows_no_drift() {
         let one = stand("2020-06-01", "C-0", |_| {});
@@ -303,6 +324,9 @@ mod tests {
         assert_eq!(same_day.tested(), 0);
         let unstated = Drift::of(&[&one, &stand("2021-06-01", "C-1", |at| at.u_alpha_arcsec = None)]);
         assert_eq!(unstated.tested(), 16);
+        let later = stand("2022-06-01", "C-2", |_| {});
+        let first_unstated = Drift::of(&[&stand("2019-06-01", "C", |at| at.u_alpha_arcsec = None), &one, &later]);
+        assert_eq!(first_unstated.tested(), 24);
         assert_eq!(Drift::of(&[]).series.len(), 0);
     }
 }

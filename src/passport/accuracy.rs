@@ -10,6 +10,7 @@ use crate::calibration::readings::NoReadings;
 use crate::calibration::{Method, NoSetup, Options, Readings, Setup, calibrate};
 use crate::gyro::{GyroParameters, GyroType, Parameters};
 use crate::laboratory::Laboratory;
+use crate::passport::content::Content;
 use crate::site::Site;
 use crate::stand::{Certificate, CertifiedPosition};
 use crate::text::{Path, Problems, record};
@@ -95,6 +96,25 @@ pub(crate) fn at_gravity(gyro: &GyroType, gravity_m_per_s2: f64) -> GyroParamete
 }
 
 impl Accuracy {
+    /// Returns a sentence if the gyro needs more current in a position of the passport than the meter can read.
+    pub(crate) fn beyond_range(&self, content: &Content) -> Option<String> {
+        let gyro = at_gravity(&self.gyro, content.earth.gravity_m_per_s2);
+        let each = content
+            .coefficients()
+            .positions
+            .into_iter()
+            .filter_map(|at| Some((gyro.currents_ma(&at)?.amax(), at.index)));
+        let (current_ma, index) = each.max_by(|(one, _), (other, _)| one.total_cmp(other))?;
+        let range_ma = self.laboratory.meter.range_ma;
+        (current_ma > range_ma).then(|| {
+            format!(
+                "a gyro of type {} needs {current_ma:.3} mA in position {index}, more than {range_ma} mA, the range of the \
+                 meter for which the accuracy is stated",
+                self.gyro.r#type
+            )
+        })
+    }
+
     /// Checks the inputs by the rules of the files that they came from.
     pub(crate) fn check(&self, at: &Path, problems: &mut Problems) {
         self.gyro.check(&at.key("gyro"), problems);

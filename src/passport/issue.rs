@@ -263,7 +263,9 @@ impl Draft {
         let gyro = GyroType::gvk_6().nominal.to_model();
         let noise = noise_growth(&positions, content.earth.rate(&content.site), &gyro, meter);
         let odd = stand::remarks::of(&content.certificate, &content.positions);
-        let odd = odd.iter().map(ToString::to_string).collect();
+        let mut odd: Vec<String> = odd.iter().map(ToString::to_string).collect();
+        odd.extend(content.site.odd());
+        odd.extend(content.accuracy.as_ref().and_then(|accuracy| accuracy.beyond_range(content)));
         Remarks { noise, uncertainty_growth: content.site.uncertainty_growth(), odd, absences: absences(content) }
     }
 }

@@ -45,7 +45,7 @@ impl Angles {
         is_usable.then_some(Self::Step(step_deg))
     }
 
-    fn positions(self) -> Vec<Position> {
+    pub(crate) fn positions(self) -> Vec<Position> {
         let step_deg = match self {
             Self::Quadrants => 90.0,
             Self::Step(step_deg) => step_deg,
@@ -114,10 +114,12 @@ pub(crate) struct Candidates {
     pub turn_on: f64,
     pub(super) setup: Setup,
     pub(super) unknowns: Unknowns,
-    pub(super) currents_ma: Vec<Vector2<f64>>,
+    pub(crate) currents_ma: Vec<Vector2<f64>>,
     candidates: Vec<Candidate>,
     certified: bool,
     not_stated: Vec<NotStated>,
+    /// Number of positions left out, because the meter cannot read their currents.
+    pub(super) beyond_range: usize,
 }
 
 impl Candidates {
@@ -126,9 +128,12 @@ impl Candidates {
     /// # Errors
     /// Returns [`NoPlan`] if the inputs are unusable or all candidates together do not determine the parameters.
     pub(crate) fn new(question: &Question, azimuth_deg: f64) -> Result<Self, NoPlan> {
-        let prepared = match question.stand {
-            Some(stand) => Self::certified(question, stand, &stand.positions, azimuth_deg)?,
-            None => Self::nominal(question, &question.angles.positions(), azimuth_deg)?,
+        let all = Self::without(&[], question, azimuth_deg)?;
+        let beyond = all.beyond(question.laboratory.meter.range_ma);
+        let prepared = match beyond.len() {
+            0 => all,
+            every if every == all.len() => return Err(NoPlan::Range(question.laboratory.meter.range_ma)),
+            some => Self { beyond_range: some, ..Self::without(&beyond, question, azimuth_deg)? },
         };
         let meter = prepared.setup.uncertainty().meter;
         least_squares::solve(prepared.setup.coefficients(), &prepared.currents_ma, &meter, Model::Paper)
@@ -136,11 +141,29 @@ impl Candidates {
         Ok(prepared)
     }
 
-    /// Prepares the paper's eight positions; returns `None` if the stand lacks one.
+    /// Prepares the candidates of a question except some positions.
+    fn without(left_out: &[PositionIndex], question: &Question, azimuth_deg: f64) -> Result<Self, NoPlan> {
+        let is_left = |index: PositionIndex| !left_out.contains(&index);
+        let Some(stand) = question.stand else {
+            let positions: Vec<_> = question.angles.positions().into_iter().filter(|at| is_left(at.index)).collect();
+            return Self::nominal(question, &positions, azimuth_deg);
+        };
+        let positions: Vec<_> = stand.positions.iter().filter(|at| is_left(at.index())).cloned().collect();
+        Self::certified(question, stand, &positions, azimuth_deg)
+    }
+
+    /// Returns the positions in which the gyro needs more than `range_ma`, which the meter cannot read.
+    fn beyond(&self, range_ma: f64) -> Vec<PositionIndex> {
+        let each = self.candidates.iter().zip(&self.currents_ma);
+        each.filter(|(_, current)| current.amax() > range_ma).map(|(at, _)| at.position.index).collect()
+    }
+
+    /// Prepares the paper's eight positions; returns `None` if the stand lacks one, or the meter cannot read one.
     ///
     /// # Errors
     /// Returns [`NoPlan`] if the inputs are unusable.
     pub(crate) fn paper(question: &Question, azimuth_deg: f64) -> Result<Option<Self>, NoPlan> {
+        let in_range = |eight: Self| eight.beyond(question.laboratory.meter.range_ma).is_empty().then_some(eight);
         let Some(stand) = question.stand else {
             let eight = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| Position {
                 index,
@@ -148,11 +171,12 @@ impl Candidates {
                 phi_deg,
                 deviation: NONE,
             });
-            return Self::nominal(question, &eight, azimuth_deg).map(Some);
+            return Self::nominal(question, &eight, azimuth_deg).map(in_range);
         };
         let find = |index: PositionIndex| stand.positions.iter().find(|at| at.index() == index).cloned();
         let eight: Option<Vec<_>> = EIGHT_POSITIONS.iter().map(|(index, _, _)| find(*index)).collect();
-        eight.map(|eight| Self::certified(question, stand, &eight, azimuth_deg)).transpose()
+        let eight = eight.map(|eight| Self::certified(question, stand, &eight, azimuth_deg)).transpose()?;
+        Ok(eight.and_then(in_range))
     }
 
     fn certified(
@@ -198,6 +222,7 @@ impl Candidates {
             candidates,
             certified: false,
             not_stated: Vec::new(),
+            beyond_range: 0,
         })
     }
 

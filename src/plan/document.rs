@@ -36,8 +36,11 @@ pub(crate) struct PlanDocument {
     has_general_model: bool,
     /// Errors that all positions share.
     common_errors: Vec<EffectDocument>,
-    /// Largest change of a parameter in units of its tolerance, for an ω_0 that rises by 1 °/h over the run in this order.
+    /// Largest change of a parameter in units of its tolerance, for an ω_0 that rises or falls by 1 °/h on each axis over
+    /// the run in this order.
     drift_over_tolerance_per_deg_per_h: f64,
+    /// Number of positions left out, because the meter cannot read their currents.
+    beyond_range: usize,
     /// Whether every choice was compared.
     exhaustive: bool,
     /// Inputs without a stated uncertainty; they count as 0.
@@ -199,6 +202,7 @@ impl From<&Plan> for PlanDocument {
             has_general_model: plan.has_general_model,
             common_errors: common_errors(&plan.evaluation, plan.paper.as_ref()),
             drift_over_tolerance_per_deg_per_h: plan.order.largest_over_tolerance,
+            beyond_range: plan.beyond_range,
             exhaustive: plan.exhaustive,
             not_stated: plan.not_stated().map(str::to_owned).collect(),
         }

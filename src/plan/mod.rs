@@ -80,6 +80,9 @@ pub(crate) enum NoPlan {
         .0.symbol()
     )]
     NoTolerance(Parameter),
+    /// A meter that cannot read the gyro in any position.
+    #[error("in every position the gyro type needs more than {0} mA, the range of the meter; correct meter.range_ma")]
+    Range(f64),
     /// Candidates that do not determine the parameters, however often they are read.
     #[error(
         "{0}; certify other positions, such as the paper's eight or theta = 90 and 270 deg with the frame's axis north"
@@ -135,6 +138,8 @@ pub(crate) struct Plan {
     pub tolerance: [f64; 8],
     /// Number of candidates.
     pub candidates: usize,
+    /// Number of positions that are no candidates, because the meter cannot read the currents of the gyro in them.
+    pub beyond_range: usize,
     /// `true` if every choice was compared; `false` if the plan was found by exchange.
     pub exhaustive: bool,
     /// `true` if the paper's eight positions are in the plan, so that its matrices and closed methods exist.
@@ -186,6 +191,7 @@ pub(crate) fn plan(question: &Question) -> Result<Plan, NoPlan> {
         paper: paper(question)?,
         tolerance: candidates.tolerance,
         candidates: candidates.len(),
+        beyond_range: candidates.beyond_range,
         exhaustive: found.exhaustive,
         has_matrices,
         has_general_model: design.determines_general_model(),

@@ -23,7 +23,7 @@ pub(crate) struct Order {
     pub places: Vec<usize>,
     /// Σ (b/T)² for a rise of 1 °/h over the run.
     pub value: f64,
-    /// Largest |b/T| of a parameter for a rise of 1 °/h over the run, root sum of squares of the drifts on x and y.
+    /// Largest |b/T| of a parameter if ω_0 rises or falls by 1 °/h over the run on x and on y, whichever signs are worst.
     pub largest_over_tolerance: f64,
 }
 
@@ -88,7 +88,7 @@ impl Problem {
 
     fn order(&self, places: Vec<usize>) -> Order {
         let changes = self.changes(&places);
-        let of_both = (0..8).map(|parameter| libm::hypot(changes[parameter], changes[parameter + 8]));
+        let of_both = (0..8).map(|parameter| changes[parameter].abs() + changes[parameter + 8].abs());
         let largest = of_both.fold(0.0, f64::max);
         Order { value: squares(&changes), largest_over_tolerance: largest, places }
     }

@@ -235,12 +235,12 @@ fn row(series: &Series) -> Option<Vec<String>> {
         }
         (None, None) => return None,
     };
-    let change = series.values.last()?.arcsec - series.values.first()?.arcsec;
+    let change = series.tested_values().next_back()?.arcsec - series.tested_values().next()?.arcsec;
     let mut row = vec![
         series.index.i.to_string(),
         series.index.j.to_string(),
         LETTERS[series.angle].to_owned(),
-        series.values.len().to_string(),
+        series.tested_values().count().to_string(),
         columns::signed(change, columns::decimals(u)),
     ];
     row.extend(rest);

@@ -170,6 +170,16 @@ fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
         let names: Vec<&str> = plan.evaluation.effects.iter().filter(these).map(|at| at.error.name()).collect();
         names.join(", ")
     };
+    match plan.beyond_range {
+        0 => {}
+        1 => {
+            remarks.push("One position is left out: the gyro needs more current there than meter.range_ma.".to_owned())
+        }
+        some => {
+            remarks
+                .push(format!("{some} positions are left out: the gyro needs more current there than meter.range_ma."));
+        }
+    }
     let unseen = names(&|effect| effect.matters() && effect.is_hidden());
     if !unseen.is_empty() {
         remarks.push(format!(
@@ -207,7 +217,7 @@ fn remarks(plan: &Plan, site_azimuth_deg: f64) -> Vec<String> {
         remarks.push("Four positions leave no degrees of freedom: the fit cannot be tested.".to_owned());
     }
     remarks.push(format!(
-        "In this order an ω_0 that rises by {DRIFT_DEG_PER_H} °/h on both axes during the run changes no parameter by \
+        "In this order an ω_0 that rises or falls by {DRIFT_DEG_PER_H} °/h on each axis during the run changes no parameter by \
          more than {} % of its tolerance.",
         percent(DRIFT_DEG_PER_H * plan.order.largest_over_tolerance)
     ));

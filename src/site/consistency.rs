@@ -120,6 +120,30 @@ impl Site {
     }
 }
 
+impl Site {
+    /// Returns what is possible, and therefore not refused, but usually an error: a sentence each, without a full stop.
+    pub(crate) fn odd(&self) -> Vec<String> {
+        let mut odd = Vec::new();
+        if let (Some(gravity), None) = (self.gravity_m_per_s2, self.gravity_u_m_per_s2) {
+            odd.push(if gravity == earth::STANDARD_GRAVITY_M_PER_S2 {
+                let normal = Self { gravity_m_per_s2: None, ..self.clone() };
+                format!(
+                    "gravity_m_per_s2 is {gravity}, the standard acceleration and not that of a place, and counts as exact; \
+                     without it the passport would state {:.4} with u = {}; remove it, or state a measured value",
+                    normal.earth().gravity_m_per_s2,
+                    normal.gravity_u_m_per_s2().unwrap_or_default()
+                )
+            } else {
+                "gravity_m_per_s2 counts as exact, because no uncertainty is stated; state gravity_u_m_per_s2".to_owned()
+            });
+        }
+        if self.deflection_arcsec.as_ref().is_some_and(|deflection| deflection.u.is_none()) {
+            odd.push("deflection_arcsec counts as exact, because no uncertainty is stated; state its u".to_owned());
+        }
+        odd
+    }
+}
+
 /// Returns the distance in metres, or `None` if it is within the limit or a place has coordinates out of range.
 fn farther_than(limit_m: f64, from: Place, to: Place) -> Option<f64> {
     let is_place = |place: Place| place.latitude_deg.abs() <= 90.0 && place.longitude_deg.abs() <= 180.0;

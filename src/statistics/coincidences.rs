@@ -84,14 +84,36 @@ fn common_divisor(one: u64, other: u64) -> u64 {
 
 /// Returns the last decimal digit to which any of the numbers is written, or 0 if all are 0.
 pub(crate) fn last_digit(numbers: impl Iterator<Item = f64>) -> f64 {
-    let of_one = |number: f64| {
-        let written = format!("{number:.MOST_DECIMALS$e}");
-        let (mantissa, exponent) = written.split_once('e')?;
-        let decimals = mantissa.trim_end_matches('0').split_once('.')?.1.len() as i32;
-        let exponent: i32 = exponent.parse().ok()?;
-        (number != 0.0).then(|| libm::pow(10.0, f64::from(exponent - decimals)))
-    };
-    numbers.filter_map(of_one).reduce(f64::min).unwrap_or(0.0)
+    numbers.filter_map(last_place).map(|(place, _)| place).min().map_or(0.0, power_of_ten)
+}
+
+/// Returns the last decimal digit of a meter that has shown the numbers, or 0 if all are 0: of numbers with one number of
+/// decimals, as [`last_digit`]; of numbers with one number of significant digits, that of the largest.
+pub(crate) fn digit_of_meter(numbers: impl Iterator<Item = f64>) -> f64 {
+    let places: Vec<(i32, i32)> = numbers.filter_map(last_place).collect();
+    let finest = places.iter().map(|(place, _)| *place).min();
+    let most = places.iter().map(|(_, significant)| *significant).max();
+    // Zeros at the end of a number are lost, so that neither holds for all.
+    let [decimals, significant] = [
+        places.iter().filter(|(place, _)| Some(*place) == finest).count(),
+        places.iter().filter(|(_, significant)| Some(*significant) == most).count(),
+    ];
+    let is_of_significant = significant > decimals && 4 * significant >= 3 * places.len();
+    let coarsest = places.iter().filter(|(_, significant)| Some(*significant) == most).map(|(place, _)| *place).max();
+    (if is_of_significant { coarsest } else { finest }).map_or(0.0, power_of_ten)
+}
+
+/// Returns the place (power of ten) of the last digit of a number, and its number of significant digits; `None` for 0.
+fn last_place(number: f64) -> Option<(i32, i32)> {
+    let written = format!("{number:.MOST_DECIMALS$e}");
+    let (mantissa, exponent) = written.split_once('e')?;
+    let decimals = mantissa.trim_end_matches('0').split_once('.')?.1.len() as i32;
+    let exponent: i32 = exponent.parse().ok()?;
+    (number != 0.0).then_some((exponent - decimals, decimals + 1))
+}
+
+fn power_of_ten(place: i32) -> f64 {
+    libm::pow(10.0, f64::from(place))
 }
 
 #[cfg(all(test, feature = "monte-carlo"))]

@@ -411,7 +411,11 @@ fn the_order_is_the_best_of_all() {
         let found = squares(&changes(&order.places));
         assert!((found / least - 1.0).abs() < 1e-6 && (order.value / found - 1.0).abs() < 1e-9);
         println!("best {:.2}", largest(&changes(&order.places)));
-        assert!((order.largest_over_tolerance / largest(&changes(&order.places)) - 1.0).abs() < 1e-9);
+        // Expected: both axes at once, with the signs that add up.
+        let at_worst = changes(&order.places);
+        let of_both = |at: usize| (at_worst[at] + at_worst[at + 8]).abs().max((at_worst[at] - at_worst[at + 8]).abs());
+        let bound = (0..8).map(of_both).fold(0.0, f64::max);
+        assert!((order.largest_over_tolerance / bound - 1.0).abs() < 1e-9);
     }
 }
 
@@ -552,6 +556,9 @@ fn what_cannot_be_planned_is_refused() {
     without.gyro.nominal.k_deg_per_h_per_ma = [[95.0, 0.0], [9.5, 95.0]];
     let refused = plan(&question(&without, &site)).unwrap_err();
     assert_eq!(refused, NoPlan::NoTolerance(Parameter::Kxy));
+    let mut small = proportional();
+    small.laboratory.meter.range_ma = 0.01;
+    assert_eq!(plan(&question(&small, &site)).unwrap_err(), NoPlan::Range(0.01));
     for step in [0.0, 7.0, 9.0, 50.0, -90.0, 360.0, f64::NAN] {
         assert_eq!(Angles::every(step), None, "{step}");
     }
@@ -561,6 +568,27 @@ fn what_cannot_be_planned_is_refused() {
         let found = plan(&Question { readings, ..question(&noise, &site) }).unwrap();
         assert_eq!(found.readings.iter().map(|at| at.visits).sum::<u32>(), readings);
         assert_eq!((found.paper.is_some(), found.order.places.len()), (compared, readings as usize));
+    }
+}
+
+/// Expected: the currents of the model, J = K⁻¹ (ω − ω_0 − Ω n): no position of the plan needs more than the range of the
+/// meter, and those that do are counted.
+#[test]
+fn positions_beyond_the_range_of_the_meter_are_no_candidates() {
+    let site = site();
+    let mut noise = proportional();
+    let all = candidates(&noise, NORTH);
+    let largest: Vec<f64> = all.currents_ma.iter().map(|current| current.amax()).collect();
+    noise.laboratory.meter.range_ma = 0.31;
+    let beyond = largest.iter().filter(|current| **current > 0.31).count();
+    assert!((1..8).contains(&beyond), "{largest:?}");
+    let found = plan(&Question { azimuths_deg: vec![NORTH], ..question(&noise, &site) }).unwrap();
+    assert_eq!((found.beyond_range, found.candidates), (beyond, largest.len() - beyond));
+    let positions = Angles::Quadrants.positions();
+    for at in &found.readings {
+        let place =
+            positions.iter().position(|one| (one.theta_deg, one.phi_deg) == (at.theta_deg, at.phi_deg)).unwrap();
+        assert!(largest[place] <= 0.31, "{at:?}");
     }
 }
 

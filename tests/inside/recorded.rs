@@ -97,6 +97,22 @@ fn the_rounding_takes_the_place_of_a_smaller_floor_only() {
     assert!((u(&stated, Parameter::Omega0x) / fine - 3e-5 / (1e-4 / 12_f64.sqrt())).abs() < 1e-3);
 }
 
+/// Expected: a meter that changes its range shows four significant digits of every current; the largest are a few tenths
+/// of a milliampere, so that a reading is uncertain by at most 1e-4/√12 mA, as with four decimals.
+#[test]
+fn a_meter_of_fixed_significant_digits_has_the_digit_of_its_largest_current() {
+    let setup = bench(1, 0.0);
+    let fixed = solved(&setup, &written(&setup, 1, (&mut Stream::new(2), 0.0), 4));
+    let mut csv = "i,j,jx_ma,jy_ma\n".to_owned();
+    for (at, exact) in setup.coefficients().positions.iter().zip(currents(&setup, &gvk_6())) {
+        csv += &format!("{},{},{:.3e},{:.3e}\n", at.index.i, at.index.j, exact.x, exact.y);
+    }
+    let ranged = solved(&setup, csv.as_bytes());
+    assert_eq!(ranged.digits, fixed.digits);
+    assert!((u(&ranged, Parameter::Kx) / u(&fixed, Parameter::Kx) - 1.0).abs() < 1e-3);
+    assert!(ranged.answer().unwrap().chi_square.probability > 0.01);
+}
+
 /// Expected: copies of rows or of visits add nothing to one reading, neither a smaller uncertainty nor a noise of 0.
 #[test]
 fn copies_of_readings_count_as_one() {

@@ -55,6 +55,25 @@ fn the_stand_hangs_on_the_plumb_line() {
     assert!(site("latitude_deg: -45.0").earth().vertical_deg_per_h < 0.0);
 }
 
+/// Expected: what counts as exact without a stated uncertainty is named. Normal gravity at sea level in Moscow, to four
+/// decimals by Somigliana's formula: 9.8157 m/s².
+#[test]
+fn values_without_an_uncertainty_are_named() {
+    let odd = |keys: &str| site(&format!("latitude_deg: 55.7658\n{keys}")).odd();
+    let standard = odd("gravity_m_per_s2: 9.80665");
+    assert!(
+        standard[0].contains("standard acceleration") && standard[0].contains("9.8157 with u = 0.0071"),
+        "{standard:?}"
+    );
+    assert!(odd("gravity_m_per_s2: 9.81")[0].contains("state gravity_u_m_per_s2"));
+    assert!(odd("deflection_arcsec: {xi: 0.0, eta: 0.0}")[0].contains("state its u"));
+    for stated in
+        ["", "gravity_m_per_s2: 9.80665\ngravity_u_m_per_s2: 0.003", "deflection_arcsec: {xi: 1.0, eta: 2.0, u: 1.0}"]
+    {
+        assert!(odd(stated).is_empty(), "{stated}");
+    }
+}
+
 #[test]
 fn the_azimuth_of_the_frames_axis_is_a_full_circle() {
     let with = |azimuth: &str| format!("latitude_deg: 45.0\nframe_axis_azimuth_deg: {azimuth}");

@@ -15,7 +15,7 @@ pub struct Remarks {
     pub(crate) noise: Option<NoiseGrowth>,
     /// Growth of the uncertainty with latitude, 1/cos Φ.
     pub uncertainty_growth: f64,
-    /// Implausible statements of the certificate, one sentence each.
+    /// Implausible statements of certificate, site and accuracy, one sentence each.
     pub odd: Vec<String>,
     /// Missing statements and their effects, one sentence each.
     pub absences: Vec<String>,
