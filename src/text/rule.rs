@@ -62,15 +62,8 @@ pub(super) fn write_quoted(text: &str, mut push: impl FnMut(&str)) {
 pub(crate) fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
     let text = plain_text(name, bytes)?;
     if !text.ends_with('\n') {
-        let at = location_of(bytes);
-        return Err(Unreadable::whole(
-            name,
-            Some(at),
-            "no line feed at the end",
-            "a line feed",
-            "the file may be \
-            truncated; get it from the issuer again",
-        ));
+        let (at, advice) = (location_of(bytes), "the file may be truncated; get it from the issuer again");
+        return Err(Unreadable::whole(name, Some(at), "no line feed at the end", "a line feed", advice));
     }
     if obeys_at_first_sight(text) {
         return Ok(text);

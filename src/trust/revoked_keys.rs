@@ -3,7 +3,7 @@
 use super::krl::{self, Revoked};
 use super::public_key::AnyKey;
 use super::signer_line::read_key;
-use super::{LARGEST_TRUST_FILE_BYTES, PublicKey, lines};
+use super::{PublicKey, lines};
 use crate::text::Unreadable;
 use crate::text::kind::{Kind, mistaken};
 use sha1::Sha1;
@@ -51,21 +51,11 @@ impl RevokedKeys {
 }
 
 fn binary(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
-    if bytes.len() > LARGEST_TRUST_FILE_BYTES {
-        let found = format!("{} bytes", bytes.len());
-        let expected = format!("at most {LARGEST_TRUST_FILE_BYTES}");
-        return Err(Unreadable::whole(name, None, found, expected, "check that this is the right file"));
-    }
+    lines::check_size(name, bytes)?;
     if bytes.starts_with(b"SSHKRL\r\n") {
         let found = "a key revocation list with changed line ends (for example by git autocrlf)";
-        return Err(Unreadable::whole(
-            name,
-            None,
-            found,
-            "the list as ssh-keygen wrote it",
-            "transfer it again as a \
-            binary file",
-        ));
+        let advice = "transfer it again as a binary file";
+        return Err(Unreadable::whole(name, None, found, "the list as ssh-keygen wrote it", advice));
     }
     krl::read(bytes).map_err(|refusal| {
         let advice = "transfer the list again, or create it again with `ssh-keygen -k`";
