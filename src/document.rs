@@ -32,7 +32,7 @@ pub trait Signer {
     /// # Errors
     /// Returns [`SigningFailed`] with the reason if there is no signature.
     fn sign_message(&self, message: &Message) -> Result<Signature, SigningFailed> {
-        self.sign(message.namespace(), message.bytes())
+        self.sign(message.namespace, message.bytes)
     }
 
     /// Returns the key that verifies the signatures, or `None` if it is not known before signing.

@@ -10,6 +10,12 @@ pub(super) struct Truncated {
     left: usize,
 }
 
+impl From<Truncated> for String {
+    fn from(truncated: Truncated) -> Self {
+        truncated.to_string()
+    }
+}
+
 /// Reader of binary data that knows its offset from the start of the file.
 #[derive(Debug, Clone)]
 pub(super) struct Wire<'a> {
@@ -79,6 +85,12 @@ impl<'a> Wire<'a> {
         let offset = self.offset;
         Ok(Wire { rest: self.take(length)?, offset })
     }
+}
+
+/// Writes a string: its length in four bytes, then its bytes.
+#[cfg(feature = "factory")]
+pub(super) fn string(bytes: &[u8]) -> Vec<u8> {
+    [&(bytes.len() as u32).to_be_bytes()[..], bytes].concat()
 }
 
 #[cfg(test)]
