@@ -5,7 +5,6 @@ use crate::calibration::{Model, analytic, least_squares};
 use crate::coefficients::{
     Coefficients, Matrices, PositionCoefficients, PositionIndex, SingularPositions, StandGeometry,
 };
-use crate::document::is_sha256_hex;
 use crate::gyro::{GyroParameters, Parameters};
 use crate::laboratory::Laboratory;
 use crate::site::{Earth, Site};
@@ -392,13 +391,9 @@ impl Content {
 
     /// Checks all rules of the content that its inputs do not already ensure.
     pub(crate) fn check(&self, problems: &mut Problems) {
-        check_inputs(&self.certificate, &self.positions, &self.site, problems);
-        self.check_but_for_inputs(problems);
-    }
-
-    /// Checks the rules of [`Content::check`] without those of [`check_inputs`].
-    pub(super) fn check_but_for_inputs(&self, problems: &mut Problems) {
         let at = Path::Root;
+        stand::check(&self.certificate, &self.positions, problems);
+        self.site.check(&at.key("site"), problems);
         if self.format != PASSPORT_FORMAT {
             problems.at(&at.key("format"), format!("{:?}", self.format), format!("{PASSPORT_FORMAT:?}"), "");
         }
@@ -422,14 +417,10 @@ impl Content {
             let expected = format!("a time on or after the date of the certificate, {certified}");
             problems.at(&header.key("issued_at"), format!("{issued_at}"), expected, "");
         }
-        if let Some(from) = self.passport.reissued_from.as_ref().filter(|from| !is_sha256_hex(&from.sha256)) {
-            let at = header.key("reissued_from");
-            problems.at(&at.key("sha256"), format!("{:?}", from.sha256), "64 lower-case hexadecimal digits", "");
-        }
         if let Some(from) = &self.passport.reissued_from {
-            let own = format!("{}/{}/", self.stand.model, self.stand.serial);
+            let (at, own) = (header.key("reissued_from"), format!("{}/", self.stand.id()));
+            problems.sha256(&at.key("sha256"), &from.sha256);
             if !from.id.starts_with(&own) {
-                let at = header.key("reissued_from");
                 problems.at(&at.key("id"), format!("{:?}", from.id), format!("a passport of this stand, {own}…"), "");
             }
         }
@@ -442,18 +433,7 @@ impl Content {
     }
 }
 
-/// Checks the rules of the inputs: certificate, positions and site.
-pub(super) fn check_inputs(
-    certificate: &Certificate,
-    positions: &[CertifiedPosition],
-    site: &Site,
-    problems: &mut Problems,
-) {
-    stand::check(certificate, positions, problems);
-    site.check(&Path::Root.key("site"), problems);
-}
-
 /// Returns the identifier of a passport: `<model>/<serial>/<site id>/<revision>`.
 pub(crate) fn passport_id(stand: &Identity, site: &Identifier, revision: u32) -> String {
-    format!("{}/{}/{site}/{revision}", stand.model, stand.serial)
+    format!("{}/{site}/{revision}", stand.id())
 }

@@ -2,6 +2,7 @@
 
 use super::Printable;
 use super::excerpt::{Excerpt, Location};
+use super::scalar::is_sha256_hex;
 use std::collections::HashMap;
 use std::fmt::{self, Display, Formatter};
 use std::hash::Hash;
@@ -47,18 +48,15 @@ impl<'a> Path<'a> {
     }
 
     pub(crate) fn steps(&self) -> Vec<Step> {
-        match self {
-            Path::Root => Vec::new(),
-            Path::Key(parent, key) => extended(parent, Step::Key((*key).to_owned())),
-            Path::Item(parent, index) => extended(parent, Step::Item(*index)),
-        }
+        let (parent, step) = match self {
+            Path::Root => return Vec::new(),
+            Path::Key(parent, key) => (parent, Step::Key((*key).to_owned())),
+            Path::Item(parent, index) => (parent, Step::Item(*index)),
+        };
+        let mut steps = parent.steps();
+        steps.push(step);
+        steps
     }
-}
-
-fn extended(parent: &Path, step: Step) -> Vec<Step> {
-    let mut steps = parent.steps();
-    steps.push(step);
-    steps
 }
 
 impl Display for Path<'_> {
@@ -190,6 +188,13 @@ impl Problems {
     pub(crate) fn missing(&mut self, at: &Path, key: &str, expected: impl Into<String>, advice: impl Into<String>) {
         let key = at.key(key);
         self.push(at, None, &key, MISSING.to_owned(), expected.into(), advice.into());
+    }
+
+    /// Records an error if a text does not have the form of a SHA-256.
+    pub(crate) fn sha256(&mut self, at: &Path, text: &str) {
+        if !is_sha256_hex(text) {
+            self.at(at, format!("{text:?}"), "64 lower-case hexadecimal digits", "");
+        }
     }
 
     /// Records an error if the number is present and not within `low..=high`.

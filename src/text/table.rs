@@ -221,7 +221,10 @@ fn cells(line: usize, text: &str, separator: char) -> Result<Vec<Cell>, Problem>
         let column = text[..text.len() - start.len()].chars().count() + 1;
         let location = Location { line, column };
         let (cell, after) = match start.strip_prefix('"') {
-            Some(quoted) => quoted_cell(quoted, separator).ok_or_else(|| bad_quotes(location))?,
+            Some(quoted) => quoted_cell(quoted, separator).ok_or_else(|| {
+                let found = "a quoted cell without a closing quote before a comma or the end of the line";
+                Problem::new(Some(location), "", found, "\"…\", with each inner quote doubled", "")
+            })?,
             None => {
                 let end = start.find(separator).unwrap_or(start.len());
                 (start[..end].trim_end().to_owned(), &start[end..])
@@ -249,11 +252,6 @@ fn quoted_cell(quoted: &str, separator: char) -> Option<(String, &str)> {
     }
     let after = rest.trim_start();
     (after.is_empty() || after.starts_with(separator)).then(|| (text.trim().to_owned(), after))
-}
-
-fn bad_quotes(location: Location) -> Problem {
-    let found = "a quoted cell without a closing quote before a comma or the end of the line";
-    Problem::new(Some(location), "", found, "\"…\", with each inner quote doubled", "")
 }
 
 /// Header of a table.
