@@ -18,6 +18,8 @@ pub(crate) enum Path<'a> {
     Key(&'a Path<'a>, &'a str),
     /// Item of a list, counted from 0.
     Item(&'a Path<'a>, usize),
+    /// Key of a mapping, counted from 0, because a key may be there twice.
+    Entry(&'a Path<'a>, usize),
 }
 
 /// Step of a [`Path`], owned.
@@ -25,6 +27,7 @@ pub(crate) enum Path<'a> {
 pub(crate) enum Step {
     Key(String),
     Item(usize),
+    Entry(usize),
 }
 
 impl<'a> Path<'a> {
@@ -43,15 +46,16 @@ impl<'a> Path<'a> {
         match self {
             Path::Root => "",
             Path::Key(_, key) => key,
-            Path::Item(parent, _) => parent.last_key(),
+            Path::Item(parent, _) | Path::Entry(parent, _) => parent.last_key(),
         }
     }
 
-    pub(crate) fn steps(&self) -> Vec<Step> {
+    fn steps(&self) -> Vec<Step> {
         let (parent, step) = match self {
             Path::Root => return Vec::new(),
             Path::Key(parent, key) => (parent, Step::Key((*key).to_owned())),
             Path::Item(parent, index) => (parent, Step::Item(*index)),
+            Path::Entry(parent, index) => (parent, Step::Entry(*index)),
         };
         let mut steps = parent.steps();
         steps.push(step);
@@ -66,15 +70,9 @@ impl Display for Path<'_> {
             Path::Key(Path::Root, key) => write!(f, "{key}"),
             Path::Key(parent, key) => write!(f, "{parent}.{key}"),
             Path::Item(parent, index) => write!(f, "{parent}[{index}]"),
+            Path::Entry(parent, _) => parent.fmt(f),
         }
     }
-}
-
-/// Place of an error in the tree: a value, or the n-th key of a mapping (a key may be there twice).
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Target {
-    pub(crate) steps: Vec<Step>,
-    pub(crate) entry: Option<usize>,
 }
 
 /// Error in a document.
@@ -141,7 +139,7 @@ const CORRECT_FIRST: &str = "correct the errors above first";
 /// Errors collected while a document is read; [`Problems::refuse`] finds their lines and columns.
 #[derive(Debug, Default)]
 pub(crate) struct Problems {
-    found: Vec<(Target, Problem)>,
+    found: Vec<(Vec<Step>, Problem)>,
     more: bool,
 }
 
@@ -169,25 +167,13 @@ impl Problems {
         expected: impl Into<String>,
         advice: impl Into<String>,
     ) {
-        self.push(at, None, at, found.into(), expected.into(), advice.into());
-    }
-
-    /// Records an error in the n-th key (from 0) of the mapping at `at`.
-    pub(crate) fn at_entry(
-        &mut self,
-        at: &Path,
-        entry: usize,
-        found: impl Into<String>,
-        expected: impl Into<String>,
-        advice: impl Into<String>,
-    ) {
-        self.push(at, Some(entry), at, found.into(), expected.into(), advice.into());
+        self.push(at, at, found.into(), expected.into(), advice.into());
     }
 
     /// Records that the mapping at `at` lacks `key`; the location is that of the mapping.
     pub(crate) fn missing(&mut self, at: &Path, key: &str, expected: impl Into<String>, advice: impl Into<String>) {
         let key = at.key(key);
-        self.push(at, None, &key, MISSING.to_owned(), expected.into(), advice.into());
+        self.push(at, &key, MISSING.to_owned(), expected.into(), advice.into());
     }
 
     /// Records an error if a text does not have the form of a SHA-256.
@@ -209,14 +195,13 @@ impl Problems {
         }
     }
 
-    fn push(&mut self, at: &Path, entry: Option<usize>, field: &Path, found: String, expected: String, advice: String) {
+    fn push(&mut self, at: &Path, field: &Path, found: String, expected: String, advice: String) {
         // Further errors in a document with many errors must cost no more than a comparison.
         if self.found.len() == MOST_PROBLEMS {
             self.more = true;
             return;
         }
-        let problem = Problem::new(None, field.to_string(), found, expected, advice);
-        self.found.push((Target { steps: at.steps(), entry }, problem));
+        self.found.push((at.steps(), Problem::new(None, field.to_string(), found, expected, advice)));
     }
 
     /// Returns the refusal of the hand-written document `name` with the given `text`: the first errors with their lines
@@ -224,7 +209,7 @@ impl Problems {
     #[cfg(feature = "factory")]
     pub(crate) fn refuse(self, name: &str, text: &str) -> Unreadable {
         let affordable = (READ_AGAIN_BYTES / text.len().max(1)).max(1);
-        self.refused(name, affordable, |target| super::yaml::locate(text, target))
+        self.refused(name, affordable, |steps| super::yaml::locate(text, steps))
     }
 
     /// Returns the refusal of the signed document `name`, with its errors by field.
@@ -232,7 +217,7 @@ impl Problems {
         self.refused(name, MOST_PROBLEMS, |_| None)
     }
 
-    fn refused(self, name: &str, affordable: usize, locate: impl Fn(&Target) -> Option<Location>) -> Unreadable {
+    fn refused(self, name: &str, affordable: usize, locate: impl Fn(&[Step]) -> Option<Location>) -> Unreadable {
         let groups = grouped(self.found, |(_, problem)| {
             // The rest of an advice may repeat the value.
             let advice = problem.advice.split(": ").next().unwrap_or_default().to_owned();
@@ -241,10 +226,10 @@ impl Problems {
             problem.field.contains('[').then_some(kind)
         });
         let more = self.more || groups.len() > affordable;
-        let located = groups.into_iter().take(affordable).map(|Group { first: (target, problem), others }| {
-            let last = others.last().and_then(|(target, _)| locate(target)).map(|at| at.line);
+        let located = groups.into_iter().take(affordable).map(|Group { first: (steps, problem), others }| {
+            let last = others.last().and_then(|(steps, _)| locate(steps)).map(|at| at.line);
             let found = problem.found + &more_of_this_kind(others.len(), last, !self.more);
-            Problem { location: locate(&target), found, ..problem }
+            Problem { location: locate(&steps), found, ..problem }
         });
         let mut problems: Vec<Problem> = located.collect();
         problems.sort_by_key(|problem| problem.location.map(|at| (at.line, at.column)));

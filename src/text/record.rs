@@ -182,11 +182,11 @@ pub(crate) fn entries<'n>(
         }
         if !seen.insert(key) {
             let advice = "delete one, because readers differ in which one they use";
-            problems.at_entry(at, index, format!("duplicate key {key:?}"), "each key once", advice);
+            problems.at(&Path::Entry(at, index), format!("duplicate key {key:?}"), "each key once", advice);
         } else if !known.contains(&key.as_str()) {
             let advice = unknown_key_advice(entries, index, key, value, known);
             let expected = format!("one of {}", known.join(", "));
-            problems.at_entry(at, index, format!("unknown key {key:?}"), expected, advice);
+            problems.at(&Path::Entry(at, index), format!("unknown key {key:?}"), expected, advice);
         }
     }
     Some(entries)

@@ -3,7 +3,7 @@
 use super::excerpt::Location;
 use super::kind::{Kind, mistaken};
 use super::node::{MOST_BRACKETS, hand_written_text, location_of};
-use super::problem::{Problems, Step, Target, Unreadable};
+use super::problem::{Problems, Step, Unreadable};
 use super::record::{Document, File};
 use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
 use super::{Field, Node, Path};
@@ -82,9 +82,8 @@ fn tab(text: &str, at: Location) -> Option<&'static str> {
 /// Finds the line and column of an error by reading the text again up to it.
 ///
 /// `serde_yaml` reports only the location of errors, so this function raises an error at the target.
-pub(crate) fn locate(text: &str, target: &Target) -> Option<Location> {
-    let probe = Probe { steps: &target.steps, entry: target.entry };
-    let error = probe.deserialize(serde_yaml::Deserializer::from_str(text)).err()?;
+pub(crate) fn locate(text: &str, steps: &[Step]) -> Option<Location> {
+    let error = Probe(steps).deserialize(serde_yaml::Deserializer::from_str(text)).err()?;
     error.location().map(|at| Location { line: at.line(), column: at.column() })
 }
 
@@ -228,21 +227,12 @@ impl<'de> Visitor<'de> for Whole<'_> {
 
 /// Deserialiser that fails at the target, so that `serde_yaml` reports its location: at a scalar because it expects none.
 #[derive(Clone, Copy)]
-struct Probe<'a> {
-    steps: &'a [Step],
-    entry: Option<usize>,
-}
+struct Probe<'a>(&'a [Step]);
 
 impl<'de> DeserializeSeed<'de> for Probe<'_> {
     type Value = ();
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
         deserializer.deserialize_any(self)
-    }
-}
-
-impl Probe<'_> {
-    fn here<E: de::Error>() -> Result<(), E> {
-        Err(E::custom("here"))
     }
 }
 
@@ -253,36 +243,34 @@ impl<'de> Visitor<'de> for Probe<'_> {
         f.write_str("a plain YAML value without a tag")
     }
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<(), A::Error> {
-        let Some((Step::Item(target), rest)) = self.steps.split_first() else {
-            return Self::here();
-        };
-        for _ in 0..*target {
-            list.next_element::<de::IgnoredAny>()?;
+        if let Some((Step::Item(target), rest)) = self.0.split_first() {
+            for _ in 0..*target {
+                list.next_element::<de::IgnoredAny>()?;
+            }
+            list.next_element_seed(Probe(rest))?;
         }
-        list.next_element_seed(Probe { steps: rest, entry: self.entry })?;
-        Self::here()
+        Err(de::Error::custom("here"))
     }
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
-        match (self.steps.split_first(), self.entry) {
-            (Some((Step::Key(target), rest)), _) => {
+        match self.0.split_first() {
+            Some((Step::Key(target), rest)) => {
                 while let Some(key) = map.next_key::<String>()? {
                     if key == *target {
-                        map.next_value_seed(Probe { steps: rest, entry: self.entry })?;
+                        map.next_value_seed(Probe(rest))?;
                     } else {
                         map.next_value::<de::IgnoredAny>()?;
                     }
                 }
-                Self::here()
             }
-            (None, Some(entry)) => {
-                for _ in 0..entry {
+            Some((Step::Entry(target), _)) => {
+                for _ in 0..*target {
                     map.next_entry::<de::IgnoredAny, de::IgnoredAny>()?;
                 }
-                map.next_key_seed(Probe { steps: &[], entry: None })?;
-                Self::here()
+                map.next_key_seed(Probe(&[]))?;
             }
-            _ => Self::here(),
+            _ => {}
         }
+        Err(de::Error::custom("here"))
     }
 }
 

@@ -178,7 +178,7 @@ fn check_fields(blob: &[u8], algorithm: &str, fields: usize) -> Result<(), Strin
             return Err(format!("a key of {} bytes, expected 32", field.len()));
         }
     }
-    match wire.rest().len() {
+    match wire.rest.len() {
         0 => Ok(()),
         more => Err(format!("{more} bytes after its end")),
     }

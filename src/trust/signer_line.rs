@@ -54,7 +54,8 @@ pub(super) fn read(line: &Line) -> Result<SignerLine, Vec<Problem>> {
     let mut signer = SignerLine { principals, namespaces, valid_after, valid_before, key, point };
     let mut key_at = at;
     if !AnyKey::is_type(word(line.text, at)) {
-        let end = options_end(line, at).map_err(|problem| vec![problem])?;
+        let unclosed = |quote| line.problem(at + quote, "", "a quote that is not closed", "a closing quote", "");
+        let end = at + length_before(&BLANKS, &line.text[at..]).map_err(|quote| vec![unclosed(quote)])?;
         signer.read_options(line, at, end, &mut problems);
         key_at = blanks(line.text, end);
     }
@@ -116,40 +117,21 @@ fn check_patterns(line: &Line, at: usize, field: &str, list: &str, problems: &mu
     }
 }
 
-/// Returns the end of the options that begin at `at`: the first whitespace outside quotes.
-fn options_end(line: &Line, at: usize) -> Result<usize, Problem> {
-    let mut quote = None;
-    let mut escaped = false;
-    for (index, c) in line.text[at..].char_indices() {
-        let before_quote = line.text[at + index + c.len_utf8()..].starts_with('"');
-        match c {
-            _ if escaped => escaped = false,
-            '\\' => escaped = before_quote,
-            '"' if quote.is_some() => quote = None,
-            '"' => quote = Some(at + index),
-            ' ' | '\t' if quote.is_none() => return Ok(at + index),
-            _ => {}
-        }
-    }
-    match quote {
-        Some(open) => Err(line.problem(open, "", "a quote that is not closed", "a closing quote", "")),
-        None => Ok(line.text.len()),
-    }
-}
-
-/// Returns the length of the first option in `text`, which ends at a comma outside quotes.
-fn option_length(text: &str) -> usize {
-    let (mut quoted, mut escaped) = (false, false);
+/// Returns the length of a text up to the first of these characters outside quotes, or the place of a quote that is not
+/// closed.
+fn length_before(ends: &[char], text: &str) -> Result<usize, usize> {
+    let (mut quote, mut escaped) = (None, false);
     for (index, c) in text.char_indices() {
         match c {
             _ if escaped => escaped = false,
             '\\' => escaped = text[index + 1..].starts_with('"'),
-            '"' => quoted = !quoted,
-            ',' if !quoted => return index,
+            '"' if quote.is_some() => quote = None,
+            '"' => quote = Some(index),
+            _ if quote.is_none() && ends.contains(&c) => return Ok(index),
             _ => {}
         }
     }
-    text.len()
+    quote.map_or(Ok(text.len()), Err)
 }
 
 impl SignerLine {
@@ -158,7 +140,7 @@ impl SignerLine {
         let mut seen = Vec::new();
         let mut at = start;
         while at < end && problems.len() < MOST_COUNTED {
-            let length = option_length(&line.text[at..end]);
+            let length = length_before(&[','], &line.text[at..end]).unwrap_or(end - at);
             if let Err(problem) = self.read_option(line, at, &line.text[at..at + length], &mut seen, problems) {
                 problems.push(problem);
             }
