@@ -114,7 +114,7 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
             .with("refType", "basic_conformity")
             .and(filled("dcc:name", words::CONFORMITY, &name, languages))
             .and(in_words("dcc:declaration", words::RULE, languages))
-            .and(Element::text("dcc:conformity", overall(verdict)))
+            .and(Element::text("dcc:conformity", decided(verdict.overall, verdict.parameters.iter().all(passes))))
     });
     let currents = Element::new("dcc:statement")
         .and(in_words("dcc:name", texts::CURRENTS_SHA256, languages))
@@ -133,22 +133,17 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
     conformity.into_iter().chain([currents]).chain(excluded).chain(missing).collect()
 }
 
-/// Returns the decision by guarded acceptance. Where it is not determined, the one by simple acceptance is conditional
-/// (ILAC-G8:09/2019, 4.2.3).
-fn decided(row: &ParameterVerdict) -> &'static str {
-    match (row.guarded, row.simple) {
-        (Decision::Pass, _) => "pass",
-        (Decision::Fail, _) => "fail",
-        (Decision::Undecided, Decision::Pass) => "conditionalPass",
-        (Decision::Undecided, _) => "conditionalFail",
-    }
+fn passes(row: &ParameterVerdict) -> bool {
+    row.simple == Decision::Pass
 }
 
-fn overall(verdict: &Verdict) -> &'static str {
-    match verdict.overall {
+/// Returns the decision by guarded acceptance. Where it is not determined, the one by simple acceptance is conditional
+/// (ILAC-G8:09/2019, 4.2.3).
+fn decided(guarded: Decision, simple_passes: bool) -> &'static str {
+    match guarded {
         Decision::Pass => "pass",
         Decision::Fail => "fail",
-        Decision::Undecided if verdict.parameters.iter().all(|row| row.simple == Decision::Pass) => "conditionalPass",
+        Decision::Undecided if simple_passes => "conditionalPass",
         Decision::Undecided => "conditionalFail",
     }
 }
@@ -224,7 +219,7 @@ fn decisions(
 ) -> Element {
     let rows = parameters.iter().filter_map(|one| verdict.parameters.iter().find(|row| row.parameter == one.key()));
     let rows: Vec<_> = rows.collect();
-    let each: Vec<&str> = rows.iter().map(|row| decided(row)).collect();
+    let each: Vec<&str> = rows.iter().map(|row| decided(row.guarded, passes(row))).collect();
     let limit = |kind, name, sign: f64| {
         let values: Vec<f64> = rows.iter().map(|row| limit_of(row, sign, verdict.gravity_m_per_s2)).collect();
         quantity(Some(kind), in_words("dcc:name", name, languages), parts::reals(None, &values, unit, &[]))

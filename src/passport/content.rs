@@ -324,12 +324,7 @@ impl SelfCheck {
     /// Returns the relative error |found/stated − 1| of each parameter found from the currents: K_x, K_xy, K_yx, K_y,
     /// ω_0x, ω_0y, ω_g, ω_k. Correct software has none above [`SelfCheck::LIMIT`].
     pub fn errors(&self, found: &GyroParameters) -> [f64; 8] {
-        let numbers = |gyro: &GyroParameters| {
-            let k = gyro.k_deg_per_h_per_ma;
-            let [x, y]: [f64; 2] = gyro.omega0_deg_per_h.into();
-            [k.m11, k.m12, k.m21, k.m22, x, y, gyro.omega_g_deg_per_h_per_g, gyro.omega_k_deg_per_h_per_g]
-        };
-        let (found, due) = (numbers(found), numbers(&self.parameters().to_model()));
+        let (found, due) = (found.to_vector(), self.parameters().to_model().to_vector());
         std::array::from_fn(|place| match (found[place], due[place]) {
             (found, 0.0) => found.abs(),
             (found, due) => (found / due - 1.0).abs(),

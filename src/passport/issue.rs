@@ -159,6 +159,8 @@ pub fn draft(stand: &Stand, site: &Site, issue: &Issue) -> Result<Draft, IssueRe
 
 fn content(stand: &Stand, geometry: &StandGeometry, site: &Site, issue: &Issue) -> Result<Content, IssueRefused> {
     let derived = derive_from(geometry, site, &REFERENCE_GYRO);
+    let accuracy = |stated: &Stated| stated.accuracy(&stand.certificate, &stand.positions, site);
+    let accuracy = issue.accuracy.as_ref().map(accuracy);
     let (reissued_from, supersedes) =
         issue.reissued.clone().map(|reissued| (reissued.from, reissued.supersedes)).unzip();
     Ok(Content {
@@ -182,11 +184,7 @@ fn content(stand: &Stand, geometry: &StandGeometry, site: &Site, issue: &Issue) 
         matrices: derived.matrices,
         vectors: derived.vectors,
         self_check: derived.self_check,
-        accuracy: issue
-            .accuracy
-            .as_ref()
-            .map(|stated| stated.accuracy(&stand.certificate, &stand.positions, site))
-            .transpose()?,
+        accuracy: accuracy.transpose()?,
     })
 }
 

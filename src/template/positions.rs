@@ -59,19 +59,19 @@ impl Positions {
 
     /// Returns the remark above the positions of a file.
     pub(super) fn remark(&self) -> String {
-        match self {
+        let fixed = match self {
             Self::Four => {
                 "# Four positions: without all of the paper's eight there are no matrices, and only least squares \
                  applies.\n"
-                    .to_owned()
             }
-            Self::Eight => "# The paper's eight positions.\n".to_owned(),
-            Self::TwentyFour => "# The paper's eight positions (i 1 and 2), and sixteen more.\n".to_owned(),
-            Self::Planned(plan) => format!(
-                "# Positions of the plan, which is for a frame's axis at azimuth {} degrees: state it in the site.\n",
-                plan.frame_axis_azimuth_deg
-            ),
-        }
+            Self::Eight => "# The paper's eight positions.\n",
+            Self::TwentyFour => "# The paper's eight positions (i 1 and 2), and sixteen more.\n",
+            Self::Planned(Planned { frame_axis_azimuth_deg: azimuth, .. }) => {
+                let plan = format!("# Positions of the plan, which is for a frame's axis at azimuth {azimuth} degrees");
+                return plan + ": state it in the site.\n";
+            }
+        };
+        fixed.to_owned()
     }
 
     /// Returns the rows of `positions` in a file; `rest` is what follows the nominal angles.
