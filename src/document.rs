@@ -4,9 +4,9 @@
 //! message is every byte before `signature: |`.
 
 use crate::text::LARGEST_DOCUMENT_BYTES;
-use crate::text::canonical::{self, NotCanonical};
+use crate::text::canonical;
 use crate::text::kind::{Kind, mistaken};
-pub(crate) use crate::text::scalar::{is_sha256_hex, sha256_hex};
+pub(crate) use crate::text::scalar::sha256_hex;
 use crate::text::{Field, Printable, Problems, rule};
 use crate::text::{Location, Unreadable};
 use crate::trust::{AllowedSigners, KeyPoint, Message, PublicKey, Signature, SignatureError};
@@ -32,7 +32,7 @@ pub trait Signer {
     /// # Errors
     /// Returns [`SigningFailed`] with the reason if there is no signature.
     fn sign_message(&self, message: &Message) -> Result<Signature, SigningFailed> {
-        self.sign(message.namespace(), message.bytes())
+        self.sign(message.namespace, message.bytes)
     }
 
     /// Returns the key that verifies the signatures, or `None` if it is not known before signing.
@@ -107,9 +107,9 @@ impl<'a> SignedText<'a> {
     pub(crate) fn split(name: &str, bytes: &'a [u8], namespace: &str) -> Result<Self, Malformed> {
         // An unsigned file of another kind is named as what it is.
         let other = || {
-            let (is_signed, expected) =
-                (|kind| matches!(kind, Kind::Passport | Kind::RevocationList), expected(namespace));
-            signature_line(bytes).is_none().then(|| mistaken(name, bytes, expected, is_signed)).flatten()
+            let is_signed = |kind| matches!(kind, Kind::Passport | Kind::RevocationList);
+            let mistaken = || mistaken(name, bytes, expected(namespace), is_signed);
+            signature_line(bytes).is_none().then(mistaken).flatten()
         };
         let malformed = |fault| Malformed { fault: other().unwrap_or(fault), other_namespace: None };
         if bytes.len() > LARGEST_DOCUMENT_BYTES {
@@ -127,14 +127,9 @@ impl<'a> SignedText<'a> {
         };
         let at = || Location { line: payload.lines().count() + 2, column: 1 };
         let refuse = |found: String| {
+            let expected = "an armored SSH signature indented by two spaces, and nothing after it";
             let advice = "the signature or the text after it has changed; get the file from the issuer again";
-            Unreadable::whole(
-                name,
-                Some(at()),
-                found,
-                "an armored SSH signature indented by two spaces, and nothing after it",
-                advice,
-            )
+            Unreadable::whole(name, Some(at()), found, expected, advice)
         };
         let tail = &bytes[payload_end + SIGNATURE_LINE.len()..];
         let armor = std::str::from_utf8(tail).ok().and_then(unindented);
@@ -161,23 +156,13 @@ impl<'a> SignedText<'a> {
     }
 
     /// Verifies the signature with the key that it states (step 4) and returns the signed text, which may now be
-    /// parsed.
+    /// parsed. It is faster if the key is one of `signers`; the result does not depend on them.
     ///
     /// # Errors
     /// Returns [`SignatureError`] if the text is not the one that was signed.
-    pub(crate) fn signed_payload(&self) -> Result<&'a str, SignatureError> {
-        self.signature.verify(self.signature.namespace(), self.payload.as_bytes())?;
-        Ok(self.payload)
-    }
-
-    /// Verifies the signature as [`SignedText::signed_payload`] does, but faster if the key is one of `signers`. The
-    /// result does not depend on `signers`.
-    ///
-    /// # Errors
-    /// Returns the errors of [`SignedText::signed_payload`].
-    pub(crate) fn payload_signed_by_any(&self, signers: &AllowedSigners) -> Result<&'a str, SignatureError> {
+    pub(crate) fn signed_payload(&self, signers: Option<&AllowedSigners>) -> Result<&'a str, SignatureError> {
         let message = Message::new(self.signature.namespace(), self.payload.as_bytes());
-        self.signature.verify_message(&message, signers.point(self.key()))?;
+        self.signature.verify_message(&message, signers.and_then(|signers| signers.point(self.key())))?;
         Ok(self.payload)
     }
 }
@@ -189,10 +174,7 @@ impl<'a> SignedText<'a> {
 /// # Errors
 /// Returns the first line that is not in canonical form, or every rule that the content breaks.
 pub(crate) fn parse<T: Field>(name: &str, payload: &str, check: impl Fn(&T, &mut Problems)) -> Result<T, Unreadable> {
-    let content: T = canonical::read(payload).map_err(|NotCanonical { location, found, expected }| {
-        let advice = "this is not the canonical form; get the file from the issuer again";
-        Unreadable::whole(name, Some(location), found, expected, advice)
-    })?;
+    let content: T = canonical::read(payload).map_err(|problem| Unreadable::of(name, vec![problem]))?;
     let mut problems = Problems::new();
     check(&content, &mut problems);
     if problems.is_empty() { Ok(content) } else { Err(problems.refuse_by_field(name)) }
@@ -207,6 +189,20 @@ fn signature_line(bytes: &[u8]) -> Option<usize> {
 /// Returns the armor without its indentation, or `None` if a line is not indented.
 fn unindented(text: &str) -> Option<String> {
     text.split_inclusive('\n').map(|line| line.strip_prefix(INDENT)).collect()
+}
+
+/// Signs a payload, verifies the new signature, and returns the whole file.
+///
+/// # Errors
+/// Returns [`SigningFailed`] if the signer fails, and [`SignatureError`] if its signature is wrong.
+pub(crate) fn sign<E>(payload: &str, namespace: &str, signer: &dyn Signer) -> Result<String, E>
+where
+    E: From<SigningFailed> + From<SignatureError>,
+{
+    let message = Message::new(namespace, payload.as_bytes());
+    let signature = signer.sign_message(&message)?;
+    signature.verify_message(&message, signer.point().as_ref())?;
+    Ok(join(payload, &signature))
 }
 
 /// Joins payload and signature into the file that [`SignedText::split`] separates.
@@ -230,7 +226,7 @@ mod tests {
     fn what_was_joined_is_split_again() {
         let text = signed("a: 1\n");
         let split = SignedText::split("x", text.as_bytes(), NAMESPACE).unwrap();
-        assert_eq!(split.signed_payload().unwrap(), "a: 1\n");
+        assert_eq!(split.signed_payload(None).unwrap(), "a: 1\n");
     }
 
     #[test]

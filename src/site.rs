@@ -225,26 +225,24 @@ impl Site {
                 let expected = "latitude_deg (geodetic) or astronomic_latitude_deg";
                 problems.at(at, "no latitude", expected, "add the known latitude");
             }
-            _ => {
-                let latitude = self.astronomic_deg();
+            // A value that is not a latitude has been refused above.
+            (Some(given), None) | (None, Some(given)) if given.abs() <= 90.0 => {
                 let key = if self.latitude_deg.is_some() { "latitude_deg" } else { "astronomic_latitude_deg" };
-                let geodetic = self.geodetic_deg();
-                let given = self.latitude_deg.or(self.astronomic_latitude_deg);
-                // A value that is not a latitude has been refused above.
-                let is_latitude = given.is_some_and(|given| given.abs() <= 90.0);
+                let (geodetic, latitude) = (self.geodetic_deg(), self.astronomic_deg());
                 // Beyond the pole there is no place, and therefore no distance and no radius.
-                if is_latitude && geodetic.abs() > 90.0 {
+                if geodetic.abs() > 90.0 {
                     let found = format!("the geodetic latitude {geodetic}, computed with the deflection");
                     let advice = "check the sign of deflection_arcsec.xi";
                     problems.at(&at.key(key), found, "a latitude from -90 to 90 degrees", advice);
                 }
-                if is_latitude && latitude.abs() >= 90.0 {
+                if latitude.abs() >= 90.0 {
                     let found = format!("the astronomic latitude {latitude}");
                     let advice = "at a pole the horizontal component of the Earth rate is zero, so K cannot be \
                                   determined";
                     problems.at(&at.key(key), found, "a latitude between -90 and 90 degrees", advice);
                 }
             }
+            _ => {}
         }
     }
 

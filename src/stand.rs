@@ -139,18 +139,21 @@ impl CertifiedPosition {
         PositionIndex { i: self.i, j: self.j }
     }
 
+    /// Returns the deviations α, β and γ.
+    pub(crate) fn angles_arcsec(&self) -> [f64; 3] {
+        [self.alpha_arcsec, self.beta_arcsec, self.gamma_arcsec]
+    }
+
+    /// Returns the standard uncertainties of α, β and γ, own part of the position.
+    pub(crate) fn u_arcsec(&self) -> [Option<f64>; 3] {
+        [self.u_alpha_arcsec, self.u_beta_arcsec, self.u_gamma_arcsec]
+    }
+
     /// Converts the position to its model, with the deviation in radians.
     pub fn to_model(&self) -> Position {
-        Position {
-            index: self.index(),
-            theta_deg: self.theta_deg,
-            phi_deg: self.phi_deg,
-            deviation: Deviation {
-                alpha_rad: radians_from_arcseconds(self.alpha_arcsec),
-                beta_rad: radians_from_arcseconds(self.beta_arcsec),
-                gamma_rad: radians_from_arcseconds(self.gamma_arcsec),
-            },
-        }
+        let [alpha_rad, beta_rad, gamma_rad] = self.angles_arcsec().map(radians_from_arcseconds);
+        let deviation = Deviation { alpha_rad, beta_rad, gamma_rad };
+        Position { index: self.index(), theta_deg: self.theta_deg, phi_deg: self.phi_deg, deviation }
     }
 }
 
@@ -187,14 +190,6 @@ impl Stand {
         stand.positions.sort_by_key(CertifiedPosition::index);
         Ok(stand)
     }
-
-    /// Returns the geometry of the stand, which does not depend on the site.
-    ///
-    /// # Errors
-    /// Returns [`SingularPositions`] if the paper's eight positions are present and n_2 has no inverse.
-    pub(crate) fn geometry(&self) -> Result<StandGeometry, SingularPositions> {
-        geometry(&self.positions)
-    }
 }
 
 /// Returns the refusal of a stand file in one sentence if only the angles are missing: it is then a header.
@@ -214,7 +209,7 @@ fn without_angles(refused: &crate::text::Unreadable) -> Option<crate::text::Unre
     is_header.then(|| crate::text::Unreadable::whole(refused.name(), location, found, expected, advice))
 }
 
-/// Returns the geometry of certified positions.
+/// Returns the geometry of certified positions, which does not depend on the site.
 ///
 /// # Errors
 /// Returns [`SingularPositions`] if the paper's eight positions are present and n_2 has no inverse.
@@ -314,25 +309,15 @@ fn check_position(position: &CertifiedPosition, at: &Path, problems: &mut Proble
         }
     }
     let largest = LARGEST_DEVIATION_DEG * ARCSECONDS_PER_DEGREE;
-    for (key, value) in [
-        ("alpha_arcsec", position.alpha_arcsec),
-        ("beta_arcsec", position.beta_arcsec),
-        ("gamma_arcsec", position.gamma_arcsec),
-    ] {
+    for (key, value) in ["alpha_arcsec", "beta_arcsec", "gamma_arcsec"].into_iter().zip(position.angles_arcsec()) {
         if value.abs() > largest {
             let advice = "state deviations from the nominal position, in arcseconds";
-            let expected = format!(
-                "at most {LARGEST_DEVIATION_DEG} degrees ({largest} arcseconds) in either \
-                 direction"
-            );
+            let expected =
+                format!("at most {LARGEST_DEVIATION_DEG} degrees ({largest} arcseconds) in either direction");
             problems.at(&at.key(key), format!("{value}"), expected, advice);
         }
     }
-    for (key, value) in [
-        ("u_alpha_arcsec", position.u_alpha_arcsec),
-        ("u_beta_arcsec", position.u_beta_arcsec),
-        ("u_gamma_arcsec", position.u_gamma_arcsec),
-    ] {
+    for (key, value) in ["u_alpha_arcsec", "u_beta_arcsec", "u_gamma_arcsec"].into_iter().zip(position.u_arcsec()) {
         problems.within(&at.key(key), value, 0.0, f64::MAX);
     }
     check_degrees_of_freedom(position.degrees_of_freedom, &at.key("degrees_of_freedom"), problems);

@@ -439,14 +439,12 @@ impl Recertification<'_> {
             allow_uncalibratable: old.content.self_check.is_none(),
         };
         let verification = verify(&name_of(&old.path), &old.bytes, trust, &Question::at(self.question.time));
-        let next = successor(&old.bytes, &verification, &order)
+        let mut next = successor(&old.bytes, &verification, &order)
             .map_err(|why| refused(format!("{}: {why}", shown(&old.path))))?;
-        let path = folder.path_of(&next.stand().stand, &next.site().id, next.first_revision());
+        let path = folder.path_of(&next.stand().stand, &next.site.id, next.first_revision());
         let asked = Asked::at(self.question.time);
-        let rival = Superseding::default().of(folder_of(&path), next.old_sha256(), &path, trust, &asked);
-        folder
-            .next_successor(&next.beside(rival))
-            .map_err(|why| NotRecertified::Folder(old.content.passport.id.clone(), why))
+        next.rival = Superseding::default().of(folder_of(&path), next.old_sha256(), &path, trust, &asked);
+        folder.next_successor(&next).map_err(|why| NotRecertified::Folder(old.content.passport.id.clone(), why))
     }
 }
 

@@ -182,7 +182,7 @@ impl Run<'_> {
         for (index, examined) in examined.iter().enumerate() {
             if let Examined::Next(next) = examined {
                 let successor = &next.successor;
-                let place = (successor.stand().stand.id(), successor.site().id.as_str());
+                let place = (successor.stand().stand.id(), successor.site.id.as_str());
                 places.entry(place).or_default().push(index);
             }
         }
@@ -204,7 +204,7 @@ impl Run<'_> {
         let Following { name, successor, folder } = &**next;
         if self.batch.seal.is_some() {
             self.sweeper.sweep(folder.root());
-            let path = folder.path_of(&successor.stand().stand, &successor.site().id, successor.first_revision());
+            let path = folder.path_of(&successor.stand().stand, &successor.site.id, successor.first_revision());
             self.sweeper.sweep(folder_of(&path));
         }
         Some(self.batch.settle(
@@ -232,11 +232,11 @@ impl Run<'_> {
         let verification = verify(&name, &bytes, trust, &change.question);
         let order = self.order(candidate, verification.content_from_anyone())?;
         let changed = order.stand.is_some() || order.site.is_some();
-        let next = successor(&bytes, &verification, &order).map_err(|error| match error {
+        let mut next = successor(&bytes, &verification, &order).map_err(|error| match error {
             ReissueRefused::BadReason => Failure::unusable(path, error.to_string()),
             _ => refused(error.to_string()),
         })?;
-        let done = next.says_the_same() && (changed || next.for_the_same_reason());
+        let done = next.says_the_same && (changed || next.for_the_same_reason);
         if candidate.found.is_some() && done {
             let id = verification.id_from_anyone().unwrap_or_default().to_owned();
             let remarks = next.draft(next.first_revision()).map_err(|error| refused(error.to_string()))?.remarks();
@@ -244,8 +244,8 @@ impl Run<'_> {
             return Ok(Examined::Done(Some(Outcome::There(there))));
         }
         let folder = self.folder_for(path, &next)?;
-        let rival = self.rival(path, &folder, &next, trust);
-        Ok(Examined::Next(Box::new(Following { name, successor: next.beside(rival), folder })))
+        next.rival = self.rival(path, &folder, &next, trust);
+        Ok(Examined::Next(Box::new(Following { name, successor: next, folder })))
     }
 
     /// Returns the folder for the successor of the passport at `path`.
@@ -267,7 +267,7 @@ impl Run<'_> {
 
     /// Returns another passport that supersedes the same one, in its folder or in that of the new one.
     fn rival(&self, old: &Path, folder: &Folder, next: &Successor, trust: &Trust) -> Option<PathBuf> {
-        let new = folder.path_of(&next.stand().stand, &next.site().id, next.first_revision());
+        let new = folder.path_of(&next.stand().stand, &next.site.id, next.first_revision());
         let asked = Asked::at(self.change.question.time);
         let folders = [folder_of(old), folder_of(&new)];
         let mut rivals = folders

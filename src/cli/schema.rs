@@ -1,7 +1,12 @@
 //! Verb `schema`: JSON Schemas of the formats, for editors.
 
 use super::{Code, Failure, output};
-use crate::schema;
+use crate::dcc::Administrative;
+use crate::gyro::GyroType;
+use crate::laboratory::Laboratory;
+use crate::schema::{self, of_file};
+use crate::site::Site;
+use crate::stand::Stand;
 use clap::{Args, ValueEnum};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -36,11 +41,11 @@ enum Form {
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let of = |kind: &Kind| match kind {
-        Kind::Stand => ("stand", schema::stand()),
-        Kind::Site => ("site", schema::site()),
-        Kind::Gyro => ("gyro", schema::gyro()),
-        Kind::Laboratory => ("laboratory", schema::laboratory()),
-        Kind::Dcc => ("dcc", schema::dcc()),
+        Kind::Stand => ("stand", of_file::<Stand>()),
+        Kind::Site => ("site", of_file::<Site>()),
+        Kind::Gyro => ("gyro", of_file::<GyroType>()),
+        Kind::Laboratory => ("laboratory", of_file::<Laboratory>()),
+        Kind::Dcc => ("dcc", of_file::<Administrative>()),
         Kind::Passport => ("passport", schema::passport()),
         Kind::Revocation => ("revocation", schema::revocation()),
     };

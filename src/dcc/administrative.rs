@@ -2,7 +2,6 @@
 // `record!` declares public types.
 #![allow(unreachable_pub)]
 
-use super::countries::is_country;
 use crate::report::Language;
 use crate::text::record::Document;
 use crate::text::{Path, Problems, Unreadable, record, word_of_a_key, words, yaml};
@@ -31,6 +30,7 @@ word_of_a_key!(Language, tag, " (ISO 639-1), the languages in which this program
 
 record! {
     /// Name and address of the laboratory or of the customer.
+    #[derive(Default)]
     pub struct Contact {
         /// Name; omit it if the passport states it.
         pub name: Option<String>,
@@ -68,6 +68,7 @@ record! {
 record! {
     /// Administrative data of a Digital Calibration Certificate (`dtg-dcc/1`). A key that is absent is needed unless
     /// the passport, or the calibration of the gyro, states the same; the program names all that are missing.
+    #[derive(Default)]
     pub struct Administrative {
         /// Country in which the certificate is issued: two capital letters of ISO 3166-1.
         pub country: Option<String>,
@@ -168,5 +169,34 @@ fn check_country(code: Option<&str>, at: &Path, problems: &mut Problems) {
 fn check_text(text: Option<&str>, at: &Path, problems: &mut Problems) {
     if text.is_some_and(|text| text.trim().is_empty()) {
         problems.at(at, "only spaces", "text", "enter text, or omit the key");
+    }
+}
+
+/// Country codes of ISO 3166-1 (alpha-2), as officially assigned, in alphabetical order.
+const COUNTRY_CODES: &str = "\
+    AD AE AF AG AI AL AM AO AQ AR AS AT AU AW AX AZ BA BB BD BE BF BG BH BI BJ BL BM BN BO BQ BR BS BT BV BW BY BZ CA CC CD \
+    CF CG CH CI CK CL CM CN CO CR CU CV CW CX CY CZ DE DJ DK DM DO DZ EC EE EG EH ER ES ET FI FJ FK FM FO FR GA GB GD GE GF \
+    GG GH GI GL GM GN GP GQ GR GS GT GU GW GY HK HM HN HR HT HU ID IE IL IM IN IO IQ IR IS IT JE JM JO JP KE KG KH KI KM KN \
+    KP KR KW KY KZ LA LB LC LI LK LR LS LT LU LV LY MA MC MD ME MF MG MH MK ML MM MN MO MP MQ MR MS MT MU MV MW MX MY MZ NA \
+    NC NE NF NG NI NL NO NP NR NU NZ OM PA PE PF PG PH PK PL PM PN PR PS PT PW PY QA RE RO RS RU RW SA SB SC SD SE SG SH SI \
+    SJ SK SL SM SN SO SR SS ST SV SX SY SZ TC TD TF TG TH TJ TK TL TM TN TO TR TT TV TW TZ UA UG UM US UY UZ VA VC VE VG VI \
+    VN VU WF WS YE YT ZA ZM ZW";
+
+/// Returns `true` if `text` is a country code.
+fn is_country(text: &str) -> bool {
+    COUNTRY_CODES.split_ascii_whitespace().any(|code| code == text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Expected: ISO 3166-1 assigns 249 codes.
+    #[test]
+    fn there_are_249_codes_in_order() {
+        let codes: Vec<&str> = COUNTRY_CODES.split_ascii_whitespace().collect();
+        assert_eq!(codes.len(), 249);
+        assert!(codes.is_sorted() && codes.iter().all(|code| code.len() == 2));
+        assert!(is_country("DE") && !is_country("de") && !is_country("XX") && !is_country("DE FR") && !is_country(""));
     }
 }

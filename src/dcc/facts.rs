@@ -78,6 +78,8 @@ impl Facts {
         file: Option<&Administrative>,
         lang: Option<&Languages>,
     ) -> Result<Self, Problems> {
+        let none = Administrative::default();
+        let file = file.unwrap_or(&none);
         let mut collector = Collector { source: known.source, problems: Problems::new() };
         collector.refuse_unchanged(file);
         let facts = collector.facts(known, file, lang);
@@ -99,70 +101,51 @@ struct Collector {
 }
 
 impl Collector {
-    fn facts(&mut self, known: &Known, file: Option<&Administrative>, lang: Option<&Languages>) -> Option<Facts> {
+    fn facts(&mut self, known: &Known, file: &Administrative, lang: Option<&Languages>) -> Option<Facts> {
         let at = Path::Root;
-        let [laboratory, customer] = [file.and_then(|f| f.laboratory.as_ref()), file.and_then(|f| f.customer.as_ref())];
-        let country = file.and_then(|file| file.country.clone());
-        let country = self.need(
-            &at,
-            "country",
-            country,
-            "a country code of ISO 3166-1 such as \"DE\"",
-            "coreData/countryCodeISO3166_1",
-        );
-        let number = self.agreed(&at, "number", stated(known.number), file.and_then(|f| stated(f.number.as_deref())));
+        let (country, expected) = (file.country.clone(), "a country code of ISO 3166-1 such as \"DE\"");
+        let country = self.need(&at, "country", country, expected, "coreData/countryCodeISO3166_1");
+        let number = self.agreed(&at, "number", stated(known.number), stated(file.number.as_deref()));
         let number = self.need(&at, "number", number, "the number of the certificate", "coreData/uniqueIdentifier");
-        let issued = self.agreed(&at, "issued", known.issued, file.and_then(|file| file.issued));
-        let performed = self.performed(known, file.and_then(|file| file.performed.as_ref()), issued);
-        let location = file.and_then(|file| file.location);
-        let location = self.need(
-            &at,
-            "location",
-            location,
-            "the place of the measurements, such as \"laboratory\"",
-            "coreData/performanceLocation",
-        );
+        let issued = self.agreed(&at, "issued", known.issued, file.issued);
+        let performed = self.performed(known, file.performed.as_ref(), issued);
+        let expected = "the place of the measurements, such as \"laboratory\"";
+        let location = self.need(&at, "location", file.location, expected, "coreData/performanceLocation");
         let address = stated(known.address);
         let place = "calibrationLaboratory/contact";
-        let laboratory = self.contact("laboratory", known.laboratory, laboratory, place, address.is_none());
-        let customer = self.contact("customer", known.customer, customer, "customer", true);
+        let laboratory =
+            self.contact("laboratory", known.laboratory, file.laboratory.as_ref(), place, address.is_none());
+        let customer = self.contact("customer", known.customer, file.customer.as_ref(), "customer", true);
         let main_signer = stated(known.authorized_by).map(str::to_owned);
         let mut responsible: Vec<String> = Vec::new();
-        for name in file.iter().flat_map(|file| file.responsible.iter().flatten()).map(|name| name.trim()) {
+        for name in file.responsible.iter().flatten().map(|name| name.trim()) {
             if main_signer.as_deref() != Some(name) && !responsible.iter().any(|there| there == name) {
                 responsible.push(name.to_owned());
             }
         }
         let persons = (main_signer.is_some() || !responsible.is_empty()).then_some(());
         let persons = self.need(&at, "responsible", persons, "a list of names", "respPersons/respPerson/person/name");
-        let method = self.agreed(&at, "method", stated(known.method), file.and_then(|f| stated(f.method.as_deref())));
+        let method = self.agreed(&at, "method", stated(known.method), stated(file.method.as_deref()));
         let needed = if known.method_is_known { Some(method) } else { method.map(Some) };
         let method = self.need(&at, "method", needed, "the method of measurement", "measurementResult/usedMethods");
-        let temperature = file.and_then(|file| file.temperature_c);
-        let temperature = self.agreed(&at, "temperature_c", known.temperature_c, temperature);
-        let temperature = self.need(
-            &at,
-            "temperature_c",
-            temperature,
-            "the temperature during the measurements, in degrees Celsius",
-            "measurementResult/influenceConditions",
-        );
+        let temperature = self.agreed(&at, "temperature_c", known.temperature_c, file.temperature_c);
+        let expected = "the temperature during the measurements, in degrees Celsius";
+        let element = "measurementResult/influenceConditions";
+        let temperature = self.need(&at, "temperature_c", temperature, expected, element);
         if let Some(serial) = known.serial {
             self.need(&at, "--gyro-serial", stated(serial), "the serial number of the gyro", "item/identifications");
         }
-        let traceable = file.and_then(|file| file.traceable);
-        if traceable == Some(true) && stated(known.traceability).is_none() {
+        if file.traceable == Some(true) && stated(known.traceability).is_none() {
             let expected = "absent, because the certificate states no traceability";
             self.problems.at(&at.key("traceable"), "true", expected, "delete it");
         }
-        let mandatory = file.and_then(|file| file.language);
-        let first = lang.map(Languages::first).or(mandatory).unwrap_or(Language::English);
-        let others = lang.into_iter().flat_map(Languages::iter).chain(mandatory);
+        let first = lang.map(Languages::first).or(file.language).unwrap_or(Language::English);
+        let others = lang.into_iter().flat_map(Languages::iter).chain(file.language);
         persons?;
         Some(Facts {
             country: country?,
             languages: Languages::new(first, others),
-            mandatory: mandatory.unwrap_or(first),
+            mandatory: file.language.unwrap_or(first),
             number: number?.to_owned(),
             received: known.received,
             performed: performed?,
@@ -175,27 +158,26 @@ impl Collector {
             responsible,
             method: method?.map(str::to_owned),
             temperature_c: temperature?,
-            traceable,
+            traceable: file.traceable,
         })
     }
 
     /// Refuses values that the template leaves to the user: they are no facts.
-    fn refuse_unchanged(&mut self, file: Option<&Administrative>) {
+    fn refuse_unchanged(&mut self, file: &Administrative) {
         let root = Path::Root;
         let mut refuse = |at: &Path, text: Option<&str>| {
             if let Some(text) = text.filter(|text| is_placeholder(text)) {
                 refuse_at(at, text, &mut self.problems);
             }
         };
-        for (key, contact) in file.iter().flat_map(|f| [("laboratory", &f.laboratory), ("customer", &f.customer)]) {
+        for (key, contact) in [("laboratory", &file.laboratory), ("customer", &file.customer)] {
             let at = root.key(key);
             contact.iter().flat_map(Contact::texts).for_each(|(key, text)| refuse(&at.key(key), text));
         }
         let at = root.key("responsible");
-        let names = file.iter().flat_map(|file| file.responsible.iter().flatten());
+        let names = file.responsible.iter().flatten();
         names.enumerate().for_each(|(index, name)| refuse(&at.item(index), Some(name)));
-        let method = file.and_then(|file| file.method.as_deref());
-        refuse(&root.key("method"), method);
+        refuse(&root.key("method"), file.method.as_deref());
     }
 
     /// Returns a required value, or records that its key is missing and the element of the DCC that needs it.
@@ -257,27 +239,13 @@ impl Collector {
         let name = self.agreed(&at, "name", stated(known), file.and_then(|file| stated(file.name.as_deref())));
         let name = self.need(&at, "name", name, "the name", &format!("{element}/name"));
         let city = file.and_then(|file| file.city.as_deref());
-        let city = if needs_city {
-            self.need(&at, "city", city, "the town", &format!("{element}/location/city")).map(Some)
-        } else {
-            Some(city)
-        };
-        let (name, city) = (name?.to_owned(), city?.map(str::to_owned));
-        let name = Some(name);
-        Some(match file {
-            Some(file) => Contact { name, city, ..file.clone() },
-            None => Contact {
-                name,
-                city,
-                street: None,
-                street_no: None,
-                post_code: None,
-                post_office_box: None,
-                state: None,
-                country: None,
-                email: None,
-                phone: None,
-            },
+        if needs_city {
+            self.need(&at, "city", city, "the town", &format!("{element}/location/city"))?;
+        }
+        Some(Contact {
+            name: Some(name?.to_owned()),
+            city: city.map(str::to_owned),
+            ..file.cloned().unwrap_or_default()
         })
     }
 }

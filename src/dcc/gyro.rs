@@ -1,7 +1,7 @@
 //! DCC of a gyro: parameters, their standard uncertainties, and the decisions of its type.
 
 use super::facts::{Facts, Known, stated};
-use super::parts::{self, Subject, filled, in_words, plain, quantity, real, units};
+use super::parts::{self, Subject, filled, in_words, quantity, real, units};
 use super::words;
 use super::xml::Element;
 use super::{Administrative, Dcc};
@@ -98,9 +98,7 @@ pub(crate) fn of_gyro(
 }
 
 fn item(calibrated: &Calibrated, languages: &Languages) -> Element {
-    let serial = stated(calibrated.subject.gyro_serial.as_deref()).map(|serial| {
-        parts::identification("manufacturer", serial, words::SERIAL, languages).with("refType", "basic_serialNumber")
-    });
+    let serial = stated(calibrated.subject.gyro_serial.as_deref()).map(|serial| parts::serial(serial, languages));
     let model = calibrated.judged.and_then(|(gyro_type, _)| stated(Some(gyro_type.r#type.as_str())));
     Element::new("dcc:item")
         .and(in_words("dcc:name", words::GYRO, languages))
@@ -116,7 +114,7 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
             .with("refType", "basic_conformity")
             .and(filled("dcc:name", words::CONFORMITY, &name, languages))
             .and(in_words("dcc:declaration", words::RULE, languages))
-            .and(Element::text("dcc:conformity", overall(verdict)))
+            .and(Element::text("dcc:conformity", decided(verdict.overall, verdict.parameters.iter().all(passes))))
     });
     let currents = Element::new("dcc:statement")
         .and(in_words("dcc:name", texts::CURRENTS_SHA256, languages))
@@ -135,22 +133,17 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
     conformity.into_iter().chain([currents]).chain(excluded).chain(missing).collect()
 }
 
-/// Returns the decision by guarded acceptance. Where it is not determined, the one by simple acceptance is conditional
-/// (ILAC-G8:09/2019, 4.2.3).
-fn decided(row: &ParameterVerdict) -> &'static str {
-    match (row.guarded, row.simple) {
-        (Decision::Pass, _) => "pass",
-        (Decision::Fail, _) => "fail",
-        (Decision::Undecided, Decision::Pass) => "conditionalPass",
-        (Decision::Undecided, _) => "conditionalFail",
-    }
+fn passes(row: &ParameterVerdict) -> bool {
+    row.simple == Decision::Pass
 }
 
-fn overall(verdict: &Verdict) -> &'static str {
-    match verdict.overall {
+/// Returns the decision by guarded acceptance. Where it is not determined, the one by simple acceptance is conditional
+/// (ILAC-G8:09/2019, 4.2.3).
+fn decided(guarded: Decision, simple_passes: bool) -> &'static str {
+    match guarded {
         Decision::Pass => "pass",
         Decision::Fail => "fail",
-        Decision::Undecided if verdict.parameters.iter().all(|row| row.simple == Decision::Pass) => "conditionalPass",
+        Decision::Undecided if simple_passes => "conditionalPass",
         Decision::Undecided => "conditionalFail",
     }
 }
@@ -167,15 +160,8 @@ fn result(calibrated: &Calibrated, facts: &Facts) -> Element {
         in_words("dcc:description", words::MODEL, languages),
         Some(PAPER),
     );
-    let stated = facts.method.as_deref().map(|text| {
-        parts::method(in_words("dcc:name", words::METHOD, languages), plain("dcc:description", text), None)
-    });
-    let list = Element::new("dcc:list").and(quantities(calibrated, languages));
-    let result = Element::new("dcc:result")
-        .with("refType", "basic_measurementResult")
-        .and(in_words("dcc:name", texts::PARAMETERS, languages))
-        .and(in_words("dcc:description", words::PARAMETERS_NOTE, languages))
-        .and(Element::new("dcc:data").and(list));
+    let results =
+        parts::results(texts::PARAMETERS, words::PARAMETERS_NOTE, quantities(calibrated, languages), languages);
     let gravity_u_m_per_s2 = calibrated.content.site.gravity_u_m_per_s2();
     let gravity = real(calibrated.found.gravity_m_per_s2, units::M_PER_S2, gravity_u_m_per_s2);
     let conditions =
@@ -183,24 +169,22 @@ fn result(calibrated: &Calibrated, facts: &Facts) -> Element {
     Element::new("dcc:measurementResult")
         .and(in_words("dcc:name", texts::TITLE, languages))
         .and(in_words("dcc:description", words::NOT_SIGNED, languages))
-        .and(Element::new("dcc:usedMethods").and(own).and(stated))
+        .and(Element::new("dcc:usedMethods").and(own).and(parts::stated_method(facts)))
         .and(parts::software("dcc:usedSoftware"))
         .and(Element::new("dcc:measuringEquipments").and(equipment(calibrated, languages)))
         .and(Element::new("dcc:influenceConditions").and(conditions))
-        .and(Element::new("dcc:results").and(result))
+        .and(results)
 }
 
 /// Returns the stand, with its passport by identifier and SHA-256.
 fn equipment(calibrated: &Calibrated, languages: &Languages) -> Element {
     let Content { stand, passport, .. } = calibrated.content;
-    let manufacturer = stated(stand.manufacturer.as_deref());
-    let serial = parts::identification("manufacturer", stand.serial.as_str(), words::SERIAL, languages);
     Element::new("dcc:measuringEquipment")
         .and(in_words("dcc:name", words::STAND, languages))
         .and(parts::hashed("dcc:certificate", words::PASSPORT, &passport.id, &calibrated.passport_sha256, languages))
-        .and(manufacturer.map(|name| Element::new("dcc:manufacturer").and(plain("dcc:name", name))))
+        .and(parts::manufacturer(stand.manufacturer.as_deref()))
         .and(Element::text("dcc:model", &stand.model))
-        .and(Element::new("dcc:identifications").and(serial.with("refType", "basic_serialNumber")))
+        .and(Element::new("dcc:identifications").and(parts::serial(stand.serial.as_str(), languages)))
 }
 
 /// Returns K, ω_0 and the g-sensitive drifts, each with its decisions. The drifts are per m/s², because there is no unit
@@ -215,7 +199,7 @@ fn quantities(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
         let labels = parameters.iter().map(|parameter| parameter.key()).collect::<Vec<_>>().join(" ");
         let each: Vec<f64> = parameters.iter().map(value).collect();
         let uncertainties: Vec<_> = parameters.iter().map(u).collect();
-        let list = parts::labelled(Some(&labels), &each, unit, &uncertainties);
+        let list = parts::reals(Some(&labels), &each, unit, &uncertainties);
         let decisions = calibrated.judged.map(|judged| decisions(judged, parameters, unit, languages));
         quantity(Some("basic_measuredValue"), in_words("dcc:name", name, languages), list).and(decisions)
     };
@@ -235,10 +219,10 @@ fn decisions(
 ) -> Element {
     let rows = parameters.iter().filter_map(|one| verdict.parameters.iter().find(|row| row.parameter == one.key()));
     let rows: Vec<_> = rows.collect();
-    let each: Vec<&str> = rows.iter().map(|row| decided(row)).collect();
+    let each: Vec<&str> = rows.iter().map(|row| decided(row.guarded, passes(row))).collect();
     let limit = |kind, name, sign: f64| {
         let values: Vec<f64> = rows.iter().map(|row| limit_of(row, sign, verdict.gravity_m_per_s2)).collect();
-        quantity(Some(kind), in_words("dcc:name", name, languages), parts::labelled(None, &values, unit, &[]))
+        quantity(Some(kind), in_words("dcc:name", name, languages), parts::reals(None, &values, unit, &[]))
     };
     let limits = [
         limit("basic_toleranceLimitLower", words::LOWER_LIMIT, -1.0),

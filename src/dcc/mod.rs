@@ -1,7 +1,6 @@
 //! Digital Calibration Certificates (DCC) in the format of PTB, version 3.3.0.
 //!
 //! * `administrative`: the file `dtg-dcc/1` with what a DCC must state and no passport contains.
-//! * `countries`: codes of ISO 3166-1.
 //! * `facts`: the facts that every DCC states, and what is missing of them.
 //! * `gyro`: the certificate of a gyro, with decisions on conformity.
 //! * `parts`: elements that every DCC has; the order in the code is that of the schema.
@@ -12,7 +11,6 @@
 //! A DCC depends only on its inputs, not on the clock, so the same input gives the same bytes.
 
 mod administrative;
-mod countries;
 mod facts;
 mod gyro;
 mod parts;

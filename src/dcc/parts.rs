@@ -54,13 +54,9 @@ pub(super) fn real(value: f64, unit: &str, standard_uncertainty: Option<f64>) ->
     Element::new("si:real").and(Element::number("si:value", value)).and(Element::text("si:unit", unit)).and(uncertainty)
 }
 
-/// Returns numbers with their unit and, if any is stated, their standard uncertainties (NaN where one is not).
-pub(super) fn reals(values: &[f64], unit: &str, standard_uncertainties: &[Option<f64>]) -> Element {
-    labelled(None, values, unit, standard_uncertainties)
-}
-
-/// Returns numbers as [`reals`] does, with their labels, separated by spaces.
-pub(super) fn labelled(
+/// Returns numbers with their labels, separated by spaces, their unit and, if any is stated, their standard
+/// uncertainties (NaN where one is not).
+pub(super) fn reals(
     labels: Option<&str>,
     values: &[f64],
     unit: &str,
@@ -95,10 +91,20 @@ pub(super) fn statement(name: Text, declaration: Option<&str>, languages: &Langu
         .and(stated(declaration).map(|text| plain("dcc:declaration", text)))
 }
 
-/// Returns an identification: who assigned it, its value and its name.
-pub(super) fn identification(issuer: &str, value: &str, name: Text, languages: &Languages) -> Element {
+/// Returns a serial number.
+pub(super) fn serial(value: &str, languages: &Languages) -> Element {
+    identification(value, words::SERIAL, languages).with("refType", "basic_serialNumber")
+}
+
+/// Returns the manufacturer, if stated.
+pub(super) fn manufacturer(name: Option<&str>) -> Option<Element> {
+    stated(name).map(|name| Element::new("dcc:manufacturer").and(plain("dcc:name", name)))
+}
+
+/// Returns an identification that the manufacturer assigned: its value and its name.
+pub(super) fn identification(value: &str, name: Text, languages: &Languages) -> Element {
     Element::new("dcc:identification")
-        .and(Element::text("dcc:issuer", issuer))
+        .and(Element::text("dcc:issuer", "manufacturer"))
         .and(Element::text("dcc:value", value))
         .and(in_words("dcc:name", name, languages))
 }
@@ -143,6 +149,23 @@ pub(super) fn method(name: Element, description: Element, link: Option<&str>) ->
         .and(name)
         .and(description)
         .and(link.map(|link| Element::text("dcc:link", link)))
+}
+
+/// Returns the method that the facts state, if any.
+pub(super) fn stated_method(facts: &Facts) -> Option<Element> {
+    let name = || in_words("dcc:name", words::METHOD, &facts.languages);
+    facts.method.as_deref().map(|text| method(name(), plain("dcc:description", text), None))
+}
+
+/// Returns the results: quantities with a name and a note.
+pub(super) fn results(name: Text, note: Text, quantities: Vec<Element>, languages: &Languages) -> Element {
+    let list = Element::new("dcc:list").and(quantities);
+    let result = Element::new("dcc:result")
+        .with("refType", "basic_measurementResult")
+        .and(in_words("dcc:name", name, languages))
+        .and(in_words("dcc:description", note, languages))
+        .and(Element::new("dcc:data").and(list));
+    Element::new("dcc:results").and(result)
 }
 
 /// Returns the temperature during the measurements.

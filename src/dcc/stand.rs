@@ -27,7 +27,7 @@ pub(crate) fn of_stand(
     let id = &content.passport.id;
     let predecessor = content.passport.reissued_from.as_ref();
     let subject = Subject {
-        identifications: vec![parts::identification("manufacturer", id, words::PASSPORT_ID, languages)],
+        identifications: vec![parts::identification(id, words::PASSPORT_ID, languages)],
         previous_report: predecessor
             .map(|from| parts::hashed("dcc:previousReport", words::PREDECESSOR, &from.id, &from.sha256, languages)),
         item: item(content, languages),
@@ -71,15 +71,13 @@ fn known(content: &Content) -> Known<'_> {
 fn item(content: &Content, languages: &Languages) -> Element {
     let stand = &content.stand;
     let name = stated(stand.name.as_deref()).unwrap_or(stand.model.as_str());
-    let manufacturer = stated(stand.manufacturer.as_deref());
-    let serial = parts::identification("manufacturer", stand.serial.as_str(), words::SERIAL, languages);
-    let configuration = stated(stand.configuration.as_deref())
-        .map(|text| parts::identification("manufacturer", text, words::CONFIGURATION, languages));
-    let identifications =
-        Element::new("dcc:identifications").and(serial.with("refType", "basic_serialNumber")).and(configuration);
+    let configuration =
+        stated(stand.configuration.as_deref()).map(|text| parts::identification(text, words::CONFIGURATION, languages));
+    let serial = parts::serial(stand.serial.as_str(), languages);
+    let identifications = Element::new("dcc:identifications").and(serial).and(configuration);
     Element::new("dcc:item")
         .and(plain("dcc:name", name))
-        .and(manufacturer.map(|name| Element::new("dcc:manufacturer").and(plain("dcc:name", name))))
+        .and(parts::manufacturer(stand.manufacturer.as_deref()))
         .and(Element::text("dcc:model", &stand.model))
         .and(identifications)
 }
@@ -105,10 +103,10 @@ fn statements(content: &Content, facts: &Facts) -> Vec<Element> {
         let data = [limit("math_minimum", words::LOWEST, low), limit("math_maximum", words::HIGHEST, high)];
         parts::statement(words::TEMPERATURE_RANGE, None, languages).and(Element::new("dcc:data").and(data))
     });
-    let Datum { level, azimuth, gyro_seat } =
-        content.datum.clone().unwrap_or(Datum { level: None, azimuth: None, gyro_seat: None });
-    let surfaces = [(words::LEVEL, level), (words::AZIMUTH, azimuth), (words::SEAT, gyro_seat)];
-    let surfaces = surfaces.into_iter().filter_map(|(name, surface)| {
+    let surfaces = content.datum.iter().flat_map(|Datum { level, azimuth, gyro_seat }| {
+        [(words::LEVEL, level), (words::AZIMUTH, azimuth), (words::SEAT, gyro_seat)]
+    });
+    let surfaces = surfaces.filter_map(|(name, surface)| {
         stated(surface.as_deref()).map(|surface| parts::statement(name, Some(surface), languages))
     });
     let shared = [
@@ -125,33 +123,25 @@ fn statements(content: &Content, facts: &Facts) -> Vec<Element> {
 
 fn result(content: &Content, facts: &Facts) -> Element {
     let languages = &facts.languages;
-    let methods = facts.method.iter().map(|text| {
-        parts::method(in_words("dcc:name", words::METHOD, languages), plain("dcc:description", text), None)
-    });
-    let list = Element::new("dcc:list").and(quantities(&content.positions, languages));
-    let result = Element::new("dcc:result")
-        .with("refType", "basic_measurementResult")
-        .and(in_words("dcc:name", words::POSITIONS, languages))
-        .and(in_words("dcc:description", words::POSITIONS_NOTE, languages))
-        .and(Element::new("dcc:data").and(list));
+    let quantities = quantities(&content.positions, languages);
     Element::new("dcc:measurementResult")
         .and(in_words("dcc:name", words::STAND_RESULT, languages))
-        .and(Element::new("dcc:usedMethods").and(methods))
+        .and(Element::new("dcc:usedMethods").and(parts::stated_method(facts)))
         .and(parts::software("dcc:usedSoftware"))
         .and(Element::new("dcc:influenceConditions").and(parts::temperature(facts.temperature_c, languages)))
-        .and(Element::new("dcc:results").and(result))
+        .and(parts::results(words::POSITIONS, words::POSITIONS_NOTE, quantities, languages))
 }
 
 /// Returns one quantity for each column of the positions, its values in the order of the passport.
 fn quantities(positions: &[CertifiedPosition], languages: &Languages) -> Vec<Element> {
     let column = |kind: Option<&str>, name: Text, unit: &str, value: fn(&CertifiedPosition) -> f64| {
         let values: Vec<f64> = positions.iter().map(value).collect();
-        quantity(kind, in_words("dcc:name", name, languages), reals(&values, unit, &[]))
+        quantity(kind, in_words("dcc:name", name, languages), reals(None, &values, unit, &[]))
     };
     let measured = |name: Text, value: fn(&CertifiedPosition) -> (f64, Option<f64>)| {
         let (values, u): (Vec<f64>, Vec<Option<f64>>) = positions.iter().map(value).unzip();
         let name = in_words("dcc:name", name, languages);
-        quantity(Some("basic_measuredValue"), name, reals(&values, units::ARCSECOND, &u))
+        quantity(Some("basic_measuredValue"), name, reals(None, &values, units::ARCSECOND, &u))
     };
     vec![
         column(None, words::INDEX_I, units::ONE, |at| f64::from(at.i)),

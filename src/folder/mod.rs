@@ -352,9 +352,9 @@ impl Folder {
         let mut revision = successor.first_revision();
         loop {
             let draft = Box::new(successor.draft(revision)?);
-            let path = self.path_of(&successor.stand().stand, &successor.site().id, revision);
+            let path = self.path_of(&successor.stand().stand, &successor.site.id, revision);
             let Some(there) = self.existing(&path)? else {
-                return match successor.rival() {
+                return match successor.rival.as_deref() {
                     Some(rival) => Err(FolderRefused::Fork { path: rival.to_owned() }),
                     None => Ok(Next::New(Unwritten { path, draft })),
                 };
@@ -368,7 +368,7 @@ impl Folder {
             }
             // At the predecessor's site only one revision can be the next one; at another site, try the next free
             // revision.
-            if successor.same_site() {
+            if successor.same_site {
                 return Err(FolderRefused::LaterRevision { path: there.path });
             }
             revision = revision.saturating_add(1);
@@ -521,7 +521,7 @@ impl Existing {
         let incomparable = |reason: String| FolderRefused::NotComparable { path: path.to_owned(), reason };
         let text = SignedText::split(&name, bytes, NAMESPACE)
             .map_err(|malformed| incomparable(malformed.fault.to_string()))?;
-        let payload = text.signed_payload().map_err(|error| incomparable(error.to_string()))?;
+        let payload = text.signed_payload(None).map_err(|error| incomparable(error.to_string()))?;
         let content = read::content(&name, payload).map_err(|error| incomparable(error.to_string()))?;
         Ok(Self { path: path.to_owned(), sha256: sha256_hex(bytes), content })
     }

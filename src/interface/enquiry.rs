@@ -121,11 +121,10 @@ impl Enquiry {
 
     /// Verifies the bytes of a passport; `file` is the file name in messages.
     pub fn verify(&self, file: &str, bytes: &[u8]) -> Answer {
-        let verification = verify(file, bytes, &self.trust, &self.question);
-        let verification = match &self.register {
-            Some(register) => register.asked(verification, bytes),
-            None => verification,
-        };
+        let mut verification = verify(file, bytes, &self.trust, &self.question);
+        if let Some(register) = &self.register {
+            verification = register.asked(verification, bytes);
+        }
         Answer { file: file.to_owned(), verification, sha256: sha256_hex(bytes) }
     }
 

@@ -86,8 +86,8 @@ fn ordered(order: &str, now: Timestamp) -> Result<Issue, Failed> {
     })
 }
 
-/// Reads a gyro type and a laboratory.
-fn stated([gyro, laboratory]: [Option<File>; 2]) -> Result<Stated, Failed> {
+/// Reads a gyro type and a laboratory, by default those of the paper.
+pub(super) fn stated([gyro, laboratory]: [Option<File>; 2]) -> Result<Stated, Failed> {
     let gyro = gyro.map_or_else(|| Ok(GyroType::gvk_6()), |(name, bytes)| GyroType::from_yaml(name, bytes))?;
     let paper = || Ok(Laboratory::paper());
     let laboratory = laboratory.map_or_else(paper, |(name, bytes)| Laboratory::from_yaml(name, bytes))?;

@@ -49,6 +49,7 @@ use crate::text::name_of;
 use crate::text::{Problem, Unreadable, printable};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use std::collections::BTreeMap;
 
 /// Codes of failures.
 pub(crate) const REFUSED: &str = "refused";
@@ -96,12 +97,6 @@ impl Place {
     }
 }
 
-/// A failure as the JSON of what it ends.
-#[derive(Serialize)]
-pub(crate) struct FailedDocument<'a> {
-    error: &'a Failed,
-}
-
 impl Failed {
     pub(crate) fn new(code: &'static str, message: String, problems: Vec<Place>) -> Self {
         Self { code, message, problems }
@@ -117,8 +112,8 @@ impl Failed {
     }
 
     /// Returns the failure as the JSON of what it ends.
-    pub(crate) fn document(&self) -> FailedDocument<'_> {
-        FailedDocument { error: self }
+    pub(crate) fn document(&self) -> BTreeMap<&'static str, &Self> {
+        BTreeMap::from([("error", self)])
     }
 
     /// Returns the failure as JSON: `{"error": {code, message, problems: [{file, line, column, message}]}}`.

@@ -1,8 +1,8 @@
 //! The best positions to certify or to read.
 
+use super::issued::stated;
 use super::{Failed, asked, json};
-use crate::gyro::GyroType;
-use crate::laboratory::Laboratory;
+use crate::passport::Stated;
 use crate::plan::candidates::Angles;
 use crate::plan::criterion::Criterion;
 use crate::plan::document::PlanDocument;
@@ -46,41 +46,33 @@ pub fn plan(
 ) -> Result<String, Failed> {
     let site = Site::from_yaml(site, bytes)?;
     let stand = stand.map(|(name, bytes)| Stand::from_yaml(name, bytes)).transpose()?;
-    let gyro = gyro.map_or_else(|| Ok(GyroType::gvk_6()), |(name, bytes)| GyroType::from_yaml(name, bytes))?;
-    let paper = || Ok(Laboratory::paper());
-    let laboratory = laboratory.map_or_else(paper, |(name, bytes)| Laboratory::from_yaml(name, bytes))?;
+    let Stated { gyro, laboratory } = stated([gyro, laboratory])?;
     let asked: Asked = asked("question", question)?;
-    let expected = |words: String| Failed::unusable(words);
     if !(FEWEST_READINGS..=MOST_READINGS).contains(&asked.readings) {
         let found = asked.readings;
-        return Err(expected(format!("readings: found {found}, expected {FEWEST_READINGS} to {MOST_READINGS}")));
+        return Err(Failed::unusable(format!(
+            "readings: found {found}, expected {FEWEST_READINGS} to {MOST_READINGS}"
+        )));
     }
     let angles = match asked.step_deg {
         None => Angles::Quadrants,
         Some(step_deg) => Angles::every(step_deg)
-            .ok_or_else(|| expected(format!("step_deg: found {step_deg}, expected {}", Angles::EXPECTED)))?,
+            .ok_or_else(|| Failed::unusable(format!("step_deg: found {step_deg}, expected {}", Angles::EXPECTED)))?,
     };
     let criterion = Criterion::ALL.into_iter().find(|criterion| criterion.to_string() == asked.criterion);
-    let criterion =
-        criterion.ok_or_else(|| expected(format!("criterion: found {:?}, expected a, d or worst", asked.criterion)))?;
+    let unknown = || Failed::unusable(format!("criterion: found {:?}, expected a, d or worst", asked.criterion));
+    let criterion = criterion.ok_or_else(unknown)?;
     let mut azimuths_deg = asked.frame_axis_azimuths_deg;
     if let Some(found) = azimuths_deg.iter().find(|azimuth| !(0.0..360.0).contains(*azimuth)) {
-        return Err(expected(format!("frame_axis_azimuths_deg: found {found}, expected 0 or more and below 360")));
+        return Err(Failed::unusable(format!(
+            "frame_axis_azimuths_deg: found {found}, expected 0 or more and below 360"
+        )));
     }
     if azimuths_deg.is_empty() {
         azimuths_deg.push(site.frame_axis_azimuth_deg());
     }
-    let (readings, stand) = (asked.readings, stand.as_ref());
-    let question = Question {
-        site: &site,
-        stand,
-        angles,
-        gyro: &gyro,
-        laboratory: &laboratory,
-        readings,
-        azimuths_deg,
-        criterion,
-    };
+    let (readings, stand, site, gyro, laboratory) = (asked.readings, stand.as_ref(), &site, &gyro, &laboratory);
+    let question = Question { site, stand, angles, gyro, laboratory, readings, azimuths_deg, criterion };
     let found = crate::plan::plan(&question).map_err(Failed::refused)?;
     Ok(json(&PlanDocument::from(&found)))
 }

@@ -14,13 +14,11 @@ pub(crate) fn payload(content: &Content) -> String {
     canonical::write(content, &|path| comments(content, path))
 }
 
-/// Writes the part of the payload that is the same at every site: the keys of [`Stand`] except its format.
+/// Writes the part of the payload that is the same at every site: the keys of [`Stand`].
 pub(crate) fn payload_of_stand(stand: &Stand, has_matrices: bool) -> String {
     let of_certificate =
         || absent_of_certificate(&stand.certificate, &stand.positions, stand.datum.as_ref(), has_matrices);
-    let mut text = String::new();
-    canonical::write_some(&mut text, stand, &|path| of_the_stand(path, of_certificate), &|key| key != "format");
-    text
+    canonical::write(stand, &|path| of_the_stand(path, of_certificate))
 }
 
 /// Writes the payload of a passport, given the part that [`payload_of_stand`] wrote.
@@ -34,95 +32,52 @@ pub(crate) fn payload_with(content: &Content, of_stand: &str) -> String {
     text
 }
 
-/// Statement that is missing in a passport because its input was not given.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Statement that is missing in a passport because its input was not given. Displayed, it is a sentence in ASCII with the
+/// effect.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub(crate) enum Absence {
-    /// Uncertainty of at least one deviation.
+    #[error("The certificate gives no uncertainty of the deviations (u_alpha_arcsec etc.); it cannot be stated.")]
     Uncertainty,
-    /// Repeatability of positioning.
+    #[error("The certificate gives no repeatability; the uncertainty that positioning adds is unknown.")]
     Repeatability,
-    /// Common part of the uncertainty, shared by all positions, of platform or base.
+    #[error("The certificate does not give the uncertainty common to all positions for both platform and base.")]
     CommonPart,
-    /// Traceability.
+    #[error("No traceability is stated; the deviations are not shown to be traceable to the SI.")]
     Traceability,
     /// Temperature, during the measurement or for use.
+    #[error("The certificate gives no temperature; the validity of the deviations at other temperatures is unknown.")]
     Temperature,
-    /// Expiry date of the certificate.
+    #[error("The certificate has no expiry date; the user sets the recertification interval.")]
     LastDay,
-    /// Datum surfaces, which realise the axes.
+    #[error(
+        "No datum surfaces are stated; the surfaces for levelling, for north alignment and for seating the gyro are \
+         unknown."
+    )]
     Datum,
-    /// At least one of the paper's eight positions.
+    #[error(
+        "Some of the eight standard positions are not certified; there are no matrices, and only least squares applies."
+    )]
     EightPositions,
-    /// Deflection of the vertical.
+    #[error(
+        "The deflection of the vertical is unknown; it is taken as 0 with u = {UNKNOWN_DEFLECTION_U_ARCSEC} arcsec, \
+         which adds up to {cost_deg_per_h:.1e} deg/h to the Earth-rate components."
+    )]
     Deflection {
         /// Largest change of the Earth-rate components for a deflection of `UNKNOWN_DEFLECTION_U_ARCSEC`, deg/h.
         cost_deg_per_h: f64,
     },
-    /// Longitude.
+    #[error("The longitude is unknown; only the latitude of a place can be checked.")]
     Longitude,
-    /// Geodetic latitude.
+    #[error("The geodetic latitude is unknown; the check of the place allows {LATITUDE_MARGIN_ARCSEC} arcsec for it.")]
     GeodeticLatitude,
-    /// Height.
+    #[error(
+        "The height is unknown; normal gravity is that at 0 m, which is 3.1e-6 m/s2 too large for each metre of height."
+    )]
     Height,
-    /// Uncertainties of the base as set up.
+    #[error("The uncertainties of the latitude, azimuth and level of the base are not stated for this site.")]
     BaseUncertainty,
-    /// Azimuth mark.
+    #[error("No azimuth mark is given; the north direction must be determined in another way.")]
     AzimuthMark,
-}
-
-impl Absence {
-    /// Returns the missing statement and its effect, one sentence in ASCII.
-    fn sentence(self) -> String {
-        let fixed = match self {
-            Self::Uncertainty => {
-                "The certificate gives no uncertainty of the deviations (u_alpha_arcsec etc.); it cannot be stated."
-            }
-            Self::Repeatability => {
-                "The certificate gives no repeatability; the uncertainty that positioning adds is \
-                 unknown."
-            }
-            Self::CommonPart => {
-                "The certificate does not give the uncertainty common to all positions for both platform and base."
-            }
-            Self::Traceability => "No traceability is stated; the deviations are not shown to be traceable to the SI.",
-            Self::Temperature => {
-                "The certificate gives no temperature; the validity of the deviations at other \
-                 temperatures is unknown."
-            }
-            Self::LastDay => "The certificate has no expiry date; the user sets the recertification interval.",
-            Self::Datum => {
-                "No datum surfaces are stated; the surfaces for levelling, for north alignment and for seating the \
-                 gyro are unknown."
-            }
-            Self::EightPositions => {
-                "Some of the eight standard positions are not certified; there are no matrices, \
-                 and only least squares applies."
-            }
-            Self::Deflection { cost_deg_per_h } => {
-                return format!(
-                    "The deflection of the vertical is unknown; it is taken as 0 with u = \
-                     {UNKNOWN_DEFLECTION_U_ARCSEC} arcsec, which adds up to {cost_deg_per_h:.1e} deg/h to the \
-                     Earth-rate components."
-                );
-            }
-            Self::Longitude => "The longitude is unknown; only the latitude of a place can be checked.",
-            Self::GeodeticLatitude => {
-                return format!(
-                    "The geodetic latitude is unknown; the check of the place allows {LATITUDE_MARGIN_ARCSEC} arcsec \
-                     for it."
-                );
-            }
-            Self::Height => {
-                "The height is unknown; normal gravity is that at 0 m, which is 3.1e-6 m/s2 too large for each metre \
-                 of height."
-            }
-            Self::BaseUncertainty => {
-                "The uncertainties of the latitude, azimuth and level of the base are not stated for this site."
-            }
-            Self::AzimuthMark => "No azimuth mark is given; the north direction must be determined in another way.",
-        };
-        fixed.to_owned()
-    }
 }
 
 /// Returns the missing statements of this passport and their effects, one sentence each, in ASCII.
@@ -138,7 +93,7 @@ pub(crate) fn absent(content: &Content) -> Vec<Absence> {
 }
 
 fn sentences(absences: Vec<Absence>) -> Vec<String> {
-    absences.into_iter().map(Absence::sentence).collect()
+    absences.iter().map(Absence::to_string).collect()
 }
 
 fn of_the_certificate(content: &Content) -> Vec<Absence> {
@@ -152,9 +107,7 @@ fn absent_of_certificate(
     datum: Option<&Datum>,
     has_matrices: bool,
 ) -> Vec<Absence> {
-    let uncertain = positions.iter().any(|position| {
-        position.u_alpha_arcsec.is_none() || position.u_beta_arcsec.is_none() || position.u_gamma_arcsec.is_none()
-    });
+    let uncertain = positions.iter().flat_map(CertifiedPosition::u_arcsec).any(|u| u.is_none());
     let common = certificate.common_platform_arcsec.is_none() || certificate.common_base_arcsec.is_none();
     let temperature = certificate.temperature_c.is_none() && certificate.temperature_range_c.is_none();
     let absences = [
@@ -200,8 +153,7 @@ fn of_the_stand(path: &str, absences: impl Fn() -> Vec<Absence>) -> Vec<String> 
             lines
         }
         "positions" => vec![
-            "Nominal frame angle theta and platform angle phi; deviation of the actual orientation from the \
-             nominal:"
+            "Nominal frame angle theta and platform angle phi; deviation of the actual orientation from the nominal:"
                 .to_owned(),
             "E = Rz(gamma) Ry(beta) Rx(alpha) transforms coordinates from the nominal to the actual platform, eq. (4)."
                 .to_owned(),
@@ -298,15 +250,10 @@ fn of_the_earth(content: &Content) -> Vec<String> {
         ),
     ];
     if content.earth.azimuth_deg.is_some() {
-        lines
-            .push("Astronomic azimuth from pillar to mark, clockwise from north: geodetic + eta tan(latitude).".into());
-        if content.earth.azimuth_u_arcsec.is_none() {
-            lines.push(
-                "The uncertainty of the azimuth is not stated: position_u_m or u of the deflection is \
-                        unknown."
-                    .into(),
-            );
-        }
+        let azimuth = "Astronomic azimuth from pillar to mark, clockwise from north: geodetic + eta tan(latitude).";
+        let u = "The uncertainty of the azimuth is not stated: position_u_m or u of the deflection is unknown.";
+        lines.push(azimuth.to_owned());
+        lines.extend(content.earth.azimuth_u_arcsec.is_none().then(|| u.to_owned()));
     }
     lines
 }

@@ -5,7 +5,6 @@ use crate::calibration::{Model, analytic, least_squares};
 use crate::coefficients::{
     Coefficients, Matrices, PositionCoefficients, PositionIndex, SingularPositions, StandGeometry,
 };
-use crate::document::is_sha256_hex;
 use crate::gyro::{GyroParameters, Parameters};
 use crate::laboratory::Laboratory;
 use crate::site::{Earth, Site};
@@ -325,12 +324,7 @@ impl SelfCheck {
     /// Returns the relative error |found/stated − 1| of each parameter found from the currents: K_x, K_xy, K_yx, K_y,
     /// ω_0x, ω_0y, ω_g, ω_k. Correct software has none above [`SelfCheck::LIMIT`].
     pub fn errors(&self, found: &GyroParameters) -> [f64; 8] {
-        let numbers = |gyro: &GyroParameters| {
-            let k = gyro.k_deg_per_h_per_ma;
-            let [x, y]: [f64; 2] = gyro.omega0_deg_per_h.into();
-            [k.m11, k.m12, k.m21, k.m22, x, y, gyro.omega_g_deg_per_h_per_g, gyro.omega_k_deg_per_h_per_g]
-        };
-        let (found, due) = (numbers(found), numbers(&self.parameters().to_model()));
+        let (found, due) = (found.to_vector(), self.parameters().to_model().to_vector());
         std::array::from_fn(|place| match (found[place], due[place]) {
             (found, 0.0) => found.abs(),
             (found, due) => (found / due - 1.0).abs(),
@@ -392,13 +386,9 @@ impl Content {
 
     /// Checks all rules of the content that its inputs do not already ensure.
     pub(crate) fn check(&self, problems: &mut Problems) {
-        check_inputs(&self.certificate, &self.positions, &self.site, problems);
-        self.check_but_for_inputs(problems);
-    }
-
-    /// Checks the rules of [`Content::check`] without those of [`check_inputs`].
-    pub(super) fn check_but_for_inputs(&self, problems: &mut Problems) {
         let at = Path::Root;
+        stand::check(&self.certificate, &self.positions, problems);
+        self.site.check(&at.key("site"), problems);
         if self.format != PASSPORT_FORMAT {
             problems.at(&at.key("format"), format!("{:?}", self.format), format!("{PASSPORT_FORMAT:?}"), "");
         }
@@ -422,14 +412,10 @@ impl Content {
             let expected = format!("a time on or after the date of the certificate, {certified}");
             problems.at(&header.key("issued_at"), format!("{issued_at}"), expected, "");
         }
-        if let Some(from) = self.passport.reissued_from.as_ref().filter(|from| !is_sha256_hex(&from.sha256)) {
-            let at = header.key("reissued_from");
-            problems.at(&at.key("sha256"), format!("{:?}", from.sha256), "64 lower-case hexadecimal digits", "");
-        }
         if let Some(from) = &self.passport.reissued_from {
-            let own = format!("{}/{}/", self.stand.model, self.stand.serial);
+            let (at, own) = (header.key("reissued_from"), format!("{}/", self.stand.id()));
+            problems.sha256(&at.key("sha256"), &from.sha256);
             if !from.id.starts_with(&own) {
-                let at = header.key("reissued_from");
                 problems.at(&at.key("id"), format!("{:?}", from.id), format!("a passport of this stand, {own}…"), "");
             }
         }
@@ -442,18 +428,7 @@ impl Content {
     }
 }
 
-/// Checks the rules of the inputs: certificate, positions and site.
-pub(super) fn check_inputs(
-    certificate: &Certificate,
-    positions: &[CertifiedPosition],
-    site: &Site,
-    problems: &mut Problems,
-) {
-    stand::check(certificate, positions, problems);
-    site.check(&Path::Root.key("site"), problems);
-}
-
 /// Returns the identifier of a passport: `<model>/<serial>/<site id>/<revision>`.
 pub(crate) fn passport_id(stand: &Identity, site: &Identifier, revision: u32) -> String {
-    format!("{}/{}/{site}/{revision}", stand.model, stand.serial)
+    format!("{}/{site}/{revision}", stand.id())
 }

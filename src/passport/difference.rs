@@ -113,7 +113,7 @@ pub(crate) fn of_deviations(a: &Stand, b: &Stand) -> Vec<NumberDifference> {
         let of = |stand: &Stand| {
             let at = stand.positions.iter().find(|at| at.index() == position.index())?.clone();
             let u = u_of_deviations_arcsec(&at, &stand.certificate);
-            Some(([at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec], u))
+            Some((at.angles_arcsec(), u))
         };
         let (old, new) = (of(a), of(b));
         for (angle, name) in ["alpha", "beta", "gamma"].into_iter().enumerate() {
@@ -138,11 +138,8 @@ fn names<'n>(a: Option<&'n Node>, b: Option<&'n Node>) -> Vec<&'n str> {
             _ => &[],
         }
     };
-    let mut names: Vec<&str> = of(a).iter().map(|(name, _)| name.as_str()).collect();
-    let others = of(b).iter().map(|(name, _)| name.as_str()).filter(|name| !names.contains(name));
-    let others: Vec<&str> = others.collect();
-    names.extend(others);
-    names
+    let only_in_b = of(b).iter().filter(|(name, _)| a.and_then(|a| a.get(name)).is_none());
+    of(a).iter().chain(only_in_b).map(|(name, _)| name.as_str()).collect()
 }
 
 /// Place of an item in a list: its indices i and j, or its number from 1; for a matrix, row and column.
@@ -210,7 +207,7 @@ pub(crate) fn u_of_deviations_arcsec(position: &CertifiedPosition, certificate: 
     let to_angles = Matrix3::from_columns(&turn.axes).try_inverse().unwrap_or_else(Matrix3::identity);
     let common = [certificate.common_platform_arcsec, certificate.common_base_arcsec];
     let common = common.into_iter().flatten().map(|u| u * u).sum::<f64>();
-    let own = [position.u_alpha_arcsec, position.u_beta_arcsec, position.u_gamma_arcsec];
+    let own = position.u_arcsec();
     [0, 1, 2].map(|angle| {
         let own = own[angle]?;
         Some((own * own + common * to_angles.row(angle).norm_squared()).sqrt())

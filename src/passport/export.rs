@@ -3,7 +3,7 @@
 use super::content::Content;
 use crate::site::Site;
 use crate::stand::Stand;
-use crate::text::record::File;
+use crate::text::record::{Document, File};
 use crate::text::{Unreadable, canonical};
 
 /// Returns the stand file (`dtg-stand/1`) of a passport. It is read back and compared first.
@@ -13,12 +13,8 @@ use crate::text::{Unreadable, canonical};
 /// # Errors
 /// Returns [`Unreadable`] if its reader refuses the file.
 pub(crate) fn stand_file(content: &Content) -> Result<String, Unreadable> {
-    const NAME: &str = "the exported stand file";
-    let stand = content.to_stand();
     let comment = "Stand exported from a verified passport, number for number. Standard uncertainties (k = 1).";
-    let text = canonical::write(&File(stand.clone()), &|path| above_the_format(path, comment));
-    let read = Stand::from_yaml(NAME, text.as_bytes())?;
-    if read == stand { Ok(text) } else { Err(other_content(NAME)) }
+    file("the exported stand file", comment, content.to_stand(), Stand::from_yaml)
 }
 
 /// Returns the site file (`dtg-site/1`) of a passport. It is read back and compared first.
@@ -27,17 +23,21 @@ pub(crate) fn stand_file(content: &Content) -> Result<String, Unreadable> {
 /// Returns [`Unreadable`] if its reader refuses the file: passports of earlier versions may have sites that break rules
 /// for new site files.
 pub(crate) fn site_file(content: &Content) -> Result<String, Unreadable> {
-    const NAME: &str = "the exported site file";
     let comment = "Site exported from a verified passport, number for number.";
-    let text = canonical::write(&File(content.site.clone()), &|path| above_the_format(path, comment));
-    let read = Site::from_yaml(NAME, text.as_bytes())?;
-    if read == content.site { Ok(text) } else { Err(other_content(NAME)) }
+    file("the exported site file", comment, content.site.clone(), Site::from_yaml)
 }
 
-fn above_the_format(path: &str, comment: &str) -> Vec<String> {
-    if path == "format" { vec![comment.to_owned()] } else { Vec::new() }
-}
-
-fn other_content(name: &str) -> Unreadable {
-    Unreadable::whole(name, None, "other content than was written", "the same", "report this")
+fn file<T: Document + PartialEq>(
+    name: &str,
+    comment: &str,
+    document: T,
+    read: fn(&str, &[u8]) -> Result<T, Unreadable>,
+) -> Result<String, Unreadable> {
+    let file = File(document);
+    let above = |path: &str| if path == "format" { vec![comment.to_owned()] } else { Vec::new() };
+    let text = canonical::write(&file, &above);
+    if read(name, text.as_bytes())? == file.0 {
+        return Ok(text);
+    }
+    Err(Unreadable::whole(name, None, "other content than was written", "the same", "report this"))
 }

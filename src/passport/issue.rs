@@ -14,14 +14,14 @@ use super::content::{
 use super::{NAMESPACE, read};
 use crate::calibration::prediction::noise_growth;
 use crate::coefficients::{SingularPositions, StandGeometry};
-use crate::document::{Signer, join};
+use crate::document::{self, Signer};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::site::Site;
 use crate::stand::{self, CertifiedPosition, Stand};
 use crate::text::scalar::day;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Path, Problems, Unreadable, rule};
-use crate::trust::{Message, check_identity};
+use crate::trust::check_identity;
 use jiff::Timestamp;
 use jiff::civil::Date;
 
@@ -108,7 +108,7 @@ pub struct PreparedStand {
 impl PreparedStand {
     /// Prepares a stand. If n_2 has no inverse, [`PreparedStand::draft`] returns that error for every site.
     pub fn new(stand: Stand) -> Self {
-        let geometry = stand.geometry().map(|geometry| {
+        let geometry = stand::geometry(&stand.positions).map(|geometry| {
             let text = annotations::payload_of_stand(&stand, geometry.has_eight());
             (geometry, text)
         });
@@ -159,6 +159,8 @@ pub fn draft(stand: &Stand, site: &Site, issue: &Issue) -> Result<Draft, IssueRe
 
 fn content(stand: &Stand, geometry: &StandGeometry, site: &Site, issue: &Issue) -> Result<Content, IssueRefused> {
     let derived = derive_from(geometry, site, &REFERENCE_GYRO);
+    let accuracy = |stated: &Stated| stated.accuracy(&stand.certificate, &stand.positions, site);
+    let accuracy = issue.accuracy.as_ref().map(accuracy);
     let (reissued_from, supersedes) =
         issue.reissued.clone().map(|reissued| (reissued.from, reissued.supersedes)).unzip();
     Ok(Content {
@@ -182,11 +184,7 @@ fn content(stand: &Stand, geometry: &StandGeometry, site: &Site, issue: &Issue) 
         matrices: derived.matrices,
         vectors: derived.vectors,
         self_check: derived.self_check,
-        accuracy: issue
-            .accuracy
-            .as_ref()
-            .map(|stated| stated.accuracy(&stand.certificate, &stand.positions, site))
-            .transpose()?,
+        accuracy: accuracy.transpose()?,
     })
 }
 
@@ -248,10 +246,7 @@ impl Draft {
     /// Returns [`IssueRefused::Signing`] if the signer fails, and [`IssueRefused::BadSignature`] if its signature is
     /// wrong.
     pub fn sign(&self, signer: &dyn Signer) -> Result<String, IssueRefused> {
-        let message = Message::new(NAMESPACE, self.payload.as_bytes());
-        let signature = signer.sign_message(&message)?;
-        signature.verify_message(&message, signer.point().as_ref())?;
-        Ok(join(&self.payload, &signature))
+        document::sign(&self.payload, NAMESPACE, signer)
     }
 
     /// Computes remarks on the passport for the factory: noise of a calibration relative to the ideal stand, missing
@@ -285,31 +280,39 @@ mod tests {
 
     /// The shipped stands, and reduced copies of each: no datum, seven positions, no optional statement.
     fn stands() -> Vec<Stand> {
-        let whole = STANDS.iter().map(|text| Stand::from_yaml("stand", text.as_bytes()).unwrap());
-        whole
-            .flat_map(|stand| {
-                let without_datum = Stand { datum: None, ..stand.clone() };
-                let mut seven = stand.clone();
-                seven.positions.remove(3);
-                let mut bare = stand.clone();
-                bare.certificate.repeatability_arcsec = None;
-                bare.certificate.traceability = None;
-                bare.certificate.valid_until = None;
-                bare.certificate.valid_until_basis = None;
-                bare.positions.iter_mut().for_each(|position| position.u_beta_arcsec = None);
-                [stand, without_datum, seven, bare]
-            })
-            .collect()
+        let variants = |number: usize| {
+            let (stand, _) = read(number, 0);
+            let without_datum = Stand { datum: None, ..stand.clone() };
+            let mut seven = stand.clone();
+            seven.positions.remove(3);
+            let mut bare = stand.clone();
+            bare.certificate.repeatability_arcsec = None;
+            bare.certificate.traceability = None;
+            bare.certificate.valid_until = None;
+            bare.certificate.valid_until_basis = None;
+            bare.positions.iter_mut().for_each(|position| position.u_beta_arcsec = None);
+            [stand, without_datum, seven, bare]
+        };
+        (0..STANDS.len()).flat_map(variants).collect()
+    }
+
+    /// The stand and the site with this number.
+    fn read(stand: usize, site: usize) -> (Stand, Site) {
+        let stand = Stand::from_yaml("stand", STANDS[stand].as_bytes()).unwrap();
+        (stand, Site::from_yaml("site", SITES[site].as_bytes()).unwrap())
+    }
+
+    fn order() -> Issue {
+        Issue::first("factory@example.org", "2026-11-09T08:00:00Z".parse().unwrap())
     }
 
     #[test]
     fn what_a_stand_has_in_common_is_what_each_passport_would_find() {
-        let order = Issue::first("factory@example.org", "2026-11-09T08:00:00Z".parse().unwrap());
         for stand in stands() {
             let prepared = PreparedStand::new(stand.clone());
-            for text in SITES {
-                let site = Site::from_yaml("site", text.as_bytes()).unwrap();
-                let draft = prepared.draft(&site, &order).unwrap();
+            for number in 0..SITES.len() {
+                let (_, site) = read(0, number);
+                let draft = prepared.draft(&site, &order()).unwrap();
                 assert_eq!(draft.payload(), annotations::payload(draft.content()));
                 let alone = derive(&stand.positions, &site, &REFERENCE_GYRO).unwrap();
                 let content = draft.content().clone();
@@ -335,20 +338,10 @@ mod tests {
 
     #[test]
     fn no_passport_outlasts_its_certificate() {
-        let site = Site::from_yaml("site", SITES[0].as_bytes()).unwrap();
-        let stand = Stand::from_yaml("stand", STANDS[1].as_bytes()).unwrap();
-        let endless = Stand {
-            certificate: crate::stand::Certificate {
-                valid_until: None,
-                valid_until_basis: None,
-                ..stand.certificate.clone()
-            },
-            ..stand.clone()
-        };
-        let last_day = |day: &str| Issue {
-            valid_until: Some(day.parse().unwrap()),
-            ..Issue::first("a@b", "2026-11-09T08:00:00Z".parse().unwrap())
-        };
+        let (stand, site) = read(1, 0);
+        let mut endless = stand.clone();
+        (endless.certificate.valid_until, endless.certificate.valid_until_basis) = (None, None);
+        let last_day = |day: &str| Issue { valid_until: Some(day.parse().unwrap()), ..order() };
         // The certificate ends on 2028-11-01.
         draft(&stand, &site, &last_day("2028-11-01")).unwrap();
         let refused = draft(&stand, &site, &last_day("2028-11-02"));
@@ -359,14 +352,12 @@ mod tests {
     /// Expected: three positions give six readings, fewer than the eight parameters; seven give fourteen.
     #[test]
     fn a_stand_that_determines_no_gyro_is_issued_on_request_alone() {
-        let site = Site::from_yaml("site", SITES[0].as_bytes()).unwrap();
-        let whole = Stand::from_yaml("stand", STANDS[1].as_bytes()).unwrap();
+        let (whole, site) = read(1, 0);
         let with = |positions: usize| Stand { positions: whole.positions[..positions].to_vec(), ..whole.clone() };
-        let order = Issue::first("a@b", "2026-11-09T08:00:00Z".parse().unwrap());
-        let all_the_same = Issue { allow_uncalibratable: true, ..order.clone() };
-        draft(&with(7), &site, &order).unwrap();
+        let all_the_same = Issue { allow_uncalibratable: true, ..order() };
+        draft(&with(7), &site, &order()).unwrap();
         for few in [1, 2, 3] {
-            assert_eq!(draft(&with(few), &site, &order), Err(IssueRefused::Uncalibratable), "{few}");
+            assert_eq!(draft(&with(few), &site, &order()), Err(IssueRefused::Uncalibratable), "{few}");
             draft(&with(few), &site, &all_the_same).unwrap();
         }
     }
@@ -374,16 +365,14 @@ mod tests {
     /// All positions have the same orientation, so n_2 is zero.
     #[test]
     fn a_stand_without_passports_says_so_for_each() {
-        let mut stand = Stand::from_yaml("stand", STANDS[0].as_bytes()).unwrap();
+        let (mut stand, site) = read(0, 0);
         for position in &mut stand.positions {
             (position.theta_deg, position.phi_deg) = (0.0, 0.0);
             (position.alpha_arcsec, position.beta_arcsec, position.gamma_arcsec) = (0.0, 0.0, 0.0);
         }
-        let site = Site::from_yaml("site", SITES[0].as_bytes()).unwrap();
-        let order = Issue::first("a@b", "2026-11-09T08:00:00Z".parse().unwrap());
         let prepared = PreparedStand::new(stand);
         for _ in 0..2 {
-            assert!(matches!(prepared.draft(&site, &order), Err(IssueRefused::Singular(_))));
+            assert!(matches!(prepared.draft(&site, &order()), Err(IssueRefused::Singular(_))));
         }
     }
 }

@@ -44,14 +44,9 @@ pub(super) fn verdict(content: &Content, place: Place) -> (Code, String) {
     let nearness = Nearness::of(content, place);
     let Nearness { distance_m, radius_m, allowance_m } = nearness;
     let how = if site.longitude_deg.is_some() { "" } else { " in latitude (the longitude of the site is unknown)" };
-    let allowance = if allowance_m > 0.0 {
-        format!(
-            ", of which {allowance_m:.0} m allow for the unknown deflection of the vertical ({LATITUDE_MARGIN_ARCSEC} \
-             arcsec)"
-        )
-    } else {
-        String::new()
-    };
+    let unknown = format!("the unknown deflection of the vertical ({LATITUDE_MARGIN_ARCSEC} arcsec)");
+    let allowance = (allowance_m > 0.0).then(|| format!(", of which {allowance_m:.0} m allow for {unknown}"));
+    let allowance = allowance.unwrap_or_default();
     let words = format!("{distance_m:.0} m from {}{how}; validity radius {radius_m:.0} m{allowance}", site.id);
     if nearness.within() {
         return (Code::Ok, words);

@@ -9,7 +9,8 @@ use crate::text::{Field, Node};
 pub(crate) const LIMIT: f64 = 1e-12;
 
 /// A number that does not follow from the passport's own inputs.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{field}: the passport states {}, its inputs give {}", words(*.stated), words(*.computed))]
 pub(crate) struct WrongNumber {
     /// Path of the field, such as `matrices.delta[0][1]`.
     pub field: String,
@@ -19,12 +20,8 @@ pub(crate) struct WrongNumber {
     pub computed: f64,
 }
 
-impl std::fmt::Display for WrongNumber {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        let words = |value: f64| if value.is_nan() { "nothing".to_owned() } else { format!("{value}") };
-        let (stated, computed) = (words(self.stated), words(self.computed));
-        write!(f, "{}: the passport states {stated}, its inputs give {computed}", self.field)
-    }
+fn words(value: f64) -> String {
+    if value.is_nan() { "nothing".to_owned() } else { format!("{value}") }
 }
 
 /// Compares Earth parameters, matrices, vectors, self-check and accuracy with the values computed from the signed

@@ -7,11 +7,11 @@ use super::issue::{Draft, Issue, IssueRefused, PreparedStand, Reissued};
 use super::verification::Verification;
 use crate::document::sha256_hex;
 use crate::site::Site;
-use crate::stand::Stand;
+use crate::stand::{Identity, Stand};
 use crate::text::{Field, Node, number, rule};
 use jiff::Timestamp;
 use jiff::civil::Date;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Changes, reason and issuer of a re-issue.
@@ -92,13 +92,18 @@ pub enum ReissueRefused {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Successor {
     stand: Arc<PreparedStand>,
-    site: Site,
-    same_site: bool,
+    /// Site of the new passport.
+    pub(crate) site: Site,
+    /// Whether it is the predecessor's site; the new passport is then the next revision and supersedes it.
+    pub(crate) same_site: bool,
     old_revision: u32,
     issue: Issue,
-    says_the_same: bool,
-    for_the_same_reason: bool,
-    rival: Option<PathBuf>,
+    /// Whether stand, site, issuer and expiry date equal those of the predecessor.
+    pub(crate) says_the_same: bool,
+    /// Whether the predecessor was itself re-issued for the same reason.
+    pub(crate) for_the_same_reason: bool,
+    /// File of another passport that supersedes the same predecessor; `None` if none is known.
+    pub(crate) rival: Option<PathBuf>,
 }
 
 /// Prepares the successor of a passport. If every check passed, the whole predecessor is used. If its key is no longer
@@ -126,8 +131,8 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
     let prepared = order.stand.clone().unwrap_or_else(|| Arc::new(PreparedStand::new(old.to_stand())));
     let stand = prepared.stand();
     let site = order.site.clone().unwrap_or_else(|| old.site.clone());
-    let name = |model: &dyn std::fmt::Display, serial: &dyn std::fmt::Display| format!("{model} {serial}");
-    let (given, known) = (name(&stand.stand.model, &stand.stand.serial), name(&old.stand.model, &old.stand.serial));
+    let name = |stand: &Identity| format!("{} {}", stand.model, stand.serial);
+    let (given, known) = (name(&stand.stand), name(&old.stand));
     if given != known {
         return Err(ReissueRefused::OtherStand { given, old: known });
     }
@@ -166,17 +171,8 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
         && issue.issuer == old.passport.issuer
         && issue.valid_until.or(stand.certificate.valid_until) == old.passport.valid_until;
     let for_the_same_reason = old.passport.reissued_from.as_ref().is_some_and(|from| from.reason == order.reason);
-    let old_revision = old.passport.revision;
-    Ok(Successor {
-        stand: prepared,
-        site,
-        same_site,
-        old_revision,
-        issue,
-        says_the_same,
-        for_the_same_reason,
-        rival: None,
-    })
+    let (stand, old_revision, rival) = (prepared, old.passport.revision, None);
+    Ok(Successor { stand, site, same_site, old_revision, issue, says_the_same, for_the_same_reason, rival })
 }
 
 /// Extent to which a predecessor may be used.
@@ -204,45 +200,14 @@ fn usable(verification: &Verification) -> Result<Usable, ReissueRefused> {
 }
 
 impl Successor {
-    /// Returns `true` if the new passport is for the predecessor's site; it is then the next revision and supersedes
-    /// it.
-    pub(crate) fn same_site(&self) -> bool {
-        self.same_site
-    }
-
-    /// Returns `true` if stand, site, issuer and expiry date equal those of the predecessor.
-    pub(crate) fn says_the_same(&self) -> bool {
-        self.says_the_same
-    }
-
-    /// Returns `true` if the predecessor was itself re-issued for the same reason.
-    pub(crate) fn for_the_same_reason(&self) -> bool {
-        self.for_the_same_reason
-    }
-
     /// Returns `true` if the new passport supersedes its predecessor.
     pub(crate) fn supersedes(&self) -> bool {
         self.issue.reissued.as_ref().is_some_and(|reissued| reissued.supersedes)
     }
 
-    /// Returns the successor with `rival`, the file of another passport that supersedes the same predecessor.
-    pub(crate) fn beside(self, rival: Option<PathBuf>) -> Self {
-        Self { rival, ..self }
-    }
-
-    /// Returns the file of another passport that supersedes the same predecessor, or `None` if none is known.
-    pub(crate) fn rival(&self) -> Option<&Path> {
-        self.rival.as_deref()
-    }
-
     /// Returns the stand of the new passport.
     pub(crate) fn stand(&self) -> &Stand {
         self.stand.stand()
-    }
-
-    /// Returns the site of the new passport.
-    pub(crate) fn site(&self) -> &Site {
-        &self.site
     }
 
     /// Returns the SHA-256 of the predecessor.
@@ -268,9 +233,6 @@ impl Successor {
 pub(crate) fn changes(old: &Content, stand: &Stand, site: &Site, issuer: &str) -> String {
     const MOST: usize = 12;
     let mut changes = Vec::new();
-    let compare = |key: &str, old: Option<Node>, new: Option<Node>, changes: &mut Vec<String>| {
-        compare(key, old.as_ref(), new.as_ref(), changes);
-    };
     if old.site.id == site.id {
         compare("site", old.site.write(), site.write(), &mut changes);
     } else {
@@ -300,21 +262,19 @@ pub(crate) fn changes(old: &Content, stand: &Stand, site: &Site, issuer: &str) -
     if changes.is_empty() { "no changes in stand, site or issuer".to_owned() } else { changes.join("; ") }
 }
 
-fn compare(path: &str, old: Option<&Node>, new: Option<&Node>, changes: &mut Vec<String>) {
-    match (old, new) {
+fn compare(path: &str, old: Option<Node>, new: Option<Node>, changes: &mut Vec<String>) {
+    match (&old, &new) {
         (old, new) if old == new => {}
         (Some(Node::Map(before)), Some(Node::Map(after))) => {
             let keys = before.iter().chain(after.iter().filter(|(key, _)| !before.iter().any(|(name, _)| name == key)));
             for (key, _) in keys {
-                let of = |entries: &[(String, Node)]| {
-                    entries.iter().find(|(name, _)| name == key).map(|(_, value)| value.clone())
-                };
-                compare(&format!("{path} {key}"), of(before).as_ref(), of(after).as_ref(), changes);
+                let of = |node: &Option<Node>| node.as_ref().and_then(|node| node.get(key)).cloned();
+                compare(&format!("{path} {key}"), of(&old), of(&new), changes);
             }
         }
         (None, Some(Node::Map(_))) => changes.push(format!("{path} added")),
         (Some(Node::Map(_)), None) => changes.push(format!("{path} removed")),
-        (old, new) => changes.push(format!("{path} {} -> {}", words(old), words(new))),
+        (old, new) => changes.push(format!("{path} {} -> {}", words(old.as_ref()), words(new.as_ref()))),
     }
 }
 

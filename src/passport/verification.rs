@@ -194,13 +194,13 @@ impl Verification {
 /// the signer is not trusted or the key is revoked, `recomputed`, `in_force` and these requirements are not checked.
 pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> Verification {
     let mut run = Run { checks: Vec::new() };
-    let mut verification = Verification { checks: Vec::new(), key: None, content: None };
+    let (mut key, mut content) = (None, None);
     if let Some(text) = run.grammar(name, bytes) {
-        verification.key = Some(text.key().clone());
+        key = Some(text.key().clone());
         if let Some(payload) = run.signature(&text, trust) {
-            verification.content = run.schema(name, payload).map(Box::new);
+            content = run.schema(name, payload).map(Box::new);
             let counts = run.revocation(bytes, text.key(), trust);
-            if let Some(content) = &verification.content
+            if let Some(content) = &content
                 && run.signer(text.key(), content, trust)
                 && counts
             {
@@ -210,38 +210,27 @@ pub fn verify(name: &str, bytes: &[u8], trust: &Trust, question: &Question) -> V
             }
         }
     }
-    run.note_what_was_not_run(question);
-    run.checks.sort_by_key(|check| check.name);
-    verification.checks = run.checks;
-    verification
+    Verification { checks: run.completed(question), key, content }
 }
 
 /// Creates the result for a file that could not be read; no check was run. `why` is the system's error message.
 pub(crate) fn unreadable(why: &str, question: &Question) -> Verification {
     let mut run = Run { checks: Vec::new() };
     run.note(CheckName::Grammar, Code::Unreadable, why);
-    run.note_what_was_not_run(question);
-    run.checks.sort_by_key(|check| check.name);
-    Verification { checks: run.checks, key: None, content: None }
+    Verification { checks: run.completed(question), key: None, content: None }
 }
 
 /// Creates the result for a passport that was not verified on request: no check was run.
 #[cfg(feature = "report")]
 pub(crate) fn not_run() -> Verification {
-    let checks = ALWAYS.map(|name| Check::new(name, Code::NotRun, "not run: the passport was not verified"));
-    Verification { checks: checks.into(), key: None, content: None }
+    let checks = always().map(|name| Check::new(name, Code::NotRun, "not run: the passport was not verified"));
+    Verification { checks: checks.collect(), key: None, content: None }
 }
 
-/// Checks that are part of every verification, in their order.
-const ALWAYS: [CheckName; 7] = [
-    CheckName::Grammar,
-    CheckName::Signature,
-    CheckName::Schema,
-    CheckName::Signer,
-    CheckName::Revocation,
-    CheckName::Recomputed,
-    CheckName::InForce,
-];
+/// Returns the checks that are part of every verification, in their order.
+fn always() -> impl Iterator<Item = CheckName> {
+    CheckName::ALL.into_iter().filter(|name| *name <= CheckName::InForce)
+}
 
 /// Checks completed so far.
 struct Run {
@@ -256,12 +245,8 @@ impl Run {
     fn grammar<'a>(&mut self, name: &str, bytes: &'a [u8]) -> Option<SignedText<'a>> {
         match SignedText::split(name, bytes, NAMESPACE) {
             Ok(text) => {
-                self.note(
-                    CheckName::Grammar,
-                    Code::Ok,
-                    "the file has the canonical form, which all programs read \
-                     alike",
-                );
+                let detail = "the file has the canonical form, which all programs read alike";
+                self.note(CheckName::Grammar, Code::Ok, detail);
                 Some(text)
             }
             Err(Malformed { fault, other_namespace }) => {
@@ -273,13 +258,10 @@ impl Run {
     }
 
     fn signature<'a>(&mut self, text: &SignedText<'a>, trust: &Trust) -> Option<&'a str> {
-        match text.payload_signed_by_any(&trust.signers) {
+        match text.signed_payload(Some(&trust.signers)) {
             Ok(payload) => {
-                self.note(
-                    CheckName::Signature,
-                    Code::Ok,
-                    format!("the text has not changed since {} signed it", text.key().fingerprint()),
-                );
+                let detail = format!("the text has not changed since {} signed it", text.key().fingerprint());
+                self.note(CheckName::Signature, Code::Ok, detail);
                 Some(payload)
             }
             Err(error) => {
@@ -293,14 +275,8 @@ impl Run {
     fn schema(&mut self, name: &str, payload: &str) -> Option<Content> {
         match read::content(name, payload) {
             Ok(content) => {
-                self.note(
-                    CheckName::Schema,
-                    Code::Ok,
-                    format!(
-                        "the content is complete and conforms to \
-                    {PASSPORT_FORMAT}"
-                    ),
-                );
+                let detail = format!("the content is complete and conforms to {PASSPORT_FORMAT}");
+                self.note(CheckName::Schema, Code::Ok, detail);
                 Some(content)
             }
             Err(error) => {
@@ -385,24 +361,15 @@ impl Run {
                     Dated::Certificate => "have the stand recertified",
                     Dated::Passport => "request a new passport from the issuer",
                 };
-                (
-                    Code::Expired,
-                    format!(
-                        "the {which} was valid until {last} (inclusive), verified as of {time}; \
-                         {remedy}"
-                    ),
-                )
+                let until = format!("the {which} was valid until {last} (inclusive), verified as of {time}");
+                (Code::Expired, format!("{until}; {remedy}"))
             }
             Some((last, which)) => {
                 (Code::Ok, format!("issued {issued_at}; the {which} is valid until {last} (inclusive)"))
             }
-            None => (
-                Code::Ok,
-                format!(
-                    "issued {issued_at}; neither the passport nor the certificate has an expiry \
-                     date"
-                ),
-            ),
+            None => {
+                (Code::Ok, format!("issued {issued_at}; neither the passport nor the certificate has an expiry date"))
+            }
         };
         self.note(CheckName::InForce, code, detail);
     }
@@ -410,11 +377,9 @@ impl Run {
     fn asked(&mut self, content: &Content, question: &Question) {
         if let Some(issuer) = &question.issuer {
             let found = &content.passport.issuer;
-            let code = if found == issuer { Code::Ok } else { Code::WrongIssuer };
-            let detail = if found == issuer {
-                format!("issued by {found}")
-            } else {
-                format!("issued by {found}, not by {issuer}")
+            let (code, detail) = match found == issuer {
+                true => (Code::Ok, format!("issued by {found}")),
+                false => (Code::WrongIssuer, format!("issued by {found}, not by {issuer}")),
             };
             self.note(CheckName::Issuer, code, detail);
         }
@@ -436,17 +401,20 @@ impl Run {
         }
     }
 
-    fn note_what_was_not_run(&mut self, question: &Question) {
+    /// Returns all checks in their order, also those that were not run.
+    fn completed(mut self, question: &Question) -> Vec<Check> {
         let asked = [
             question.issuer.as_ref().map(|_| CheckName::Issuer),
             question.serial.as_ref().map(|_| CheckName::Stand),
             question.place.map(|_| CheckName::Place),
         ];
-        for name in ALWAYS.into_iter().chain(asked.into_iter().flatten()) {
+        for name in always().chain(asked.into_iter().flatten()) {
             if !self.checks.iter().any(|check| check.name == name) {
                 self.note(name, Code::NotRun, "not run: an earlier check failed");
             }
         }
+        self.checks.sort_by_key(|check| check.name);
+        self.checks
     }
 }
 

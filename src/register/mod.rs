@@ -164,7 +164,7 @@ pub fn examine(file: &str, bytes: &[u8], trust: &Trust, asked: &Asked) -> Examin
         state,
         id: content.map(|content| content.passport.id.clone()),
         sha256: sha256_hex(bytes),
-        stand: content.map(|content| format!("{}/{}", content.stand.model, content.stand.serial)),
+        stand: content.map(|content| content.stand.id()),
         site: content.map(|content| content.site.id.to_string()),
         issuer: content.map(|content| content.passport.issuer.clone()),
         certificate: content.map(|content| content.certificate.number.clone()),

@@ -16,7 +16,7 @@ use crate::document::{self, Malformed, SignedText, Signer, SigningFailed, sha256
 use crate::text::LARGEST_DOCUMENT_BYTES;
 use crate::text::problem::Unreadable;
 use crate::text::{Path, Printable, Problems, canonical, record};
-use crate::trust::{AllowedSigners, BadIdentity, Message, NotAuthorised, RevokedKeys, SignatureError};
+use crate::trust::{AllowedSigners, BadIdentity, NotAuthorised, RevokedKeys, SignatureError};
 use jiff::Timestamp;
 
 /// Format name of a list.
@@ -24,8 +24,7 @@ pub(crate) const REVOCATION_FORMAT: &str = "dtg-revocation/1";
 
 /// Returns `true` if the file states the format of such a list.
 pub(crate) fn claims_to_be_a_list(bytes: &[u8]) -> bool {
-    let claim = b"format: \"dtg-revocation/";
-    bytes.windows(claim.len()).any(|window| window == claim)
+    memchr::memmem::find(bytes, b"format: \"dtg-revocation/").is_some()
 }
 
 /// Namespace of the signatures of lists.
@@ -208,11 +207,10 @@ impl RevocationList {
     ) -> Result<VerifiedList, ListRefused> {
         let text = SignedText::split(name, bytes, REVOCATION_NAMESPACE).map_err(ListRefused::Malformed)?;
         let name = name.to_owned();
-        let payload = match text.signed_payload() {
-            Ok(payload) => payload,
+        let list: Self = match text.signed_payload(Some(signers)) {
+            Ok(payload) => document::parse(&name, payload, Self::check)?,
             Err(error) => return Err(ListRefused::Altered { name, error }),
         };
-        let list: Self = document::parse(&name, payload, Self::check)?;
         if let Err(miss) = signers.authorise(text.key(), &list.issuer, REVOCATION_NAMESPACE, list.issued_at) {
             return Err(ListRefused::NotAuthorised { name, miss });
         }
@@ -233,22 +231,17 @@ impl RevocationList {
         if self.sequence == 0 {
             problems.at(&at.key("sequence"), "0", "a whole number from 1", "");
         }
-        let check_sha256 = |sha256: &str, at: &Path, problems: &mut Problems| {
-            if !document::is_sha256_hex(sha256) {
-                problems.at(&at.key("sha256"), format!("{sha256:?}"), "64 lower-case hexadecimal digits", "");
-            }
-        };
         if let Some(continued) = &self.continues {
             let at = at.key("continues");
             if continued.sequence == 0 || continued.sequence >= self.sequence {
                 let expected = format!("the number of a list earlier than {}", self.sequence);
                 problems.at(&at.key("sequence"), format!("{}", continued.sequence), expected, "");
             }
-            check_sha256(&continued.sha256, &at, problems);
+            problems.sha256(&at.key("sha256"), &continued.sha256);
         }
         let entries = at.key("entries");
         for (index, entry) in self.entries.iter().enumerate() {
-            check_sha256(&entry.sha256, &entries.item(index), problems);
+            problems.sha256(&entries.item(index).key("sha256"), &entry.sha256);
         }
     }
 
@@ -280,11 +273,7 @@ impl RevocationList {
     /// # Errors
     /// Returns [`NoNewList::Signing`] if the signer fails, and [`NoNewList::BadSignature`] if its signature is wrong.
     pub fn sign(&self, signer: &dyn Signer) -> Result<String, NoNewList> {
-        let payload = self.payload();
-        let message = Message::new(REVOCATION_NAMESPACE, payload.as_bytes());
-        let signature = signer.sign_message(&message)?;
-        signature.verify_message(&message, None)?;
-        Ok(document::join(&payload, &signature))
+        document::sign(&self.payload(), REVOCATION_NAMESPACE, signer)
     }
 
     /// Signs the list and verifies it with `signers` and `revoked_keys`, because a list that its recipients cannot

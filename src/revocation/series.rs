@@ -195,15 +195,13 @@ fn alarms(lists: &[VerifiedList]) -> Vec<SeriesAlarm> {
             alarms.push(SeriesAlarm::LostEntry { from, to });
         }
     }
-    let mut missing: Vec<SeriesAlarm> = Vec::new();
     for list in lists.iter().map(|verified| &verified.list) {
         if let Some(continued) = &list.continues
             && continued_by(lists, list).is_none()
         {
-            missing.push(SeriesAlarm::Missing { list: list.sequence, missing: continued.sequence });
+            alarms.push(SeriesAlarm::Missing { list: list.sequence, missing: continued.sequence });
         }
     }
-    alarms.extend(missing);
     alarms
 }
 

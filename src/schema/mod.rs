@@ -4,74 +4,41 @@ mod reference;
 
 pub(crate) use reference::tables;
 
-use crate::dcc::Administrative;
-use crate::gyro::GyroType;
-use crate::laboratory::Laboratory;
 use crate::passport::Content;
 use crate::passport::content::PASSPORT_FORMAT;
 use crate::revocation::{REVOCATION_FORMAT, RevocationList};
-use crate::site::Site;
-use crate::stand::Stand;
 use crate::text::record::Document;
 use schemars::{JsonSchema, Schema, schema_for};
 use serde_json::{Value, json};
 
-/// Returns the JSON Schema of a stand file.
-pub(crate) fn stand() -> Schema {
-    of_file::<Stand>()
-}
-
-/// Returns the JSON Schema of a site file.
-pub(crate) fn site() -> Schema {
-    of_file::<Site>()
-}
-
-/// Returns the JSON Schema of a gyro type.
-pub(crate) fn gyro() -> Schema {
-    of_file::<GyroType>()
-}
-
-/// Returns the JSON Schema of a laboratory.
-pub(crate) fn laboratory() -> Schema {
-    of_file::<Laboratory>()
-}
-
-/// Returns the JSON Schema of an administrative file.
-pub(crate) fn dcc() -> Schema {
-    of_file::<Administrative>()
-}
-
 /// Returns the JSON Schema of a passport with its signature. Text that fits the schema need not be a valid passport:
 /// see `verify`.
 pub(crate) fn passport() -> Schema {
-    #[derive(JsonSchema)]
-    #[allow(dead_code)]
-    #[schemars(rename = "Passport", deny_unknown_fields)]
-    struct Signed {
-        #[schemars(flatten)]
-        content: Content,
-        /// OpenSSH's armored signature over every byte before this key.
-        signature: String,
-    }
-    with_format(schema_for!(Signed), PASSPORT_FORMAT)
+    signed::<Content>("Passport", PASSPORT_FORMAT)
 }
 
 /// Returns the JSON Schema of a list of withdrawn passports with its signature.
 pub(crate) fn revocation() -> Schema {
+    signed::<RevocationList>("RevocationList", REVOCATION_FORMAT)
+}
+
+fn signed<T: JsonSchema>(title: &str, format: &str) -> Schema {
     #[derive(JsonSchema)]
     #[allow(dead_code)]
-    #[schemars(rename = "RevocationList", deny_unknown_fields)]
-    struct Signed {
+    #[schemars(deny_unknown_fields)]
+    struct Signed<T> {
         #[schemars(flatten)]
-        list: RevocationList,
+        content: T,
         /// OpenSSH's armored signature over every byte before this key.
         signature: String,
     }
-    with_format(schema_for!(Signed), REVOCATION_FORMAT)
+    let mut schema = schema_for!(Signed<T>);
+    schema.insert("title".to_owned(), title.into());
+    with_format(schema, format)
 }
 
-/// Returns the schema of a file: `format`, then the keys of the document.
-fn of_file<T: JsonSchema + Document>() -> Schema {
+/// Returns the JSON Schema of a file: `format`, then the keys of the document.
+pub(crate) fn of_file<T: JsonSchema + Document>() -> Schema {
     let mut schema = schema_for!(T);
     let format = json!({"description": format!("Always {:?}.", T::FORMAT), "type": "string"});
     let object = schema.ensure_object();

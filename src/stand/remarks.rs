@@ -4,7 +4,6 @@ use super::{Certificate, CertifiedPosition};
 use crate::coefficients::PositionIndex;
 use jiff::Span;
 use jiff::civil::Date;
-use std::fmt::{self, Display, Formatter};
 
 /// Usual temperatures of a room in which stands are measured and used, °C.
 const ROOM_C: std::ops::RangeInclusive<f64> = 0.0..=45.0;
@@ -22,72 +21,60 @@ const MOST_YEARS: i64 = 10;
 const SMALL_ARCSEC: f64 = 60.0;
 
 /// Unusual value in a certificate. Displayed, it is a sentence without a full stop.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum Odd {
     /// Angle (0, 1, 2 for α, β, γ) that is far larger than `usual_arcsec`, the larger angles of the other positions.
+    #[error(
+        "{}_arcsec of position {index} is {arcsec}, more than {FAR_OUT} times the {usual_arcsec} of the other positions; \
+         check the digits, the unit and the position",
+        ["alpha", "beta", "gamma"][*.angle]
+    )]
     FarAngle { angle: usize, index: PositionIndex, arcsec: f64, usual_arcsec: f64 },
     /// Temperature that no laboratory has; `key` states it.
+    #[error(
+        "{key} is {celsius} deg C, outside the usual room temperature of {} to {} deg C{}",
+        ROOM_C.start(), ROOM_C.end(), in_kelvin(*.celsius)
+    )]
     Temperature { key: &'static str, celsius: f64 },
     /// Temperature of the measurement outside the certified range.
+    #[error(
+        "temperature_c is {celsius} deg C, but temperature_range_c is {} to {} deg C; the deviations were measured \
+         outside the certified range",
+        .range[0], .range[1]
+    )]
     OutsideRange { celsius: f64, range: [f64; 2] },
     /// Measurement more than a year before the certificate was issued.
+    #[error("performed is {performed}, more than a year before issued, {issued}; check the years")]
     OldMeasurement { performed: Date, issued: Date },
     /// Certificate that is valid for more than ten years.
+    #[error("valid_until is {valid_until}, more than {MOST_YEARS} years after issued, {issued}; check the years")]
     LongValidity { valid_until: Date, issued: Date },
 }
 
-impl Display for Odd {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            Self::FarAngle { angle, index, arcsec, usual_arcsec } => write!(
-                f,
-                "{}_arcsec of position {index} is {arcsec}, more than {FAR_OUT} times the {usual_arcsec} of the \
-                 other positions; check the digits, the unit and the position",
-                ["alpha", "beta", "gamma"][*angle]
-            ),
-            Self::Temperature { key, celsius } => {
-                let (low, high) = (ROOM_C.start(), ROOM_C.end());
-                write!(f, "{key} is {celsius} deg C, outside the usual room temperature of {low} to {high} deg C")?;
-                let from_kelvin = celsius - ZERO_CELSIUS_K;
-                if ROOM_C.contains(&from_kelvin) {
-                    write!(f, "; in kelvin it would be {from_kelvin:.2} deg C")?;
-                }
-                Ok(())
-            }
-            Self::OldMeasurement { performed, issued } => {
-                write!(f, "performed is {performed}, more than a year before issued, {issued}; check the years")
-            }
-            Self::LongValidity { valid_until, issued } => write!(
-                f,
-                "valid_until is {valid_until}, more than {MOST_YEARS} years after issued, {issued}; check the years"
-            ),
-            Self::OutsideRange { celsius, range: [low, high] } => write!(
-                f,
-                "temperature_c is {celsius} deg C, but temperature_range_c is {low} to {high} deg C; the deviations were \
-                 measured outside the certified range"
-            ),
-        }
-    }
+/// Returns what a temperature would be if it is in kelvin; empty if that is no temperature of a room.
+fn in_kelvin(celsius: f64) -> String {
+    let from_kelvin = celsius - ZERO_CELSIUS_K;
+    let is_room = ROOM_C.contains(&from_kelvin);
+    if is_room { format!("; in kelvin it would be {from_kelvin:.2} deg C") } else { String::new() }
 }
 
 /// Returns the unusual values in a certificate and its positions.
 pub(crate) fn of(certificate: &Certificate, positions: &[CertifiedPosition]) -> Vec<Odd> {
     let mut found = temperatures(certificate);
     found.extend(dates(certificate));
-    type Angle = fn(&CertifiedPosition) -> f64;
-    let angles: [Angle; 3] = [|at| at.alpha_arcsec, |at| at.beta_arcsec, |at| at.gamma_arcsec];
-    for (number, angle) in angles.into_iter().enumerate() {
-        let mut sizes: Vec<f64> = positions.iter().map(|at| angle(at).abs()).collect();
+    for angle in 0..3 {
+        let arcsec = |at: &CertifiedPosition| at.angles_arcsec()[angle];
+        let mut sizes: Vec<f64> = positions.iter().map(|at| arcsec(at).abs()).collect();
         sizes.sort_by(f64::total_cmp);
         // Large angles in more than a quarter of the positions may be a property of the stand.
         let Some(usual) = sizes.len().checked_sub(1 + (sizes.len() / 4).max(1)).map(|place| sizes[place]) else {
             continue;
         };
-        let odd = |at: &&CertifiedPosition| angle(at).abs() > f64::max(SMALL_ARCSEC, FAR_OUT * usual);
+        let odd = |at: &&CertifiedPosition| arcsec(at).abs() > f64::max(SMALL_ARCSEC, FAR_OUT * usual);
         let far = |at: &CertifiedPosition| Odd::FarAngle {
-            angle: number,
+            angle,
             index: at.index(),
-            arcsec: angle(at),
+            arcsec: arcsec(at),
             usual_arcsec: usual,
         };
         found.extend(positions.iter().filter(odd).map(far));

@@ -3,7 +3,6 @@
 
 use super::{Certificate, CertifiedPosition};
 use crate::coefficients::PositionIndex;
-use crate::text::scalar::is_sha256_hex;
 use crate::text::{Path, Problems, record, word_of_a_key, words};
 
 words! {
@@ -124,10 +123,7 @@ pub(super) fn check(certificate: &Certificate, positions: &[CertifiedPosition], 
     }
     if let Some(evidence) = &certificate.evidence {
         let at = at.key("evidence");
-        if !is_sha256_hex(&evidence.readings_sha256) {
-            let found = format!("{:?}", evidence.readings_sha256);
-            problems.at(&at.key("readings_sha256"), found, "64 lower-case hexadecimal digits", "");
-        }
+        problems.sha256(&at.key("readings_sha256"), &evidence.readings_sha256);
         if evidence.runs < 2 {
             let advice = "certify from two or more runs";
             problems.at(&at.key("runs"), format!("{}", evidence.runs), "2 or more", advice);
@@ -153,8 +149,8 @@ pub(super) fn check(certificate: &Certificate, positions: &[CertifiedPosition], 
     let of_positions = Path::Root.key("positions");
     for (index, position) in positions.iter().enumerate() {
         let at = of_positions.item(index);
-        contains(&at, "u_alpha_arcsec", position.u_alpha_arcsec, ActsOn::Position);
-        contains(&at, "u_beta_arcsec", position.u_beta_arcsec, ActsOn::Position);
-        contains(&at, "u_gamma_arcsec", position.u_gamma_arcsec, ActsOn::Position);
+        for (key, u) in ["u_alpha_arcsec", "u_beta_arcsec", "u_gamma_arcsec"].into_iter().zip(position.u_arcsec()) {
+            contains(&at, key, u, ActsOn::Position);
+        }
     }
 }

@@ -4,13 +4,12 @@
 
 mod positions;
 
-use crate::attitude::Deviation;
-use crate::coefficients::{EarthRate, Position, PositionIndex, SingularPositions, StandGeometry};
+use crate::certification::NominalPosition;
+use crate::coefficients::{EarthRate, PositionIndex, SingularPositions, StandGeometry};
 use crate::earth::{
     NORMAL_GRAVITY_U_M_PER_S2, NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2, Place, normal_gravity_m_per_s2,
 };
 use crate::gyro::GyroType;
-use positions::Nominal;
 pub(crate) use positions::Positions;
 use std::fmt::Write;
 
@@ -88,7 +87,7 @@ pub(crate) fn readings(positions: &Positions, runs: u32) -> String {
          i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec\n",
     );
     let mut order: Vec<PositionIndex> = Vec::new();
-    for Nominal { index, .. } in positions.visits() {
+    for index in positions.visits().iter().map(NominalPosition::index) {
         if !order.contains(&index) {
             order.push(index);
         }
@@ -111,13 +110,7 @@ const EXAMPLE_LATITUDE_DEG: f64 = 45.0;
 /// # Errors
 /// Returns [`SingularPositions`] if the positions have no coefficients; those of [`Positions`] have.
 pub(crate) fn currents(positions: &Positions) -> Result<String, SingularPositions> {
-    let ideal = |at: Nominal| Position {
-        index: at.index,
-        theta_deg: at.theta_deg,
-        phi_deg: at.phi_deg,
-        deviation: Deviation { alpha_rad: 0.0, beta_rad: 0.0, gamma_rad: 0.0 },
-    };
-    let all: Vec<_> = positions.nominal().into_iter().map(ideal).collect();
+    let all: Vec<_> = positions.nominal().iter().map(|at| at.with_angles([0.0; 3]).to_model()).collect();
     let mut earth = EarthRate::at_astronomic_latitude(EXAMPLE_LATITUDE_DEG);
     let azimuth_deg = positions.frame_axis_azimuth_deg();
     earth.frame_axis_azimuth_deg = azimuth_deg.unwrap_or(earth.frame_axis_azimuth_deg);
@@ -137,13 +130,13 @@ pub(crate) fn currents(positions: &Positions) -> Result<String, SingularPosition
     text.push_str(if azimuth_deg.is_some() { "i,j,visit,jx_ma,jy_ma\n" } else { "i,j,jx_ma,jy_ma\n" });
     let coefficients = StandGeometry::new(&all)?.at(earth);
     let mut visited: Vec<PositionIndex> = Vec::new();
-    for PositionIndex { i, j } in positions.visits().into_iter().map(|at| at.index) {
-        let index = PositionIndex { i, j };
+    for index in positions.visits().iter().map(NominalPosition::index) {
         visited.push(index);
         let visit = visited.iter().filter(|at| **at == index).count();
         let visit = if azimuth_deg.is_some() { format!("{visit},") } else { String::new() };
         let current = coefficients.positions.iter().find(|at| at.index == index).and_then(|at| gyro.currents_ma(at));
         if let Some(current) = current {
+            let PositionIndex { i, j } = index;
             let _ = writeln!(text, "{i},{j},{visit}{:.7},{:.7}", current.x, current.y);
         }
     }

@@ -1,5 +1,6 @@
 //! Positions of a template: the paper's, a subset or more of them, or those of a plan.
 
+use crate::certification::NominalPosition;
 use crate::coefficients::PositionIndex;
 use crate::plan::document::Planned;
 
@@ -17,14 +18,6 @@ pub(crate) enum Positions {
     Planned(Planned),
 }
 
-/// Nominal position: index and angles of frame and platform, degrees.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Nominal {
-    pub(super) index: PositionIndex,
-    pub(super) theta_deg: f64,
-    pub(super) phi_deg: f64,
-}
-
 /// Angles of the frame, degrees, of i = 1, 2, …; the first two are the paper's.
 const FRAME_DEG: [f64; 6] = [0.0, 90.0, 180.0, 270.0, 45.0, 225.0];
 
@@ -33,7 +26,7 @@ const PLATFORM_DEG: [f64; 4] = [0.0, 90.0, 180.0, 270.0];
 
 impl Positions {
     /// Returns the positions, each once.
-    pub(super) fn nominal(&self) -> Vec<Nominal> {
+    pub(super) fn nominal(&self) -> Vec<NominalPosition> {
         let grid = |frames: u32| (1..=frames).flat_map(|i| (1..=4).map(move |j| (i, j)));
         let places: Vec<(u32, u32)> = match self {
             Self::Four => vec![(1, 1), (1, 2), (2, 1), (2, 4)],
@@ -41,19 +34,18 @@ impl Positions {
             Self::TwentyFour => grid(6).collect(),
             Self::Planned(plan) => return planned(plan),
         };
-        let nominal = |(i, j): (u32, u32)| Nominal {
-            index: PositionIndex { i, j },
-            theta_deg: FRAME_DEG[i as usize - 1],
-            phi_deg: PLATFORM_DEG[j as usize - 1],
+        let nominal = |(i, j): (u32, u32)| {
+            let (theta_deg, phi_deg) = (FRAME_DEG[i as usize - 1], PLATFORM_DEG[j as usize - 1]);
+            NominalPosition { i, j, theta_deg, phi_deg }
         };
         places.into_iter().map(nominal).collect()
     }
 
     /// Returns the positions in the order of the visits of one run: as often as a plan visits them, otherwise once.
-    pub(super) fn visits(&self) -> Vec<Nominal> {
+    pub(super) fn visits(&self) -> Vec<NominalPosition> {
         let all = self.nominal();
         let Self::Planned(plan) = self else { return all };
-        let of = |angles: &[f64; 2]| all.iter().find(|at| [at.theta_deg, at.phi_deg] == *angles).copied();
+        let of = |angles: &[f64; 2]| all.iter().find(|at| [at.theta_deg, at.phi_deg] == *angles).cloned();
         plan.order.iter().filter_map(of).collect()
     }
 
@@ -67,26 +59,25 @@ impl Positions {
 
     /// Returns the remark above the positions of a file.
     pub(super) fn remark(&self) -> String {
-        match self {
+        let fixed = match self {
             Self::Four => {
                 "# Four positions: without all of the paper's eight there are no matrices, and only least squares \
                  applies.\n"
-                    .to_owned()
             }
-            Self::Eight => "# The paper's eight positions.\n".to_owned(),
-            Self::TwentyFour => "# The paper's eight positions (i 1 and 2), and sixteen more.\n".to_owned(),
-            Self::Planned(plan) => format!(
-                "# Positions of the plan, which is for a frame's axis at azimuth {} degrees: state it in the site.\n",
-                plan.frame_axis_azimuth_deg
-            ),
-        }
+            Self::Eight => "# The paper's eight positions.\n",
+            Self::TwentyFour => "# The paper's eight positions (i 1 and 2), and sixteen more.\n",
+            Self::Planned(Planned { frame_axis_azimuth_deg: azimuth, .. }) => {
+                let plan = format!("# Positions of the plan, which is for a frame's axis at azimuth {azimuth} degrees");
+                return plan + ": state it in the site.\n";
+            }
+        };
+        fixed.to_owned()
     }
 
     /// Returns the rows of `positions` in a file; `rest` is what follows the nominal angles.
     pub(super) fn rows(&self, rest: &str) -> String {
-        let row = |at: Nominal| {
-            let PositionIndex { i, j } = at.index;
-            format!("  - {{i: {i}, j: {j}, theta_deg: {}, phi_deg: {}{rest}}}\n", at.theta_deg, at.phi_deg)
+        let row = |NominalPosition { i, j, theta_deg, phi_deg }| {
+            format!("  - {{i: {i}, j: {j}, theta_deg: {theta_deg}, phi_deg: {phi_deg}{rest}}}\n")
         };
         self.nominal().into_iter().map(row).collect()
     }
@@ -94,7 +85,7 @@ impl Positions {
 
 /// Returns the positions of a plan, sorted by their indices: those of the stand that was planned for, otherwise the
 /// paper's for its angles and the next ones for all others.
-fn planned(plan: &Planned) -> Vec<Nominal> {
+fn planned(plan: &Planned) -> Vec<NominalPosition> {
     let (mut frames, mut platforms) = (FRAME_DEG.to_vec(), PLATFORM_DEG.to_vec());
     let number = |of: &mut Vec<f64>, angle_deg: f64| {
         let at = of.iter().position(|known| *known == angle_deg).unwrap_or_else(|| {
@@ -103,18 +94,13 @@ fn planned(plan: &Planned) -> Vec<Nominal> {
         });
         u32::try_from(at + 1).unwrap_or(u32::MAX)
     };
-    let mut found: Vec<Nominal> = plan
-        .readings
-        .iter()
-        .map(|at| Nominal {
-            index: at.index().unwrap_or_else(|| PositionIndex {
-                i: number(&mut frames, at.theta_deg),
-                j: number(&mut platforms, at.phi_deg),
-            }),
-            theta_deg: at.theta_deg,
-            phi_deg: at.phi_deg,
-        })
-        .collect();
-    found.sort_by_key(|at| (at.index.i, at.index.j));
+    let each = plan.readings.iter().map(|at| {
+        let (theta_deg, phi_deg) = (at.theta_deg, at.phi_deg);
+        let new = || PositionIndex { i: number(&mut frames, theta_deg), j: number(&mut platforms, phi_deg) };
+        let PositionIndex { i, j } = at.index().unwrap_or_else(new);
+        NominalPosition { i, j, theta_deg, phi_deg }
+    });
+    let mut found: Vec<NominalPosition> = each.collect();
+    found.sort_by_key(NominalPosition::index);
     found
 }

@@ -112,9 +112,7 @@ mod tests {
     }
 
     fn problem(line: usize) -> Problem {
-        let (location, [field, found, expected, advice]) =
-            (Some(Location { line, column: 1 }), ["", "x", "y", ""].map(str::to_owned));
-        Problem { location, field, found, expected, advice }
+        Problem::new(Some(Location { line, column: 1 }), "", "x", "y", "")
     }
 
     #[test]

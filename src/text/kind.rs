@@ -1,47 +1,49 @@
 //! Kind of a file that was given instead of another, by its content: for messages, never for a decision.
 
-use super::Unreadable;
+use super::{Unreadable, words};
 
 /// Number of first bytes that show the kind of a file.
 const BEGINNING_BYTES: usize = 4096;
 
-/// Kind of a file that a user may have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
-    /// Stand file, certified or not.
-    Stand,
-    /// Site file.
-    Site,
-    /// Gyro type.
-    Gyro,
-    /// Laboratory file.
-    Laboratory,
-    /// Administrative file of a DCC.
-    Dcc,
-    /// Passport.
-    Passport,
-    /// Signed list of withdrawn passports.
-    RevocationList,
-    /// Angles in CSV.
-    Angles,
-    /// Currents in CSV.
-    Currents,
-    /// Result of a calibration in JSON.
-    Result,
-    /// Trusted keys.
-    AllowedSigners,
-    /// Public key, or a list of them.
-    PublicKey,
-    /// Private key.
-    PrivateKey,
-    /// OpenSSH's key revocation list.
-    KeyRevocationList,
-    /// Table of a spreadsheet program.
-    Workbook,
-    /// Document for print.
-    Pdf,
-    /// Page.
-    Html,
+words! {
+    /// Kind of a file that a user may have, and a noun phrase for it.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub(crate) enum Kind: pub(crate) words {
+        /// Stand file, certified or not.
+        Stand = "a stand file (dtg-stand/1)",
+        /// Site file.
+        Site = "a site file (dtg-site/1)",
+        /// Gyro type.
+        Gyro = "a gyro type (dtg-gyro/1)",
+        /// Laboratory file.
+        Laboratory = "a laboratory file (dtg-laboratory/1)",
+        /// Administrative file of a DCC.
+        Dcc = "an administrative file (dtg-dcc/1)",
+        /// Passport.
+        Passport = "a passport (dtg-passport/1)",
+        /// Signed list of withdrawn passports.
+        RevocationList = "a list of withdrawn passports (dtg-revocation/1)",
+        /// Angles in CSV.
+        Angles = "a table of angles (CSV)",
+        /// Currents in CSV.
+        Currents = "a table of currents (CSV)",
+        /// Result of a calibration in JSON.
+        Result = "the result of a calibration (JSON)",
+        /// Trusted keys.
+        AllowedSigners = "a list of trusted keys (allowed_signers)",
+        /// Public key, or a list of them.
+        PublicKey = "a public key",
+        /// Private key.
+        PrivateKey = "a private key",
+        /// OpenSSH's key revocation list.
+        KeyRevocationList = "a key revocation list of OpenSSH (KRL)",
+        /// Table of a spreadsheet program.
+        Workbook = "a file of a spreadsheet or word processor",
+        /// Document for print.
+        Pdf = "a PDF file",
+        /// Page.
+        Html = "an HTML page",
+    }
 }
 
 /// Formats of YAML documents.
@@ -73,10 +75,7 @@ impl Kind {
         let beginning = String::from_utf8_lossy(&bytes[..bytes.len().min(BEGINNING_BYTES)]);
         let mut lines = beginning.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
         let first = lines.next()?;
-        let format = |line: &str| {
-            let value = line.strip_prefix("format:")?.trim().trim_matches(['"', '\'']);
-            FORMATS.iter().find(|(format, _)| *format == value).map(|(_, kind)| *kind)
-        };
+        let format = |line: &str| Self::of_format(line.strip_prefix("format:")?.trim().trim_matches(['"', '\'']));
         Self::of_line(first, &beginning).or_else(|| std::iter::once(first).chain(lines).find_map(format))
     }
 
@@ -100,7 +99,6 @@ impl Kind {
     }
 
     /// Returns the kind of documents with a `format`.
-    #[cfg(feature = "factory")]
     pub(crate) fn of_format(format: &str) -> Option<Self> {
         FORMATS.iter().find(|(known, _)| *known == format).map(|(_, kind)| *kind)
     }
@@ -108,29 +106,6 @@ impl Kind {
     /// Returns `true` for documents in YAML, whose readers report the value of `format`.
     pub(crate) fn is_yaml(self) -> bool {
         FORMATS.iter().any(|(_, kind)| *kind == self)
-    }
-
-    /// Returns the kind as a noun phrase.
-    pub(crate) fn words(self) -> &'static str {
-        match self {
-            Self::Stand => "a stand file (dtg-stand/1)",
-            Self::Site => "a site file (dtg-site/1)",
-            Self::Gyro => "a gyro type (dtg-gyro/1)",
-            Self::Laboratory => "a laboratory file (dtg-laboratory/1)",
-            Self::Dcc => "an administrative file (dtg-dcc/1)",
-            Self::Passport => "a passport (dtg-passport/1)",
-            Self::RevocationList => "a list of withdrawn passports (dtg-revocation/1)",
-            Self::Angles => "a table of angles (CSV)",
-            Self::Currents => "a table of currents (CSV)",
-            Self::Result => "the result of a calibration (JSON)",
-            Self::AllowedSigners => "a list of trusted keys (allowed_signers)",
-            Self::PublicKey => "a public key",
-            Self::PrivateKey => "a private key",
-            Self::KeyRevocationList => "a key revocation list of OpenSSH (KRL)",
-            Self::Workbook => "a file of a spreadsheet or word processor",
-            Self::Pdf => "a PDF file",
-            Self::Html => "an HTML page",
-        }
     }
 
     fn advice(self) -> &'static str {

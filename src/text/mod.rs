@@ -3,8 +3,7 @@
 //! * `rule`: allowed content of signed texts, form of strings, and the check of both.
 //! * `number`: form of numbers; `number_advice`: advice on text where a number is expected.
 //! * `canonical`: canonical form of content, and its reader.
-//! * `sink`: destinations of a document.
-//! * `node`: documents as trees.
+//! * `node`: documents as trees, and destinations of a document.
 //! * `record`: conversion of trees to Rust structs and back; every error is reported, not only the first.
 //! * `words`: enums whose variants are words.
 //! * `scalar`: identifiers, dates and times.
@@ -28,7 +27,6 @@ pub(crate) mod problem;
 pub(crate) mod record;
 pub(crate) mod rule;
 pub(crate) mod scalar;
-pub(crate) mod sink;
 pub(crate) mod table;
 pub(crate) mod words;
 #[cfg(feature = "factory")]

@@ -1,8 +1,9 @@
-//! Documents as trees: every key is kept in order, including duplicates. Trees are serialised as JSON.
+//! Documents as trees: every key is kept in order, including duplicates. Trees are serialised as JSON. And destinations of
+//! a document, written value by value: a text in canonical form, or a tree.
 
-use super::LARGEST_DOCUMENT_BYTES;
 use super::excerpt::Location;
 use super::problem::Unreadable;
+use super::{Field, LARGEST_DOCUMENT_BYTES};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// Value in a document.
@@ -47,6 +48,9 @@ impl Node {
         }
     }
 }
+
+/// Maximum number of opening brackets, including those in strings; a passport of the largest size has about 18,000.
+pub(super) const MOST_BRACKETS: usize = 25_000;
 
 /// Returns the bytes as text if they are UTF-8 without a byte order mark and have LF line endings only.
 pub(crate) fn plain_text<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
@@ -140,8 +144,77 @@ impl Serialize for Node {
     }
 }
 
-/// Maximum number of opening brackets, including those in strings; a passport of the largest size has about 18,000.
-pub(super) const MOST_BRACKETS: usize = 25_000;
+/// Destination of the values of a document, in their order.
+///
+/// A single pass over the fields of a record ([`Field::emit`]) serves every form in which a document is written.
+pub(crate) trait Sink: Sized {
+    /// Writes `true` or `false`.
+    fn boolean(&mut self, value: bool);
+    /// Writes a whole number.
+    fn integer(&mut self, value: i64);
+    /// Writes a finite binary64 number.
+    fn number(&mut self, value: f64);
+    /// Writes a string.
+    fn text(&mut self, value: &str);
+    /// Writes a list.
+    fn list<T: Field>(&mut self, items: &[T]);
+    /// Writes a mapping. `entries` writes each key and its value; if `empty` is `true`, it writes none.
+    fn mapping(&mut self, empty: bool, entries: impl FnOnce(&mut Self));
+    /// Writes the key of the next value; returns `false` if both are to be omitted.
+    fn key(&mut self, key: &str) -> bool;
+}
+
+/// Builder of a [`Node`].
+#[derive(Default)]
+pub(super) struct Tree {
+    keys: Vec<String>,
+    values: Vec<Node>,
+}
+
+impl Tree {
+    pub(super) fn of(value: &impl Field) -> Option<Node> {
+        let mut tree = Self::default();
+        value.emit(&mut tree);
+        tree.values.pop()
+    }
+}
+
+impl Sink for Tree {
+    fn boolean(&mut self, value: bool) {
+        self.values.push(Node::Bool(value));
+    }
+
+    fn integer(&mut self, value: i64) {
+        self.values.push(Node::Integer(value));
+    }
+
+    fn number(&mut self, value: f64) {
+        self.values.push(Node::Number(value));
+    }
+
+    fn text(&mut self, value: &str) {
+        self.values.push(Node::Text(value.to_owned()));
+    }
+
+    fn list<T: Field>(&mut self, items: &[T]) {
+        let first = self.values.len();
+        items.iter().for_each(|item| item.emit(self));
+        let items = self.values.split_off(first);
+        self.values.push(Node::List(items));
+    }
+
+    fn mapping(&mut self, _empty: bool, entries: impl FnOnce(&mut Self)) {
+        let (first_key, first_value) = (self.keys.len(), self.values.len());
+        entries(self);
+        let (keys, values) = (self.keys.split_off(first_key), self.values.split_off(first_value));
+        self.values.push(Node::Map(keys.into_iter().zip(values).collect()));
+    }
+
+    fn key(&mut self, key: &str) -> bool {
+        self.keys.push(key.to_owned());
+        true
+    }
+}
 
 #[cfg(test)]
 mod tests {

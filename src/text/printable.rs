@@ -74,13 +74,11 @@ pub(crate) fn page(text: &str) -> String {
 /// Escapes a result or a message before output, except line feeds and `codes`, the emphasis of a terminal.
 pub(crate) fn outgoing(text: &str, codes: &[&str]) -> String {
     let mut shown = String::with_capacity(text.len());
-    let mut rest = text;
-    loop {
-        let (before, after) = rest.split_once('\u{1B}').map_or((rest, None), |(before, after)| (before, Some(after)));
-        let _ = Escaping(&mut shown, |c| visible(c) || c == '\n').write_str(before);
-        let Some(after) = after else { break };
-        shown.push_str(if codes.iter().any(|code| after.starts_with(code)) { "\u{1B}" } else { "\\u{1b}" });
-        rest = after;
+    for (index, part) in text.split('\u{1B}').enumerate() {
+        if index > 0 {
+            shown.push_str(if codes.iter().any(|code| part.starts_with(code)) { "\u{1B}" } else { "\\u{1b}" });
+        }
+        let _ = Escaping(&mut shown, |c| visible(c) || c == '\n').write_str(part);
     }
     shown
 }

@@ -2,8 +2,10 @@
 
 use super::Printable;
 use super::excerpt::{Excerpt, Location};
-use std::collections::BTreeMap;
+use super::scalar::is_sha256_hex;
+use std::collections::HashMap;
 use std::fmt::{self, Display, Formatter};
+use std::hash::Hash;
 
 /// Path from the top of a document to one of its values, such as `positions[3].alpha_arcsec`.
 ///
@@ -16,6 +18,8 @@ pub(crate) enum Path<'a> {
     Key(&'a Path<'a>, &'a str),
     /// Item of a list, counted from 0.
     Item(&'a Path<'a>, usize),
+    /// Key of a mapping, counted from 0, because a key may be there twice.
+    Entry(&'a Path<'a>, usize),
 }
 
 /// Step of a [`Path`], owned.
@@ -23,6 +27,7 @@ pub(crate) enum Path<'a> {
 pub(crate) enum Step {
     Key(String),
     Item(usize),
+    Entry(usize),
 }
 
 impl<'a> Path<'a> {
@@ -41,23 +46,21 @@ impl<'a> Path<'a> {
         match self {
             Path::Root => "",
             Path::Key(_, key) => key,
-            Path::Item(parent, _) => parent.last_key(),
+            Path::Item(parent, _) | Path::Entry(parent, _) => parent.last_key(),
         }
     }
 
-    pub(crate) fn steps(&self) -> Vec<Step> {
-        match self {
-            Path::Root => Vec::new(),
-            Path::Key(parent, key) => extended(parent, Step::Key((*key).to_owned())),
-            Path::Item(parent, index) => extended(parent, Step::Item(*index)),
-        }
+    fn steps(&self) -> Vec<Step> {
+        let (parent, step) = match self {
+            Path::Root => return Vec::new(),
+            Path::Key(parent, key) => (parent, Step::Key((*key).to_owned())),
+            Path::Item(parent, index) => (parent, Step::Item(*index)),
+            Path::Entry(parent, index) => (parent, Step::Entry(*index)),
+        };
+        let mut steps = parent.steps();
+        steps.push(step);
+        steps
     }
-}
-
-fn extended(parent: &Path, step: Step) -> Vec<Step> {
-    let mut steps = parent.steps();
-    steps.push(step);
-    steps
 }
 
 impl Display for Path<'_> {
@@ -67,15 +70,9 @@ impl Display for Path<'_> {
             Path::Key(Path::Root, key) => write!(f, "{key}"),
             Path::Key(parent, key) => write!(f, "{parent}.{key}"),
             Path::Item(parent, index) => write!(f, "{parent}[{index}]"),
+            Path::Entry(parent, _) => parent.fmt(f),
         }
     }
-}
-
-/// Place of an error in the tree: a value, or the n-th key of a mapping (a key may be there twice).
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Target {
-    pub(crate) steps: Vec<Step>,
-    pub(crate) entry: Option<usize>,
 }
 
 /// Error in a document.
@@ -94,10 +91,21 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// Creates the report of an error.
+    pub(crate) fn new(
+        location: Option<Location>,
+        field: impl Into<String>,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+        advice: impl Into<String>,
+    ) -> Self {
+        let (field, found, expected, advice) = (field.into(), found.into(), expected.into(), advice.into());
+        Self { location, field, found, expected, advice }
+    }
+
     /// Creates the report of an error in a whole document.
     pub(crate) fn whole(found: impl Into<String>, expected: &str, advice: &str) -> Self {
-        let (expected, advice) = (expected.to_owned(), advice.to_owned());
-        Self { location: None, field: String::new(), found: found.into(), expected, advice }
+        Self::new(None, "", found, expected, advice)
     }
 }
 
@@ -131,7 +139,7 @@ const CORRECT_FIRST: &str = "correct the errors above first";
 /// Errors collected while a document is read; [`Problems::refuse`] finds their lines and columns.
 #[derive(Debug, Default)]
 pub(crate) struct Problems {
-    found: Vec<(Option<Target>, Problem)>,
+    found: Vec<(Vec<Step>, Problem)>,
     more: bool,
 }
 
@@ -159,25 +167,20 @@ impl Problems {
         expected: impl Into<String>,
         advice: impl Into<String>,
     ) {
-        self.push(at, None, found.into(), expected.into(), advice.into());
-    }
-
-    /// Records an error in the n-th key (from 0) of the mapping at `at`.
-    pub(crate) fn at_entry(
-        &mut self,
-        at: &Path,
-        entry: usize,
-        found: impl Into<String>,
-        expected: impl Into<String>,
-        advice: impl Into<String>,
-    ) {
-        self.push(at, Some(entry), found.into(), expected.into(), advice.into());
+        self.push(at, at, found.into(), expected.into(), advice.into());
     }
 
     /// Records that the mapping at `at` lacks `key`; the location is that of the mapping.
     pub(crate) fn missing(&mut self, at: &Path, key: &str, expected: impl Into<String>, advice: impl Into<String>) {
-        let target = Target { steps: at.steps(), entry: None };
-        self.note(target, at.key(key).to_string(), MISSING.to_owned(), expected.into(), advice.into());
+        let key = at.key(key);
+        self.push(at, &key, MISSING.to_owned(), expected.into(), advice.into());
+    }
+
+    /// Records an error if a text does not have the form of a SHA-256.
+    pub(crate) fn sha256(&mut self, at: &Path, text: &str) {
+        if !is_sha256_hex(text) {
+            self.at(at, format!("{text:?}"), "64 lower-case hexadecimal digits", "");
+        }
     }
 
     /// Records an error if the number is present and not within `low..=high`.
@@ -192,21 +195,13 @@ impl Problems {
         }
     }
 
-    fn push(&mut self, at: &Path, entry: Option<usize>, found: String, expected: String, advice: String) {
+    fn push(&mut self, at: &Path, field: &Path, found: String, expected: String, advice: String) {
         // Further errors in a document with many errors must cost no more than a comparison.
         if self.found.len() == MOST_PROBLEMS {
             self.more = true;
             return;
         }
-        self.note(Target { steps: at.steps(), entry }, at.to_string(), found, expected, advice);
-    }
-
-    fn note(&mut self, target: Target, field: String, found: String, expected: String, advice: String) {
-        if self.found.len() == MOST_PROBLEMS {
-            self.more = true;
-            return;
-        }
-        self.found.push((Some(target), Problem { location: None, field, found, expected, advice }));
+        self.found.push((at.steps(), Problem::new(None, field.to_string(), found, expected, advice)));
     }
 
     /// Returns the refusal of the hand-written document `name` with the given `text`: the first errors with their lines
@@ -214,7 +209,7 @@ impl Problems {
     #[cfg(feature = "factory")]
     pub(crate) fn refuse(self, name: &str, text: &str) -> Unreadable {
         let affordable = (READ_AGAIN_BYTES / text.len().max(1)).max(1);
-        self.refused(name, affordable, |target| super::yaml::locate(text, target))
+        self.refused(name, affordable, |steps| super::yaml::locate(text, steps))
     }
 
     /// Returns the refusal of the signed document `name`, with its errors by field.
@@ -222,23 +217,24 @@ impl Problems {
         self.refused(name, MOST_PROBLEMS, |_| None)
     }
 
-    fn refused(self, name: &str, affordable: usize, locate: impl Fn(&Target) -> Option<Location>) -> Unreadable {
-        let groups = grouped(self.found);
+    fn refused(self, name: &str, affordable: usize, locate: impl Fn(&[Step]) -> Option<Location>) -> Unreadable {
+        let groups = grouped(self.found, |(_, problem)| {
+            // The rest of an advice may repeat the value.
+            let advice = problem.advice.split(": ").next().unwrap_or_default().to_owned();
+            let field: String = problem.field.chars().filter(|c| !c.is_ascii_digit()).collect();
+            let kind = (field, problem.found == MISSING, problem.expected.clone(), advice);
+            problem.field.contains('[').then_some(kind)
+        });
         let more = self.more || groups.len() > affordable;
-        let mut problems: Vec<Problem> = groups
-            .into_iter()
-            .take(affordable)
-            .map(|Group { first: (target, problem), others, last }| {
-                let locate = |target: Option<Target>| target.and_then(|target| locate(&target));
-                let line = |at: Location| at.line;
-                let found = problem.found + &more_of_this_kind(others, locate(last).map(line), !self.more);
-                Problem { location: locate(target), found, ..problem }
-            })
-            .collect();
+        let located = groups.into_iter().take(affordable).map(|Group { first: (steps, problem), others }| {
+            let last = others.last().and_then(|(steps, _)| locate(steps)).map(|at| at.line);
+            let found = problem.found + &more_of_this_kind(others.len(), last, !self.more);
+            Problem { location: locate(&steps), found, ..problem }
+        });
+        let mut problems: Vec<Problem> = located.collect();
         problems.sort_by_key(|problem| problem.location.map(|at| (at.line, at.column)));
         if more {
-            let (found, expected, advice) = (FURTHER.to_owned(), "none".to_owned(), CORRECT_FIRST.to_owned());
-            problems.push(Problem { location: None, field: String::new(), found, expected, advice });
+            problems.push(Problem::whole(FURTHER, "none", CORRECT_FIRST));
         }
         Unreadable::of(name, problems)
     }
@@ -265,62 +261,36 @@ fn more_of_this_kind(others: usize, last: Option<usize>, all: bool) -> String {
 /// first error states how many more there are: at least that many if there are [`MOST_COUNTED`] in all.
 ///
 /// Errors without a `kind` remain.
-pub(crate) fn counted<K: Ord>(problems: Vec<Problem>, kind: impl Fn(&Problem) -> Option<K>) -> Vec<Problem> {
+pub(crate) fn counted<K: Eq + Hash>(problems: Vec<Problem>, kind: impl Fn(&Problem) -> Option<K>) -> Vec<Problem> {
     let all = problems.len() < MOST_COUNTED;
-    // For each kind: the index of its first error, the number of errors, and the line of the last one.
-    let mut alike: BTreeMap<K, (usize, usize, usize)> = BTreeMap::new();
-    for (place, problem) in problems.iter().enumerate() {
-        if let Some(kind) = kind(problem) {
-            let (_, count, last) = alike.entry(kind).or_insert((place, 0, 0));
-            *count += 1;
-            *last = problem.location.map_or(0, |at| at.line).max(*last);
-        }
-    }
-    let shown = problems.into_iter().enumerate().filter_map(|(place, mut problem)| {
-        let of_all = kind(&problem).and_then(|kind| alike.get(&kind)).filter(|(_, count, _)| *count >= ALIKE);
-        match of_all {
-            Some((first, ..)) if *first != place => return None,
-            Some((_, count, last)) => problem.found += &more_of_this_kind(count - 1, Some(*last), all),
-            None => {}
-        }
-        Some(problem)
+    let line = |problem: &Problem| problem.location.map_or(0, |at| at.line);
+    let shown = grouped(problems, kind).into_iter().map(|Group { first, others }| {
+        let last = others.iter().map(line).chain([line(&first)]).max();
+        Problem { found: first.found + &more_of_this_kind(others.len(), last, all), ..first }
     });
     shown.take(MOST_PROBLEMS).collect()
 }
 
-/// Errors of one kind: the first of them, the number of others, and the place of the last.
-struct Group {
-    first: (Option<Target>, Problem),
-    others: usize,
-    last: Option<Target>,
+/// First error of a kind, and the others.
+struct Group<T> {
+    first: T,
+    others: Vec<T>,
 }
 
-/// Groups errors that differ only in the items of lists and in what was found, if there are many of a kind.
-fn grouped(found: Vec<(Option<Target>, Problem)>) -> Vec<Group> {
-    let kind = |problem: &Problem| {
-        let field: String = problem.field.chars().filter(|c| !c.is_ascii_digit()).collect();
-        // The rest of an advice may repeat the value.
-        let advice = problem.advice.split(": ").next().unwrap_or_default().to_owned();
-        (field, problem.found == MISSING, problem.expected.clone(), advice)
-    };
-    let mut counts = std::collections::HashMap::new();
-    for (_, problem) in found.iter().filter(|(_, problem)| problem.field.contains('[')) {
-        *counts.entry(kind(problem)).or_insert(0_usize) += 1;
+/// Groups errors of one kind, if there are many of it, at the place of the first.
+fn grouped<T, K: Eq + Hash>(found: Vec<T>, kind: impl Fn(&T) -> Option<K>) -> Vec<Group<T>> {
+    let mut counts = HashMap::new();
+    for kind in found.iter().filter_map(&kind) {
+        *counts.entry(kind).or_insert(0_usize) += 1;
     }
-    let mut groups: Vec<Group> = Vec::new();
-    let mut places = std::collections::HashMap::new();
-    for (target, problem) in found {
-        let kind = kind(&problem);
-        let is_one_of_many = counts.get(&kind).is_some_and(|count| *count >= ALIKE);
-        match places.get(&kind).filter(|_| is_one_of_many).and_then(|place: &usize| groups.get_mut(*place)) {
-            Some(group) => {
-                group.others += 1;
-                group.last = target;
-            }
-            None => {
-                places.insert(kind, groups.len());
-                groups.push(Group { first: (target, problem), others: 0, last: None });
-            }
+    let mut groups: Vec<Group<T>> = Vec::new();
+    let mut places = HashMap::new();
+    for error in found {
+        let one_of_many = kind(&error).filter(|kind| counts.get(kind).is_some_and(|count| *count >= ALIKE));
+        let next = groups.len();
+        match one_of_many.map(|kind| *places.entry(kind).or_insert(next)).and_then(|place| groups.get_mut(place)) {
+            Some(group) => group.others.push(error),
+            None => groups.push(Group { first: error, others: Vec::new() }),
         }
     }
     groups
@@ -349,9 +319,7 @@ impl Unreadable {
         expected: impl Into<String>,
         advice: impl Into<String>,
     ) -> Self {
-        let (found, expected, advice) = (found.into(), expected.into(), advice.into());
-        let problem = Problem { location, field: String::new(), found, expected, advice };
-        Self::of(name, vec![problem])
+        Self::of(name, vec![Problem::new(location, "", found, expected, advice)])
     }
 
     /// Creates the refusal of JSON that cannot be read as what is `expected`.

@@ -1,9 +1,9 @@
 //! Conversion of a [`Node`] to a Rust struct and back; the declaration in `record!` defines the format.
 
 use super::canonical::Scanner;
+use super::node::{Sink, Tree};
 use super::number_advice;
 use super::scalar::latin;
-use super::sink::{Sink, Tree};
 use super::{Node, Path, Problems};
 use std::collections::HashSet;
 
@@ -111,7 +111,7 @@ macro_rules! record {
                 true
             }
 
-            fn emit<S: $crate::text::sink::Sink>(&self, sink: &mut S) {
+            fn emit<S: $crate::text::node::Sink>(&self, sink: &mut S) {
                 let empty = true $(&& $crate::text::Field::is_absent(&self.$field))*;
                 sink.mapping(empty, |sink| $crate::text::record::Record::emit_entries(self, sink));
             }
@@ -131,7 +131,7 @@ macro_rules! record {
         }
 
         impl $crate::text::record::Record for $name {
-            fn emit_entries<S: $crate::text::sink::Sink>(&self, sink: &mut S) {
+            fn emit_entries<S: $crate::text::node::Sink>(&self, sink: &mut S) {
                 $(if !$crate::text::Field::is_absent(&self.$field)
                     && sink.key(const { $crate::text::record::key(stringify!($field)) })
                 {
@@ -182,16 +182,11 @@ pub(crate) fn entries<'n>(
         }
         if !seen.insert(key) {
             let advice = "delete one, because readers differ in which one they use";
-            problems.at_entry(at, index, format!("duplicate key {key:?}"), "each key once", advice);
+            problems.at(&Path::Entry(at, index), format!("duplicate key {key:?}"), "each key once", advice);
         } else if !known.contains(&key.as_str()) {
             let advice = unknown_key_advice(entries, index, key, value, known);
-            problems.at_entry(
-                at,
-                index,
-                format!("unknown key {key:?}"),
-                format!("one of {}", known.join(", ")),
-                advice,
-            );
+            let expected = format!("one of {}", known.join(", "));
+            problems.at(&Path::Entry(at, index), format!("unknown key {key:?}"), expected, advice);
         }
     }
     Some(entries)
@@ -234,26 +229,10 @@ pub(crate) fn read_field<T: Field>(
     }
 }
 
-/// Describes the expected number under `key`, whose suffix is the unit.
-fn expected_number(key: &str) -> String {
-    const UNITS: [(&str, &str); 12] = [
-        ("_deg_per_h_per_g2", "in degrees per hour per g squared"),
-        ("_deg_per_h_per_g", "in degrees per hour per g"),
-        ("_deg_per_h_per_ma", "in degrees per hour per milliampere"),
-        ("_deg_per_h", "in degrees per hour"),
-        ("_arcsec", "in arcseconds"),
-        ("_deg", "in degrees"),
-        ("_ma", "in milliamperes"),
-        ("_m_per_s2", "in metres per second squared"),
-        ("_m", "in metres"),
-        ("_percent", "in percent"),
-        ("_temperature_c", "in degrees Celsius"),
-        ("_g", "in g"),
-    ];
-    UNITS
-        .iter()
-        .find(|(suffix, _)| key.ends_with(suffix))
-        .map_or_else(|| "a number".to_owned(), |(_, unit)| format!("a number {unit}"))
+/// Reports a value that is not what its key expects.
+pub(crate) fn refuse<T: Field>(node: &Node, at: &Path, advice: &str, problems: &mut Problems) -> Option<T> {
+    problems.at(at, node.describe(), T::expected(at.last_key()), advice);
+    None
 }
 
 impl Field for f64 {
@@ -262,20 +241,30 @@ impl Field for f64 {
             // Adding zero turns -0.0 into 0.0, the only zero that a document can contain.
             Node::Number(value) if value.is_finite() => Some(*value + 0.0),
             Node::Integer(value) => Some(*value as f64),
-            other => {
-                problems.at(
-                    at,
-                    other.describe(),
-                    expected_number(at.last_key()),
-                    number_advice::in_yaml(other, at.last_key()),
-                );
-                None
-            }
+            other => refuse(other, at, number_advice::in_yaml(other, at.last_key()), problems),
         }
     }
 
+    /// Describes the expected number; the suffix of its key is the unit.
     fn expected(key: &str) -> String {
-        expected_number(key)
+        const UNITS: [(&str, &str); 12] = [
+            ("_deg_per_h_per_g2", "in degrees per hour per g squared"),
+            ("_deg_per_h_per_g", "in degrees per hour per g"),
+            ("_deg_per_h_per_ma", "in degrees per hour per milliampere"),
+            ("_deg_per_h", "in degrees per hour"),
+            ("_arcsec", "in arcseconds"),
+            ("_deg", "in degrees"),
+            ("_ma", "in milliamperes"),
+            ("_m_per_s2", "in metres per second squared"),
+            ("_m", "in metres"),
+            ("_percent", "in percent"),
+            ("_temperature_c", "in degrees Celsius"),
+            ("_g", "in g"),
+        ];
+        UNITS
+            .iter()
+            .find(|(suffix, _)| key.ends_with(suffix))
+            .map_or_else(|| "a number".to_owned(), |(_, unit)| format!("a number {unit}"))
     }
 
     fn emit<S: Sink>(&self, sink: &mut S) {
@@ -291,10 +280,7 @@ impl Field for u32 {
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
         match node {
             Node::Integer(value) if u32::try_from(*value).is_ok() => u32::try_from(*value).ok(),
-            other => {
-                problems.at(at, other.describe(), Self::expected(""), "");
-                None
-            }
+            other => refuse(other, at, "", problems),
         }
     }
 
@@ -311,10 +297,7 @@ impl Field for bool {
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
         match node {
             Node::Bool(value) => Some(*value),
-            other => {
-                problems.at(at, other.describe(), Self::expected(""), "");
-                None
-            }
+            other => refuse(other, at, "", problems),
         }
     }
 
@@ -329,10 +312,7 @@ impl Field for bool {
 
 impl Field for String {
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
-        let Node::Text(text) = node else {
-            problems.at(at, node.describe(), Self::expected(""), "put it in double quotes");
-            return None;
-        };
+        let Node::Text(text) = node else { return refuse(node, at, "put it in double quotes", problems) };
         if text.is_empty() {
             problems.at(at, "empty text", "text", "enter text, or omit the key if it is optional");
             return None;
@@ -392,10 +372,7 @@ impl<T: Field> Field for Option<T> {
 
 impl<T: Field> Field for Vec<T> {
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
-        let Node::List(items) = node else {
-            problems.at(at, node.describe(), Self::expected(""), "");
-            return None;
-        };
+        let Node::List(items) = node else { return refuse(node, at, "", problems) };
         let read: Vec<Option<T>> =
             items.iter().enumerate().map(|(index, item)| T::read(item, &at.item(index), problems)).collect();
         read.into_iter().collect()
@@ -418,10 +395,7 @@ impl<T: Field, const N: usize> Field for [T; N] {
     fn read(node: &Node, at: &Path, problems: &mut Problems) -> Option<Self> {
         match node {
             Node::List(items) if items.len() == N => Vec::read(node, at, problems)?.try_into().ok(),
-            other => {
-                problems.at(at, other.describe(), Self::expected(""), "");
-                None
-            }
+            other => refuse(other, at, "", problems),
         }
     }
 

@@ -58,19 +58,15 @@ pub(super) fn write_quoted(text: &str, mut push: impl FnMut(&str)) {
     push("\"");
 }
 
+/// Advice for text that is not as the writer writes it.
+pub(super) const NOT_CANONICAL: &str = "this is not the canonical form; get the file from the issuer again";
+
 /// Checks the bytes against the rule before anything is parsed, and returns the text.
 pub(crate) fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadable> {
     let text = plain_text(name, bytes)?;
     if !text.ends_with('\n') {
-        let at = location_of(bytes);
-        return Err(Unreadable::whole(
-            name,
-            Some(at),
-            "no line feed at the end",
-            "a line feed",
-            "the file may be \
-            truncated; get it from the issuer again",
-        ));
+        let (at, advice) = (location_of(bytes), "the file may be truncated; get it from the issuer again");
+        return Err(Unreadable::whole(name, Some(at), "no line feed at the end", "a line feed", advice));
     }
     if obeys_at_first_sight(text) {
         return Ok(text);
@@ -79,8 +75,7 @@ pub(crate) fn check<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Unreadab
     for line_end in memchr::memchr_iter(b'\n', bytes) {
         if let Some((offset, found, expected)) = first_fault(&text[line_start..line_end]) {
             let at = location_of(&bytes[..line_start + offset]);
-            let advice = "this is not the canonical form; get the file from the issuer again";
-            return Err(Unreadable::whole(name, Some(at), found, expected, advice));
+            return Err(Unreadable::whole(name, Some(at), found, expected, NOT_CANONICAL));
         }
         line_start = line_end + 1;
     }

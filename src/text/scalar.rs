@@ -1,6 +1,7 @@
 //! Texts with a prescribed form: identifiers, dates, times and digests.
 
-use super::sink::Sink;
+use super::node::Sink;
+use super::record::refuse;
 use super::{Field, Node, Path, Problems};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -158,17 +159,15 @@ impl Field for Identifier {
         const VALID: &str = "use a name that is valid for files and folders; put free text into name";
         let quoted = matches!(node, Node::Text(text) if typographic_quote(text).is_some());
         let advice = if quoted { STRAIGHT_QUOTES } else { VALID };
-        let found = match node {
+        let (found, advice) = match node {
             Node::Text(text) => match Self::new(text) {
                 Ok(identifier) => return Some(identifier),
-                Err(found) => found.to_string(),
+                Err(found) => (found.to_string(), advice),
             },
             Node::Integer(_) | Node::Number(_) => {
-                let found = format!("the number {}", node.describe());
-                problems.at(at, found, Self::expected(""), "put it in double quotes");
-                return None;
+                (format!("the number {}", node.describe()), "put it in double quotes")
             }
-            other => other.describe(),
+            other => (other.describe(), advice),
         };
         problems.at(at, found, Self::expected(""), advice);
         None
@@ -200,8 +199,7 @@ impl Field for Date {
             Node::Text(text) => impossible_date(text).unwrap_or_else(|| FORM_OF_DATE.to_owned()),
             _ => FORM_OF_DATE.to_owned(),
         };
-        problems.at(at, node.describe(), Self::expected(""), advice);
-        None
+        refuse(node, at, &advice, problems)
     }
 
     fn expected(_: &str) -> String {
@@ -222,8 +220,7 @@ impl Field for Timestamp {
         {
             return Some(time);
         }
-        problems.at(at, node.describe(), Self::expected(""), "use RFC 3339, UTC, whole seconds");
-        None
+        refuse(node, at, "use RFC 3339, UTC, whole seconds", problems)
     }
 
     fn expected(_: &str) -> String {
@@ -248,9 +245,7 @@ pub(crate) fn day(date: Date) -> (Timestamp, Timestamp) {
 
 /// Computes the SHA-256 of a file, in lower-case hexadecimal.
 pub(crate) fn sha256_hex(bytes: &[u8]) -> String {
-    const DIGITS: [char; 16] = ['0', '1', '2', '3', '4', '5', '6', '7', '8', '9', 'a', 'b', 'c', 'd', 'e', 'f'];
-    let halves = |byte: u8| [byte >> 4, byte & 0xF].map(|half| DIGITS[usize::from(half)]);
-    Sha256::digest(bytes).into_iter().flat_map(halves).collect()
+    format!("{:x}", Sha256::digest(bytes))
 }
 
 /// Returns `true` if a text has the form that [`sha256_hex`] returns.

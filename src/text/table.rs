@@ -155,13 +155,7 @@ impl<'a> Table<'a> {
 
     /// Creates the report of an error in a cell.
     pub(crate) fn problem(&self, cell: &Cell, column: usize, found: String, expected: &str, advice: &str) -> Problem {
-        Problem {
-            location: Some(cell.location),
-            field: self.columns.get(column).copied().unwrap_or_default().to_owned(),
-            found,
-            expected: expected.to_owned(),
-            advice: advice.to_owned(),
-        }
+        Problem::new(Some(cell.location), column_name(&self.columns, column), found, expected, advice)
     }
 
     /// Returns the refusal of this table. If many cells need the same advice, only the first is shown, with the number
@@ -169,6 +163,11 @@ impl<'a> Table<'a> {
     pub(crate) fn refuse(&self, problems: Vec<Problem>) -> Unreadable {
         Unreadable::of(self.name, counted(problems, kind)).in_text(self.bytes)
     }
+}
+
+/// Returns the name of a requested column.
+fn column_name<'a>(columns: &[&'a str], place: usize) -> &'a str {
+    columns.get(place).copied().unwrap_or_default()
 }
 
 /// Returns the kind of an error in a cell, or of a row with too few or too many; `None` for errors of which each is
@@ -203,13 +202,10 @@ fn with_decimal_points(rows: &mut [Row], columns: &[&str]) -> Result<bool, Probl
     let Some(comma) = comma else { return Ok(false) };
     for (place, cell) in rows.iter().flat_map(|row| row.cells.iter().enumerate()) {
         if cell.text.contains('.') {
-            return Err(Problem {
-                location: Some(cell.location),
-                field: columns.get(place).copied().unwrap_or_default().to_owned(),
-                found: format!("{:?}, with decimal commas from line {} on", cell.text, comma.location.line),
-                expected: "decimal commas or decimal points in the whole file".to_owned(),
-                advice: "save the table again with decimal points".to_owned(),
-            });
+            let found = format!("{:?}, with decimal commas from line {} on", cell.text, comma.location.line);
+            let expected = "decimal commas or decimal points in the whole file";
+            let advice = "save the table again with decimal points";
+            return Err(Problem::new(Some(cell.location), column_name(columns, place), found, expected, advice));
         }
     }
     rows.iter_mut().flat_map(|row| &mut row.cells).for_each(|cell| cell.text = cell.text.replacen(',', ".", 1));
@@ -225,7 +221,10 @@ fn cells(line: usize, text: &str, separator: char) -> Result<Vec<Cell>, Problem>
         let column = text[..text.len() - start.len()].chars().count() + 1;
         let location = Location { line, column };
         let (cell, after) = match start.strip_prefix('"') {
-            Some(quoted) => quoted_cell(quoted, separator).ok_or_else(|| bad_quotes(location))?,
+            Some(quoted) => quoted_cell(quoted, separator).ok_or_else(|| {
+                let found = "a quoted cell without a closing quote before a comma or the end of the line";
+                Problem::new(Some(location), "", found, "\"…\", with each inner quote doubled", "")
+            })?,
             None => {
                 let end = start.find(separator).unwrap_or(start.len());
                 (start[..end].trim_end().to_owned(), &start[end..])
@@ -253,16 +252,6 @@ fn quoted_cell(quoted: &str, separator: char) -> Option<(String, &str)> {
     }
     let after = rest.trim_start();
     (after.is_empty() || after.starts_with(separator)).then(|| (text.trim().to_owned(), after))
-}
-
-fn bad_quotes(location: Location) -> Problem {
-    Problem {
-        location: Some(location),
-        field: String::new(),
-        found: "a quoted cell without a closing quote before a comma or the end of the line".to_owned(),
-        expected: "\"…\", with each inner quote doubled".to_owned(),
-        advice: String::new(),
-    }
 }
 
 /// Header of a table.
@@ -308,8 +297,7 @@ impl<'a> Header<'a> {
         let mut left_out = Vec::new();
         for (index, cell) in cells.iter().enumerate() {
             let mut problem = |found: String, advice: String| {
-                let (location, field, expected) = (Some(cell.location), String::new(), expected());
-                problems.push(Problem { location, field, found, expected, advice });
+                problems.push(Problem::new(Some(cell.location), "", found, expected(), advice));
             };
             if known.contains(&cell.text.as_str()) {
                 if cells[..index].iter().any(|earlier| earlier.text == cell.text) {
@@ -326,13 +314,7 @@ impl<'a> Header<'a> {
         }
         let place = |column: &&str| cells.iter().position(|cell| cell.text == *column);
         for column in required.iter().filter(|column| place(column).is_none()) {
-            problems.push(Problem {
-                location: Some(at),
-                field: String::new(),
-                found: format!("no column {column}"),
-                expected: expected(),
-                advice: String::new(),
-            });
+            problems.push(Problem::new(Some(at), "", format!("no column {column}"), expected(), ""));
         }
         if !problems.is_empty() {
             return Err(Unreadable::of(name, problems));
@@ -373,13 +355,7 @@ fn wrong_number_of_cells((line, text): (usize, &str), separator: char, found: us
     } else {
         ""
     };
-    Problem {
-        location: Some(Location { line, column: 1 }),
-        field: String::new(),
-        found: format!("{found} values"),
-        expected: format!("{columns}"),
-        advice: advice.to_owned(),
-    }
+    Problem::new(Some(Location { line, column: 1 }), "", format!("{found} values"), format!("{columns}"), advice)
 }
 
 fn described(text: &str) -> String {
@@ -413,9 +389,8 @@ mod tests {
             (None, "jx_ma", "\"1;5\"", "a current", "separate columns by commas", false),
             (None, "", "3 values", "4", "", false),
         ] {
-            let [field, found, expected, advice] = [field, found, expected, advice].map(str::to_owned);
-            let due = counts.then(|| (expected.clone(), advice.clone()));
-            let problem = Problem { location, field, found, expected, advice };
+            let due = counts.then(|| (expected.to_owned(), advice.to_owned()));
+            let problem = Problem::new(location, field, found, expected, advice);
             assert_eq!(kind(&problem), due, "{problem:?}");
         }
     }

@@ -1,7 +1,5 @@
 //! Enums each of whose variants is a word in files and results.
 
-use super::{Node, Path, Problems};
-
 /// Declares an enum whose variants have words; the function after the colon returns the word, `ALL` is in the order of
 /// declaration.
 macro_rules! words {
@@ -33,30 +31,22 @@ macro_rules! word_of_a_key {
                 at: &$crate::text::Path,
                 problems: &mut $crate::text::Problems,
             ) -> Option<Self> {
-                let place = $crate::text::words::read(&Self::ALL.map(Self::$word), $more, node, at, problems)?;
-                Some(Self::ALL[place])
+                let is_word = |one: &Self| matches!(node, $crate::text::Node::Text(text) if text == one.$word());
+                let one = Self::ALL.into_iter().find(is_word);
+                one.or_else(|| $crate::text::record::refuse(node, at, "", problems))
             }
 
             fn expected(_: &str) -> String {
                 $crate::text::words::listed(&Self::ALL.map(Self::$word)) + $more
             }
 
-            fn emit<S: $crate::text::sink::Sink>(&self, sink: &mut S) {
+            fn emit<S: $crate::text::node::Sink>(&self, sink: &mut S) {
                 sink.text(self.$word());
             }
         }
     };
 }
 pub(crate) use {word_of_a_key, words};
-
-/// Returns the place of the word that a node states, or `None` after an error.
-pub(crate) fn read(words: &[&str], more: &str, node: &Node, at: &Path, problems: &mut Problems) -> Option<usize> {
-    let place = words.iter().position(|word| matches!(node, Node::Text(text) if text == word));
-    if place.is_none() {
-        problems.at(at, node.describe(), listed(words) + more, "");
-    }
-    place
-}
 
 /// Lists words in quotation marks: "a", "b" or "c".
 pub(crate) fn listed(words: &[&str]) -> String {

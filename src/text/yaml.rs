@@ -3,7 +3,7 @@
 use super::excerpt::Location;
 use super::kind::{Kind, mistaken};
 use super::node::{MOST_BRACKETS, hand_written_text, location_of};
-use super::problem::{Problems, Step, Target, Unreadable};
+use super::problem::{Problems, Step, Unreadable};
 use super::record::{Document, File};
 use super::scalar::{STRAIGHT_QUOTES, latin, typographic_quote};
 use super::{Field, Node, Path};
@@ -49,11 +49,8 @@ fn unreadable_yaml(name: &str, text: &str, error: &serde_yaml::Error) -> Unreada
     if let Some(at) = words.find(" at line ") {
         words.truncate(at);
     }
-    if let Some(at) = location.filter(|at| is_indented_by_tab(text, *at)) {
-        return Unreadable::whole(name, Some(at), "a tab before the first word", "spaces", "replace the tab by spaces");
-    }
-    if let Some(at) = location.filter(|at| is_tab(text, *at)) {
-        return Unreadable::whole(name, Some(at), "a tab before a value", "spaces", "replace the tab by spaces");
+    if let Some(found) = location.and_then(|at| tab(text, at)) {
+        return Unreadable::whole(name, location, found, "spaces", "replace the tab by spaces");
     }
     // The parser could read these constructs, but they are refused; the message describes what is in the file.
     let (found, advice) = match words.as_str() {
@@ -73,24 +70,20 @@ fn unreadable_yaml(name: &str, text: &str, error: &serde_yaml::Error) -> Unreada
     Unreadable::whole(name, location, found, "a plain YAML mapping", advice)
 }
 
-/// Returns `true` if the line at `at` begins with spaces and a tab.
-fn is_indented_by_tab(text: &str, at: Location) -> bool {
-    let line = at.line.checked_sub(1).and_then(|index| text.lines().nth(index));
-    line.is_some_and(|line| line.trim_start_matches(' ').starts_with('\t'))
-}
-
-/// Returns `true` if the character at `at` is a tab.
-fn is_tab(text: &str, at: Location) -> bool {
-    let line = at.line.checked_sub(1).and_then(|index| text.lines().nth(index));
-    line.and_then(|line| line.chars().nth(at.column.checked_sub(1)?)) == Some('\t')
+/// Describes a tab that indents the line at `at` or is the character there, or returns `None` if there is none.
+fn tab(text: &str, at: Location) -> Option<&'static str> {
+    let line = text.lines().nth(at.line.checked_sub(1)?)?;
+    if line.trim_start_matches(' ').starts_with('\t') {
+        return Some("a tab before the first word");
+    }
+    (line.chars().nth(at.column.checked_sub(1)?)? == '\t').then_some("a tab before a value")
 }
 
 /// Finds the line and column of an error by reading the text again up to it.
 ///
 /// `serde_yaml` reports only the location of errors, so this function raises an error at the target.
-pub(crate) fn locate(text: &str, target: &Target) -> Option<Location> {
-    let probe = Probe { steps: &target.steps, entry: target.entry };
-    let error = probe.deserialize(serde_yaml::Deserializer::from_str(text)).err()?;
+pub(crate) fn locate(text: &str, steps: &[Step]) -> Option<Location> {
+    let error = Probe(steps).deserialize(serde_yaml::Deserializer::from_str(text)).err()?;
     error.location().map(|at| Location { line: at.line(), column: at.column() })
 }
 
@@ -165,10 +158,6 @@ impl Budget {
         Self(Cell::new(4 * text.len() + 64))
     }
 
-    fn unlimited() -> Self {
-        Self(Cell::new(usize::MAX))
-    }
-
     fn spend<E: de::Error>(&self, cost: usize) -> Result<(), E> {
         let left = self.0.get().checked_sub(cost).ok_or_else(|| E::custom(REPEATED))?;
         self.0.set(left);
@@ -236,23 +225,14 @@ impl<'de> Visitor<'de> for Whole<'_> {
     }
 }
 
-/// Deserialiser that fails at the target, so that `serde_yaml` reports its location.
+/// Deserialiser that fails at the target, so that `serde_yaml` reports its location: at a scalar because it expects none.
 #[derive(Clone, Copy)]
-struct Probe<'a> {
-    steps: &'a [Step],
-    entry: Option<usize>,
-}
+struct Probe<'a>(&'a [Step]);
 
 impl<'de> DeserializeSeed<'de> for Probe<'_> {
     type Value = ();
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
         deserializer.deserialize_any(self)
-    }
-}
-
-impl Probe<'_> {
-    fn here<E: de::Error>() -> Result<(), E> {
-        Err(E::custom("here"))
     }
 }
 
@@ -262,56 +242,35 @@ impl<'de> Visitor<'de> for Probe<'_> {
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str("a plain YAML value without a tag")
     }
-    fn visit_unit<E: de::Error>(self) -> Result<(), E> {
-        Self::here()
-    }
-    fn visit_bool<E: de::Error>(self, _: bool) -> Result<(), E> {
-        Self::here()
-    }
-    fn visit_i64<E: de::Error>(self, _: i64) -> Result<(), E> {
-        Self::here()
-    }
-    fn visit_u64<E: de::Error>(self, _: u64) -> Result<(), E> {
-        Self::here()
-    }
-    fn visit_f64<E: de::Error>(self, _: f64) -> Result<(), E> {
-        Self::here()
-    }
-    fn visit_str<E: de::Error>(self, _: &str) -> Result<(), E> {
-        Self::here()
-    }
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<(), A::Error> {
-        let Some((Step::Item(target), rest)) = self.steps.split_first() else {
-            return Self::here();
-        };
-        for _ in 0..*target {
-            list.next_element::<de::IgnoredAny>()?;
+        if let Some((Step::Item(target), rest)) = self.0.split_first() {
+            for _ in 0..*target {
+                list.next_element::<de::IgnoredAny>()?;
+            }
+            list.next_element_seed(Probe(rest))?;
         }
-        list.next_element_seed(Probe { steps: rest, entry: self.entry })?;
-        Self::here()
+        Err(de::Error::custom("here"))
     }
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
-        match (self.steps.split_first(), self.entry) {
-            (Some((Step::Key(target), rest)), _) => {
-                let budget = Budget::unlimited();
-                while let Some(key) = map.next_key_seed(Whole(&budget))? {
-                    if key == Node::Text(target.clone()) {
-                        map.next_value_seed(Probe { steps: rest, entry: self.entry })?;
+        match self.0.split_first() {
+            Some((Step::Key(target), rest)) => {
+                while let Some(key) = map.next_key::<String>()? {
+                    if key == *target {
+                        map.next_value_seed(Probe(rest))?;
                     } else {
                         map.next_value::<de::IgnoredAny>()?;
                     }
                 }
-                Self::here()
             }
-            (None, Some(entry)) => {
-                for _ in 0..entry {
+            Some((Step::Entry(target), _)) => {
+                for _ in 0..*target {
                     map.next_entry::<de::IgnoredAny, de::IgnoredAny>()?;
                 }
-                map.next_key_seed(Probe { steps: &[], entry: None })?;
-                Self::here()
+                map.next_key_seed(Probe(&[]))?;
             }
-            _ => Self::here(),
+            _ => {}
         }
+        Err(de::Error::custom("here"))
     }
 }
 

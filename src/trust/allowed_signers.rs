@@ -6,7 +6,6 @@
 use super::PublicKey;
 use super::lines;
 use super::pattern::matches_list;
-use super::public_key::fingerprint;
 use super::signer_line::{self, SignerLine};
 use super::sshsig::KeyPoint;
 use crate::text::kind::{Kind, mistaken};
@@ -22,7 +21,7 @@ pub struct AllowedSigners {
 
 /// Reason why a key is not trusted for an identity, a namespace and a time. If several lines contain the key, the
 /// nearest miss is reported; later variants are nearer.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Error)]
 #[non_exhaustive]
 pub enum NotAuthorised {
     /// No line contains the key.
@@ -54,21 +53,6 @@ pub enum NotAuthorised {
     },
 }
 
-/// Trusted key for a list: the parts of its line that people compare.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct TrustedKey {
-    /// Patterns of the principals that the key may sign as.
-    pub principals: String,
-    /// Patterns of the namespaces that the key may sign for; any namespace if `None`.
-    pub namespaces: Option<String>,
-    /// Fingerprint as `ssh-keygen -l` prints it.
-    pub fingerprint: String,
-    /// First instant of the validity period; unlimited if `None`.
-    pub valid_after: Option<Timestamp>,
-    /// Last instant of the validity period; unlimited if `None`.
-    pub valid_before: Option<Timestamp>,
-}
-
 impl AllowedSigners {
     /// Reads a list of allowed signers in OpenSSH's format; `name` is the file name used in messages.
     ///
@@ -93,20 +77,14 @@ impl AllowedSigners {
         Ok(Self { lines: kept })
     }
 
-    /// Returns the keys in the order of their lines.
-    pub(crate) fn keys(&self) -> impl Iterator<Item = TrustedKey> + '_ {
-        self.lines.iter().map(|line| TrustedKey {
-            principals: line.principals.clone(),
-            namespaces: line.namespaces.clone(),
-            fingerprint: fingerprint(&line.key),
-            valid_after: line.valid_after,
-            valid_before: line.valid_before,
-        })
+    /// Returns the lines, one for each key.
+    pub(crate) fn lines(&self) -> &[SignerLine] {
+        &self.lines
     }
 
     /// Returns the curve point of a key in the list, decoded once; `None` for any other key.
     pub(crate) fn point(&self, key: &PublicKey) -> Option<&KeyPoint> {
-        let line = self.lines.iter().find(|line| line.key == key.blob())?;
+        let line = self.lines.iter().find(|line| line.key == key.blob)?;
         line.point.get_or_init(|| KeyPoint::of(key)).as_ref()
     }
 
@@ -125,7 +103,7 @@ impl AllowedSigners {
         at: Timestamp,
     ) -> Result<(), NotAuthorised> {
         let mut nearest = NotAuthorised::UnknownKey;
-        for line in self.lines.iter().filter(|line| line.key == key.blob()) {
+        for line in self.lines.iter().filter(|line| line.key == key.blob) {
             match line.authorise(principal, namespace, at) {
                 Ok(()) => return Ok(()),
                 Err(miss) => nearest = nearest.nearer(miss),
@@ -168,18 +146,7 @@ impl NotAuthorised {
                 Self::NotYetValid { from: from.min(other) }
             }
             (Self::Expired { until }, Self::Expired { until: other }) => Self::Expired { until: until.max(other) },
-            (one, other) if other.rank() > one.rank() => other,
-            (one, _) => one,
-        }
-    }
-
-    fn rank(&self) -> u8 {
-        match self {
-            Self::UnknownKey => 0,
-            Self::WrongPrincipal { .. } => 1,
-            Self::WrongNamespace { .. } => 2,
-            Self::NotYetValid { .. } => 3,
-            Self::Expired { .. } => 4,
+            (one, other) => one.max(other),
         }
     }
 }

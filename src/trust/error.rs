@@ -40,8 +40,7 @@ pub enum KeyError {
     /// signature.
     #[error(
         "the private half of this key is in a security key (FIDO token), and the file is encrypted; add it to \
-         ssh-agent \
-         (`ssh-add KEY`) and give the .pub file"
+         ssh-agent (`ssh-add KEY`) and give the .pub file"
     )]
     EncryptedSecurityKey,
     /// The private key is encrypted and no passphrase was given.

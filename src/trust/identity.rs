@@ -7,9 +7,9 @@ use crate::text::{Printable, rule};
 /// Identity that a list of allowed signers would not read as one principal, or that a signed text cannot contain.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the identity \"{}\" is empty or too long, begins with a key type, or contains a space, a quote, one of , * ? ! # \
-     or a character \
-     that no signed text may contain: choose another one, such as factory@example.org, because allowed_signers would not read this as one name",
+    "the identity \"{}\" is empty or too long, begins with a key type, or contains a space, a quote, one of , * ? ! # or \
+     a character that no signed text may contain: choose another one, such as factory@example.org, because \
+     allowed_signers would not read this as one name",
     Printable(.0)
 )]
 pub struct BadIdentity(String);

@@ -74,8 +74,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Revoked, Refusal> {
     let _reserved = wire.string()?;
     let _comment = name(&mut wire)?;
     let mut revoked = Revoked::default();
-    while !wire.is_empty() {
-        let at = wire.offset();
+    while !wire.rest.is_empty() {
+        let at = wire.offset;
         let kind = wire.byte()?;
         let body = wire.nested()?;
         match kind {
@@ -96,8 +96,8 @@ fn unknown_section(kind: u8, at: usize) -> Refusal {
 
 /// Collects the strings of a section, each with the given length if any.
 fn collect(mut body: Wire, length: Option<usize>, into: &mut BTreeSet<Vec<u8>>) -> Result<(), Refusal> {
-    while !body.is_empty() {
-        let at = body.offset();
+    while !body.rest.is_empty() {
+        let at = body.offset;
         let item = body.string()?;
         if let Some(length) = length.filter(|length| *length != item.len()) {
             let found = format!("a fingerprint of {} bytes at byte {at}", item.len());
@@ -110,20 +110,20 @@ fn collect(mut body: Wire, length: Option<usize>, into: &mut BTreeSet<Vec<u8>>) 
 
 /// Checks a section of certificates of one or any authority; it revokes no plain key.
 fn certificates(mut body: Wire) -> Result<(), Refusal> {
-    let at = body.offset();
+    let at = body.offset;
     let authority = body.string()?;
     if !authority.is_empty() {
         check_blob(authority)
             .map_err(|what| refusal(format!("certificate authority at byte {at}: {what}"), "a public key"))?;
     }
     let _reserved = body.string()?;
-    while !body.is_empty() {
-        let at = body.offset();
+    while !body.rest.is_empty() {
+        let at = body.offset;
         let kind = body.byte()?;
         let mut part = body.nested()?;
         match kind {
             certificates::SERIAL_LIST => {
-                while !part.is_empty() {
+                while !part.rest.is_empty() {
                     serials(part.u64()?, 0, at)?;
                 }
             }
@@ -133,7 +133,7 @@ fn certificates(mut body: Wire) -> Result<(), Refusal> {
             }
             certificates::SERIAL_BITMAP => bitmap(&mut part, at)?,
             certificates::KEY_ID => {
-                while !part.is_empty() {
+                while !part.rest.is_empty() {
                     name(&mut part)?;
                 }
             }
@@ -143,8 +143,8 @@ fn certificates(mut body: Wire) -> Result<(), Refusal> {
             }
             unknown => return Err(unknown_section(unknown, at)),
         }
-        if !part.is_empty() {
-            return Err(refusal(format!("{} unread bytes at byte {}", part.rest().len(), part.offset()), "none"));
+        if !part.rest.is_empty() {
+            return Err(refusal(format!("{} unread bytes at byte {}", part.rest.len(), part.offset), "none"));
         }
     }
     Ok(())
@@ -176,7 +176,7 @@ fn bitmap(part: &mut Wire, at: usize) -> Result<(), Refusal> {
 
 /// Reads a string that OpenSSH treats as a C string: NUL is allowed only at its end.
 fn name<'a>(wire: &mut Wire<'a>) -> Result<&'a [u8], Refusal> {
-    let at = wire.offset();
+    let at = wire.offset;
     let text = wire.string()?;
     let text = text.strip_suffix(b"\0").unwrap_or(text);
     if text.contains(&0) {
@@ -187,15 +187,15 @@ fn name<'a>(wire: &mut Wire<'a>) -> Result<&'a [u8], Refusal> {
 
 /// Refuses a critical extension, because none is known; skips any other.
 fn extension(mut body: Wire) -> Result<(), Refusal> {
-    let at = body.offset();
+    let at = body.offset;
     let name = String::from_utf8_lossy(name(&mut body)?).into_owned();
     let critical = body.byte()? != 0;
     let _contents = body.string()?;
-    match body.rest().len() {
+    match body.rest.len() {
         _ if critical => {
             Err(refusal(format!("critical extension `{}` at byte {at}", shortened(&name)), "no critical extension"))
         }
         0 => Ok(()),
-        more => Err(refusal(format!("{more} bytes after an extension, at byte {}", body.offset()), "nothing")),
+        more => Err(refusal(format!("{more} bytes after an extension, at byte {}", body.offset), "nothing")),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::LARGEST_TRUST_FILE_BYTES;
 use crate::text::Unreadable;
-use crate::text::node::is_utf16;
+use crate::text::node::{is_utf16, location_of};
 use crate::text::problem::{MOST_COUNTED, counted};
 use crate::text::{Location, Problem};
 
@@ -26,13 +26,7 @@ impl Line<'_> {
         advice: impl Into<String>,
     ) -> Problem {
         let column = 1 + self.text.get(..at).unwrap_or(self.text).chars().count();
-        Problem {
-            location: Some(Location { line: self.number, column }),
-            field: field.to_owned(),
-            found: found.into(),
-            expected: expected.into(),
-            advice: advice.into(),
-        }
+        Problem::new(Some(Location { line: self.number, column }), field, found, expected, advice)
     }
 
     /// Returns the problem of the first control character in this line except tab, or `None` if there is none.
@@ -67,40 +61,35 @@ pub(super) fn each<T>(
     if problems.is_empty() { Ok(kept) } else { Err(Unreadable::of(name, counted(problems, kind))) }
 }
 
+/// Refuses a trust file that is larger than [`LARGEST_TRUST_FILE_BYTES`].
+pub(super) fn check_size(name: &str, bytes: &[u8]) -> Result<(), Unreadable> {
+    if bytes.len() <= LARGEST_TRUST_FILE_BYTES {
+        return Ok(());
+    }
+    let (found, expected) = (format!("{} bytes", bytes.len()), format!("at most {LARGEST_TRUST_FILE_BYTES}"));
+    Err(Unreadable::whole(name, None, found, expected, "check that this is the right file"))
+}
+
 /// Returns the lines of a trust file that are neither empty nor comments; line endings are LF or CRLF.
 ///
 /// # Errors
 /// Returns [`Unreadable`] if the file is larger than [`LARGEST_TRUST_FILE_BYTES`], is not UTF-8, contains a private
 /// key, or begins with a byte order mark, which OpenSSH would read as part of the first line.
 pub(super) fn of<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Line<'a>>, Unreadable> {
-    let start = Some(Location { line: 1, column: 1 });
-    if bytes.len() > LARGEST_TRUST_FILE_BYTES {
-        let found = format!("{} bytes", bytes.len());
-        let expected = format!("at most {LARGEST_TRUST_FILE_BYTES}");
-        return Err(Unreadable::whole(name, None, found, expected, "check that this is the right file"));
-    }
+    check_size(name, bytes)?;
     let mark = match bytes {
         [0xEF, 0xBB, 0xBF, ..] => Some("a byte order mark (BOM)"),
         _ if is_utf16(bytes) => Some("UTF-16"),
         _ => None,
     };
     if let Some(found) = mark {
-        return Err(Unreadable::whole(
-            name,
-            start,
-            found,
-            "UTF-8 without a BOM",
-            "save the file as UTF-8 without a \
-            BOM",
-        ));
+        let (start, advice) = (Some(Location { line: 1, column: 1 }), "save the file as UTF-8 without a BOM");
+        return Err(Unreadable::whole(name, start, found, "UTF-8 without a BOM", advice));
     }
     let text = std::str::from_utf8(bytes).map_err(|error| {
-        let before = &bytes[..error.valid_up_to()];
-        let line_start = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |at| at + 1);
-        let column = 1 + String::from_utf8_lossy(&before[line_start..]).chars().count();
-        let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
+        let at = location_of(&bytes[..error.valid_up_to()]);
         let found = format!("byte 0x{:02X}", bytes[error.valid_up_to()]);
-        Unreadable::whole(name, Some(Location { line, column }), found, "UTF-8", "save the file as UTF-8")
+        Unreadable::whole(name, Some(at), found, "UTF-8", "save the file as UTF-8")
     })?;
     if text.contains("PRIVATE KEY-----") {
         // The lines of a private key must not appear in messages, because messages end up in logs.

@@ -28,10 +28,8 @@ mod signer_line;
 #[cfg(feature = "factory")]
 pub(crate) mod signing_key;
 pub(crate) mod sshsig;
-mod validity;
 mod wire;
 
-pub(crate) use allowed_signers::TrustedKey;
 pub use allowed_signers::{AllowedSigners, NotAuthorised};
 pub use error::{KeyError, SignatureError};
 pub use identity::BadIdentity;

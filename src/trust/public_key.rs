@@ -1,7 +1,9 @@
 //! Public keys that can sign passports.
 
 use super::error::KeyError;
-use super::wire::{Truncated, Wire};
+use super::wire::Wire;
+#[cfg(feature = "factory")]
+use super::wire::string;
 use base64ct::{Base64, Encoding};
 use sha2::{Digest, Sha256};
 use ssh_key::Algorithm;
@@ -23,8 +25,9 @@ const KEY_TYPES: [(&str, usize); 8] = [
 /// Public key that can sign passports: `ssh-ed25519` or `sk-ssh-ed25519@openssh.com`.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PublicKey {
-    data: KeyData,
-    blob: Vec<u8>,
+    pub(super) data: KeyData,
+    /// Key as SSH transmits it, from which fingerprints are computed.
+    pub(super) blob: Vec<u8>,
 }
 
 /// Returns the fingerprint of a key as SSH transmits it, as `ssh-keygen -l` prints it.
@@ -71,20 +74,10 @@ impl PublicKey {
         self.data.is_sk_ed25519()
     }
 
-    pub(super) fn data(&self) -> &KeyData {
-        &self.data
-    }
-
-    /// Returns the key as SSH transmits it, from which fingerprints are computed.
-    pub(super) fn blob(&self) -> &[u8] {
-        &self.blob
-    }
-
     /// Creates the public half of a private key of this process.
     #[cfg(feature = "factory")]
     pub(super) fn of_ed25519(key: ssh_key::public::Ed25519PublicKey) -> Self {
-        let field = |bytes: &[u8]| [&(bytes.len() as u32).to_be_bytes()[..], bytes].concat();
-        let blob = [field(KEY_TYPES[0].0.as_bytes()), field(&key.0)].concat();
+        let blob = [string(KEY_TYPES[0].0.as_bytes()), string(&key.0)].concat();
         Self { data: key.into(), blob }
     }
 
@@ -133,7 +126,7 @@ impl AnyKey {
         };
         let blob = Base64::decode_vec(base64)
             .map_err(|_| KeyError::DamagedPublicKey("its base64 is truncated or changed".to_owned()))?;
-        check_fields(&blob, algorithm, fields).map_err(|fault| KeyError::DamagedPublicKey(fault.to_string()))?;
+        check_fields(&blob, algorithm, fields).map_err(KeyError::DamagedPublicKey)?;
         Ok(Self { algorithm, blob })
     }
 
@@ -162,57 +155,32 @@ pub(super) fn shortened(word: &str) -> String {
     }
 }
 
-/// Fault of bytes that are not a key as SSH transmits it.
-#[derive(Debug, PartialEq, Eq, thiserror::Error)]
-pub(super) enum NotAKey {
-    /// The bytes end too early.
-    #[error(transparent)]
-    Truncated(#[from] Truncated),
-    /// A name that is not that of a key type.
-    #[error("`{0}`, which is not a key type")]
-    UnknownType(String),
-    /// Another type than the line says.
-    #[error("it says {said}, its base64 says `{found}`")]
-    OtherType {
-        /// Type that the line says.
-        said: String,
-        /// Type in the bytes.
-        found: String,
-    },
-    /// An Ed25519 key of another length.
-    #[error("a key of {0} bytes, expected 32")]
-    Length(usize),
-    /// Bytes after the end of the key.
-    #[error("{0} bytes after its end")]
-    More(usize),
-}
-
-/// Checks that bytes are a key of a type that OpenSSH knows, as SSH transmits it.
-pub(super) fn check_blob(blob: &[u8]) -> Result<(), NotAKey> {
+/// Checks that bytes are a key of a type that OpenSSH knows, as SSH transmits it, or returns their fault in words.
+pub(super) fn check_blob(blob: &[u8]) -> Result<(), String> {
     let named = Wire::new(blob).string()?;
     match KEY_TYPES.iter().find(|(name, _)| name.as_bytes() == named) {
         Some((algorithm, fields)) => check_fields(blob, algorithm, *fields),
-        None => Err(NotAKey::UnknownType(shortened(&String::from_utf8_lossy(named)))),
+        None => Err(format!("`{}`, which is not a key type", shortened(&String::from_utf8_lossy(named)))),
     }
 }
 
 /// Checks that a key consists of the name of its type and as many strings as the type has fields.
-fn check_fields(blob: &[u8], algorithm: &str, fields: usize) -> Result<(), NotAKey> {
+fn check_fields(blob: &[u8], algorithm: &str, fields: usize) -> Result<(), String> {
     let mut wire = Wire::new(blob);
     let named = wire.string()?;
     if named != algorithm.as_bytes() {
         let found = shortened(&String::from_utf8_lossy(named));
-        return Err(NotAKey::OtherType { said: algorithm.to_owned(), found });
+        return Err(format!("it says {algorithm}, its base64 says `{found}`"));
     }
     for _ in 0..fields {
         let field = wire.string()?;
         if algorithm == KEY_TYPES[0].0 && field.len() != 32 {
-            return Err(NotAKey::Length(field.len()));
+            return Err(format!("a key of {} bytes, expected 32", field.len()));
         }
     }
-    match wire.rest().len() {
+    match wire.rest.len() {
         0 => Ok(()),
-        more => Err(NotAKey::More(more)),
+        more => Err(format!("{more} bytes after its end")),
     }
 }
 

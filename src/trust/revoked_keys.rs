@@ -3,7 +3,7 @@
 use super::krl::{self, Revoked};
 use super::public_key::AnyKey;
 use super::signer_line::read_key;
-use super::{LARGEST_TRUST_FILE_BYTES, PublicKey, lines};
+use super::{PublicKey, lines};
 use crate::text::Unreadable;
 use crate::text::kind::{Kind, mistaken};
 use sha1::Sha1;
@@ -37,7 +37,7 @@ impl RevokedKeys {
 
     /// Returns the reason why `key` is revoked, or `None` if it is not revoked.
     pub fn revokes(&self, key: &PublicKey) -> Option<String> {
-        let blob = key.blob();
+        let blob = &key.blob;
         if self.revoked.keys.contains(blob) {
             Some(format!("listed in {}", self.name))
         } else if self.revoked.sha256.contains(&Sha256::digest(blob)[..]) {
@@ -51,21 +51,11 @@ impl RevokedKeys {
 }
 
 fn binary(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
-    if bytes.len() > LARGEST_TRUST_FILE_BYTES {
-        let found = format!("{} bytes", bytes.len());
-        let expected = format!("at most {LARGEST_TRUST_FILE_BYTES}");
-        return Err(Unreadable::whole(name, None, found, expected, "check that this is the right file"));
-    }
+    lines::check_size(name, bytes)?;
     if bytes.starts_with(b"SSHKRL\r\n") {
         let found = "a key revocation list with changed line ends (for example by git autocrlf)";
-        return Err(Unreadable::whole(
-            name,
-            None,
-            found,
-            "the list as ssh-keygen wrote it",
-            "transfer it again as a \
-            binary file",
-        ));
+        let advice = "transfer it again as a binary file";
+        return Err(Unreadable::whole(name, None, found, "the list as ssh-keygen wrote it", advice));
     }
     krl::read(bytes).map_err(|refusal| {
         let advice = "transfer the list again, or create it again with `ssh-keygen -k`";
@@ -92,13 +82,10 @@ fn text(name: &str, bytes: &[u8]) -> Result<Revoked, Unreadable> {
 mod tests {
     use super::*;
     use crate::trust::SigningKey;
+    use crate::trust::wire::string;
 
     fn key() -> PublicKey {
         SigningKey::generate().unwrap().public_key()
-    }
-
-    fn string(bytes: &[u8]) -> Vec<u8> {
-        [&(bytes.len() as u32).to_be_bytes()[..], bytes].concat()
     }
 
     fn section(kind: u8, items: &[&[u8]]) -> Vec<u8> {
@@ -119,14 +106,14 @@ mod tests {
     fn keys_are_revoked_by_themselves_or_by_either_fingerprint() {
         let (key, other) = (key(), key());
         let why = |section: Vec<u8>| RevokedKeys::parse("krl", &list(&[section])).unwrap().revokes(&key);
-        assert_eq!(why(section(2, &[other.blob(), key.blob()])).as_deref(), Some("listed in krl"));
-        let sha1 = Sha1::digest(key.blob());
+        assert_eq!(why(section(2, &[&other.blob, &key.blob])).as_deref(), Some("listed in krl"));
+        let sha1 = Sha1::digest(&key.blob);
         assert_eq!(why(section(3, &[&sha1])).as_deref(), Some("its SHA-1 fingerprint is in krl"));
-        let sha256 = Sha256::digest(key.blob());
+        let sha256 = Sha256::digest(&key.blob);
         assert_eq!(why(section(5, &[&sha256])).as_deref(), Some("its SHA-256 fingerprint is in krl"));
-        assert_eq!(why(section(2, &[other.blob()])), None);
+        assert_eq!(why(section(2, &[&other.blob])), None);
         // A section of certificates of one authority, without any certificate, revokes no plain key.
-        assert_eq!(why(section(1, &[key.blob(), b""])), None);
+        assert_eq!(why(section(1, &[&key.blob, b""])), None);
         let lines = format!("# lost\n{} bench\r\n", key.to_openssh());
         let lines = RevokedKeys::parse("keys", lines.as_bytes()).unwrap();
         assert_eq!((lines.revokes(&key).as_deref(), lines.revokes(&other)), (Some("listed in keys"), None));
@@ -162,7 +149,7 @@ mod tests {
         let sections = [
             [vec![255], string(&optional)].concat(),
             [vec![1], string(&of_certificates)].concat(),
-            section(2, &[key.blob()]),
+            section(2, &[&key.blob]),
         ];
         assert!(RevokedKeys::parse("krl", &list(&sections)).unwrap().revokes(&key).is_some());
     }
@@ -237,7 +224,7 @@ mod tests {
 
     #[test]
     fn a_list_cut_short_anywhere_is_refused() {
-        let whole = list(&[section(2, &[key().blob()]), section(3, &[&[0; 20]])]);
+        let whole = list(&[section(2, &[&key().blob]), section(3, &[&[0; 20]])]);
         let ends = [47, whole.len() - 29];
         for length in 1..whole.len() {
             assert_eq!(RevokedKeys::parse("krl", &whole[..length]).is_ok(), ends.contains(&length), "{length}");

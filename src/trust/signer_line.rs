@@ -1,39 +1,38 @@
-//! A line of allowed signers: `principals [options] key-type base64-key [comment]`.
+//! A line of allowed signers (ssh-keygen(1), ALLOWED SIGNERS): `principals [options] key-type base64-key [comment]`.
 
 use super::error::KeyError;
 use super::lines::Line;
 use super::pattern::LONGEST_PATTERN;
-use super::public_key::{AnyKey, shortened};
+use super::public_key::{AnyKey, fingerprint, shortened};
 use super::sshsig::KeyPoint;
-use super::validity;
 use crate::text::problem::{MOST_COUNTED, Problem};
 use jiff::Timestamp;
+use jiff::civil::DateTime;
+use jiff::tz::TimeZone;
 use std::sync::OnceLock;
 
 /// Key with the principals, namespaces and validity period that it is trusted for.
 #[derive(Debug, Clone)]
-pub(super) struct SignerLine {
+pub(crate) struct SignerLine {
     /// Patterns of the principals that the key may sign as.
-    pub(super) principals: String,
+    pub(crate) principals: String,
     /// Patterns of the namespaces that the key may sign for; any namespace if `None`.
-    pub(super) namespaces: Option<String>,
+    pub(crate) namespaces: Option<String>,
     /// First instant of the validity period; unlimited if `None`.
-    pub(super) valid_after: Option<Timestamp>,
+    pub(crate) valid_after: Option<Timestamp>,
     /// Last instant of the validity period; unlimited if `None`.
-    pub(super) valid_before: Option<Timestamp>,
+    pub(crate) valid_before: Option<Timestamp>,
     /// Key as SSH transmits it.
     pub(super) key: Vec<u8>,
     /// Curve point of the key, decoded at the first request.
     pub(super) point: OnceLock<Option<KeyPoint>>,
 }
 
-/// Options of a line, and the names of those already read.
-#[derive(Default)]
-struct Options {
-    namespaces: Option<String>,
-    valid_after: Option<Timestamp>,
-    valid_before: Option<Timestamp>,
-    seen: Vec<String>,
+impl SignerLine {
+    /// Returns the fingerprint of the key as `ssh-keygen -l` prints it.
+    pub(crate) fn fingerprint(&self) -> String {
+        fingerprint(&self.key)
+    }
 }
 
 /// Reads a line and reports every error in it.
@@ -50,27 +49,21 @@ pub(super) fn read(line: &Line) -> Result<SignerLine, Vec<Problem>> {
     }
     let (principals, at) = principals(line, start).map_err(|problem| vec![problem])?;
     check_patterns(line, start, "principals", &principals, &mut problems);
-    let (options, at) = if AnyKey::is_type(word(line.text, at)) {
-        (Options::default(), at)
-    } else {
-        let end = options_end(line, at).map_err(|problem| vec![problem])?;
-        (options(line, at, end, &mut problems), blanks(line.text, end))
-    };
-    match key(line, at) {
-        Ok(key) if problems.is_empty() => Ok(SignerLine {
-            principals,
-            namespaces: options.namespaces,
-            valid_after: options.valid_after,
-            valid_before: options.valid_before,
-            key,
-            point: OnceLock::new(),
-        }),
-        Ok(_) => Err(problems),
-        Err(problem) => {
-            problems.push(problem);
-            Err(problems)
-        }
+    let (namespaces, valid_after, valid_before) = (None, None, None);
+    let (key, point) = (Vec::new(), OnceLock::new());
+    let mut signer = SignerLine { principals, namespaces, valid_after, valid_before, key, point };
+    let mut key_at = at;
+    if !AnyKey::is_type(word(line.text, at)) {
+        let unclosed = |quote| line.problem(at + quote, "", "a quote that is not closed", "a closing quote", "");
+        let end = at + length_before(&BLANKS, &line.text[at..]).map_err(|quote| vec![unclosed(quote)])?;
+        signer.read_options(line, at, end, &mut problems);
+        key_at = blanks(line.text, end);
     }
+    match read_key(line, key_at) {
+        Ok(key) => signer.key = key.into_blob(),
+        Err(problem) => problems.push(problem),
+    }
+    if problems.is_empty() { Ok(signer) } else { Err(problems) }
 }
 
 const BLANKS: [char; 2] = [' ', '\t'];
@@ -118,97 +111,72 @@ fn check_patterns(line: &Line, at: usize, field: &str, list: &str, problems: &mu
         problems.push(line.problem(at, field, "an empty list", "at least one pattern", "use * for any"));
     }
     if let Some(long) = list.split(',').find(|pattern| pattern.len() > LONGEST_PATTERN) {
-        let found = format!("a pattern of {} bytes", long.len());
-        let expected = format!("at most {LONGEST_PATTERN}");
-        problems.push(line.problem(
-            at,
-            field,
-            found,
-            expected,
-            "use shorter patterns, because OpenSSH does not match longer ones",
-        ));
+        let (found, expected) = (format!("a pattern of {} bytes", long.len()), format!("at most {LONGEST_PATTERN}"));
+        let advice = "use shorter patterns, because OpenSSH does not match longer ones";
+        problems.push(line.problem(at, field, found, expected, advice));
     }
 }
 
-/// Returns the end of the options that begin at `at`: the first whitespace outside quotes.
-fn options_end(line: &Line, at: usize) -> Result<usize, Problem> {
-    let mut quote = None;
-    let mut escaped = false;
-    for (index, c) in line.text[at..].char_indices() {
-        let before_quote = line.text[at + index + c.len_utf8()..].starts_with('"');
-        match c {
-            _ if escaped => escaped = false,
-            '\\' => escaped = before_quote,
-            '"' if quote.is_some() => quote = None,
-            '"' => quote = Some(at + index),
-            ' ' | '\t' if quote.is_none() => return Ok(at + index),
-            _ => {}
-        }
-    }
-    match quote {
-        Some(open) => Err(line.problem(open, "", "a quote that is not closed", "a closing quote", "")),
-        None => Ok(line.text.len()),
-    }
-}
-
-/// Reads the options between `start` and `end`.
-fn options(line: &Line, start: usize, end: usize, problems: &mut Vec<Problem>) -> Options {
-    let mut options = Options::default();
-    let mut at = start;
-    while at < end && problems.len() < MOST_COUNTED {
-        let length = option_length(&line.text[at..end]);
-        if let Err(problem) = options.read(line, at, &line.text[at..at + length], problems) {
-            problems.push(problem);
-        }
-        at += length;
-        if line.text[at..end].starts_with(',') {
-            at += 1;
-            if at == end {
-                problems.push(line.problem(at, "", "nothing after a comma", "another option", "delete the comma"));
-            }
-        }
-    }
-    if let (Some(after), Some(before)) = (options.valid_after, options.valid_before)
-        && before <= after
-    {
-        let expected = format!("a time after valid-after, {after}");
-        problems.push(line.problem(
-            start,
-            "valid-before",
-            before.to_string(),
-            expected,
-            "exchange or correct the two \
-            times",
-        ));
-    }
-    options
-}
-
-/// Returns the length of the first option in `text`, which ends at a comma outside quotes.
-fn option_length(text: &str) -> usize {
-    let (mut quoted, mut escaped) = (false, false);
+/// Returns the length of a text up to the first of these characters outside quotes, or the place of a quote that is not
+/// closed.
+fn length_before(ends: &[char], text: &str) -> Result<usize, usize> {
+    let (mut quote, mut escaped) = (None, false);
     for (index, c) in text.char_indices() {
         match c {
             _ if escaped => escaped = false,
             '\\' => escaped = text[index + 1..].starts_with('"'),
-            '"' => quoted = !quoted,
-            ',' if !quoted => return index,
+            '"' if quote.is_some() => quote = None,
+            '"' => quote = Some(index),
+            _ if quote.is_none() && ends.contains(&c) => return Ok(index),
             _ => {}
         }
     }
-    text.len()
+    quote.map_or(Ok(text.len()), Err)
 }
 
-impl Options {
-    /// Reads one option; as in OpenSSH, its name may be in upper or lower case.
-    fn read(&mut self, line: &Line, at: usize, option: &str, problems: &mut Vec<Problem>) -> Result<(), Problem> {
+impl SignerLine {
+    /// Reads the options between `start` and `end`.
+    fn read_options(&mut self, line: &Line, start: usize, end: usize, problems: &mut Vec<Problem>) {
+        let mut seen = Vec::new();
+        let mut at = start;
+        while at < end && problems.len() < MOST_COUNTED {
+            let length = length_before(&[','], &line.text[at..end]).unwrap_or(end - at);
+            if let Err(problem) = self.read_option(line, at, &line.text[at..at + length], &mut seen, problems) {
+                problems.push(problem);
+            }
+            at += length;
+            if line.text[at..end].starts_with(',') {
+                at += 1;
+                if at == end {
+                    problems.push(line.problem(at, "", "nothing after a comma", "another option", "delete the comma"));
+                }
+            }
+        }
+        if let (Some(after), Some(before)) = (self.valid_after, self.valid_before)
+            && before <= after
+        {
+            let (expected, advice) =
+                (format!("a time after valid-after, {after}"), "exchange or correct the two times");
+            problems.push(line.problem(start, "valid-before", before.to_string(), expected, advice));
+        }
+    }
+
+    /// Reads one option whose name is not among those already `seen`; as in OpenSSH, it may be in upper or lower case.
+    fn read_option(
+        &mut self,
+        line: &Line,
+        at: usize,
+        option: &str,
+        seen: &mut Vec<String>,
+        problems: &mut Vec<Problem>,
+    ) -> Result<(), Problem> {
         let (name, value) = option.split_once('=').map_or((option, None), |(name, value)| (name, Some(value)));
         let name = name.to_ascii_lowercase();
         let value_at = at + name.len() + 1;
-        if self.seen.contains(&name) {
+        if seen.contains(&name) {
             return Err(line.problem(at, &name, "a duplicate option", "each option once", "delete one"));
         }
-        self.seen.push(name.clone());
+        seen.push(name.clone());
         match (name.as_str(), value) {
             ("namespaces", Some(value)) => {
                 let list = unquoted(line, value_at, &name, value)?;
@@ -222,8 +190,8 @@ impl Options {
                 return Err(line.problem(at, &name, "no value", expected, "write its value in double quotes"));
             }
             ("cert-authority", None) => {
-                let advice = "list each signing key, because an authority could certify further keys that this list does not \
-                     show";
+                let advice = "list each signing key, because an authority could certify further keys that this list does \
+                              not show";
                 return Err(line.problem(at, "", "cert-authority", "a key that signs directly", advice));
             }
             _ => return Err(unknown(line, at, option)),
@@ -253,13 +221,35 @@ fn unquoted(line: &Line, at: usize, field: &str, value: &str) -> Result<String, 
 
 fn date(line: &Line, at: usize, field: &str, value: &str) -> Result<Timestamp, Problem> {
     let text = unquoted(line, at, field, value)?;
-    validity::instant(&text)
+    instant(&text)
         .map_err(|(expected, advice)| line.problem(at, field, format!("\"{}\"", shortened(&text)), expected, advice))
 }
 
-/// Reads the key of any type that begins at `at`.
-fn key(line: &Line, at: usize) -> Result<Vec<u8>, Problem> {
-    read_key(line, at).map(AnyKey::into_blob)
+/// Reads a date: `YYYYMMDD`, `YYYYMMDDHHMM` or `YYYYMMDDHHMMSS`, each followed by `Z` for UTC; or returns the expected
+/// form and advice.
+///
+/// A date without `Z` is refused, because OpenSSH takes it in the verifier's local time, so that the result would
+/// depend on the place. 30 February is refused too, because OpenSSH takes it for 2 March.
+fn instant(text: &str) -> Result<Timestamp, (&'static str, &'static str)> {
+    const EXPECTED: &str = "a date in UTC as YYYYMMDDZ, YYYYMMDDHHMMZ or YYYYMMDDHHMMSSZ";
+    let digits = text.strip_suffix(['Z', 'z']).unwrap_or(text);
+    if !matches!(digits.len(), 8 | 12 | 14) || !digits.bytes().all(|byte| byte.is_ascii_digit()) {
+        return Err((EXPECTED, "write it as \"20260131Z\""));
+    }
+    if digits.len() == text.len() {
+        return Err((
+            "a date in UTC, with a Z at the end",
+            "add the Z; without it each verifier would apply its own local time",
+        ));
+    }
+    let part = |from: usize, to: usize| digits.get(from..to).and_then(|part| part.parse().ok()).unwrap_or(0_i8);
+    let year = digits[..4].parse().unwrap_or(0);
+    DateTime::new(year, part(4, 6), part(6, 8), part(8, 10), part(10, 12), part(12, 14), 0)
+        .and_then(|date| date.to_zoned(TimeZone::UTC))
+        .map(|zoned| zoned.timestamp())
+        .ok()
+        .filter(|instant| instant.as_second() > 0)
+        .ok_or(("a calendar date after 1 January 1970", "use a date and a time that exist"))
 }
 
 /// Reads the key that begins at `at`, in a line of any trust file.
@@ -283,4 +273,53 @@ pub(super) fn read_key(line: &Line, at: usize) -> Result<AnyKey, Problem> {
         }
         other => line.problem(at, "key", other.to_string(), EXPECTED, ""),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn seconds(text: &str) -> Option<i64> {
+        instant(text).ok().map(Timestamp::as_second)
+    }
+
+    #[test]
+    fn dates_in_utc_are_read() {
+        assert_eq!(seconds("20260101Z"), Some(1_767_225_600));
+        assert_eq!(seconds("202601010130Z"), Some(1_767_225_600 + 5400));
+        assert_eq!(seconds("20260101013007z"), Some(1_767_225_600 + 5407));
+        assert_eq!(seconds("20240229Z"), Some(1_709_164_800));
+    }
+
+    #[test]
+    fn local_time_is_refused_with_the_reason() {
+        let (_, advice) = instant("20260101").unwrap_err();
+        assert!(advice.contains("each verifier"), "{advice}");
+    }
+
+    #[test]
+    fn what_is_no_date_is_refused() {
+        for text in [
+            "",
+            "Z",
+            "2026Z",
+            "2026010Z",
+            "20260230Z",
+            "20261301Z",
+            "202601012460Z",
+            "20260101235960Z",
+            "19700101Z",
+            "19690101Z",
+            "00000000Z",
+            "2026-01-01Z",
+            "0x69550000",
+            "+2026010Z",
+            "20260101UTC",
+            "20260101 Z",
+            "20260101ZZ",
+            "２0260101Z",
+        ] {
+            assert_eq!(seconds(text), None, "{text}");
+        }
+    }
 }

@@ -105,7 +105,7 @@ impl SigningKey {
 
     /// Returns the curve point of the public key.
     pub(crate) fn point(&self) -> KeyPoint {
-        KeyPoint::of_ed25519(self.key.verifying_key())
+        KeyPoint(self.key.verifying_key())
     }
 
     /// Signs `message` for `namespace`. The signature is deterministic, and equal to that of `ssh-keygen -Y sign`.
@@ -121,10 +121,10 @@ impl SigningKey {
     /// # Errors
     /// Returns [`KeyError::Namespace`] if the namespace is empty.
     pub(crate) fn sign_message(&self, message: &Message) -> Result<Signature, KeyError> {
-        let bytes = self.key.sign(message.signed().ok_or(KeyError::Namespace)?).to_bytes();
+        let bytes = self.key.sign(message.signed.as_deref().ok_or(KeyError::Namespace)?).to_bytes();
         let key: KeyData = ssh_key::public::Ed25519PublicKey(self.key.verifying_key().to_bytes()).into();
         let block = ssh_key::Signature::new(Algorithm::Ed25519, bytes)
-            .and_then(|signature| SshSig::new(key, message.namespace(), HashAlg::Sha512, signature))
+            .and_then(|signature| SshSig::new(key, message.namespace, HashAlg::Sha512, signature))
             .map_err(damaged)?;
         Signature::of(block).map_err(|error: SignatureError| KeyError::DamagedPrivateKey(error.to_string()))
     }
@@ -168,37 +168,32 @@ impl PublicKey {
     }
 }
 
+/// Beginnings of other files, with what they are and advice.
+const OTHER_FILES: [(&str, &str, &str); 7] = [
+    ("-----BEGIN PRIVATE KEY", "a private key in PKCS#8 (PEM)", NEW_KEY),
+    ("-----BEGIN ENCRYPTED PRIVATE KEY", "a private key in PKCS#8 (PEM)", NEW_KEY),
+    ("-----BEGIN RSA", "an RSA key in PEM", NEW_KEY),
+    ("-----BEGIN EC", "an ECDSA key in PEM", NEW_KEY),
+    ("PuTTY-User-Key-File", "a private key of PuTTY", "export it with puttygen as an OpenSSH key"),
+    ("-----BEGIN CERTIFICATE", "a certificate", NEW_KEY),
+    ("---- BEGIN SSH2", "a public key", PRIVATE_HALF),
+];
+const NEW_KEY: &str = "create a key with `keygen`";
+const PRIVATE_HALF: &str = "give the private key, the file without .pub";
+
 /// Refuses a file that is not an OpenSSH private key, and reports its actual format.
 fn check_kind(pem: &str) -> Result<(), KeyError> {
-    const NEW_KEY: &str = "create a key with `keygen`";
-    let (found, advice) = match pem {
-        ours if ours.starts_with(FIRST_LINE) => {
-            return if pem.len() <= LONGEST_FILE && pem.ends_with(LAST_LINE) {
-                Ok(())
-            } else {
-                Err(KeyError::DamagedPrivateKey(format!("it does not end with `{LAST_LINE}`")))
-            };
-        }
-        "" => ("an empty file", "give the file that `keygen` wrote"),
-        pkcs8
-            if pkcs8.starts_with("-----BEGIN PRIVATE KEY") || pkcs8.starts_with("-----BEGIN ENCRYPTED PRIVATE KEY") =>
-        {
-            ("a private key in PKCS#8 (PEM)", NEW_KEY)
-        }
-        rsa if rsa.starts_with("-----BEGIN RSA") => ("an RSA key in PEM", NEW_KEY),
-        ec if ec.starts_with("-----BEGIN EC") => ("an ECDSA key in PEM", NEW_KEY),
-        putty if putty.starts_with("PuTTY-User-Key-File") => {
-            ("a private key of PuTTY", "export it with puttygen as an OpenSSH key")
-        }
-        certificate if certificate.starts_with("-----BEGIN CERTIFICATE") => ("a certificate", NEW_KEY),
-        public
-            if public.starts_with("---- BEGIN SSH2")
-                || public.split_ascii_whitespace().next().is_some_and(AnyKey::is_type) =>
-        {
-            ("a public key", "give the private key, the file without .pub")
-        }
-        other => {
-            let found = Kind::of(other.as_bytes()).map_or("something else", Kind::words);
+    if pem.starts_with(FIRST_LINE) {
+        let whole = pem.len() <= LONGEST_FILE && pem.ends_with(LAST_LINE);
+        let cut = || KeyError::DamagedPrivateKey(format!("it does not end with `{LAST_LINE}`"));
+        return whole.then_some(()).ok_or_else(cut);
+    }
+    let (found, advice) = match OTHER_FILES.iter().find(|(start, ..)| pem.starts_with(start)) {
+        Some((_, found, advice)) => (*found, *advice),
+        None if pem.is_empty() => ("an empty file", "give the file that `keygen` wrote"),
+        None if pem.split_ascii_whitespace().next().is_some_and(AnyKey::is_type) => ("a public key", PRIVATE_HALF),
+        None => {
+            let found = Kind::of(pem.as_bytes()).map_or("something else", Kind::words);
             (found, "give the file that `keygen` or `ssh-keygen -t ed25519` wrote")
         }
     };
@@ -244,6 +239,7 @@ fn header(bytes: &[u8]) -> Result<(String, String), Truncated> {
 #[cfg(all(test, feature = "factory"))]
 mod tests {
     use super::*;
+    use crate::trust::wire::string;
 
     fn refused(pem: &str) -> KeyError {
         SigningKey::from_openssh(pem, None).unwrap_err()
@@ -300,10 +296,6 @@ mod tests {
             let refused = refused(text).to_string();
             assert!(refused.contains(words), "{text}: {refused}");
         }
-    }
-
-    fn string(bytes: &[u8]) -> Vec<u8> {
-        [&(bytes.len() as u32).to_be_bytes()[..], bytes].concat()
     }
 
     fn armored(bytes: &[u8]) -> String {

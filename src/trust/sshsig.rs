@@ -23,31 +23,16 @@ const LAST_LINE: &str = "-----END SSH SIGNATURE-----";
 /// Bytes with the namespace that they are signed for, hashed once for signing and verification.
 #[derive(Debug, Clone)]
 pub struct Message<'a> {
-    namespace: &'a str,
-    bytes: &'a [u8],
+    pub(crate) namespace: &'a str,
+    pub(crate) bytes: &'a [u8],
     /// Data that the key signs; `None` without a namespace, for which nothing is signed.
-    signed: Option<Vec<u8>>,
+    pub(super) signed: Option<Vec<u8>>,
 }
 
 impl<'a> Message<'a> {
     /// Creates the message `bytes` for the namespace `namespace`.
     pub fn new(namespace: &'a str, bytes: &'a [u8]) -> Self {
         Self { namespace, bytes, signed: SshSig::signed_data(namespace, HashAlg::Sha512, bytes).ok() }
-    }
-
-    /// Returns the namespace.
-    pub(crate) fn namespace(&self) -> &'a str {
-        self.namespace
-    }
-
-    /// Returns the bytes of the message.
-    pub(crate) fn bytes(&self) -> &'a [u8] {
-        self.bytes
-    }
-
-    /// Returns the data that the key signs, or `None` without a namespace.
-    pub(super) fn signed(&self) -> Option<&[u8]> {
-        self.signed.as_deref()
     }
 }
 
@@ -144,7 +129,7 @@ impl Signature {
             let found = self.namespace().to_owned();
             return Err(SignatureError::WrongNamespace { found, expected: message.namespace.to_owned() });
         }
-        let signed = message.signed().ok_or(SignatureError::DoesNotHold)?;
+        let signed = message.signed.as_deref().ok_or(SignatureError::DoesNotHold)?;
         let own;
         let point = match point.filter(|point| point.is_of(&self.key)) {
             Some(point) => point,
@@ -154,7 +139,7 @@ impl Signature {
             }
         };
         let bytes = self.inner.signature_bytes();
-        match self.key.data() {
+        match &self.key.data {
             KeyData::SkEd25519(key) => {
                 let (signature, flags_and_counter) =
                     bytes.split_at_checked(ed25519_dalek::SIGNATURE_LENGTH).ok_or(SignatureError::DoesNotHold)?;
@@ -198,14 +183,13 @@ fn why_refused(armor: &str) -> SignatureError {
 
 /// Returns the block as OpenSSH would wrap it, which distinguishes a rewrapped block from a damaged one.
 fn rewrapped(armor: &str) -> String {
-    let base64: Vec<u8> = armor
-        .trim()
-        .trim_start_matches(FIRST_LINE)
-        .trim_end_matches(LAST_LINE)
-        .split_ascii_whitespace()
-        .flat_map(str::bytes)
-        .collect();
-    let lines: Vec<_> = base64.chunks(LINE_LENGTH).map(String::from_utf8_lossy).collect();
+    let body = armor.trim().trim_start_matches(FIRST_LINE).trim_end_matches(LAST_LINE);
+    wrapped(&body.split_ascii_whitespace().collect::<String>(), LINE_LENGTH)
+}
+
+/// Returns a block whose lines of base64 have this length.
+fn wrapped(base64: &str, length: usize) -> String {
+    let lines: Vec<_> = base64.as_bytes().chunks(length).map(String::from_utf8_lossy).collect();
     format!("{FIRST_LINE}\n{}\n{LAST_LINE}\n", lines.join("\n"))
 }
 
@@ -216,17 +200,12 @@ fn signed_by_token(application: &str, flags_and_counter: &[u8], message: &[u8]) 
 
 /// Curve point of a public key, decoded once for many signatures.
 #[derive(Debug, Clone)]
-pub struct KeyPoint(VerifyingKey);
+pub struct KeyPoint(pub(super) VerifyingKey);
 
 impl KeyPoint {
     /// Decodes the curve point of a key; returns `None` if its bytes are not a point.
     pub(super) fn of(key: &PublicKey) -> Option<Self> {
         VerifyingKey::from_bytes(point_bytes(key)?).ok().map(Self)
-    }
-
-    #[cfg(feature = "factory")]
-    pub(super) fn of_ed25519(key: VerifyingKey) -> Self {
-        Self(key)
     }
 
     fn is_of(&self, key: &PublicKey) -> bool {
@@ -240,7 +219,7 @@ impl KeyPoint {
 }
 
 fn point_bytes(key: &PublicKey) -> Option<&[u8; 32]> {
-    match key.data() {
+    match &key.data {
         KeyData::Ed25519(key) => Some(&key.0),
         KeyData::SkEd25519(key) => Some(&key.public_key().0),
         _ => None,
@@ -265,9 +244,7 @@ mod tests {
     const MESSAGE: &[u8] = b"format: \"dtg-passport/1\"\n";
 
     fn armored(blob: &[u8], width: usize) -> String {
-        let base64 = Base64::encode_string(blob);
-        let lines: Vec<_> = base64.as_bytes().chunks(width).map(String::from_utf8_lossy).collect();
-        format!("{FIRST_LINE}\n{}\n{LAST_LINE}\n", lines.join("\n"))
+        wrapped(&Base64::encode_string(blob), width)
     }
 
     fn blob(armor: &str) -> Vec<u8> {

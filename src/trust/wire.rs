@@ -5,37 +5,30 @@
 #[error("an item of {needed} bytes at byte {offset}, where only {left} bytes are left")]
 pub(super) struct Truncated {
     /// Offset of the item that does not fit, in bytes from the start of the file.
-    pub(super) offset: usize,
+    offset: usize,
     needed: usize,
     left: usize,
+}
+
+impl From<Truncated> for String {
+    fn from(truncated: Truncated) -> Self {
+        truncated.to_string()
+    }
 }
 
 /// Reader of binary data that knows its offset from the start of the file.
 #[derive(Debug, Clone)]
 pub(super) struct Wire<'a> {
-    rest: &'a [u8],
-    offset: usize,
+    /// Remaining bytes.
+    pub(super) rest: &'a [u8],
+    /// Offset from the start of the file, in bytes.
+    pub(super) offset: usize,
 }
 
 impl<'a> Wire<'a> {
     /// Creates a reader at the beginning of `bytes`.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         Self { rest: bytes, offset: 0 }
-    }
-
-    /// Returns the offset from the start of the file, in bytes.
-    pub(super) fn offset(&self) -> usize {
-        self.offset
-    }
-
-    /// Returns the remaining bytes.
-    pub(super) fn rest(&self) -> &'a [u8] {
-        self.rest
-    }
-
-    /// Returns `true` if no bytes remain.
-    pub(super) fn is_empty(&self) -> bool {
-        self.rest.is_empty()
     }
 
     /// Reads the next `length` bytes.
@@ -81,6 +74,12 @@ impl<'a> Wire<'a> {
     }
 }
 
+/// Writes a string: its length in four bytes, then its bytes.
+#[cfg(feature = "factory")]
+pub(super) fn string(bytes: &[u8]) -> Vec<u8> {
+    [&(bytes.len() as u32).to_be_bytes()[..], bytes].concat()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -90,7 +89,7 @@ mod tests {
         let mut wire = Wire::new(b"\x00\x00\x00\x06\x00\x00\x00\x02abz");
         let mut nested = wire.nested().unwrap();
         assert_eq!(nested.string(), Ok(&b"ab"[..]));
-        assert_eq!((nested.offset(), nested.is_empty()), (10, true));
+        assert_eq!((nested.offset, nested.rest.is_empty()), (10, true));
         assert_eq!(wire.byte(), Ok(b'z'));
         assert_eq!(wire.byte(), Err(Truncated { offset: 11, needed: 1, left: 0 }));
     }

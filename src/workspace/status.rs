@@ -174,15 +174,15 @@ fn passports(register: Register) -> Passports {
 }
 
 fn keys(trust: &Trust, time: Timestamp) -> Vec<KeyLine> {
-    let line = |key: crate::trust::TrustedKey| KeyLine {
+    let lines = trust.signers.lines().iter().map(|key| KeyLine {
         valid: key.valid_after.is_none_or(|from| from <= time) && key.valid_before.is_none_or(|until| time <= until),
-        principals: key.principals,
-        namespaces: key.namespaces,
-        fingerprint: key.fingerprint,
+        principals: key.principals.clone(),
+        namespaces: key.namespaces.clone(),
+        fingerprint: key.fingerprint(),
         valid_after: key.valid_after,
         valid_before: key.valid_before,
-    };
-    trust.signers.keys().map(line).collect()
+    });
+    lines.collect()
 }
 
 /// Returns the public half of the signing key. It is in both files of a key, and never encrypted.

@@ -11,33 +11,21 @@ pub(crate) use scanner::Scanner;
 pub(crate) use writer::write_bare;
 pub(crate) use writer::{write, write_some};
 
-use super::excerpt::Location;
-use super::{Field, rule};
-
-/// First place at which a text is not in canonical form.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct NotCanonical {
-    /// Location of that place.
-    pub location: Location,
-    /// Description of the text found there, up to the end of its line.
-    pub found: String,
-    /// Description of the text expected there.
-    pub expected: String,
-}
+use super::{Field, Location, Problem, rule};
 
 /// Reads a text in canonical form, ignoring comments and empty lines.
 ///
 /// The reader never goes back in the text, and its recursion is only as deep as the type.
 ///
 /// # Errors
-/// Returns the first place that is not in canonical form.
-pub(crate) fn read<T: Field>(text: &str) -> Result<T, NotCanonical> {
+/// Returns the first place that is not in canonical form, and what was found there, up to the end of its line.
+pub(crate) fn read<T: Field>(text: &str) -> Result<T, Problem> {
     let document = scanner::scan::<T>(text)?;
     if writer::is_written(&document, text) {
         return Ok(document);
     }
     let (line, found, expected) = rule::differs(text, &writer::write_bare(&document)).unwrap_or_default();
-    Err(NotCanonical { location: Location { line, column: 1 }, found, expected })
+    Err(Problem::new(Some(Location { line, column: 1 }), "", found, expected, rule::NOT_CANONICAL))
 }
 
 /// Returns the text after any empty lines and comments.

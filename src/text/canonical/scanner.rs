@@ -1,14 +1,14 @@
 //! Scanner of the canonical form, which accepts no other form.
 
-use super::{NotCanonical, after_comments};
+use super::after_comments;
 use crate::text::node::{MOST_BRACKETS, Node, location_of};
-use crate::text::{Field, LARGEST_DOCUMENT_BYTES, rule};
+use crate::text::{Field, LARGEST_DOCUMENT_BYTES, Problem, rule};
 
 /// Reads a text. It may accept a number in another form, so check the result with [`super::is_written()`].
 ///
 /// # Errors
 /// Returns the place at which the scanner stopped.
-pub(super) fn scan<T: Field>(text: &str) -> Result<T, NotCanonical> {
+pub(super) fn scan<T: Field>(text: &str) -> Result<T, Problem> {
     // Count the brackets only if the text is long enough to contain too many.
     let brackets = |text: &str| text.bytes().filter(|byte| b"[{".contains(byte)).count();
     let too_large =
@@ -16,10 +16,10 @@ pub(super) fn scan<T: Field>(text: &str) -> Result<T, NotCanonical> {
     let mut scanner = Scanner { rest: text, depth: 0, inline: false, first: true };
     let document = if too_large { None } else { T::scan(&mut scanner) };
     let rest = scanner.after_comments();
-    document.filter(|_| rest.is_empty()).ok_or_else(|| NotCanonical {
-        location: location_of(&text.as_bytes()[..text.len() - rest.len()]),
-        found: rest.lines().next().map_or_else(|| "the end of the file".to_owned(), rule::shortened),
-        expected: "the next key of this format".to_owned(),
+    document.filter(|_| rest.is_empty()).ok_or_else(|| {
+        let at = location_of(&text.as_bytes()[..text.len() - rest.len()]);
+        let found = rest.lines().next().map_or_else(|| "the end of the file".to_owned(), rule::shortened);
+        Problem::new(Some(at), "", found, "the next key of this format", rule::NOT_CANONICAL)
     })
 }
 

@@ -1,7 +1,7 @@
 //! Writer of the canonical form, whose output is either a text or compared with one.
 
 use super::after_comments;
-use crate::text::sink::Sink;
+use crate::text::node::Sink;
 use crate::text::{Field, number, rule};
 
 /// Source of the comment lines above a key, given as a path such as `earth.gravity_m_per_s2`; without the `# `.
@@ -40,19 +40,11 @@ trait Output {
 
     /// Announces that the next part begins a line.
     fn begin_line(&mut self) {}
-
-    /// Replaces a number that is not finite, which no text may contain.
-    fn push_not_finite(&mut self);
 }
 
 impl Output for String {
     fn push(&mut self, part: &str) {
         self.push_str(part);
-    }
-
-    fn push_not_finite(&mut self) {
-        debug_assert!(false, "only finite numbers are written");
-        self.push_str(" null");
     }
 }
 
@@ -67,10 +59,6 @@ impl Output for Compared<'_> {
 
     fn begin_line(&mut self) {
         self.0 = self.0.map(after_comments);
-    }
-
-    fn push_not_finite(&mut self) {
-        self.0 = None;
     }
 }
 
@@ -141,7 +129,9 @@ impl<O: Output> Sink for Writer<'_, O> {
 
     fn number(&mut self, value: f64) {
         if !value.is_finite() {
-            return self.text.push_not_finite();
+            // No text may contain it: the readers refuse it, and so does the reader that checks what was written.
+            debug_assert!(false, "only finite numbers are written");
+            return self.text.push(" null");
         }
         self.on_the_line(|writer| number::write(value, |part| writer.text.push(part)));
     }

@@ -6,8 +6,8 @@
 use crate::inside::programs;
 use dtg_passport::text::Node;
 use dtg_passport::text::canonical;
+use dtg_passport::text::node::Sink;
 use dtg_passport::text::rule::{self, allowed_in_string};
-use dtg_passport::text::sink::Sink;
 use dtg_passport::text::yaml;
 use dtg_passport::text::{Field, Path as At, Problems};
 use std::collections::HashSet;
