@@ -52,7 +52,7 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
         let name = format!("{} others", rest.len());
         rows.push(vec![name, String::new(), String::new(), format!("{:.digits$}", sum.sqrt()), "< 0.1".to_owned()]);
     }
-    columns::table(out, &["input", "u of input", "inputs", "contribution", "share, %"], &rows);
+    columns::table(out, &["input", "u of input", "inputs", "contribution", "share, %"], rows);
 }
 
 fn row(part: &Contribution, digits: usize) -> Vec<String> {

@@ -134,26 +134,22 @@ pub(crate) fn certification(found: &Certification) -> String {
         columns::paragraph(&mut out, "", &format!("Excluded: {}: {}.", excluded.describe(), excluded.why));
     }
     let names = ["i", "j", "α, arcsec", "u", "β, arcsec", "u", "γ, arcsec", "u", "deg. of freedom"];
-    let rows: Vec<Vec<String>> = stand
-        .positions
-        .iter()
-        .map(|at| {
-            let mut row = vec![at.i.to_string(), at.j.to_string()];
-            for (value, u) in [
-                (at.alpha_arcsec, at.u_alpha_arcsec),
-                (at.beta_arcsec, at.u_beta_arcsec),
-                (at.gamma_arcsec, at.u_gamma_arcsec),
-            ] {
-                let u = u.unwrap_or(0.0);
-                let digits = columns::decimals(u);
-                row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
-            }
-            row.push(format!("{:.1}", at.degrees_of_freedom.unwrap_or(f64::INFINITY)));
-            row
-        })
-        .collect();
+    let rows = stand.positions.iter().map(|at| {
+        let mut row = vec![at.i.to_string(), at.j.to_string()];
+        for (value, u) in [
+            (at.alpha_arcsec, at.u_alpha_arcsec),
+            (at.beta_arcsec, at.u_beta_arcsec),
+            (at.gamma_arcsec, at.u_gamma_arcsec),
+        ] {
+            let u = u.unwrap_or(0.0);
+            let digits = columns::decimals(u);
+            row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
+        }
+        row.push(format!("{:.1}", at.degrees_of_freedom.unwrap_or(f64::INFINITY)));
+        row
+    });
     let _ = writeln!(out);
-    columns::table(&mut out, &names, &rows);
+    columns::table(&mut out, &names, rows);
     components(&mut out, found);
     tests(&mut out, found);
     for warning in &found.remarks {
@@ -184,15 +180,11 @@ fn components(out: &mut String, found: &Certification) {
         );
         columns::paragraph(out, "", &words);
     }
-    let rows: Vec<Vec<String>> = components
-        .run_turns
-        .iter()
-        .map(|turn| {
-            let numbers = turn.platform_arcsec.iter().chain(&turn.base_arcsec).map(|value| format!("{value:+.2}"));
-            std::iter::once(turn.run.to_string()).chain(numbers).collect()
-        })
-        .collect();
-    columns::table(out, &["run", "platform x", "y", "z", "base east", "north", "up"], &rows);
+    let rows = components.run_turns.iter().map(|turn| {
+        let numbers = turn.platform_arcsec.iter().chain(&turn.base_arcsec).map(|value| format!("{value:+.2}"));
+        std::iter::once(turn.run.to_string()).chain(numbers).collect()
+    });
+    columns::table(out, &["run", "platform x", "y", "z", "base east", "north", "up"], rows);
 }
 
 fn tests(out: &mut String, found: &Certification) {
@@ -246,22 +238,18 @@ pub(crate) fn comparison(found: &Comparison) -> String {
         )
     };
     let _ = writeln!(out, "\nPositions relative to each other (p: probability): {}", line(&found.all));
-    let rows: Vec<Vec<String>> = found
-        .positions
-        .iter()
-        .map(|at| {
-            let mut row = vec![at.index.i.to_string(), at.index.j.to_string()];
-            for (turn, u) in at.turn_arcsec.iter().zip(&at.u_arcsec) {
-                row.extend([format!("{turn:+.2}"), format!("{u:.2}")]);
-            }
-            row.push(format!("{:.2}", at.test.chi_square));
-            row.push(columns::probability(at.test.probability));
-            row.push(if at.repeats { "unchanged" } else { "CHANGED" }.to_owned());
-            row
-        })
-        .collect();
+    let rows = found.positions.iter().map(|at| {
+        let mut row = vec![at.index.i.to_string(), at.index.j.to_string()];
+        for (turn, u) in at.turn_arcsec.iter().zip(&at.u_arcsec) {
+            row.extend([format!("{turn:+.2}"), format!("{u:.2}")]);
+        }
+        row.push(format!("{:.2}", at.test.chi_square));
+        row.push(columns::probability(at.test.probability));
+        row.push(if at.repeats { "unchanged" } else { "CHANGED" }.to_owned());
+        row
+    });
     let names = ["i", "j", "x, arcsec", "u", "y, arcsec", "u", "z, arcsec", "u", "chi-square", "p", ""];
-    columns::table(&mut out, &names, &rows);
+    columns::table(&mut out, &names, rows);
     let turned = |turn: &[f64; 3]| turn.map(|value| format!("{value:+.2}")).join(", ");
     let judged = found.common.test.as_ref().map_or_else(|| "not tested".to_owned(), line);
     let words = format!(

@@ -251,7 +251,7 @@ fn drift(out: &mut String, drift: &Drift) {
     if !rows.is_empty() {
         let _ = writeln!(out, "\n{}", style::heading("Drift of the deviations (u: standard uncertainty, k = 1)"));
         let names = ["i", "j", "angle", "values", "change, arcsec", "arcsec/year", "u", "probability", "corrected", ""];
-        columns::table(out, &names, &rows);
+        columns::table(out, &names, rows);
     }
     let sentence = sentence(drift, LETTERS);
     let mut letters = sentence.chars();

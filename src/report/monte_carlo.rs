@@ -16,8 +16,8 @@ pub(crate) fn text(found: &MonteCarlo) -> String {
         found.seed,
         100.0 * COVERAGE
     );
-    let rows: Vec<Vec<String>> = found.parameters.iter().map(row).collect();
-    columns::table(&mut out, &["", "mean", "u", "symmetric", "shortest", "difference", "allowed", "linear"], &rows);
+    let names = ["", "mean", "u", "symmetric", "shortest", "difference", "allowed", "linear"];
+    columns::table(&mut out, &names, found.parameters.iter().map(row));
     let words = "difference: of the ends of the interval by linear approximation from those of the symmetric one (the \
                  larger of the two); allowed: half a unit of the second digit of u (JCGM 101, clause 8); linear: \
                  whether the linear approximation is valid.";
