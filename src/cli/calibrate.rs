@@ -267,7 +267,7 @@ impl Bench<'_> {
     fn one(&self, path: &Path) -> Result<Code, Failure> {
         let (options, content) = (self.options, &self.passport.content);
         // Nothing is written if one of the files cannot be.
-        let files = || options.report.iter().chain(&options.dcc).chain(options.uncertainty.picture());
+        let files = || options.report.iter().chain(&options.dcc).chain(&options.uncertainty.budget_svg);
         files::check_distinct(files()).map_err(Failure::file)?;
         files::check_replaceable(files(), options.uncertainty.force).map_err(Failure::file)?;
         let found = self.calibrate(path)?;
@@ -394,8 +394,8 @@ impl Bench<'_> {
             missing: &done.missing,
             document: &done.document,
             previous: &self.previous,
-            budget: found.uncertainty.budget(),
-            monte_carlo: found.uncertainty.monte_carlo(),
+            budget: found.uncertainty.budget.as_ref().map(|(budget, _)| budget),
+            monte_carlo: found.uncertainty.monte_carlo.as_ref(),
         };
         Ok(page.html(&languages(&self.options.lang)))
     }
@@ -427,7 +427,7 @@ impl Options {
             ("--exclude", !self.exclude.is_empty()),
             ("--report", self.report.is_some()),
             ("--dcc", self.dcc.is_some()),
-            ("--budget-svg", self.uncertainty.picture().is_some()),
+            ("--budget-svg", self.uncertainty.budget_svg.is_some()),
         ];
         let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
         let advice = match option {

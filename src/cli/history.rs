@@ -64,9 +64,6 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if let Some(path) = &options.output {
         output::saved(path, &picture::history(&history, question.time), options.force)?;
     }
-    match options.format {
-        Format::Json => output::json(&report::to_json(&history))?,
-        Format::Text => output::text(&report::text(&history))?,
-    }
+    options.format.write(|| report::to_json(&history), || report::text(&history))?;
     Ok(if register.is_incomplete() { UNUSABLE } else { 0 })
 }

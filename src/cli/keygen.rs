@@ -8,7 +8,7 @@ use crate::signing::{self, allowed_signers_line, forbid_core_dumps};
 use crate::text::{name_of, shown};
 use crate::trust::SigningKey;
 use clap::Args;
-use serde::Serialize;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 use zeroize::Zeroizing;
 
@@ -32,18 +32,6 @@ pub(super) struct Options {
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
-}
-
-/// The new key, for programs.
-#[derive(Serialize)]
-struct Created {
-    key: String,
-    public_key: String,
-    fingerprint: String,
-    /// The line for allowed_signers.
-    line: String,
-    /// The file to which the line was appended; null if it was not.
-    appended_to: Option<String>,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -91,13 +79,13 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         Format::Text => {}
         // A failure is then reported instead; its message comes after that with the line.
         Format::Json if failed.is_some() => output::say(&line),
-        Format::Json => output::json(&Created {
-            key: name_of(&options.key),
-            public_key: name_of(&public_path),
-            fingerprint: key.public_key().fingerprint(),
-            line,
-            appended_to: appended_to.map(name_of),
-        })?,
+        Format::Json => output::json(&json!({
+            "key": name_of(&options.key),
+            "public_key": name_of(&public_path),
+            "fingerprint": key.public_key().fingerprint(),
+            "line": line,
+            "appended_to": appended_to.map(name_of),
+        }))?,
     }
     failed.map_or(Ok(0), |failed| Err(Failure::unusable(failed)))
 }

@@ -3,24 +3,28 @@
 use super::{Code, Failure, output};
 use crate::schema;
 use clap::{Args, ValueEnum};
+use schemars::Schema;
+use std::collections::BTreeMap;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Kind {
-    Stand,
-    Site,
-    Gyro,
-    Laboratory,
-    Dcc,
-    Passport,
-    Revocation,
-}
+/// Name of a format, and its schema.
+type Format = (&'static str, fn() -> Schema);
+
+const FORMATS: [Format; 7] = [
+    ("stand", schema::stand),
+    ("site", schema::site),
+    ("gyro", schema::gyro),
+    ("laboratory", schema::laboratory),
+    ("dcc", schema::dcc),
+    ("passport", schema::passport),
+    ("revocation", schema::revocation),
+];
 
 /// Print the JSON Schema of a format (for several, an object with one for each name), or tables of its keys
 #[derive(Args)]
 pub(super) struct Options {
     /// Formats
-    #[arg(required = true, value_enum, value_delimiter = ',', value_name = "FORMAT")]
-    formats: Vec<Kind>,
+    #[arg(required = true, value_parser = FORMATS.map(|(name, _)| name), value_delimiter = ',', value_name = "FORMAT")]
+    formats: Vec<String>,
     /// Form of the description: JSON Schema for editors, or tables for reading
     #[arg(long, value_enum, default_value = "json")]
     format: Form,
@@ -35,25 +39,12 @@ enum Form {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let of = |kind: &Kind| match kind {
-        Kind::Stand => ("stand", schema::stand()),
-        Kind::Site => ("site", schema::site()),
-        Kind::Gyro => ("gyro", schema::gyro()),
-        Kind::Laboratory => ("laboratory", schema::laboratory()),
-        Kind::Dcc => ("dcc", schema::dcc()),
-        Kind::Passport => ("passport", schema::passport()),
-        Kind::Revocation => ("revocation", schema::revocation()),
-    };
-    if options.format == Form::Markdown {
-        let schemas: Vec<_> = options.formats.iter().map(|kind| of(kind).1).collect();
-        return output::result(&schema::tables(&schemas)).map(|()| 0);
-    }
-    match options.formats.as_slice() {
-        [one] => output::json(&of(one).1)?,
-        several => {
-            let all: std::collections::BTreeMap<_, _> = several.iter().map(of).collect();
-            output::json(&all)?;
-        }
+    let of = |name: &String| FORMATS.iter().find(|(known, _)| known == name).map(|(_, schema)| schema());
+    let schemas: Vec<Schema> = options.formats.iter().filter_map(of).collect();
+    match (options.format, schemas.as_slice()) {
+        (Form::Markdown, schemas) => output::result(&schema::tables(schemas))?,
+        (Form::Json, [one]) => output::json(one)?,
+        (Form::Json, several) => output::json(&options.formats.iter().zip(several).collect::<BTreeMap<_, _>>())?,
     }
     Ok(0)
 }

@@ -2,7 +2,7 @@
 
 use super::output::Format;
 use super::trust_options::{self, time};
-use super::{Code, Failure, REFUSED, UNUSABLE, defaults, output};
+use super::{Code, Failure, REFUSED, UNUSABLE, defaults};
 use crate::parallel;
 use crate::workspace::status;
 use clap::Args;
@@ -36,10 +36,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let time = options.time.unwrap_or_else(trust_options::now);
     let trust = options.trust.as_deref().map(|path| trust_options::load(path, &options.revoked, time)).transpose()?;
     let status = status(workspace, trust.as_ref(), time, parallel::processors()).map_err(Failure::file)?;
-    match options.format {
-        Format::Json => output::json(&status)?,
-        Format::Text => output::text(&status.text())?,
-    }
+    options.format.write(|| &status, || status.text())?;
     Ok(match (status.is_incomplete(), status.needs_attention()) {
         (true, _) => UNUSABLE,
         (_, true) => REFUSED,

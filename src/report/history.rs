@@ -151,7 +151,6 @@ pub(crate) fn text(history: &History) -> String {
     }
     let _ = writeln!(out, "\n{}", style::heading("Places"));
     for stay in &history.places {
-        let day = |time: jiff::Timestamp| time.to_string().chars().take(10).collect::<String>();
         let from = day(stay.from);
         let time = stay.until.map_or_else(|| format!("since {from}"), |until| format!("{from} to {}", day(until)));
         columns::named(&mut out, &time, 25, &stay.site);
@@ -163,10 +162,14 @@ pub(crate) fn text(history: &History) -> String {
     out
 }
 
+/// Returns the date of an instant, in UTC.
+fn day(time: jiff::Timestamp) -> String {
+    time.to_string().chars().take(10).collect()
+}
+
 /// Returns the events in the order of time: date, kind, words.
 fn time_line(history: &History) -> Vec<(String, &'static str, String)> {
     let mut events = Vec::new();
-    let day = |time: &jiff::Timestamp| time.to_string().chars().take(10).collect::<String>();
     for at in &history.certificates {
         let certificate = &at.stand.certificate;
         let runs =
@@ -179,34 +182,33 @@ fn time_line(history: &History) -> Vec<(String, &'static str, String)> {
         events.push((measured(&at.stand).to_string(), "measured", words));
     }
     for passport in &history.passports {
-        let id = passport.line.id.as_deref().unwrap_or("(id not verified)");
-        let Some(issued) = &passport.issued_at else { continue };
-        events.push((day(issued), "issued", issued_words(passport, id)));
+        let Some(issued) = passport.issued_at else { continue };
+        events.push((day(issued), "issued", issued_words(passport)));
     }
     for withdrawn in &history.withdrawals {
-        events.push((day(&withdrawn.revoked_at), "withdrawn", format!("{}: {}", withdrawn.id, withdrawn.reason)));
+        events.push((day(withdrawn.revoked_at), "withdrawn", format!("{}: {}", withdrawn.id, withdrawn.reason)));
     }
     // The sort is stable: on one day the measurement comes before the passports, and these before a withdrawal.
     events.sort_by(|a, b| a.0.cmp(&b.0));
     for passport in history.passports.iter().filter(|passport| passport.issued_at.is_none()) {
-        let id = passport.line.id.as_deref().unwrap_or("(id not verified)");
-        events.push((
-            "-         ".to_owned(),
-            "not used",
-            format!("{id}, {}: {}", passport.line.state.words(), passport.line.why),
-        ));
+        let words = format!("{}, {}: {}", id(passport), passport.line.state.words(), passport.line.why);
+        events.push(("-         ".to_owned(), "not used", words));
     }
     events
 }
 
-fn issued_words(passport: &PastPassport, id: &str) -> String {
+fn id(passport: &PastPassport) -> &str {
+    passport.line.id.as_deref().unwrap_or("(id not verified)")
+}
+
+fn issued_words(passport: &PastPassport) -> String {
     let line = &passport.line;
     let certificate = line.certificate.as_deref().unwrap_or("?");
     let reason = match (&passport.predecessor, &passport.reason) {
         (Some(from), Some(reason)) => format!(", re-issued from {from}: {reason}"),
         _ => String::new(),
     };
-    format!("{id}, certificate {certificate} ({}){reason}", line.state.words())
+    format!("{}, certificate {certificate} ({}){reason}", id(passport), line.state.words())
 }
 
 /// Returns the row of a tested deviation, or `None` if it was not tested. One that has jumped has no rate.
