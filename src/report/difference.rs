@@ -26,13 +26,12 @@ impl Side {
 
 /// Returns the differences as JSON: `{a, b, compared, numbers, others}`.
 pub(crate) fn to_json(a: &Side, b: &Side, found: &Differences) -> Value {
-    let others = found.others.iter().map(|other| json!({"key": other.key, "a": other.a, "b": other.b}));
     json!({
         "a": a.json(),
         "b": b.json(),
         "compared": found.compared,
         "numbers": numbers_json(&found.numbers),
-        "others": others.collect::<Vec<_>>(),
+        "others": found.others,
     })
 }
 

@@ -23,12 +23,11 @@ pub(crate) fn to_json(history: &History) -> Value {
 
 fn certificate_json(at: &PastCertificate) -> Value {
     let certificate = &at.stand.certificate;
-    let date = |date: Option<jiff::civil::Date>| date.map(|date| date.to_string());
     json!({
         "number": certificate.number,
-        "issued": certificate.issued.to_string(),
-        "performed": date(certificate.performed),
-        "valid_until": date(certificate.valid_until),
+        "issued": certificate.issued,
+        "performed": certificate.performed,
+        "valid_until": certificate.valid_until,
         "laboratory": certificate.laboratory,
         "runs": certificate.evidence.as_ref().map(|evidence| evidence.runs),
         "readings_sha256": certificate.evidence.as_ref().map(|evidence| &evidence.readings_sha256),
@@ -52,14 +51,9 @@ fn series_json(series: &Series) -> Value {
     let line = series.line.as_ref();
     // Infinite degrees of freedom are null, because JSON has no infinity.
     let finite = |value: f64| value.is_finite().then_some(value);
-    let values = series.values.iter().map(|at| {
-        json!({
-            "certificate": at.certificate, "date": at.date.to_string(), "arcsec": at.arcsec, "u_arcsec": at.u_arcsec,
-        })
-    });
     json!({
         "i": series.index.i, "j": series.index.j, "angle": ANGLES[series.angle],
-        "values": values.collect::<Vec<_>>(),
+        "values": series.values,
         "slope_arcsec_per_year": line.map(|line| line.slope),
         "u_slope_arcsec_per_year": line.map(|line| line.u_slope),
         "degrees_of_freedom": line.and_then(|line| finite(line.slope_degrees_of_freedom)),
@@ -68,12 +62,7 @@ fn series_json(series: &Series) -> Value {
         "chi_square": line.or(series.jump.as_ref().map(|jump| &jump.line)).map(|line| {
             json!({"value": line.chi_square, "degrees_of_freedom": line.degrees_of_freedom})
         }),
-        "jump": series.jump.as_ref().map(|jump| {
-            json!({
-                "certificates": jump.certificates, "change_arcsec": jump.change_arcsec, "u_arcsec": jump.u_arcsec,
-                "corrected_probability": jump.corrected_probability,
-            })
-        }),
+        "jump": series.jump,
     })
 }
 
