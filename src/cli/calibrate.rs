@@ -279,7 +279,7 @@ impl Bench<'_> {
             let laboratory = options.laboratory.is_some().then_some(&self.laboratory);
             let sha256 = sha256_hex(&self.passport.bytes);
             let calibrated = Calibrated::new(content, &sha256, laboratory, self.gyro_type.as_ref(), done);
-            write_dcc(options, path, &calibrated.map_err(Failure::refused)?, &self.administrative)?;
+            self.write_dcc(path, &calibrated.map_err(Failure::refused)?)?;
         }
         if let Some(path) = &options.report {
             output::saved(path, &self.page(&found)?, options.uncertainty.force)?;
@@ -400,6 +400,16 @@ impl Bench<'_> {
         Ok(page.html(&languages(&self.options.lang)))
     }
 
+    /// Writes the gyro's certificate.
+    fn write_dcc(&self, path: &Path, calibrated: &Calibrated) -> Result<(), Failure> {
+        let dcc = dcc::of_gyro(calibrated, self.administrative.content(), Some(&languages(&self.options.lang)));
+        let refused = |problems| Failure::unreadable(self.administrative.refuse(problems));
+        let dcc = dcc.map_err(|problems| Failure { code: REFUSED, ..refused(problems) })?;
+        output::saved(path, &dcc.xml, self.options.uncertainty.force)?;
+        output::say("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");
+        Ok(())
+    }
+
     fn text(&self, found: &Found) -> String {
         let (done, document) = (&found.done, &found.done.document);
         let context = report::Context {
@@ -450,23 +460,6 @@ impl Options {
             drift: self.drift,
         }
     }
-}
-
-/// Writes the gyro's certificate.
-fn write_dcc(
-    options: &Options,
-    path: &Path,
-    calibrated: &Calibrated,
-    administrative: &AdministrativeFile,
-) -> Result<(), Failure> {
-    let dcc = dcc::of_gyro(calibrated, administrative.content(), Some(&languages(&options.lang)));
-    let dcc = dcc.map_err(|problems| {
-        let refused = administrative.refuse(problems);
-        Failure { code: REFUSED, ..Failure::unreadable(refused) }
-    })?;
-    output::saved(path, &dcc.xml, options.uncertainty.force)?;
-    output::say("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");
-    Ok(())
 }
 
 /// Returns the passport in the form that the report takes.

@@ -57,9 +57,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     signers.map(|path| signing::with_signer(path, &line)).transpose().map_err(Failure::unusable)?;
     let passphrase = new_passphrase(options)?;
     let private = key.to_openssh(&identity, passphrase.as_ref().map(|p| p.as_str())).map_err(Failure::unusable)?;
-    write(&options.key, private.as_bytes(), Access::Private)?;
+    files::write_new(&options.key, private.as_bytes(), Access::Private).map_err(Failure::file)?;
     let public = format!("{} {identity}\n", key.public_key().to_openssh());
-    write(&public_path, public.as_bytes(), Access::Shared)?;
+    files::write_new(&public_path, public.as_bytes(), Access::Shared).map_err(Failure::file)?;
     let wrote = format!("wrote {} (keep it secret) and {}", shown(&options.key), shown(&public_path));
     let appended = signers.map(|path| (path, signing::append_signer(path, &line)));
     let (appended_to, failed) = match appended {
@@ -99,10 +99,6 @@ fn refuse_existing(path: &Path) -> Result<(), Failure> {
         return Err(Failure::file(exists).with_advice("keys are never replaced; choose another name"));
     }
     Ok(())
-}
-
-fn write(path: &Path, bytes: &[u8], access: Access) -> Result<(), Failure> {
-    files::write_new(path, bytes, access).map_err(Failure::file)
 }
 
 fn new_passphrase(options: &Options) -> Result<Option<Zeroizing<String>>, Failure> {

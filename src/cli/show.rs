@@ -40,11 +40,8 @@ pub(super) struct Whom {
     no_verify: bool,
 }
 
-/// Reader of passports that are used.
-pub(super) struct Reader {
-    /// Trust and question; `None` if passports are not verified.
-    verified: Option<(Trust, Question)>,
-}
+/// Reader of passports that are used: the trust and the question, or `None` if passports are not verified.
+pub(super) struct Reader(Option<(Trust, Question)>);
 
 /// A passport that was read, and the result of its verification.
 pub(super) struct Read {
@@ -61,7 +58,7 @@ impl Whom {
         if verified.is_none() {
             output::complain("NOT VERIFIED (--no-verify): the origin of these numbers is unknown");
         }
-        Ok(Reader { verified })
+        Ok(Reader(verified))
     }
 }
 
@@ -71,7 +68,7 @@ impl Reader {
     pub(super) fn read(&self, path: &Path) -> Result<Read, Failure> {
         let bytes = inputs::bytes(path, Kind::Passport.words())?;
         let name = name_of(path);
-        let Some((trust, question)) = &self.verified else {
+        let Some((trust, question)) = &self.0 else {
             let content = read::content_from_anyone(&name, &bytes).map_err(Failure::unreadable)?;
             return Ok(Read { content, bytes, verification: None });
         };

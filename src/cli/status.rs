@@ -37,7 +37,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let trust = options.trust.as_deref().map(|path| trust_options::load(path, &options.revoked, time)).transpose()?;
     let status = status(workspace, trust.as_ref(), time, parallel::processors()).map_err(Failure::file)?;
     options.format.write(|| &status, || status.text())?;
-    Ok(match (status.is_incomplete(), status.needs_attention()) {
+    Ok(match (status.incomplete, status.needs_attention()) {
         (true, _) => UNUSABLE,
         (_, true) => REFUSED,
         _ => 0,

@@ -12,6 +12,7 @@ use super::sshsig::KeyPoint;
 use crate::text::kind::{Kind, mistaken};
 use crate::text::{Printable, Unreadable};
 use jiff::Timestamp;
+use serde::Serialize;
 use thiserror::Error;
 
 /// Trusted keys, each with the principals, namespaces and validity period that it is trusted for.
@@ -55,7 +56,7 @@ pub enum NotAuthorised {
 }
 
 /// Trusted key for a list: the parts of its line that people compare.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct TrustedKey {
     /// Patterns of the principals that the key may sign as.
     pub principals: String,

@@ -12,7 +12,7 @@ use crate::signing::{self, KeyFileError};
 use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, shown};
-use crate::trust::PublicKey;
+use crate::trust::{PublicKey, TrustedKey};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use serde::Serialize;
@@ -40,7 +40,7 @@ pub(crate) struct Status {
     remarks: Vec<String>,
     /// Whether the register could not be read completely.
     #[serde(skip)]
-    incomplete: bool,
+    pub(crate) incomplete: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -69,11 +69,8 @@ struct Passports {
 /// A trusted key, as a line of allowed_signers states it.
 #[derive(Debug, Serialize)]
 struct KeyLine {
-    principals: String,
-    namespaces: Option<String>,
-    fingerprint: String,
-    valid_after: Option<Timestamp>,
-    valid_before: Option<Timestamp>,
+    #[serde(flatten)]
+    key: TrustedKey,
     valid: bool,
 }
 
@@ -174,13 +171,9 @@ fn passports(register: Register) -> Passports {
 }
 
 fn keys(trust: &Trust, time: Timestamp) -> Vec<KeyLine> {
-    let line = |key: crate::trust::TrustedKey| KeyLine {
+    let line = |key: TrustedKey| KeyLine {
         valid: key.valid_after.is_none_or(|from| from <= time) && key.valid_before.is_none_or(|until| time <= until),
-        principals: key.principals,
-        namespaces: key.namespaces,
-        fingerprint: key.fingerprint,
-        valid_after: key.valid_after,
-        valid_before: key.valid_before,
+        key,
     };
     trust.signers.keys().map(line).collect()
 }
@@ -214,11 +207,6 @@ fn signing_key(key: &Path, workspace: &Workspace, trust: Option<&Trust>, time: T
 }
 
 impl Status {
-    /// Returns `true` if the system refused to read a part of the folder of passports.
-    pub(crate) fn is_incomplete(&self) -> bool {
-        self.incomplete
-    }
-
     /// Returns `true` if there is an alarm, a broken passport, or a file that cannot be read.
     pub(crate) fn needs_attention(&self) -> bool {
         let passports = self.passports.as_ref();
@@ -260,10 +248,10 @@ impl Status {
     fn write_keys(&self, out: &mut String) {
         let invalid = self.keys.iter().filter(|key| !key.valid).count();
         let _ = writeln!(out, "Keys       {} trusted{}", self.keys.len(), count(invalid, "not valid now"));
-        let line = |key: &KeyLine| {
+        let line = |KeyLine { key, valid }: &KeyLine| {
             let from = key.valid_after.map_or_else(String::new, |from| format!(", from {from}"));
             let until = key.valid_before.map_or_else(String::new, |until| format!(", until {until}"));
-            let now = if key.valid { "" } else { "  NOT VALID NOW" };
+            let now = if *valid { "" } else { "  NOT VALID NOW" };
             format!("{}  {}{from}{until}{now}", Printable(&key.principals), key.fingerprint)
         };
         indented(out, self.keys.iter().map(line).collect());
