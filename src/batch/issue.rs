@@ -18,15 +18,6 @@ use std::sync::Arc;
 const STANDS_AT_ONCE: usize = 64;
 const SITES_AT_ONCE: usize = 1024;
 
-/// Trust and time by which existing passports are verified.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Known<'a> {
-    /// Trust in existing passports.
-    pub trust: &'a Trust,
-    /// Time as of which they are verified.
-    pub time: Timestamp,
-}
-
 /// Input and destination of a batch.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Job<'a> {
@@ -39,7 +30,7 @@ pub(crate) struct Job<'a> {
     /// Order that all passports have in common.
     pub order: &'a Issue,
     /// Trust and time by which existing passports are verified; `None` to skip that.
-    pub known: Option<Known<'a>>,
+    pub known: Option<(&'a Trust, Timestamp)>,
 }
 
 /// Stand and site of one passport to be issued.
@@ -100,7 +91,7 @@ impl Run<'_> {
 
     /// Reports the other certificates from which these stands have passports.
     fn remark_on_certificates(&self, stands: &[Arc<PreparedStand>], tell: Listener) {
-        let Some(Known { trust, time }) = self.job.known else { return };
+        let Some((trust, time)) = self.job.known else { return };
         let remarks = parallel::map(stands, self.batch.threads, |stand| {
             self.job.folder.against_certificate(stand.stand(), trust, time)
         });

@@ -4,7 +4,7 @@
 //! [`register`](crate::register). A passport whose content would not change is left as it is.
 
 use super::catalogue::Catalogue;
-use super::paths::{self, Named};
+use super::paths;
 use super::{Batch, Event, Failure, Listener, Outcome, Purpose, Sweeper, fail, parallel};
 use crate::document::sha256_hex;
 use crate::files::{self, FileError, folder_of};
@@ -92,7 +92,8 @@ impl Batch<'_> {
         for named in paths::named(passports, list) {
             match named {
                 Err(failure) => run.push(Err(failure), tell),
-                Ok(Named::File(path)) => {
+                Ok(root) if root.is_dir() => run.folder(&root, tell),
+                Ok(path) => {
                     tell(Event::Planned(1));
                     if self.shard.has_file(&path) {
                         run.push(Ok(Candidate { path, found: None }), tell);
@@ -100,7 +101,6 @@ impl Batch<'_> {
                         tell(Event::Done(None));
                     }
                 }
-                Ok(Named::Folder(root)) => run.folder(&root, tell),
             }
             if self.cancelled() {
                 return;
