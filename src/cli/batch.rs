@@ -183,7 +183,7 @@ impl Reporter {
     fn end(mut self) -> Result<Code, Failure> {
         self.bar.finish_and_clear();
         self.told.lines().iter().for_each(|line| output::say(line));
-        let text = std::mem::replace(&mut self.reports, Reports::new(Form::Text)).end();
+        let text = self.reports.end();
         self.write(&text);
         if let Some(failure) = self.unwritten {
             return Err(failure);

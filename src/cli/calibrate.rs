@@ -322,20 +322,15 @@ impl Bench<'_> {
             let code = found.code();
             Ok((found, code))
         };
-        inputs::each(&options.currents, Purpose::Tables, calibrate, |done| {
-            let found;
-            let line = match done {
-                Each::Done(done) => {
-                    found = done;
-                    let file = found.currents.0.as_str();
-                    let verdict = self.verdict(&found);
-                    let text =
-                        report::line(file, &found.done.calibration, found.done.document.mistake.as_ref(), verdict);
-                    Each::Done((Line { file, result: found.whole() }, text))
-                }
-                Each::Refused { file, refusal } => Each::Refused { file, refusal },
-            };
-            inputs::print(&line, options.format)
+        inputs::each(&options.currents, Purpose::Tables, calibrate, |done| match done {
+            Each::Done(found) => {
+                let (file, mistake) = (found.currents.0.as_str(), found.done.document.mistake.as_ref());
+                let text = report::line(file, &found.done.calibration, mistake, self.verdict(&found));
+                inputs::print(&Each::Done((Line { file, result: found.whole() }, text)), options.format)
+            }
+            Each::Refused { file, refusal } => {
+                inputs::print(&Each::<(Line, String)>::Refused { file, refusal }, options.format)
+            }
         })
     }
 

@@ -3,7 +3,6 @@
 use super::output::Format;
 use super::trust_options::{self, time};
 use super::{Code, Failure, REFUSED, UNUSABLE, defaults};
-use crate::parallel;
 use crate::workspace::status;
 use clap::Args;
 use jiff::Timestamp;
@@ -35,7 +34,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     };
     let time = options.time.unwrap_or_else(trust_options::now);
     let trust = options.trust.as_deref().map(|path| trust_options::load(path, &options.revoked, time)).transpose()?;
-    let status = status(workspace, trust.as_ref(), time, parallel::processors()).map_err(Failure::file)?;
+    let status = status(workspace, trust.as_ref(), time).map_err(Failure::file)?;
     options.format.write(|| &status, || status.text())?;
     Ok(match (status.incomplete, status.needs_attention()) {
         (true, _) => UNUSABLE,

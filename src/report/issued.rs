@@ -239,7 +239,7 @@ impl Reports {
     }
 
     /// Returns the text to write at the end.
-    pub(crate) fn end(self) -> String {
+    pub(crate) fn end(&self) -> String {
         match self.form {
             Form::Json if self.count == 0 => "[]\n".to_owned(),
             Form::Json => "\n]\n".to_owned(),

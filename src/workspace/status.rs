@@ -5,6 +5,7 @@ use crate::batch::paths::{is_stand, is_yaml};
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
 use crate::folder::search;
+use crate::parallel;
 use crate::passport::Trust;
 use crate::register::{Asked, Line, Register, State};
 use crate::report::style;
@@ -84,23 +85,18 @@ struct SigningKeyLine {
     why: Option<String>,
 }
 
-/// Returns what `workspace` holds at `time`; without `trust`, passports are not examined. `threads` threads do the work.
+/// Returns what `workspace` holds at `time`; without `trust`, passports are not examined.
 ///
 /// # Errors
 /// Returns [`FileError::Read`] if a folder that the workspace states cannot be read.
-pub(crate) fn status(
-    workspace: &Workspace,
-    trust: Option<&Trust>,
-    time: Timestamp,
-    threads: usize,
-) -> Result<Status, FileError> {
+pub(crate) fn status(workspace: &Workspace, trust: Option<&Trust>, time: Timestamp) -> Result<Status, FileError> {
     let mut remarks = Vec::new();
     let stands = stands(workspace, time, &mut remarks)?;
     let sites = sites(workspace, &mut remarks)?;
     let register = match (&workspace.passports, trust) {
         (Some(folder), Some(trust)) => {
             let asked = Asked { within_days: Some(SOON_DAYS), ..Asked::at(time) };
-            Some(search::register(folder, trust.clone(), &asked, threads)?.0)
+            Some(search::register(folder, trust.clone(), &asked, parallel::processors())?.0)
         }
         (None, _) => {
             remarks.push("no folder of passports is stated (passports)".to_owned());
