@@ -1,18 +1,17 @@
 //! Demonstration on a built-in example: a key, a stand, two sites, passports, verification, a wrong place, a re-issue,
 //! a calibration, an altered byte. It needs nothing but this program.
 
-use crate::calibration::least_squares::NoLeastSquares;
 use crate::calibration::parameter::Parameter;
-use crate::calibration::{self, NoSetup, Options, Readings, Setup};
+use crate::calibration::{self, Options, Readings, Setup};
 use crate::coefficients::PositionIndex;
 use crate::earth::Place;
-use crate::files::{self, Access, FileError};
-use crate::folder::{Folder, FolderRefused, Issued, Seal};
+use crate::files::{self, Access};
+use crate::folder::{Folder, Issued, Seal};
 use crate::gyro::GyroType;
 use crate::laboratory::Laboratory;
 use crate::passport::checks::CheckName;
 use crate::passport::issue::{Issue, PreparedStand};
-use crate::passport::reissue::{Order, ReissueRefused, successor};
+use crate::passport::reissue::{Order, successor};
 use crate::passport::verification::{Question, Trust, Verification, verify};
 use crate::report::page::{Language, Languages, PassportPage};
 use crate::signing::allowed_signers_line;
@@ -21,8 +20,8 @@ use crate::site::Site;
 use crate::stand::Stand;
 use crate::statistics::random::Stream;
 use crate::text::scalar::day;
-use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, shown};
-use crate::trust::{AllowedSigners, BadIdentity, KeyError, SigningKey};
+use crate::text::{LARGEST_DOCUMENT_BYTES, shown};
+use crate::trust::{AllowedSigners, SigningKey};
 use jiff::Timestamp;
 use std::path::{Path, PathBuf};
 
@@ -31,44 +30,11 @@ const MOSCOW: &str = include_str!("../sites/moscow-bmstu.yaml");
 const BEIJING: &str = include_str!("../sites/beijing-nim.yaml");
 const IDENTITY: &str = "factory@example.org";
 
-/// Reason why the demonstration stopped.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub(crate) enum Stopped {
-    /// Folder that contains files.
-    #[error("{}: already exists and is not an empty folder; specify another one with --out", shown(.0))]
-    NotEmpty(PathBuf),
-    /// File that could not be read or written.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// Passport that could not be issued.
-    #[error(transparent)]
-    Folder(#[from] FolderRefused),
-    /// Passport that could not be re-issued.
-    #[error(transparent)]
-    Reissue(#[from] ReissueRefused),
-    /// Built-in file that could not be read.
-    #[error(transparent)]
-    Unreadable(#[from] Unreadable),
-    /// Key that could not be created or encoded.
-    #[error(transparent)]
-    Key(#[from] KeyError),
-    /// Identity that is a pattern.
-    #[error(transparent)]
-    Identity(#[from] BadIdentity),
-    /// Passport that was just issued but not accepted.
-    #[error("a newly issued passport was rejected")]
-    Refused,
-    /// Stand whose positions do not determine a gyro.
-    #[error(transparent)]
-    Setup(#[from] NoSetup),
-    /// Currents that do not determine a gyro.
-    #[error(transparent)]
-    Calibration(#[from] NoLeastSquares),
-    /// Reader that closed the output.
-    #[error("standard output cannot be written")]
-    Closed,
-}
+/// Result of a step; the first step that fails stops the demonstration, and its words say why.
+type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
+
+/// Words for a passport that was just issued but not accepted.
+const REFUSED: &str = "a newly issued passport was rejected";
 
 /// Returns `dtg-passport-demo` in the current folder, with a number if that already exists.
 pub(crate) fn free_folder() -> PathBuf {
@@ -82,8 +48,8 @@ pub(crate) fn free_folder() -> PathBuf {
 /// It passes each line of its output to `tell`, which returns `false` if the reader has closed the output.
 ///
 /// # Errors
-/// Returns [`Stopped`] at the first step that fails, or if the output was closed.
-pub(crate) fn run(folder: &Path, now: Timestamp, tell: &mut dyn FnMut(&str) -> bool) -> Result<bool, Stopped> {
+/// Returns the error of the first step that fails; a closed output is one too.
+pub(crate) fn run(folder: &Path, now: Timestamp, tell: &mut dyn FnMut(&str) -> bool) -> Result<bool> {
     let stand = Stand::from_yaml("stand.yaml", STAND.as_bytes())?;
     // If the clock of the machine is behind the certificate, use the day of the certificate.
     let now = now.max(day(stand.certificate.issued).0);
@@ -114,10 +80,11 @@ struct Stage<'a> {
 }
 
 impl Stage<'_> {
-    fn play(&mut self, stand: &Stand) -> Result<(), Stopped> {
+    fn play(&mut self, stand: &Stand) -> Result<()> {
         let empty = |folder: &Path| std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
         if self.folder.exists() && !empty(self.folder) {
-            return Err(Stopped::NotEmpty(self.folder.to_owned()));
+            let words = "already exists and is not an empty folder; specify another one with --out";
+            return Err(format!("{}: {words}", shown(self.folder)).into());
         }
         let moscow = Site::from_yaml("moscow-bmstu.yaml", MOSCOW.as_bytes())?;
         let beijing = Site::from_yaml("beijing-nim.yaml", BEIJING.as_bytes())?;
@@ -127,8 +94,7 @@ impl Stage<'_> {
         let there = self.moved(&here, &beijing, &key, &trust)?;
         self.calibrated(&there, &trust)?;
         self.altered(&there, &trust)?;
-        self.line("")?;
-        self.line(&format!("The files are in {}. To verify them yourself, run:", shown(self.folder)))?;
+        self.heading(&format!("The files are in {}. To verify them yourself, run:", shown(self.folder)))?;
         let (signers, passport) = (self.path("allowed_signers"), shown(&there.path));
         self.line(&format!("  dtg-passport verify {passport} --trust {} --serial 0203", shown(&signers)))
     }
@@ -137,11 +103,16 @@ impl Stage<'_> {
         self.folder.join(name)
     }
 
-    fn line(&mut self, words: &str) -> Result<(), Stopped> {
-        if (self.tell)(words) { Ok(()) } else { Err(Stopped::Closed) }
+    fn line(&mut self, words: &str) -> Result<()> {
+        if (self.tell)(words) { Ok(()) } else { Err("standard output cannot be written".into()) }
     }
 
-    fn key(&mut self) -> Result<(SigningKey, Trust), Stopped> {
+    fn heading(&mut self, words: &str) -> Result<()> {
+        self.line("")?;
+        self.line(words)
+    }
+
+    fn key(&mut self) -> Result<(SigningKey, Trust)> {
         let key = SigningKey::generate()?;
         let signers = allowed_signers_line(IDENTITY, &key.public_key())? + "\n";
         files::write_new(&self.path("factory.key"), key.to_openssh(IDENTITY, None)?.as_bytes(), Access::Private)?;
@@ -152,7 +123,7 @@ impl Stage<'_> {
         Ok((key, Trust::of(AllowedSigners::parse("allowed_signers", signers.as_bytes())?)))
     }
 
-    fn issue(&mut self, stand: &Stand, moscow: &Site, key: &SigningKey) -> Result<Issued, Stopped> {
+    fn issue(&mut self, stand: &Stand, moscow: &Site, key: &SigningKey) -> Result<Issued> {
         files::write_new(&self.path("stand.yaml"), STAND.as_bytes(), Access::Shared)?;
         files::write_new(&self.path("sites/moscow-bmstu.yaml"), MOSCOW.as_bytes(), Access::Shared)?;
         files::write_new(&self.path("sites/beijing-nim.yaml"), BEIJING.as_bytes(), Access::Shared)?;
@@ -184,9 +155,8 @@ impl Stage<'_> {
         Folder::new(self.path("passports"))
     }
 
-    fn laboratory(&mut self, here: &Issued, moscow: &Site, beijing: &Site, trust: &Trust) -> Result<(), Stopped> {
-        self.line("")?;
-        self.line("THE LABORATORY")?;
+    fn laboratory(&mut self, here: &Issued, moscow: &Site, beijing: &Site, trust: &Trust) -> Result<()> {
+        self.heading("THE LABORATORY")?;
         self.line("4. in Moscow checks that the passport is valid for stand 0203, here and now:")?;
         let bytes = files::read(&here.path, LARGEST_DOCUMENT_BYTES)?;
         let ask = |site: &Site| Question {
@@ -202,9 +172,8 @@ impl Stage<'_> {
         self.answer(&answer, Some(CheckName::Place))
     }
 
-    fn moved(&mut self, here: &Issued, beijing: &Site, key: &SigningKey, trust: &Trust) -> Result<Issued, Stopped> {
-        self.line("")?;
-        self.line("THE STAND MOVES")?;
+    fn moved(&mut self, here: &Issued, beijing: &Site, key: &SigningKey, trust: &Trust) -> Result<Issued> {
+        self.heading("THE STAND MOVES")?;
         self.line("6. The factory re-issues the passport for Beijing, from its predecessor alone:")?;
         let bytes = files::read(&here.path, LARGEST_DOCUMENT_BYTES)?;
         let old = verify(&here.id, &bytes, trust, &Question::at(self.now));
@@ -225,7 +194,7 @@ impl Stage<'_> {
         let question = Question::at(self.now);
         let answer = verify(&issued.id, &bytes, trust, &question);
         self.answer(&answer, None)?;
-        let page = PassportPage::verified(&issued.id, &bytes, trust, &question, None).map_err(|_| Stopped::Refused)?;
+        let page = PassportPage::verified(&issued.id, &bytes, trust, &question, None).map_err(|_| REFUSED)?;
         let path = self.path("passport.html");
         let languages = Languages::new(Language::English, [Language::Russian]);
         files::write_new(&path, page.html(&languages).as_bytes(), Access::Shared)?;
@@ -234,15 +203,14 @@ impl Stage<'_> {
     }
 
     /// Writes the simulated currents of a gyro of the paper's type as a CSV file, and calibrates that gyro.
-    fn calibrated(&mut self, there: &Issued, trust: &Trust) -> Result<(), Stopped> {
-        self.line("")?;
-        self.line("A GYRO")?;
+    fn calibrated(&mut self, there: &Issued, trust: &Trust) -> Result<()> {
+        self.heading("A GYRO")?;
         self.line(
             "7. is mounted on the stand in Beijing, and its currents are read in the eight positions (simulated here):",
         )?;
         let bytes = files::read(&there.path, LARGEST_DOCUMENT_BYTES)?;
         let answer = verify(&there.id, &bytes, trust, &Question::at(self.now));
-        let Some(passport) = answer.passport() else { return Err(Stopped::Refused) };
+        let Some(passport) = answer.passport() else { return Err(REFUSED.into()) };
         let content = passport.content();
         let laboratory = Laboratory::paper();
         let (setup, _) = Setup::stated(&content.certificate, &content.positions, &content.site, &laboratory)?;
@@ -252,7 +220,7 @@ impl Stage<'_> {
         let csv = files::read(&path, LARGEST_DOCUMENT_BYTES)?;
         let readings = Readings::from_csv("currents.csv", &csv, setup.coefficients(), laboratory.meter.range_ma)?;
         let calibration = calibration::calibrate(&setup, &readings, &Options::default())?;
-        let Some(found) = calibration.answer() else { return Err(Stopped::Refused) };
+        let Some(found) = calibration.answer() else { return Err(REFUSED.into()) };
         self.line("8. The currents and the passport give its scale factors and drifts (true: 95, 9.5, 20, 10):")?;
         for parameters in Parameter::EIGHT.chunks(4) {
             let words: Vec<String> = parameters
@@ -269,9 +237,8 @@ impl Stage<'_> {
         Ok(())
     }
 
-    fn altered(&mut self, there: &Issued, trust: &Trust) -> Result<(), Stopped> {
-        self.line("")?;
-        self.line("A FORGER")?;
+    fn altered(&mut self, there: &Issued, trust: &Trust) -> Result<()> {
+        self.heading("A FORGER")?;
         self.line("9. changes one digit of the passport:")?;
         let text = String::from_utf8_lossy(&files::read(&there.path, LARGEST_DOCUMENT_BYTES)?).into_owned();
         let forged = text.replacen("alpha_arcsec: 4310.0", "alpha_arcsec: 4311.0", 1);
@@ -281,7 +248,7 @@ impl Stage<'_> {
     }
 
     /// Writes the answer: yes, or the first check that failed; and records whether it was the expected one.
-    fn answer(&mut self, answer: &Verification, expected: Option<CheckName>) -> Result<(), Stopped> {
+    fn answer(&mut self, answer: &Verification, expected: Option<CheckName>) -> Result<()> {
         let failed = answer.checks().iter().find(|check| check.passed() == Some(false));
         self.as_expected &= failed.map(|check| check.name) == expected;
         match failed {

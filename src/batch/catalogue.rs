@@ -117,11 +117,6 @@ impl<T: Listed> Catalogue<T> {
         draft.finished()
     }
 
-    /// Creates an empty catalogue.
-    pub(crate) fn empty() -> Self {
-        Self { files: Vec::new(), by_id: BTreeMap::new(), last: Mutex::new(None) }
-    }
-
     /// Returns the number of ids.
     pub(crate) fn len(&self) -> usize {
         self.files.len()
@@ -185,9 +180,8 @@ struct Draft<T> {
 }
 
 struct Seen<T> {
-    path: PathBuf,
+    file: File<T>,
     id: String,
-    kept: Option<Arc<T>>,
     hash: [u8; 32],
     others: Vec<PathBuf>,
 }
@@ -212,7 +206,7 @@ impl<T: Listed> Draft<T> {
                     self.names.entry(name.to_ascii_lowercase()).or_insert((name.to_owned(), self.listed.len()));
                 }
                 let kept = (self.listed.len() < KEPT).then(|| Arc::new(value));
-                self.listed.push(Seen { path, id, kept, hash, others: Vec::new() });
+                self.listed.push(Seen { file: File { path, kept }, id, hash, others: Vec::new() });
             }
         }
     }
@@ -222,7 +216,7 @@ impl<T: Listed> Draft<T> {
         let known = |name: &str| self.names.get(&name.to_ascii_lowercase()).cloned();
         let (name, (other, first)) =
             names(id).find_map(|name| Some((name, known(name).filter(|(other, _)| other != name)?)))?;
-        let (path, first, what) = (shown(path), shown(&self.listed[first].path), T::NAME);
+        let (path, first, what) = (shown(path), shown(&self.listed[first].file.path), T::NAME);
         Some(format!(
             "{path}: {what} {id}: found {name}, but {other} in {first}; use the same spelling, or rename one, because \
              Windows and macOS do not distinguish them"
@@ -230,19 +224,16 @@ impl<T: Listed> Draft<T> {
     }
 
     fn finished(mut self) -> (Catalogue<T>, Vec<Failure>) {
-        let mut catalogue = Catalogue::empty();
+        let mut catalogue = Catalogue { files: Vec::new(), by_id: BTreeMap::new(), last: Mutex::new(None) };
         for seen in self.listed {
             if seen.others.is_empty() {
                 catalogue.by_id.insert(seen.id, catalogue.files.len());
-                catalogue.files.push(File { path: seen.path, kept: seen.kept });
+                catalogue.files.push(seen.file);
             } else {
                 let others: Vec<_> = seen.others.iter().map(|path| shown(path).to_string()).collect();
-                let (what, id, others) = (T::NAME, seen.id, others.join(", "));
-                let why = format!(
-                    "{}: is {what} {id}, like {others}, but with other content; keep one file",
-                    shown(&seen.path)
-                );
-                self.failures.push(Failure::refused(&seen.path, why));
+                let (what, id, others, path) = (T::NAME, seen.id, others.join(", "), shown(&seen.file.path));
+                let why = format!("{path}: is {what} {id}, like {others}, but with other content; keep one file");
+                self.failures.push(Failure::refused(&seen.file.path, why));
             }
         }
         (catalogue, self.failures)

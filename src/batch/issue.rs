@@ -1,8 +1,7 @@
 //! Batch that issues revision 1 of every stand at every site.
 
 use super::catalogue::{Catalogue, Listed};
-use super::paths;
-use super::{Batch, Event, Failure, Listener, Outcome, Purpose, Sweeper, parallel};
+use super::{Batch, Event, Listener, Outcome, Purpose, Sweeper, fail, parallel};
 use crate::files::folder_of;
 use crate::folder::Folder;
 use crate::passport::Trust;
@@ -19,15 +18,6 @@ use std::sync::Arc;
 const STANDS_AT_ONCE: usize = 64;
 const SITES_AT_ONCE: usize = 1024;
 
-/// Trust and time by which existing passports are verified.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Known<'a> {
-    /// Trust in existing passports.
-    pub trust: &'a Trust,
-    /// Time as of which they are verified.
-    pub time: Timestamp,
-}
-
 /// Input and destination of a batch.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Job<'a> {
@@ -40,14 +30,11 @@ pub(crate) struct Job<'a> {
     /// Order that all passports have in common.
     pub order: &'a Issue,
     /// Trust and time by which existing passports are verified; `None` to skip that.
-    pub known: Option<Known<'a>>,
+    pub known: Option<(&'a Trust, Timestamp)>,
 }
 
 /// Stand and site of one passport to be issued.
-struct Pair {
-    stand: Arc<PreparedStand>,
-    site: Arc<Site>,
-}
+type Pair = (Arc<PreparedStand>, Arc<Site>);
 
 impl Batch<'_> {
     /// Issues a passport of every stand for every site.
@@ -63,26 +50,10 @@ impl Batch<'_> {
         fail(bad_sites, stands.len() as u64, tell);
         tell(Event::Planned(self.shard.share((stands.len() * sites.len()) as u64)));
         let mut run = Run { batch: self, job, sweeper: Sweeper::default(), pairs: Vec::new() };
-        run.sweep_root();
+        if self.seal.is_some() {
+            run.sweeper.sweep(job.folder.root());
+        }
         run.all(&stands, &sites, tell);
-    }
-
-    fn catalogue<T: Listed>(
-        &self,
-        arguments: &[PathBuf],
-        list: &mut dyn BufRead,
-        purpose: Purpose,
-        tell: Listener,
-    ) -> (Catalogue<T>, Vec<Failure>) {
-        Catalogue::read(paths::files(arguments, list, purpose), self.threads, tell)
-    }
-}
-
-/// Reports inputs that cannot be used; each costs `passports` passports unless it states another number.
-fn fail(failures: Vec<Failure>, passports: u64, tell: Listener) {
-    for failure in failures {
-        let passports = failure.passports.or(Some(passports));
-        tell(Event::Done(Some(Outcome::Failed(Failure { passports, ..failure }))));
     }
 }
 
@@ -94,12 +65,6 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    fn sweep_root(&self) {
-        if self.batch.seal.is_some() {
-            self.sweeper.sweep(self.job.folder.root());
-        }
-    }
-
     /// Issues stand by stand, and site by site for each; if there are too many sites for the memory, in groups of both.
     fn all(&mut self, stands: &Catalogue<PreparedStand>, sites: &Catalogue<Site>, tell: Listener) {
         for some_stands in ranges(stands.len(), STANDS_AT_ONCE) {
@@ -110,7 +75,7 @@ impl Run<'_> {
                 for stand in &loaded_stands {
                     let id = stand.stand().stand.id();
                     for site in loaded_sites.iter().filter(|site| self.batch.shard.has(&id, site.id.as_str())) {
-                        self.pairs.push(Pair { stand: Arc::clone(stand), site: Arc::clone(site) });
+                        self.pairs.push((Arc::clone(stand), Arc::clone(site)));
                         if self.pairs.len() == self.batch.chunk() {
                             self.chunk(tell);
                         }
@@ -126,7 +91,7 @@ impl Run<'_> {
 
     /// Reports the other certificates from which these stands have passports.
     fn remark_on_certificates(&self, stands: &[Arc<PreparedStand>], tell: Listener) {
-        let Some(Known { trust, time }) = self.job.known else { return };
+        let Some((trust, time)) = self.job.known else { return };
         let remarks = parallel::map(stands, self.batch.threads, |stand| {
             self.job.folder.against_certificate(stand.stand(), trust, time)
         });
@@ -163,7 +128,7 @@ impl Run<'_> {
     }
 
     /// Issues a single passport; every passport of a batch is made here.
-    fn one(&self, Pair { stand, site }: &Pair) -> Outcome {
+    fn one(&self, (stand, site): &Pair) -> Outcome {
         let Job { folder, order, .. } = self.job;
         if self.batch.seal.is_some() {
             self.sweeper.sweep(folder_of(&folder.path_of(&stand.stand().stand, &site.id, order.revision)));

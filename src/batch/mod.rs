@@ -19,6 +19,7 @@ pub(crate) mod recertification;
 pub(crate) mod shard;
 pub(crate) mod successors;
 
+use catalogue::{Catalogue, Listed};
 use shard::Shard;
 
 use crate::files::{Durability, FileError, leftovers};
@@ -27,6 +28,7 @@ use crate::parallel;
 use crate::passport::issue::Remarks;
 use crate::text::{Unreadable, name_of};
 use std::convert::Infallible;
+use std::io::BufRead;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -179,11 +181,10 @@ impl Batch<'_> {
             Some(seal) => issue(seal).map(Outcome::There),
             None => next().map(|next| match next {
                 Next::There(issued) => Outcome::There(issued),
-                Next::New(new) => Outcome::Planned(Planned {
-                    id: new.id().to_owned(),
-                    path: new.path().to_owned(),
-                    remarks: new.remarks(),
-                }),
+                Next::New(new) => {
+                    let (id, remarks) = (new.id().to_owned(), new.draft.remarks());
+                    Outcome::Planned(Planned { id, path: new.path, remarks })
+                }
             }),
         };
         there.unwrap_or_else(|refused| Outcome::Failed(Failure::of_order(id(), &refused)))
@@ -207,6 +208,25 @@ impl Batch<'_> {
             }
         }
         outcomes.into_iter().for_each(|outcome| tell(Event::Done(outcome)));
+    }
+
+    /// Reads stand or site files, as in `paths`; also returns the failures.
+    fn catalogue<T: Listed>(
+        &self,
+        arguments: &[PathBuf],
+        list: &mut dyn BufRead,
+        purpose: Purpose,
+        tell: Listener,
+    ) -> (Catalogue<T>, Vec<Failure>) {
+        Catalogue::read(paths::files(arguments, list, purpose), self.threads, tell)
+    }
+}
+
+/// Reports inputs that cannot be used; each costs `passports` passports unless it states another number.
+fn fail(failures: Vec<Failure>, passports: u64, tell: Listener) {
+    for failure in failures {
+        let passports = failure.passports.or(Some(passports));
+        tell(Event::Done(Some(Outcome::Failed(Failure { passports, ..failure }))));
     }
 }
 

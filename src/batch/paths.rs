@@ -13,39 +13,31 @@ use std::path::{Path, PathBuf};
 /// Longest path in a list, in bytes; no system allows a longer one.
 const LONGEST_PATH: usize = 1 << 16;
 
-/// File or folder specified by the user.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Named {
-    /// File, or a path that may not exist.
-    File(PathBuf),
-    /// Existing folder.
-    Folder(PathBuf),
+/// Paths one by one, without keeping them in memory.
+type Paths<'a> = Box<dyn Iterator<Item = Result<PathBuf, Failure>> + 'a>;
+
+fn failed<'a>(failure: Failure) -> Paths<'a> {
+    Box::new(std::iter::once(Err(failure)))
 }
 
-impl Named {
-    fn of(path: PathBuf) -> Self {
-        if path.is_dir() { Self::Folder(path) } else { Self::File(path) }
-    }
-}
-
-/// Returns the files and folders specified by the user one by one, without keeping them in memory.
+/// Returns the files and folders specified by the user; a file may not exist.
 ///
 /// The argument `-` is the list, with one path per line or with NUL between paths. A pattern that is not a file name
 /// is replaced by its matches in the order of their names.
 pub(crate) fn named<'a>(
     arguments: &'a [PathBuf],
     list: &'a mut dyn BufRead,
-) -> impl Iterator<Item = Result<Named, Failure>> + 'a {
+) -> impl Iterator<Item = Result<PathBuf, Failure>> + 'a {
     let mut list = Some(list);
-    arguments.iter().flat_map(move |argument| -> Box<dyn Iterator<Item = Result<Named, Failure>> + 'a> {
+    arguments.iter().flat_map(move |argument| -> Paths<'a> {
         if argument.as_os_str() == "-"
             && let Some(list) = list.take()
         {
-            return Box::new(List { list: Some(list), separator: None }.map(|path| path.map(Named::of)));
+            return Box::new(List { list: Some(list), separator: None });
         }
         match pattern(argument) {
             Some(pattern) => matches(pattern),
-            None => Box::new(std::iter::once(Ok(Named::of(argument.clone())))),
+            None => Box::new(std::iter::once(Ok(argument.clone()))),
         }
     })
 }
@@ -56,35 +48,24 @@ pub(crate) fn files<'a>(
     list: &'a mut dyn BufRead,
     purpose: Purpose,
 ) -> impl Iterator<Item = Result<PathBuf, Failure>> + 'a {
-    named(arguments, list).flat_map(move |named| -> Box<dyn Iterator<Item = Result<PathBuf, Failure>>> {
-        match named {
-            Err(failure) => Box::new(std::iter::once(Err(failure))),
-            Ok(Named::File(path)) => Box::new(std::iter::once(Ok(path))),
-            Ok(Named::Folder(folder)) => in_folder(folder, purpose),
-        }
+    named(arguments, list).flat_map(move |named| match named {
+        Ok(folder) if folder.is_dir() => in_folder(&folder, purpose),
+        file => Box::new(std::iter::once(file)),
     })
 }
 
-fn in_folder(folder: PathBuf, purpose: Purpose) -> Box<dyn Iterator<Item = Result<PathBuf, Failure>>> {
-    let (walk, what) = match purpose {
-        Purpose::Stands => (Walk::deep(&folder, is_stand), "stand.yaml"),
-        Purpose::Sites => (Walk::flat(&folder, is_yaml), "*.yaml"),
-        Purpose::Tables => (Walk::flat(&folder, is_table), "*.csv"),
-        Purpose::Passports => return passports(&folder),
+fn in_folder(folder: &Path, purpose: Purpose) -> Paths<'static> {
+    let (found, what): (Paths, _) = match purpose {
+        Purpose::Stands => (Box::new(Walk::deep(folder, is_stand).map(found)), "stand.yaml"),
+        Purpose::Sites => (Box::new(Walk::flat(folder, is_yaml).map(found)), "*.yaml"),
+        Purpose::Tables => (Box::new(Walk::flat(folder, is_table).map(found)), "*.csv"),
+        Purpose::Passports => match search::passports(folder) {
+            Err(error) => return failed(Failure::file(error)),
+            Ok(found) => (Box::new(found.into_iter().map(|path| path.map_err(Failure::file))), "passport"),
+        },
     };
-    let mut found = walk.map(found).peekable();
-    if found.peek().is_none() {
-        return Box::new(std::iter::once(Err(contains_no(&folder, what))));
-    }
-    Box::new(found)
-}
-
-fn passports(folder: &Path) -> Box<dyn Iterator<Item = Result<PathBuf, Failure>>> {
-    match search::passports(folder) {
-        Err(error) => Box::new(std::iter::once(Err(Failure::file(error)))),
-        Ok(found) if found.is_empty() => Box::new(std::iter::once(Err(contains_no(folder, "passport")))),
-        Ok(found) => Box::new(found.into_iter().map(|path| path.map_err(Failure::file))),
-    }
+    let mut found = found.peekable();
+    if found.peek().is_none() { failed(contains_no(folder, what)) } else { Box::new(found) }
 }
 
 /// Returns the failure of a folder without a file of the kind `what`.
@@ -142,10 +123,8 @@ fn pattern(argument: &Path) -> Option<&str> {
 }
 
 /// Returns the files and folders that match, as in a shell: a leading dot must be in the pattern.
-fn matches(pattern: &str) -> Box<dyn Iterator<Item = Result<Named, Failure>>> {
-    let failed = |why: String| -> Box<dyn Iterator<Item = Result<Named, Failure>>> {
-        Box::new(std::iter::once(Err(Failure::unusable(Path::new(pattern), format!("{}: {why}", Printable(pattern))))))
-    };
+fn matches(pattern: &str) -> Paths<'static> {
+    let failed = |why: String| failed(Failure::unusable(Path::new(pattern), format!("{}: {why}", Printable(pattern))));
     let options = MatchOptions { require_literal_leading_dot: true, ..MatchOptions::new() };
     let paths = match glob::glob_with(pattern, options) {
         Err(error) => return failed(format!("invalid pattern: {error}")),
@@ -156,7 +135,7 @@ fn matches(pattern: &str) -> Box<dyn Iterator<Item = Result<Named, Failure>>> {
         return failed("no file matches this pattern".to_owned());
     }
     Box::new(paths.map(|path| {
-        path.map(Named::of).map_err(|error| {
+        path.map_err(|error| {
             Failure::file(FileError::Read { path: error.path().to_owned(), error: io::Error::other(error.to_string()) })
         })
     }))

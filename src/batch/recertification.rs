@@ -4,6 +4,7 @@
 //! Everything is computed, signed and verified before anything is written, and the files are then written together. A
 //! second run with the same input completes a run that was killed in between, and changes nothing otherwise.
 
+use super::successors::FORKED;
 use crate::certification::comparison::compare;
 use crate::certification::{AngleReadings, Certification, Comparison, Header, certify, predicted};
 use crate::files::{self, FileError, folder_of, leftovers};
@@ -13,7 +14,7 @@ use crate::passport::difference::{NumberDifference, of_deviations};
 use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Order, successor};
 use crate::passport::{Content, Question, Trust, verify};
-use crate::register::{Asked, Line, Register, State};
+use crate::register::{Asked, Line, Register};
 use crate::site::Site;
 use crate::stand::{Excluded, Stand};
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, rule, shown};
@@ -197,11 +198,11 @@ impl Recertification<'_> {
             next.push(self.next(predecessor, &folder, &prepared, &trust)?);
         }
         let superseded = Superseded::of(&stand_file, text.as_bytes())?;
-        let mut passports = chosen.done;
+        let mut passports: Vec<NewPassport> = chosen.done.into_iter().map(NewPassport::Done).collect();
         match seal {
             None => passports.extend(next.into_iter().map(|next| match next {
                 Next::There(issued) => NewPassport::There(issued),
-                Next::New(new) => NewPassport::Planned(new.id().to_owned(), new.path().to_owned()),
+                Next::New(new) => NewPassport::Planned(new.id().to_owned(), new.path),
             })),
             Some(seal) => {
                 let sealed = next.into_iter().map(|next| {
@@ -329,20 +330,14 @@ impl Recertification<'_> {
     /// Returns the folder of passports into which the new files are written.
     fn root(&self, stand: &Stand) -> Result<PathBuf, NotRecertified> {
         let shown_by_path = || Folder::root_of(self.passport, &stand.stand).map(Path::to_owned);
-        self.out.clone().or_else(shown_by_path).ok_or_else(|| {
-            refused(format!(
-                "{}: the passport is not in a folder {}, so the folder of its successor is unknown; specify the folder \
-                 of passports with --out",
-                shown(self.passport),
-                stand.stand.id()
-            ))
-        })
+        let unknown = |why| refused(format!("{}: {why}", shown(self.passport)));
+        self.out.clone().map_or_else(shown_by_path, Ok).map_err(unknown)
     }
 
     /// Checks that the existing stand file does not state other angles under the new number.
     fn check_there(&self, path: &Path, new: &Certification) -> Result<(), NotRecertified> {
         match files::read(path, LARGEST_DOCUMENT_BYTES) {
-            Err(FileError::Read { error, .. }) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),
+            Err(error) if error.is_missing() => Ok(()),
             Err(error) => Err(error.into()),
             Ok(bytes) => {
                 let there = Stand::from_yaml(&name_of(path), &bytes)?;
@@ -361,19 +356,17 @@ impl Recertification<'_> {
         let of_stand = |line: &&Line| line.stand.as_deref() == Some(id.as_str());
         let lines: Vec<&Line> = found.passports.iter().filter(of_stand).collect();
         let mut chosen = Chosen::default();
-        for line in lines.iter().filter(|line| matches!(line.state, State::InForce | State::Expiring)) {
+        for line in lines.iter().filter(|line| line.is_usable()) {
             let site = line.site.as_deref().unwrap_or_default();
             let asked = self.sites.iter().find(|asked| asked.id() == site);
             let path = PathBuf::from(&line.file);
             let bytes = files::read(&path, LARGEST_DOCUMENT_BYTES)?;
             let content = self.content(&path, &bytes, trust, &Question::at(self.question.time))?;
             if found.is_of_a_fork(&line.sha256) {
-                let words = "its predecessor has several successors; list them with `register` and withdraw the wrong \
-                             ones with `revoke`";
-                return Err(refused(format!("{}: {words}", shown(&path))));
+                return Err(refused(format!("{}: {FORKED}", shown(&path))));
             }
             if content.to_stand() == *new {
-                chosen.done.push(NewPassport::Done(Line::clone(line)));
+                chosen.done.push(Line::clone(line));
             } else if content.certificate.number == new.certificate.number {
                 let number = &new.certificate.number;
                 return Err(refused(format!("{}: certificate {number} already states other contents", shown(&path))));
@@ -395,7 +388,7 @@ impl Recertification<'_> {
     fn check_chosen(&self, chosen: &Chosen, lines: &[&Line]) -> Result<(), NotRecertified> {
         let known = |path: &Path| lines.iter().find(|line| same_file(Path::new(&line.file), path));
         if let Some(line) = known(self.passport)
-            && !matches!(line.state, State::InForce | State::Expiring)
+            && !line.is_usable()
             && chosen.done.is_empty()
         {
             let words =
@@ -405,11 +398,9 @@ impl Recertification<'_> {
         let there: Vec<&str> = chosen.predecessors.iter().map(|old| old.content.site.id.as_str()).collect();
         for asked in self.sites {
             let site = asked.id();
-            let is_done =
-                |done: &NewPassport| matches!(done, NewPassport::Done(line) if line.site.as_deref() == Some(site));
-            let done = chosen.done.iter().any(is_done);
+            let done = chosen.done.iter().any(|line| line.site.as_deref() == Some(site));
             if !there.contains(&site) && !done {
-                let in_force = lines.iter().filter(|line| matches!(line.state, State::InForce | State::Expiring));
+                let in_force = lines.iter().filter(|line| line.is_usable());
                 let in_force: Vec<&str> = in_force.filter_map(|line| line.site.as_deref()).collect();
                 return Err(refused(format!(
                     "no passport of the stand is in force for site {site}; found {}",
@@ -454,7 +445,7 @@ struct Chosen {
     /// Passports that get a successor.
     predecessors: Vec<Old>,
     /// Passports that an earlier run has already issued.
-    done: Vec<NewPassport>,
+    done: Vec<Line>,
     /// Ids of the passports that were not requested.
     remaining: Vec<String>,
 }

@@ -14,36 +14,19 @@ pub(crate) struct Shard {
     parts: u32,
 }
 
-/// Error in the specification of a part.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub(crate) enum NoShard {
-    /// Text that is not two whole numbers.
-    #[error("expected K/N, the K-th of N parts, as in 2/8")]
-    Form,
-    /// Number of parts that is zero or too large.
-    #[error("found {0} parts, expected 1 to 4294967295")]
-    Parts(u64),
-    /// Part that does not exist.
-    #[error("found part {number} of {parts}, expected 1 to {parts}")]
-    Number {
-        /// Requested part.
-        number: u64,
-        /// Number of parts.
-        parts: u32,
-    },
-}
-
 impl FromStr for Shard {
-    type Err = NoShard;
+    /// Says what is wrong with the specification of a part.
+    type Err = String;
 
-    fn from_str(text: &str) -> Result<Self, NoShard> {
-        let (number, parts) = text.split_once('/').ok_or(NoShard::Form)?;
-        let number: u64 = number.parse().map_err(|_| NoShard::Form)?;
-        let parts: u64 = parts.parse().map_err(|_| NoShard::Form)?;
-        let parts = u32::try_from(parts).ok().filter(|&parts| parts > 0).ok_or(NoShard::Parts(parts))?;
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers =
+            text.split_once('/').and_then(|(number, parts)| Some((number.parse().ok()?, parts.parse().ok()?)));
+        let (number, all): (u64, u64) = numbers.ok_or("expected K/N, the K-th of N parts, as in 2/8")?;
+        let parts = u32::try_from(all).ok().filter(|&parts| parts > 0);
+        let parts = parts.ok_or_else(|| format!("found {all} parts, expected 1 to 4294967295"))?;
         match u32::try_from(number) {
             Ok(number @ 1..) if number <= parts => Ok(Self { number, parts }),
-            _ => Err(NoShard::Number { number, parts }),
+            _ => Err(format!("found part {number} of {parts}, expected 1 to {parts}")),
         }
     }
 }
@@ -128,7 +111,7 @@ mod tests {
             ("-1/4", "expected K/N, the K-th of N parts, as in 2/8"),
             ("1/4/2", "expected K/N, the K-th of N parts, as in 2/8"),
         ] {
-            assert_eq!(text.parse::<Shard>().unwrap_err().to_string(), words);
+            assert_eq!(text.parse::<Shard>().unwrap_err(), words);
         }
     }
 }

@@ -4,8 +4,8 @@
 //! [`register`](crate::register). A passport whose content would not change is left as it is.
 
 use super::catalogue::Catalogue;
-use super::paths::{self, Named};
-use super::{Batch, Event, Failure, Listener, Outcome, Purpose, Sweeper, parallel};
+use super::paths;
+use super::{Batch, Event, Failure, Listener, Outcome, Purpose, Sweeper, fail, parallel};
 use crate::document::sha256_hex;
 use crate::files::{self, FileError, folder_of};
 use crate::folder::{Folder, Issued, Superseding, search};
@@ -20,8 +20,9 @@ use std::io::BufRead;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-const FORKED: &str = "its predecessor has several successors; list them with `register` and withdraw the wrong ones \
-                      with `revoke`";
+/// Words for a passport whose predecessor has several successors.
+pub(super) const FORKED: &str = "its predecessor has several successors; list them with `register` and withdraw the \
+                                 wrong ones with `revoke`";
 
 /// Change to the passports, and the trust by which they are verified.
 pub(crate) struct Change<'a> {
@@ -72,32 +73,27 @@ struct Following {
 impl Batch<'_> {
     /// Re-issues the given files, and the passports in given folders that the change concerns.
     pub(crate) fn reissue(&self, passports: &[PathBuf], list: &mut dyn BufRead, change: Change, tell: Listener) {
-        let mut none = std::io::empty();
-        let files = paths::files(change.stands, &mut none, Purpose::Stands);
-        let (stands, bad_stands) = Catalogue::read(files, self.threads, tell);
-        let mut none = std::io::empty();
-        let files = paths::files(change.sites, &mut none, Purpose::Sites);
-        let (sites, bad_sites) = Catalogue::read(files, self.threads, tell);
+        let (stands, bad_stands) = self.catalogue(change.stands, &mut std::io::empty(), Purpose::Stands, tell);
+        let (sites, bad_sites) = self.catalogue(change.sites, &mut std::io::empty(), Purpose::Sites, tell);
         let sites_missing = !bad_sites.is_empty();
-        for failure in bad_stands.into_iter().chain(bad_sites) {
-            // The stand or site of an unreadable file is unknown, and so is the number of its passports.
-            tell(Event::Done(Some(Outcome::Failed(Failure { passports: Some(0), ..failure }))));
-        }
-        let sweeper = Sweeper::default();
+        // The stand or site of an unreadable file is unknown, and so is the number of its passports.
+        fail(bad_stands, 0, tell);
+        fail(bad_sites, 0, tell);
         let mut run = Run {
             batch: self,
             change,
             stands,
             sites,
             sites_missing,
-            sweeper,
+            sweeper: Sweeper::default(),
             superseding: Superseding::default(),
             candidates: Vec::new(),
         };
         for named in paths::named(passports, list) {
             match named {
                 Err(failure) => run.push(Err(failure), tell),
-                Ok(Named::File(path)) => {
+                Ok(root) if root.is_dir() => run.folder(&root, tell),
+                Ok(path) => {
                     tell(Event::Planned(1));
                     if self.shard.has_file(&path) {
                         run.push(Ok(Candidate { path, found: None }), tell);
@@ -105,7 +101,6 @@ impl Batch<'_> {
                         tell(Event::Done(None));
                     }
                 }
-                Ok(Named::Folder(root)) => run.folder(&root, tell),
             }
             if self.cancelled() {
                 return;
@@ -253,15 +248,7 @@ impl Run<'_> {
         if let Some(folder) = &self.change.folder {
             return Ok(Arc::clone(folder));
         }
-        let stand = &next.stand().stand;
-        let Some(root) = Folder::root_of(path, stand) else {
-            let why = format!(
-                "the passport is not in a folder {}, so the folder of its successor is unknown; specify the folder of \
-                 passports with --out",
-                stand.id()
-            );
-            return Err(Failure::unusable(path, why));
-        };
+        let root = Folder::root_of(path, &next.stand().stand).map_err(|why| Failure::unusable(path, why))?;
         Ok(Arc::new(Folder::new(root).with_durability(self.batch.durability)))
     }
 

@@ -11,6 +11,7 @@ use crate::attitude::Deviation;
 use crate::coefficients::{EarthRate, Position, PositionIndex, StandGeometry};
 use crate::gyro::GyroParameters;
 use nalgebra::Vector2;
+use serde::Serialize;
 
 /// Returns the result of `method` for the exact currents of `gyro`, or `None` if the method gives no result.
 ///
@@ -97,11 +98,12 @@ pub(crate) fn best_further_visit(
 }
 
 /// Ratios of standard uncertainties on a stand to those on the ideal stand with the same positions at the same site.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct NoiseGrowth {
     /// Largest ratio of K_x, K_xy, K_yx, K_y.
     pub k: f64,
     /// Larger ratio of ω_0x, ω_0y.
+    #[serde(rename = "omega_0")]
     pub omega0: f64,
     /// Ratio of ω_g.
     pub omega_g: f64,

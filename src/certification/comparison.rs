@@ -18,6 +18,7 @@ use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
 use crate::statistics::beta::f_larger;
 use crate::statistics::least_squares::Factorised;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use serde::Serialize;
 
 /// Probability by chance below which a check agrees better with the certificate than a new measurement can.
 const TOO_CLOSE: f64 = 1e-6;
@@ -46,21 +47,22 @@ pub enum NotCompared {
 }
 
 /// Comparison of a check run with a certificate.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
     /// Number of the certificate.
     pub certificate: String,
     /// Number of runs of the check.
     pub runs: usize,
+    /// `true` if the stand has not changed: all positions repeat and agree, and no common rotation is significant.
+    pub same_stand: bool,
     /// Test of all positions relative to each other, with the common rotation removed.
     pub all: Test,
     /// Results of the single positions.
     pub positions: Vec<ComparedPosition>,
     /// Rotation common to all positions that repeat.
     pub common: CommonTurn,
-    /// `true` if the stand has not changed: all positions repeat and agree, and no common rotation is significant.
-    pub same_stand: bool,
     /// Reasons and limits of the result.
+    #[serde(skip)]
     pub(crate) findings: Vec<Finding>,
     /// The findings in words, a sentence each.
     pub words: Vec<String>,

@@ -25,14 +25,7 @@ pub(super) struct Parsed {
 pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
     let added = match defaults::add(&mut arguments) {
         Ok(added) => added,
-        Err(failure) => {
-            let (words, code) = (failure.message.clone(), failure.code);
-            if names_json(&arguments) {
-                output::failure(failure);
-            }
-            output::complain(&words);
-            return Err(ExitCode::from(code));
-        }
+        Err(failure) => return Err(failure.report(names_json(&arguments))),
     };
     let parsed = |arguments: &[OsString]| {
         let matches = help::command().try_get_matches_from(arguments)?;
@@ -51,7 +44,7 @@ pub(super) fn parse(mut arguments: Vec<OsString>) -> Result<Parsed, ExitCode> {
     }
     let advice = refused.as_ref().map(advice).unwrap_or_default();
     if names_json(&arguments) {
-        output::failure(Failure::usage(words(refused.as_ref().unwrap_or(&error)) + &advice));
+        output::failure(&Failure::usage(words(refused.as_ref().unwrap_or(&error)) + &advice));
     }
     match refused {
         Some(refused) => {

@@ -157,19 +157,15 @@ impl Reporter {
     fn outcome(&mut self, outcome: &Outcome) {
         match outcome {
             // The remarks on an identical existing passport were printed when it was issued.
-            Outcome::There(issued) if issued.new => {
-                issued.remarks.words().into_iter().for_each(|words| self.told.add(&issued.id, words));
-            }
-            Outcome::Planned(planned) => {
-                planned.remarks.words().into_iter().for_each(|words| self.told.add(&planned.id, words));
-            }
+            Outcome::There(issued) if issued.new => self.told.add_all(&issued.id, &issued.remarks),
+            Outcome::Planned(planned) => self.told.add_all(&planned.id, &planned.remarks),
             Outcome::There(_) | Outcome::Skipped { .. } => {}
             Outcome::Failed(failed) => {
                 self.code = self.code.max(if failed.unusable { UNUSABLE } else { REFUSED });
                 self.bar.suspend(|| output::complain(&failure(failed)));
             }
         }
-        let text = self.reports.add(Report::of_outcome(outcome));
+        let text = self.reports.add(Report::of(outcome));
         self.write(&text);
     }
 
@@ -187,7 +183,7 @@ impl Reporter {
     fn end(mut self) -> Result<Code, Failure> {
         self.bar.finish_and_clear();
         self.told.lines().iter().for_each(|line| output::say(line));
-        let text = std::mem::replace(&mut self.reports, Reports::new(Form::Text)).end();
+        let text = self.reports.end();
         self.write(&text);
         if let Some(failure) = self.unwritten {
             return Err(failure);

@@ -267,7 +267,7 @@ impl Bench<'_> {
     fn one(&self, path: &Path) -> Result<Code, Failure> {
         let (options, content) = (self.options, &self.passport.content);
         // Nothing is written if one of the files cannot be.
-        let files = || options.report.iter().chain(&options.dcc).chain(options.uncertainty.picture());
+        let files = || options.report.iter().chain(&options.dcc).chain(&options.uncertainty.budget_svg);
         files::check_distinct(files()).map_err(Failure::file)?;
         files::check_replaceable(files(), options.uncertainty.force).map_err(Failure::file)?;
         let found = self.calibrate(path)?;
@@ -279,7 +279,7 @@ impl Bench<'_> {
             let laboratory = options.laboratory.is_some().then_some(&self.laboratory);
             let sha256 = sha256_hex(&self.passport.bytes);
             let calibrated = Calibrated::new(content, &sha256, laboratory, self.gyro_type.as_ref(), done);
-            write_dcc(options, path, &calibrated.map_err(Failure::refused)?, &self.administrative)?;
+            self.write_dcc(path, &calibrated.map_err(Failure::refused)?)?;
         }
         if let Some(path) = &options.report {
             output::saved(path, &self.page(&found)?, options.uncertainty.force)?;
@@ -322,20 +322,15 @@ impl Bench<'_> {
             let code = found.code();
             Ok((found, code))
         };
-        inputs::each(&options.currents, Purpose::Tables, calibrate, |done| {
-            let found;
-            let line = match done {
-                Each::Done(done) => {
-                    found = done;
-                    let file = found.currents.0.as_str();
-                    let verdict = self.verdict(&found);
-                    let text =
-                        report::line(file, &found.done.calibration, found.done.document.mistake.as_ref(), verdict);
-                    Each::Done((Line { file, result: found.whole() }, text))
-                }
-                Each::Refused { file, refusal } => Each::Refused { file, refusal },
-            };
-            inputs::print(&line, options.format)
+        inputs::each(&options.currents, Purpose::Tables, calibrate, |done| match done {
+            Each::Done(found) => {
+                let (file, mistake) = (found.currents.0.as_str(), found.done.document.mistake.as_ref());
+                let text = report::line(file, &found.done.calibration, mistake, self.verdict(&found));
+                inputs::print(&Each::Done((Line { file, result: found.whole() }, text)), options.format)
+            }
+            Each::Refused { file, refusal } => {
+                inputs::print(&Each::<(Line, String)>::Refused { file, refusal }, options.format)
+            }
         })
     }
 
@@ -394,10 +389,20 @@ impl Bench<'_> {
             missing: &done.missing,
             document: &done.document,
             previous: &self.previous,
-            budget: found.uncertainty.budget(),
-            monte_carlo: found.uncertainty.monte_carlo(),
+            budget: found.uncertainty.budget.as_ref().map(|(budget, _)| budget),
+            monte_carlo: found.uncertainty.monte_carlo.as_ref(),
         };
         Ok(page.html(&languages(&self.options.lang)))
+    }
+
+    /// Writes the gyro's certificate.
+    fn write_dcc(&self, path: &Path, calibrated: &Calibrated) -> Result<(), Failure> {
+        let dcc = dcc::of_gyro(calibrated, self.administrative.content(), Some(&languages(&self.options.lang)));
+        let refused = |problems| Failure::unreadable(self.administrative.refuse(problems));
+        let dcc = dcc.map_err(|problems| Failure { code: REFUSED, ..refused(problems) })?;
+        output::saved(path, &dcc.xml, self.options.uncertainty.force)?;
+        output::say("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");
+        Ok(())
     }
 
     fn text(&self, found: &Found) -> String {
@@ -427,7 +432,7 @@ impl Options {
             ("--exclude", !self.exclude.is_empty()),
             ("--report", self.report.is_some()),
             ("--dcc", self.dcc.is_some()),
-            ("--budget-svg", self.uncertainty.picture().is_some()),
+            ("--budget-svg", self.uncertainty.budget_svg.is_some()),
         ];
         let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
         let advice = match option {
@@ -450,23 +455,6 @@ impl Options {
             drift: self.drift,
         }
     }
-}
-
-/// Writes the gyro's certificate.
-fn write_dcc(
-    options: &Options,
-    path: &Path,
-    calibrated: &Calibrated,
-    administrative: &AdministrativeFile,
-) -> Result<(), Failure> {
-    let dcc = dcc::of_gyro(calibrated, administrative.content(), Some(&languages(&options.lang)));
-    let dcc = dcc.map_err(|problems| {
-        let refused = administrative.refuse(problems);
-        Failure { code: REFUSED, ..Failure::unreadable(refused) }
-    })?;
-    output::saved(path, &dcc.xml, options.uncertainty.force)?;
-    output::say("the DCC is not signed; the passport of the stand is, and its SHA-256 is in the DCC");
-    Ok(())
 }
 
 /// Returns the passport in the form that the report takes.

@@ -1,6 +1,6 @@
 //! Verb `certify`: stand files from repeated readings of the angles, or a later check run against one.
 
-use super::diff::Past;
+use super::diff::past;
 use super::exclusion::ExclusionOptions;
 use super::output::Format;
 use super::render::languages;
@@ -197,15 +197,13 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
     if let Some((path, page)) = &page {
         output::saved(path, page, options.force)?;
     }
-    match options.format {
-        Format::Json => output::json(&report::to_json(certified.as_ref(), refused.as_ref(), comparison.as_ref()))?,
-        Format::Text => {
-            let shown = certified.as_ref().filter(|_| options.output.is_some()).map(report::certification);
-            let compared = comparison.as_ref().map(report::comparison);
-            let texts: Vec<String> = shown.into_iter().chain(compared).collect();
-            output::text(&texts.join("\n"))?;
-        }
-    }
+    let as_text = || {
+        let shown = certified.as_ref().filter(|_| options.output.is_some()).map(report::certification);
+        let compared = comparison.as_ref().map(report::comparison);
+        shown.into_iter().chain(compared).collect::<Vec<_>>().join("\n")
+    };
+    let as_json = || report::to_json(certified.as_ref(), refused.as_ref(), comparison.as_ref());
+    options.format.write(as_json, as_text)?;
     Ok(if comparison.is_some_and(|comparison| !comparison.same_stand) { REFUSED } else { 0 })
 }
 
@@ -215,7 +213,7 @@ fn certified(path: &Path, trust: &OptionalTrust) -> Result<Stand, Failure> {
         files::read_first(path, LARGEST_DOCUMENT_BYTES).is_ok_and(|bytes| claims_to_be_a_passport(&bytes));
     match (is_passport, trust.load()?) {
         (false, _) => inputs::stand(path),
-        (true, Some((trust, question))) => Ok(Past::read(path, &trust, &question)?.content.to_stand()),
+        (true, Some((trust, question))) => Ok(past(path, &trust, &question)?.content.to_stand()),
         (true, None) => Err(Failure::unusable(format!("{}: is a passport; specify --trust to verify it", shown(path)))),
     }
 }

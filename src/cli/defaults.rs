@@ -5,7 +5,7 @@
 
 use super::failure::Failure;
 use super::help;
-use crate::files::{self, FileError};
+use crate::files;
 use crate::text::shown;
 use crate::workspace::{NoWorkspace, WORKSPACE_FILE, Workspace};
 use clap::builder::{PathBufValueParser, TypedValueParser};
@@ -48,14 +48,9 @@ pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure>
     let folder = folder.filter(|_| matches.subcommand_name() != Some("init"));
     let workspace = folder.map(|folder| Workspace::read(&folder).map_err(|error| no_workspace(&folder, error)));
     let workspace = workspace.transpose()?;
-    let defaults = Defaults::of(workspace.as_ref());
-    let mut added = Vec::new();
+    let mut added: Vec<Added> = Vec::new();
     if let Some((verb, of_command, of_verb)) = verb(&command, &matches) {
-        for (option, value, source) in defaults.for_verb(verb) {
-            if lacks(of_command, of_verb, option) {
-                added.push((option, value, source));
-            }
-        }
+        added.extend(values(workspace.as_ref(), verb).filter(|(option, ..)| lacks(of_command, of_verb, option)));
         let root = workspace.as_ref().and_then(|workspace| workspace.passports.clone());
         let given = |id: &str| of_verb.value_source(id).is_some();
         if let Some(root) = root.filter(|_| verb == "register" && !given("folder") && !given("passports")) {
@@ -69,7 +64,7 @@ pub(super) fn add(arguments: &mut Vec<OsString>) -> Result<Vec<String>, Failure>
         // It is set once, before anything reads it.
         let _ = WORKSPACE.set(workspace);
     }
-    let words = |(option, value, source): &(&str, OsString, &str)| {
+    let words = |(option, value, source): &Added| {
         let option = if option.is_empty() { "DIR" } else { option };
         format!("{option} {} (from {source})", shown(Path::new(value)))
     };
@@ -84,13 +79,11 @@ fn no_workspace(folder: &Path, error: NoWorkspace) -> Failure {
             let meant = meant.unwrap_or_else(|| "; `init` makes a workspace".to_owned());
             Failure::unusable(format!("{}: is a file, expected the folder of a workspace{meant}", shown(folder)))
         }
-        NoWorkspace::File(FileError::Read { error, .. }) if error.kind() == std::io::ErrorKind::NotFound => {
-            Failure::unusable(format!(
-                "{}: is not a workspace, because it has no dtg-passport.toml; check --workspace or {WORKSPACE_VARIABLE}, \
-                 or make a workspace with `init`",
-                shown(folder)
-            ))
-        }
+        NoWorkspace::File(error) if error.is_missing() => Failure::unusable(format!(
+            "{}: is not a workspace, because it has no dtg-passport.toml; check --workspace or {WORKSPACE_VARIABLE}, \
+             or make a workspace with `init`",
+            shown(folder)
+        )),
         NoWorkspace::File(error) => Failure::file(error),
         NoWorkspace::Unreadable(error) => Failure::unreadable(error),
     }
@@ -110,47 +103,32 @@ fn argument(option: &str, value: &OsStr) -> OsString {
 const ENVIRONMENT: &str = "the environment";
 const FILE: &str = "the workspace";
 
-/// Values for options, each with its source.
-struct Defaults {
-    key: Option<(OsString, &'static str)>,
-    identity: Option<(OsString, &'static str)>,
-    trust: Option<(OsString, &'static str)>,
-    passports: Option<OsString>,
-    lists: Option<OsString>,
-}
+/// Option, its value, and where the value comes from.
+type Added = (&'static str, OsString, &'static str);
 
-impl Defaults {
-    fn of(workspace: Option<&Workspace>) -> Self {
-        let value = |name: &str, stated: Option<OsString>| {
-            variable(name).map(|value| (value, ENVIRONMENT)).or(stated.map(|value| (value, FILE)))
-        };
-        let path = |path: &Option<PathBuf>| path.clone().map(OsString::from);
-        Self {
-            key: value(KEY_VARIABLE, workspace.and_then(|workspace| path(&workspace.key))),
-            identity: value(IDENTITY_VARIABLE, workspace.and_then(|at| at.identity.clone().map(OsString::from))),
-            trust: value(TRUST_VARIABLE, workspace.and_then(|workspace| path(&workspace.trust))),
-            passports: workspace.and_then(|workspace| path(&workspace.passports)),
-            lists: workspace.and_then(|workspace| path(&workspace.lists())),
-        }
-    }
-
-    fn for_verb(&self, verb: &str) -> Vec<(&'static str, OsString, &'static str)> {
-        let of = |option, value: &Option<(OsString, &'static str)>| {
-            value.clone().map(|(value, source)| (option, value, source))
-        };
-        let passports = |option| self.passports.clone().map(|value| (option, value, FILE));
-        let out = passports("--out").filter(|_| WRITE_PASSPORTS.contains(&verb));
-        let lists = self.lists.clone().filter(|_| verb == "revoke").map(|value| ("--list", value, FILE));
+/// Returns the values that a verb's options have if they are not given.
+fn values(workspace: Option<&Workspace>, verb: &str) -> impl Iterator<Item = Added> {
+    let stated = |value: fn(&Workspace) -> Option<OsString>| workspace.and_then(value);
+    let passports = || stated(|workspace| workspace.passports.clone().map(Into::into));
+    let of_any_verb = [
+        ("--key", KEY_VARIABLE, stated(|workspace| workspace.key.clone().map(Into::into))),
+        ("--identity", IDENTITY_VARIABLE, stated(|workspace| workspace.identity.clone().map(Into::into))),
+        ("--trust", TRUST_VARIABLE, stated(|workspace| workspace.trust.clone().map(Into::into))),
+    ];
+    let of_any_verb = of_any_verb.map(|(option, name, stated)| {
+        let named = variable(name).map(|value| (option, value, ENVIRONMENT));
+        named.or(stated.map(|value| (option, value, FILE)))
+    });
+    let of_this_verb = [
+        ("--out", WRITE_PASSPORTS.contains(&verb), passports()),
+        ("--list", verb == "revoke", stated(|workspace| workspace.lists().map(Into::into))),
         // `register` has its folder without an option.
-        let folder = passports("--passports").filter(|_| verb != "register");
+        ("--passports", verb != "register", passports()),
         // Otherwise a passport that the workspace itself withdrew would be valid in it.
-        let register = passports("--register").filter(|_| verb == "verify");
-        [of("--key", &self.key), of("--identity", &self.identity), of("--trust", &self.trust)]
-            .into_iter()
-            .chain([out, lists, folder, register])
-            .flatten()
-            .collect()
-    }
+        ("--register", verb == "verify", passports()),
+    ];
+    let of_this_verb = of_this_verb.map(|(option, applies, value)| Some((option, value.filter(|_| applies)?, FILE)));
+    of_any_verb.into_iter().chain(of_this_verb).flatten()
 }
 
 fn variable(name: &str) -> Option<OsString> {

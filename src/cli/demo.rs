@@ -6,7 +6,7 @@ use crate::demonstration;
 use crate::report::style;
 use crate::text::name_of;
 use clap::Args;
-use serde::Serialize;
+use serde_json::json;
 use std::path::PathBuf;
 
 /// Demonstrate the work of factory and laboratory with a built-in example, and keep its files
@@ -18,14 +18,6 @@ pub(super) struct Options {
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
-}
-
-/// The result of the demonstration, for programs.
-#[derive(Serialize)]
-struct Shown {
-    folder: String,
-    passed: bool,
-    steps: Vec<String>,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
@@ -40,7 +32,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     });
     let passed = passed.map_err(Failure::unusable)?;
     if options.format == Format::Json {
-        output::json(&Shown { folder: name_of(&folder), passed, steps })?;
+        output::json(&json!({ "folder": name_of(&folder), "passed": passed, "steps": steps }))?;
     }
     Ok(if passed { 0 } else { REFUSED })
 }

@@ -15,10 +15,10 @@ use crate::passport::export::{site_file, stand_file};
 use crate::passport::verification::unreadable;
 use crate::passport::{Content, Question, Trust, Verification, verify};
 use crate::report::Language;
-use crate::report::{exported, issued};
+use crate::report::exported;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of, printable, shown};
 use clap::{Args, ValueEnum};
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -57,13 +57,6 @@ pub(super) struct Options {
     format: Format,
 }
 
-/// Files written from one passport, for programs.
-#[derive(Serialize)]
-struct Written {
-    file: String,
-    written: Vec<String>,
-}
-
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Form {
     /// Stand file (dtg-stand/1)
@@ -88,11 +81,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     for found in paths::files(&options.passports, &mut list, Purpose::Passports) {
         match found {
             Ok(path) => run.push(path)?,
-            Err(failed) => {
-                let words = issued::failure(&failed);
-                let failure = if failed.unusable { Failure::unusable(words) } else { Failure::refused(words) };
-                run.failed(failed.what, failure)?;
-            }
+            Err(failed) => run.failed(failed.what.clone(), Failure::input(&failed))?,
         }
     }
     run.chunk()?;
@@ -136,7 +125,7 @@ impl Run<'_> {
         output::complain(&failure.message);
         self.code = self.code.max(failure.code);
         match self.options.format {
-            Format::Json => inputs::json_line(&Each::<Written>::Refused { file, refusal: failure.failed }),
+            Format::Json => inputs::json_line(&Each::<Value>::Refused { file, refusal: failure.failed }),
             Format::Text => Ok(()),
         }
     }
@@ -225,7 +214,7 @@ impl Run<'_> {
             self.written.insert(target, (sha256, path.clone()));
         }
         match self.options.format {
-            Format::Json if line.is_none() => inputs::json_line(&Written { file: name, written }),
+            Format::Json if line.is_none() => inputs::json_line(&json!({ "file": name, "written": written })),
             _ => Ok(()),
         }
     }

@@ -1,14 +1,15 @@
 //! Failure of a verb: a message and an exit code for people, and the same as JSON for programs.
 
-use super::{Code, REFUSED, UNUSABLE};
+use super::{Code, REFUSED, UNUSABLE, output};
 use crate::files::FileError;
 use crate::folder::Folder;
 use crate::interface::calibrated::Stopped;
 use crate::interface::{self, CheckLine, Failed, Place};
 use crate::passport::Verification;
-use crate::report::{style, verdict};
+use crate::report::{issued, style, verdict};
 use crate::text::{Unreadable, name_of, shown};
 use std::path::Path;
+use std::process::ExitCode;
 
 /// Code of a failure in JSON, besides those of the library and of a passport's checks.
 const USAGE: &str = "usage";
@@ -53,6 +54,21 @@ impl Failure {
         let code = if failed.code == interface::EXISTS { REFUSED } else { UNUSABLE };
         let failure = Self { message: failed.message.clone(), code, failed };
         if is_id { failure.with_advice(IN_A_WORKSPACE) } else { failure }
+    }
+
+    /// Creates the failure of one of several inputs.
+    pub(super) fn input(failed: &crate::batch::Failure) -> Self {
+        let words = issued::failure(failed);
+        if failed.unusable { Self::unusable(words) } else { Self::refused(words) }
+    }
+
+    /// Reports the failure, which ends the program, and returns the exit code.
+    pub(super) fn report(&self, as_json: bool) -> ExitCode {
+        if as_json {
+            output::failure(self);
+        }
+        output::complain(&self.message);
+        ExitCode::from(self.code)
     }
 
     /// Adds what to do.

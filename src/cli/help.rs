@@ -4,6 +4,7 @@ use super::Cli;
 use crate::report::{columns, style};
 use crate::text::kind::FORMATS;
 use clap::{Command, CommandFactory};
+use std::sync::LazyLock;
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -128,9 +129,7 @@ fn unbroken(usage: &str) -> String {
 ///
 /// The commit comes from variables at build time, so that equal sources and variables give equal bytes.
 fn long_version() -> &'static str {
-    use std::sync::OnceLock;
-    static VERSION: OnceLock<String> = OnceLock::new();
-    VERSION.get_or_init(|| {
+    static VERSION: LazyLock<String> = LazyLock::new(|| {
         let commit = match (option_env!("DTG_PASSPORT_COMMIT"), option_env!("DTG_PASSPORT_COMMIT_DATE")) {
             (Some(commit), Some(date)) => format!("\ncommit {commit}, {date}"),
             (Some(commit), None) => format!("\ncommit {commit}"),
@@ -138,7 +137,8 @@ fn long_version() -> &'static str {
         };
         let formats = FORMATS.map(|(format, _)| format).join(", ");
         format!("{}{commit}\nformats {formats}", env!("CARGO_PKG_VERSION"))
-    })
+    });
+    &VERSION
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::output::{self, Format};
 use super::register::refuse_file;
 use super::trust_options::TrustOptions;
 use super::{Code, Failure, UNUSABLE};
-use crate::folder::record;
+use crate::folder::search;
 use crate::parallel;
 use crate::report::history as report;
 use crate::report::picture::history as picture;
@@ -44,7 +44,7 @@ fn stand(text: &str) -> Result<String, String> {
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     refuse_file(&options.passports)?;
     let (trust, question) = options.trust.load()?;
-    let found = record::history(&options.passports, &options.stand, trust, question.time, parallel::processors());
+    let found = search::history(&options.passports, &options.stand, trust, question.time, parallel::processors());
     let (history, register) = found.map_err(Failure::file)?;
     let Some(history) = history else {
         let known: std::collections::BTreeSet<&str> =
@@ -64,9 +64,6 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if let Some(path) = &options.output {
         output::saved(path, &picture::history(&history, question.time), options.force)?;
     }
-    match options.format {
-        Format::Json => output::json(&report::to_json(&history))?,
-        Format::Text => output::text(&report::text(&history))?,
-    }
+    options.format.write(|| report::to_json(&history), || report::text(&history))?;
     Ok(if register.is_incomplete() { UNUSABLE } else { 0 })
 }

@@ -5,7 +5,7 @@ use super::{Code, Failure, key_options};
 use crate::text::{name_of, shown};
 use crate::workspace::{NotMade, make};
 use clap::Args;
-use serde::Serialize;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 
 /// Make a workspace: folders, dtg-passport.toml, .gitignore and a README
@@ -25,28 +25,16 @@ pub(super) struct Options {
     format: Format,
 }
 
-/// The new workspace, for programs.
-#[derive(Serialize)]
-struct Made {
-    workspace: String,
-    made: Vec<String>,
-}
-
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let made = make(&options.folder, options.identity.as_deref(), options.force).map_err(|error| match error {
         NotMade::File(error) => Failure::file(error),
         error => Failure::usage(error),
     })?;
-    match options.format {
-        Format::Json => {
-            let made = made.iter().map(|path| name_of(path)).collect();
-            output::json(&Made { workspace: name_of(&options.folder), made })?;
-        }
-        Format::Text => {
-            let lines: String = made.iter().map(|path| format!("{}\n", shown(path))).collect();
-            output::text(&lines)?;
-        }
-    }
+    let names = || made.iter().map(|path| name_of(path)).collect::<Vec<_>>();
+    options.format.write(
+        || json!({ "workspace": name_of(&options.folder), "made": names() }),
+        || made.iter().map(|path| format!("{}\n", shown(path))).collect(),
+    )?;
     let (key, signers) = (options.folder.join("factory.key"), options.folder.join("allowed_signers"));
     let identity = options.identity.as_deref().unwrap_or("WHO");
     output::say(&format!(

@@ -95,11 +95,7 @@ pub(super) fn each<T>(
     for input in paths::files(arguments, &mut std::io::stdin().lock(), purpose) {
         let done = match input {
             Ok(path) => work(&path).map_err(|failure| (name_of(&path), failure)),
-            Err(failed) => {
-                let words = issued::failure(&failed);
-                let failure = if failed.unusable { Failure::unusable(words) } else { Failure::refused(words) };
-                Err((failed.what, failure))
-            }
+            Err(failed) => Err((failed.what.clone(), Failure::input(&failed))),
         };
         code = code.max(match &done {
             Ok((_, code)) => *code,

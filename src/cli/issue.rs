@@ -3,7 +3,7 @@
 use super::batch::BatchOptions;
 use super::key_options::refuse_distrusted;
 use super::{Code, Failure, defaults, inputs, trust_options};
-use crate::batch::issue::{Job, Known};
+use crate::batch::issue::Job;
 use crate::gyro::GyroType;
 use crate::passport::accuracy::Stated;
 use crate::passport::issue::{Issue, time_of_issue};
@@ -75,7 +75,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     };
     let own = || own_trust(&options.batch.identity, public.as_ref()?);
     let believed = trust.clone().or_else(own);
-    let known = believed.as_ref().map(|trust| Known { trust, time: now.max(order.issued_at) });
+    let known = believed.as_ref().map(|trust| (trust, now.max(order.issued_at)));
     let folder = options.batch.folder(&options.out);
     let job = Job { folder: &folder, stands: &options.stands, sites: &options.sites, order: &order, known };
     options.batch.run(signer.as_deref(), trust.as_ref(), |batch, tell| {

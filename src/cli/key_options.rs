@@ -24,12 +24,6 @@ pub(super) struct KeyOptions {
     pub identity: String,
 }
 
-impl KeyOptions {
-    pub(super) fn signer(&self) -> Result<Box<dyn Signer + Sync>, Failure> {
-        signer_of(&self.key)
-    }
-}
-
 /// Returns the path of the public half of a key.
 pub(super) fn with_pub(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();

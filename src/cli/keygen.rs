@@ -8,7 +8,7 @@ use crate::signing::{self, allowed_signers_line, forbid_core_dumps};
 use crate::text::{name_of, shown};
 use crate::trust::SigningKey;
 use clap::Args;
-use serde::Serialize;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 use zeroize::Zeroizing;
 
@@ -34,18 +34,6 @@ pub(super) struct Options {
     format: Format,
 }
 
-/// The new key, for programs.
-#[derive(Serialize)]
-struct Created {
-    key: String,
-    public_key: String,
-    fingerprint: String,
-    /// The line for allowed_signers.
-    line: String,
-    /// The file to which the line was appended; null if it was not.
-    appended_to: Option<String>,
-}
-
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let stem = options.key.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let identity = options.identity.clone().or(stem).unwrap_or_default();
@@ -69,9 +57,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     signers.map(|path| signing::with_signer(path, &line)).transpose().map_err(Failure::unusable)?;
     let passphrase = new_passphrase(options)?;
     let private = key.to_openssh(&identity, passphrase.as_ref().map(|p| p.as_str())).map_err(Failure::unusable)?;
-    write(&options.key, private.as_bytes(), Access::Private)?;
+    files::write_new(&options.key, private.as_bytes(), Access::Private).map_err(Failure::file)?;
     let public = format!("{} {identity}\n", key.public_key().to_openssh());
-    write(&public_path, public.as_bytes(), Access::Shared)?;
+    files::write_new(&public_path, public.as_bytes(), Access::Shared).map_err(Failure::file)?;
     let wrote = format!("wrote {} (keep it secret) and {}", shown(&options.key), shown(&public_path));
     let appended = signers.map(|path| (path, signing::append_signer(path, &line)));
     let (appended_to, failed) = match appended {
@@ -91,13 +79,13 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         Format::Text => {}
         // A failure is then reported instead; its message comes after that with the line.
         Format::Json if failed.is_some() => output::say(&line),
-        Format::Json => output::json(&Created {
-            key: name_of(&options.key),
-            public_key: name_of(&public_path),
-            fingerprint: key.public_key().fingerprint(),
-            line,
-            appended_to: appended_to.map(name_of),
-        })?,
+        Format::Json => output::json(&json!({
+            "key": name_of(&options.key),
+            "public_key": name_of(&public_path),
+            "fingerprint": key.public_key().fingerprint(),
+            "line": line,
+            "appended_to": appended_to.map(name_of),
+        }))?,
     }
     failed.map_or(Ok(0), |failed| Err(Failure::unusable(failed)))
 }
@@ -111,10 +99,6 @@ fn refuse_existing(path: &Path) -> Result<(), Failure> {
         return Err(Failure::file(exists).with_advice("keys are never replaced; choose another name"));
     }
     Ok(())
-}
-
-fn write(path: &Path, bytes: &[u8], access: Access) -> Result<(), Failure> {
-    files::write_new(path, bytes, access).map_err(Failure::file)
 }
 
 fn new_passphrase(options: &Options) -> Result<Option<Zeroizing<String>>, Failure> {

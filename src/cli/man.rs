@@ -5,7 +5,7 @@ use super::{Code, Failure, help};
 use crate::files;
 use crate::text::{name_of, shown};
 use clap::{Args, Command};
-use serde::Serialize;
+use serde_json::json;
 use std::path::PathBuf;
 
 /// Write the manual pages, one for each command, into a folder
@@ -22,12 +22,6 @@ pub(super) struct Options {
     format: Format,
 }
 
-/// The written pages, for programs.
-#[derive(Serialize)]
-struct Pages {
-    pages: Vec<String>,
-}
-
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let mut command = help::command();
     command.build();
@@ -41,7 +35,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     output::say(&format!("wrote {} pages into {}", pages.len(), shown(&options.folder)));
     if options.format == Format::Json {
-        output::json(&Pages { pages: paths.iter().map(|path| name_of(path)).collect() })?;
+        output::json(&json!({ "pages": paths.iter().map(|path| name_of(path)).collect::<Vec<_>>() }))?;
     }
     Ok(0)
 }

@@ -151,13 +151,6 @@ pub fn main() -> ExitCode {
     }
     match result {
         Ok(code) => ExitCode::from(code),
-        Err(failure) => {
-            let (words, code) = (failure.message.clone(), failure.code);
-            if json {
-                output::failure(failure);
-            }
-            output::complain(&words);
-            ExitCode::from(code)
-        }
+        Err(failure) => failure.report(json),
     }
 }

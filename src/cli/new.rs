@@ -8,7 +8,7 @@ use crate::plan::document::Planned;
 use crate::template::{self, Positions};
 use crate::text::{Identifier, Printable, name_of, shown};
 use clap::{Args, ValueEnum};
-use serde::Serialize;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 
 /// Write a commented template of a file
@@ -23,8 +23,8 @@ pub(super) struct Options {
     #[arg(value_name = "FILE")]
     file: Option<PathBuf>,
     /// Number of positions of a stand, header, readings or currents: the paper's 8, four of them, or 16 more [default: 8]
-    #[arg(long, value_enum, value_name = "POSITIONS")]
-    positions: Option<Count>,
+    #[arg(long, value_name = "POSITIONS", value_parser = ["4", "8", "24"])]
+    positions: Option<String>,
     /// Plan whose positions a stand, header, readings or currents get, in its order (from `plan --format json`)
     #[arg(long, value_name = "PLAN.json", conflicts_with = "positions")]
     from_plan: Option<PathBuf>,
@@ -43,14 +43,6 @@ pub(super) struct Options {
     /// Output format: of what was written, or of the template itself without FILE
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
-}
-
-/// The written file, or the template if it was not written, for programs.
-#[derive(Serialize)]
-struct Written<'a> {
-    file: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    template: Option<&'a str>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -73,26 +65,6 @@ enum Kind {
     Dcc,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Count {
-    #[value(name = "4")]
-    Four,
-    #[value(name = "8")]
-    Eight,
-    #[value(name = "24")]
-    TwentyFour,
-}
-
-impl From<Count> for Positions {
-    fn from(count: Count) -> Self {
-        match count {
-            Count::Four => Self::Four,
-            Count::Eight => Self::Eight,
-            Count::TwentyFour => Self::TwentyFour,
-        }
-    }
-}
-
 fn height(text: &str) -> Result<f64, String> {
     let height = text.parse().ok().filter(|height| (-500.0..=9000.0).contains(height));
     height.ok_or_else(|| "a height from -500 to 9000 metres, with a decimal point".to_owned())
@@ -100,12 +72,14 @@ fn height(text: &str) -> Result<f64, String> {
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     options.check()?;
-    let positions = match &options.from_plan {
-        None => options.positions.unwrap_or(Count::Eight).into(),
-        Some(path) => {
+    let positions = match (&options.from_plan, options.positions.as_deref()) {
+        (Some(path), _) => {
             let expected = "the JSON of a plan, from `plan --format json`";
             Positions::Planned(inputs::document(path, expected, Planned::from_json)?)
         }
+        (None, Some("4")) => Positions::Four,
+        (None, Some("24")) => Positions::TwentyFour,
+        (None, _) => Positions::Eight,
     };
     let text = match options.kind {
         Kind::Stand => template::stand(&positions),
@@ -121,14 +95,11 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         output::file(path, &text, options.force)?;
         output::say(&format!("wrote {}; replace the values that its comments name", shown(path)));
     }
-    let file = options.file.as_deref().map(name_of);
-    match options.format {
-        Format::Json => {
-            let template = file.is_none().then_some(text.as_str());
-            output::json(&Written { file, template })?;
-        }
-        Format::Text if file.is_none() => output::own(&text)?,
-        Format::Text => {}
+    match (options.format, &options.file) {
+        (Format::Json, Some(file)) => output::json(&json!({ "file": name_of(file) }))?,
+        (Format::Json, None) => output::json(&json!({ "file": null, "template": text }))?,
+        (Format::Text, Some(_)) => {}
+        (Format::Text, None) => output::own(&text)?,
     }
     Ok(0)
 }

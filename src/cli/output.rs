@@ -7,6 +7,7 @@ use crate::text::printable::{self, printable};
 use crate::text::shown;
 use clap::ValueEnum;
 use clap::builder::{PathBufValueParser, TypedValueParser};
+use serde::Serialize;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -19,6 +20,20 @@ pub(super) enum Format {
     Text,
     /// JSON for programs
     Json,
+}
+
+impl Format {
+    /// Writes a result in this form.
+    pub(super) fn write<T: Serialize>(
+        self,
+        as_json: impl FnOnce() -> T,
+        as_text: impl FnOnce() -> String,
+    ) -> Result<(), Failure> {
+        match self {
+            Self::Json => json(&as_json()),
+            Self::Text => text(&as_text()),
+        }
+    }
 }
 
 /// Names of formats that are not written: a viewer would not open such a file.
@@ -70,13 +85,13 @@ pub(super) fn own(text: &str) -> Result<(), Failure> {
 }
 
 /// Writes a result as JSON.
-pub(super) fn json(value: &impl serde::Serialize) -> Result<(), Failure> {
+pub(super) fn json(value: &impl Serialize) -> Result<(), Failure> {
     let text = printable::json(value).map_err(Failure::unusable)?;
     result(&(text + "\n"))
 }
 
 /// Writes a failure as JSON in place of a result. Errors are ignored, because the message and the exit code remain.
-pub(super) fn failure(failure: Failure) {
+pub(super) fn failure(failure: &Failure) {
     let _ = json(&failure.failed.document());
 }
 

@@ -76,13 +76,11 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let gyro = inputs::gyro(options.gyro.as_deref())?.unwrap_or_else(GyroType::gvk_6);
     let laboratory = inputs::laboratory(options.laboratory.as_deref())?;
     let of_site = site.frame_axis_azimuth_deg();
-    let mut azimuths_deg: Vec<f64> = Vec::new();
-    for axis in &options.frame_axis {
-        azimuths_deg.push(match axis {
-            FrameAxis::East => 90.0,
-            FrameAxis::North => 0.0,
-        });
-    }
+    let azimuth_deg = |axis: &FrameAxis| match axis {
+        FrameAxis::East => 90.0,
+        FrameAxis::North => 0.0,
+    };
+    let mut azimuths_deg: Vec<f64> = options.frame_axis.iter().map(azimuth_deg).collect();
     if azimuths_deg.is_empty() {
         azimuths_deg.push(of_site);
     }
@@ -100,9 +98,6 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if let Some(path) = &options.output {
         output::saved(path, &picture::plan(&found), options.force)?;
     }
-    match options.format {
-        Format::Json => output::json(&PlanDocument::from(&found))?,
-        Format::Text => output::text(&report::text(&found, site.id.as_str(), of_site))?,
-    }
+    options.format.write(|| PlanDocument::from(&found), || report::text(&found, site.id.as_str(), of_site))?;
     Ok(0)
 }

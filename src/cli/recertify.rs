@@ -136,14 +136,10 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         let page = CertificationPage { certification: &found.certification, readings: (&name, &bytes), change };
         output::saved(path, &page.html(&languages(&options.lang)), options.force)?;
     }
-    match options.format {
-        Format::Json => output::json(&report::to_json(&found, options.dry_run))?,
-        Format::Text => output::text(&report::text(&found, options.dry_run))?,
-    }
+    let dry_run = options.dry_run;
+    options.format.write(|| report::to_json(&found, dry_run), || report::text(&found, dry_run))?;
     let mut told = Told::default();
-    for issued in found.new_passports() {
-        issued.remarks.words().into_iter().for_each(|words| told.add(&issued.id, words));
-    }
+    found.new_passports().for_each(|issued| told.add_all(&issued.id, &issued.remarks));
     told.lines().iter().for_each(|line| output::say(line));
     Ok(0)
 }

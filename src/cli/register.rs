@@ -117,8 +117,7 @@ impl Options {
     }
 
     fn selects(&self, line: &Line) -> bool {
-        let in_force = matches!(line.state, State::InForce | State::Expiring);
-        let before = |date: Date| in_force && line.valid_until.is_some_and(|until| until < date);
+        let before = |date: Date| line.is_usable() && line.valid_until.is_some_and(|until| until < date);
         (self.state.is_empty() || self.state.iter().any(|state| state == line.state.key()))
             && self.site.as_ref().is_none_or(|site| line.site.as_ref() == Some(site))
             && self.expiring_before.is_none_or(before)

@@ -1,9 +1,9 @@
 //! Verb `revoke`: withdrawal of passports.
 
-use super::key_options::KeyOptions;
+use super::key_options::{KeyOptions, signer_of};
 use super::output::Format;
 use super::trust_options::{TrustOptions, now};
-use super::{Code, Failure, inputs, output};
+use super::{Code, Failure, inputs};
 use crate::files::{self, Access};
 use crate::folder::Folder;
 use crate::folder::search::{self, NoNewestList};
@@ -12,7 +12,7 @@ use crate::text::kind::Kind;
 use crate::text::scalar::latin;
 use crate::text::{Printable, name_of, shown};
 use clap::Args;
-use serde::Serialize;
+use serde_json::json;
 use std::path::{Path, PathBuf};
 
 /// Withdraw passports: add them to the signed list in a folder
@@ -39,15 +39,6 @@ pub(super) struct Options {
     format: Format,
 }
 
-/// The written list, for programs.
-#[derive(Serialize)]
-struct Written {
-    file: String,
-    sequence: u32,
-    revoked: Vec<String>,
-    passports: usize,
-}
-
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let (trust, question) = options.trust.load()?;
     let lists =
@@ -65,20 +56,18 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             Failure::refused(format!("{}: cannot be withdrawn: {words}", shown(&path)))
         })?);
     }
-    let (count, ids) = (lists.count() + entries.len(), entries.iter().map(|entry| entry.id.clone()).collect());
+    let (count, ids) = (lists.count() + entries.len(), entries.iter().map(|entry| entry.id.clone()));
+    let ids: Vec<String> = ids.collect();
     let list = lists.following(&options.key.identity, now(), entries).map_err(Failure::refused)?;
-    let signer = options.key.signer()?;
+    let signer = signer_of(&options.key.key)?;
     let path = options.list.join(list.file_name());
     let text = list.sign_for(&name_of(&path), signer.as_ref(), &trust.signers, &trust.revoked);
     let text = text.map_err(Failure::refused)?;
     files::write_new(&path, text.as_bytes(), Access::Shared).map_err(Failure::file)?;
-    match options.format {
-        Format::Json => {
-            let written = Written { file: name_of(&path), sequence: list.sequence, revoked: ids, passports: count };
-            output::json(&written)?;
-        }
-        Format::Text => output::text(&format!("revoked    passports in all: {count}  {}\n", shown(&path)))?,
-    }
+    options.format.write(
+        || json!({ "file": name_of(&path), "sequence": list.sequence, "revoked": ids, "passports": count }),
+        || format!("revoked    passports in all: {count}  {}\n", shown(&path)),
+    )?;
     Ok(0)
 }
 

@@ -8,24 +8,28 @@ use crate::schema::{self, of_file};
 use crate::site::Site;
 use crate::stand::Stand;
 use clap::{Args, ValueEnum};
+use schemars::Schema;
+use std::collections::BTreeMap;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Kind {
-    Stand,
-    Site,
-    Gyro,
-    Laboratory,
-    Dcc,
-    Passport,
-    Revocation,
-}
+/// Name of a format, and its schema.
+type Format = (&'static str, fn() -> Schema);
+
+const FORMATS: [Format; 7] = [
+    ("stand", of_file::<Stand>),
+    ("site", of_file::<Site>),
+    ("gyro", of_file::<GyroType>),
+    ("laboratory", of_file::<Laboratory>),
+    ("dcc", of_file::<Administrative>),
+    ("passport", schema::passport),
+    ("revocation", schema::revocation),
+];
 
 /// Print the JSON Schema of a format (for several, an object with one for each name), or tables of its keys
 #[derive(Args)]
 pub(super) struct Options {
     /// Formats
-    #[arg(required = true, value_enum, value_delimiter = ',', value_name = "FORMAT")]
-    formats: Vec<Kind>,
+    #[arg(required = true, value_parser = FORMATS.map(|(name, _)| name), value_delimiter = ',', value_name = "FORMAT")]
+    formats: Vec<String>,
     /// Form of the description: JSON Schema for editors, or tables for reading
     #[arg(long, value_enum, default_value = "json")]
     format: Form,
@@ -40,25 +44,12 @@ enum Form {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let of = |kind: &Kind| match kind {
-        Kind::Stand => ("stand", of_file::<Stand>()),
-        Kind::Site => ("site", of_file::<Site>()),
-        Kind::Gyro => ("gyro", of_file::<GyroType>()),
-        Kind::Laboratory => ("laboratory", of_file::<Laboratory>()),
-        Kind::Dcc => ("dcc", of_file::<Administrative>()),
-        Kind::Passport => ("passport", schema::passport()),
-        Kind::Revocation => ("revocation", schema::revocation()),
-    };
-    if options.format == Form::Markdown {
-        let schemas: Vec<_> = options.formats.iter().map(|kind| of(kind).1).collect();
-        return output::result(&schema::tables(&schemas)).map(|()| 0);
-    }
-    match options.formats.as_slice() {
-        [one] => output::json(&of(one).1)?,
-        several => {
-            let all: std::collections::BTreeMap<_, _> = several.iter().map(of).collect();
-            output::json(&all)?;
-        }
+    let of = |name: &String| FORMATS.iter().find(|(known, _)| known == name).map(|(_, schema)| schema());
+    let schemas: Vec<Schema> = options.formats.iter().filter_map(of).collect();
+    match (options.format, schemas.as_slice()) {
+        (Form::Markdown, schemas) => output::result(&schema::tables(schemas))?,
+        (Form::Json, [one]) => output::json(one)?,
+        (Form::Json, several) => output::json(&options.formats.iter().zip(several).collect::<BTreeMap<_, _>>())?,
     }
     Ok(0)
 }

@@ -1,7 +1,7 @@
 //! Verb `selftest`: the reference cases of the computations.
 
 use super::output::Format;
-use super::{Code, Failure, REFUSED, output};
+use super::{Code, Failure, REFUSED};
 use crate::report::selftest as report;
 use crate::selftest;
 use clap::Args;
@@ -16,9 +16,6 @@ pub(super) struct Options {
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let cases = selftest::run();
-    match options.format {
-        Format::Json => output::json(&report::to_json(&cases))?,
-        Format::Text => output::text(&report::text(&cases))?,
-    }
+    options.format.write(|| report::to_json(&cases), || report::text(&cases))?;
     Ok(if cases.iter().all(selftest::Case::passed) { 0 } else { REFUSED })
 }

@@ -2,7 +2,7 @@
 
 use super::inputs::{self, Each};
 use super::output::Format;
-use super::trust_options::{self, Asked};
+use super::trust_options::OptionalTrust;
 use super::{Code, Failure, defaults, output};
 use crate::batch::{Purpose, paths};
 use crate::document::sha256_hex;
@@ -33,24 +33,15 @@ pub(super) struct Options {
 #[derive(Args)]
 #[command(group(ArgGroup::new("whom").required(true).args(["trust", "no_verify"])))]
 pub(super) struct Whom {
-    /// Trusted signing keys: an OpenSSH allowed_signers file
-    #[arg(long, value_name = "SIGNERS")]
-    trust: Option<PathBuf>,
-    /// Revocations: an OpenSSH KRL, a list of public keys, or a list of withdrawn passports (repeatable)
-    #[arg(long, value_name = "FILE", requires = "trust")]
-    revoked: Vec<PathBuf>,
     #[command(flatten)]
-    asked: Asked,
+    trust: OptionalTrust,
     /// Do not verify the passport; the output carries a warning
     #[arg(long, conflicts_with_all = ["issuer", "serial", "at", "time"])]
     no_verify: bool,
 }
 
-/// Reader of passports that are used.
-pub(super) struct Reader {
-    /// Trust and question; `None` if passports are not verified.
-    verified: Option<(Trust, Question)>,
-}
+/// Reader of passports that are used: the trust and the question, or `None` if passports are not verified.
+pub(super) struct Reader(Option<(Trust, Question)>);
 
 /// A passport that was read, and the result of its verification.
 pub(super) struct Read {
@@ -63,13 +54,11 @@ pub(super) struct Read {
 impl Whom {
     /// Loads the trust, or warns that nothing is verified.
     pub(super) fn reader(&self) -> Result<Reader, Failure> {
-        let Some(signers) = &self.trust else {
+        let verified = self.trust.load()?;
+        if verified.is_none() {
             output::complain("NOT VERIFIED (--no-verify): the origin of these numbers is unknown");
-            return Ok(Reader { verified: None });
-        };
-        let question = self.asked.question();
-        let trust = trust_options::load(signers, &self.revoked, question.time)?;
-        Ok(Reader { verified: Some((trust, question)) })
+        }
+        Ok(Reader(verified))
     }
 }
 
@@ -79,7 +68,7 @@ impl Reader {
     pub(super) fn read(&self, path: &Path) -> Result<Read, Failure> {
         let bytes = inputs::bytes(path, Kind::Passport.words())?;
         let name = name_of(path);
-        let Some((trust, question)) = &self.verified else {
+        let Some((trust, question)) = &self.0 else {
             let content = read::content_from_anyone(&name, &bytes).map_err(Failure::unreadable)?;
             return Ok(Read { content, bytes, verification: None });
         };
@@ -107,11 +96,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let table = |read: &Read| passport_table::text(&read.content, read.verification.is_some());
     if let Some(path) = paths::one_file(&options.passports) {
         let read = reader.read(path)?;
-        match options.format {
-            Format::Json => output::json(&read.for_programs())?,
-            Format::Text => output::text(&table(&read))?,
-        }
-        return Ok(0);
+        return options.format.write(|| read.for_programs(), || table(&read)).map(|()| 0);
     }
     let mut before = "";
     let show = |path: &Path| reader.read(path).map(|read| (read, 0));

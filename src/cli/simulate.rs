@@ -136,10 +136,7 @@ fn run_accuracy(arguments: &AccuracyArguments) -> Result<Code, Failure> {
     };
     const TRIALS: u64 = 10_000;
     let found = watched(&arguments.run, TRIALS, 1, |run| accuracy(&options, run))?;
-    match arguments.run.format {
-        Format::Json => output::json(&found)?,
-        Format::Text => output::text(&table::accuracy(&found))?,
-    }
+    arguments.run.format.write(|| &found, || table::accuracy(&found))?;
     Ok(0)
 }
 
@@ -156,10 +153,7 @@ fn run_convergence(arguments: &ConvergenceArguments) -> Result<Code, Failure> {
         let svg = svg.ok_or_else(|| Failure::unusable("the picture could not be drawn: no rows"))?;
         output::saved(path, &svg, arguments.force)?;
     }
-    match arguments.run.format {
-        Format::Json => output::json(&found)?,
-        Format::Text => output::text(&table::convergence(&found))?,
-    }
+    arguments.run.format.write(|| &found, || table::convergence(&found))?;
     Ok(0)
 }
 

@@ -2,8 +2,7 @@
 
 use super::output::Format;
 use super::trust_options::{self, time};
-use super::{Code, Failure, REFUSED, UNUSABLE, defaults, output};
-use crate::parallel;
+use super::{Code, Failure, REFUSED, UNUSABLE, defaults};
 use crate::workspace::status;
 use clap::Args;
 use jiff::Timestamp;
@@ -35,12 +34,9 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     };
     let time = options.time.unwrap_or_else(trust_options::now);
     let trust = options.trust.as_deref().map(|path| trust_options::load(path, &options.revoked, time)).transpose()?;
-    let status = status(workspace, trust.as_ref(), time, parallel::processors()).map_err(Failure::file)?;
-    match options.format {
-        Format::Json => output::json(&status)?,
-        Format::Text => output::text(&status.text())?,
-    }
-    Ok(match (status.is_incomplete(), status.needs_attention()) {
+    let status = status(workspace, trust.as_ref(), time).map_err(Failure::file)?;
+    options.format.write(|| &status, || status.text())?;
+    Ok(match (status.incomplete, status.needs_attention()) {
         (true, _) => UNUSABLE,
         (_, true) => REFUSED,
         _ => 0,

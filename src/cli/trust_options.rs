@@ -14,16 +14,6 @@ use jiff::Timestamp;
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
-pub(super) struct TrustFiles {
-    /// Trusted signing keys: an OpenSSH allowed_signers file
-    #[arg(long, value_name = "SIGNERS")]
-    trust: PathBuf,
-    /// Revocations: an OpenSSH KRL, a list of public keys, or a list of withdrawn passports (repeatable)
-    #[arg(long, value_name = "FILE")]
-    revoked: Vec<PathBuf>,
-}
-
-#[derive(Args)]
 pub(super) struct Asked {
     /// Require this issuer
     #[arg(long, value_name = "WHO")]
@@ -41,8 +31,12 @@ pub(super) struct Asked {
 
 #[derive(Args)]
 pub(super) struct TrustOptions {
-    #[command(flatten)]
-    files: TrustFiles,
+    /// Trusted signing keys: an OpenSSH allowed_signers file
+    #[arg(long, value_name = "SIGNERS")]
+    trust: PathBuf,
+    /// Revocations: an OpenSSH KRL, a list of public keys, or a list of withdrawn passports (repeatable)
+    #[arg(long, value_name = "FILE")]
+    revoked: Vec<PathBuf>,
     #[command(flatten)]
     asked: Asked,
 }
@@ -72,7 +66,7 @@ impl OptionalTrust {
 impl TrustOptions {
     pub(super) fn load(&self) -> Result<(Trust, Question), Failure> {
         let question = self.asked.question();
-        Ok((load(&self.files.trust, &self.files.revoked, question.time)?, question))
+        Ok((load(&self.trust, &self.revoked, question.time)?, question))
     }
 }
 

@@ -4,7 +4,7 @@ use super::{Failure, long_run, output};
 use crate::calibration::{Calibration, Method, Options as CalibrationOptions, Readings, Setup};
 use crate::gyro::Tolerance;
 use crate::interface::calibrated::distributions;
-use crate::report::{budget as budget_report, monte_carlo as monte_carlo_report, picture};
+use crate::report::{picture, uncertainty as report};
 use crate::uncertainty::document::{BudgetDocument, MonteCarloDocument};
 use crate::uncertainty::dominant::Dominant;
 use crate::uncertainty::monte_carlo::{Trials, check_model};
@@ -25,7 +25,7 @@ pub(super) struct UncertaintyOptions {
     budget: bool,
     /// Picture of the budget to write
     #[arg(long, value_name = "FILE.svg", value_parser = output::path_of("svg"), requires = "budget")]
-    budget_svg: Option<PathBuf>,
+    pub budget_svg: Option<PathBuf>,
     /// Replace an existing picture or report
     #[arg(long)]
     pub force: bool,
@@ -59,26 +59,17 @@ fn trials(text: &str) -> Result<u64, String> {
 
 /// The requested budget and Monte Carlo result.
 pub(super) struct Found {
-    budget: Option<(Budget, Option<String>)>,
-    monte_carlo: Option<MonteCarlo>,
+    /// The budget, and the sentence on what would reduce the uncertainty most.
+    pub budget: Option<(Budget, Option<String>)>,
+    pub monte_carlo: Option<MonteCarlo>,
 }
 
 impl Found {
     /// Returns the results as text; empty if none was requested.
     pub(super) fn text(&self) -> String {
-        let budget = self.budget.as_ref().map(|(budget, words)| budget_report::text(budget, words.as_deref()));
-        let trials = self.monte_carlo.as_ref().map(monte_carlo_report::text);
+        let budget = self.budget.as_ref().map(|(budget, words)| report::budget(budget, words.as_deref()));
+        let trials = self.monte_carlo.as_ref().map(report::monte_carlo);
         budget.unwrap_or_default() + &trials.unwrap_or_default()
-    }
-
-    /// Returns the budget, or `None` if it was not requested.
-    pub(super) fn budget(&self) -> Option<&Budget> {
-        self.budget.as_ref().map(|(budget, _)| budget)
-    }
-
-    /// Returns the Monte Carlo result, or `None` if it was not requested.
-    pub(super) fn monte_carlo(&self) -> Option<&MonteCarlo> {
-        self.monte_carlo.as_ref()
     }
 
     /// Returns the results as JSON documents; `None` for each that was not requested.
@@ -89,11 +80,6 @@ impl Found {
 }
 
 impl UncertaintyOptions {
-    /// Returns the path of the picture to write, or `None` if none was requested.
-    pub(super) fn picture(&self) -> Option<&PathBuf> {
-        self.budget_svg.as_ref()
-    }
-
     /// Computes the requested budget and Monte Carlo result, and writes the picture of the budget.
     pub(super) fn find(
         &self,

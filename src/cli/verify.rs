@@ -58,9 +58,6 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
             }
         }
     }
-    match options.format {
-        Format::Json => output::json(&verdicts)?,
-        Format::Text => output::text(&verdict::text(&verdicts))?,
-    }
+    options.format.write(|| &verdicts, || verdict::text(&verdicts))?;
     Ok(code)
 }

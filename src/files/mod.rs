@@ -126,9 +126,8 @@ pub(crate) fn nearest(path: &Path) -> Option<PathBuf> {
             continue;
         }
         let name = part.as_os_str().to_str()?.to_lowercase();
-        let folder = if there.as_os_str().is_empty() { Path::new(".") } else { &there };
-        let names =
-            fs::read_dir(folder).ok()?.take(MOST_NAMES).filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+        let entries = fs::read_dir(or_here(&there)).ok()?.take(MOST_NAMES);
+        let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
         let distance = |other: &String| strsim::damerau_levenshtein(&other.to_lowercase(), &name);
         // Of a name of one or two letters every other one is near.
         let length = name.chars().count();
@@ -385,7 +384,12 @@ fn write(
 
 /// Returns the folder that contains a file.
 pub(crate) fn folder_of(path: &Path) -> &Path {
-    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+    path.parent().map_or(Path::new("."), or_here)
+}
+
+/// Returns the current folder for an empty path, which is how the parent of a relative path may end.
+pub(crate) fn or_here(folder: &Path) -> &Path {
+    if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
 }
 
 /// Creates a folder and its missing parents, and syncs the name of each.

@@ -28,16 +28,11 @@ pub(crate) struct Walk {
 
 struct Level {
     folder: PathBuf,
-    entries: std::vec::IntoIter<(OsString, Kind)>,
+    entries: std::vec::IntoIter<Listed>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Kind {
-    File,
-    Folder,
-    Link,
-    Special,
-}
+/// Name in a folder, and what its path is found as; `None` for a folder, which is entered.
+type Listed = (OsString, Option<fn(PathBuf) -> Entry>);
 
 impl Walk {
     /// Creates a walk through the files with wanted names under `root`, at any depth.
@@ -52,22 +47,22 @@ impl Walk {
 
     fn enter(&mut self, folder: PathBuf) -> Result<(), FileError> {
         let failed = |error| FileError::Read { path: folder.clone(), error };
-        let mut entries = Vec::new();
+        let mut entries: Vec<Listed> = Vec::new();
         for entry in fs::read_dir(&folder).map_err(failed)? {
             let entry = entry.map_err(failed)?;
             let (name, kind) = (entry.file_name(), entry.file_type().map_err(failed)?);
             let wanted = (self.wanted)(&name);
-            let kind = if kind.is_symlink() {
+            if kind.is_symlink() {
                 let to_folder = || self.deep && fs::metadata(entry.path()).is_ok_and(|target| target.is_dir());
-                (wanted || to_folder()).then_some(Kind::Link)
+                entries.extend((wanted || to_folder()).then_some((name, Some(Entry::Link as _))));
             } else if kind.is_dir() {
-                self.deep.then_some(Kind::Folder)
+                entries.extend(self.deep.then_some((name, None)));
             } else {
-                wanted.then_some(if kind.is_file() { Kind::File } else { Kind::Special })
-            };
-            entries.extend(kind.map(|kind| (name, kind)));
+                let of: fn(_) -> _ = if kind.is_file() { Entry::File } else { Entry::Special };
+                entries.extend(wanted.then_some((name, Some(of))));
+            }
         }
-        entries.sort();
+        entries.sort_by(|a, b| a.0.cmp(&b.0));
         self.levels.push(Level { folder, entries: entries.into_iter() });
         Ok(())
     }
@@ -85,16 +80,14 @@ impl Iterator for Walk {
                 return Some(Err(error));
             }
             let level = self.levels.last_mut()?;
-            let Some((name, kind)) = level.entries.next() else {
+            let Some((name, found)) = level.entries.next() else {
                 self.levels.pop();
                 continue;
             };
             let path = level.folder.join(name);
-            match kind {
-                Kind::File => return Some(Ok(Entry::File(path))),
-                Kind::Link => return Some(Ok(Entry::Link(path))),
-                Kind::Special => return Some(Ok(Entry::Special(path))),
-                Kind::Folder => self.next = Some(path),
+            match found {
+                Some(found) => return Some(Ok(found(path))),
+                None => self.next = Some(path),
             }
         }
     }

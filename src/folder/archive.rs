@@ -3,7 +3,6 @@
 use crate::files::{self, Access, FileError};
 use crate::stand::Stand;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
-use std::io;
 use std::path::{Path, PathBuf};
 
 /// Largest number of files that are kept for one certificate number.
@@ -32,7 +31,7 @@ impl Superseded {
     pub(crate) fn of(path: &Path, new: &[u8]) -> Result<Option<Self>, FileError> {
         let bytes = match files::read(path, LARGEST_DOCUMENT_BYTES) {
             Ok(bytes) => bytes,
-            Err(FileError::Read { error, .. }) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) if error.is_missing() => return Ok(None),
             Err(FileError::TooLarge { .. }) => return Ok(None),
             Err(error) => return Err(error),
         };
@@ -47,9 +46,7 @@ impl Superseded {
             let kept_at = path.with_file_name(format!("{stem}-{number}{copy}.superseded.yaml"));
             match files::read(&kept_at, LARGEST_DOCUMENT_BYTES) {
                 Ok(there) if there == bytes => return Ok(Some(Self { path: kept_at, bytes, kept: true })),
-                Err(FileError::Read { error, .. }) if error.kind() == io::ErrorKind::NotFound => {
-                    return Ok(Some(Self { path: kept_at, bytes, kept: false }));
-                }
+                Err(error) if error.is_missing() => return Ok(Some(Self { path: kept_at, bytes, kept: false })),
                 _ => {}
             }
         }

@@ -1,14 +1,12 @@
 //! Folder of passports: the place of each passport, existing passports, and new ones, which are written completely and
 //! never replace another file.
 //!
-//! * `search`: the files in a folder, and their register.
+//! * `search`: the files in a folder, their register, and the history of one stand.
 //! * `archive`: stand files that a new certificate supersedes.
-//! * `record`: the history of one stand, from the files in a folder.
 
 pub(crate) mod archive;
 mod claim;
 mod names;
-pub(crate) mod record;
 pub(crate) mod search;
 mod superseding;
 mod visited;
@@ -22,7 +20,7 @@ use crate::document::sha256_hex;
 use crate::document::{SignedText, Signer};
 #[cfg(feature = "cli")]
 use crate::files::walk::{Entry, Walk};
-use crate::files::{self, Access};
+use crate::files::{self, Access, or_here};
 use crate::passport::content::Content;
 use crate::passport::issue::{Draft, Issue, IssueRefused, PreparedStand, Remarks};
 use crate::passport::reissue::{Successor, changes};
@@ -88,24 +86,16 @@ pub(crate) enum Next {
 /// Passport that was computed and checked, but not yet signed and written.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Unwritten {
-    path: PathBuf,
-    draft: Box<Draft>,
+    /// Path of the passport.
+    pub path: PathBuf,
+    /// Passport, not yet signed.
+    pub draft: Box<Draft>,
 }
 
 impl Unwritten {
     /// Returns the id of the passport.
     pub(crate) fn id(&self) -> &str {
         &self.draft.content().passport.id
-    }
-
-    /// Returns the path of the passport.
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// Returns the remarks on the passport for the factory.
-    pub(crate) fn remarks(&self) -> Remarks {
-        self.draft.remarks()
     }
 }
 
@@ -243,13 +233,24 @@ impl Folder {
         or_here(&self.root)
     }
 
-    /// Returns the root in the path of a passport of `stand`, or `None` unless the two folders above the file are
-    /// `<model>/<serial>`.
-    pub(crate) fn root_of<'a>(path: &'a Path, stand: &Identity) -> Option<&'a Path> {
-        let serial = path.parent()?;
-        let model = serial.parent()?;
-        let shows = serial.file_name()? == stand.serial.as_str() && model.file_name()? == stand.model.as_str();
-        model.parent().filter(|_| shows)
+    /// Returns the root in the path of a passport of `stand`.
+    ///
+    /// # Errors
+    /// Returns a sentence unless the two folders above the file are `<model>/<serial>`.
+    pub(crate) fn root_of<'a>(path: &'a Path, stand: &Identity) -> Result<&'a Path, String> {
+        let root = || {
+            let serial = path.parent()?;
+            let model = serial.parent()?;
+            let shows = serial.file_name()? == stand.serial.as_str() && model.file_name()? == stand.model.as_str();
+            model.parent().filter(|_| shows)
+        };
+        root().ok_or_else(|| {
+            format!(
+                "the passport is not in a folder {}, so the folder of its successor is unknown; specify the folder of \
+                 passports with --out",
+                stand.id()
+            )
+        })
     }
 
     /// Returns the path of the passport of a stand for a site.
@@ -398,27 +399,20 @@ impl Folder {
     /// Signs and writes the next passport. If another run writes a file of that name first, the next step is determined
     /// again.
     fn settle(&self, next: impl Fn() -> Result<Next, FolderRefused>, seal: Seal) -> Result<Issued, FolderRefused> {
+        let settle_once = || {
+            let Sealed { issued, text } = self.seal(next()?, seal)?;
+            if let Some(text) = text {
+                files::write_new_as(&issued.path, text.as_bytes(), Access::Shared, self.durability)?;
+            }
+            Ok(issued)
+        };
         for _ in 1..ATTEMPTS {
-            match self.settle_once(&next, seal) {
+            match settle_once() {
                 Err(FolderRefused::File(FileError::Exists { .. })) => {}
                 settled => return settled,
             }
         }
-        self.settle_once(&next, seal)
-    }
-
-    fn settle_once(&self, next: impl Fn() -> Result<Next, FolderRefused>, seal: Seal) -> Result<Issued, FolderRefused> {
-        match next()? {
-            Next::There(issued) => Ok(issued),
-            Next::New(new) => self.write(new, seal),
-        }
-    }
-
-    fn write(&self, new: Unwritten, seal: Seal) -> Result<Issued, FolderRefused> {
-        let Sealed { issued, text } = self.seal(Next::New(new), seal)?;
-        let text = text.unwrap_or_default();
-        files::write_new_as(&issued.path, text.as_bytes(), Access::Shared, self.durability)?;
-        Ok(issued)
+        settle_once()
     }
 
     /// Checks that the path from the root to `folder` has no link, once for all its passports.
@@ -461,7 +455,7 @@ impl Folder {
             return Err(FolderRefused::NotComparable { path: path.to_owned(), reason });
         }
         match files::read(path, LARGEST_DOCUMENT_BYTES) {
-            Err(FileError::Read { error, .. }) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) if error.is_missing() => Ok(None),
             Err(error) => Err(error.into()),
             Ok(bytes) => Existing::of(path, &bytes).map(Some),
         }
@@ -489,11 +483,6 @@ pub(crate) fn sync_names<'a>(
         files::sync_folder(folder).map_err(|error| FileError::Write { path: folder.to_owned(), error })?;
     }
     Ok(())
-}
-
-/// Returns the current folder for an empty path, which is how the parent of a relative path may end.
-fn or_here(folder: &Path) -> &Path {
-    if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
 }
 
 /// Verifies a passport before it is written, because one that fails verification is useless.

@@ -1,10 +1,11 @@
-//! Search of a folder for passports and lists of withdrawn passports, and its register. Files are recognised by
-//! content, never by name.
+//! Search of a folder for passports and lists of withdrawn passports, its register, and the history of one stand. Files
+//! are recognised by content, never by name.
 
 use super::claim::{Claim, is_yaml};
 use crate::files::leftovers::is_lasting;
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
+use crate::history::{History, Recorded};
 use crate::parallel;
 use crate::passport::Trust;
 use crate::register::{Alarm, Asked, Concern, Examined, Register, examine};
@@ -165,6 +166,32 @@ pub(crate) fn register_of(
     let trust = withdraw(lists, lists_above(root), trust, asked.question.time, &mut alarms);
     let register = Register::of(examined, &trust.withdrawn, alarms);
     Ok((register, trust))
+}
+
+/// Returns the history of a stand, `<model>/<serial>`, and the register of its passports. If no file in the folder is a
+/// passport of the stand, the history is `None`, and the register is that of all stands.
+///
+/// # Errors
+/// Returns [`FileError`] if the folder, or a passport of the stand, cannot be read.
+pub(crate) fn history(
+    root: &Path,
+    stand: &str,
+    trust: Trust,
+    time: Timestamp,
+    threads: usize,
+) -> Result<(Option<History>, Register), FileError> {
+    let asked = Asked::at(time);
+    let (found, extended) = register_of(root, Some(stand), trust.clone(), &asked, threads)?;
+    let lines: Vec<_> = found.passports.iter().filter(|line| line.stand.as_deref() == Some(stand)).collect();
+    if lines.is_empty() {
+        return Ok((None, register(root, trust, &asked, threads)?.0));
+    }
+    let recorded = parallel::map(&lines, threads, |line| {
+        let bytes = files::read(Path::new(&line.file), LARGEST_DOCUMENT_BYTES)?;
+        Ok(Recorded::of(line, &bytes, &extended, time))
+    });
+    let recorded = recorded.into_iter().collect::<Result<Vec<_>, FileError>>()?;
+    Ok((Some(History::of(stand, recorded, &found, &extended, time)), found))
 }
 
 /// Name and content of a file that claims to be a list.

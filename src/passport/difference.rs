@@ -6,6 +6,7 @@ use crate::stand::{Certificate, CertifiedPosition, Stand};
 use crate::text::{Field, Node};
 use crate::units::ARCSECONDS_PER_DEGREE;
 use nalgebra::Matrix3;
+use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Number that differs, or that only one of the two passports states.
@@ -35,7 +36,7 @@ impl NumberDifference {
 }
 
 /// Text, date, whole number or part that differs, or that only one of the two passports contains.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct OtherDifference {
     /// Key, as in [`NumberDifference::key`].
     pub key: String,

@@ -206,7 +206,7 @@ fn in_force(content: Option<&Content>, time: Timestamp, within_days: Option<u32>
 
 impl Line {
     /// Returns `true` if only other files can prevent the use of the passport.
-    fn is_usable(&self) -> bool {
+    pub(crate) fn is_usable(&self) -> bool {
         matches!(self.state, State::InForce | State::Expiring)
     }
 

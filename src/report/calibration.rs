@@ -207,24 +207,18 @@ fn parameters(out: &mut String, calibration: &Calibration, verdict: Option<&Verd
     let Some(answer) = calibration.answer() else { return };
     let mut names = vec!["", "unit", answer.method.key(), "u"];
     names.extend(verdict.map(|_| "decision"));
-    let rows: Vec<Vec<String>> = answer
-        .model
-        .parameters()
-        .iter()
-        .copied()
-        .filter_map(|parameter| {
-            let (value, u) = (answer.value(parameter)?, answer.standard_uncertainty(parameter)?);
-            let digits = columns::decimals(u);
-            let mut row = vec![parameter.symbol().to_owned(), printed(parameter.unit())];
-            row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
-            let decided = verdict.iter().flat_map(|verdict| &verdict.parameters);
-            let decided = decided.filter(|row| row.parameter == parameter.key());
-            row.extend(decided.map(|row| word(row.guarded).to_owned()));
-            Some(row)
-        })
-        .collect();
+    let rows = answer.model.parameters().iter().filter_map(|&parameter| {
+        let (value, u) = (answer.value(parameter)?, answer.standard_uncertainty(parameter)?);
+        let digits = columns::decimals(u);
+        let mut row = vec![parameter.symbol().to_owned(), printed(parameter.unit())];
+        row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
+        let decided = verdict.iter().flat_map(|verdict| &verdict.parameters);
+        let decided = decided.filter(|row| row.parameter == parameter.key());
+        row.extend(decided.map(|row| word(row.guarded).to_owned()));
+        Some(row)
+    });
     let _ = writeln!(out);
-    columns::table(out, &names, &rows);
+    columns::table(out, &names, rows);
 }
 
 /// Writes the values of the other methods next to the adopted ones.
@@ -242,8 +236,7 @@ fn comparison(out: &mut String, answer: &MethodResult, others: &[&MethodResult])
         }
         Some(row)
     };
-    let rows: Vec<Vec<String>> = answer.model.parameters().iter().filter_map(row).collect();
-    columns::table(out, &names, &rows);
+    columns::table(out, &names, answer.model.parameters().iter().filter_map(row));
     let words = "diff. / u: difference from the first column, in units of the standard uncertainty of that difference.";
     columns::paragraph(out, "  ", words);
 }
@@ -363,18 +356,14 @@ fn chi_square(out: &mut String, answer: &MethodResult) {
 fn residuals(out: &mut String, calibration: &Calibration) {
     let Some(answer) = calibration.answer().filter(|answer| answer.chi_square.judges()) else { return };
     let _ = writeln!(out, "\nResiduals:");
-    let rows: Vec<Vec<String>> = answer
-        .residuals
-        .iter()
-        .map(|residual| {
-            let (value, normalised) = (residual.residual_deg_per_h, residual.normalised);
-            let mut row = vec![residual.index.i.to_string(), residual.index.j.to_string()];
-            row.extend([value.x, value.y].map(|x| columns::signed(x, 5)));
-            row.extend([normalised.x, normalised.y].map(|x| columns::signed(x, 1)));
-            row
-        })
-        .collect();
-    columns::table(out, &["i", "j", "x, °/h", "y, °/h", "x / u", "y / u"], &rows);
+    let rows = answer.residuals.iter().map(|residual| {
+        let (value, normalised) = (residual.residual_deg_per_h, residual.normalised);
+        let mut row = vec![residual.index.i.to_string(), residual.index.j.to_string()];
+        row.extend([value.x, value.y].map(|x| columns::signed(x, 5)));
+        row.extend([normalised.x, normalised.y].map(|x| columns::signed(x, 1)));
+        row
+    });
+    columns::table(out, &["i", "j", "x, °/h", "y, °/h", "x / u", "y / u"], rows);
 }
 
 fn scatter(out: &mut String, calibration: &Calibration) {
@@ -453,26 +442,21 @@ fn factors(verdict: &Verdict) -> String {
 
 /// Appends the lines of a verdict; `deviation` is the heading of the differences.
 fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
-    let rows: Vec<Vec<String>> = verdict
-        .parameters
-        .iter()
-        .map(|row| {
-            let digits = columns::decimals(row.expanded_uncertainty);
-            let places = columns::decimals(row.coverage_factor * row.standard_uncertainty);
-            vec![
-                symbol_of(row.parameter).to_owned(),
-                format!("{:.places$}", row.value),
-                columns::signed(row.deviation, digits),
-                format!("{:.digits$}", row.expanded_uncertainty),
-                format!("{} {}", row.tolerance, printed(row.unit)),
-                word(row.simple).to_owned(),
-                columns::probability(row.specific_risk),
-                word(row.guarded).to_owned(),
-            ]
-        })
-        .collect();
-    let names = ["", "result", deviation, "U", "tolerance", "simple", "risk", "guarded"];
-    columns::table(out, &names, &rows);
+    let rows = verdict.parameters.iter().map(|row| {
+        let digits = columns::decimals(row.expanded_uncertainty);
+        let places = columns::decimals(row.coverage_factor * row.standard_uncertainty);
+        vec![
+            symbol_of(row.parameter).to_owned(),
+            format!("{:.places$}", row.value),
+            columns::signed(row.deviation, digits),
+            format!("{:.digits$}", row.expanded_uncertainty),
+            format!("{} {}", row.tolerance, printed(row.unit)),
+            word(row.simple).to_owned(),
+            columns::probability(row.specific_risk),
+            word(row.guarded).to_owned(),
+        ]
+    });
+    columns::table(out, &["", "result", deviation, "U", "tolerance", "simple", "risk", "guarded"], rows);
     let _ = writeln!(out, "  Overall, by guarded acceptance: {}", word(verdict.overall).to_uppercase());
     if verdict.parameters.iter().any(ParameterVerdict::is_close) && verdict.overall == Decision::Undecided {
         columns::paragraph(out, "  ", "undecided: the uncertainty does not permit a decision.");

@@ -6,7 +6,6 @@ use crate::certification::components::{Common, Variance};
 use crate::certification::suspects::{AXES, OUTLIER, WorsePosition};
 use crate::certification::{Certification, NotCertified};
 use crate::report::{columns, style};
-use crate::statistics::outlier::Bartlett;
 use crate::text::record::File;
 use crate::text::{Field, Node, Printable};
 use serde_json::{Value, json};
@@ -21,7 +20,7 @@ pub(crate) fn to_json(
     json!({
         "certification": certification.map(certification_json),
         "not_certified": not_certified.map(ToString::to_string),
-        "comparison": comparison.map(comparison_json),
+        "comparison": comparison,
     })
 }
 
@@ -36,7 +35,6 @@ fn certification_json(found: &Certification) -> Value {
             "upper_limit_arcsec": c.upper_limit_arcsec2.sqrt(),
         })
     };
-    let bartlett = |test: &Bartlett| json!({"statistic": test.statistic, "degrees_of_freedom": test.degrees_of_freedom, "probability": test.probability});
     let out = found.suspects.outliers.iter().map(|out| {
         json!({
             "i": out.index.i, "j": out.index.j, "run": out.run, "line": out.line, "axis": AXES[out.axis],
@@ -44,9 +42,6 @@ fn certification_json(found: &Certification) -> Value {
         })
     });
     let worse = |at: &WorsePosition| json!({"i": at.index.i, "j": at.index.j, "ratio": at.ratio, "probability": at.probability});
-    let turns = components.run_turns.iter();
-    let turns =
-        turns.map(|t| json!({"run": t.run, "platform_arcsec": t.platform_arcsec, "base_arcsec": t.base_arcsec}));
     let bumped = found.bumped_runs.iter().map(|at| {
         json!({
             "run": at.run, "part": at.part(), "axis": at.axis_name(), "turn_arcsec": at.turn_arcsec,
@@ -61,45 +56,14 @@ fn certification_json(found: &Certification) -> Value {
         "platform": common(&components.platform),
         "base": components.base.as_ref().map(common),
         "base_axes": components.base_axes,
-        "run_turns": turns.collect::<Vec<_>>(),
-        "bartlett": {
-            "positions": found.suspects.positions.as_ref().map(bartlett),
-            "axes": found.suspects.axes.as_ref().map(bartlett),
-        },
+        "run_turns": components.run_turns,
+        "bartlett": { "positions": found.suspects.positions, "axes": found.suspects.axes },
         "worse_position": found.suspects.worse.first().map(worse),
         "worse_positions": found.suspects.worse.iter().map(worse).collect::<Vec<_>>(),
         "outliers": out.collect::<Vec<_>>(),
         "bumped_runs": bumped.collect::<Vec<_>>(),
         "twins": found.suspects.twins,
         "warnings": found.warnings,
-    })
-}
-
-fn test_json(test: &Test) -> Value {
-    json!({
-        "chi_square": test.chi_square, "degrees_of_freedom": test.degrees_of_freedom, "probability": test.probability,
-    })
-}
-
-fn comparison_json(found: &Comparison) -> Value {
-    let positions = found.positions.iter().map(|at| {
-        json!({
-            "i": at.index.i, "j": at.index.j, "turn_arcsec": at.turn_arcsec, "u_arcsec": at.u_arcsec,
-            "test": test_json(&at.test), "repeats": at.repeats,
-        })
-    });
-    json!({
-        "certificate": found.certificate,
-        "runs": found.runs,
-        "same_stand": found.same_stand,
-        "all": test_json(&found.all),
-        "positions": positions.collect::<Vec<_>>(),
-        "common": {
-            "platform_arcsec": found.common.platform_arcsec,
-            "base_arcsec": found.common.base_arcsec,
-            "test": found.common.test.as_ref().map(test_json),
-        },
-        "words": found.words,
     })
 }
 
@@ -134,26 +98,22 @@ pub(crate) fn certification(found: &Certification) -> String {
         columns::paragraph(&mut out, "", &format!("Excluded: {}: {}.", excluded.describe(), excluded.why));
     }
     let names = ["i", "j", "α, arcsec", "u", "β, arcsec", "u", "γ, arcsec", "u", "deg. of freedom"];
-    let rows: Vec<Vec<String>> = stand
-        .positions
-        .iter()
-        .map(|at| {
-            let mut row = vec![at.i.to_string(), at.j.to_string()];
-            for (value, u) in [
-                (at.alpha_arcsec, at.u_alpha_arcsec),
-                (at.beta_arcsec, at.u_beta_arcsec),
-                (at.gamma_arcsec, at.u_gamma_arcsec),
-            ] {
-                let u = u.unwrap_or(0.0);
-                let digits = columns::decimals(u);
-                row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
-            }
-            row.push(format!("{:.1}", at.degrees_of_freedom.unwrap_or(f64::INFINITY)));
-            row
-        })
-        .collect();
+    let rows = stand.positions.iter().map(|at| {
+        let mut row = vec![at.i.to_string(), at.j.to_string()];
+        for (value, u) in [
+            (at.alpha_arcsec, at.u_alpha_arcsec),
+            (at.beta_arcsec, at.u_beta_arcsec),
+            (at.gamma_arcsec, at.u_gamma_arcsec),
+        ] {
+            let u = u.unwrap_or(0.0);
+            let digits = columns::decimals(u);
+            row.extend([format!("{value:.digits$}"), format!("{u:.digits$}")]);
+        }
+        row.push(format!("{:.1}", at.degrees_of_freedom.unwrap_or(f64::INFINITY)));
+        row
+    });
     let _ = writeln!(out);
-    columns::table(&mut out, &names, &rows);
+    columns::table(&mut out, &names, rows);
     components(&mut out, found);
     tests(&mut out, found);
     for warning in &found.remarks {
@@ -184,15 +144,11 @@ fn components(out: &mut String, found: &Certification) {
         );
         columns::paragraph(out, "", &words);
     }
-    let rows: Vec<Vec<String>> = components
-        .run_turns
-        .iter()
-        .map(|turn| {
-            let numbers = turn.platform_arcsec.iter().chain(&turn.base_arcsec).map(|value| format!("{value:+.2}"));
-            std::iter::once(turn.run.to_string()).chain(numbers).collect()
-        })
-        .collect();
-    columns::table(out, &["run", "platform x", "y", "z", "base east", "north", "up"], &rows);
+    let rows = components.run_turns.iter().map(|turn| {
+        let numbers = turn.platform_arcsec.iter().chain(&turn.base_arcsec).map(|value| format!("{value:+.2}"));
+        std::iter::once(turn.run.to_string()).chain(numbers).collect()
+    });
+    columns::table(out, &["run", "platform x", "y", "z", "base east", "north", "up"], rows);
 }
 
 fn tests(out: &mut String, found: &Certification) {
@@ -246,22 +202,18 @@ pub(crate) fn comparison(found: &Comparison) -> String {
         )
     };
     let _ = writeln!(out, "\nPositions relative to each other (p: probability): {}", line(&found.all));
-    let rows: Vec<Vec<String>> = found
-        .positions
-        .iter()
-        .map(|at| {
-            let mut row = vec![at.index.i.to_string(), at.index.j.to_string()];
-            for (turn, u) in at.turn_arcsec.iter().zip(&at.u_arcsec) {
-                row.extend([format!("{turn:+.2}"), format!("{u:.2}")]);
-            }
-            row.push(format!("{:.2}", at.test.chi_square));
-            row.push(columns::probability(at.test.probability));
-            row.push(if at.repeats { "unchanged" } else { "CHANGED" }.to_owned());
-            row
-        })
-        .collect();
+    let rows = found.positions.iter().map(|at| {
+        let mut row = vec![at.index.i.to_string(), at.index.j.to_string()];
+        for (turn, u) in at.turn_arcsec.iter().zip(&at.u_arcsec) {
+            row.extend([format!("{turn:+.2}"), format!("{u:.2}")]);
+        }
+        row.push(format!("{:.2}", at.test.chi_square));
+        row.push(columns::probability(at.test.probability));
+        row.push(if at.repeats { "unchanged" } else { "CHANGED" }.to_owned());
+        row
+    });
     let names = ["i", "j", "x, arcsec", "u", "y, arcsec", "u", "z, arcsec", "u", "chi-square", "p", ""];
-    columns::table(&mut out, &names, &rows);
+    columns::table(&mut out, &names, rows);
     let turned = |turn: &[f64; 3]| turn.map(|value| format!("{value:+.2}")).join(", ");
     let judged = found.common.test.as_ref().map_or_else(|| "not tested".to_owned(), line);
     let words = format!(

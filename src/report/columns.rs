@@ -125,7 +125,8 @@ fn unbroken(text: &str) -> Vec<String> {
 /// Appends a table. Columns are as wide as their widest cell; numbers are aligned at their decimal points, words on the
 /// left. If the terminal is too narrow, headings take several lines; columns that still have no room follow below, with
 /// the headings of the rows again.
-pub(crate) fn table(out: &mut String, names: &[&str], rows: &[Vec<String>]) {
+pub(crate) fn table(out: &mut String, names: &[&str], rows: impl IntoIterator<Item = Vec<String>>) {
+    let rows: Vec<Vec<String>> = rows.into_iter().collect();
     let all: Vec<Vec<String>> = (0..names.len())
         .map(|place| aligned(rows.iter().map(|row| row.get(place).map_or("", String::as_str)).collect()))
         .collect();
@@ -369,9 +370,8 @@ mod tests {
     #[test]
     fn numbers_are_aligned_at_their_points() {
         let rows = [["K_x", "94.99", "0.011", "pass"], ["ω_0", "-3", "0.0034", "undecided"]];
-        let rows: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(ToString::to_string).collect()).collect();
         let mut out = String::new();
-        table(&mut out, &["", "value", "u", "decision"], &rows);
+        table(&mut out, &["", "value", "u", "decision"], rows.map(|row| row.map(str::to_owned).to_vec()));
         let lines: Vec<String> = style::plain(&out).lines().map(str::to_owned).collect();
         assert_eq!(lines[1..], ["  K_x  94.99  0.011   pass", "  ω_0  -3     0.0034  undecided"]);
         assert_eq!(lines[0], "       value       u  decision");

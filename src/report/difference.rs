@@ -8,14 +8,13 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// Passport that is compared: its file, the SHA-256 of the file, and its content.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Side<'a> {
-    pub(crate) file: &'a str,
-    pub(crate) sha256: &'a str,
-    pub(crate) content: &'a Content,
+pub(crate) struct Side {
+    pub(crate) file: String,
+    pub(crate) sha256: String,
+    pub(crate) content: Content,
 }
 
-impl Side<'_> {
+impl Side {
     fn json(&self) -> Value {
         let header = &self.content.passport;
         json!({
@@ -26,14 +25,13 @@ impl Side<'_> {
 }
 
 /// Returns the differences as JSON: `{a, b, compared, numbers, others}`.
-pub(crate) fn to_json(a: Side, b: Side, found: &Differences) -> Value {
-    let others = found.others.iter().map(|other| json!({"key": other.key, "a": other.a, "b": other.b}));
+pub(crate) fn to_json(a: &Side, b: &Side, found: &Differences) -> Value {
     json!({
         "a": a.json(),
         "b": b.json(),
         "compared": found.compared,
         "numbers": numbers_json(&found.numbers),
-        "others": others.collect::<Vec<_>>(),
+        "others": found.others,
     })
 }
 
@@ -49,11 +47,11 @@ pub(crate) fn numbers_json(numbers: &[NumberDifference]) -> Value {
 }
 
 /// Returns the differences as text: a table of the numbers, then the other values in words.
-pub(crate) fn text(a: Side, b: Side, found: &Differences) -> String {
+pub(crate) fn text(a: &Side, b: &Side, found: &Differences) -> String {
     let mut out = String::new();
     for (name, side) in [("A", a), ("B", b)] {
         let (header, certificate) = (&side.content.passport, &side.content.certificate);
-        let _ = writeln!(out, "{name}  {}  {}", style::heading(&header.id), Printable(side.file));
+        let _ = writeln!(out, "{name}  {}  {}", style::heading(&header.id), Printable(&side.file));
         let issued =
             format!("issued {}, certificate {} of {}", header.issued_at, certificate.number, certificate.issued);
         columns::paragraph(&mut out, "   ", &issued);
@@ -103,7 +101,7 @@ pub(crate) fn numbers(out: &mut String, numbers: &[NumberDifference]) {
             at.ratio().map_or_else(String::new, |ratio| format!("{ratio:+.1}")),
         ]
     });
-    columns::table(out, &["", "A", "B", "B - A", "u", "(B - A)/u"], &rows.collect::<Vec<_>>());
+    columns::table(out, &["", "A", "B", "B - A", "u", "(B - A)/u"], rows);
 }
 
 /// Formats a number as it is in the file if it is short, as those are that people write, and else with `decimals`.

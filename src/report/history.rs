@@ -24,12 +24,11 @@ pub(crate) fn to_json(history: &History) -> Value {
 
 fn certificate_json(at: &PastCertificate) -> Value {
     let certificate = &at.stand.certificate;
-    let date = |date: Option<jiff::civil::Date>| date.map(|date| date.to_string());
     json!({
         "number": certificate.number,
-        "issued": certificate.issued.to_string(),
-        "performed": date(certificate.performed),
-        "valid_until": date(certificate.valid_until),
+        "issued": certificate.issued,
+        "performed": certificate.performed,
+        "valid_until": certificate.valid_until,
         "laboratory": certificate.laboratory,
         "runs": certificate.evidence.as_ref().map(|evidence| evidence.runs),
         "readings_sha256": certificate.evidence.as_ref().map(|evidence| &evidence.readings_sha256),
@@ -53,14 +52,9 @@ fn series_json(series: &Series) -> Value {
     let line = series.line.as_ref();
     // Infinite degrees of freedom are null, because JSON has no infinity.
     let finite = |value: f64| value.is_finite().then_some(value);
-    let values = series.values.iter().map(|at| {
-        json!({
-            "certificate": at.certificate, "date": at.date.to_string(), "arcsec": at.arcsec, "u_arcsec": at.u_arcsec,
-        })
-    });
     json!({
         "i": series.index.i, "j": series.index.j, "angle": ANGLES[series.angle],
-        "values": values.collect::<Vec<_>>(),
+        "values": series.values,
         "slope_arcsec_per_year": line.map(|line| line.slope),
         "u_slope_arcsec_per_year": line.map(|line| line.u_slope),
         "degrees_of_freedom": line.and_then(|line| finite(line.slope_degrees_of_freedom)),
@@ -69,12 +63,7 @@ fn series_json(series: &Series) -> Value {
         "chi_square": line.or(series.jump.as_ref().map(|jump| &jump.line)).map(|line| {
             json!({"value": line.chi_square, "degrees_of_freedom": line.degrees_of_freedom})
         }),
-        "jump": series.jump.as_ref().map(|jump| {
-            json!({
-                "certificates": jump.certificates, "change_arcsec": jump.change_arcsec, "u_arcsec": jump.u_arcsec,
-                "corrected_probability": jump.corrected_probability,
-            })
-        }),
+        "jump": series.jump,
     })
 }
 
@@ -152,7 +141,6 @@ pub(crate) fn text(history: &History) -> String {
     }
     let _ = writeln!(out, "\n{}", style::heading("Places"));
     for stay in &history.places {
-        let day = |time: jiff::Timestamp| time.to_string().chars().take(10).collect::<String>();
         let from = day(stay.from);
         let time = stay.until.map_or_else(|| format!("since {from}"), |until| format!("{from} to {}", day(until)));
         columns::named(&mut out, &time, 25, &stay.site);
@@ -164,10 +152,14 @@ pub(crate) fn text(history: &History) -> String {
     out
 }
 
+/// Returns the date of an instant, in UTC.
+fn day(time: jiff::Timestamp) -> String {
+    time.to_string().chars().take(10).collect()
+}
+
 /// Returns the events in the order of time: date, kind, words.
 fn time_line(history: &History) -> Vec<(String, &'static str, String)> {
     let mut events = Vec::new();
-    let day = |time: &jiff::Timestamp| time.to_string().chars().take(10).collect::<String>();
     for at in &history.certificates {
         let certificate = &at.stand.certificate;
         let runs =
@@ -180,34 +172,33 @@ fn time_line(history: &History) -> Vec<(String, &'static str, String)> {
         events.push((measured(&at.stand).to_string(), "measured", words));
     }
     for passport in &history.passports {
-        let id = passport.line.id.as_deref().unwrap_or("(id not verified)");
-        let Some(issued) = &passport.issued_at else { continue };
-        events.push((day(issued), "issued", issued_words(passport, id)));
+        let Some(issued) = passport.issued_at else { continue };
+        events.push((day(issued), "issued", issued_words(passport)));
     }
     for withdrawn in &history.withdrawals {
-        events.push((day(&withdrawn.revoked_at), "withdrawn", format!("{}: {}", withdrawn.id, withdrawn.reason)));
+        events.push((day(withdrawn.revoked_at), "withdrawn", format!("{}: {}", withdrawn.id, withdrawn.reason)));
     }
     // The sort is stable: on one day the measurement comes before the passports, and these before a withdrawal.
     events.sort_by(|a, b| a.0.cmp(&b.0));
     for passport in history.passports.iter().filter(|passport| passport.issued_at.is_none()) {
-        let id = passport.line.id.as_deref().unwrap_or("(id not verified)");
-        events.push((
-            "-         ".to_owned(),
-            "not used",
-            format!("{id}, {}: {}", passport.line.state.words(), passport.line.why),
-        ));
+        let words = format!("{}, {}: {}", id(passport), passport.line.state.words(), passport.line.why);
+        events.push(("-         ".to_owned(), "not used", words));
     }
     events
 }
 
-fn issued_words(passport: &PastPassport, id: &str) -> String {
+fn id(passport: &PastPassport) -> &str {
+    passport.line.id.as_deref().unwrap_or("(id not verified)")
+}
+
+fn issued_words(passport: &PastPassport) -> String {
     let line = &passport.line;
     let certificate = line.certificate.as_deref().unwrap_or("?");
     let reason = match (&passport.predecessor, &passport.reason) {
         (Some(from), Some(reason)) => format!(", re-issued from {from}: {reason}"),
         _ => String::new(),
     };
-    format!("{id}, certificate {certificate} ({}){reason}", line.state.words())
+    format!("{}, certificate {certificate} ({}){reason}", id(passport), line.state.words())
 }
 
 /// Returns the row of a tested deviation, or `None` if it was not tested. One that has jumped has no rate.
@@ -252,7 +243,7 @@ fn drift(out: &mut String, drift: &Drift) {
     if !rows.is_empty() {
         let _ = writeln!(out, "\n{}", style::heading("Drift of the deviations (u: standard uncertainty, k = 1)"));
         let names = ["i", "j", "angle", "values", "change, arcsec", "arcsec/year", "u", "probability", "corrected", ""];
-        columns::table(out, &names, &rows);
+        columns::table(out, &names, rows);
     }
     let sentence = sentence(drift, LETTERS);
     let _ = writeln!(out);

@@ -53,7 +53,7 @@ pub(crate) struct Report {
     pub sha256: Option<String>,
     /// Noise of a calibration on this stand relative to an ideal stand.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub noise_growth: Option<Noise>,
+    pub noise_growth: Option<NoiseGrowth>,
     /// Inputs that the passport does not state, and the effect of each.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub absences: Vec<String>,
@@ -65,41 +65,20 @@ pub(crate) struct Report {
     pub passports: Option<u64>,
 }
 
-/// Ratios of standard uncertainties on this stand to those on an ideal stand.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub(crate) struct Noise {
-    k: f64,
-    omega_0: f64,
-    omega_g: f64,
-    omega_k: f64,
-}
-
-impl From<NoiseGrowth> for Noise {
-    fn from(growth: NoiseGrowth) -> Self {
-        Self { k: growth.k, omega_0: growth.omega0, omega_g: growth.omega_g, omega_k: growth.omega_k }
-    }
-}
-
 impl Report {
     fn new(id: String, state: State) -> Self {
         let absences = Vec::new();
         Self { id, state, file: None, sha256: None, noise_growth: None, absences, reason: None, passports: None }
     }
 
-    /// Creates the report of a passport that now exists, new or unchanged.
-    pub(crate) fn of(issued: &Issued) -> Self {
-        Self {
-            file: Some(name_of(&issued.path)),
-            sha256: Some(issued.sha256.clone()),
-            ..Self::new(issued.id.clone(), if issued.new { State::Issued } else { State::Unchanged })
-                .with(&issued.remarks)
-        }
-    }
-
     /// Creates the report of an order of a batch.
-    pub(crate) fn of_outcome(outcome: &Outcome) -> Self {
+    pub(crate) fn of(outcome: &Outcome) -> Self {
         match outcome {
-            Outcome::There(issued) => Self::of(issued),
+            Outcome::There(Issued { id, path, sha256, new, remarks }) => Self {
+                file: Some(name_of(path)),
+                sha256: Some(sha256.clone()),
+                ..Self::new(id.clone(), if *new { State::Issued } else { State::Unchanged }).with(remarks)
+            },
             Outcome::Planned(planned) => Self {
                 file: Some(name_of(&planned.path)),
                 ..Self::new(planned.id.clone(), State::Planned).with(&planned.remarks)
@@ -114,7 +93,7 @@ impl Report {
     }
 
     fn with(self, remarks: &Remarks) -> Self {
-        Self { noise_growth: remarks.noise.map(Noise::from), absences: remarks.absences.clone(), ..self }
+        Self { noise_growth: remarks.noise, absences: remarks.absences.clone(), ..self }
     }
 }
 
@@ -140,10 +119,10 @@ fn text(report: &Report) -> String {
     if let Some(sha256) = &report.sha256 {
         let _ = writeln!(text, "           sha256 {sha256}");
     }
-    if let Some(Noise { k, omega_0, omega_g, omega_k }) = report.noise_growth {
+    if let Some(NoiseGrowth { k, omega0, omega_g, omega_k }) = report.noise_growth {
         let _ = writeln!(
             text,
-            "           noise relative to an ideal stand: K {k:.2}, omega_0 {omega_0:.2}, omega_g {omega_g:.2}, \
+            "           noise relative to an ideal stand: K {k:.2}, omega_0 {omega0:.2}, omega_g {omega_g:.2}, \
              omega_k {omega_k:.2}"
         );
     }
@@ -170,33 +149,21 @@ fn grouped(number: u64) -> String {
     groups.join(",")
 }
 
-/// Number of orders for each outcome.
+/// Number of orders for each outcome, in the order of [`State::ALL`], and of inputs that cannot be used.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Totals {
-    issued: u64,
-    unchanged: u64,
-    planned: u64,
-    skipped: u64,
-    refused: u64,
+    orders: [u64; State::ALL.len()],
     inputs: u64,
 }
 
 impl Totals {
     fn add(&mut self, report: &Report) {
-        match report.state {
-            State::Issued => self.issued += 1,
-            State::Unchanged => self.unchanged += 1,
-            State::Planned => self.planned += 1,
-            State::Skipped => self.skipped += 1,
-            State::Refused => {
-                self.refused += report.passports.unwrap_or(1);
-                self.inputs += u64::from(report.passports.is_some());
-            }
-        }
+        self.orders[report.state as usize] += report.passports.unwrap_or(1);
+        self.inputs += u64::from(report.passports.is_some());
     }
 
     fn summary(self) -> String {
-        let Self { issued, unchanged, planned, skipped, refused, inputs } = self;
+        let Self { orders: [issued, unchanged, planned, skipped, refused], inputs } = self;
         let mut words = match planned {
             0 => format!("issued {}, unchanged {}", grouped(issued), grouped(unchanged)),
             planned => format!("planned {}, unchanged {}", grouped(planned), grouped(unchanged)),
@@ -272,7 +239,7 @@ impl Reports {
     }
 
     /// Returns the text to write at the end.
-    pub(crate) fn end(self) -> String {
+    pub(crate) fn end(&self) -> String {
         match self.form {
             Form::Json if self.count == 0 => "[]\n".to_owned(),
             Form::Json => "\n]\n".to_owned(),
@@ -303,6 +270,11 @@ impl Told {
             None if self.remarks.len() == REMARKS_TOLD => self.others += 1,
             None => self.remarks.push((words, about.to_owned(), 1)),
         }
+    }
+
+    /// Adds the remarks on a new passport.
+    pub(crate) fn add_all(&mut self, id: &str, remarks: &Remarks) {
+        remarks.words().into_iter().for_each(|words| self.add(id, words));
     }
 
     /// Returns the remarks, one line each.

@@ -1,6 +1,5 @@
 //! Output for people: verdicts, tables, sentences about a result, pages and pictures.
 //!
-//! * `budget`: the uncertainty budget.
 //! * `verdict`: the answer of `verify`.
 //! * `calibration`: the result of a calibration.
 //! * `certification`: a certified stand, and a check run.
@@ -10,7 +9,6 @@
 //! * `exported`: a verified passport as JSON, with what its verification found.
 //! * `history`: one stand over the years.
 //! * `mistake`: the explanation of a result that is not the gyro's.
-//! * `monte_carlo`: coverage intervals, and the test of linear propagation.
 //! * `issued`: the outcomes of the orders of a batch.
 //! * `page`: pages for print and screen, in several languages.
 //! * `passport_table`: a passport in a terminal.
@@ -22,8 +20,8 @@
 //! * `selftest`: the reference cases.
 //! * `simulation`: the tables of simulations.
 //! * `style`: emphasis in a terminal.
+//! * `uncertainty`: the uncertainty budget; coverage intervals, and the test of linear propagation.
 
-pub(crate) mod budget;
 pub(crate) mod calibration;
 #[cfg(feature = "factory")]
 pub(crate) mod certification;
@@ -35,7 +33,6 @@ pub(crate) mod history;
 #[cfg(feature = "factory")]
 pub(crate) mod issued;
 pub(crate) mod mistake;
-pub(crate) mod monte_carlo;
 pub(crate) mod page;
 pub(crate) mod passport_table;
 pub(crate) mod picture;
@@ -48,6 +45,7 @@ pub(crate) mod register;
 pub(crate) mod selftest;
 pub(crate) mod simulation;
 pub(crate) mod style;
+pub(crate) mod uncertainty;
 pub(crate) mod verdict;
 
 pub use page::{CalibrationPage, Language, Languages, PassportPage, UsedPassport};

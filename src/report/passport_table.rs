@@ -123,7 +123,7 @@ fn positions(out: &mut String, content: &Content) {
         }
         row
     });
-    columns::table(out, &names, &rows.collect::<Vec<_>>());
+    columns::table(out, &names, rows);
     out.push('\n');
     deviations::picture(out, &content.positions);
 }
@@ -205,7 +205,7 @@ fn matrices(out: &mut String, content: &Content) {
         row("ω_31", "°/h", &m.omega1_deg_per_h),
         row("ω_32", "°/h", &m.omega2_deg_per_h),
     ];
-    columns::table(out, &["", "unit", "11", "12", "21", "22"], &rows);
+    columns::table(out, &["", "unit", "11", "12", "21", "22"], rows);
 }
 
 fn vectors(out: &mut String, content: &Content) {
@@ -217,7 +217,7 @@ fn vectors(out: &mut String, content: &Content) {
         row.extend([nx, ny, at.specific_force_z_g, wx, wy].map(|value| format!("{value:.9}")));
         row
     });
-    columns::table(out, &["i", "j", "n_x", "n_y", "n_z", "ω_x", "ω_y"], &rows.collect::<Vec<_>>());
+    columns::table(out, &["i", "j", "n_x", "n_y", "n_z", "ω_x", "ω_y"], rows);
 }
 
 fn accuracy(out: &mut String, content: &Content) {
@@ -251,7 +251,7 @@ fn accuracy(out: &mut String, content: &Content) {
         };
         vec![parameter.symbol().to_owned(), format!("{u:.6} {unit}"), percent, limit]
     });
-    columns::table(out, &["", "u", "u, %", "tolerance"], &rows);
+    columns::table(out, &["", "u", "u, %", "tolerance"], rows);
 }
 
 fn self_check(out: &mut String, content: &Content) {
@@ -261,7 +261,7 @@ fn self_check(out: &mut String, content: &Content) {
         .currents
         .iter()
         .map(|at| vec![at.i.to_string(), at.j.to_string(), format!("{:.9}", at.jx_ma), format!("{:.9}", at.jy_ma)]);
-    columns::table(out, &["i", "j", "J_x", "J_y"], &rows.collect::<Vec<_>>());
+    columns::table(out, &["i", "j", "J_x", "J_y"], rows);
     let [[kx, kxy], [kyx, ky]] = check.k_deg_per_h_per_ma;
     line(out, "K, °/(h·mA)", format!("[[{kx}, {kxy}], [{kyx}, {ky}]]"));
     let [x, y] = check.omega0_deg_per_h;

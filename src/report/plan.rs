@@ -70,7 +70,7 @@ fn positions(out: &mut String, plan: &Plan) {
         row.extend([at.theta_deg.to_string(), at.phi_deg.to_string(), at.visits.to_string()]);
         row
     };
-    columns::table(out, &names, &plan.readings.iter().map(row).collect::<Vec<_>>());
+    columns::table(out, &names, plan.readings.iter().map(row));
     let visit = |place: &usize| {
         let at = &plan.readings[*place];
         match at.index {
@@ -107,7 +107,7 @@ fn uncertainties(out: &mut String, plan: &Plan) {
         }
         row
     };
-    columns::table(out, &names, &Parameter::AS_IN_THE_PAPER.map(row));
+    columns::table(out, &names, Parameter::AS_IN_THE_PAPER.map(row));
     let value = plan.evaluation.value;
     let mut words = format!("Value: {}.", significant(value));
     if let Some(paper) = &plan.paper {
@@ -149,7 +149,7 @@ fn common_errors(out: &mut String, plan: &Plan) {
         row.extend(plan.paper.iter().flat_map(|paper| cells(&paper.effects[place])));
         row
     });
-    columns::table(out, &names, &rows.collect::<Vec<_>>());
+    columns::table(out, &names, rows);
 }
 
 /// Formats a share in percent: two digits, or 0 where only rounding is left.

@@ -7,18 +7,8 @@ use std::fmt::Write;
 
 impl State {
     /// Returns the name of the state in words.
-    pub(crate) fn words(self) -> &'static str {
-        match self {
-            Self::InForce => "in force",
-            Self::Expiring => "expiring",
-            Self::Superseded => "superseded",
-            Self::Moved => "moved",
-            Self::Expired => "expired",
-            Self::NotYetValid => "not yet valid",
-            Self::Revoked => "revoked",
-            Self::Unknown => "unknown",
-            Self::Broken => "BROKEN",
-        }
+    pub(crate) fn words(self) -> String {
+        if self == Self::Broken { "BROKEN".to_owned() } else { self.key().replace('_', " ") }
     }
 }
 

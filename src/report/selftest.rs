@@ -26,8 +26,8 @@ pub(crate) fn text(cases: &[Case]) -> String {
         let _ = writeln!(out, "{}", first.example);
         let digits = group.iter().any(|case| case.digits.is_some());
         let last = if digits { "digits" } else { "tolerance" };
-        let rows: Vec<Vec<String>> = group.iter().map(|case| row(case, digits)).collect();
-        columns::table(&mut out, &["", "expected", "found", last, ""], &rows);
+        let rows = group.iter().map(|case| row(case, digits));
+        columns::table(&mut out, &["", "expected", "found", last, ""], rows);
         columns::paragraph(&mut out, "  ", &format!("Source: {}.", sources(group)));
         out.push('\n');
     }

@@ -15,6 +15,31 @@ const GITIGNORE: &str = "# Private keys stay on the machine that signs.\n*.key\n
 const GITATTRIBUTES: &str =
     "# Passports are signed byte for byte: git must not change their line ends.\n*.yaml -text\n";
 
+const READ_ME: &str = "# Workspace of dtg-passport\n\
+     \n\
+     This folder holds calibration passports of gyro test stands, and what they are made from.\n\
+     \n\
+     | path | content |\n\
+     |---|---|\n\
+     | `dtg-passport.toml` | key, issuer, trusted keys and folders that the commands use |\n\
+     | `factory.key` | the signing key: secret, never copied, never in version control |\n\
+     | `allowed_signers` | the trusted keys: protect it from changes |\n\
+     | `stands/MODEL/SERIAL/stand.yaml` | certified deviations of a stand |\n\
+     | `sites/ID.yaml` | a place of use |\n\
+     | `readings/` | measured angles and currents |\n\
+     | `passports/MODEL/SERIAL/SITE-REVISION.yaml` | signed passports: never edited, never deleted |\n\
+     | `revocations/revocation-N.yaml` | signed lists of withdrawn passports: never deleted, copied with the passports |\n\
+     \n\
+     In this folder:\n\
+     \n\
+     ```sh\n\
+     export DTG_PASSPORT_WORKSPACE=\"$PWD\"\n\
+     dtg-passport status                                   # what is here, in force, expiring, wrong\n\
+     dtg-passport issue MODEL/SERIAL --site ID             # a passport\n\
+     dtg-passport verify MODEL/SERIAL/ID/1                 # may it be used?\n\
+     dtg-passport revoke MODEL/SERIAL/ID/1 --reason TEXT   # withdraw it\n\
+     ```\n";
+
 /// Reason why a workspace was not made.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum NotMade {
@@ -38,7 +63,7 @@ pub(crate) fn make(root: &Path, identity: Option<&str>, force: bool) -> Result<V
         (root.join(WORKSPACE_FILE), settings(identity)?),
         (root.join(".gitignore"), GITIGNORE.to_owned()),
         (root.join(".gitattributes"), GITATTRIBUTES.to_owned()),
-        (root.join("README.md"), read_me()),
+        (root.join("README.md"), READ_ME.to_owned()),
     ];
     files::check_replaceable(written.iter().map(|(path, _)| path), force)?;
     let mut made = Made::default();
@@ -119,34 +144,6 @@ fn settings(identity: Option<&str>) -> Result<String, NotMade> {
          stands = \"stands\"\n\
          sites = \"sites\"\n"
     ))
-}
-
-fn read_me() -> String {
-    "# Workspace of dtg-passport\n\
-     \n\
-     This folder holds calibration passports of gyro test stands, and what they are made from.\n\
-     \n\
-     | path | content |\n\
-     |---|---|\n\
-     | `dtg-passport.toml` | key, issuer, trusted keys and folders that the commands use |\n\
-     | `factory.key` | the signing key: secret, never copied, never in version control |\n\
-     | `allowed_signers` | the trusted keys: protect it from changes |\n\
-     | `stands/MODEL/SERIAL/stand.yaml` | certified deviations of a stand |\n\
-     | `sites/ID.yaml` | a place of use |\n\
-     | `readings/` | measured angles and currents |\n\
-     | `passports/MODEL/SERIAL/SITE-REVISION.yaml` | signed passports: never edited, never deleted |\n\
-     | `revocations/revocation-N.yaml` | signed lists of withdrawn passports: never deleted, copied with the passports |\n\
-     \n\
-     In this folder:\n\
-     \n\
-     ```sh\n\
-     export DTG_PASSPORT_WORKSPACE=\"$PWD\"\n\
-     dtg-passport status                                   # what is here, in force, expiring, wrong\n\
-     dtg-passport issue MODEL/SERIAL --site ID             # a passport\n\
-     dtg-passport verify MODEL/SERIAL/ID/1                 # may it be used?\n\
-     dtg-passport revoke MODEL/SERIAL/ID/1 --reason TEXT   # withdraw it\n\
-     ```\n"
-        .to_owned()
 }
 
 #[cfg(test)]

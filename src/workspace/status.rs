@@ -5,6 +5,7 @@ use crate::batch::paths::{is_stand, is_yaml};
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, FileError};
 use crate::folder::search;
+use crate::parallel;
 use crate::passport::Trust;
 use crate::register::{Asked, Line, Register, State};
 use crate::report::style;
@@ -40,7 +41,7 @@ pub(crate) struct Status {
     remarks: Vec<String>,
     /// Whether the register could not be read completely.
     #[serde(skip)]
-    incomplete: bool,
+    pub(crate) incomplete: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -87,23 +88,18 @@ struct SigningKeyLine {
     why: Option<String>,
 }
 
-/// Returns what `workspace` holds at `time`; without `trust`, passports are not examined. `threads` threads do the work.
+/// Returns what `workspace` holds at `time`; without `trust`, passports are not examined.
 ///
 /// # Errors
 /// Returns [`FileError::Read`] if a folder that the workspace states cannot be read.
-pub(crate) fn status(
-    workspace: &Workspace,
-    trust: Option<&Trust>,
-    time: Timestamp,
-    threads: usize,
-) -> Result<Status, FileError> {
+pub(crate) fn status(workspace: &Workspace, trust: Option<&Trust>, time: Timestamp) -> Result<Status, FileError> {
     let mut remarks = Vec::new();
     let stands = stands(workspace, time, &mut remarks)?;
     let sites = sites(workspace, &mut remarks)?;
     let register = match (&workspace.passports, trust) {
         (Some(folder), Some(trust)) => {
             let asked = Asked { within_days: Some(SOON_DAYS), ..Asked::at(time) };
-            Some(search::register(folder, trust.clone(), &asked, threads)?.0)
+            Some(search::register(folder, trust.clone(), &asked, parallel::processors())?.0)
         }
         (None, _) => {
             remarks.push("no folder of passports is stated (passports)".to_owned());
@@ -214,11 +210,6 @@ fn signing_key(key: &Path, workspace: &Workspace, trust: Option<&Trust>, time: T
 }
 
 impl Status {
-    /// Returns `true` if the system refused to read a part of the folder of passports.
-    pub(crate) fn is_incomplete(&self) -> bool {
-        self.incomplete
-    }
-
     /// Returns `true` if there is an alarm, a broken passport, or a file that cannot be read.
     pub(crate) fn needs_attention(&self) -> bool {
         let passports = self.passports.as_ref();

@@ -1,8 +1,9 @@
-//! Uncertainty budget as text.
+//! Uncertainty budget, and result of a Monte Carlo run, as text.
 
 use crate::report::columns;
-use crate::uncertainty::Budget;
 use crate::uncertainty::budget::{COVERAGE, Contribution, ParameterBudget};
+use crate::uncertainty::monte_carlo::Distribution;
+use crate::uncertainty::{Budget, MonteCarlo};
 use crate::units::printed;
 use std::fmt::Write;
 
@@ -10,7 +11,7 @@ use std::fmt::Write;
 const SHARE_SHOWN: f64 = 1e-4;
 
 /// Returns `sentence` and the budget of every parameter, the largest contribution first.
-pub(crate) fn text(budget: &Budget, sentence: Option<&str>) -> String {
+pub(crate) fn budget(budget: &Budget, sentence: Option<&str>) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "\nUncertainty budget ({}), linear approximation", budget.method.key());
     if let Some(sentence) = sentence {
@@ -46,16 +47,16 @@ fn parameter(out: &mut String, line: &ParameterBudget) {
     let (shown, rest) = line.contributions.split_at(shown);
     // One digit more than u has: the small ones can be told from 0.
     let digits = digits + 1;
-    let mut rows: Vec<Vec<String>> = shown.iter().map(|part| row(part, digits)).collect();
+    let mut rows: Vec<Vec<String>> = shown.iter().map(|part| contribution(part, digits)).collect();
     if !rest.is_empty() {
         let sum: f64 = rest.iter().map(|part| part.contribution * part.contribution).sum();
         let name = format!("{} others", rest.len());
         rows.push(vec![name, String::new(), String::new(), format!("{:.digits$}", sum.sqrt()), "< 0.1".to_owned()]);
     }
-    columns::table(out, &["input", "u of input", "inputs", "contribution", "share, %"], &rows);
+    columns::table(out, &["input", "u of input", "inputs", "contribution", "share, %"], rows);
 }
 
-fn row(part: &Contribution, digits: usize) -> Vec<String> {
+fn contribution(part: &Contribution, digits: usize) -> Vec<String> {
     let [low, high] = part.standard_uncertainty.map(|u| part.cause.shown(u));
     let size = if low < 0.99 * high { format!("{low:.2}–{high:.2}") } else { short(high) };
     vec![
@@ -69,4 +70,52 @@ fn row(part: &Contribution, digits: usize) -> Vec<String> {
 
 fn short(value: f64) -> String {
     if value < 1e-3 { columns::two_digits(value) } else { format!("{:.*}", columns::decimals(value).max(1), value) }
+}
+
+/// Returns uncertainties and coverage intervals, and for every parameter whether the linear approximation is valid.
+pub(crate) fn monte_carlo(found: &MonteCarlo) -> String {
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        "\nMonte Carlo ({}), {} trials, seed {}; {:.0} % coverage intervals",
+        found.method.key(),
+        found.trials,
+        found.seed,
+        100.0 * COVERAGE
+    );
+    let names = ["", "mean", "u", "symmetric", "shortest", "difference", "allowed", "linear"];
+    columns::table(&mut out, &names, found.parameters.iter().map(distribution));
+    let words = "difference: of the ends of the interval by linear approximation from those of the symmetric one (the \
+                 larger of the two); allowed: half a unit of the second digit of u (JCGM 101, clause 8); linear: \
+                 whether the linear approximation is valid.";
+    columns::paragraph(&mut out, "  ", words);
+    if !found.stable {
+        let words = "WARNING: not all stated digits are stable; more trials (JCGM 101, 7.9) would change some of them.";
+        columns::paragraph(&mut out, "  ", words);
+    }
+    if found.failed > 0 {
+        let words = format!("WARNING: {} trials gave no finite parameters and were excluded.", found.failed);
+        columns::paragraph(&mut out, "  ", &words);
+    }
+    out
+}
+
+fn distribution(line: &Distribution) -> Vec<String> {
+    let digits = columns::decimals(line.standard_uncertainty);
+    let interval = |[low, high]: [f64; 2]| format!("{low:.digits$} to {high:.digits$}");
+    let first = &line.first_order;
+    vec![
+        line.parameter.symbol().to_owned(),
+        format!("{:.digits$}", line.mean),
+        format!("{:.digits$}", line.standard_uncertainty),
+        interval(line.symmetric),
+        interval(line.shortest),
+        format!("{:.*}", digits + 2, first.differences[0].max(first.differences[1])),
+        format!("{:.*}", digits + 1, first.tolerance),
+        match first.valid {
+            Some(true) => "valid".to_owned(),
+            Some(false) => "NOT VALID".to_owned(),
+            None => "too few trials".to_owned(),
+        },
+    ]
 }
