@@ -8,12 +8,14 @@ use super::analytic::{current_differences, mean_misclosure};
 use crate::coefficients::{Coefficients, Matrices};
 use crate::gyro::GyroParameters;
 use nalgebra::{Matrix2, Vector2};
+use serde::{Deserialize, Serialize};
 
 /// Maximum number of steps; a longer iteration counts as not converged.
 pub(crate) const LARGEST_NUMBER_OF_STEPS: u32 = 200;
 
 /// Stop rule of the iteration: the paper's Δ₁ and Δ₂.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "struct StopRuleDocument")]
 pub struct StopRule {
     /// Δ₁: largest change of K_x and K_y in the last step, percent.
     pub delta1_percent: f64,

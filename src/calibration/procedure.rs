@@ -45,7 +45,7 @@ impl Default for Options {
 /// Returns [`NoLeastSquares`] if the readings are for other positions or do not determine a gyro; the results of other
 /// methods would then be meaningless. A refusal of a single method is in [`Calibration::refused`].
 pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Result<Calibration, NoLeastSquares> {
-    let digits = readings.recorded().digits(&setup.uncertainty().meter);
+    let digits = readings.recorded.digits(&setup.uncertainty().meter);
     let setup = &*setup.of_readings(readings);
     let indices = readings.positions().iter().map(|position| position.index);
     if !indices.eq(setup.coefficients().positions.iter().map(|at| at.index)) {

@@ -131,7 +131,7 @@ impl Repeats {
         let of_noise = |place: usize, visit: usize| reading / positions[place].visits[visit].each_ma.len() as f64;
         // Each visit has its own rounding, so the visits differ by it.
         let meter = &setup.uncertainty().meter;
-        let rounding_ma = Some(readings.recorded().rounding_ma(meter)).filter(|rounding| *rounding >= meter.floor_ma);
+        let rounding_ma = Some(readings.recorded.rounding_ma(meter)).filter(|rounding| *rounding >= meter.floor_ma);
         let rounding = k * k.transpose() * rounding_ma.unwrap_or(0.0).powi(2);
         let known = |place: usize, visit: usize| returns[place] + rounding + of_noise(place, visit);
         let stated = self.visit.deg_per_h * self.visit.deg_per_h;

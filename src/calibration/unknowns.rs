@@ -4,30 +4,25 @@
 use super::parameter::Parameter;
 use crate::coefficients::PositionCoefficients;
 use crate::gyro::GyroParameters;
+use crate::text::words;
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Vector2, Vector3};
 
-/// Model of the g-sensitive drift that least squares fits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[non_exhaustive]
-pub enum Model {
-    /// The paper's model, eq. (5): ω_g and ω_k.
-    #[default]
-    Paper,
-    /// The paper's model with the anisoelastic coefficient of eq. (2).
-    Anisoelastic,
-    /// A full 2×3 matrix of g-sensitive drift in place of ω_g and ω_k.
-    General,
+words! {
+    /// Model of the g-sensitive drift that least squares fits.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    #[non_exhaustive]
+    pub enum Model: pub(crate) key {
+        /// The paper's model, eq. (5): ω_g and ω_k.
+        #[default]
+        Paper = "paper",
+        /// The paper's model with the anisoelastic coefficient of eq. (2).
+        Anisoelastic = "paper",
+        /// A full 2×3 matrix of g-sensitive drift in place of ω_g and ω_k.
+        General = "general",
+    }
 }
 
 impl Model {
-    /// Returns the name of the model in options and results.
-    pub(crate) fn key(self) -> &'static str {
-        match self {
-            Self::Paper | Self::Anisoelastic => "paper",
-            Self::General => "general",
-        }
-    }
-
     /// Returns the parameters in the order of the columns.
     pub(crate) fn parameters(self) -> &'static [Parameter] {
         match self {

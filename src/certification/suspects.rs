@@ -74,7 +74,7 @@ pub(crate) struct Suspects {
 impl Suspects {
     pub(crate) fn of(header: &Header, readings: &AngleReadings, components: &Components) -> Self {
         let outliers = outliers(header, readings, components);
-        let twins = twins(readings.runs(), components);
+        let twins = twins(&readings.runs, components);
         // An outlier increases the scatter of its position and its axis and, through the common part, of its whole run.
         if !outliers.is_empty() {
             let worse =
@@ -126,7 +126,7 @@ fn worse(header: &Header, components: &Components, only: Option<PositionIndex>) 
 /// are outliers ([Rosner](crate::bibliography::Bibliography::Rosner83)'s procedure, because two outliers can hide each
 /// other).
 fn outliers(header: &Header, readings: &AngleReadings, components: &Components) -> Vec<Outlier> {
-    let runs = readings.runs();
+    let runs = &readings.runs;
     // With two runs, the difference of the first from the second is that of the second from the first, so it counts
     // once.
     let values = components.keeps.nrows() * if runs.len() == 2 { 1 } else { runs.len() };

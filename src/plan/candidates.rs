@@ -112,12 +112,15 @@ pub(crate) struct Candidates {
     pub tolerance: [f64; 8],
     /// Variance that the scatter of turn-ons adds to ω_0x and ω_0y, in units of their tolerance.
     pub turn_on: f64,
-    pub(super) setup: Setup,
-    pub(super) unknowns: Unknowns,
+    /// Setup of all candidates.
+    pub(crate) setup: Setup,
+    /// Parameters of the gyro, drifts per local g.
+    pub(crate) unknowns: Unknowns,
     pub(super) currents_ma: Vec<Vector2<f64>>,
     candidates: Vec<Candidate>,
     certified: bool,
-    not_stated: Vec<NotStated>,
+    /// Inputs of single positions whose uncertainty the certificate does not state.
+    pub(super) not_stated: Vec<NotStated>,
 }
 
 impl Candidates {
@@ -204,11 +207,6 @@ impl Candidates {
     /// Returns the number of candidates.
     pub(crate) fn len(&self) -> usize {
         self.candidates.len()
-    }
-
-    /// Returns the inputs of single positions whose uncertainty the certificate does not state.
-    pub(crate) fn not_stated(&self) -> Vec<NotStated> {
-        self.not_stated.clone()
     }
 
     /// Returns the information of `visits` visits of the candidate at `place`, in units of the tolerances.
@@ -378,17 +376,5 @@ impl Candidates {
             at.rows.as_flattened().iter().chain(&at.fixed).chain(&at.of_visit).all(|value| value.is_finite())
         });
         if finite { Ok(self) } else { Err(NoPlan::SingularGyro) }
-    }
-
-    /// Returns the setup of all candidates.
-    #[cfg(test)]
-    pub(crate) fn setup(&self) -> &Setup {
-        &self.setup
-    }
-
-    /// Returns the parameters of the gyro, drifts per local g.
-    #[cfg(test)]
-    pub(crate) fn gyro(&self) -> crate::gyro::GyroParameters {
-        self.unknowns.parameters
     }
 }

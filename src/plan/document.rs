@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct PlanDocument {
     /// Criterion: a, d or worst.
-    criterion: String,
+    criterion: &'static str,
     /// Σ (u/T)² (a), ln det of the covariance in units of T (d), or the largest u/T (worst), T the tolerances.
     value: f64,
     /// Azimuth of the frame's axis, degrees clockwise from north.
@@ -180,7 +180,7 @@ impl From<&Plan> for PlanDocument {
             visits: at.visits,
         });
         Self {
-            criterion: plan.criterion.to_string(),
+            criterion: plan.criterion.key(),
             value: plan.evaluation.value,
             frame_axis_azimuth_deg: plan.frame_axis_azimuth_deg,
             readings: readings.collect(),

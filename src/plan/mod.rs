@@ -189,7 +189,7 @@ pub(crate) fn plan(question: &Question) -> Result<Plan, NoPlan> {
         exhaustive: found.exhaustive,
         has_matrices,
         has_general_model: design.determines_general_model(),
-        of_positions_not_stated: candidates.not_stated(),
+        of_positions_not_stated: candidates.not_stated.clone(),
         noise_not_stated: question.gyro.noise.as_ref().is_none_or(|noise| noise.visit_deg_per_h.is_none()),
     })
 }

@@ -221,10 +221,10 @@ impl<'a> Simulation<'a> {
             method: method.key(),
             parameter: parameter.key(),
             unit: if relative { "%" } else { parameter.unit() },
-            worst: errors.worst(),
+            worst: errors.worst,
             standard_deviation: errors.standard_deviation(),
             mean: errors.mean(),
-            not_solved: trials - errors.count(),
+            not_solved: trials - errors.count,
             paper_bound: of_the_paper.then_some(bound),
         }
     }

@@ -91,7 +91,7 @@ fn change(setup: &Setup, place: usize, input: &Input) -> VectorChange {
     let none = VectorChange { earth_rate_deg_per_h: Vector3::zeros(), vertical: Vector3::zeros() };
     let change = match input.cause {
         Cause::Angle(index, angle) if index == setup.coefficients().positions[place].index => {
-            setup.in_case(place).turned(&setup.turns()[place].axes[angle])
+            setup.in_case(place).turned(&setup.turns[place].axes[angle])
         }
         Cause::Platform(axis) => setup.in_case(place).turned(&unit_vector(axis)),
         Cause::Base(axis) | Cause::Level(axis) => setup.base_turned(place, &unit_vector(axis)),

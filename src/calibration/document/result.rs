@@ -1,6 +1,6 @@
 //! The JSON of one method, and what belongs to it.
 
-use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, StepChange};
+use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, StepChange, StopRule};
 use crate::calibration::noise::{DriftNoise, NoiseSource};
 use crate::calibration::parameter::Parameter;
 use crate::calibration::result::{Calibration, MethodResult, ModelTest};
@@ -59,7 +59,7 @@ pub(crate) struct ResultDocument {
     pub(crate) iterations_predicted: Option<u32>,
     /// Stop rule of the iteration, Δ₁ and Δ₂.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) stop_rule: Option<StopRuleDocument>,
+    pub(crate) stop_rule: Option<StopRule>,
     /// Changes of the parameters in each step after the first approximation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) changes: Option<Vec<ChangeDocument>>,
@@ -134,16 +134,6 @@ impl NoiseDocument {
             turn_on_degrees_of_freedom: finite(turn_on.degrees_of_freedom),
         }
     }
-}
-
-/// Stop rule of the iteration: the paper's Δ₁ and Δ₂.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct StopRuleDocument {
-    /// Δ₁, percent.
-    pub(crate) delta1_percent: f64,
-    /// Δ₂, °/(h·g).
-    pub(crate) delta2_deg_per_h: f64,
 }
 
 /// Changes of the parameters in one step of the iterative method.
@@ -283,10 +273,7 @@ impl ResultDocument {
             iterations_predicted: iteration
                 .and_then(|iteration| iteration.predicted_steps)
                 .filter(|steps| *steps <= LARGEST_NUMBER_OF_STEPS),
-            stop_rule: iteration.map(|iteration| StopRuleDocument {
-                delta1_percent: iteration.stop_rule.delta1_percent,
-                delta2_deg_per_h: iteration.stop_rule.delta2_deg_per_h,
-            }),
+            stop_rule: iteration.map(|iteration| iteration.stop_rule),
             changes: iteration.map(|iteration| (2..).zip(&iteration.changes).map(ChangeDocument::new).collect()),
             spectral_radius: iteration.map(|iteration| iteration.spectral_radius),
             remainder_k_deg_per_h_per_ma: iteration.map(|it| rows(&it.remainder_k_deg_per_h_per_ma)),

@@ -53,7 +53,7 @@ enum Solver {
 /// Monte Carlo engine, prepared for one calibration.
 #[derive(Debug, Clone)]
 pub struct Engine {
-    plan: Plan,
+    pub(crate) plan: Plan,
     kernel: Kernel,
     solver: Solver,
 }
@@ -105,7 +105,7 @@ impl Engine {
     }
 
     /// Returns the parameters for given standard deviates, one row per trial (at most [`WIDTH`]), in the order of
-    /// [`Plan::inputs`]; for tests against the exact path.
+    /// `Plan::inputs`; for tests against the exact path.
     #[cfg(test)]
     pub(crate) fn solutions_for(&self, trials: &[Vec<f64>]) -> Vec<[f64; 8]> {
         let mut work = self.workspace();
@@ -117,12 +117,6 @@ impl Engine {
         pulp::Arch::new().dispatch(Chunk { engine: self, work: &mut work });
         let count = trials.len().min(WIDTH);
         (0..count).map(|trial| std::array::from_fn(|place| work.solutions[place][trial])).collect()
-    }
-
-    /// Returns the plan of the inputs that are drawn.
-    #[cfg(test)]
-    pub(crate) fn plan(&self) -> &Plan {
-        &self.plan
     }
 
     #[inline(always)]
