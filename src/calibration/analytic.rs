@@ -1,6 +1,6 @@
 //! Analytic method ([the paper](crate::bibliography::Bibliography::Tang17), eq. (8), (13)-(16)).
 
-use crate::coefficients::{Coefficients, EIGHT_POSITIONS, Matrices, pair_differences};
+use crate::coefficients::{Coefficients, Matrices, pair_differences};
 use crate::gyro::GyroParameters;
 use nalgebra::{Matrix2, Vector2};
 
@@ -82,7 +82,7 @@ impl<'a> AnalyticMap<'a> {
         let matrices = coefficients.matrices.as_ref()?;
         let (j1, j2) = current_differences(coefficients, currents_ma)?;
         let inverse = (j1 - j2 * matrices.delta).try_inverse()?;
-        Some(Self { coefficients, currents_ma, inverse, j2, matrices, eight: places_of_the_eight(coefficients)? })
+        Some(Self { coefficients, currents_ma, inverse, j2, matrices, eight: coefficients.eight()? })
     }
 
     /// Returns the change of the solution for the misclosures of all positions, °/h.
@@ -99,7 +99,7 @@ impl<'a> AnalyticMap<'a> {
 
 impl AnalyticSolution {
     /// Creates a solution with ω_g and ω_k computed from ω_n by (16).
-    fn new(k: Matrix2<f64>, omega_n: Matrix2<f64>, omega0: Vector2<f64>) -> Self {
+    pub(super) fn new(k: Matrix2<f64>, omega_n: Matrix2<f64>, omega0: Vector2<f64>) -> Self {
         let parameters = GyroParameters {
             k_deg_per_h_per_ma: k,
             omega0_deg_per_h: omega0,
@@ -130,16 +130,7 @@ pub(crate) fn current_differences(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],
 ) -> Option<(Matrix2<f64>, Matrix2<f64>)> {
-    let eight = places_of_the_eight(coefficients)?;
+    let eight = coefficients.eight()?;
     (currents_ma.len() == coefficients.positions.len())
         .then(|| pair_differences(|position| currents_ma[eight[position]]))
-}
-
-/// Returns the indices of the paper's eight positions among all positions, or `None` if one is missing.
-pub(crate) fn places_of_the_eight(coefficients: &Coefficients) -> Option<[usize; 8]> {
-    let mut places = [0; 8];
-    for (place, (index, _, _)) in places.iter_mut().zip(EIGHT_POSITIONS) {
-        *place = coefficients.positions.iter().position(|at| at.index == index)?;
-    }
-    Some(places)
 }

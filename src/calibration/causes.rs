@@ -173,7 +173,7 @@ pub(crate) fn inputs(
 ) -> (Vec<Input>, DMatrix<f64>) {
     let sensitivity = Sensitivity::new(setup, unknowns);
     let estimates = Estimates::new(setup, repeats);
-    let mut inputs = stand_and_site(setup, &estimates);
+    let mut inputs = of_stand_and_site(setup, &estimates);
     inputs.extend(of_gyro_and_meter(setup, repeats, &estimates));
     let positions = inputs.len();
     let differences = differences.rows.nrows();
@@ -195,12 +195,7 @@ pub(crate) fn inputs(
 
 /// Returns the inputs with a positive uncertainty from stand and site; they also determine the uncertainty of a
 /// passport's numbers.
-#[cfg(feature = "monte-carlo")]
-pub(crate) fn of_stand_and_site(setup: &Setup) -> Vec<Input> {
-    stand_and_site(setup, &Estimates::of_stand(setup))
-}
-
-fn stand_and_site(setup: &Setup, estimates: &Estimates) -> Vec<Input> {
+pub(crate) fn of_stand_and_site(setup: &Setup, estimates: &Estimates) -> Vec<Input> {
     let u = setup.uncertainty();
     let input = |cause, u, basis| Input::new(cause, u, basis, estimates.degrees_of_freedom(basis));
     let mut inputs = Vec::new();

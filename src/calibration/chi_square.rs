@@ -202,30 +202,39 @@ mod tests {
     use crate::gyro::GyroType;
     use crate::statistics::random::Stream;
 
-    /// Checks [`chi_square`] against r' C⁻ r by the pseudo-inverse of the residuals' covariance, for two methods.
-    #[test]
-    fn chi_square_is_that_of_the_residuals_of_any_method() {
-        let mut stream = Stream::new(1);
-        let uncertainty = InputUncertainty {
+    /// Uncertainties of both tests.
+    fn uncertainty(noise_ma: f64) -> InputUncertainty {
+        InputUncertainty {
             angles_rad: vec![[1e-5, 2e-5, 3e-5]; 8],
             common_platform_rad: 2e-5,
             latitude_rad: 3e-5,
-            level_rad: 2e-5,
             azimuth_rad: 5e-5,
             seating_rad: [3e-5; 3],
             ..InputUncertainty::of_meter(MeterUncertainty {
                 reading: 1e-4,
                 floor_ma: 1e-6,
-                noise_ma: 0.0,
+                noise_ma,
                 gain: 1e-4,
                 offset_ma: 1e-5,
             })
-        };
+        }
+    }
+
+    /// The eight positions with deviations drawn within a limit.
+    fn setup(stream: &mut Stream, limit_rad: f64, latitude_deg: f64, uncertainty: InputUncertainty) -> Setup {
         let stand = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| {
-            let [alpha_rad, beta_rad, gamma_rad] = [(); 3].map(|()| stream.within(0.14));
+            let [alpha_rad, beta_rad, gamma_rad] = [(); 3].map(|()| stream.within(limit_rad));
             Position { index, theta_deg, phi_deg, deviation: Deviation { alpha_rad, beta_rad, gamma_rad } }
         });
-        let setup = Setup::new(&stand, EarthRate::at_astronomic_latitude(40.0), uncertainty).unwrap();
+        Setup::new(&stand, EarthRate::at_astronomic_latitude(latitude_deg), uncertainty).unwrap()
+    }
+
+    /// Checks [`chi_square`] against r' C⁻ r by the pseudo-inverse of the residuals' covariance, for two methods.
+    #[test]
+    fn chi_square_is_that_of_the_residuals_of_any_method() {
+        let mut stream = Stream::new(1);
+        let uncertainty = InputUncertainty { level_rad: 2e-5, ..uncertainty(0.0) };
+        let setup = setup(&mut stream, 0.14, 40.0, uncertainty);
         let gyro = GyroType::gvk_6().nominal.to_model();
         let positions = &setup.coefficients().positions;
         let mut currents: Vec<_> = positions.iter().map(|at| gyro.currents_ma(at).unwrap()).collect();
@@ -259,30 +268,15 @@ mod tests {
     fn parts_are_those_of_dense_matrices() {
         let mut stream = Stream::new(5);
         let uncertainty = InputUncertainty {
-            angles_rad: vec![[1e-5, 2e-5, 3e-5]; 8],
             angles_degrees_of_freedom: vec![6.0; 8],
             repeatability_rad: 2e-5,
             repeatability_degrees_of_freedom: 18.0,
-            common_platform_rad: 2e-5,
             common_platform_degrees_of_freedom: 3.0,
             common_base_rad: 1e-5,
             common_base_degrees_of_freedom: 4.0,
-            latitude_rad: 3e-5,
-            azimuth_rad: 5e-5,
-            seating_rad: [3e-5; 3],
-            ..InputUncertainty::of_meter(MeterUncertainty {
-                reading: 1e-4,
-                floor_ma: 1e-6,
-                noise_ma: 1e-6,
-                gain: 1e-4,
-                offset_ma: 1e-5,
-            })
+            ..uncertainty(1e-6)
         };
-        let stand = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| {
-            let [alpha_rad, beta_rad, gamma_rad] = [(); 3].map(|()| stream.within(0.01));
-            Position { index, theta_deg, phi_deg, deviation: Deviation { alpha_rad, beta_rad, gamma_rad } }
-        });
-        let setup = Setup::new(&stand, EarthRate::at_astronomic_latitude(55.0), uncertainty).unwrap();
+        let setup = setup(&mut stream, 0.01, 55.0, uncertainty);
         let gyro = GyroType::gvk_6().nominal.to_model();
         let mut run = "cycle,i,j,jx_ma,jy_ma\n".to_owned();
         for (cycle, count) in [(1, 8), (2, 8), (3, 5)] {

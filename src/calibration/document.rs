@@ -2,7 +2,7 @@
 
 mod result;
 
-pub(crate) use result::{ChangeDocument, ResidualDocument, ResultDocument, RowScatterDocument};
+pub(crate) use result::{ChangeDocument, ResidualDocument, ResultDocument, RowScatterDocument, finite};
 
 use super::mistake::Mistake;
 use super::parameter::Parameter;
@@ -88,10 +88,10 @@ pub struct CalibrationDocument {
     #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
     pub(crate) change: Option<Verdict>,
     /// Keys that are added to a result outside this type; they are accepted and ignored on reading.
-    #[serde(skip_serializing, default, deserialize_with = "left_aside_whole")]
-    budget: (),
-    #[serde(skip_serializing, default, deserialize_with = "left_aside_whole")]
-    monte_carlo: (),
+    #[serde(skip_serializing, default)]
+    budget: IgnoredAny,
+    #[serde(skip_serializing, default)]
+    monte_carlo: IgnoredAny,
 }
 
 /// Gyro, operator and conditions of a calibration, and the file of its currents.
@@ -120,10 +120,6 @@ pub(crate) struct Subject {
 /// Skips the decisions in an earlier result, because they are made again.
 fn left_aside<'de, T, D: Deserializer<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
     IgnoredAny::deserialize(deserializer).map(|_| None)
-}
-
-fn left_aside_whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
-    IgnoredAny::deserialize(deserializer).map(|_| ())
 }
 
 impl Subject {
@@ -185,8 +181,8 @@ impl CalibrationDocument {
             mistake: None,
             verdict: None,
             change: None,
-            budget: (),
-            monte_carlo: (),
+            budget: IgnoredAny,
+            monte_carlo: IgnoredAny,
         }
     }
 

@@ -4,7 +4,7 @@
 //! spectral radius ρ(T) < 1, and its fixed point is the analytic solution (13). After any step the remainder is exactly
 //! (K_λ − K_{λ−1}) T (1 − T)⁻¹. The size of a step is no bound of the remainder, because T is not normal.
 
-use super::analytic::{current_differences, mean_misclosure};
+use super::analytic::{AnalyticSolution, current_differences, mean_misclosure};
 use crate::coefficients::{Coefficients, Matrices};
 use crate::gyro::GyroParameters;
 use nalgebra::{Matrix2, Vector2};
@@ -267,15 +267,9 @@ pub fn solve(
     let LastStep { k, omega_n, change, steps } = plan.run(rule, |change| changes.push(change)).ok_or(too_many)?;
     let rest = (Matrix2::identity() - plan.t).try_inverse().ok_or(too_many)?;
     let remainder = change * plan.t * rest;
-    let [omega_g_deg_per_h_per_g, omega_k_deg_per_h_per_g] = g_drifts(&omega_n);
-    let parameters = GyroParameters {
-        k_deg_per_h_per_ma: k,
-        omega0_deg_per_h: mean_misclosure(coefficients, currents_ma, &k, &omega_n),
-        omega_g_deg_per_h_per_g,
-        omega_k_deg_per_h_per_g,
-    };
+    let omega0 = mean_misclosure(coefficients, currents_ma, &k, &omega_n);
     Ok(IterativeSolution {
-        parameters,
+        parameters: AnalyticSolution::new(k, omega_n, omega0).parameters,
         omega_n_deg_per_h_per_g: omega_n,
         steps,
         changes,

@@ -33,15 +33,6 @@ const LARGEST_NUMBER_OF_STEPS: usize = 30;
 /// Length of the last step, as a fraction of the solution's own uncertainty, below which the fit is settled.
 pub(crate) const SETTLED: f64 = 1e-6;
 
-/// Parameters by weighted least squares.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct LeastSquaresSolution {
-    /// Parameters K, ω_0, ω_g, ω_k.
-    pub parameters: GyroParameters,
-    /// Anisoelastic coefficient, °/(h·g²); `None` if it was not requested.
-    pub anisoelasticity_deg_per_h_per_g2: Option<f64>,
-}
-
 /// Reason why least squares gives no result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -103,8 +94,9 @@ pub(crate) fn solve(
     currents_ma: &[Vector2<f64>],
     meter: &MeterUncertainty,
     model: Model,
-) -> Result<LeastSquaresSolution, NoLeastSquares> {
-    Ok(Fit::new(coefficients, currents_ma, model, &Offsets::default(), own_covariance_of(meter))?.solution())
+) -> Result<GyroParameters, NoLeastSquares> {
+    let fit = Fit::new(coefficients, currents_ma, model, &Offsets::default(), own_covariance_of(meter))?;
+    Ok(fit.unknowns.parameters)
 }
 
 /// Returns the standard uncertainties of [`Parameter::EIGHT`], to first order, for one reading of the exact currents of
@@ -212,14 +204,6 @@ impl Fit {
         match problem.settle(start) {
             Some(fit) if self.settled => Ok(fit),
             _ => problem.fit(problem.first()?),
-        }
-    }
-
-    pub(crate) fn solution(&self) -> LeastSquaresSolution {
-        let anisoelasticity = self.unknowns.anisoelasticity_deg_per_h_per_g2;
-        LeastSquaresSolution {
-            parameters: self.unknowns.parameters,
-            anisoelasticity_deg_per_h_per_g2: (self.of == Model::Anisoelastic).then_some(anisoelasticity),
         }
     }
 

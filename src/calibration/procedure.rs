@@ -219,14 +219,15 @@ impl<'a> Evaluation<'a> {
     }
 
     fn least_squares(&self) -> MethodResult {
-        let solution = self.fit.solution();
-        let model = self.fit.of;
+        let (unknowns, model) = (&self.fit.unknowns, self.fit.of);
+        let parameters = unknowns.parameters;
+        let anisoelasticity = unknowns.anisoelasticity_deg_per_h_per_g2;
         let all = covariance(&self.spread);
         let covariance = all.view((0, 0), (model.columns(), model.columns())).into_owned();
         let u = |p| model.column(p).map_or(0.0, |column| covariance[(column, column)].sqrt());
         let [u_g, u_k] = [Parameter::OmegaG, Parameter::OmegaK].map(u);
         let g_matrix = (model == Model::General).then(|| GMatrix {
-            deg_per_h_per_g: self.fit.unknowns.g_matrix_deg_per_h_per_g(),
+            deg_per_h_per_g: unknowns.g_matrix_deg_per_h_per_g(),
             standard_uncertainty_deg_per_h_per_g: Matrix2x3::from_fn(|row, column| {
                 let place = 6 + 3 * row + column;
                 covariance[(place, place)].sqrt()
@@ -240,15 +241,15 @@ impl<'a> Evaluation<'a> {
         MethodResult {
             method: Method::LeastSquares,
             model,
-            parameters: solution.parameters,
-            omega_n_deg_per_h_per_g: solution.parameters.omega_n_deg_per_h_per_g(),
-            anisoelasticity_deg_per_h_per_g2: solution.anisoelasticity_deg_per_h_per_g2,
+            parameters,
+            omega_n_deg_per_h_per_g: parameters.omega_n_deg_per_h_per_g(),
+            anisoelasticity_deg_per_h_per_g2: (model == Model::Anisoelastic).then_some(anisoelasticity),
             g_matrix,
             model_test: None,
             drift,
-            cycles: self.cycles(&solution.parameters),
+            cycles: self.cycles(&parameters),
             iteration: None,
-            residuals: self.residuals(&self.fit.unknowns, &self.propagation.of_residuals(&self.spread)),
+            residuals: self.residuals(unknowns, &self.propagation.of_residuals(&self.spread)),
             covariance,
             omega_n_uncertainty_deg_per_h_per_g: Matrix2::new(u_g, u_k, u_k, u_g),
             from_least_squares: None,

@@ -12,23 +12,15 @@ const BY_GTC: &str = "GTC 1.5.1 (Measurement Standards Laboratory of New Zealand
 
 /// Returns the cases of the three examples.
 pub(crate) fn cases() -> Vec<Case> {
-    let mut cases = end_gauge();
-    cases.extend(impedance());
-    cases.extend(thermometer());
-    cases
+    [end_gauge(), impedance(), thermometer()].concat()
 }
 
-/// Creates a case for a number printed with `decimals` decimals; the tolerance is half a unit of the last one.
-fn printed(
-    example: &'static str,
-    source: &'static str,
-    quantity: &str,
-    expected: f64,
-    decimals: i32,
-    found: f64,
-) -> Case {
-    let tolerance = 0.5 * 10_f64.powi(-decimals);
-    Case { example, quantity: quantity.to_owned(), source, expected, tolerance, found, digits: None }
+/// Creates cases of an example for numbers printed with `decimals` decimals; the tolerance is half a unit of the last one.
+fn printed(example: &'static str) -> impl Fn(&'static str, &str, f64, i32, f64) -> Case {
+    move |source, quantity, expected, decimals, found| {
+        let tolerance = 0.5 * 10_f64.powi(-decimals);
+        Case { example, quantity: quantity.to_owned(), source, expected, tolerance, found, digits: None }
+    }
 }
 
 /// Returns the cases of H.1, nm: the length of an end gauge at 20 °C, l = l_S + d − l_S (δα θ + α_S δθ).
@@ -65,8 +57,7 @@ fn end_gauge() -> Vec<Case> {
     let found = propagate(model, &estimates, &DMatrix::from_diagonal(&variances));
     let gradient = model(&estimates).gradient;
     let contributions: Vec<(f64, f64)> = inputs.iter().zip(gradient.iter()).map(|((u, nu), c)| (u * c, *nu)).collect();
-    let case =
-        |source, quantity, expected, decimals, found| printed(EXAMPLE, source, quantity, expected, decimals, found);
+    let case = printed(EXAMPLE);
     // H.1.6 uses the contributions and ν(d) with the digits printed there, but u(l) itself with all digits.
     const PRINTED: [(f64, f64); 4] = [(25.0, 18.0), (9.7, 25.6), (2.9, 50.0), (16.6, 2.0)];
     let u = found.standard_uncertainty(0);
@@ -113,8 +104,7 @@ fn impedance() -> Vec<Case> {
         }
     };
     let found = propagate(model, &means.values, &means.covariance);
-    let case =
-        |source, quantity, expected, decimals, found| printed(EXAMPLE, source, quantity, expected, decimals, found);
+    let case = printed(EXAMPLE);
     let (u, r) = (|at| found.standard_uncertainty(at), |one, other| found.correlation(one, other));
     vec![
         case(MEANS, "u(V), V", 0.0032, 4, means.standard_uncertainty(0)),
@@ -159,7 +149,7 @@ fn thermometer() -> Vec<Case> {
     let design = DMatrix::from_fn(11, 2, |row, column| if column == 0 { 1.0 } else { READINGS[row].0 - 20.0 });
     let mut right = DMatrix::from_fn(11, 1, |row, _| READINGS[row].1);
     let Ok(model) = Factorised::new(design) else {
-        return vec![printed(EXAMPLE, LINE, "cannot be computed", 0.0, 0, f64::NAN)];
+        return vec![printed(EXAMPLE)(LINE, "cannot be computed", 0.0, 0, f64::NAN)];
     };
     model.rotate(&mut right);
     let (line, _) = model.solve_rotated(&right);
@@ -171,8 +161,7 @@ fn thermometer() -> Vec<Case> {
         gradient: DMatrix::from_row_slice(1, 2, &[1.0, 10.0]),
     };
     let correction = propagate(at_30, &line.values, &line.covariance);
-    let case =
-        |source, quantity, expected, decimals, found| printed(EXAMPLE, source, quantity, expected, decimals, found);
+    let case = printed(EXAMPLE);
     vec![
         case(LINE, "intercept, C", -0.1712, 4, line.values[0]),
         case(LINE, "u(intercept), C", 0.0029, 4, line.standard_uncertainty(0)),

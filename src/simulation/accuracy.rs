@@ -208,9 +208,7 @@ impl<'a> Simulation<'a> {
             Method::Iterative => {
                 iterative::solve(at, currents_ma, &StopRule::default()).ok().map(|found| found.parameters)
             }
-            Method::LeastSquares => {
-                least_squares::solve(at, currents_ma, &self.meter, Model::Paper).ok().map(|found| found.parameters)
-            }
+            Method::LeastSquares => least_squares::solve(at, currents_ma, &self.meter, Model::Paper).ok(),
         }
     }
 

@@ -298,8 +298,7 @@ fn the_azimuth_is_of_second_order_with_the_axis_north() {
     let (_, currents) = read(&right);
     for (azimuth_deg, cross_percent, omega0) in [(0.5, 0.004, 0.0008), (30.0 / 3600.0, 1e-6, 2.5e-7)] {
         let (wrong, _) = read(&candidates(&noise, azimuth_deg));
-        let found =
-            least_squares::solve(&wrong, &currents, &paper_meter(), Model::Paper).unwrap().parameters.to_vector();
+        let found = least_squares::solve(&wrong, &currents, &paper_meter(), Model::Paper).unwrap().to_vector();
         let gyro = right.unknowns.parameters.to_vector();
         let change = |place: usize| (found[place] - gyro[place]).abs();
         let cross = 100.0 * change(1).max(change(2)) / 9.5;

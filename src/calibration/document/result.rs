@@ -8,7 +8,7 @@ use crate::calibration::scatter::RowScatter;
 use crate::calibration::unknowns::Model;
 use crate::calibration::verdict::Found;
 use crate::gyro::GyroParameters;
-use nalgebra::{Matrix2, Matrix2x3, Vector2};
+use nalgebra::{Matrix2, Matrix2x3};
 use serde::{Deserialize, Serialize};
 
 /// JSON result of one method.
@@ -291,27 +291,17 @@ impl ResultDocument {
     }
 
     pub(crate) fn found(&self, gravity_m_per_s2: f64, gravity_u_m_per_s2: Option<f64>) -> Found {
-        let [[kx, kxy], [kyx, ky]] = self.k_deg_per_h_per_ma;
         let u = &self.standard_uncertainty;
-        let [[u_kx, u_kxy], [u_kyx, u_ky]] = u.k_deg_per_h_per_ma;
-        let [u_0x, u_0y] = u.omega0_deg_per_h;
+        let eight = |[[kx, kxy], [kyx, ky]]: [[f64; 2]; 2], [x, y]: [f64; 2], per_g: [Option<f64>; 2]| {
+            let [omega_g, omega_k] = per_g.map(|value| value.unwrap_or(f64::NAN));
+            [kx, kxy, kyx, ky, x, y, omega_g, omega_k]
+        };
+        let per_g = [self.omega_g_deg_per_h_per_g, self.omega_k_deg_per_h_per_g];
+        let u_per_g = [u.omega_g_deg_per_h_per_g, u.omega_k_deg_per_h_per_g];
+        let values = eight(self.k_deg_per_h_per_ma, self.omega0_deg_per_h, per_g);
         Found {
-            parameters: GyroParameters {
-                k_deg_per_h_per_ma: Matrix2::new(kx, kxy, kyx, ky),
-                omega0_deg_per_h: Vector2::from(self.omega0_deg_per_h),
-                omega_g_deg_per_h_per_g: self.omega_g_deg_per_h_per_g.unwrap_or(f64::NAN),
-                omega_k_deg_per_h_per_g: self.omega_k_deg_per_h_per_g.unwrap_or(f64::NAN),
-            },
-            standard_uncertainty: [
-                u_kx,
-                u_kxy,
-                u_kyx,
-                u_ky,
-                u_0x,
-                u_0y,
-                u.omega_g_deg_per_h_per_g.unwrap_or(f64::NAN),
-                u.omega_k_deg_per_h_per_g.unwrap_or(f64::NAN),
-            ],
+            parameters: GyroParameters::from_vector(&values),
+            standard_uncertainty: eight(u.k_deg_per_h_per_ma, u.omega0_deg_per_h, u_per_g),
             degrees_of_freedom: [f64::INFINITY; 8],
             gravity_m_per_s2,
             gravity_u_m_per_s2: gravity_u_m_per_s2.unwrap_or(0.0),
@@ -319,7 +309,8 @@ impl ResultDocument {
     }
 }
 
-fn finite(value: f64) -> Option<f64> {
+/// Returns a number if JSON can have it.
+pub(crate) fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 

@@ -18,11 +18,11 @@ pub(crate) mod plan;
 pub(crate) mod refit;
 mod student;
 
+use crate::calibration::analytic::NoAnalyticSolution;
 use crate::calibration::procedure::{Linearised, linearise};
 use crate::calibration::result::MethodRefusal;
 use crate::calibration::{Method, Options, Readings, Setup};
 use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
-use closed::Closed;
 use kernel::Kernel;
 use plan::Plan;
 use refit::Refit;
@@ -46,7 +46,8 @@ pub enum ReadingShape {
 /// Method that computes the parameters in every trial.
 #[derive(Debug, Clone)]
 enum Solver {
-    Closed(Closed),
+    /// Analytic method, with the places of the eight positions.
+    Closed([usize; 8]),
     Refit(Box<Refit>),
 }
 
@@ -83,7 +84,10 @@ impl Engine {
         let means_ma = readings.means_ma();
         let solver = match method {
             Method::LeastSquares => Solver::Refit(Box::new(Refit::new(&fit))),
-            Method::Analytic | Method::Iterative => Solver::Closed(Closed::new(setup)?),
+            Method::Analytic | Method::Iterative => {
+                let eight = setup.coefficients().eight();
+                Solver::Closed(eight.ok_or(NoAnalyticSolution::EightPositionsMissing)?)
+            }
         };
         let plan = Plan::new(setup, &means_ma, &repeats, shape);
         let kernel = Kernel::new(setup, &means_ma, &plan);
@@ -123,7 +127,7 @@ impl Engine {
     fn solve(&self, work: &mut Workspace) {
         self.kernel.run(&work.deviates, &mut work.positions);
         match &self.solver {
-            Solver::Closed(closed) => closed.solve(&work.positions, &mut work.solutions),
+            Solver::Closed(eight) => closed::solve(eight, &work.positions, &mut work.solutions),
             Solver::Refit(refit) => refit.solve(&work.positions, &mut work.solutions),
         }
     }

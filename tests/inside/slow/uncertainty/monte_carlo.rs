@@ -135,7 +135,7 @@ fn the_refit_is_that_of_least_squares() {
     for (trial, found) in trials.iter().zip(engine.solutions_for(&trials)) {
         let (coefficients, currents) = exactly(&case, &engine, trial);
         let due = least_squares::solve(&coefficients, &currents, &paper_meter(), Model::Paper).unwrap();
-        for ((found, due), line) in found.iter().zip(due.parameters.to_vector()).zip(&budget.parameters) {
+        for ((found, due), line) in found.iter().zip(due.to_vector()).zip(&budget.parameters) {
             assert!((found - due).abs() < 0.01 * line.standard_uncertainty, "{}: {found} {due}", line.parameter.key());
         }
     }
