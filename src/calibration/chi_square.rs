@@ -287,9 +287,7 @@ mod tests {
         }
         let readings = Readings::from_csv("run.csv", run.as_bytes(), setup.coefficients(), 1000.0).unwrap();
         for options in [Options::default(), Options { model: Model::General, ..Options::default() }] {
-            let Linearised { fit, repeats, offsets, .. } =
-                linearise(&setup, &readings, Method::LeastSquares, &options).unwrap();
-            let data = Data { currents_ma: readings.means_ma(), repeats, offsets };
+            let Linearised { fit, data, .. } = linearise(&setup, &readings, Method::LeastSquares, &options).unwrap();
             let (_, parts) = quadratic_form(&setup, &fit, &data);
             let estimates = Estimates::new(&setup, &data.repeats);
             assert!(parts.len() >= 6, "angles, returns and noise, platform, base and turn-ons: {parts:?}");

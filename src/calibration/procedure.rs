@@ -7,11 +7,9 @@ use super::diagnosis;
 use super::inputs::Setup;
 use super::iterative::{self, NoIterativeSolution, StopRule};
 use super::least_squares::{Fit, NoLeastSquares};
-use super::offsets::Offsets;
 use super::parameter::Parameter;
 use super::propagation::{Propagation, covariance, standard_deviations};
 use super::readings::Readings;
-use super::repeats::Repeats;
 use super::result::{
     Calibration, Cycle, Drift, DriftTest, GMatrix, Iteration, Method, MethodRefusal, MethodResult, ModelTest, Residual,
 };
@@ -134,10 +132,8 @@ pub(crate) struct Linearised {
     pub(crate) fit: Fit,
     /// Result of the method: that of the fit, or the analytic solution, to which the iterative method converges.
     pub(crate) found: Unknowns,
-    /// Numbers of visits and readings of each position.
-    pub(crate) repeats: Repeats,
-    /// Drift that changes during the run.
-    pub(crate) offsets: Offsets,
+    /// Mean currents with their repeats and offsets.
+    pub(crate) data: Data,
     /// L: response of the parameters to the misclosures (parameters × misclosures, two per position). L F is the spread
     /// of the parameters.
     pub(crate) response: DMatrix<f64>,
@@ -166,7 +162,7 @@ pub(crate) fn linearise(
             (Unknowns::of(parameters), propagation.response_of_analytic(&map))
         }
     };
-    Ok(Linearised { found, repeats: data.repeats, offsets: data.offsets, response, fit })
+    Ok(Linearised { fit, found, data, response })
 }
 
 /// Returns a value in units of its standard uncertainty, or 0 if it can only be rounding.

@@ -1,9 +1,10 @@
 //! Values of a comparison of a check run with a certificate: its tests, its positions, and what they share.
 
 use crate::coefficients::PositionIndex;
+use serde::Serialize;
 
 /// Result of a test with F, which is chi-square over its degrees of freedom if the uncertainties are known exactly.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Test {
     /// Chi-square: the sum of squared differences in units of their standard uncertainties.
     pub chi_square: f64,
@@ -15,9 +16,10 @@ pub struct Test {
 }
 
 /// Result of a comparison for one position.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ComparedPosition {
     /// Index (i, j) of the position.
+    #[serde(flatten)]
     pub index: PositionIndex,
     /// Rotation since the certificate about x, y, z of the case, relative to the other positions, arcsec.
     pub turn_arcsec: [f64; 3],
@@ -30,7 +32,7 @@ pub struct ComparedPosition {
 }
 
 /// Rotation common to all positions.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CommonTurn {
     /// Rotation of the platform about x, y, z of the case, arcsec.
     pub platform_arcsec: [f64; 3],

@@ -19,6 +19,7 @@ use crate::statistics::beta::chi_square_point;
 use crate::statistics::least_squares::{Factorised, condition};
 use crate::units::radians_from_arcseconds;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use serde::Serialize;
 
 /// Limit of the condition: directions of the base weaker than 1/30 of the strongest cannot be distinguished from a
 /// rotation of the platform.
@@ -37,7 +38,7 @@ pub(crate) struct Variance {
 }
 
 /// Estimated rotation common to all positions of one run, relative to the mean of all runs.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct RunTurn {
     /// Number of the run.
     pub run: u32,

@@ -5,6 +5,7 @@ use super::deletion::Deletion;
 use super::{AngleReadings, Header};
 use crate::coefficients::PositionIndex;
 use crate::statistics::outlier::{Bartlett, bartlett, bonferroni_student, cochran_probability};
+use serde::Serialize;
 
 /// Probability below which a value is reported: a straggler in
 /// [ISO 5725-2](crate::bibliography::Bibliography::Iso5725).
@@ -26,11 +27,13 @@ const TOO_WELL: f64 = 1e-3;
 const MOST_PAIRED: usize = 100;
 
 /// Position that scatters more than the others.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct WorsePosition {
     /// Index (i, j) of the position.
+    #[serde(flatten)]
     pub index: PositionIndex,
     /// Place of the position in the header.
+    #[serde(skip)]
     pub(crate) place: usize,
     /// Standard deviation of the position over that of all positions.
     pub ratio: f64,

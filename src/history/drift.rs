@@ -9,6 +9,7 @@ use crate::statistics::beta::f_larger;
 use crate::statistics::propagation::effective_degrees_of_freedom;
 use crate::statistics::straight_line::{Point, StraightLine, holm};
 use jiff::civil::Date;
+use serde::Serialize;
 
 /// Corrected probability below which a deviation drifts, as for an outlier in
 /// [ISO 5725-2](crate::bibliography::Bibliography::Iso5725).
@@ -24,19 +25,21 @@ const DAYS_PER_YEAR: f64 = 365.2425;
 pub(crate) const ANGLES: [&str; 3] = ["alpha", "beta", "gamma"];
 
 /// Value of a deviation in one certificate.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Value {
     /// Number of the certificate.
     pub certificate: String,
     /// Date to which the value belongs.
     pub date: Date,
     /// Years since the first certificate of the stand.
+    #[serde(skip)]
     pub years: f64,
     /// Deviation, arcsec.
     pub arcsec: f64,
     /// Combined standard uncertainty of the deviation, arcsec: own and common parts; `None` if not stated.
     pub u_arcsec: Option<f64>,
     /// Degrees of freedom of that uncertainty.
+    #[serde(skip)]
     pub degrees_of_freedom: f64,
 }
 
@@ -59,7 +62,7 @@ pub(crate) struct Series {
 }
 
 /// Change of a deviation that a straight line does not describe.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Jump {
     /// Numbers of the two successive certificates between which the change is largest in units of its uncertainty.
     pub certificates: [String; 2],
@@ -68,6 +71,7 @@ pub(crate) struct Jump {
     /// Standard uncertainty of that change, arcsec.
     pub u_arcsec: f64,
     /// Line that was rejected.
+    #[serde(skip)]
     pub line: StraightLine,
     /// Probability of a larger chi-square if the values were on a line, corrected for the number of tested deviations.
     pub corrected_probability: f64,

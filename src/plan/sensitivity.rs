@@ -8,6 +8,7 @@ use crate::calibration::sensitivity::{Sensitivity, Shared};
 use crate::text::words;
 use crate::units::radians_from_arcseconds;
 use nalgebra::Vector3;
+use serde::Serialize;
 
 words! {
     /// Error that all positions share, in the order of tables; its word is its name.
@@ -66,16 +67,18 @@ impl CommonError {
 const SMALLEST_EFFECT: f64 = 1e-3;
 
 /// Effect of an error on a design.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Effect {
+    #[serde(skip)]
     pub error: CommonError,
     /// Changes of the parameters in their units, in the order of [`crate::calibration::parameter::Parameter::EIGHT`].
+    #[serde(serialize_with = "super::document::by_parameter")]
     pub change: [f64; 8],
     /// Largest change in units of its tolerance.
     pub largest_over_tolerance: f64,
     /// Largest residual, °/h.
     pub largest_residual_deg_per_h: f64,
-    /// √(Σ r' C⁻¹ r): the residuals in units of their own noise.
+    /// √(Σ r' C⁻¹ r): the residuals in units of their own noise, the root of the chi-square that they add.
     pub residuals_over_noise: f64,
 }
 

@@ -3,10 +3,9 @@
 use crate::certification::compared::Test;
 use crate::certification::comparison::Comparison;
 use crate::certification::components::{Common, Variance};
-use crate::certification::suspects::{AXES, OUTLIER, WorsePosition};
+use crate::certification::suspects::{AXES, OUTLIER};
 use crate::certification::{Certification, NotCertified};
 use crate::report::{columns, style};
-use crate::statistics::outlier::Bartlett;
 use crate::text::record::File;
 use crate::text::{Field, Node, Printable};
 use serde_json::{Value, json};
@@ -36,17 +35,12 @@ fn certification_json(found: &Certification) -> Value {
             "upper_limit_arcsec": c.upper_limit_arcsec2.sqrt(),
         })
     };
-    let bartlett = |test: &Bartlett| json!({"statistic": test.statistic, "degrees_of_freedom": test.degrees_of_freedom, "probability": test.probability});
     let out = found.suspects.outliers.iter().map(|out| {
         json!({
             "i": out.index.i, "j": out.index.j, "run": out.run, "line": out.line, "axis": AXES[out.axis],
             "residual_arcsec": out.residual_arcsec, "probability": out.probability,
         })
     });
-    let worse = |at: &WorsePosition| json!({"i": at.index.i, "j": at.index.j, "ratio": at.ratio, "probability": at.probability});
-    let turns = components.run_turns.iter();
-    let turns =
-        turns.map(|t| json!({"run": t.run, "platform_arcsec": t.platform_arcsec, "base_arcsec": t.base_arcsec}));
     let bumped = found.bumped_runs.iter().map(|at| {
         json!({
             "run": at.run, "part": at.part(), "axis": at.axis_name(), "turn_arcsec": at.turn_arcsec,
@@ -61,13 +55,10 @@ fn certification_json(found: &Certification) -> Value {
         "platform": common(&components.platform),
         "base": components.base.as_ref().map(common),
         "base_axes": components.base_axes,
-        "run_turns": turns.collect::<Vec<_>>(),
-        "bartlett": {
-            "positions": found.suspects.positions.as_ref().map(bartlett),
-            "axes": found.suspects.axes.as_ref().map(bartlett),
-        },
-        "worse_position": found.suspects.worse.first().map(worse),
-        "worse_positions": found.suspects.worse.iter().map(worse).collect::<Vec<_>>(),
+        "run_turns": components.run_turns,
+        "bartlett": {"positions": found.suspects.positions, "axes": found.suspects.axes},
+        "worse_position": found.suspects.worse.first(),
+        "worse_positions": found.suspects.worse,
         "outliers": out.collect::<Vec<_>>(),
         "bumped_runs": bumped.collect::<Vec<_>>(),
         "twins": found.suspects.twins,
@@ -75,30 +66,14 @@ fn certification_json(found: &Certification) -> Value {
     })
 }
 
-fn test_json(test: &Test) -> Value {
-    json!({
-        "chi_square": test.chi_square, "degrees_of_freedom": test.degrees_of_freedom, "probability": test.probability,
-    })
-}
-
 fn comparison_json(found: &Comparison) -> Value {
-    let positions = found.positions.iter().map(|at| {
-        json!({
-            "i": at.index.i, "j": at.index.j, "turn_arcsec": at.turn_arcsec, "u_arcsec": at.u_arcsec,
-            "test": test_json(&at.test), "repeats": at.repeats,
-        })
-    });
     json!({
         "certificate": found.certificate,
         "runs": found.runs,
         "same_stand": found.same_stand,
-        "all": test_json(&found.all),
-        "positions": positions.collect::<Vec<_>>(),
-        "common": {
-            "platform_arcsec": found.common.platform_arcsec,
-            "base_arcsec": found.common.base_arcsec,
-            "test": found.common.test.as_ref().map(test_json),
-        },
+        "all": found.all,
+        "positions": found.positions,
+        "common": found.common,
         "words": found.words,
     })
 }

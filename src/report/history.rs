@@ -52,14 +52,9 @@ fn series_json(series: &Series) -> Value {
     let line = series.line.as_ref();
     // Infinite degrees of freedom are null, because JSON has no infinity.
     let finite = |value: f64| value.is_finite().then_some(value);
-    let values = series.values.iter().map(|at| {
-        json!({
-            "certificate": at.certificate, "date": at.date.to_string(), "arcsec": at.arcsec, "u_arcsec": at.u_arcsec,
-        })
-    });
     json!({
         "i": series.index.i, "j": series.index.j, "angle": ANGLES[series.angle],
-        "values": values.collect::<Vec<_>>(),
+        "values": series.values,
         "slope_arcsec_per_year": line.map(|line| line.slope),
         "u_slope_arcsec_per_year": line.map(|line| line.u_slope),
         "degrees_of_freedom": line.and_then(|line| finite(line.slope_degrees_of_freedom)),
@@ -68,12 +63,7 @@ fn series_json(series: &Series) -> Value {
         "chi_square": line.or(series.jump.as_ref().map(|jump| &jump.line)).map(|line| {
             json!({"value": line.chi_square, "degrees_of_freedom": line.degrees_of_freedom})
         }),
-        "jump": series.jump.as_ref().map(|jump| {
-            json!({
-                "certificates": jump.certificates, "change_arcsec": jump.change_arcsec, "u_arcsec": jump.u_arcsec,
-                "corrected_probability": jump.corrected_probability,
-            })
-        }),
+        "jump": series.jump,
     })
 }
 

@@ -3,9 +3,10 @@
 use super::beta::{f_beyond, student_beyond};
 use super::distributions::chi_square_larger;
 use super::saddle_point::deviance;
+use serde::Serialize;
 
 /// Result of Bartlett's test that several variances are equal.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct Bartlett {
     /// Test statistic, which has approximately the chi-square distribution.
     pub statistic: f64,

@@ -83,13 +83,13 @@ impl Budget {
     /// # Errors
     /// Returns [`MethodRefusal`] if the method has no solution for these readings.
     pub fn new(setup: &Setup, readings: &Readings, method: Method, options: &Options) -> Result<Self, MethodRefusal> {
-        let Linearised { fit, found, repeats, offsets, response } = linearise(setup, readings, method, options)?;
+        let Linearised { fit, found, data, response } = linearise(setup, readings, method, options)?;
         let setup = &*setup.of_readings(readings);
-        let (inputs, columns) = causes::inputs(setup, &fit.unknowns, &fit.currents_ma, &repeats, &offsets);
+        let (inputs, columns) = causes::inputs(setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
         let spread = product(&response, &columns);
         let of = if method == Method::LeastSquares { fit.of } else { Model::Paper };
         let spread = spread.rows(0, of.columns()).into_owned();
-        let estimates = Estimates::new(setup, &repeats).degrees_of_freedom;
+        let estimates = Estimates::new(setup, &data.repeats).degrees_of_freedom;
         let each = of.parameters().iter().map(|parameter| (*parameter, found.value(*parameter)));
         let line = |(row, (parameter, value))| of_parameter(parameter, value, &inputs, (&spread, row), &estimates);
         let parameters = each.enumerate().map(line).collect();

@@ -76,8 +76,8 @@ impl Engine {
     /// # Errors
     /// Returns [`MethodRefusal`] if the method has no solution for these readings.
     pub fn new(setup: &Setup, readings: &Readings, method: Method, shape: ReadingShape) -> Result<Self, MethodRefusal> {
-        let Linearised { fit, repeats, offsets, .. } = linearise(setup, readings, method, &Options::default())?;
-        if !offsets.are_balanced() {
+        let Linearised { fit, data, .. } = linearise(setup, readings, method, &Options::default())?;
+        if !data.offsets.are_balanced() {
             return Err(MethodRefusal::NotThisModel);
         }
         let setup = &*setup.of_readings(readings);
@@ -89,7 +89,7 @@ impl Engine {
                 Solver::Closed(eight.ok_or(NoAnalyticSolution::EightPositionsMissing)?)
             }
         };
-        let plan = Plan::new(setup, &means_ma, &repeats, shape);
+        let plan = Plan::new(setup, &means_ma, &data.repeats, shape);
         let kernel = Kernel::new(setup, &means_ma, &plan);
         Ok(Self { plan, kernel, solver })
     }
@@ -118,7 +118,7 @@ impl Engine {
                 column[trial] = *deviate;
             }
         }
-        pulp::Arch::new().dispatch(Chunk { engine: self, work: &mut work });
+        self.solve(&mut work);
         let count = trials.len().min(WIDTH);
         (0..count).map(|trial| std::array::from_fn(|place| work.solutions[place][trial])).collect()
     }
@@ -151,22 +151,6 @@ impl<F: FnMut(&Solutions)> pulp::WithSimd for Block<'_, F> {
             self.engine.solve(self.work);
             (self.each)(&self.work.solutions);
         }
-    }
-}
-
-#[cfg(test)]
-struct Chunk<'a> {
-    engine: &'a Engine,
-    work: &'a mut Workspace,
-}
-
-#[cfg(test)]
-impl pulp::WithSimd for Chunk<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        self.engine.solve(self.work);
     }
 }
 
