@@ -10,6 +10,7 @@ use super::offsets::Offsets;
 use super::repeats::Repeats;
 use super::sensitivity::{Sensitivity, Shared};
 use super::unknowns::Unknowns;
+use crate::attitude::ANGLES;
 use crate::coefficients::PositionIndex;
 use nalgebra::{DMatrix, Vector2, Vector3};
 
@@ -62,7 +63,7 @@ impl Cause {
     /// Returns the name of the cause, including its position.
     pub(crate) fn name(self) -> String {
         match self {
-            Self::Angle(index, angle) => format!("certified {} of {index}", ["alpha", "beta", "gamma"][angle]),
+            Self::Angle(index, angle) => format!("certified {} of {index}", ANGLES[angle]),
             Self::Return(index, axis) => format!("positioning in {index} about {}", XYZ[axis]),
             Self::Reading(index, axis) => format!("reading of J_{} in {index}", XYZ[axis]),
             Self::Floor(index, axis) => format!("floor of J_{} in {index}", XYZ[axis]),

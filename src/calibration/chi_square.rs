@@ -37,7 +37,7 @@ impl ChiSquare {
 /// that fits exact readings exactly. It is computed from z = Q₂'W e, whose covariance 1 + B B' has full rank (B is Q₂'W
 /// times the common part of all positions).
 pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> ChiSquare {
-    let degrees_of_freedom = fit.model.rows() - fit.model.columns();
+    let degrees_of_freedom = fit.model.rows - fit.model.columns;
     if degrees_of_freedom == 0 {
         // With as many readings as unknowns, the residuals are only rounding.
         return ChiSquare { value: 0.0, degrees_of_freedom, probability: 1.0, of_uncertainties: f64::INFINITY };
@@ -53,9 +53,9 @@ fn quadratic_form(setup: &Setup, fit: &Fit, data: &Data) -> (f64, Vec<Part>) {
     let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma, &data.repeats);
     let count = shared.ncols();
     // The misclosures follow the common part as one more column, so that a single rotation transforms both.
-    let mut rotated = shared.resize(fit.model.rows(), count + 1, 0.0);
+    let mut rotated = shared.resize(fit.model.rows, count + 1, 0.0);
     let top = 2 * fit.whitening.len();
-    rotated.view_mut((top, count), (fit.model.rows() - top, 1)).copy_from(&fit.of_differences(&data.offsets));
+    rotated.view_mut((top, count), (fit.model.rows - top, 1)).copy_from(&fit.of_differences(&data.offsets));
     for (place, (current, whiten)) in data.currents_ma.iter().zip(&fit.whitening).enumerate() {
         let misclosure = fit.misclosure(place, current);
         rotated[(2 * place, count)] = misclosure.x;
@@ -64,7 +64,7 @@ fn quadratic_form(setup: &Setup, fit: &Fit, data: &Data) -> (f64, Vec<Part>) {
     }
     let whitened = rotated.clone();
     fit.model.rotate(&mut rotated);
-    let rest = rotated.rows_range(fit.model.columns()..);
+    let rest = rotated.rows_range(fit.model.columns..);
     // Woodbury: z' (1 + B B')⁻¹ z = z'z − (B'z)' (1 + B'B)⁻¹ (B'z).
     let z = rest.column(count);
     let projected = DVector::from_fn(count, |i, _| rest.column(i).dot(&z));
@@ -126,7 +126,7 @@ fn absorbed(fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Option<DMatrix
     for (place, whiten) in fit.whitening.iter().enumerate() {
         multiply_rows(&mut taken, place, whiten);
     }
-    taken *= fit.model.r_inverse();
+    taken *= &fit.model.r_inverse;
     let mut inner = shared - &taken * taken.tr_mul(shared);
     if let Some(inverse) = lower.and_then(|lower| lower.try_inverse()) {
         inner *= inverse.transpose();
@@ -173,9 +173,9 @@ fn common_parts(setup: &Setup, fit: &Fit, data: &Data, estimates: &Estimates) ->
         (estimates.turn_ons, turn_on, [0, 1].map(Shared::TurnOn).into()),
     ];
     let of_estimate = |estimate| match inputs.iter().find(|(basis, ..)| *basis == Basis::Estimate(estimate)) {
-        None => DMatrix::zeros(fit.model.rows(), 0),
+        None => DMatrix::zeros(fit.model.rows, 0),
         Some((_, u, inputs)) => {
-            let mut columns = DMatrix::zeros(fit.model.rows(), inputs.len());
+            let mut columns = DMatrix::zeros(fit.model.rows, inputs.len());
             for (place, (whiten, current_ma)) in fit.whitening.iter().zip(&fit.currents_ma).enumerate() {
                 for (column, input) in inputs.iter().enumerate() {
                     let change = whiten * sensitivity.to_shared(place, current_ma, input) * *u;

@@ -27,7 +27,7 @@ pub(crate) struct Propagation<'a> {
 
 impl<'a> Propagation<'a> {
     pub(crate) fn new(setup: &Setup, fit: &'a Fit, data: &Data) -> Self {
-        let rows = fit.model.rows();
+        let rows = fit.model.rows;
         let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma, &data.repeats);
         // Differences of visits, the last rows, contain nothing that is common to all positions.
         let mut shared = shared.resize_vertically(rows, 0.0);
@@ -54,7 +54,7 @@ impl<'a> Propagation<'a> {
 
     /// Returns L of least squares: the change of each parameter per misclosure (parameters × misclosures).
     pub(crate) fn response_of_least_squares(&self) -> DMatrix<f64> {
-        let rows = self.fit.model.rows();
+        let rows = self.fit.model.rows;
         let mut rotated = DMatrix::identity(rows, rows);
         for (place, whiten) in self.fit.whitening.iter().enumerate() {
             multiply_rows(&mut rotated, place, whiten);
@@ -65,7 +65,7 @@ impl<'a> Propagation<'a> {
 
     /// Returns R⁻¹ times the upper rows of a rotated matrix.
     fn of_parameters(&self, rotated: &DMatrix<f64>) -> DMatrix<f64> {
-        product(self.fit.model.r_inverse(), &rotated.rows(0, self.fit.model.columns()).into_owned())
+        product(&self.fit.model.r_inverse, &rotated.rows(0, self.fit.model.columns).into_owned())
     }
 
     /// Returns L F of the analytic method: the changes of the eight parameters (8 × causes), and of the four elements

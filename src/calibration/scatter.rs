@@ -208,7 +208,7 @@ impl Repeats {
         for axis in 0..2 {
             let column = |term: usize| 2 * term + axis;
             let x = DVector::from_fn(cycles - 1, |term, _| fit.changing[column(term)]);
-            let r_inverse = fit.model.r_inverse();
+            let r_inverse = &fit.model.r_inverse;
             let rows =
                 DMatrix::from_fn(cycles - 1, r_inverse.ncols(), |term, inner| r_inverse[(first + column(term), inner)]);
             squares += (&map * x).norm_squared();

@@ -223,8 +223,8 @@ impl Differences {
         }
         model.rotate(&mut right);
         let (shared, _) = model.solve_rotated(&right);
-        let rest = right.column(0).rows(model.columns(), rows.len() - model.columns()).norm_squared();
-        Some((shared, model.r_inverse().clone(), rest))
+        let rest = right.column(0).rows(model.columns, rows.len() - model.columns).norm_squared();
+        Some((shared, model.r_inverse, rest))
     }
 
     /// Returns the chi-square test of all positions relative to each other if only the repeatability acts. `scatter` is the

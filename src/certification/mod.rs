@@ -34,6 +34,7 @@ pub use readings::{AngleReadings, NotBalanced};
 use remark::Remark;
 use suspects::Suspects;
 
+use crate::attitude::ANGLES;
 use crate::calibration::inputs::Turn;
 use crate::coefficients::PositionIndex;
 use crate::stand::{self, ActsOn, Certificate, CertifiedPosition, Evidence, Stand};
@@ -276,7 +277,7 @@ fn to_angles(turn: &Turn) -> Matrix3<f64> {
 /// Returns the name of an angle that is the same in all runs of every position, or `None` if all angles vary.
 fn constant(readings: &AngleReadings) -> Option<&'static str> {
     let same = |axis: usize| readings.each_arcsec.iter().all(|runs| runs.iter().all(|run| run[axis] == runs[0][axis]));
-    ["alpha", "beta", "gamma"].into_iter().enumerate().find(|(axis, _)| same(*axis)).map(|(_, angle)| angle)
+    (0..3).find(|axis| same(*axis)).map(|axis| ANGLES[axis])
 }
 
 /// Returns the rotation of every position at the mean of its readings.

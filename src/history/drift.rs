@@ -21,9 +21,6 @@ pub(crate) const SUSPECTED: f64 = 0.05;
 /// Mean length of a year of the Gregorian calendar, days.
 const DAYS_PER_YEAR: f64 = 365.2425;
 
-/// Names of the angles of a deviation.
-pub(crate) const ANGLES: [&str; 3] = ["alpha", "beta", "gamma"];
-
 /// Value of a deviation in one certificate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Value {

@@ -56,7 +56,7 @@ pub fn plan(
         return Err(expected(format!("readings: found {found}, expected {FEWEST_READINGS} to {MOST_READINGS}")));
     }
     let angles = match asked.step_deg {
-        None => Angles::Quadrants,
+        None => Angles::QUADRANTS,
         Some(step_deg) => Angles::every(step_deg)
             .ok_or_else(|| expected(format!("step_deg: found {step_deg}, expected {}", Angles::EXPECTED)))?,
     };

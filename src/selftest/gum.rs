@@ -154,7 +154,7 @@ fn thermometer() -> Vec<Case> {
     model.rotate(&mut right);
     let (line, _) = model.solve_rotated(&right);
     let variance = right.rows(2, 9).norm_squared() / 9.0;
-    let covariance = model.r_inverse() * model.r_inverse().transpose() * variance;
+    let covariance = &model.r_inverse * model.r_inverse.transpose() * variance;
     let line = Propagated { values: line, covariance };
     let at_30 = |y: &DVector<f64>| Linearised {
         values: DVector::from_element(1, y[0] + 10.0 * y[1]),

@@ -54,7 +54,7 @@ fn question<'a>(noise: &'a Noise, site: &'a Site) -> Question<'a> {
     Question {
         site,
         stand: None,
-        angles: Angles::Quadrants,
+        angles: Angles::QUADRANTS,
         gyro: &noise.gyro,
         laboratory: &noise.laboratory,
         readings: 8,

@@ -8,7 +8,7 @@ use crate::calibration::scatter::RowScatter;
 use crate::calibration::unknowns::Model;
 use crate::calibration::verdict::Found;
 use crate::gyro::GyroParameters;
-use nalgebra::{Matrix2, Matrix2x3};
+use nalgebra::SMatrix;
 use serde::{Deserialize, Serialize};
 
 /// JSON result of one method.
@@ -232,12 +232,8 @@ pub(crate) struct ResidualDocument {
     pub(crate) u_y: Option<f64>,
 }
 
-fn rows(matrix: &Matrix2<f64>) -> [[f64; 2]; 2] {
-    [[matrix.m11, matrix.m12], [matrix.m21, matrix.m22]]
-}
-
-fn rows_of_three(matrix: &Matrix2x3<f64>) -> [[f64; 3]; 2] {
-    [[matrix.m11, matrix.m12, matrix.m13], [matrix.m21, matrix.m22, matrix.m23]]
+fn rows<const C: usize>(matrix: &SMatrix<f64, 2, C>) -> [[f64; C]; 2] {
+    [0, 1].map(|row| std::array::from_fn(|column| matrix[(row, column)]))
 }
 
 impl ResultDocument {
@@ -259,7 +255,7 @@ impl ResultDocument {
             omega_n_deg_per_h_per_g: of_the_paper.then(|| rows(&result.omega_n_deg_per_h_per_g)),
             omega_g_deg_per_h_per_g: result.value(Parameter::OmegaG),
             omega_k_deg_per_h_per_g: result.value(Parameter::OmegaK),
-            g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows_of_three(&g.deg_per_h_per_g)),
+            g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows(&g.deg_per_h_per_g)),
             model_test: result.model_test,
             drift_deg_per_h_per_h: result.drift.map(|drift| drift.deg_per_h_per_h.into()),
             cycles: result
@@ -344,7 +340,7 @@ impl UncertaintyDocument {
                 .then(|| rows(&result.omega_n_uncertainty_deg_per_h_per_g)),
             omega_g_deg_per_h_per_g: result.standard_uncertainty(Parameter::OmegaG),
             omega_k_deg_per_h_per_g: result.standard_uncertainty(Parameter::OmegaK),
-            g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows_of_three(&g.standard_uncertainty_deg_per_h_per_g)),
+            g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows(&g.standard_uncertainty_deg_per_h_per_g)),
             drift_deg_per_h_per_h: result.drift.map(|drift| drift.standard_uncertainty_deg_per_h_per_h.into()),
             anisoelasticity_deg_per_h_per_g2: result.standard_uncertainty(Parameter::Anisoelasticity),
         }

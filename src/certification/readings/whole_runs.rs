@@ -2,6 +2,7 @@
 //! of other positions.
 
 use super::{OtherRuns, Reading, averages};
+use crate::attitude::ANGLES;
 use crate::coefficients::PositionIndex;
 use crate::statistics::coincidences::{self, Coincidence};
 use crate::text::problem::{MOST_PROBLEMS, Problem};
@@ -131,9 +132,6 @@ fn other_scales(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Prob
     // If one run is too small, all others look too large compared with it.
     if small.is_empty() { large } else { small }
 }
-
-/// Names of the angles.
-const ANGLES: [&str; 3] = ["alpha", "beta", "gamma"];
 
 /// Column of the file for each angle, with its sign.
 type Axes = [(usize, f64); 3];
