@@ -4,8 +4,8 @@
 //! spectral radius ρ(T) < 1, and its fixed point is the analytic solution (13). After any step the remainder is exactly
 //! (K_λ − K_{λ−1}) T (1 − T)⁻¹. The size of a step is no bound of the remainder, because T is not normal.
 
-use super::analytic::{AnalyticSolution, current_differences, mean_misclosure};
-use crate::coefficients::{Coefficients, Matrices};
+use super::analytic::{AnalyticSolution, mean_misclosure};
+use crate::coefficients::{Coefficients, Matrices, pair_differences};
 use crate::gyro::GyroParameters;
 use nalgebra::{Matrix2, Vector2};
 use serde::{Deserialize, Serialize};
@@ -124,9 +124,9 @@ impl Plan {
         if found != expected {
             return Err(NoIterativeSolution::WrongNumberOfCurrents { found, expected });
         }
-        let missing = NoIterativeSolution::EightPositionsMissing;
-        let matrices = coefficients.matrices.ok_or(missing)?;
-        let (j1, j2) = current_differences(coefficients, currents_ma).ok_or(missing)?;
+        let eight = coefficients.matrices.zip(coefficients.eight());
+        let (matrices, eight) = eight.ok_or(NoIterativeSolution::EightPositionsMissing)?;
+        let (j1, j2) = pair_differences(|position| currents_ma[eight[position]]);
         let j1_inverse = j1.try_inverse().ok_or(NoIterativeSolution::SingularCurrents)?;
         let plan = Self {
             first_k: matrices.omega1_deg_per_h * j1_inverse,

@@ -44,17 +44,10 @@ impl Parameter {
         [Self::Kx, Self::Ky, Self::Kxy, Self::Kyx, Self::Omega0x, Self::Omega0y, Self::OmegaG, Self::OmegaK];
 
     /// The eight parameters, then the anisoelastic coefficient.
-    pub(crate) const NINE: [Self; 9] = [
-        Self::Kx,
-        Self::Kxy,
-        Self::Kyx,
-        Self::Ky,
-        Self::Omega0x,
-        Self::Omega0y,
-        Self::OmegaG,
-        Self::OmegaK,
-        Self::Anisoelasticity,
-    ];
+    pub(crate) const NINE: [Self; 9] = {
+        let [kx, kxy, kyx, ky, x, y, omega_g, omega_k] = Self::EIGHT;
+        [kx, kxy, kyx, ky, x, y, omega_g, omega_k, Self::Anisoelasticity]
+    };
 
     /// The parameters of the general model: G by rows takes the place of ω_g and ω_k.
     pub(crate) const TWELVE: [Self; 12] = [

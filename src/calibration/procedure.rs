@@ -154,11 +154,7 @@ pub(crate) fn linearise(
         Method::LeastSquares => (fit.unknowns, propagation.response_of_least_squares()),
         Method::Analytic | Method::Iterative => {
             let parameters = analytic::solve(setup.coefficients(), &data.currents_ma)?.parameters;
-            let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma);
-            let map = map.ok_or(match setup.coefficients().matrices {
-                Some(_) => NoAnalyticSolution::SingularCurrents,
-                None => NoAnalyticSolution::EightPositionsMissing,
-            })?;
+            let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma)?;
             (Unknowns::of(parameters), propagation.response_of_analytic(&map))
         }
     };
@@ -204,7 +200,7 @@ impl<'a> Evaluation<'a> {
 
     /// Returns the uncertainties of the paper's methods, or `None` if there is no analytic solution.
     fn closed(&self) -> Option<Closed> {
-        let map = AnalyticMap::new(self.setup.coefficients(), &self.fit.currents_ma)?;
+        let map = AnalyticMap::new(self.setup.coefficients(), &self.fit.currents_ma).ok()?;
         let (spread, of_omega_n) = self.propagation.analytic(&map);
         Some(Closed {
             covariance: covariance(&spread),
