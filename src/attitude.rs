@@ -20,6 +20,9 @@ pub struct Deviation {
     pub gamma_rad: f64,
 }
 
+/// Names of the angles of a deviation.
+pub(crate) const ANGLES: [&str; 3] = ["alpha", "beta", "gamma"];
+
 /// Returns the nominal rotation matrix A = Rz(φ)·Rx(θ), base to platform axes (3×3), for the frame angle θ and the
 /// platform angle φ (paper, eq. (3)).
 ///

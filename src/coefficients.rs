@@ -103,7 +103,8 @@ impl StandGeometry {
                 (position.index, attitude::actual(position.theta_deg, position.phi_deg, &position.deviation))
             })
             .collect();
-        let eight = eight_attitudes(&positions).map(|eight| EightGeometry::new(&eight)).transpose()?;
+        let eight = places_of_the_eight(positions.iter().map(|(index, _)| *index));
+        let eight = eight.map(|places| EightGeometry::new(&places.map(|place| positions[place].1))).transpose()?;
         Ok(Self { positions, eight })
     }
 
@@ -148,13 +149,20 @@ impl StandGeometry {
     }
 }
 
-/// Returns Ã of the eight positions in the paper's order, or `None` if one is missing.
-fn eight_attitudes(positions: &[(PositionIndex, Matrix3<f64>)]) -> Option<[Matrix3<f64>; 8]> {
-    let mut eight = [Matrix3::zeros(); 8];
-    for (slot, (index, _, _)) in eight.iter_mut().zip(EIGHT_POSITIONS) {
-        *slot = positions.iter().find(|(found, _)| *found == index)?.1;
+/// Returns the places of the paper's eight positions among `indices`, in its order, or `None` if one is missing.
+pub(crate) fn places_of_the_eight(indices: impl Iterator<Item = PositionIndex> + Clone) -> Option<[usize; 8]> {
+    let mut places = [0; 8];
+    for (place, (eighth, ..)) in places.iter_mut().zip(EIGHT_POSITIONS) {
+        *place = indices.clone().position(|index| index == eighth)?;
     }
-    Some(eight)
+    Some(places)
+}
+
+impl Coefficients {
+    /// Returns the places of the paper's eight positions, in its order, or `None` if one is missing.
+    pub(crate) fn eight(&self) -> Option<[usize; 8]> {
+        places_of_the_eight(self.positions.iter().map(|at| at.index))
+    }
 }
 
 impl EightGeometry {

@@ -122,15 +122,10 @@ impl Laboratory {
 
 impl Meter {
     fn check(&self, at: &Path, problems: &mut Problems) {
-        for (key, value) in [("range_ma", self.range_ma), ("floor_ma", self.floor_ma)] {
+        let at_zero =
+            "use at least half a digit divided by the square root of 3; no meter measures zero current without error";
+        for (key, value, advice) in [("range_ma", self.range_ma, ""), ("floor_ma", self.floor_ma, at_zero)] {
             if value <= 0.0 {
-                let advice = match key {
-                    "floor_ma" => {
-                        "use at least half a digit divided by the square root of 3; no meter measures zero \
-                         current without error"
-                    }
-                    _ => "",
-                };
                 problems.at(&at.key(key), format!("{value}"), "a positive number", advice);
             }
         }

@@ -1,6 +1,6 @@
 //! Analytic method ([the paper](crate::bibliography::Bibliography::Tang17), eq. (8), (13)-(16)).
 
-use crate::coefficients::{Coefficients, EIGHT_POSITIONS, Matrices, pair_differences};
+use crate::coefficients::{Coefficients, Matrices, pair_differences};
 use crate::gyro::GyroParameters;
 use nalgebra::{Matrix2, Vector2};
 
@@ -45,15 +45,8 @@ pub(crate) fn solve(
     coefficients: &Coefficients,
     currents_ma: &[Vector2<f64>],
 ) -> Result<AnalyticSolution, NoAnalyticSolution> {
-    let positions = &coefficients.positions;
-    if currents_ma.len() != positions.len() {
-        let (found, expected) = (currents_ma.len(), positions.len());
-        return Err(NoAnalyticSolution::WrongNumberOfCurrents { found, expected });
-    }
-    let matrices = coefficients.matrices.as_ref().ok_or(NoAnalyticSolution::EightPositionsMissing)?;
-    let (j1, j2) = current_differences(coefficients, currents_ma).ok_or(NoAnalyticSolution::EightPositionsMissing)?;
+    let AnalyticMap { inverse, j2, matrices, .. } = AnalyticMap::new(coefficients, currents_ma)?;
     // K = B J_1⁻¹ (1 − J_2 Δ J_1⁻¹)⁻¹ = B (J_1 − J_2 Δ)⁻¹: J_1 itself need not have an inverse.
-    let inverse = (j1 - j2 * matrices.delta).try_inverse().ok_or(NoAnalyticSolution::SingularCurrents)?;
     let k = matrices.b_deg_per_h * inverse;
     let omega_n = matrices.c_deg_per_h_per_g - k * j2 * matrices.n2_inverse;
     let omega0 = mean_misclosure(coefficients, currents_ma, &k, &omega_n);
@@ -77,12 +70,23 @@ pub(crate) struct AnalyticMap<'a> {
 }
 
 impl<'a> AnalyticMap<'a> {
-    /// Creates the map, or returns `None` if there is no analytic solution.
-    pub(crate) fn new(coefficients: &'a Coefficients, currents_ma: &'a [Vector2<f64>]) -> Option<Self> {
-        let matrices = coefficients.matrices.as_ref()?;
-        let (j1, j2) = current_differences(coefficients, currents_ma)?;
-        let inverse = (j1 - j2 * matrices.delta).try_inverse()?;
-        Some(Self { coefficients, currents_ma, inverse, j2, matrices, eight: places_of_the_eight(coefficients)? })
+    /// Creates the map.
+    ///
+    /// # Errors
+    /// Returns [`NoAnalyticSolution`] as [`solve`] does.
+    pub(crate) fn new(
+        coefficients: &'a Coefficients,
+        currents_ma: &'a [Vector2<f64>],
+    ) -> Result<Self, NoAnalyticSolution> {
+        let (found, expected) = (currents_ma.len(), coefficients.positions.len());
+        if found != expected {
+            return Err(NoAnalyticSolution::WrongNumberOfCurrents { found, expected });
+        }
+        let eight = coefficients.matrices.as_ref().zip(coefficients.eight());
+        let (matrices, eight) = eight.ok_or(NoAnalyticSolution::EightPositionsMissing)?;
+        let (j1, j2) = pair_differences(|position| currents_ma[eight[position]]);
+        let inverse = (j1 - j2 * matrices.delta).try_inverse().ok_or(NoAnalyticSolution::SingularCurrents)?;
+        Ok(Self { coefficients, currents_ma, inverse, j2, matrices, eight })
     }
 
     /// Returns the change of the solution for the misclosures of all positions, °/h.
@@ -99,7 +103,7 @@ impl<'a> AnalyticMap<'a> {
 
 impl AnalyticSolution {
     /// Creates a solution with ω_g and ω_k computed from ω_n by (16).
-    fn new(k: Matrix2<f64>, omega_n: Matrix2<f64>, omega0: Vector2<f64>) -> Self {
+    pub(super) fn new(k: Matrix2<f64>, omega_n: Matrix2<f64>, omega0: Vector2<f64>) -> Self {
         let parameters = GyroParameters {
             k_deg_per_h_per_ma: k,
             omega0_deg_per_h: omega0,
@@ -122,24 +126,4 @@ pub(crate) fn mean_misclosure(
     let sum: Vector2<f64> =
         each.map(|(at, current)| at.earth_rate_deg_per_h - k * current - omega_n * at.specific_force_g).sum();
     sum / positions.len() as f64
-}
-
-/// Returns J_1 and J_2, mA, 2×2: the differences of the currents of the eight positions (paper, eq. (11)), or `None` if
-/// a position is missing or the number of currents is wrong.
-pub(crate) fn current_differences(
-    coefficients: &Coefficients,
-    currents_ma: &[Vector2<f64>],
-) -> Option<(Matrix2<f64>, Matrix2<f64>)> {
-    let eight = places_of_the_eight(coefficients)?;
-    (currents_ma.len() == coefficients.positions.len())
-        .then(|| pair_differences(|position| currents_ma[eight[position]]))
-}
-
-/// Returns the indices of the paper's eight positions among all positions, or `None` if one is missing.
-pub(crate) fn places_of_the_eight(coefficients: &Coefficients) -> Option<[usize; 8]> {
-    let mut places = [0; 8];
-    for (place, (index, _, _)) in places.iter_mut().zip(EIGHT_POSITIONS) {
-        *place = coefficients.positions.iter().position(|at| at.index == index)?;
-    }
-    Some(places)
 }

@@ -10,6 +10,7 @@ use super::offsets::Offsets;
 use super::repeats::Repeats;
 use super::sensitivity::{Sensitivity, Shared};
 use super::unknowns::Unknowns;
+use crate::attitude::ANGLES;
 use crate::coefficients::PositionIndex;
 use nalgebra::{DMatrix, Vector2, Vector3};
 
@@ -62,7 +63,7 @@ impl Cause {
     /// Returns the name of the cause, including its position.
     pub(crate) fn name(self) -> String {
         match self {
-            Self::Angle(index, angle) => format!("certified {} of {index}", ["alpha", "beta", "gamma"][angle]),
+            Self::Angle(index, angle) => format!("certified {} of {index}", ANGLES[angle]),
             Self::Return(index, axis) => format!("positioning in {index} about {}", XYZ[axis]),
             Self::Reading(index, axis) => format!("reading of J_{} in {index}", XYZ[axis]),
             Self::Floor(index, axis) => format!("floor of J_{} in {index}", XYZ[axis]),
@@ -72,42 +73,58 @@ impl Cause {
         }
     }
 
-    /// Returns the name of the kind of cause, which is the name of its line in a budget.
-    pub(crate) fn kind(self) -> String {
+    /// Returns the kind without its axis, the source and the unit.
+    fn words(self) -> [&'static str; 3] {
         match self {
-            Self::Angle(..) => "certified angles".to_owned(),
-            Self::Return(..) => "repeatability of positioning".to_owned(),
-            Self::Reading(..) => "meter, specification".to_owned(),
-            Self::Floor(..) => "meter, floor".to_owned(),
-            Self::Noise(..) => "meter, noise".to_owned(),
-            Self::Visits(..) => "gyro, visits".to_owned(),
-            Self::Differences(_) => "differences between visits".to_owned(),
-            Self::TurnOn(axis) => format!("gyro, turn-ons about {}", XYZ[axis]),
-            Self::Platform(axis) => format!("platform about {}", XYZ[axis]),
-            Self::Seat(axis) => format!("gyro seat about {}", XYZ[axis]),
-            Self::Base(axis) => format!("base of the stand about {}", EAST_NORTH_UP[axis]),
-            Self::Level(axis) => format!("level of the base about {}", EAST_NORTH_UP[axis]),
-            Self::Azimuth => "azimuth of the base".to_owned(),
-            Self::Mark => "azimuth of the mark".to_owned(),
-            Self::Latitude => "latitude".to_owned(),
-            Self::Deflection => "deflection of the vertical".to_owned(),
-            Self::Gain => "meter, gain".to_owned(),
-            Self::Offset => "meter, offset".to_owned(),
+            Self::Angle(..) => {
+                ["certified angles", "certificate: u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec", "arcsec"]
+            }
+            Self::Return(..) => ["repeatability of positioning", "certificate: repeatability_arcsec", "arcsec"],
+            Self::Reading(..) => ["meter, specification", "laboratory: meter.reading_percent", "%"],
+            Self::Floor(..) => ["meter, floor", "laboratory: meter.floor_ma, or the last digit recorded", "mA"],
+            Self::Noise(..) => ["meter, noise", "laboratory: meter.noise_ma, or repeated rows", "mA"],
+            Self::Visits(..) => ["gyro, visits", "gyro type: noise.visit_deg_per_h, or repeated visits", "deg/h"],
+            Self::Differences(_) => ["differences between visits", "all of a visit", "1"],
+            Self::TurnOn(_) => ["gyro, turn-ons", "gyro type: noise.turn_on_deg_per_h, or repeated cycles", "deg/h"],
+            Self::Platform(_) => ["platform", "certificate: common_platform_arcsec", "arcsec"],
+            Self::Seat(_) => ["gyro seat", "laboratory: seating_arcsec", "arcsec"],
+            Self::Base(_) => ["base of the stand", "certificate: common_base_arcsec", "arcsec"],
+            Self::Level(_) => ["level of the base", "laboratory or site: level_arcsec", "arcsec"],
+            Self::Azimuth => ["azimuth of the base", "laboratory or site: azimuth_arcsec", "arcsec"],
+            Self::Mark => ["azimuth of the mark", "passport: earth.azimuth_u_arcsec", "arcsec"],
+            Self::Latitude => ["latitude", "site: uncertainty.latitude_arcsec", "arcsec"],
+            Self::Deflection => ["deflection of the vertical", "site: deflection_arcsec.u (10 if unknown)", "arcsec"],
+            Self::Gain => ["meter, gain", "laboratory: meter.gain_percent", "%"],
+            Self::Offset => ["meter, offset", "laboratory: meter.offset_ma", "mA"],
         }
     }
 
-    /// Returns `true` if both causes are of the same [kind](Self::kind).
-    pub(crate) fn is_alike(self, other: Self) -> bool {
-        match (self, other) {
-            (Self::Angle(..), Self::Angle(..))
-            | (Self::Return(..), Self::Return(..))
-            | (Self::Reading(..), Self::Reading(..))
-            | (Self::Floor(..), Self::Floor(..))
-            | (Self::Noise(..), Self::Noise(..))
-            | (Self::Visits(..), Self::Visits(..))
-            | (Self::Differences(_), Self::Differences(_)) => true,
-            (one, other) => one == other,
+    /// Returns the name of the kind of cause, which is the name of its line in a budget.
+    pub(crate) fn kind(self) -> String {
+        let [kind, ..] = self.words();
+        match self {
+            Self::TurnOn(axis) | Self::Platform(axis) | Self::Seat(axis) => format!("{kind} about {}", XYZ[axis]),
+            Self::Base(axis) | Self::Level(axis) => format!("{kind} about {}", EAST_NORTH_UP[axis]),
+            _ => kind.to_owned(),
         }
+    }
+
+    /// Returns the file that states the uncertainty, and the key.
+    pub(crate) fn source(self) -> &'static str {
+        self.words()[1]
+    }
+
+    /// Returns the unit in which the uncertainty is shown: arcsec, %, mA or deg/h; 1 for differences in units of their
+    /// own uncertainty.
+    pub(crate) fn unit(self) -> &'static str {
+        self.words()[2]
+    }
+
+    /// Returns `true` if both causes are of the same [kind](Self::kind): those of single positions, whatever the position,
+    /// and the differences.
+    pub(crate) fn is_alike(self, other: Self) -> bool {
+        let of_many = self.position().is_some() || matches!(self, Self::Differences(_));
+        self == other || of_many && std::mem::discriminant(&self) == std::mem::discriminant(&other)
     }
 
     /// Returns the position on which the cause acts, or `None` if it acts on all positions.
@@ -120,42 +137,6 @@ impl Cause {
             | Self::Noise(index, _)
             | Self::Visits(index, _) => Some(index),
             _ => None,
-        }
-    }
-
-    /// Returns the file that states the uncertainty, and the key.
-    pub(crate) fn source(self) -> &'static str {
-        match self {
-            Self::Angle(..) => "certificate: u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec",
-            Self::Return(..) => "certificate: repeatability_arcsec",
-            Self::Platform(_) => "certificate: common_platform_arcsec",
-            Self::Base(_) => "certificate: common_base_arcsec",
-            Self::Reading(..) => "laboratory: meter.reading_percent",
-            Self::Floor(..) => "laboratory: meter.floor_ma, or the last digit recorded",
-            Self::Noise(..) => "laboratory: meter.noise_ma, or repeated rows",
-            Self::Visits(..) => "gyro type: noise.visit_deg_per_h, or repeated visits",
-            Self::Differences(_) => "all of a visit",
-            Self::TurnOn(_) => "gyro type: noise.turn_on_deg_per_h, or repeated cycles",
-            Self::Gain => "laboratory: meter.gain_percent",
-            Self::Offset => "laboratory: meter.offset_ma",
-            Self::Seat(_) => "laboratory: seating_arcsec",
-            Self::Level(_) => "laboratory or site: level_arcsec",
-            Self::Azimuth => "laboratory or site: azimuth_arcsec",
-            Self::Mark => "passport: earth.azimuth_u_arcsec",
-            Self::Latitude => "site: uncertainty.latitude_arcsec",
-            Self::Deflection => "site: deflection_arcsec.u (10 if unknown)",
-        }
-    }
-
-    /// Returns the unit in which the uncertainty is shown: arcsec, %, mA or deg/h; 1 for differences in units of their
-    /// own uncertainty.
-    pub(crate) fn unit(self) -> &'static str {
-        match self {
-            Self::Reading(..) | Self::Gain => "%",
-            Self::Floor(..) | Self::Noise(..) | Self::Offset => "mA",
-            Self::Visits(..) | Self::TurnOn(_) => "deg/h",
-            Self::Differences(_) => "1",
-            _ => "arcsec",
         }
     }
 
@@ -193,7 +174,7 @@ pub(crate) fn inputs(
 ) -> (Vec<Input>, DMatrix<f64>) {
     let sensitivity = Sensitivity::new(setup, unknowns);
     let estimates = Estimates::new(setup, repeats);
-    let mut inputs = stand_and_site(setup, &estimates);
+    let mut inputs = of_stand_and_site(setup, &estimates);
     inputs.extend(of_gyro_and_meter(setup, repeats, &estimates));
     let positions = inputs.len();
     let differences = differences.rows.nrows();
@@ -215,12 +196,7 @@ pub(crate) fn inputs(
 
 /// Returns the inputs with a positive uncertainty from stand and site; they also determine the uncertainty of a
 /// passport's numbers.
-#[cfg(feature = "monte-carlo")]
-pub(crate) fn of_stand_and_site(setup: &Setup) -> Vec<Input> {
-    stand_and_site(setup, &Estimates::of_stand(setup))
-}
-
-fn stand_and_site(setup: &Setup, estimates: &Estimates) -> Vec<Input> {
+pub(crate) fn of_stand_and_site(setup: &Setup, estimates: &Estimates) -> Vec<Input> {
     let u = setup.uncertainty();
     let input = |cause, u, basis| Input::new(cause, u, basis, estimates.degrees_of_freedom(basis));
     let mut inputs = Vec::new();
@@ -294,7 +270,7 @@ fn effect(
     let shared = |input: Shared| sensitivity.to_shared(place, current_ma, &input);
     match cause {
         _ if cause.position().is_some_and(|index| index != here) => Vector2::zeros(),
-        Cause::Angle(_, angle) => sensitivity.to_case_turn(place, &setup.turns()[place].axes[angle]),
+        Cause::Angle(_, angle) => sensitivity.to_case_turn(place, &setup.turns[place].axes[angle]),
         Cause::Return(_, axis) => sensitivity.to_case_turn(place, &unit_vector(axis)),
         Cause::Reading(_, axis) => column(axis) * current_ma[axis],
         Cause::Floor(_, axis) | Cause::Noise(_, axis) => column(axis),

@@ -37,7 +37,7 @@ impl ChiSquare {
 /// that fits exact readings exactly. It is computed from z = Q₂'W e, whose covariance 1 + B B' has full rank (B is Q₂'W
 /// times the common part of all positions).
 pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> ChiSquare {
-    let degrees_of_freedom = fit.model.rows() - fit.model.columns();
+    let degrees_of_freedom = fit.model.rows - fit.model.columns;
     if degrees_of_freedom == 0 {
         // With as many readings as unknowns, the residuals are only rounding.
         return ChiSquare { value: 0.0, degrees_of_freedom, probability: 1.0, of_uncertainties: f64::INFINITY };
@@ -53,9 +53,9 @@ fn quadratic_form(setup: &Setup, fit: &Fit, data: &Data) -> (f64, Vec<Part>) {
     let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma, &data.repeats);
     let count = shared.ncols();
     // The misclosures follow the common part as one more column, so that a single rotation transforms both.
-    let mut rotated = shared.resize(fit.model.rows(), count + 1, 0.0);
+    let mut rotated = shared.resize(fit.model.rows, count + 1, 0.0);
     let top = 2 * fit.whitening.len();
-    rotated.view_mut((top, count), (fit.model.rows() - top, 1)).copy_from(&fit.of_differences(&data.offsets));
+    rotated.view_mut((top, count), (fit.model.rows - top, 1)).copy_from(&fit.of_differences(&data.offsets));
     for (place, (current, whiten)) in data.currents_ma.iter().zip(&fit.whitening).enumerate() {
         let misclosure = fit.misclosure(place, current);
         rotated[(2 * place, count)] = misclosure.x;
@@ -64,7 +64,7 @@ fn quadratic_form(setup: &Setup, fit: &Fit, data: &Data) -> (f64, Vec<Part>) {
     }
     let whitened = rotated.clone();
     fit.model.rotate(&mut rotated);
-    let rest = rotated.rows_range(fit.model.columns()..);
+    let rest = rotated.rows_range(fit.model.columns..);
     // Woodbury: z' (1 + B B')⁻¹ z = z'z − (B'z)' (1 + B'B)⁻¹ (B'z).
     let z = rest.column(count);
     let projected = DVector::from_fn(count, |i, _| rest.column(i).dot(&z));
@@ -126,7 +126,7 @@ fn absorbed(fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Option<DMatrix
     for (place, whiten) in fit.whitening.iter().enumerate() {
         multiply_rows(&mut taken, place, whiten);
     }
-    taken *= fit.model.r_inverse();
+    taken *= &fit.model.r_inverse;
     let mut inner = shared - &taken * taken.tr_mul(shared);
     if let Some(inverse) = lower.and_then(|lower| lower.try_inverse()) {
         inner *= inverse.transpose();
@@ -173,9 +173,9 @@ fn common_parts(setup: &Setup, fit: &Fit, data: &Data, estimates: &Estimates) ->
         (estimates.turn_ons, turn_on, [0, 1].map(Shared::TurnOn).into()),
     ];
     let of_estimate = |estimate| match inputs.iter().find(|(basis, ..)| *basis == Basis::Estimate(estimate)) {
-        None => DMatrix::zeros(fit.model.rows(), 0),
+        None => DMatrix::zeros(fit.model.rows, 0),
         Some((_, u, inputs)) => {
-            let mut columns = DMatrix::zeros(fit.model.rows(), inputs.len());
+            let mut columns = DMatrix::zeros(fit.model.rows, inputs.len());
             for (place, (whiten, current_ma)) in fit.whitening.iter().zip(&fit.currents_ma).enumerate() {
                 for (column, input) in inputs.iter().enumerate() {
                     let change = whiten * sensitivity.to_shared(place, current_ma, input) * *u;
@@ -202,30 +202,39 @@ mod tests {
     use crate::gyro::GyroType;
     use crate::statistics::random::Stream;
 
-    /// Checks [`chi_square`] against r' C⁻ r by the pseudo-inverse of the residuals' covariance, for two methods.
-    #[test]
-    fn chi_square_is_that_of_the_residuals_of_any_method() {
-        let mut stream = Stream::new(1);
-        let uncertainty = InputUncertainty {
+    /// Uncertainties of both tests.
+    fn uncertainty(noise_ma: f64) -> InputUncertainty {
+        InputUncertainty {
             angles_rad: vec![[1e-5, 2e-5, 3e-5]; 8],
             common_platform_rad: 2e-5,
             latitude_rad: 3e-5,
-            level_rad: 2e-5,
             azimuth_rad: 5e-5,
             seating_rad: [3e-5; 3],
             ..InputUncertainty::of_meter(MeterUncertainty {
                 reading: 1e-4,
                 floor_ma: 1e-6,
-                noise_ma: 0.0,
+                noise_ma,
                 gain: 1e-4,
                 offset_ma: 1e-5,
             })
-        };
+        }
+    }
+
+    /// The eight positions with deviations drawn within a limit.
+    fn setup(stream: &mut Stream, limit_rad: f64, latitude_deg: f64, uncertainty: InputUncertainty) -> Setup {
         let stand = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| {
-            let [alpha_rad, beta_rad, gamma_rad] = [(); 3].map(|()| stream.within(0.14));
+            let [alpha_rad, beta_rad, gamma_rad] = [(); 3].map(|()| stream.within(limit_rad));
             Position { index, theta_deg, phi_deg, deviation: Deviation { alpha_rad, beta_rad, gamma_rad } }
         });
-        let setup = Setup::new(&stand, EarthRate::at_astronomic_latitude(40.0), uncertainty).unwrap();
+        Setup::new(&stand, EarthRate::at_astronomic_latitude(latitude_deg), uncertainty).unwrap()
+    }
+
+    /// Checks [`chi_square`] against r' C⁻ r by the pseudo-inverse of the residuals' covariance, for two methods.
+    #[test]
+    fn chi_square_is_that_of_the_residuals_of_any_method() {
+        let mut stream = Stream::new(1);
+        let uncertainty = InputUncertainty { level_rad: 2e-5, ..uncertainty(0.0) };
+        let setup = setup(&mut stream, 0.14, 40.0, uncertainty);
         let gyro = GyroType::gvk_6().nominal.to_model();
         let positions = &setup.coefficients().positions;
         let mut currents: Vec<_> = positions.iter().map(|at| gyro.currents_ma(at).unwrap()).collect();
@@ -259,30 +268,15 @@ mod tests {
     fn parts_are_those_of_dense_matrices() {
         let mut stream = Stream::new(5);
         let uncertainty = InputUncertainty {
-            angles_rad: vec![[1e-5, 2e-5, 3e-5]; 8],
             angles_degrees_of_freedom: vec![6.0; 8],
             repeatability_rad: 2e-5,
             repeatability_degrees_of_freedom: 18.0,
-            common_platform_rad: 2e-5,
             common_platform_degrees_of_freedom: 3.0,
             common_base_rad: 1e-5,
             common_base_degrees_of_freedom: 4.0,
-            latitude_rad: 3e-5,
-            azimuth_rad: 5e-5,
-            seating_rad: [3e-5; 3],
-            ..InputUncertainty::of_meter(MeterUncertainty {
-                reading: 1e-4,
-                floor_ma: 1e-6,
-                noise_ma: 1e-6,
-                gain: 1e-4,
-                offset_ma: 1e-5,
-            })
+            ..uncertainty(1e-6)
         };
-        let stand = EIGHT_POSITIONS.map(|(index, theta_deg, phi_deg)| {
-            let [alpha_rad, beta_rad, gamma_rad] = [(); 3].map(|()| stream.within(0.01));
-            Position { index, theta_deg, phi_deg, deviation: Deviation { alpha_rad, beta_rad, gamma_rad } }
-        });
-        let setup = Setup::new(&stand, EarthRate::at_astronomic_latitude(55.0), uncertainty).unwrap();
+        let setup = setup(&mut stream, 0.01, 55.0, uncertainty);
         let gyro = GyroType::gvk_6().nominal.to_model();
         let mut run = "cycle,i,j,jx_ma,jy_ma\n".to_owned();
         for (cycle, count) in [(1, 8), (2, 8), (3, 5)] {
@@ -293,9 +287,7 @@ mod tests {
         }
         let readings = Readings::from_csv("run.csv", run.as_bytes(), setup.coefficients(), 1000.0).unwrap();
         for options in [Options::default(), Options { model: Model::General, ..Options::default() }] {
-            let Linearised { fit, repeats, offsets, .. } =
-                linearise(&setup, &readings, Method::LeastSquares, &options).unwrap();
-            let data = Data { currents_ma: readings.means_ma(), repeats, offsets };
+            let Linearised { fit, data, .. } = linearise(&setup, &readings, Method::LeastSquares, &options).unwrap();
             let (_, parts) = quadratic_form(&setup, &fit, &data);
             let estimates = Estimates::new(&setup, &data.repeats);
             assert!(parts.len() >= 6, "angles, returns and noise, platform, base and turn-ons: {parts:?}");

@@ -83,13 +83,10 @@ impl fmt::Display for Hint {
                  have drifted, or the stand may have moved, during the run",
                 self.size_arcsec
             ),
-            [one] => write!(f, "the readings do not fit; possible cause: {one}"),
-            several => {
-                write!(f, "the readings do not fit; possible causes: ")?;
-                for (place, explanation) in several.iter().enumerate() {
-                    write!(f, "{}{explanation}", if place > 0 { ", or " } else { "" })?;
-                }
-                Ok(())
+            some => {
+                let causes: Vec<String> = some.iter().map(ToString::to_string).collect();
+                let plural = if causes.len() > 1 { "s" } else { "" };
+                write!(f, "the readings do not fit; possible cause{plural}: {}", causes.join(", or "))
             }
         }
     }

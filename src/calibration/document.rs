@@ -2,7 +2,7 @@
 
 mod result;
 
-pub(crate) use result::{ChangeDocument, ResidualDocument, ResultDocument, RowScatterDocument, StopRuleDocument};
+pub(crate) use result::{ChangeDocument, ResidualDocument, ResultDocument, RowScatterDocument, finite};
 
 use super::mistake::Mistake;
 use super::parameter::Parameter;
@@ -41,7 +41,7 @@ pub struct CalibrationDocument {
     pub(crate) subject: Option<Subject>,
     /// Visits that were left out, each with its reason.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
-    pub(crate) excluded: Vec<ExclusionDocument>,
+    pub(crate) excluded: Vec<Exclusion>,
     /// Positions of the passport without a reading.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub(crate) left_out: Vec<PositionIndex>,
@@ -88,10 +88,10 @@ pub struct CalibrationDocument {
     #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
     pub(crate) change: Option<Verdict>,
     /// Keys that are added to a result outside this type; they are accepted and ignored on reading.
-    #[serde(skip_serializing, default, deserialize_with = "left_aside_whole")]
-    budget: (),
-    #[serde(skip_serializing, default, deserialize_with = "left_aside_whole")]
-    monte_carlo: (),
+    #[serde(skip_serializing, default)]
+    budget: IgnoredAny,
+    #[serde(skip_serializing, default)]
+    monte_carlo: IgnoredAny,
 }
 
 /// Gyro, operator and conditions of a calibration, and the file of its currents.
@@ -117,30 +117,9 @@ pub(crate) struct Subject {
     pub currents_sha256: String,
 }
 
-/// Visit that was left out.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ExclusionDocument {
-    /// Frame index.
-    pub(crate) i: u32,
-    /// Platform index.
-    pub(crate) j: u32,
-    /// Number of the visit within its cycle and position.
-    pub(crate) visit: u32,
-    /// Turn-on of the gyro.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub(crate) cycle: Option<u32>,
-    /// Reason.
-    pub(crate) why: String,
-}
-
 /// Skips the decisions in an earlier result, because they are made again.
 fn left_aside<'de, T, D: Deserializer<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
     IgnoredAny::deserialize(deserializer).map(|_| None)
-}
-
-fn left_aside_whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
-    IgnoredAny::deserialize(deserializer).map(|_| ())
 }
 
 impl Subject {
@@ -202,23 +181,16 @@ impl CalibrationDocument {
             mistake: None,
             verdict: None,
             change: None,
-            budget: (),
-            monte_carlo: (),
+            budget: IgnoredAny,
+            monte_carlo: IgnoredAny,
         }
     }
 
     /// Adds what was calibrated, and what of its readings was left out.
     pub(crate) fn record(&mut self, subject: Subject, readings: &Readings) {
         self.subject = Some(subject);
-        let excluded = readings.exclusions().iter().map(|Exclusion { index, visit, cycle, why }| ExclusionDocument {
-            i: index.i,
-            j: index.j,
-            visit: *visit,
-            cycle: *cycle,
-            why: why.clone(),
-        });
-        self.excluded = excluded.collect();
-        self.left_out = readings.left_out().to_vec();
+        self.excluded = readings.exclusions.clone();
+        self.left_out = readings.left_out.clone();
     }
 
     /// Returns the serial number of the gyro, if it was stated.

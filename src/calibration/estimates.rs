@@ -16,10 +16,11 @@ const SAME_SIZE: f64 = 0.1;
 const ROUNDING: f64 = 0.5;
 
 /// Estimates on which a standard uncertainty rests.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Basis {
     /// No estimate: the uncertainty is taken as known.
+    #[default]
     Known,
     /// Estimate with this index.
     Estimate(usize),
@@ -28,7 +29,7 @@ pub enum Basis {
 }
 
 /// Estimates with few degrees of freedom, and the basis of each uncertainty.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Estimates {
     /// Degrees of freedom of each estimate.
     pub(crate) degrees_of_freedom: Vec<f64>,
@@ -46,16 +47,7 @@ impl Estimates {
     /// Returns the estimates behind stand and site.
     pub(crate) fn of_stand(setup: &Setup) -> Self {
         let u = setup.uncertainty();
-        let mut all = Self {
-            degrees_of_freedom: Vec::new(),
-            angles: Vec::new(),
-            returns: Basis::Known,
-            noise: Basis::Known,
-            visits: Basis::Known,
-            turn_ons: Basis::Known,
-            platform: Basis::Known,
-            base: Basis::Known,
-        };
+        let mut all = Self::default();
         // First position, Σ u² and estimates of each group of positions that share them.
         let mut pools: Vec<(usize, f64, [Basis; 3])> = Vec::new();
         for place in 0..setup.coefficients().positions.len() {

@@ -116,7 +116,8 @@ impl InputUncertainty {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setup {
     coefficients: Coefficients,
-    turns: Vec<Turn>,
+    /// Orientations of the positions.
+    pub(crate) turns: Vec<Turn>,
     earth: EarthRate,
     uncertainty: InputUncertainty,
 }
@@ -241,9 +242,9 @@ impl Setup {
     /// Returns the setup with the positions that have readings, and with the rounding of the readings where it is larger
     /// than the floor of the meter. Closed methods need all of the paper's eight positions.
     pub(crate) fn of_readings(&self, readings: &Readings) -> Cow<'_, Self> {
-        let left_out = |place: &usize| readings.left_out().contains(&self.coefficients.positions[*place].index);
+        let left_out = |place: &usize| readings.left_out.contains(&self.coefficients.positions[*place].index);
         let places: Vec<usize> = (0..self.coefficients.positions.len()).filter(left_out).collect();
-        let recorded = readings.recorded().applied_to(self);
+        let recorded = readings.recorded.applied_to(self);
         if places.is_empty() {
             return recorded;
         }
@@ -269,10 +270,6 @@ impl Setup {
             rest.uncertainty.angles_degrees_of_freedom.remove(place);
         }
         rest
-    }
-
-    pub(crate) fn turns(&self) -> &[Turn] {
-        &self.turns
     }
 
     /// Returns the Earth rate (east, north, up), °/h.

@@ -4,16 +4,18 @@
 //! spectral radius ρ(T) < 1, and its fixed point is the analytic solution (13). After any step the remainder is exactly
 //! (K_λ − K_{λ−1}) T (1 − T)⁻¹. The size of a step is no bound of the remainder, because T is not normal.
 
-use super::analytic::{current_differences, mean_misclosure};
-use crate::coefficients::{Coefficients, Matrices};
+use super::analytic::{AnalyticSolution, mean_misclosure};
+use crate::coefficients::{Coefficients, Matrices, pair_differences};
 use crate::gyro::GyroParameters;
 use nalgebra::{Matrix2, Vector2};
+use serde::{Deserialize, Serialize};
 
 /// Maximum number of steps; a longer iteration counts as not converged.
 pub(crate) const LARGEST_NUMBER_OF_STEPS: u32 = 200;
 
 /// Stop rule of the iteration: the paper's Δ₁ and Δ₂.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "struct StopRuleDocument")]
 pub struct StopRule {
     /// Δ₁: largest change of K_x and K_y in the last step, percent.
     pub delta1_percent: f64,
@@ -122,9 +124,9 @@ impl Plan {
         if found != expected {
             return Err(NoIterativeSolution::WrongNumberOfCurrents { found, expected });
         }
-        let missing = NoIterativeSolution::EightPositionsMissing;
-        let matrices = coefficients.matrices.ok_or(missing)?;
-        let (j1, j2) = current_differences(coefficients, currents_ma).ok_or(missing)?;
+        let eight = coefficients.matrices.zip(coefficients.eight());
+        let (matrices, eight) = eight.ok_or(NoIterativeSolution::EightPositionsMissing)?;
+        let (j1, j2) = pair_differences(|position| currents_ma[eight[position]]);
         let j1_inverse = j1.try_inverse().ok_or(NoIterativeSolution::SingularCurrents)?;
         let plan = Self {
             first_k: matrices.omega1_deg_per_h * j1_inverse,
@@ -265,15 +267,9 @@ pub fn solve(
     let LastStep { k, omega_n, change, steps } = plan.run(rule, |change| changes.push(change)).ok_or(too_many)?;
     let rest = (Matrix2::identity() - plan.t).try_inverse().ok_or(too_many)?;
     let remainder = change * plan.t * rest;
-    let [omega_g_deg_per_h_per_g, omega_k_deg_per_h_per_g] = g_drifts(&omega_n);
-    let parameters = GyroParameters {
-        k_deg_per_h_per_ma: k,
-        omega0_deg_per_h: mean_misclosure(coefficients, currents_ma, &k, &omega_n),
-        omega_g_deg_per_h_per_g,
-        omega_k_deg_per_h_per_g,
-    };
+    let omega0 = mean_misclosure(coefficients, currents_ma, &k, &omega_n);
     Ok(IterativeSolution {
-        parameters,
+        parameters: AnalyticSolution::new(k, omega_n, omega0).parameters,
         omega_n_deg_per_h_per_g: omega_n,
         steps,
         changes,

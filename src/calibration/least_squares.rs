@@ -33,15 +33,6 @@ const LARGEST_NUMBER_OF_STEPS: usize = 30;
 /// Length of the last step, as a fraction of the solution's own uncertainty, below which the fit is settled.
 pub(crate) const SETTLED: f64 = 1e-6;
 
-/// Parameters by weighted least squares.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct LeastSquaresSolution {
-    /// Parameters K, ω_0, ω_g, ω_k.
-    pub parameters: GyroParameters,
-    /// Anisoelastic coefficient, °/(h·g²); `None` if it was not requested.
-    pub anisoelasticity_deg_per_h_per_g2: Option<f64>,
-}
-
 /// Reason why least squares gives no result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -103,8 +94,9 @@ pub(crate) fn solve(
     currents_ma: &[Vector2<f64>],
     meter: &MeterUncertainty,
     model: Model,
-) -> Result<LeastSquaresSolution, NoLeastSquares> {
-    Ok(Fit::new(coefficients, currents_ma, model, &Offsets::default(), own_covariance_of(meter))?.solution())
+) -> Result<GyroParameters, NoLeastSquares> {
+    let fit = Fit::new(coefficients, currents_ma, model, &Offsets::default(), own_covariance_of(meter))?;
+    Ok(fit.unknowns.parameters)
 }
 
 /// Returns the standard uncertainties of [`Parameter::EIGHT`], to first order, for one reading of the exact currents of
@@ -122,9 +114,9 @@ pub(crate) fn expected_uncertainties(
     let (model, offsets) = (Model::Paper, &Offsets::default());
     let problem = Problem { coefficients, currents_ma: &currents_ma, model, offsets, own_covariance };
     problem.conditioned(largest_current(&currents_ma)).ok()?;
-    let (_, fit) = problem.step(&Solution { unknowns, changing: Vec::new() }, Regressors::Computed)?;
+    let (_, fit) = problem.step(&Solution { unknowns, changing: Vec::new() }, None)?;
     // The covariance of the parameters is R⁻¹ R⁻¹'.
-    let r_inverse = fit.model.r_inverse();
+    let r_inverse = &fit.model.r_inverse;
     Some(std::array::from_fn(|place| r_inverse.row(place).norm()))
 }
 
@@ -149,15 +141,6 @@ fn largest_current(currents_ma: &[Vector2<f64>]) -> f64 {
 struct Solution {
     unknowns: Unknowns,
     changing: Vec<f64>,
-}
-
-/// Currents that stand in the equations as regressors.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Regressors {
-    /// Those that follow from the last solution.
-    Computed,
-    /// Those that were read.
-    Read,
 }
 
 /// Fitted unknowns, with the quantities from which their covariance is computed.
@@ -215,19 +198,11 @@ impl Fit {
         }
     }
 
-    pub(crate) fn solution(&self) -> LeastSquaresSolution {
-        let anisoelasticity = self.unknowns.anisoelasticity_deg_per_h_per_g2;
-        LeastSquaresSolution {
-            parameters: self.unknowns.parameters,
-            anisoelasticity_deg_per_h_per_g2: (self.of == Model::Anisoelastic).then_some(anisoelasticity),
-        }
-    }
-
     /// Returns the drift in time about x and y, °/h², and its covariance from the own parts of the positions; `None` if it
     /// was not fitted.
     pub(crate) fn drift(&self, offsets: &Offsets) -> Option<(Vector2<f64>, Matrix2<f64>)> {
         let &[.., x, y] = self.changing.as_slice() else { return None };
-        let r_inverse = self.model.r_inverse();
+        let r_inverse = &self.model.r_inverse;
         let rows = r_inverse.rows(r_inverse.nrows() - 2, 2);
         let covariance = Matrix2::from_fn(|row, column| rows.row(row).dot(&rows.row(column)));
         offsets.drift.then_some((Vector2::new(x, y), covariance))
@@ -235,7 +210,7 @@ impl Fit {
 
     /// Returns the standard uncertainties of the offsets from the own parts of the positions, °/h or °/h².
     pub(crate) fn own_uncertainties_of_offsets(&self) -> impl Iterator<Item = f64> {
-        let r_inverse = self.model.r_inverse();
+        let r_inverse = &self.model.r_inverse;
         (self.of.columns()..r_inverse.nrows()).map(|row| r_inverse.row(row).norm())
     }
 
@@ -368,7 +343,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
             return Ok(fit);
         }
         // No gyro gives such readings. One step with the measured currents as regressors is the best available fit.
-        let (step, mut fit) = self.step(&start, Regressors::Read).ok_or(NoLeastSquares::NotUsable)?;
+        let (step, mut fit) = self.step(&start, Some(self.currents_ma)).ok_or(NoLeastSquares::NotUsable)?;
         self.advance(&mut fit, &step.0);
         fit.settled = false;
         Ok(fit)
@@ -378,7 +353,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
     fn settle(&self, start: Solution) -> Option<Fit> {
         let mut solution = start;
         for _ in 0..LARGEST_NUMBER_OF_STEPS {
-            let ((step, length), mut fit) = self.step(&solution, Regressors::Computed)?;
+            let ((step, length), mut fit) = self.step(&solution, None)?;
             self.advance(&mut fit, &step);
             if length < SETTLED {
                 return Some(fit);
@@ -411,13 +386,13 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
     }
 
     /// Returns one step from a solution and its length in units of the solution's own uncertainty; `None` if the
-    /// equations cannot be factorised.
-    fn step(&self, from: &Solution, regressors: Regressors) -> Option<((DVector<f64>, f64), Fit)> {
+    /// equations cannot be factorised. The regressors are these currents, or those that follow from the solution.
+    fn step(&self, from: &Solution, regressors_ma: Option<&[Vector2<f64>]>) -> Option<((DVector<f64>, f64), Fit)> {
         let Solution { unknowns, changing } = from;
         let positions = self.positions(changing);
-        let regressors_ma = match regressors {
-            Regressors::Computed => unknowns.currents_ma(&positions)?,
-            Regressors::Read => self.currents_ma.to_vec(),
+        let regressors_ma = match regressors_ma {
+            Some(currents_ma) => currents_ma.to_vec(),
+            None => unknowns.currents_ma(&positions)?,
         };
         let mut design = whole_design(&positions, &regressors_ma, self.model, self.offsets);
         let mut right = DMatrix::zeros(design.nrows(), 1);

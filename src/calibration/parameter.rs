@@ -44,17 +44,10 @@ impl Parameter {
         [Self::Kx, Self::Ky, Self::Kxy, Self::Kyx, Self::Omega0x, Self::Omega0y, Self::OmegaG, Self::OmegaK];
 
     /// The eight parameters, then the anisoelastic coefficient.
-    pub(crate) const NINE: [Self; 9] = [
-        Self::Kx,
-        Self::Kxy,
-        Self::Kyx,
-        Self::Ky,
-        Self::Omega0x,
-        Self::Omega0y,
-        Self::OmegaG,
-        Self::OmegaK,
-        Self::Anisoelasticity,
-    ];
+    pub(crate) const NINE: [Self; 9] = {
+        let [kx, kxy, kyx, ky, x, y, omega_g, omega_k] = Self::EIGHT;
+        [kx, kxy, kyx, ky, x, y, omega_g, omega_k, Self::Anisoelasticity]
+    };
 
     /// The parameters of the general model: G by rows takes the place of ω_g and ω_k.
     pub(crate) const TWELVE: [Self; 12] = [
@@ -72,56 +65,42 @@ impl Parameter {
         Self::G(1, 2),
     ];
 
+    /// Returns key, symbol and unit.
+    fn words(self) -> [&'static str; 3] {
+        match self {
+            Self::Kx => ["k_x", "K_x", "deg/h/mA"],
+            Self::Kxy => ["k_xy", "K_xy", "deg/h/mA"],
+            Self::Kyx => ["k_yx", "K_yx", "deg/h/mA"],
+            Self::Ky => ["k_y", "K_y", "deg/h/mA"],
+            Self::Omega0x => ["omega_0x", "ω_0x", "deg/h"],
+            Self::Omega0y => ["omega_0y", "ω_0y", "deg/h"],
+            Self::OmegaG => ["omega_g", "ω_g", "deg/h/g"],
+            Self::OmegaK => ["omega_k", "ω_k", "deg/h/g"],
+            Self::Anisoelasticity => ["anisoelasticity", "ω_n (anisoelasticity)", "deg/h/g^2"],
+            Self::G(row, column) => G[usize::from(row)][usize::from(column)],
+            Self::TurnOn(axis) => TURN_ON[usize::from(axis)],
+            Self::Drift(axis) => DRIFT[usize::from(axis)],
+        }
+    }
+
     /// Returns the key of the parameter in JSON results.
     pub fn key(self) -> &'static str {
-        match self {
-            Self::Kx => "k_x",
-            Self::Kxy => "k_xy",
-            Self::Kyx => "k_yx",
-            Self::Ky => "k_y",
-            Self::Omega0x => "omega_0x",
-            Self::Omega0y => "omega_0y",
-            Self::OmegaG => "omega_g",
-            Self::OmegaK => "omega_k",
-            Self::Anisoelasticity => "anisoelasticity",
-            Self::G(row, column) => G_KEYS[usize::from(row)][usize::from(column)],
-            Self::TurnOn(axis) => ["turn_on_x", "turn_on_y"][usize::from(axis)],
-            Self::Drift(axis) => ["drift_x", "drift_y"][usize::from(axis)],
-        }
+        self.words()[0]
+    }
+
+    /// Returns the symbol of the parameter in the paper.
+    pub fn symbol(self) -> &'static str {
+        self.words()[1]
+    }
+
+    /// Returns the unit of the parameter as in JSON results.
+    pub fn unit(self) -> &'static str {
+        self.words()[2]
     }
 
     /// Returns `true` for the elements of K, whose tolerances are in percent.
     pub(crate) fn is_scale_factor(self) -> bool {
         matches!(self, Self::Kx | Self::Kxy | Self::Kyx | Self::Ky)
-    }
-
-    /// Returns the symbol of the parameter in the paper.
-    pub fn symbol(self) -> &'static str {
-        match self {
-            Self::Kx => "K_x",
-            Self::Kxy => "K_xy",
-            Self::Kyx => "K_yx",
-            Self::Ky => "K_y",
-            Self::Omega0x => "ω_0x",
-            Self::Omega0y => "ω_0y",
-            Self::OmegaG => "ω_g",
-            Self::OmegaK => "ω_k",
-            Self::Anisoelasticity => "ω_n (anisoelasticity)",
-            Self::G(row, column) => G_SYMBOLS[usize::from(row)][usize::from(column)],
-            Self::TurnOn(axis) => ["the turn-ons about x", "the turn-ons about y"][usize::from(axis)],
-            Self::Drift(axis) => ["the drift in time about x", "the drift in time about y"][usize::from(axis)],
-        }
-    }
-
-    /// Returns the unit of the parameter as in JSON results.
-    pub fn unit(self) -> &'static str {
-        match self {
-            Self::Kx | Self::Kxy | Self::Kyx | Self::Ky => "deg/h/mA",
-            Self::Omega0x | Self::Omega0y | Self::TurnOn(_) => "deg/h",
-            Self::OmegaG | Self::OmegaK | Self::G(..) => "deg/h/g",
-            Self::Anisoelasticity => "deg/h/g^2",
-            Self::Drift(_) => "deg/h/h",
-        }
     }
 
     /// Returns the index of one of [`Self::NINE`] in vectors of parameters.
@@ -130,8 +109,15 @@ impl Parameter {
     }
 }
 
-const G_KEYS: [[&str; 3]; 2] = [["g_xx", "g_xy", "g_xz"], ["g_yx", "g_yy", "g_yz"]];
-const G_SYMBOLS: [[&str; 3]; 2] = [["G_xx", "G_xy", "G_xz"], ["G_yx", "G_yy", "G_yz"]];
+/// Words of the elements of G, of turn-ons and of drifts.
+const G: [[[&str; 3]; 3]; 2] = [
+    [["g_xx", "G_xx", "deg/h/g"], ["g_xy", "G_xy", "deg/h/g"], ["g_xz", "G_xz", "deg/h/g"]],
+    [["g_yx", "G_yx", "deg/h/g"], ["g_yy", "G_yy", "deg/h/g"], ["g_yz", "G_yz", "deg/h/g"]],
+];
+const TURN_ON: [[&str; 3]; 2] =
+    [["turn_on_x", "the turn-ons about x", "deg/h"], ["turn_on_y", "the turn-ons about y", "deg/h"]];
+const DRIFT: [[&str; 3]; 2] =
+    [["drift_x", "the drift in time about x", "deg/h/h"], ["drift_y", "the drift in time about y", "deg/h/h"]];
 
 impl Tolerance {
     /// Returns the tolerance of one of the eight parameters: in percent for scale factors, otherwise in the unit of the

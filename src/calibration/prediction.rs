@@ -30,7 +30,7 @@ pub fn predicted(setup: &Setup, gyro: &GyroParameters, method: Method) -> Option
 /// Returns `None` if none was left out, or the rest does not determine the parameters.
 pub(crate) fn cost_of_missing(setup: &Setup, readings: &Readings, gyro: &GyroParameters) -> Option<(Parameter, f64)> {
     let rest = setup.of_readings(readings);
-    if readings.left_out().is_empty() {
+    if readings.left_out.is_empty() {
         return None;
     }
     let [all, rest] = [setup, &rest].map(|setup| predicted(setup, gyro, Method::LeastSquares));
@@ -62,7 +62,7 @@ pub(crate) fn best_further_visit(
 ) -> Option<FurtherVisit> {
     let noise = [calibration.visit_noise, calibration.turn_on_noise].map(|noise| noise.deg_per_h);
     let of_reading = calibration.row_scatter.map(|rows| rows.standard_deviation_ma);
-    let setup = readings.recorded().applied_to(setup).into_owned().with_noise(noise, of_reading);
+    let setup = readings.recorded.applied_to(setup).into_owned().with_noise(noise, of_reading);
     let options = Options { methods: vec![Method::LeastSquares], ..options.clone() };
     let positions = &setup.coefficients().positions;
     let exact: Option<Vec<_>> = positions.iter().map(|at| Some((at.index, gyro.currents_ma(at)?))).collect();

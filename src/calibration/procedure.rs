@@ -7,11 +7,9 @@ use super::diagnosis;
 use super::inputs::Setup;
 use super::iterative::{self, NoIterativeSolution, StopRule};
 use super::least_squares::{Fit, NoLeastSquares};
-use super::offsets::Offsets;
 use super::parameter::Parameter;
 use super::propagation::{Propagation, covariance, standard_deviations};
 use super::readings::Readings;
-use super::repeats::Repeats;
 use super::result::{
     Calibration, Cycle, Drift, DriftTest, GMatrix, Iteration, Method, MethodRefusal, MethodResult, ModelTest, Residual,
 };
@@ -45,7 +43,7 @@ impl Default for Options {
 /// Returns [`NoLeastSquares`] if the readings are for other positions or do not determine a gyro; the results of other
 /// methods would then be meaningless. A refusal of a single method is in [`Calibration::refused`].
 pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Result<Calibration, NoLeastSquares> {
-    let digits = readings.recorded().digits(&setup.uncertainty().meter);
+    let digits = readings.recorded.digits(&setup.uncertainty().meter);
     let setup = &*setup.of_readings(readings);
     let indices = readings.positions().iter().map(|position| position.index);
     if !indices.eq(setup.coefficients().positions.iter().map(|at| at.index)) {
@@ -134,10 +132,8 @@ pub(crate) struct Linearised {
     pub(crate) fit: Fit,
     /// Result of the method: that of the fit, or the analytic solution, to which the iterative method converges.
     pub(crate) found: Unknowns,
-    /// Numbers of visits and readings of each position.
-    pub(crate) repeats: Repeats,
-    /// Drift that changes during the run.
-    pub(crate) offsets: Offsets,
+    /// Mean currents with their repeats and offsets.
+    pub(crate) data: Data,
     /// L: response of the parameters to the misclosures (parameters × misclosures, two per position). L F is the spread
     /// of the parameters.
     pub(crate) response: DMatrix<f64>,
@@ -158,15 +154,11 @@ pub(crate) fn linearise(
         Method::LeastSquares => (fit.unknowns, propagation.response_of_least_squares()),
         Method::Analytic | Method::Iterative => {
             let parameters = analytic::solve(setup.coefficients(), &data.currents_ma)?.parameters;
-            let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma);
-            let map = map.ok_or(match setup.coefficients().matrices {
-                Some(_) => NoAnalyticSolution::SingularCurrents,
-                None => NoAnalyticSolution::EightPositionsMissing,
-            })?;
+            let map = AnalyticMap::new(setup.coefficients(), &fit.currents_ma)?;
             (Unknowns::of(parameters), propagation.response_of_analytic(&map))
         }
     };
-    Ok(Linearised { found, repeats: data.repeats, offsets: data.offsets, response, fit })
+    Ok(Linearised { fit, found, data, response })
 }
 
 /// Returns a value in units of its standard uncertainty, or 0 if it can only be rounding.
@@ -208,7 +200,7 @@ impl<'a> Evaluation<'a> {
 
     /// Returns the uncertainties of the paper's methods, or `None` if there is no analytic solution.
     fn closed(&self) -> Option<Closed> {
-        let map = AnalyticMap::new(self.setup.coefficients(), &self.fit.currents_ma)?;
+        let map = AnalyticMap::new(self.setup.coefficients(), &self.fit.currents_ma).ok()?;
         let (spread, of_omega_n) = self.propagation.analytic(&map);
         Some(Closed {
             covariance: covariance(&spread),
@@ -219,14 +211,15 @@ impl<'a> Evaluation<'a> {
     }
 
     fn least_squares(&self) -> MethodResult {
-        let solution = self.fit.solution();
-        let model = self.fit.of;
+        let (unknowns, model) = (&self.fit.unknowns, self.fit.of);
+        let parameters = unknowns.parameters;
+        let anisoelasticity = unknowns.anisoelasticity_deg_per_h_per_g2;
         let all = covariance(&self.spread);
         let covariance = all.view((0, 0), (model.columns(), model.columns())).into_owned();
         let u = |p| model.column(p).map_or(0.0, |column| covariance[(column, column)].sqrt());
         let [u_g, u_k] = [Parameter::OmegaG, Parameter::OmegaK].map(u);
         let g_matrix = (model == Model::General).then(|| GMatrix {
-            deg_per_h_per_g: self.fit.unknowns.g_matrix_deg_per_h_per_g(),
+            deg_per_h_per_g: unknowns.g_matrix_deg_per_h_per_g(),
             standard_uncertainty_deg_per_h_per_g: Matrix2x3::from_fn(|row, column| {
                 let place = 6 + 3 * row + column;
                 covariance[(place, place)].sqrt()
@@ -240,15 +233,15 @@ impl<'a> Evaluation<'a> {
         MethodResult {
             method: Method::LeastSquares,
             model,
-            parameters: solution.parameters,
-            omega_n_deg_per_h_per_g: solution.parameters.omega_n_deg_per_h_per_g(),
-            anisoelasticity_deg_per_h_per_g2: solution.anisoelasticity_deg_per_h_per_g2,
+            parameters,
+            omega_n_deg_per_h_per_g: parameters.omega_n_deg_per_h_per_g(),
+            anisoelasticity_deg_per_h_per_g2: (model == Model::Anisoelastic).then_some(anisoelasticity),
             g_matrix,
             model_test: None,
             drift,
-            cycles: self.cycles(&solution.parameters),
+            cycles: self.cycles(&parameters),
             iteration: None,
-            residuals: self.residuals(&self.fit.unknowns, &self.propagation.of_residuals(&self.spread)),
+            residuals: self.residuals(unknowns, &self.propagation.of_residuals(&self.spread)),
             covariance,
             omega_n_uncertainty_deg_per_h_per_g: Matrix2::new(u_g, u_k, u_k, u_g),
             from_least_squares: None,

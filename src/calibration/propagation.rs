@@ -27,7 +27,7 @@ pub(crate) struct Propagation<'a> {
 
 impl<'a> Propagation<'a> {
     pub(crate) fn new(setup: &Setup, fit: &'a Fit, data: &Data) -> Self {
-        let rows = fit.model.rows();
+        let rows = fit.model.rows;
         let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma, &data.repeats);
         // Differences of visits, the last rows, contain nothing that is common to all positions.
         let mut shared = shared.resize_vertically(rows, 0.0);
@@ -49,64 +49,52 @@ impl<'a> Propagation<'a> {
     /// Returns L F of least squares: the change of each parameter for one standard uncertainty of each cause
     /// (parameters × causes).
     pub(crate) fn least_squares(&self) -> DMatrix<f64> {
-        let columns = self.fit.model.columns();
-        let r_inverse = self.fit.model.r_inverse();
-        let mut spread = DMatrix::zeros(columns, self.rotated.ncols());
-        for (cause, rotated) in self.rotated.column_iter().enumerate() {
-            for inner in 0..columns {
-                spread.column_mut(cause).axpy(rotated[inner], &r_inverse.column(inner), 1.0);
-            }
-        }
-        spread
-    }
-
-    /// Returns L F of the analytic method: the changes of the eight parameters (8 × causes), and of the four elements
-    /// of ω_n by rows (4 × causes).
-    pub(crate) fn analytic(&self, map: &AnalyticMap) -> (DMatrix<f64>, DMatrix<f64>) {
-        let causes = self.causes.ncols();
-        let (mut spread, mut omega_n) = (DMatrix::zeros(8, causes), DMatrix::zeros(4, causes));
-        let mut misclosures = vec![Vector2::zeros(); self.fit.whitening.len()];
-        for (cause, column) in self.causes.column_iter().enumerate() {
-            for (place, misclosure) in misclosures.iter_mut().enumerate() {
-                *misclosure = Vector2::new(column[2 * place], column[2 * place + 1]);
-            }
-            let change = map.apply(&misclosures);
-            spread.column_mut(cause).copy_from_slice(&change.parameters.to_vector());
-            let w = change.omega_n_deg_per_h_per_g;
-            omega_n.column_mut(cause).copy_from_slice(&[w.m11, w.m12, w.m21, w.m22]);
-        }
-        (spread, omega_n)
+        self.of_parameters(&self.rotated)
     }
 
     /// Returns L of least squares: the change of each parameter per misclosure (parameters × misclosures).
     pub(crate) fn response_of_least_squares(&self) -> DMatrix<f64> {
-        let (rows, columns) = (self.fit.model.rows(), self.fit.model.columns());
+        let rows = self.fit.model.rows;
         let mut rotated = DMatrix::identity(rows, rows);
         for (place, whiten) in self.fit.whitening.iter().enumerate() {
             multiply_rows(&mut rotated, place, whiten);
         }
         self.fit.model.rotate(&mut rotated);
-        let r_inverse = self.fit.model.r_inverse();
-        let mut response = DMatrix::zeros(columns, rows);
-        for (row, rotated) in rotated.column_iter().enumerate() {
-            for inner in 0..columns {
-                response.column_mut(row).axpy(rotated[inner], &r_inverse.column(inner), 1.0);
-            }
-        }
-        response
+        self.of_parameters(&rotated)
+    }
+
+    /// Returns R⁻¹ times the upper rows of a rotated matrix.
+    fn of_parameters(&self, rotated: &DMatrix<f64>) -> DMatrix<f64> {
+        product(&self.fit.model.r_inverse, &rotated.rows(0, self.fit.model.columns).into_owned())
+    }
+
+    /// Returns L F of the analytic method: the changes of the eight parameters (8 × causes), and of the four elements
+    /// of ω_n by rows (4 × causes).
+    pub(crate) fn analytic(&self, map: &AnalyticMap) -> (DMatrix<f64>, DMatrix<f64>) {
+        self.by(map, &self.causes)
     }
 
     /// Returns L of the analytic method: the change of each of its eight parameters per misclosure (8 × misclosures).
     pub(crate) fn response_of_analytic(&self, map: &AnalyticMap) -> DMatrix<f64> {
         let rows = self.causes.nrows();
-        let mut response = DMatrix::zeros(8, rows);
-        let mut misclosures = vec![Vector2::zeros(); self.fit.whitening.len()];
-        for row in 0..2 * misclosures.len() {
-            misclosures[row / 2][row % 2] = 1.0;
-            response.column_mut(row).copy_from_slice(&map.apply(&misclosures).parameters.to_vector());
-            misclosures[row / 2][row % 2] = 0.0;
+        self.by(map, &DMatrix::identity(rows, rows)).0
+    }
+
+    /// Returns the changes of the parameters and of ω_n for each column of `misclosures`.
+    fn by(&self, map: &AnalyticMap, misclosures: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
+        let columns = misclosures.ncols();
+        let (mut spread, mut omega_n) = (DMatrix::zeros(8, columns), DMatrix::zeros(4, columns));
+        let mut each = vec![Vector2::zeros(); self.fit.whitening.len()];
+        for (place, column) in misclosures.column_iter().enumerate() {
+            for (place, misclosure) in each.iter_mut().enumerate() {
+                *misclosure = Vector2::new(column[2 * place], column[2 * place + 1]);
+            }
+            let change = map.apply(&each);
+            spread.column_mut(place).copy_from_slice(&change.parameters.to_vector());
+            let w = change.omega_n_deg_per_h_per_g;
+            omega_n.column_mut(place).copy_from_slice(&[w.m11, w.m12, w.m21, w.m22]);
         }
-        response
+        (spread, omega_n)
     }
 
     /// Returns the standard deviations of the residuals, °/h, of a method with the given L F, in the order of the rows.
@@ -120,6 +108,19 @@ impl<'a> Propagation<'a> {
         }
         standard_deviations(&residual)
     }
+}
+
+/// Returns A B, with sums in a fixed order, so that the result does not depend on the CPU.
+pub(crate) fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut product = DMatrix::zeros(a.nrows(), b.ncols());
+    for (column, right) in b.column_iter().enumerate() {
+        for (inner, value) in right.iter().enumerate() {
+            if *value != 0.0 {
+                product.column_mut(column).axpy(*value, &a.column(inner), 1.0);
+            }
+        }
+    }
+    product
 }
 
 /// Returns the covariance S S' of a spread S (parameters × causes).

@@ -8,6 +8,7 @@ mod csv;
 use super::recorded::Recorded;
 use crate::coefficients::{Coefficients, PositionIndex};
 use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// One row of the file: one reading of the two currents.
@@ -52,13 +53,17 @@ pub struct PositionReadings {
 }
 
 /// Visit that is left out of a calibration.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "struct ExclusionDocument")]
 pub(crate) struct Exclusion {
-    /// Index (i, j) of the position.
-    pub index: PositionIndex,
+    /// Frame index.
+    pub i: u32,
+    /// Platform index.
+    pub j: u32,
     /// Number of the visit within its cycle and position.
     pub visit: u32,
     /// Turn-on of the gyro; `None` if there is no other visit of that number to the position.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
     pub cycle: Option<u32>,
     /// Reason.
     pub why: String,
@@ -112,10 +117,14 @@ impl PositionReadings {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Readings {
     positions: Vec<PositionReadings>,
-    left_out: Vec<PositionIndex>,
-    exclusions: Vec<Exclusion>,
-    recorded: Recorded,
-    remark: Option<String>,
+    /// Positions of the coefficients without a reading.
+    pub(crate) left_out: Vec<PositionIndex>,
+    /// Visits that were left out, with their reasons.
+    pub(crate) exclusions: Vec<Exclusion>,
+    /// What the digits of the readings show; nothing if they were not read from a file.
+    pub(crate) recorded: Recorded,
+    /// Remark that lists the columns which were not used.
+    pub(crate) remark: Option<String>,
 }
 
 /// Reason why readings do not match the positions of the coefficients.
@@ -182,8 +191,8 @@ impl Readings {
     /// # Errors
     /// Returns [`NotExcluded`] if there is no such visit, or one in several cycles, or no other reading would be left.
     pub(crate) fn exclude(&mut self, exclusion: Exclusion) -> Result<(), NotExcluded> {
-        let Exclusion { index, visit, cycle, .. } = &exclusion;
-        let (index, number, cycle) = (*index, *visit, *cycle);
+        let Exclusion { i, j, visit: number, cycle, .. } = exclusion;
+        let index = PositionIndex { i, j };
         let is_it = |visit: &&Visit| visit.number == number && cycle.is_none_or(|cycle| visit.cycle == cycle);
         let missing = NotExcluded::Missing { index, visit: number };
         let place = self.positions.iter().position(|at| at.index == index).ok_or(missing)?;
@@ -206,16 +215,6 @@ impl Readings {
         }
         self.exclusions.push(Exclusion { cycle: Some(found[0]), ..exclusion });
         Ok(())
-    }
-
-    /// Returns the visits that were left out, with their reasons.
-    pub(crate) fn exclusions(&self) -> &[Exclusion] {
-        &self.exclusions
-    }
-
-    /// Returns the positions of the coefficients without a reading.
-    pub(crate) fn left_out(&self) -> &[PositionIndex] {
-        &self.left_out
     }
 
     /// Returns the readings of every position, in the order of the coefficients.
@@ -245,18 +244,9 @@ impl Readings {
         Some(sum / count)
     }
 
-    fn visits(&self) -> impl Iterator<Item = &Visit> {
+    /// Returns the visits to all positions.
+    pub(crate) fn visits(&self) -> impl Iterator<Item = &Visit> {
         self.positions.iter().flat_map(|at| &at.visits)
-    }
-
-    /// Returns what the digits of the readings show; nothing if they were not read from a file.
-    pub(crate) fn recorded(&self) -> &Recorded {
-        &self.recorded
-    }
-
-    /// Returns a remark that lists the columns which were not used, or `None` if there is nothing to report.
-    pub(crate) fn remark(&self) -> Option<&str> {
-        self.remark.as_deref()
     }
 }
 

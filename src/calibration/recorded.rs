@@ -98,17 +98,12 @@ pub(crate) fn rounding_of(last_digit: f64) -> f64 {
 /// Returns the standard deviation of the readings of a position within a turn-on, mA, of both channels together.
 fn spread_ma(positions: &[PositionReadings]) -> Option<f64> {
     let (mut sum, mut degrees_of_freedom) = (0.0, 0);
-    for at in positions {
-        let mut rest = at.visits.as_slice();
-        while let Some(first) = rest.first() {
-            let (here, others) = rest.split_at(rest.iter().take_while(|visit| visit.cycle == first.cycle).count());
-            rest = others;
-            let rows = || here.iter().flat_map(|visit| &visit.each_ma);
-            let count = rows().count();
-            let mean = rows().sum::<Vector2<f64>>() / count as f64;
-            sum += rows().map(|row| (row - mean).norm_squared()).sum::<f64>();
-            degrees_of_freedom += 2 * (count - 1);
-        }
+    for here in positions.iter().flat_map(|at| at.visits.chunk_by(|one, other| one.cycle == other.cycle)) {
+        let rows = || here.iter().flat_map(|visit| &visit.each_ma);
+        let count = rows().count();
+        let mean = rows().sum::<Vector2<f64>>() / count as f64;
+        sum += rows().map(|row| (row - mean).norm_squared()).sum::<f64>();
+        degrees_of_freedom += 2 * (count - 1);
     }
     (degrees_of_freedom > 0).then(|| (sum / f64::from(degrees_of_freedom as u32)).sqrt())
 }

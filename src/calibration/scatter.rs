@@ -8,12 +8,12 @@ use super::inputs::Setup;
 use super::least_squares::{Fit, whitening_of};
 use super::noise::{self, DriftNoise, NoiseSource};
 use super::offsets::{Differences, Offsets};
-use super::readings::Readings;
+use super::readings::{Readings, Visit};
 use super::repeats::Repeats;
 use super::sensitivity::Sensitivity;
 use crate::statistics::distributions::chi_square_larger;
 use crate::statistics::scaled_f::{Part, ScaledF};
-use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+use nalgebra::{DMatrix, DVector, Matrix2};
 use serde::{Deserialize, Serialize};
 
 /// Probability below which a scatter, larger or smaller, does not agree with what was stated.
@@ -88,21 +88,19 @@ impl Repeats {
         offsets: &mut Offsets,
         fit: &Fit,
     ) -> Observed {
-        let mut of_rows = Squares::default();
-        for visit in readings.positions().iter().flat_map(|at| &at.visits) {
-            of_rows.add(&visit.each_ma, &visit.mean_ma);
-        }
-        let rows = self.observe_rows(&of_rows);
+        let rows = self.observe_rows(readings);
         let visits = differences.and_then(|found| self.observe_visits(setup, readings, found, offsets, fit));
         Observed { rows, visits, turn_ons: None }
     }
 
-    fn observe_rows(&mut self, found: &Squares) -> Option<RowScatter> {
-        let stated = self.noise_ma;
-        let &Squares { sum, degrees_of_freedom } = found;
+    fn observe_rows(&mut self, readings: &Readings) -> Option<RowScatter> {
+        let squares = |visit: &Visit| visit.each_ma.iter().map(|row| (row - visit.mean_ma).norm_squared()).sum::<f64>();
+        let sum: f64 = readings.visits().map(squares).sum();
+        let degrees_of_freedom: usize = readings.visits().map(|visit| 2 * (visit.each_ma.len() - 1)).sum();
         if degrees_of_freedom == 0 {
             return None;
         }
+        let stated = self.noise_ma;
         let standard_deviation_ma = (sum / degrees_of_freedom as f64).sqrt();
         let against_stated = (stated > 0.0).then(|| {
             let chi_square = sum / (stated * stated);
@@ -131,7 +129,7 @@ impl Repeats {
         let of_noise = |place: usize, visit: usize| reading / positions[place].visits[visit].each_ma.len() as f64;
         // Each visit has its own rounding, so the visits differ by it.
         let meter = &setup.uncertainty().meter;
-        let rounding_ma = Some(readings.recorded().rounding_ma(meter)).filter(|rounding| *rounding >= meter.floor_ma);
+        let rounding_ma = Some(readings.recorded.rounding_ma(meter)).filter(|rounding| *rounding >= meter.floor_ma);
         let rounding = k * k.transpose() * rounding_ma.unwrap_or(0.0).powi(2);
         let known = |place: usize, visit: usize| returns[place] + rounding + of_noise(place, visit);
         let stated = self.visit.deg_per_h * self.visit.deg_per_h;
@@ -173,7 +171,15 @@ impl Repeats {
         of_visit: impl Fn(usize, usize) -> Matrix2<f64>,
     ) -> Vec<Part> {
         let estimates = Estimates::new(setup, self);
-        let mut parts = Parts::new(&estimates);
+        let part = |&degrees_of_freedom: &f64| Part { degrees_of_freedom, trace: 0.0, square: 0.0 };
+        let mut parts: Vec<Part> = estimates.degrees_of_freedom.iter().map(part).collect();
+        let mut add = |basis: Basis, kept: f64, whitened: Matrix2<f64>| {
+            for (place, share) in basis.shares() {
+                let part = whitened * share;
+                parts[place].trace += kept * part.trace();
+                parts[place].square += kept * (part * part).trace();
+            }
+        };
         for (place, at) in readings.positions().iter().enumerate().filter(|(_, at)| at.visits.len() > 1) {
             // Visits with the same number of rows have the same covariance.
             let mut first = 0;
@@ -182,11 +188,11 @@ impl Repeats {
                 let visit = first;
                 first += visits.len();
                 let Some(w) = whitening_of(&of_visit(place, visit)) else { continue };
-                parts.add(estimates.returns, kept, &(w * returns[place] * w.transpose()));
-                parts.add(estimates.noise, kept, &(w * of_noise(place, visit) * w.transpose()));
+                add(estimates.returns, kept, w * returns[place] * w.transpose());
+                add(estimates.noise, kept, w * of_noise(place, visit) * w.transpose());
             }
         }
-        parts.parts
+        parts
     }
 
     /// Compares the biases of the turn-ons with what the gyro type states; estimates their scatter if it states nothing,
@@ -202,7 +208,7 @@ impl Repeats {
         for axis in 0..2 {
             let column = |term: usize| 2 * term + axis;
             let x = DVector::from_fn(cycles - 1, |term, _| fit.changing[column(term)]);
-            let r_inverse = fit.model.r_inverse();
+            let r_inverse = &fit.model.r_inverse;
             let rows =
                 DMatrix::from_fn(cycles - 1, r_inverse.ncols(), |term, inner| r_inverse[(first + column(term), inner)]);
             squares += (&map * x).norm_squared();
@@ -230,38 +236,4 @@ pub(crate) struct Observed {
     pub(crate) rows: Option<RowScatter>,
     pub(crate) visits: Option<Scatter>,
     pub(crate) turn_ons: Option<Scatter>,
-}
-
-/// Sum of squared differences of both currents from means, mA².
-#[derive(Default)]
-struct Squares {
-    sum: f64,
-    degrees_of_freedom: usize,
-}
-
-impl Squares {
-    fn add(&mut self, each_ma: &[Vector2<f64>], mean_ma: &Vector2<f64>) {
-        self.sum += each_ma.iter().map(|reading| (reading - mean_ma).norm_squared()).sum::<f64>();
-        self.degrees_of_freedom += 2 * (each_ma.len() - 1);
-    }
-}
-
-/// Parts of the covariance of the visits that rest on estimates.
-struct Parts {
-    parts: Vec<Part>,
-}
-
-impl Parts {
-    fn new(estimates: &Estimates) -> Self {
-        let part = |&degrees_of_freedom: &f64| Part { degrees_of_freedom, trace: 0.0, square: 0.0 };
-        Self { parts: estimates.degrees_of_freedom.iter().map(part).collect() }
-    }
-
-    fn add(&mut self, basis: Basis, kept: f64, whitened: &Matrix2<f64>) {
-        for (place, share) in basis.shares() {
-            let part = whitened * share;
-            self.parts[place].trace += kept * part.trace();
-            self.parts[place].square += kept * (part * part).trace();
-        }
-    }
 }

@@ -28,7 +28,7 @@ impl VectorChange {
 impl Setup {
     /// Returns the vectors of position `place`, in case coordinates.
     pub(crate) fn in_case(&self, place: usize) -> VectorChange {
-        let attitude = &self.turns()[place].attitude;
+        let attitude = &self.turns[place].attitude;
         VectorChange {
             earth_rate_deg_per_h: attitude * self.earth_rate_east_north_up(),
             vertical: attitude.column(2).into_owned(),
@@ -38,7 +38,7 @@ impl Setup {
     /// Returns the change of the vectors of position `place` per radian of a rotation of the base about the unit vector
     /// `axis` (east, north, up).
     pub(crate) fn base_turned(&self, place: usize, axis: &Vector3<f64>) -> VectorChange {
-        let attitude = &self.turns()[place].attitude;
+        let attitude = &self.turns[place].attitude;
         VectorChange {
             earth_rate_deg_per_h: attitude * self.earth_rate_east_north_up().cross(axis),
             vertical: attitude * Vector3::z().cross(axis),
@@ -49,7 +49,7 @@ impl Setup {
     /// ω_Γ.
     pub(crate) fn latitude_changed(&self, place: usize) -> VectorChange {
         let earth = self.earth_rate_east_north_up();
-        let change = self.turns()[place].attitude * Vector3::new(0.0, -earth.z, earth.y);
+        let change = self.turns[place].attitude * Vector3::new(0.0, -earth.z, earth.y);
         VectorChange { earth_rate_deg_per_h: change, vertical: Vector3::zeros() }
     }
 }
@@ -132,7 +132,7 @@ impl<'a> Sensitivity<'a> {
     /// angles α, β, γ.
     pub(crate) fn to_certified_angles(&self, place: usize) -> [Change; 3] {
         let angles = self.setup.uncertainty().angles_rad.get(place).copied().unwrap_or_default();
-        let (axes, here) = (&self.setup.turns()[place].axes, self.setup.in_case(place));
+        let (axes, here) = (&self.setup.turns[place].axes, self.setup.in_case(place));
         std::array::from_fn(|angle| match angles[angle] {
             0.0 => Change::zeros(),
             u => self.of_vectors(place, &here.turned(&axes[angle])) * u,

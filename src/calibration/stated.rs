@@ -2,142 +2,110 @@
 
 use super::document::Subject;
 use super::inputs::{InputUncertainty, MeterUncertainty, NoSetup, Setup};
-use crate::laboratory::{Base, Laboratory};
-use crate::site::{Site, SiteUncertainty};
+use crate::laboratory::Laboratory;
+use crate::site::Site;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition};
 use crate::statistics::propagation::effective_degrees_of_freedom;
+use crate::text::words;
 use crate::units::radians_from_arcseconds;
 use std::fmt::{self, Display, Formatter};
 
-/// Input whose uncertainty no file states, or one states as 0; the result does not include it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum NotStated {
-    /// Certified angles, own part.
-    Angles,
-    /// Repeatability of positioning.
-    Return,
-    /// Common part of the platform.
-    Platform,
-    /// Common part of the base of the stand.
-    Base,
-    /// Latitude as stated.
-    Latitude,
-    /// Deflection of the vertical, which converts a geodetic latitude to the astronomic one.
-    Deflection,
-    /// Azimuth of the base.
-    Azimuth,
-    /// Azimuth of the mark.
-    Mark,
-    /// Level of the base.
-    Level,
-    /// Gyro seat.
-    Seat,
-    /// Gain of the meter.
-    Gain,
-    /// Offset of the meter.
-    Offset,
-    /// Noise of the gyro from visit to visit.
-    Visits,
-    /// Noise of the gyro from turn-on to turn-on.
-    TurnOns,
-    /// Gravity, required for a comparison with a gyro type.
-    Gravity,
+words! {
+    /// Input whose uncertainty no file states, or one states as 0; the result does not include it. Its words are its name,
+    /// with the key under which a file would state the uncertainty.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum NotStated: pub words {
+        /// Certified angles, own part.
+        Angles = "certified angles (u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec)",
+        /// Repeatability of positioning.
+        Return = "repeatability of positioning (repeatability_arcsec)",
+        /// Common part of the platform.
+        Platform = "common part of the platform (common_platform_arcsec)",
+        /// Common part of the base of the stand.
+        Base = "common part of the base (common_base_arcsec)",
+        /// Latitude as stated.
+        Latitude = "latitude (latitude_arcsec)",
+        /// Deflection of the vertical, which converts a geodetic latitude to the astronomic one.
+        Deflection = "deflection of the vertical (deflection_arcsec.u)",
+        /// Azimuth of the base.
+        Azimuth = "azimuth of the base (azimuth_arcsec)",
+        /// Azimuth of the mark.
+        Mark = "azimuth of the mark (position_u_m, deflection_arcsec.u)",
+        /// Level of the base.
+        Level = "level of the base (level_arcsec)",
+        /// Gyro seat.
+        Seat = "gyro seat (seating_arcsec)",
+        /// Gain of the meter.
+        Gain = "gain of the meter (meter.gain_percent)",
+        /// Offset of the meter.
+        Offset = "offset of the meter (meter.offset_ma)",
+        /// Noise of the gyro from visit to visit.
+        Visits = "gyro from visit to visit (noise.visit_deg_per_h, or repeated visits)",
+        /// Noise of the gyro from turn-on to turn-on.
+        TurnOns = "gyro from turn-on to turn-on (noise.turn_on_deg_per_h, or repeated cycles)",
+        /// Gravity, required for a comparison with a gyro type.
+        Gravity = "gravity (gravity_u_m_per_s2)",
+    }
 }
 
-impl NotStated {
-    /// Returns the name of the input, with the key under which a file would state its uncertainty.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Angles => "certified angles (u_alpha_arcsec, u_beta_arcsec, u_gamma_arcsec)",
-            Self::Return => "repeatability of positioning (repeatability_arcsec)",
-            Self::Platform => "common part of the platform (common_platform_arcsec)",
-            Self::Base => "common part of the base (common_base_arcsec)",
-            Self::Latitude => "latitude (latitude_arcsec)",
-            Self::Deflection => "deflection of the vertical (deflection_arcsec.u)",
-            Self::Azimuth => "azimuth of the base (azimuth_arcsec)",
-            Self::Mark => "azimuth of the mark (position_u_m, deflection_arcsec.u)",
-            Self::Level => "level of the base (level_arcsec)",
-            Self::Seat => "gyro seat (seating_arcsec)",
-            Self::Gain => "gain of the meter (meter.gain_percent)",
-            Self::Offset => "offset of the meter (meter.offset_ma)",
-            Self::Visits => "gyro from visit to visit (noise.visit_deg_per_h, or repeated visits)",
-            Self::TurnOns => "gyro from turn-on to turn-on (noise.turn_on_deg_per_h, or repeated cycles)",
-            Self::Gravity => "gravity (gravity_u_m_per_s2)",
+/// Collects the uncertainties from the certificate and its positions, the site and the laboratory, and the inputs without a
+/// stated uncertainty, which are treated as exact.
+pub(crate) fn uncertainties(
+    certificate: &Certificate,
+    positions: &[CertifiedPosition],
+    site: &Site,
+    laboratory: &Laboratory,
+) -> (InputUncertainty, Vec<NotStated>) {
+    let mut missing = Vec::new();
+    let mut angle = |arcsec: Option<f64>, what: NotStated| {
+        // A 0 that `certify` writes is an estimate from readings.
+        let estimated = certificate.evidence.is_some()
+            && matches!(what, NotStated::Angles | NotStated::Return | NotStated::Platform | NotStated::Base);
+        if !arcsec.is_some_and(|u| u > 0.0 || estimated) && !missing.contains(&what) {
+            missing.push(what);
         }
-    }
-}
-
-/// Stated uncertainties, and the inputs without one.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Stated {
-    /// Standard uncertainties; inputs without a stated uncertainty are treated as exact.
-    pub uncertainty: InputUncertainty,
-    /// Inputs without a stated uncertainty.
-    pub missing: Vec<NotStated>,
-}
-
-impl Stated {
-    /// Collects the uncertainties from the certificate and its positions, the site and the laboratory.
-    pub(crate) fn new(
-        certificate: &Certificate,
-        positions: &[CertifiedPosition],
-        site: &Site,
-        laboratory: &Laboratory,
-    ) -> Self {
-        let mut missing = Vec::new();
-        let mut angle = |arcsec: Option<f64>, what: NotStated| {
-            // A 0 that `certify` writes is an estimate from readings.
-            let estimated = certificate.evidence.is_some()
-                && matches!(what, NotStated::Angles | NotStated::Return | NotStated::Platform | NotStated::Base);
-            if !arcsec.is_some_and(|u| u > 0.0 || estimated) && !missing.contains(&what) {
-                missing.push(what);
-            }
-            radians_from_arcseconds(arcsec.unwrap_or(0.0))
-        };
-        let angles_rad = positions
-            .iter()
-            .map(|at| [at.u_alpha_arcsec, at.u_beta_arcsec, at.u_gamma_arcsec].map(|u| angle(u, NotStated::Angles)))
-            .collect();
-        let base = Known::new(site, laboratory);
-        let seat = laboratory.seating_arcsec.as_ref();
-        let seat = [seat.map(|seat| seat.about_x), seat.map(|seat| seat.about_y), seat.map(|seat| seat.about_z)];
-        let degrees_of_freedom = |stated: Option<f64>| stated.unwrap_or(f64::INFINITY);
-        let uncertainty = InputUncertainty {
-            angles_rad,
-            angles_degrees_of_freedom: positions.iter().map(|at| degrees_of_freedom(at.degrees_of_freedom)).collect(),
-            repeatability_degrees_of_freedom: degrees_of_freedom(certificate.repeatability_degrees_of_freedom),
-            repeatability_rad: angle(certificate.repeatability_arcsec, NotStated::Return),
-            common_platform_degrees_of_freedom: of_common(
-                certificate,
-                ActsOn::Platform,
-                certificate.common_platform_arcsec,
-            ),
-            common_base_degrees_of_freedom: of_common(certificate, ActsOn::Base, certificate.common_base_arcsec),
-            common_platform_rad: angle(certificate.common_platform_arcsec, NotStated::Platform),
-            common_base_rad: angle(certificate.common_base_arcsec, NotStated::Base),
-            latitude_rad: angle(base.latitude_arcsec, NotStated::Latitude),
-            deflection_rad: if site.latitude_deg.is_some() {
-                angle(base.deflection_arcsec, NotStated::Deflection)
-            } else {
-                0.0
-            },
-            azimuth_rad: angle(base.azimuth_arcsec, NotStated::Azimuth),
-            mark_rad: if site.azimuth_mark.is_some() { angle(base.mark_arcsec, NotStated::Mark) } else { 0.0 },
-            level_rad: angle(base.level_arcsec, NotStated::Level),
-            seating_rad: seat.map(|u| angle(u, NotStated::Seat)),
-            meter: MeterUncertainty::from(&laboratory.meter),
-            visit_deg_per_h: None,
-            turn_on_deg_per_h: None,
-        };
-        let others = [
-            (uncertainty.meter.gain, NotStated::Gain),
-            (uncertainty.meter.offset_ma, NotStated::Offset),
-            (site.gravity_u_m_per_s2().unwrap_or(0.0), NotStated::Gravity),
-        ];
-        missing.extend(others.into_iter().filter(|(u, _)| *u == 0.0).map(|(_, what)| what));
-        Self { uncertainty, missing }
-    }
+        radians_from_arcseconds(arcsec.unwrap_or(0.0))
+    };
+    let angles_rad = positions
+        .iter()
+        .map(|at| [at.u_alpha_arcsec, at.u_beta_arcsec, at.u_gamma_arcsec].map(|u| angle(u, NotStated::Angles)))
+        .collect();
+    let (of_site, measured) = (site.uncertainty.as_ref(), laboratory.base.as_ref());
+    let azimuth_mark = site.azimuth_mark.as_ref();
+    // From the mark to the base, stated or measured. From the pillar to the mark it is computed.
+    let azimuth = measured.and_then(|base| base.azimuth_arcsec).or(of_site.and_then(|u| u.azimuth_arcsec));
+    let level = measured.and_then(|base| base.level_arcsec).or(of_site.and_then(|u| u.level_arcsec));
+    let seat = laboratory.seating_arcsec.as_ref();
+    let seat = [seat.map(|seat| seat.about_x), seat.map(|seat| seat.about_y), seat.map(|seat| seat.about_z)];
+    let degrees_of_freedom = |stated: Option<f64>| stated.unwrap_or(f64::INFINITY);
+    let (common_platform, common_base) = (certificate.common_platform_arcsec, certificate.common_base_arcsec);
+    let uncertainty = InputUncertainty {
+        angles_rad,
+        angles_degrees_of_freedom: positions.iter().map(|at| degrees_of_freedom(at.degrees_of_freedom)).collect(),
+        repeatability_degrees_of_freedom: degrees_of_freedom(certificate.repeatability_degrees_of_freedom),
+        repeatability_rad: angle(certificate.repeatability_arcsec, NotStated::Return),
+        common_platform_degrees_of_freedom: of_common(certificate, ActsOn::Platform, common_platform),
+        common_base_degrees_of_freedom: of_common(certificate, ActsOn::Base, common_base),
+        common_platform_rad: angle(common_platform, NotStated::Platform),
+        common_base_rad: angle(common_base, NotStated::Base),
+        latitude_rad: angle(of_site.and_then(|u| u.latitude_arcsec), NotStated::Latitude),
+        deflection_rad: site.latitude_deg.map_or(0.0, |_| angle(site.deflection_u_arcsec(), NotStated::Deflection)),
+        azimuth_rad: angle(azimuth, NotStated::Azimuth),
+        mark_rad: azimuth_mark.map_or(0.0, |_| angle(site.earth().azimuth_u_arcsec, NotStated::Mark)),
+        level_rad: angle(level, NotStated::Level),
+        seating_rad: seat.map(|u| angle(u, NotStated::Seat)),
+        meter: MeterUncertainty::from(&laboratory.meter),
+        visit_deg_per_h: None,
+        turn_on_deg_per_h: None,
+    };
+    let others = [
+        (uncertainty.meter.gain, NotStated::Gain),
+        (uncertainty.meter.offset_ma, NotStated::Offset),
+        (site.gravity_u_m_per_s2().unwrap_or(0.0), NotStated::Gravity),
+    ];
+    missing.extend(others.into_iter().filter(|(u, _)| *u == 0.0).map(|(_, what)| what));
+    (uncertainty, missing)
 }
 
 impl Setup {
@@ -153,7 +121,7 @@ impl Setup {
         site: &Site,
         laboratory: &Laboratory,
     ) -> Result<(Self, Vec<NotStated>), NoSetup> {
-        let Stated { uncertainty, missing } = Stated::new(certificate, positions, site, laboratory);
+        let (uncertainty, missing) = uncertainties(certificate, positions, site, laboratory);
         let positions: Vec<_> = positions.iter().map(CertifiedPosition::to_model).collect();
         Ok((Self::new(&positions, site.earth().rate(site), uncertainty)?, missing))
     }
@@ -202,33 +170,6 @@ impl Display for TemperatureOutside {
             "the temperature in the laboratory is {here_c} deg C; the deviations are certified from {low_c} to \
              {high_c} deg C"
         )
-    }
-}
-
-/// Uncertainties of the base at the site, with independent parts kept separate.
-struct Known {
-    latitude_arcsec: Option<f64>,
-    deflection_arcsec: Option<f64>,
-    azimuth_arcsec: Option<f64>,
-    mark_arcsec: Option<f64>,
-    level_arcsec: Option<f64>,
-}
-
-impl Known {
-    fn new(site: &Site, laboratory: &Laboratory) -> Self {
-        let none = SiteUncertainty { latitude_arcsec: None, azimuth_arcsec: None, level_arcsec: None };
-        let of_site = site.uncertainty.as_ref().unwrap_or(&none);
-        let none = Base { azimuth_arcsec: None, level_arcsec: None };
-        let measured = laboratory.base.as_ref().unwrap_or(&none);
-        Self {
-            latitude_arcsec: of_site.latitude_arcsec,
-            deflection_arcsec: site.deflection_u_arcsec(),
-            // `azimuth_arcsec`: from the mark to the base, stated or measured. `mark_arcsec`: from the pillar to the
-            // mark, computed.
-            azimuth_arcsec: measured.azimuth_arcsec.or(of_site.azimuth_arcsec),
-            mark_arcsec: site.earth().azimuth_u_arcsec,
-            level_arcsec: measured.level_arcsec.or(of_site.level_arcsec),
-        }
     }
 }
 

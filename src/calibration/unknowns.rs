@@ -4,30 +4,25 @@
 use super::parameter::Parameter;
 use crate::coefficients::PositionCoefficients;
 use crate::gyro::GyroParameters;
-use nalgebra::{DMatrix, DVector, Matrix2, Matrix2x3, Vector2, Vector3};
+use crate::text::words;
+use nalgebra::{DMatrix, DVector, Matrix2x3, Vector2, Vector3};
 
-/// Model of the g-sensitive drift that least squares fits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[non_exhaustive]
-pub enum Model {
-    /// The paper's model, eq. (5): ω_g and ω_k.
-    #[default]
-    Paper,
-    /// The paper's model with the anisoelastic coefficient of eq. (2).
-    Anisoelastic,
-    /// A full 2×3 matrix of g-sensitive drift in place of ω_g and ω_k.
-    General,
+words! {
+    /// Model of the g-sensitive drift that least squares fits.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    #[non_exhaustive]
+    pub enum Model: pub(crate) key {
+        /// The paper's model, eq. (5): ω_g and ω_k.
+        #[default]
+        Paper = "paper",
+        /// The paper's model with the anisoelastic coefficient of eq. (2).
+        Anisoelastic = "paper",
+        /// A full 2×3 matrix of g-sensitive drift in place of ω_g and ω_k.
+        General = "general",
+    }
 }
 
 impl Model {
-    /// Returns the name of the model in options and results.
-    pub(crate) fn key(self) -> &'static str {
-        match self {
-            Self::Paper | Self::Anisoelastic => "paper",
-            Self::General => "general",
-        }
-    }
-
     /// Returns the parameters in the order of the columns.
     pub(crate) fn parameters(self) -> &'static [Parameter] {
         match self {
@@ -83,12 +78,7 @@ impl Unknowns {
         let g = Matrix2x3::from_fn(|row, column| value(6 + 3 * row + column));
         let (omega_g, omega_k) = ((g.m11 + g.m22) / 2.0, (g.m21 - g.m12) / 2.0);
         let [kx, kxy, kyx, ky, x, y] = std::array::from_fn(value);
-        let parameters = GyroParameters {
-            k_deg_per_h_per_ma: Matrix2::new(kx, kxy, kyx, ky),
-            omega0_deg_per_h: Vector2::new(x, y),
-            omega_g_deg_per_h_per_g: omega_g,
-            omega_k_deg_per_h_per_g: omega_k,
-        };
+        let parameters = GyroParameters::from_vector(&[kx, kxy, kyx, ky, x, y, omega_g, omega_k]);
         Self { beyond_the_paper_deg_per_h_per_g: g - of_the_paper(&parameters), ..Self::of(parameters) }
     }
 

@@ -118,7 +118,7 @@ pub fn compare(
             Some(ComparedPosition { index, turn_arcsec: turn, u_arcsec: u, test, repeats })
         })
         .collect();
-    let runs = readings.runs().len();
+    let runs = readings.runs.len();
     let between = Between::new(&certificate.certificate, runs, again);
     let common = differences.common(&repeating, certificate, between.as_ref().ok());
     let common = common.ok_or(NotCompared::TooFewPositions)?;
@@ -130,10 +130,10 @@ pub fn compare(
         findings.push(Finding::TreatedAsExact);
     }
     let evidence = certificate.certificate.evidence.as_ref();
-    if evidence.is_some_and(|evidence| readings.sha256() == Some(&evidence.readings_sha256)) {
+    if evidence.is_some_and(|evidence| readings.sha256.as_ref() == Some(&evidence.readings_sha256)) {
         findings.push(Finding::SameReadings);
     } else if let Some(certified) = evidence
-        && let Some(test) = differences.of_repeatability(scatter, [certified.runs as usize, readings.runs().len()])
+        && let Some(test) = differences.of_repeatability(scatter, [certified.runs as usize, readings.runs.len()])
         && 1.0 - test.probability < TOO_CLOSE
     {
         findings.push(Finding::TooClose);
@@ -185,7 +185,7 @@ impl Differences {
         let model = RunModel::new(&turns).ok_or(NotCompared::TooFewPositions)?;
         let rows = 3 * turns.len();
         let (mut turned, mut u) = (DVector::zeros(rows), DVector::zeros(rows));
-        let of_check = scatter.value / readings.runs().len() as f64;
+        let of_check = scatter.value / readings.runs.len() as f64;
         let mut freedom = f64::INFINITY;
         for (place, turn) in turns.iter().enumerate() {
             let change = readings.means_arcsec()[place] - certified[place];
@@ -225,8 +225,8 @@ impl Differences {
         }
         model.rotate(&mut right);
         let (shared, _) = model.solve_rotated(&right);
-        let rest = right.column(0).rows(model.columns(), rows.len() - model.columns()).norm_squared();
-        Some((shared, model.r_inverse().clone(), rest))
+        let rest = right.column(0).rows(model.columns, rows.len() - model.columns).norm_squared();
+        Some((shared, model.r_inverse, rest))
     }
 
     /// Returns the chi-square test of all positions relative to each other if only the repeatability acts. `scatter` is the

@@ -115,7 +115,7 @@ impl RunModel {
         let (rows, columns) = design.shape();
         let mut rotated = DMatrix::identity(rows, rows);
         factorised.rotate(&mut rotated);
-        let solve = factorised.r_inverse() * rotated.rows(0, columns);
+        let solve = &factorised.r_inverse * rotated.rows(0, columns);
         Some(Self { design, base_axes, solve })
     }
 }

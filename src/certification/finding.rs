@@ -4,6 +4,7 @@ use super::Certification;
 use super::bumped_runs::BumpedRun;
 use super::compared::{CommonTurn, ComparedPosition, Test};
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
+use crate::text::words;
 use std::fmt::{self, Display, Formatter};
 
 /// Reason for the result of a comparison, or a limit of it. Displayed, it is an English sentence without a full stop;
@@ -36,15 +37,18 @@ pub(crate) enum Finding {
     TooClose,
 }
 
-/// Reason why the rotation of the stand as a whole was not tested.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Untested {
-    /// Variation between the check runs that is unknown.
-    Variation,
-    /// Check of a single run against a certificate that does not state its number of runs.
-    NumberOfRuns,
-    /// Certificate without the common parts of the uncertainty.
-    CommonParts,
+words! {
+    /// Reason why the rotation of the stand as a whole was not tested.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub(crate) enum Untested: pub(crate) words {
+        /// Variation between the check runs that is unknown.
+        Variation = "the variation between the check runs is unknown",
+        /// Check of a single run against a certificate that does not state its number of runs.
+        NumberOfRuns = "one run does not show the variation between set-ups, and the certificate does not state the \
+                        number of runs behind its common_*; measure two runs or more",
+        /// Certificate without the common parts of the uncertainty.
+        CommonParts = "the certificate does not state common_platform_arcsec and common_base_arcsec",
+    }
 }
 
 impl Display for Finding {
@@ -91,7 +95,9 @@ impl Display for Finding {
                     AXES[*axis], index.i, index.j
                 );
             }
-            Self::NotTested(why) => return write!(f, "rotation of the stand as a whole was not tested: {why}"),
+            Self::NotTested(why) => {
+                return write!(f, "rotation of the stand as a whole was not tested: {}", why.words());
+            }
             Self::TreatedAsExact => {
                 "the certificate does not state the uncertainty of all angles (u_alpha_arcsec etc.); these angles were \
                  treated as exact, so differences appear more significant than they are"
@@ -103,19 +109,6 @@ impl Display for Finding {
                 "the readings agree with the certificate better than the repeatability of the stand allows; check whether \
                  they are those of the certificate, and measure the stand again"
             }
-        })
-    }
-}
-
-impl Display for Untested {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::Variation => "the variation between the check runs is unknown",
-            Self::NumberOfRuns => {
-                "one run does not show the variation between set-ups, and the certificate does not state the number of \
-                 runs behind its common_*; measure two runs or more"
-            }
-            Self::CommonParts => "the certificate does not state common_platform_arcsec and common_base_arcsec",
         })
     }
 }

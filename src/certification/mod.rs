@@ -34,6 +34,7 @@ pub use readings::{AngleReadings, NotBalanced};
 use remark::Remark;
 use suspects::Suspects;
 
+use crate::attitude::ANGLES;
 use crate::calibration::inputs::Turn;
 use crate::coefficients::PositionIndex;
 use crate::stand::{self, ActsOn, Certificate, CertifiedPosition, Evidence, Stand};
@@ -146,11 +147,11 @@ pub struct Certification {
 /// # Errors
 /// Returns [`NotCertified`] if the readings do not fit the header or do not show the scatter.
 pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certification, NotCertified> {
-    let (found, due) = (readings.each_arcsec().len(), header.positions.len());
+    let (found, due) = (readings.each_arcsec.len(), header.positions.len());
     if found != due {
         return Err(NotCertified::OtherPositions { readings: found, header: due });
     }
-    let runs = readings.runs();
+    let runs = &readings.runs;
     if runs.len() < 2 {
         return Err(NotCertified::OneRun);
     }
@@ -162,7 +163,7 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     let turns = turns_of(header, readings);
     let mut components = components::estimate(&turns, runs, &differences(&turns, readings))?;
     if let Some(deletion) = &deletion {
-        components.without(deletion.squares_arcsec2, readings.missing());
+        components.without(deletion.squares_arcsec2, &readings.missing);
     }
     let suspects = Suspects::of(header, readings, &components);
     let worse: Vec<usize> = suspects.worse.iter().map(|at| at.place).collect();
@@ -179,8 +180,12 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
         .map(|(place, ((nominal, mean), turn))| {
             let of_position = scatter.as_ref().map(|scatter| scatter[place]);
             let own = [0, 1, 2].map(|axis| {
-                let share =
-                    share_of_mean(place, axis, runs.len(), deletion.as_ref().map(|at| (at, readings.missing())));
+                let share = share_of_mean(
+                    place,
+                    axis,
+                    runs.len(),
+                    deletion.as_ref().map(|at| (at, readings.missing.as_slice())),
+                );
                 of_mean(components.own_arcsec2[axis], of_position, share, &header.certificate)
             });
             certified(nominal, &mean, turn, &own)
@@ -199,16 +204,16 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     let of_readings = |sha256: &str| Evidence {
         readings_sha256: sha256.to_owned(),
         runs: runs.len() as u32,
-        excluded: Some(readings.excluded().to_vec()).filter(|excluded| !excluded.is_empty()),
+        excluded: Some(readings.excluded.clone()).filter(|excluded| !excluded.is_empty()),
     };
-    certificate.evidence = readings.sha256().map(of_readings);
+    certificate.evidence = readings.sha256.as_deref().map(of_readings);
     let bumped_runs = bumped_runs::bumped(header, readings, &components, &suspects.outliers);
     let mut remarks: Vec<Remark> = bumped_runs.iter().copied().map(Remark::BumpedRun).collect();
     remarks.extend(Remark::of_suspects(&suspects, runs));
     remarks.extend(remarks_on(&components, runs.len(), &stand.positions));
     remarks.extend(stand::remarks::of(&stand.certificate, &stand.positions).into_iter().map(Remark::Odd));
     let warnings = remarks.iter().map(ToString::to_string).collect();
-    let (runs, repeated_rows) = (runs.to_vec(), readings.repeated_rows());
+    let (runs, repeated_rows) = (runs.to_vec(), readings.repeated_rows);
     Ok(Certification { stand, runs, repeated_rows, components, suspects, bumped_runs, remarks, warnings })
 }
 
@@ -223,14 +228,14 @@ pub(crate) fn predicted(
     header: &Header,
     readings: &AngleReadings,
 ) -> Result<(AngleReadings, Option<Deletion>), NotCertified> {
-    if readings.missing().is_empty() {
+    if readings.missing.is_empty() {
         return Ok((readings.clone(), None));
     }
     let angles: Vec<deletion::Angle> =
-        readings.missing().iter().flat_map(|(place, run)| (0..3).map(move |axis| (*run, 3 * place + axis))).collect();
+        readings.missing.iter().flat_map(|(place, run)| (0..3).map(move |axis| (*run, 3 * place + axis))).collect();
     let fit = |readings: &AngleReadings| {
         let turns = turns_of(header, readings);
-        let components = components::estimate(&turns, readings.runs(), &differences(&turns, readings))?;
+        let components = components::estimate(&turns, &readings.runs, &differences(&turns, readings))?;
         let deletion = Deletion::of(&components, angles.clone()).ok_or(NotCertified::Undetermined)?;
         Ok((turns, deletion))
     };
@@ -242,7 +247,7 @@ pub(crate) fn predicted(
             let shift = deletion.shifts_arcsec.fixed_rows::<3>(3 * number).into_owned();
             to_angles(&turns[*place]) * shift
         };
-        let shifts: Vec<Vector3<f64>> = readings.missing().iter().enumerate().map(shift).collect();
+        let shifts: Vec<Vector3<f64>> = readings.missing.iter().enumerate().map(shift).collect();
         completed = completed.shifted(&shifts);
     }
     let (_, deletion) = fit(&completed)?;
@@ -271,9 +276,8 @@ fn to_angles(turn: &Turn) -> Matrix3<f64> {
 
 /// Returns the name of an angle that is the same in all runs of every position, or `None` if all angles vary.
 fn constant(readings: &AngleReadings) -> Option<&'static str> {
-    let same =
-        |axis: usize| readings.each_arcsec().iter().all(|runs| runs.iter().all(|run| run[axis] == runs[0][axis]));
-    ["alpha", "beta", "gamma"].into_iter().enumerate().find(|(axis, _)| same(*axis)).map(|(_, angle)| angle)
+    let same = |axis: usize| readings.each_arcsec.iter().all(|runs| runs.iter().all(|run| run[axis] == runs[0][axis]));
+    (0..3).find(|axis| same(*axis)).map(|axis| ANGLES[axis])
 }
 
 /// Returns the rotation of every position at the mean of its readings.
@@ -289,12 +293,12 @@ fn differences(turns: &[Turn], readings: &AngleReadings) -> Vec<DVector<f64>> {
     let of_run = |run: usize| {
         let mut differences = DVector::zeros(3 * turns.len());
         for (place, turn) in turns.iter().enumerate() {
-            let change = readings.each_arcsec()[place][run] - means[place];
+            let change = readings.each_arcsec[place][run] - means[place];
             differences.fixed_rows_mut::<3>(3 * place).copy_from(&case_turn(turn, &change));
         }
         differences
     };
-    (0..readings.runs().len()).map(of_run).collect()
+    (0..readings.runs.len()).map(of_run).collect()
 }
 
 /// Returns the variance of a certified mean about one axis of the case, arcsec²: the variance `axis` of one visit,

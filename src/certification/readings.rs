@@ -22,16 +22,22 @@ pub(crate) const LARGEST_SCATTER_ARCSEC: f64 = 600.0;
 /// Readings of every position in every run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AngleReadings {
-    runs: Vec<u32>,
-    each_arcsec: Vec<Vec<Vector3<f64>>>,
+    /// Numbers of the runs, ascending.
+    pub(crate) runs: Vec<u32>,
+    /// (α, β, γ) in arcseconds, `[position][run]`, with the positions in the order requested.
+    pub(crate) each_arcsec: Vec<Vec<Vector3<f64>>>,
     /// Line of the first row of each reading, `[position][run]`; empty if the readings do not come from a file.
     lines: Vec<Vec<usize>>,
-    repeated_rows: usize,
-    sha256: Option<String>,
-    remark: Option<String>,
-    excluded: Vec<Excluded>,
+    /// Number of rows that repeat the reading of a visit.
+    pub(crate) repeated_rows: usize,
+    /// SHA-256 of the file in lower-case hexadecimal; `None` if the readings do not come from a file.
+    pub(crate) sha256: Option<String>,
+    /// Remark about ignored columns of the file.
+    pub(crate) remark: Option<String>,
+    /// Excluded readings and runs.
+    pub(crate) excluded: Vec<Excluded>,
     /// Excluded readings, whose angles are predicted from the others: places of position and run.
-    missing: Vec<(usize, usize)>,
+    pub(crate) missing: Vec<(usize, usize)>,
 }
 
 /// Error for readings that do not contain every position in every run.
@@ -149,17 +155,7 @@ impl AngleReadings {
         }
     }
 
-    /// Returns the excluded readings and runs.
-    pub(crate) fn excluded(&self) -> &[Excluded] {
-        &self.excluded
-    }
-
-    /// Returns the places (position, run) of the readings whose angles are predictions, because they were excluded.
-    pub(crate) fn missing(&self) -> &[(usize, usize)] {
-        &self.missing
-    }
-
-    /// Subtracts `shifts_arcsec` (α, β, γ) from the predictions, in the order of [`AngleReadings::missing`].
+    /// Subtracts `shifts_arcsec` (α, β, γ) from the predictions, in the order of `missing`.
     pub(crate) fn shifted(mut self, shifts_arcsec: &[Vector3<f64>]) -> Self {
         for ((place, run), shift) in self.missing.iter().zip(shifts_arcsec) {
             self.each_arcsec[*place][*run] -= shift;
@@ -167,35 +163,10 @@ impl AngleReadings {
         self
     }
 
-    /// Returns a remark about ignored columns of the file, or `None` if there are none.
-    pub(crate) fn remark(&self) -> Option<&str> {
-        self.remark.as_deref()
-    }
-
-    /// Returns the numbers of the runs, ascending.
-    pub(crate) fn runs(&self) -> &[u32] {
-        &self.runs
-    }
-
-    /// Returns (α, β, γ) in arcseconds, `[position][run]`, with the positions in the order requested.
-    pub(crate) fn each_arcsec(&self) -> &[Vec<Vector3<f64>>] {
-        &self.each_arcsec
-    }
-
     /// Returns the line of the file with the reading of a position (by its place in the order requested) in a run (by
     /// its place among the runs), or `None` if the readings do not come from a file.
     pub(crate) fn line(&self, position: usize, run: usize) -> Option<usize> {
         self.lines.get(position)?.get(run).copied()
-    }
-
-    /// Returns the number of rows that repeat the reading of a visit.
-    pub(crate) fn repeated_rows(&self) -> usize {
-        self.repeated_rows
-    }
-
-    /// Returns the SHA-256 of the file in lower-case hexadecimal, or `None` if the readings do not come from a file.
-    pub(crate) fn sha256(&self) -> Option<&str> {
-        self.sha256.as_deref()
     }
 
     /// Returns the means (α, β, γ) of each position over the runs, arcsec.

@@ -5,6 +5,7 @@ use super::deletion::Deletion;
 use super::{AngleReadings, Header};
 use crate::coefficients::PositionIndex;
 use crate::statistics::outlier::{Bartlett, bartlett, bonferroni_student, cochran_probability};
+use serde::Serialize;
 
 /// Probability below which a value is reported: a straggler in
 /// [ISO 5725-2](crate::bibliography::Bibliography::Iso5725).
@@ -26,11 +27,13 @@ const TOO_WELL: f64 = 1e-3;
 const MOST_PAIRED: usize = 100;
 
 /// Position that scatters more than the others.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct WorsePosition {
     /// Index (i, j) of the position.
+    #[serde(flatten)]
     pub index: PositionIndex,
     /// Place of the position in the header.
+    #[serde(skip)]
     pub(crate) place: usize,
     /// Standard deviation of the position over that of all positions.
     pub ratio: f64,
@@ -74,7 +77,7 @@ pub(crate) struct Suspects {
 impl Suspects {
     pub(crate) fn of(header: &Header, readings: &AngleReadings, components: &Components) -> Self {
         let outliers = outliers(header, readings, components);
-        let twins = twins(readings.runs(), components);
+        let twins = twins(&readings.runs, components);
         // An outlier increases the scatter of its position and its axis and, through the common part, of its whole run.
         if !outliers.is_empty() {
             let worse =
@@ -126,7 +129,7 @@ fn worse(header: &Header, components: &Components, only: Option<PositionIndex>) 
 /// are outliers ([Rosner](crate::bibliography::Bibliography::Rosner83)'s procedure, because two outliers can hide each
 /// other).
 fn outliers(header: &Header, readings: &AngleReadings, components: &Components) -> Vec<Outlier> {
-    let runs = readings.runs();
+    let runs = &readings.runs;
     // With two runs, the difference of the first from the second is that of the second from the first, so it counts
     // once.
     let values = components.keeps.nrows() * if runs.len() == 2 { 1 } else { runs.len() };

@@ -251,7 +251,7 @@ impl Bench<'_> {
         let prepared = Prepared::new(content, &self.laboratory, self.gyro_type.as_ref(), (&name, &bytes));
         let mut prepared = prepared.map_err(Failure::stopped)?;
         exclude(options, &mut prepared.readings)?;
-        if let Some(remark) = prepared.readings.remark() {
+        if let Some(remark) = &prepared.readings.remark {
             output::say(remark);
         }
         let asked = options.asked();
@@ -489,8 +489,8 @@ fn previous(options: &Options) -> Result<Vec<CalibrationDocument>, Failure> {
 /// Leaves out the visits that `--exclude` names.
 fn exclude(options: &Options, readings: &mut Readings) -> Result<(), Failure> {
     let reasons = exclusion::reasons(options.exclude.len(), &options.why)?;
-    for (&(index, visit, cycle), why) in options.exclude.iter().zip(reasons) {
-        readings.exclude(Exclusion { index, visit, cycle, why }).map_err(Failure::unusable)?;
+    for (&(PositionIndex { i, j }, visit, cycle), why) in options.exclude.iter().zip(reasons) {
+        readings.exclude(Exclusion { i, j, visit, cycle, why }).map_err(Failure::unusable)?;
     }
     Ok(())
 }

@@ -103,7 +103,7 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
         let bytes = inputs::bytes(readings, Kind::Angles.words())?;
         let name = name_of(readings);
         let read = AngleReadings::from_csv(&name, &bytes, &header.positions).map_err(Failure::unreadable)?;
-        if let Some(remark) = read.remark() {
+        if let Some(remark) = &read.remark {
             output::say(&format!("{}: {remark}", Printable(&name)));
         }
         let certified = certify(&header, &read);
@@ -163,7 +163,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
     let excluded = options.exclusions.excluded()?;
     let readings = AngleReadings::from_csv_without(&name, &bytes, &header.positions, &excluded);
     let readings = readings.map_err(Failure::unreadable)?;
-    if let Some(remark) = readings.remark() {
+    if let Some(remark) = &readings.remark {
         output::say(remark);
     }
     let (readings, _) = predicted(&header, &readings).map_err(Failure::refused)?;

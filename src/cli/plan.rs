@@ -64,7 +64,7 @@ fn readings() -> clap::builder::RangedI64ValueParser<u32> {
 
 fn angles(text: &str) -> Result<Angles, String> {
     if text == "quadrants" {
-        return Ok(Angles::Quadrants);
+        return Ok(Angles::QUADRANTS);
     }
     let step = text.parse().ok().and_then(Angles::every);
     step.ok_or_else(|| format!("quadrants, or {}", Angles::EXPECTED))

@@ -5,8 +5,9 @@ use super::parts::{self, Subject, filled, in_words, quantity, real, units};
 use super::words;
 use super::xml::Element;
 use super::{Administrative, Dcc};
-use crate::calibration::document::{ExclusionDocument, Subject as GyroSubject};
+use crate::calibration::document::Subject as GyroSubject;
 use crate::calibration::parameter::Parameter;
+use crate::calibration::readings::Exclusion;
 use crate::calibration::verdict::{Decision, Found, ParameterVerdict, Verdict};
 use crate::calibration::{Method, Model};
 use crate::gyro::GyroType;
@@ -119,7 +120,7 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
     let currents = Element::new("dcc:statement")
         .and(in_words("dcc:name", texts::CURRENTS_SHA256, languages))
         .and(Element::text("dcc:reference", &calibrated.subject.currents_sha256));
-    let excluded = calibrated.done.document.excluded.iter().map(|ExclusionDocument { i, j, visit, cycle, why }| {
+    let excluded = calibrated.done.document.excluded.iter().map(|Exclusion { i, j, visit, cycle, why }| {
         let visit = format!("{i}, {j}, {visit}, {}: {why}", cycle.unwrap_or(1));
         parts::statement(texts::EXCLUDED, Some(&visit), languages)
     });

@@ -21,9 +21,6 @@ pub(crate) const SUSPECTED: f64 = 0.05;
 /// Mean length of a year of the Gregorian calendar, days.
 const DAYS_PER_YEAR: f64 = 365.2425;
 
-/// Names of the angles of a deviation.
-pub(crate) const ANGLES: [&str; 3] = ["alpha", "beta", "gamma"];
-
 /// Value of a deviation in one certificate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Value {
@@ -252,11 +249,12 @@ mod tests {
         stand
     }
 
-    fn drift(rate: f64) -> Drift {
+    /// Drift over four certificates, a year apart, with these changes of γ of one position.
+    fn drift(changes: [f64; 4]) -> Drift {
         let stands = [0, 1, 2, 3].map(|year| {
             stand(&format!("20{}-06-01", 20 + year), &format!("C-{year}"), |at| {
                 if (at.i, at.j) == (2, 3) {
-                    at.gamma_arcsec += rate * f64::from(year);
+                    at.gamma_arcsec += changes[year];
                 }
             })
         });
@@ -266,10 +264,10 @@ mod tests {
     /// Expected: one deviation with a rate of many u is found, and no other; without a rate none is.
     #[test]
     fn the_deviation_that_drifts_is_found() {
-        let still = drift(0.0);
+        let still = drift([0.0; 4]);
         assert_eq!((still.series.len(), still.tested(), still.drifts()), (24, 24, Some(false)));
         assert_eq!(still.most_significant().unwrap().corrected_probability, Some(1.0));
-        let moving = drift(8.0);
+        let moving = drift([0.0, 8.0, 16.0, 24.0]);
         assert_eq!(moving.drifts(), Some(true));
         let found: Vec<_> = moving.series.iter().filter(|at| at.corrected_probability.unwrap() < DRIFTS).collect();
         assert_eq!(found.len(), 1);
@@ -285,14 +283,7 @@ mod tests {
         for (changes, between, change) in
             [([0.0, -1.5, 43.0, 43.5], ["C-1", "C-2"], 44.5), ([0.0, 30.0, 0.0, 0.0], ["C-0", "C-1"], 30.0)]
         {
-            let stands = [0, 1, 2, 3].map(|year| {
-                stand(&format!("20{}-06-01", 20 + year), &format!("C-{year}"), |at| {
-                    if (at.i, at.j) == (2, 3) {
-                        at.gamma_arcsec += changes[year];
-                    }
-                })
-            });
-            let drift = Drift::of(&stands.each_ref());
+            let drift = drift(changes);
             assert_eq!(drift.jumps().count(), 1);
             let (series, jump) = drift.worst_jump().unwrap();
             assert_eq!((series.index, series.angle), (PositionIndex { i: 2, j: 3 }, 2));

@@ -9,6 +9,7 @@ pub(crate) mod drift;
 use crate::document::sha256_hex;
 use crate::passport::{Content, Question, Trust, verify};
 use crate::register::{Line, Register, State};
+use crate::revocation::Entry;
 use crate::stand::Stand;
 use crate::text::scalar::day;
 use drift::Drift;
@@ -56,19 +57,6 @@ pub(crate) struct Stay {
     pub until: Option<Timestamp>,
 }
 
-/// Withdrawal of a passport.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub(crate) struct Withdrawal {
-    /// Identifier of the passport.
-    pub id: String,
-    /// SHA-256 of its file.
-    pub sha256: String,
-    /// Time of withdrawal.
-    pub revoked_at: Timestamp,
-    /// Reason for the withdrawal.
-    pub reason: String,
-}
-
 /// History of a stand.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct History {
@@ -81,7 +69,7 @@ pub(crate) struct History {
     /// Sites at which the stand has been, in the order of the first issue.
     pub places: Vec<Stay>,
     /// Withdrawals, in the order of their time.
-    pub withdrawals: Vec<Withdrawal>,
+    pub withdrawals: Vec<Entry>,
     /// Change of the deviations over the years.
     pub drift: Drift,
     /// Alarms of the register that concern the stand, and remarks on its certificates, in words.
@@ -236,16 +224,9 @@ fn places(passports: &[PastPassport]) -> Vec<Stay> {
     places
 }
 
-fn withdrawals(recorded: &[Recorded], trust: &Trust) -> Vec<Withdrawal> {
+fn withdrawals(recorded: &[Recorded], trust: &Trust) -> Vec<Entry> {
     let entries = recorded.iter().filter_map(|at| trust.withdrawn.entry(&at.line.sha256));
-    let mut found: Vec<Withdrawal> = entries
-        .map(|entry| Withdrawal {
-            id: entry.id.clone(),
-            sha256: entry.sha256.clone(),
-            revoked_at: entry.revoked_at,
-            reason: entry.reason.clone(),
-        })
-        .collect();
+    let mut found: Vec<Entry> = entries.cloned().collect();
     found.sort_by(|a, b| (a.revoked_at, &a.id).cmp(&(b.revoked_at, &b.id)));
     found.dedup();
     found

@@ -54,7 +54,7 @@ pub fn calibrate(
 ) -> Result<Calibrated, Failed> {
     let (paper, options) = (Laboratory::paper(), by(method)?);
     let prepared = Prepared::new(content, laboratory.unwrap_or(&paper), gyro_type, (name, currents))?;
-    let mut remarks: Vec<String> = prepared.readings.remark().map(str::to_owned).into_iter().collect();
+    let mut remarks: Vec<String> = prepared.readings.remark.iter().cloned().collect();
     let done = prepared.run(&options, verified, Subject::default(), &[])?;
     remarks.extend(done.warning.map(|warning| warning.to_string()));
     remarks.extend(done.document.hint.iter().map(|hint| format!("{INCONSISTENT}: {hint}")));

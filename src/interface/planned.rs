@@ -23,7 +23,7 @@ struct Asked {
 
 impl Default for Asked {
     fn default() -> Self {
-        let criterion = Criterion::A.to_string();
+        let criterion = Criterion::A.key().to_owned();
         Self { readings: 8, step_deg: None, frame_axis_azimuths_deg: Vec::new(), criterion }
     }
 }
@@ -55,11 +55,11 @@ pub fn plan(
         )));
     }
     let angles = match asked.step_deg {
-        None => Angles::Quadrants,
+        None => Angles::QUADRANTS,
         Some(step_deg) => Angles::every(step_deg)
             .ok_or_else(|| Failed::unusable(format!("step_deg: found {step_deg}, expected {}", Angles::EXPECTED)))?,
     };
-    let criterion = Criterion::ALL.into_iter().find(|criterion| criterion.to_string() == asked.criterion);
+    let criterion = Criterion::ALL.into_iter().find(|criterion| criterion.key() == asked.criterion);
     let unknown = || Failed::unusable(format!("criterion: found {:?}, expected a, d or worst", asked.criterion));
     let criterion = criterion.ok_or_else(unknown)?;
     let mut azimuths_deg = asked.frame_axis_azimuths_deg;

@@ -314,7 +314,7 @@ impl SelfCheck {
             analytic::solve(coefficients, &currents).ok().map(|found| found.parameters)
         } else {
             let meter = (&Laboratory::paper().meter).into();
-            least_squares::solve(coefficients, &currents, &meter, Model::Paper).ok().map(|found| found.parameters)
+            least_squares::solve(coefficients, &currents, &meter, Model::Paper).ok()
         };
         // `f64::max` would ignore a NaN.
         let worst = |errors: [f64; 8]| errors.into_iter().fold(0.0, |a, b| if b <= a || a.is_nan() { a } else { b });

@@ -20,14 +20,9 @@ use crate::site::Site;
 use crate::stand::{CertifiedPosition, Stand};
 use nalgebra::{Matrix2, Vector2};
 
-/// Nominal angles of the candidates without a stand: every θ with every φ.
+/// Nominal angles of the candidates without a stand: every θ with every φ, multiples of this step, degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Angles {
-    /// Multiples of 90°.
-    Quadrants,
-    /// Multiples of a step, degrees; see [`Angles::every`].
-    Step(f64),
-}
+pub(crate) struct Angles(f64);
 
 /// Smallest step of the angles, degrees: 1296 candidates.
 const SMALLEST_STEP_DEG: f64 = 10.0;
@@ -36,20 +31,20 @@ const SMALLEST_STEP_DEG: f64 = 10.0;
 const FIRST_OF_GRID: u32 = 1001;
 
 impl Angles {
+    /// Multiples of 90°.
+    pub(crate) const QUADRANTS: Self = Self(90.0);
+
     /// Form of a step in words.
     pub(crate) const EXPECTED: &str = "a step from 10 to 180 degrees that divides 360";
 
     /// Returns the multiples of `step_deg`, or `None` if it does not divide a full circle or is less than 10°.
     pub(crate) fn every(step_deg: f64) -> Option<Self> {
         let is_usable = (SMALLEST_STEP_DEG..=180.0).contains(&step_deg) && (360.0 / step_deg).fract() == 0.0;
-        is_usable.then_some(Self::Step(step_deg))
+        is_usable.then_some(Self(step_deg))
     }
 
     pub(crate) fn positions(self) -> Vec<Position> {
-        let step_deg = match self {
-            Self::Quadrants => 90.0,
-            Self::Step(step_deg) => step_deg,
-        };
+        let Self(step_deg) = self;
         let steps = (360.0 / step_deg) as u32;
         let each = (0..steps).flat_map(|i| (0..steps).map(move |j| (i, j)));
         let each = each.map(|(i, j)| Position {
@@ -112,12 +107,16 @@ pub(crate) struct Candidates {
     pub tolerance: [f64; 8],
     /// Variance that the scatter of turn-ons adds to ω_0x and ω_0y, in units of their tolerance.
     pub turn_on: f64,
-    pub(super) setup: Setup,
-    pub(super) unknowns: Unknowns,
+    /// Setup of all candidates.
+    pub(crate) setup: Setup,
+    /// Parameters of the gyro, drifts per local g.
+    pub(crate) unknowns: Unknowns,
+    /// Currents of the gyro in each candidate, mA.
     pub(crate) currents_ma: Vec<Vector2<f64>>,
     candidates: Vec<Candidate>,
     certified: bool,
-    not_stated: Vec<NotStated>,
+    /// Inputs of single positions whose uncertainty the certificate does not state.
+    pub(super) not_stated: Vec<NotStated>,
     /// Number of positions left out, because the meter cannot read their currents.
     pub(super) beyond_range: usize,
 }
@@ -229,11 +228,6 @@ impl Candidates {
     /// Returns the number of candidates.
     pub(crate) fn len(&self) -> usize {
         self.candidates.len()
-    }
-
-    /// Returns the inputs of single positions whose uncertainty the certificate does not state.
-    pub(crate) fn not_stated(&self) -> Vec<NotStated> {
-        self.not_stated.clone()
     }
 
     /// Returns the information of `visits` visits of the candidate at `place`, in units of the tolerances.
@@ -403,17 +397,5 @@ impl Candidates {
             at.rows.as_flattened().iter().chain(&at.fixed).chain(&at.of_visit).all(|value| value.is_finite())
         });
         if finite { Ok(self) } else { Err(NoPlan::SingularGyro) }
-    }
-
-    /// Returns the setup of all candidates.
-    #[cfg(test)]
-    pub(crate) fn setup(&self) -> &Setup {
-        &self.setup
-    }
-
-    /// Returns the parameters of the gyro, drifts per local g.
-    #[cfg(test)]
-    pub(crate) fn gyro(&self) -> crate::gyro::GyroParameters {
-        self.unknowns.parameters
     }
 }

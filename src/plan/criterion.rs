@@ -2,7 +2,7 @@
 //!
 //! All quantities are in units of the tolerances, so that parameters of different kinds can be added.
 
-use std::fmt::{self, Display, Formatter};
+use crate::text::words;
 
 /// Symmetric matrix, 8×8, of which the lower triangle counts.
 pub(crate) type Symmetric = [[f64; 8]; 8];
@@ -13,32 +13,21 @@ const SMALLEST_PIVOT: f64 = 1e-11;
 /// Places of ω_0x and ω_0y among the eight parameters.
 const OMEGA0: [usize; 2] = [4, 5];
 
-/// Criterion by which plans are compared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
-pub(crate) enum Criterion {
-    /// Sum of (u/tolerance)².
-    A,
-    /// Determinant of the covariance.
-    D,
-    /// Largest u/tolerance.
-    Worst,
-}
-
-impl Display for Criterion {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::A => "a",
-            Self::D => "d",
-            Self::Worst => "worst",
-        })
+words! {
+    /// Criterion by which plans are compared.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+    pub(crate) enum Criterion: pub(crate) key {
+        /// Sum of (u/tolerance)².
+        A = "a",
+        /// Determinant of the covariance.
+        D = "d",
+        /// Largest u/tolerance.
+        Worst = "worst",
     }
 }
 
 impl Criterion {
-    /// All criteria.
-    pub(crate) const ALL: [Self; 3] = [Self::A, Self::D, Self::Worst];
-
     /// Returns the value for the information matrix `information` in units of the tolerances; `turn_on` is the variance
     /// that the scatter of turn-ons adds to ω_0x and ω_0y. Returns infinity if a parameter is not determined.
     pub(crate) fn value(self, information: &Symmetric, turn_on: f64) -> f64 {

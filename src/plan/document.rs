@@ -1,33 +1,33 @@
 //! The plan as JSON, and what templates take from it.
 
 use super::sensitivity::Effect;
-use super::{Evaluation, MOST_READINGS, Plan};
+use super::{Evaluation, MOST_READINGS, Plan, Visited};
 use crate::calibration::NotStated;
 use crate::coefficients::PositionIndex;
 use crate::gyro::{GyroParameters, Parameters};
 use crate::stand::MOST_POSITIONS;
 use crate::text::Unreadable;
 use crate::text::kind::Kind;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 /// JSON form of a plan, with the keys in the order of writing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct PlanDocument {
+pub(crate) struct PlanDocument<'a> {
     /// Criterion: a, d or worst.
-    criterion: String,
+    criterion: &'static str,
     /// Σ (u/T)² (a), ln det of the covariance in units of T (d), or the largest u/T (worst), T the tolerances.
     value: f64,
     /// Azimuth of the frame's axis, degrees clockwise from north.
     frame_axis_azimuth_deg: f64,
     /// Positions and their numbers of visits.
-    readings: Vec<ReadingDocument>,
+    readings: &'a [Visited],
     /// Nominal angles [θ, φ] of the visits, in the best order, degrees.
     order: Vec<[f64; 2]>,
     /// Standard uncertainties of the parameters.
     standard_uncertainty: Parameters,
     /// The paper's eight positions, the frame's axis east; absent if they cannot be compared.
     #[serde(skip_serializing_if = "Option::is_none")]
-    paper: Option<PaperDocument>,
+    paper: Option<&'a Evaluation>,
     /// Parameters that are more uncertain than with the paper's eight, by key, with the ratio.
     worse: Vec<WorseDocument>,
     /// Whether the plan has the paper's eight positions, and so matrices and the closed methods.
@@ -35,7 +35,7 @@ pub(crate) struct PlanDocument {
     /// Whether the plan determines the general model.
     has_general_model: bool,
     /// Errors that all positions share.
-    common_errors: Vec<EffectDocument>,
+    common_errors: Vec<EffectDocument<'a>>,
     /// Largest change of a parameter in units of its tolerance, for an ω_0 that rises or falls by 1 °/h on each axis over
     /// the run in this order.
     drift_over_tolerance_per_deg_per_h: f64,
@@ -48,23 +48,6 @@ pub(crate) struct PlanDocument {
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct ReadingDocument {
-    theta_deg: f64,
-    phi_deg: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    i: Option<u32>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    j: Option<u32>,
-    visits: u32,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct PaperDocument {
-    value: f64,
-    standard_uncertainty: Parameters,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize)]
 struct WorseDocument {
     parameter: &'static str,
     ratio: f64,
@@ -72,23 +55,14 @@ struct WorseDocument {
 
 /// Effect of an error that all positions share.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct EffectDocument {
+struct EffectDocument<'a> {
     error: &'static str,
     size: f64,
     unit: &'static str,
     #[serde(flatten)]
-    plan: EffectOnDesign,
+    plan: &'a Effect,
     #[serde(skip_serializing_if = "Option::is_none")]
-    paper: Option<EffectOnDesign>,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct EffectOnDesign {
-    change: Parameters,
-    largest_over_tolerance: f64,
-    largest_residual_deg_per_h: f64,
-    /// Root of the chi-square that the residuals add.
-    residuals_over_noise: f64,
+    paper: Option<&'a Effect>,
 }
 
 /// Positions and order of a plan, as its JSON states them; other keys are ignored.
@@ -172,27 +146,17 @@ impl Planned {
     }
 }
 
-impl From<&Plan> for PlanDocument {
-    fn from(plan: &Plan) -> Self {
+impl<'a> From<&'a Plan> for PlanDocument<'a> {
+    fn from(plan: &'a Plan) -> Self {
         let angles = |place: &usize| [plan.readings[*place].theta_deg, plan.readings[*place].phi_deg];
-        let readings = plan.readings.iter().map(|at| ReadingDocument {
-            theta_deg: at.theta_deg,
-            phi_deg: at.phi_deg,
-            i: at.index.map(|index| index.i),
-            j: at.index.map(|index| index.j),
-            visits: at.visits,
-        });
         Self {
-            criterion: plan.criterion.to_string(),
+            criterion: plan.criterion.key(),
             value: plan.evaluation.value,
             frame_axis_azimuth_deg: plan.frame_axis_azimuth_deg,
-            readings: readings.collect(),
+            readings: &plan.readings,
             order: plan.order.places.iter().map(angles).collect(),
             standard_uncertainty: parameters(&plan.evaluation.standard_uncertainty),
-            paper: plan.paper.as_ref().map(|paper| PaperDocument {
-                value: paper.value,
-                standard_uncertainty: parameters(&paper.standard_uncertainty),
-            }),
+            paper: plan.paper.as_ref(),
             worse: plan
                 .worse()
                 .into_iter()
@@ -217,26 +181,20 @@ impl Plan {
     }
 }
 
-fn common_errors(plan: &Evaluation, paper: Option<&Evaluation>) -> Vec<EffectDocument> {
-    let of_paper = |place: usize| paper.and_then(|paper| paper.effects.get(place)).map(EffectOnDesign::from);
+fn common_errors<'a>(plan: &'a Evaluation, paper: Option<&'a Evaluation>) -> Vec<EffectDocument<'a>> {
+    let of_paper = |place: usize| paper.and_then(|paper| paper.effects.get(place));
     let each = plan.effects.iter().enumerate().map(|(place, effect)| {
         let (size, unit) = effect.error.size();
-        EffectDocument { error: effect.error.name(), size, unit, plan: effect.into(), paper: of_paper(place) }
+        EffectDocument { error: effect.error.name(), size, unit, plan: effect, paper: of_paper(place) }
     });
     each.collect()
 }
 
-impl From<&Effect> for EffectOnDesign {
-    fn from(effect: &Effect) -> Self {
-        Self {
-            change: parameters(&effect.change),
-            largest_over_tolerance: effect.largest_over_tolerance,
-            largest_residual_deg_per_h: effect.largest_residual_deg_per_h,
-            residuals_over_noise: effect.residuals_over_noise,
-        }
-    }
-}
-
 fn parameters(values: &[f64; 8]) -> Parameters {
     Parameters::of(&GyroParameters::from_vector(values))
+}
+
+/// Writes numbers in the order of [`Parameter::EIGHT`](crate::calibration::Parameter::EIGHT) under the keys of a gyro type.
+pub(super) fn by_parameter<S: Serializer>(values: &[f64; 8], serializer: S) -> Result<S::Ok, S::Error> {
+    parameters(values).serialize(serializer)
 }

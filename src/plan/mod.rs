@@ -33,6 +33,7 @@ use candidates::{Angles, Candidates, Design};
 use criterion::Criterion;
 use order::Order;
 use sensitivity::Effect;
+use serde::Serialize;
 
 /// Smallest number of readings: each gives two equations, and there are eight parameters.
 pub(crate) const FEWEST_READINGS: u32 = 4;
@@ -97,26 +98,29 @@ pub(crate) enum NoPlan {
 }
 
 /// Position of a plan.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct Visited {
     /// Frame angle θ, degrees.
     pub theta_deg: f64,
     /// Platform angle φ, degrees.
     pub phi_deg: f64,
     /// Index of the certified position; `None` without a stand.
+    #[serde(flatten)]
     pub index: Option<PositionIndex>,
     /// Number of visits.
     pub visits: u32,
 }
 
 /// Value of a design, with its uncertainties.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Evaluation {
     /// Value by the criterion.
     pub value: f64,
     /// Standard uncertainties in the order of [`Parameter::EIGHT`].
+    #[serde(serialize_with = "document::by_parameter")]
     pub standard_uncertainty: [f64; 8],
     /// Effects of errors that all positions share.
+    #[serde(skip)]
     pub effects: Vec<Effect>,
 }
 
@@ -195,7 +199,7 @@ pub(crate) fn plan(question: &Question) -> Result<Plan, NoPlan> {
         exhaustive: found.exhaustive,
         has_matrices,
         has_general_model: design.determines_general_model(),
-        of_positions_not_stated: candidates.not_stated(),
+        of_positions_not_stated: candidates.not_stated.clone(),
         noise_not_stated: question.gyro.noise.as_ref().is_none_or(|noise| noise.visit_deg_per_h.is_none()),
     })
 }

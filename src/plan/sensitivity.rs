@@ -5,52 +5,28 @@
 
 use super::candidates::Design;
 use crate::calibration::sensitivity::{Sensitivity, Shared};
+use crate::text::words;
 use crate::units::radians_from_arcseconds;
 use nalgebra::Vector3;
+use serde::Serialize;
 
-/// Error that all positions share.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum CommonError {
-    Azimuth,
-    LevelAboutNorth,
-    LevelAboutEast,
-    SeatAboutZ,
-    SeatAboutX,
-    SeatAboutY,
-    Latitude,
-    Gain,
-    Offset,
+words! {
+    /// Error that all positions share, in the order of tables; its word is its name.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub(crate) enum CommonError: pub(crate) name {
+        Azimuth = "azimuth of the base",
+        LevelAboutNorth = "level about north",
+        LevelAboutEast = "level about east",
+        SeatAboutZ = "gyro seat about z",
+        SeatAboutX = "gyro seat about x",
+        SeatAboutY = "gyro seat about y",
+        Latitude = "latitude",
+        Gain = "gain of the meter",
+        Offset = "offset of the meter",
+    }
 }
 
 impl CommonError {
-    /// All errors, in the order of tables.
-    pub(crate) const ALL: [Self; 9] = [
-        Self::Azimuth,
-        Self::LevelAboutNorth,
-        Self::LevelAboutEast,
-        Self::SeatAboutZ,
-        Self::SeatAboutX,
-        Self::SeatAboutY,
-        Self::Latitude,
-        Self::Gain,
-        Self::Offset,
-    ];
-
-    /// Returns the name of the error.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Azimuth => "azimuth of the base",
-            Self::LevelAboutNorth => "level about north",
-            Self::LevelAboutEast => "level about east",
-            Self::SeatAboutZ => "gyro seat about z",
-            Self::SeatAboutX => "gyro seat about x",
-            Self::SeatAboutY => "gyro seat about y",
-            Self::Latitude => "latitude",
-            Self::Gain => "gain of the meter",
-            Self::Offset => "offset of the meter",
-        }
-    }
-
     /// Returns the size for which the effects are stated, and its unit.
     pub(crate) fn size(self) -> (f64, &'static str) {
         match self {
@@ -91,16 +67,18 @@ impl CommonError {
 const SMALLEST_EFFECT: f64 = 1e-3;
 
 /// Effect of an error on a design.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Effect {
+    #[serde(skip)]
     pub error: CommonError,
     /// Changes of the parameters in their units, in the order of [`crate::calibration::parameter::Parameter::EIGHT`].
+    #[serde(serialize_with = "super::document::by_parameter")]
     pub change: [f64; 8],
     /// Largest change in units of its tolerance.
     pub largest_over_tolerance: f64,
     /// Largest residual, °/h.
     pub largest_residual_deg_per_h: f64,
-    /// √(Σ r' C⁻¹ r): the residuals in units of their own noise.
+    /// √(Σ r' C⁻¹ r): the residuals in units of their own noise, the root of the chi-square that they add.
     pub residuals_over_noise: f64,
 }
 

@@ -153,13 +153,13 @@ pub(crate) fn line(
 
 /// Writes which visits and positions were left out, and what that cost.
 fn left_out(out: &mut String, readings: &Readings, cost: Option<(Parameter, f64)>) {
-    for Exclusion { index, visit, cycle, why } in readings.exclusions() {
+    for Exclusion { i, j, visit, cycle, why } in &readings.exclusions {
         let cycle = cycle.map_or_else(String::new, |cycle| format!(" in cycle {cycle}"));
-        let words = format!("Left out: visit {visit} to position {index}{cycle}: {}.", printable(why));
+        let words = format!("Left out: visit {visit} to position ({i}, {j}){cycle}: {}.", printable(why));
         columns::paragraph(out, "", &words);
     }
-    if !readings.left_out().is_empty() {
-        let positions: Vec<String> = readings.left_out().iter().map(ToString::to_string).collect();
+    if !readings.left_out.is_empty() {
+        let positions: Vec<String> = readings.left_out.iter().map(ToString::to_string).collect();
         let cost = cost.map_or_else(String::new, |(parameter, ratio)| {
             format!("; u({}) is {ratio:.2} times as large as with all positions", parameter.symbol())
         });

@@ -3,7 +3,7 @@
 use crate::certification::compared::Test;
 use crate::certification::comparison::Comparison;
 use crate::certification::components::{Common, Variance};
-use crate::certification::suspects::{AXES, OUTLIER, WorsePosition};
+use crate::certification::suspects::{AXES, OUTLIER};
 use crate::certification::{Certification, NotCertified};
 use crate::report::{columns, style};
 use crate::text::record::File;
@@ -41,7 +41,6 @@ fn certification_json(found: &Certification) -> Value {
             "residual_arcsec": out.residual_arcsec, "probability": out.probability,
         })
     });
-    let worse = |at: &WorsePosition| json!({"i": at.index.i, "j": at.index.j, "ratio": at.ratio, "probability": at.probability});
     let bumped = found.bumped_runs.iter().map(|at| {
         json!({
             "run": at.run, "part": at.part(), "axis": at.axis_name(), "turn_arcsec": at.turn_arcsec,
@@ -57,9 +56,9 @@ fn certification_json(found: &Certification) -> Value {
         "base": components.base.as_ref().map(common),
         "base_axes": components.base_axes,
         "run_turns": components.run_turns,
-        "bartlett": { "positions": found.suspects.positions, "axes": found.suspects.axes },
-        "worse_position": found.suspects.worse.first().map(worse),
-        "worse_positions": found.suspects.worse.iter().map(worse).collect::<Vec<_>>(),
+        "bartlett": {"positions": found.suspects.positions, "axes": found.suspects.axes},
+        "worse_position": found.suspects.worse.first(),
+        "worse_positions": found.suspects.worse,
         "outliers": out.collect::<Vec<_>>(),
         "bumped_runs": bumped.collect::<Vec<_>>(),
         "twins": found.suspects.twins,

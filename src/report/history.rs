@@ -1,6 +1,7 @@
 //! One stand over the years, as text and as JSON.
 
-use crate::history::drift::{ANGLES, DRIFTS, Drift, Jump, SUSPECTED, Series};
+use crate::attitude::ANGLES;
+use crate::history::drift::{DRIFTS, Drift, Jump, SUSPECTED, Series};
 use crate::history::{History, PastCertificate, PastPassport, measured};
 use crate::report::page::language::capital;
 use crate::report::picture::history::LETTERS;

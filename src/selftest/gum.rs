@@ -5,30 +5,22 @@
 
 use super::Case;
 use crate::statistics::least_squares::Factorised;
-use crate::statistics::propagation::{Linearised, Propagated, effective_degrees_of_freedom, of_means, propagate};
+use crate::statistics::propagation::{Linearised, Propagated, effective_degrees_of_freedom, of_means};
 use nalgebra::{DMatrix, DVector};
 
 const BY_GTC: &str = "GTC 1.5.1 (Measurement Standards Laboratory of New Zealand) with the same inputs";
 
 /// Returns the cases of the three examples.
 pub(crate) fn cases() -> Vec<Case> {
-    let mut cases = end_gauge();
-    cases.extend(impedance());
-    cases.extend(thermometer());
-    cases
+    [end_gauge(), impedance(), thermometer()].concat()
 }
 
-/// Creates a case for a number printed with `decimals` decimals; the tolerance is half a unit of the last one.
-fn printed(
-    example: &'static str,
-    source: &'static str,
-    quantity: &str,
-    expected: f64,
-    decimals: i32,
-    found: f64,
-) -> Case {
-    let tolerance = 0.5 * 10_f64.powi(-decimals);
-    Case { example, quantity: quantity.to_owned(), source, expected, tolerance, found, digits: None }
+/// Creates cases of an example for numbers printed with `decimals` decimals; the tolerance is half a unit of the last one.
+fn printed(example: &'static str) -> impl Fn(&'static str, &str, f64, i32, f64) -> Case {
+    move |source, quantity, expected, decimals, found| {
+        let tolerance = 0.5 * 10_f64.powi(-decimals);
+        Case { example, quantity: quantity.to_owned(), source, expected, tolerance, found, digits: None }
+    }
 }
 
 /// Returns the cases of H.1, nm: the length of an end gauge at 20 °C, l = l_S + d − l_S (δα θ + α_S δθ).
@@ -51,22 +43,16 @@ fn end_gauge() -> Vec<Case> {
         (0.41, f64::INFINITY),
         (0.05 / root_of_three, 2.0),
     ];
-    let model = |x: &DVector<f64>| {
-        let [l, d, alpha, d_alpha, theta, d_theta] = [x[0], x[1], x[2], x[3], x[4], x[5]];
-        let gradient =
-            [1.0 - (d_alpha * theta + alpha * d_theta), 1.0, -l * d_theta, -l * theta, -l * d_alpha, -l * alpha];
-        Linearised {
-            values: DVector::from_element(1, l + d - l * (d_alpha * theta + alpha * d_theta)),
-            gradient: DMatrix::from_row_slice(1, 6, &gradient),
-        }
+    let [l, d, alpha, d_alpha, theta, d_theta] = ESTIMATES;
+    let gradient = [1.0 - (d_alpha * theta + alpha * d_theta), 1.0, -l * d_theta, -l * theta, -l * d_alpha, -l * alpha];
+    let model = Linearised {
+        values: DVector::from_element(1, l + d - l * (d_alpha * theta + alpha * d_theta)),
+        gradient: DMatrix::from_row_slice(1, 6, &gradient),
     };
     let variances = DVector::from_iterator(6, inputs.iter().map(|(u, _)| u * u));
-    let estimates = DVector::from_row_slice(&ESTIMATES);
-    let found = propagate(model, &estimates, &DMatrix::from_diagonal(&variances));
-    let gradient = model(&estimates).gradient;
-    let contributions: Vec<(f64, f64)> = inputs.iter().zip(gradient.iter()).map(|((u, nu), c)| (u * c, *nu)).collect();
-    let case =
-        |source, quantity, expected, decimals, found| printed(EXAMPLE, source, quantity, expected, decimals, found);
+    let found = model.propagated(&DMatrix::from_diagonal(&variances));
+    let contributions: Vec<(f64, f64)> = inputs.iter().zip(gradient).map(|((u, nu), c)| (u * c, *nu)).collect();
+    let case = printed(EXAMPLE);
     // H.1.6 uses the contributions and ν(d) with the digits printed there, but u(l) itself with all digits.
     const PRINTED: [(f64, f64); 4] = [(25.0, 18.0), (9.7, 25.6), (2.9, 50.0), (16.6, 2.0)];
     let u = found.standard_uncertainty(0);
@@ -97,24 +83,21 @@ fn impedance() -> Vec<Case> {
         4.999, 19.678e-3, 1.0433,
     ];
     let means = of_means(&DMatrix::from_row_slice(5, 3, &READINGS));
-    let model = |x: &DVector<f64>| {
-        let (v, i) = (x[0], x[1]);
-        let (sin, cos) = libm::sincos(x[2]);
-        let z = v / i;
-        #[rustfmt::skip]
-        let gradient = [
-            cos / i, -z * cos / i, -z * sin,
-            sin / i, -z * sin / i, z * cos,
-            1.0 / i, -z / i, 0.0,
-        ];
-        Linearised {
-            values: DVector::from_row_slice(&[z * cos, z * sin, z]),
-            gradient: DMatrix::from_row_slice(3, 3, &gradient),
-        }
+    let (v, i) = (means.values[0], means.values[1]);
+    let (sin, cos) = libm::sincos(means.values[2]);
+    let z = v / i;
+    #[rustfmt::skip]
+    let gradient = [
+        cos / i, -z * cos / i, -z * sin,
+        sin / i, -z * sin / i, z * cos,
+        1.0 / i, -z / i, 0.0,
+    ];
+    let model = Linearised {
+        values: DVector::from_row_slice(&[z * cos, z * sin, z]),
+        gradient: DMatrix::from_row_slice(3, 3, &gradient),
     };
-    let found = propagate(model, &means.values, &means.covariance);
-    let case =
-        |source, quantity, expected, decimals, found| printed(EXAMPLE, source, quantity, expected, decimals, found);
+    let found = model.propagated(&means.covariance);
+    let case = printed(EXAMPLE);
     let (u, r) = (|at| found.standard_uncertainty(at), |one, other| found.correlation(one, other));
     vec![
         case(MEANS, "u(V), V", 0.0032, 4, means.standard_uncertainty(0)),
@@ -159,20 +142,19 @@ fn thermometer() -> Vec<Case> {
     let design = DMatrix::from_fn(11, 2, |row, column| if column == 0 { 1.0 } else { READINGS[row].0 - 20.0 });
     let mut right = DMatrix::from_fn(11, 1, |row, _| READINGS[row].1);
     let Ok(model) = Factorised::new(design) else {
-        return vec![printed(EXAMPLE, LINE, "cannot be computed", 0.0, 0, f64::NAN)];
+        return vec![printed(EXAMPLE)(LINE, "cannot be computed", 0.0, 0, f64::NAN)];
     };
     model.rotate(&mut right);
     let (line, _) = model.solve_rotated(&right);
     let variance = right.rows(2, 9).norm_squared() / 9.0;
-    let covariance = model.r_inverse() * model.r_inverse().transpose() * variance;
+    let covariance = &model.r_inverse * model.r_inverse.transpose() * variance;
     let line = Propagated { values: line, covariance };
-    let at_30 = |y: &DVector<f64>| Linearised {
-        values: DVector::from_element(1, y[0] + 10.0 * y[1]),
+    let at_30 = Linearised {
+        values: DVector::from_element(1, line.values[0] + 10.0 * line.values[1]),
         gradient: DMatrix::from_row_slice(1, 2, &[1.0, 10.0]),
     };
-    let correction = propagate(at_30, &line.values, &line.covariance);
-    let case =
-        |source, quantity, expected, decimals, found| printed(EXAMPLE, source, quantity, expected, decimals, found);
+    let correction = at_30.propagated(&line.covariance);
+    let case = printed(EXAMPLE);
     vec![
         case(LINE, "intercept, C", -0.1712, 4, line.values[0]),
         case(LINE, "u(intercept), C", 0.0029, 4, line.standard_uncertainty(0)),

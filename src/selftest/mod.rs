@@ -38,9 +38,5 @@ impl Case {
 
 /// Runs the self-test and returns all its cases.
 pub(crate) fn run() -> Vec<Case> {
-    let mut cases = gum::cases();
-    cases.extend(monte_carlo::cases());
-    cases.extend(regression::cases());
-    cases.extend(model::cases());
-    cases
+    [gum::cases(), monte_carlo::cases(), regression::cases(), model::cases().to_vec()].concat()
 }

@@ -42,7 +42,6 @@ struct Printed {
 
 /// Returns the cases of the four examples.
 pub(crate) fn cases() -> Vec<Case> {
-    let mut cases = Vec::new();
     let normals = Printed {
         example: "JCGM 101 9.2.2 four normal inputs",
         source: "JCGM 101:2008, 9.2.2, table 2",
@@ -52,14 +51,12 @@ pub(crate) fn cases() -> Vec<Case> {
         shortest: None,
         scale: (0.0, 2.0),
     };
-    cases.extend(compared(&normals, |lanes| sum(&normal_columns(lanes))));
     let rectangles = Printed {
         example: "JCGM 101 9.2.3 four rectangular inputs",
         source: "JCGM 101:2008, 9.2.3, table 3 (also in closed form: 2 √3 (2 − (3/5)^¼))",
         interval: [-3.88, 3.88],
         ..normals
     };
-    cases.extend(compared(&rectangles, |lanes| sum(&[1.0; 4].map(|u| rectangle(lanes, u)))));
     let one_larger = Printed {
         example: "JCGM 101 9.2.4 one input ten times larger",
         source: "JCGM 101:2008, 9.2.4, table 4",
@@ -69,7 +66,6 @@ pub(crate) fn cases() -> Vec<Case> {
         scale: (0.0, 10.1),
         ..normals
     };
-    cases.extend(compared(&one_larger, |lanes| sum(&[10.0, 1.0, 1.0, 1.0].map(|u| rectangle(lanes, u)))));
     let mass = Printed {
         example: "JCGM 101 9.3 mass calibration",
         source: "JCGM 101:2008, 9.3.2.3, table 6 (Monte Carlo, itself drawn)",
@@ -79,8 +75,13 @@ pub(crate) fn cases() -> Vec<Case> {
         shortest: Some(0.0016),
         scale: (1.234, 0.0754),
     };
-    cases.extend(compared(&mass, mass_difference_mg));
-    cases
+    [
+        compared(&normals, |lanes| sum(&normal_columns(lanes))),
+        compared(&rectangles, |lanes| sum(&[1.0; 4].map(|u| rectangle(lanes, u)))),
+        compared(&one_larger, |lanes| sum(&[10.0, 1.0, 1.0, 1.0].map(|u| rectangle(lanes, u)))),
+        compared(&mass, mass_difference_mg),
+    ]
+    .concat()
 }
 
 fn normal_columns(lanes: &mut WideRandom) -> [Column; 4] {

@@ -91,7 +91,7 @@ impl Set {
         let mut cases = Vec::new();
         for (at, (estimate, deviation)) in self.certified.iter().enumerate() {
             cases.push(self.case(format!("B{at}"), *estimate, estimates[at]));
-            cases.push(self.case(format!("s(B{at})"), *deviation, residual * model.r_inverse().row(at).norm()));
+            cases.push(self.case(format!("s(B{at})"), *deviation, residual * model.r_inverse.row(at).norm()));
         }
         cases.push(self.case("residual standard deviation".to_owned(), self.residual, residual));
         cases

@@ -208,9 +208,7 @@ impl<'a> Simulation<'a> {
             Method::Iterative => {
                 iterative::solve(at, currents_ma, &StopRule::default()).ok().map(|found| found.parameters)
             }
-            Method::LeastSquares => {
-                least_squares::solve(at, currents_ma, &self.meter, Model::Paper).ok().map(|found| found.parameters)
-            }
+            Method::LeastSquares => least_squares::solve(at, currents_ma, &self.meter, Model::Paper).ok(),
         }
     }
 
@@ -221,10 +219,10 @@ impl<'a> Simulation<'a> {
             method: method.key(),
             parameter: parameter.key(),
             unit: if relative { "%" } else { parameter.unit() },
-            worst: errors.worst(),
+            worst: errors.worst,
             standard_deviation: errors.standard_deviation(),
             mean: errors.mean(),
-            not_solved: trials - errors.count(),
+            not_solved: trials - errors.count,
             paper_bound: of_the_paper.then_some(bound),
         }
     }

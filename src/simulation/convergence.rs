@@ -69,16 +69,6 @@ pub struct ConvergenceRow {
     pub stands: u64,
 }
 
-impl Deviations {
-    /// Returns the name of the distribution in results.
-    pub(crate) fn key(self) -> &'static str {
-        match self {
-            Self::Uniform => "uniform",
-            Self::Corners => "corners",
-        }
-    }
-}
-
 /// Simulates the number of steps over stands drawn at random.
 ///
 /// `run.progress` counts all rows together: up to the trials of the run times the number of rows.

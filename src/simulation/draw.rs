@@ -4,17 +4,20 @@ use crate::attitude::Deviation;
 use crate::coefficients::{EIGHT_POSITIONS, Position};
 use crate::gyro::{GyroParameters, GyroType};
 use crate::statistics::random::Stream;
+use crate::text::words;
 use crate::units::radians_from_degrees;
 use nalgebra::{Matrix2, Vector2};
 
-/// Distribution of the angles of a stand.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Deviations {
-    /// Uniform distribution within ±D.
-    Uniform,
-    /// Two values, +D and −D, with equal probability.
-    Corners,
+words! {
+    /// Distribution of the angles of a stand.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[non_exhaustive]
+    pub enum Deviations: pub(crate) key {
+        /// Uniform distribution within ±D.
+        Uniform = "uniform",
+        /// Two values, +D and −D, with equal probability.
+        Corners = "corners",
+    }
 }
 
 /// Draws the paper's eight positions, with α, β and γ of each within the limit D = `limit_deg`, degrees.

@@ -9,9 +9,12 @@ use nalgebra::{DMatrix, DVector, Dyn, QR, SVD};
 #[derive(Debug, Clone)]
 pub(crate) struct Factorised {
     qr: QR<f64, Dyn, Dyn>,
-    r_inverse: DMatrix<f64>,
-    rows: usize,
-    columns: usize,
+    /// R⁻¹, columns × columns: R⁻¹ times the first rows of a rotated right-hand side gives its parameters.
+    pub(crate) r_inverse: DMatrix<f64>,
+    /// Number of rows of X.
+    pub(crate) rows: usize,
+    /// Number of columns of X.
+    pub(crate) columns: usize,
 }
 
 /// Error for an X with dependent columns, or with fewer rows than columns.
@@ -38,17 +41,7 @@ impl Factorised {
         Ok(Self { qr, r_inverse, rows, columns })
     }
 
-    /// Returns the number of rows of X.
-    pub(crate) fn rows(&self) -> usize {
-        self.rows
-    }
-
-    /// Returns the number of columns of X.
-    pub(crate) fn columns(&self) -> usize {
-        self.columns
-    }
-
-    /// Replaces M (rows × any) by Q'M: its first `columns()` rows determine the parameters, the others are residuals.
+    /// Replaces M (rows × any) by Q'M: its first `columns` rows determine the parameters, the others are residuals.
     pub(crate) fn rotate(&self, matrix: &mut DMatrix<f64>) {
         self.qr.q_tr_mul(matrix);
     }
@@ -68,11 +61,6 @@ impl Factorised {
     /// Returns an upper bound of the condition number of X, from the Frobenius norms of R and R⁻¹.
     pub(crate) fn condition_bound(&self) -> f64 {
         self.qr.r().norm() * self.r_inverse.norm()
-    }
-
-    /// Returns R⁻¹, columns × columns: R⁻¹ times the first rows of a rotated right-hand side gives its parameters.
-    pub(crate) fn r_inverse(&self) -> &DMatrix<f64> {
-        &self.r_inverse
     }
 }
 
@@ -126,7 +114,7 @@ mod tests {
         assert!((rest - 0.3).abs() < 1e-13);
         assert!(((y - design * line).norm_squared() - 0.3).abs() < 1e-13);
         // Variance of the slope: 1/Σ(x - 1.5)² = 0.2.
-        let slope: f64 = model.r_inverse().row(0).iter().map(|x| x * x).sum();
+        let slope: f64 = model.r_inverse.row(0).iter().map(|x| x * x).sum();
         assert!((slope - 0.2).abs() < 1e-14);
     }
 

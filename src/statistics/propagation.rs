@@ -36,16 +36,12 @@ impl Propagated {
     }
 }
 
-/// Returns the results of `model` at `estimates`, with their covariance C_y = G C_x G' from the `covariance` C_x of the
-/// estimates.
-pub(crate) fn propagate(
-    model: impl Fn(&DVector<f64>) -> Linearised,
-    estimates: &DVector<f64>,
-    covariance: &DMatrix<f64>,
-) -> Propagated {
-    let Linearised { values, gradient } = model(estimates);
-    let covariance = &gradient * covariance * gradient.transpose();
-    Propagated { values, covariance }
+impl Linearised {
+    /// Returns the results with their covariance C_y = G C_x G' from the `covariance` C_x of the inputs.
+    pub(crate) fn propagated(self, covariance: &DMatrix<f64>) -> Propagated {
+        let covariance = &self.gradient * covariance * self.gradient.transpose();
+        Propagated { values: self.values, covariance }
+    }
 }
 
 /// Returns the means of simultaneous readings (rows: readings, columns: quantities) and the covariance of the means.
@@ -76,12 +72,12 @@ mod tests {
     /// By hand: y = (x₁ x₂, x₁ + x₂) at (2, 3), u = (0.1, 0.2), r = 0.5: u²(y₁) = 0.09 + 0.16 + 0.12.
     #[test]
     fn a_product_and_a_sum() {
-        let model = |x: &DVector<f64>| Linearised {
-            values: DVector::from_vec(vec![x[0] * x[1], x[0] + x[1]]),
-            gradient: DMatrix::from_row_slice(2, 2, &[x[1], x[0], 1.0, 1.0]),
+        let model = Linearised {
+            values: DVector::from_vec(vec![2.0 * 3.0, 2.0 + 3.0]),
+            gradient: DMatrix::from_row_slice(2, 2, &[3.0, 2.0, 1.0, 1.0]),
         };
         let covariance = DMatrix::from_row_slice(2, 2, &[0.01, 0.01, 0.01, 0.04]);
-        let found = propagate(model, &DVector::from_vec(vec![2.0, 3.0]), &covariance);
+        let found = model.propagated(&covariance);
         assert!((found.standard_uncertainty(0) - 0.37_f64.sqrt()).abs() < 1e-15);
         assert!((found.standard_uncertainty(1) - 0.07_f64.sqrt()).abs() < 1e-15);
         // G C G' off the diagonal: 3 (0.01 + 0.01) + 2 (0.01 + 0.04).

@@ -3,10 +3,12 @@
 /// Largest magnitude, mean and standard deviation of a sample, accumulated value by value.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Summary {
-    count: u64,
+    /// Number of values.
+    pub(crate) count: u64,
     sum: f64,
     sum_of_squares: f64,
-    worst: f64,
+    /// Largest magnitude, or 0 for an empty sample.
+    pub(crate) worst: f64,
 }
 
 impl Summary {
@@ -27,16 +29,6 @@ impl Summary {
             sum_of_squares: self.sum_of_squares + other.sum_of_squares,
             worst: self.worst.max(other.worst),
         }
-    }
-
-    /// Returns the number of values.
-    pub(crate) fn count(&self) -> u64 {
-        self.count
-    }
-
-    /// Returns the largest magnitude, or 0 for an empty sample.
-    pub(crate) fn worst(&self) -> f64 {
-        self.worst
     }
 
     /// Returns the mean, or 0 for an empty sample.
@@ -130,7 +122,7 @@ mod tests {
         [1.0, 2.0].into_iter().for_each(|value| first.add(value));
         [3.0, 6.0].into_iter().for_each(|value| second.add(value));
         let all = first.with(&second);
-        assert_eq!((all.count(), all.worst(), all.mean()), (4, 6.0, 3.0));
+        assert_eq!((all.count, all.worst, all.mean()), (4, 6.0, 3.0));
         assert!((all.standard_deviation() - (14.0_f64 / 3.0).sqrt()).abs() < 1e-15);
         assert_eq!(Summary::default().standard_deviation(), 0.0);
     }

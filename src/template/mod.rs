@@ -278,7 +278,7 @@ mod tests {
             assert_eq!((stand.positions.len(), header.positions.len()), (count, count));
             let readings = readings(set, 5);
             let read = AngleReadings::from_csv("readings.csv", readings.as_bytes(), &header.positions).unwrap();
-            assert_eq!((read.runs(), read.each_arcsec().len()), (&[1, 2, 3, 4, 5][..], count));
+            assert_eq!((read.runs, read.each_arcsec.len()), (vec![1, 2, 3, 4, 5], count));
             let positions: Vec<_> = stand.positions.iter().map(CertifiedPosition::to_model).collect();
             let coefficients = StandGeometry::new(&positions).unwrap().at(EarthRate::at_astronomic_latitude(45.0));
             let currents = currents(set).unwrap();

@@ -89,7 +89,7 @@ pub(crate) struct Accumulator {
     scale: Scale,
     /// Counts of the current block; `all` has those of all finished blocks.
     block: Vec<u32>,
-    all: Histograms,
+    pub(crate) all: Histograms,
     sums: [Column; PARAMETERS],
     products: [Column; PAIRS],
     count: u64,
@@ -190,11 +190,6 @@ impl Accumulator {
         (self.count, self.failed) = (0, 0);
         summary
     }
-
-    /// Returns the histograms of all finished blocks.
-    pub(crate) fn histograms(&self) -> &Histograms {
-        &self.all
-    }
 }
 
 /// Replaces trials without finite parameters by zeros, which add nothing to sums.
@@ -229,7 +224,7 @@ mod tests {
         let summary = tally.end_of_block();
         assert_eq!((summary.count, summary.failed), ((chunks * WIDTH) as u64, 0));
         for place in 0..PARAMETERS {
-            let bins = tally.histograms().of(place);
+            let bins = tally.all.of(place);
             for share in [0.025, 0.3, 0.5, 0.975] {
                 assert!((bins.quantile(share) - normal_quantile(share)).abs() < 2e-4, "{share}");
             }

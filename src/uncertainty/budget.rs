@@ -8,6 +8,7 @@ use crate::calibration::causes::{self, Cause, Input};
 use crate::calibration::estimates::{Basis, Estimates};
 use crate::calibration::parameter::Parameter;
 use crate::calibration::procedure::{Linearised, linearise};
+use crate::calibration::propagation::{covariance, product};
 use crate::calibration::result::MethodRefusal;
 use crate::calibration::{Method, Model, Options, Readings, Setup};
 use crate::statistics::beta::student_factor;
@@ -82,13 +83,13 @@ impl Budget {
     /// # Errors
     /// Returns [`MethodRefusal`] if the method has no solution for these readings.
     pub fn new(setup: &Setup, readings: &Readings, method: Method, options: &Options) -> Result<Self, MethodRefusal> {
-        let Linearised { fit, found, repeats, offsets, response } = linearise(setup, readings, method, options)?;
+        let Linearised { fit, found, data, response } = linearise(setup, readings, method, options)?;
         let setup = &*setup.of_readings(readings);
-        let (inputs, columns) = causes::inputs(setup, &fit.unknowns, &fit.currents_ma, &repeats, &offsets);
+        let (inputs, columns) = causes::inputs(setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
         let spread = product(&response, &columns);
         let of = if method == Method::LeastSquares { fit.of } else { Model::Paper };
         let spread = spread.rows(0, of.columns()).into_owned();
-        let estimates = Estimates::new(setup, &repeats).degrees_of_freedom;
+        let estimates = Estimates::new(setup, &data.repeats).degrees_of_freedom;
         let each = of.parameters().iter().map(|parameter| (*parameter, found.value(*parameter)));
         let line = |(row, (parameter, value))| of_parameter(parameter, value, &inputs, (&spread, row), &estimates);
         let parameters = each.enumerate().map(line).collect();
@@ -103,21 +104,8 @@ impl Budget {
 
     /// Returns the covariance of the parameters, in their order; 8×8, 9×9 or 12×12.
     pub fn covariance(&self) -> DMatrix<f64> {
-        crate::calibration::propagation::covariance(&self.spread)
+        covariance(&self.spread)
     }
-}
-
-/// Returns A B, with sums in a fixed order, so that the result does not depend on the CPU.
-pub(crate) fn product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut product = DMatrix::zeros(a.nrows(), b.ncols());
-    for (column, right) in b.column_iter().enumerate() {
-        for (inner, value) in right.iter().enumerate() {
-            if *value != 0.0 {
-                product.column_mut(column).axpy(*value, &a.column(inner), 1.0);
-            }
-        }
-    }
-    product
 }
 
 fn of_parameter(

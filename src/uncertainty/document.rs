@@ -2,7 +2,7 @@
 
 use super::budget::{Budget, COVERAGE};
 use super::monte_carlo::MonteCarlo;
-use crate::calibration::document::CalibrationDocument;
+use crate::calibration::document::{CalibrationDocument, finite};
 use serde::Serialize;
 
 /// Calibration result with the requested budget and Monte Carlo.
@@ -92,10 +92,6 @@ pub(crate) struct InputDocument {
     pub(crate) degrees_of_freedom: Option<f64>,
     /// Change of every parameter for one standard uncertainty of the input, in the order of the parameters.
     pub(crate) changes: Vec<f64>,
-}
-
-fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
 }
 
 impl BudgetDocument {

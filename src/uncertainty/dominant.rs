@@ -114,15 +114,9 @@ fn amount(line: &ParameterBudget, u: f64) -> String {
 fn what_to_do(cause: Cause, limit: f64) -> String {
     let to = format!("{} {}", two_digits(limit), printed(cause.unit()));
     match cause {
-        Cause::Seat(axis) => format!(
-            "seat the gyro with an uncertainty of {to} about {}",
-            [
-                "x",
-                "y",
-                "the spin \
-            axis"
-            ][axis]
-        ),
+        Cause::Seat(axis) => {
+            format!("seat the gyro with an uncertainty of {to} about {}", ["x", "y", "the spin axis"][axis])
+        }
         Cause::Angle(..) => format!("certify the angles with an uncertainty of {to}"),
         Cause::Return(..) => format!("improve the repeatability of the stand to {to}"),
         Cause::Platform(_) | Cause::Base(_) => format!("certify the {} with an uncertainty of {to}", cause.kind()),

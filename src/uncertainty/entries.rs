@@ -6,8 +6,9 @@
 
 use crate::calibration::Setup;
 use crate::calibration::causes::{Cause, Input, of_stand_and_site, unit_vector};
+use crate::calibration::estimates::Estimates;
 use crate::calibration::sensitivity::VectorChange;
-use crate::coefficients::{EIGHT_POSITIONS, Matrices, PositionIndex, pair_differences};
+use crate::coefficients::{Matrices, PositionIndex, pair_differences};
 use nalgebra::{DMatrix, Matrix2, Vector3};
 
 /// Number of a passport, identified by its keys.
@@ -44,7 +45,7 @@ pub struct EntryUncertainty {
 impl EntryUncertainty {
     /// Computes the uncertainty of the entries from the stand and the site of `setup`.
     pub fn new(setup: &Setup) -> Self {
-        let inputs = of_stand_and_site(setup);
+        let inputs = of_stand_and_site(setup, &Estimates::of_stand(setup));
         let positions = &setup.coefficients().positions;
         let mut entries = Vec::new();
         for at in positions {
@@ -62,8 +63,8 @@ impl EntryUncertainty {
         for (column, input) in inputs.iter().enumerate() {
             let changes: Vec<VectorChange> = (0..positions.len()).map(|place| change(setup, place, input)).collect();
             let mut values: Vec<f64> = changes.iter().flat_map(entries_of).collect();
-            if let Some(matrices) = &setup.coefficients().matrices {
-                values.extend(of_matrices(setup, matrices, &changes));
+            if let (Some(matrices), Some(eight)) = (&setup.coefficients().matrices, setup.coefficients().eight()) {
+                values.extend(of_matrices(matrices, &eight.map(|place| changes[place])));
             }
             spread.column_mut(column).copy_from_slice(&values);
         }
@@ -91,7 +92,7 @@ fn change(setup: &Setup, place: usize, input: &Input) -> VectorChange {
     let none = VectorChange { earth_rate_deg_per_h: Vector3::zeros(), vertical: Vector3::zeros() };
     let change = match input.cause {
         Cause::Angle(index, angle) if index == setup.coefficients().positions[place].index => {
-            setup.in_case(place).turned(&setup.turns()[place].axes[angle])
+            setup.in_case(place).turned(&setup.turns[place].axes[angle])
         }
         Cause::Platform(axis) => setup.in_case(place).turned(&unit_vector(axis)),
         Cause::Base(axis) | Cause::Level(axis) => setup.base_turned(place, &unit_vector(axis)),
@@ -103,12 +104,10 @@ fn change(setup: &Setup, place: usize, input: &Input) -> VectorChange {
     VectorChange { earth_rate_deg_per_h: change.earth_rate_deg_per_h * u, vertical: change.vertical * u }
 }
 
-/// Returns the changes of the matrices, in the order of [`MATRIX_KEYS`], row by row.
-fn of_matrices(setup: &Setup, m: &Matrices, changes: &[VectorChange]) -> Vec<f64> {
-    let positions = &setup.coefficients().positions;
-    let find = |position: usize| positions.iter().position(|at| at.index == EIGHT_POSITIONS[position].0).unwrap_or(0);
-    let (n1, n2) = pair_differences(|position| changes[find(position)].vertical.xy());
-    let (omega1, omega2) = pair_differences(|position| changes[find(position)].earth_rate_deg_per_h.xy());
+/// Returns the changes of the matrices, in the order of [`MATRIX_KEYS`], row by row, for those of the eight positions.
+fn of_matrices(m: &Matrices, changes: &[VectorChange; 8]) -> Vec<f64> {
+    let (n1, n2) = pair_differences(|position| changes[position].vertical.xy());
+    let (omega1, omega2) = pair_differences(|position| changes[position].earth_rate_deg_per_h.xy());
     // Δ = n_2⁻¹ n_1, B = ω_31 − ω_32 Δ, C = ω_32 n_2⁻¹ (paper, eq. (13), (15)).
     let delta = m.n2_inverse * (n1 - n2 * m.delta);
     let b = omega1 - omega2 * m.delta - m.omega2_deg_per_h * delta;

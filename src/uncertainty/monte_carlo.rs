@@ -226,7 +226,7 @@ impl Series {
             }
             let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
             done.0.append(&mut summaries);
-            done.1.merge(tally.histograms());
+            done.1.merge(&tally.all);
         };
         let helpers = run.threads.saturating_sub(1).min(usize::try_from(blocks - 1).unwrap_or(usize::MAX));
         std::thread::scope(|scope| {

@@ -55,7 +55,7 @@ fn runs_of(found: &[BumpedRun]) -> Vec<(u32, usize)> {
 fn one_run_by_hand() {
     let quiet = Truth { angles_arcsec: [Vector3::zeros(); 8], ..Truth::new([1e-4; 3], 0.0, 0.0) };
     let measured = quiet.measured(&mut Stream::new(1), 5);
-    let mut each = measured.each_arcsec().to_vec();
+    let mut each = measured.each_arcsec.clone();
     each.iter_mut().for_each(|runs| runs.iter_mut().zip([0.0, 1.0, 2.0, 3.0, 104.0]).for_each(|(at, x)| at.x += x));
     let found = found(&AngleReadings::new(vec![1, 2, 3, 4, 5], each).unwrap());
     let [at] = found.bumped_runs[..] else { panic!("{:?}", found.bumped_runs) };
@@ -98,9 +98,9 @@ fn a_wrong_reading_is_not_a_wrong_run() {
     for seed in 0..100 {
         let off = |bumped| {
             let good = measured(&truth(), &mut Stream::new(seed), 5, USUAL, bumped);
-            let mut each = good.each_arcsec().to_vec();
+            let mut each = good.each_arcsec.clone();
             each[6][2].y += 200.0;
-            found(&AngleReadings::new(good.runs().to_vec(), each).unwrap())
+            found(&AngleReadings::new(good.runs.clone(), each).unwrap())
         };
         let reading = off(None);
         assert_eq!(reading.suspects.outliers[0].run, 3);

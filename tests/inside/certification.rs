@@ -85,7 +85,7 @@ fn what_cannot_be_told_apart_is_said() {
     let text: String = HEADER.lines().filter(|line| !line.contains("i: 2")).map(|line| format!("{line}\n")).collect();
     let header = Header::from_yaml("h.yaml", text.as_bytes()).unwrap();
     let whole = Truth::new([1.0; 3], 3.0, 3.0).measured(&mut Stream::new(2), 5);
-    let readings = AngleReadings::new(whole.runs().to_vec(), whole.each_arcsec()[..4].to_vec()).unwrap();
+    let readings = AngleReadings::new(whole.runs.clone(), whole.each_arcsec[..4].to_vec()).unwrap();
     let found = certify(&header, &readings).unwrap();
     assert_eq!(found.components.base_axes, 2);
     assert!(
@@ -96,7 +96,7 @@ fn what_cannot_be_told_apart_is_said() {
     let one =
         text.lines().filter(|line| !line.contains("i: 1, j: 2") && !line.contains("j: 3") && !line.contains("j: 4"));
     let one = Header::from_yaml("h.yaml", one.map(|line| format!("{line}\n")).collect::<String>().as_bytes()).unwrap();
-    let readings = AngleReadings::new(whole.runs().to_vec(), whole.each_arcsec()[..1].to_vec()).unwrap();
+    let readings = AngleReadings::new(whole.runs.clone(), whole.each_arcsec[..1].to_vec()).unwrap();
     assert_eq!(certify(&one, &readings), Err(NotCertified::TooFewPositions));
 }
 
@@ -121,9 +121,9 @@ fn tests_have_their_level() {
 fn suspects_are_named() {
     let truth = Truth::new([1.0; 3], 2.0, 2.0);
     let good = truth.measured(&mut Stream::new(8), 5);
-    let mut each = good.each_arcsec().to_vec();
+    let mut each = good.each_arcsec.clone();
     each[4][2].y += 15.0;
-    let found = certify(&header(), &AngleReadings::new(good.runs().to_vec(), each.clone()).unwrap()).unwrap();
+    let found = certify(&header(), &AngleReadings::new(good.runs.clone(), each.clone()).unwrap()).unwrap();
     let first = found.suspects.outliers.first().unwrap();
     assert_eq!((first.index.i, first.index.j, first.run, first.axis), (2, 1, 3, 1));
     assert!(
@@ -134,10 +134,10 @@ fn suspects_are_named() {
     );
     let mean = each[4].iter().map(|run| run.y).sum::<f64>() / 5.0;
     assert!((found.stand.positions[4].beta_arcsec - mean).abs() < 1e-3);
-    let mut each = good.each_arcsec().to_vec();
+    let mut each = good.each_arcsec.clone();
     let mut stream = Stream::new(9);
     each[6].iter_mut().for_each(|run| *run += normal(&mut stream, [6.0; 3]));
-    let found = certify(&header(), &AngleReadings::new(good.runs().to_vec(), each).unwrap()).unwrap();
+    let found = certify(&header(), &AngleReadings::new(good.runs.clone(), each).unwrap()).unwrap();
     let worse: Vec<_> = found.suspects.worse.iter().map(|at| (at.index.i, at.index.j)).collect();
     assert_eq!(worse, [(2, 3)]);
     let u = |place: usize| found.stand.positions[place].u_alpha_arcsec.unwrap();
@@ -149,21 +149,21 @@ fn what_cannot_be_certified_is_refused() {
     let truth = Truth::new([1.0; 3], 2.0, 2.0);
     let one = truth.measured(&mut Stream::new(1), 1);
     assert_eq!(certify(&header(), &one), Err(NotCertified::OneRun));
-    let copied = vec![one.each_arcsec()[0].clone(); 1];
+    let copied = vec![one.each_arcsec[0].clone(); 1];
     assert!(matches!(
         certify(&header(), &AngleReadings::new(vec![1], copied).unwrap()),
         Err(NotCertified::OtherPositions { .. })
     ));
-    let twice: Vec<Vec<_>> = one.each_arcsec().iter().map(|runs| vec![runs[0], runs[0]]).collect();
+    let twice: Vec<Vec<_>> = one.each_arcsec.iter().map(|runs| vec![runs[0], runs[0]]).collect();
     assert_eq!(
         certify(&header(), &AngleReadings::new(vec![1, 2], twice).unwrap()),
         Err(NotCertified::Constant("alpha"))
     );
     let shifted: Vec<Vec<_>> =
-        one.each_arcsec().iter().map(|runs| vec![runs[0].map(f64::round), runs[0].map(|x| x.round() + 0.5)]).collect();
+        one.each_arcsec.iter().map(|runs| vec![runs[0].map(f64::round), runs[0].map(|x| x.round() + 0.5)]).collect();
     let found = certify(&header(), &AngleReadings::new(vec![1, 2], shifted).unwrap());
     assert!(found.is_err() || found.unwrap().components.pooled_arcsec2.value < 1e-3);
-    assert!(AngleReadings::new(vec![1, 2], one.each_arcsec().to_vec()).is_err());
+    assert!(AngleReadings::new(vec![1, 2], one.each_arcsec.clone()).is_err());
 }
 
 /// The stand file is canonical, says how it came about, and gives back what was certified.

@@ -24,9 +24,9 @@ fn a_run_with_other_axes_is_refused() {
             (|at| *at = Vector3::new(at.x, -at.z, at.y), "gamma where the other runs have beta"),
         ];
         for (change, words) in changes {
-            let mut each = good.each_arcsec().to_vec();
+            let mut each = good.each_arcsec.clone();
             each.iter_mut().for_each(|of_runs| change(&mut of_runs[2]));
-            let text = csv(&AngleReadings::new(good.runs().to_vec(), each).unwrap());
+            let text = csv(&AngleReadings::new(good.runs.clone(), each).unwrap());
             let refused =
                 AngleReadings::from_csv("a.csv", text.as_bytes(), &header().positions).unwrap_err().to_string();
             // The header of the table, two runs of eight, and then the first line of the run.

@@ -73,7 +73,7 @@ fn a_position_missing_or_double() {
     let good = good(&setup);
     let without = |start: &str| good.lines().filter(|line| !line.starts_with(start)).collect::<Vec<_>>().join("\n");
     let seven = read(&setup, &without("2,3,")).unwrap();
-    assert_eq!((seven.positions().len(), seven.left_out()), (7, [PositionIndex { i: 2, j: 3 }].as_slice()));
+    assert_eq!((seven.positions().len(), seven.left_out.as_slice()), (7, [PositionIndex { i: 2, j: 3 }].as_slice()));
     let error = read(&setup, &good.replace("2,3,", "2,2,")).unwrap_err();
     assert!(error.contains("position (2, 2) occurs 2 times; check whether one of these rows"), "{error}");
     assert_eq!(
@@ -137,11 +137,11 @@ fn tables_of_spreadsheet_programs_are_read() {
     let german = good.replace(',', ";").replace('.', ",");
     let read = |text: &str| read(&setup, text).unwrap();
     assert_eq!(read(&german).means_ma(), expected.means_ma());
-    assert!(read(&german).remark().unwrap().ends_with("semicolons between columns and decimal commas"));
+    assert!(read(&german).remark.unwrap().ends_with("semicolons between columns and decimal commas"));
     assert_eq!(read(&format!("\"sep=;\"\n{german}")), read(&german));
     let points = good.replace(',', ";");
     assert_eq!(read(&points).means_ma(), expected.means_ma());
-    assert!(read(&points).remark().unwrap().ends_with("read with semicolons between columns"));
+    assert!(read(&points).remark.unwrap().ends_with("read with semicolons between columns"));
 }
 
 /// (cycle, number, rows) of the visits to position (1, 1).
@@ -198,8 +198,8 @@ fn other_columns_are_named_and_left_out() {
     let rows: String = lines.map(|line| format!("{line},\"N. N., \"\"day\"\" shift\" , 20.1\n")).collect();
     let found = read(&setup, &format!("{header}{rows}")).unwrap();
     assert_eq!(found.means_ma(), read(&setup, &good).unwrap().means_ma());
-    assert_eq!(found.remark(), Some("c.csv: the columns \"operator\", \"temp_c\" are ignored"));
-    assert_eq!(read(&setup, &good).unwrap().remark(), None);
+    assert_eq!(found.remark.as_deref(), Some("c.csv: the columns \"operator\", \"temp_c\" are ignored"));
+    assert_eq!(read(&setup, &good).unwrap().remark, None);
 }
 
 /// Two visits at once, a cycle that visits one position alone, an exclusion that is not there: refused with the numbers.
@@ -222,15 +222,16 @@ fn visits_and_cycles_that_cannot_be() {
     assert!(error.contains("c.csv:3:") && error.contains("not before that of the row above, 100 s"), "{error}");
 
     let (first, other) = (PositionIndex { i: 1, j: 1 }, PositionIndex { i: 1, j: 2 });
-    let exclusion = |index, visit, cycle| Exclusion { index, visit, cycle, why: "table was knocked".to_owned() };
+    let exclusion =
+        |PositionIndex { i, j }, visit, cycle| Exclusion { i, j, visit, cycle, why: "table was knocked".to_owned() };
     let mut readings = timed("1,1,0.1,0.2,2,1,60\n1,2,0.1,0.2,2,1,70\n1,2,0.3,0.2,1,2,50\n").unwrap();
     let error = readings.exclude(exclusion(first, 1, None)).unwrap_err().to_string();
     assert!(error.contains("cycles [1, 2]") && error.contains("i,j,visit,cycle"), "{error}");
     let error = readings.exclude(exclusion(first, 7, None)).unwrap_err().to_string();
     assert!(error.contains("no visit 7 to position (1, 1)"), "{error}");
     readings.exclude(exclusion(other, 2, None)).unwrap();
-    assert_eq!(readings.exclusions(), [exclusion(other, 2, Some(1))]);
+    assert_eq!(readings.exclusions, [exclusion(other, 2, Some(1))]);
     assert_eq!(readings.positions()[1].visits.len(), 2);
     readings.exclude(exclusion(PositionIndex { i: 2, j: 4 }, 1, None)).unwrap();
-    assert_eq!(readings.left_out(), [PositionIndex { i: 2, j: 4 }]);
+    assert_eq!(readings.left_out, [PositionIndex { i: 2, j: 4 }]);
 }

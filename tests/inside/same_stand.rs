@@ -83,7 +83,7 @@ fn the_scale_is_the_runs_own_variance() {
     let mut stream = Stream::new(6);
     let of_runs = |shift: f64, stream: &mut Stream| {
         let measured = quiet.measured(stream, 3);
-        let mut each = measured.each_arcsec().to_vec();
+        let mut each = measured.each_arcsec.clone();
         each.iter_mut().for_each(|runs| runs.iter_mut().zip([0.0, 1.0, 2.0]).for_each(|(at, run)| at.z += run + shift));
         AngleReadings::new(vec![1, 2, 3], each).unwrap()
     };
@@ -173,7 +173,7 @@ fn what_has_changed_is_named() {
     assert!(found.words.iter().any(|words| words.contains("rotated together")));
     assert!((found.common.platform_arcsec[2] - 60.0).abs() < 10.0);
     let other = Truth::new([1.0; 3], 2.0, 2.0).measured(&mut stream, 1);
-    let backwards: Vec<_> = other.each_arcsec().iter().rev().cloned().collect();
+    let backwards: Vec<_> = other.each_arcsec.iter().rev().cloned().collect();
     let found = against(&AngleReadings::new(vec![1], backwards).unwrap());
     assert!(found.words.iter().any(|words| words.contains("another stand")), "{:?}", found.words);
 }

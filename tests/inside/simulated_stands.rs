@@ -91,8 +91,8 @@ pub fn certified(truth: &Truth, stream: &mut Stream, runs: usize) -> Certificati
 /// The file that readings are read from.
 pub fn csv(readings: &AngleReadings) -> String {
     let mut text = String::from("i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec\n");
-    for (run, number) in readings.runs().iter().enumerate() {
-        for ((at, ..), each) in EIGHT_POSITIONS.iter().zip(readings.each_arcsec()) {
+    for (run, number) in readings.runs.iter().enumerate() {
+        for ((at, ..), each) in EIGHT_POSITIONS.iter().zip(&readings.each_arcsec) {
             let angles = each[run];
             writeln!(text, "{},{},{number},{:.2},{:.2},{:.2}", at.i, at.j, angles.x, angles.y, angles.z).unwrap();
         }

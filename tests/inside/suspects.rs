@@ -7,9 +7,9 @@ use nalgebra::Vector3;
 
 /// Returns good readings with one angle of position `place` in run `run` (both from 0) moved by `off`.
 fn with_one_off(good: &AngleReadings, (place, run, axis): (usize, usize, usize), off: f64) -> AngleReadings {
-    let mut each = good.each_arcsec().to_vec();
+    let mut each = good.each_arcsec.clone();
     each[place][run][axis] += off;
-    AngleReadings::new(good.runs().to_vec(), each).unwrap()
+    AngleReadings::new(good.runs.clone(), each).unwrap()
 }
 
 fn certified(readings: &AngleReadings) -> Certification {
@@ -107,9 +107,9 @@ fn two_runs_do_not_tell_which_is_off() {
 fn a_worse_position_is_not_a_worse_reading() {
     let mut stream = Stream::new(5);
     let good = truth().measured(&mut stream, 5);
-    let mut each = good.each_arcsec().to_vec();
+    let mut each = good.each_arcsec.clone();
     each[6].iter_mut().for_each(|run| *run += normal(&mut stream, [15.0; 3]));
-    let found = certified(&AngleReadings::new(good.runs().to_vec(), each).unwrap());
+    let found = certified(&AngleReadings::new(good.runs.clone(), each).unwrap());
     let worse: Vec<_> = found.suspects.worse.iter().map(|at| (at.index.i, at.index.j)).collect();
     assert_eq!(worse, [(2, 3)], "{:?}", found.warnings);
     let u = |place: usize| found.stand.positions[place].u_alpha_arcsec.unwrap();
@@ -124,7 +124,7 @@ fn a_worse_position_is_not_a_worse_reading() {
 #[test]
 fn a_better_position_accuses_nobody() {
     let mut stream = Stream::new(6);
-    let mut each = truth().measured(&mut stream, 6).each_arcsec().to_vec();
+    let mut each = truth().measured(&mut stream, 6).each_arcsec.clone();
     let mean = each[0].iter().sum::<Vector3<f64>>() / 6.0;
     let runs: Vec<Vector3<f64>> =
         (0..6).map(|run| (1..8).map(|at| each[at][run]).sum::<Vector3<f64>>() / 7.0).collect();
@@ -139,7 +139,7 @@ fn a_better_position_accuses_nobody() {
 fn a_shifted_copy_is_named() {
     let good = truth().measured(&mut Stream::new(7), 3);
     let each: Vec<Vec<_>> = good
-        .each_arcsec()
+        .each_arcsec
         .iter()
         .map(|runs| runs.iter().copied().chain([runs[0] + Vector3::new(0.5, -0.25, 1.0)]).collect())
         .collect();

@@ -1,6 +1,6 @@
 //! The JSON of one method, and what belongs to it.
 
-use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, StepChange};
+use crate::calibration::iterative::{LARGEST_NUMBER_OF_STEPS, StepChange, StopRule};
 use crate::calibration::noise::{DriftNoise, NoiseSource};
 use crate::calibration::parameter::Parameter;
 use crate::calibration::result::{Calibration, MethodResult, ModelTest};
@@ -8,7 +8,7 @@ use crate::calibration::scatter::RowScatter;
 use crate::calibration::unknowns::Model;
 use crate::calibration::verdict::Found;
 use crate::gyro::GyroParameters;
-use nalgebra::{Matrix2, Matrix2x3, Vector2};
+use nalgebra::SMatrix;
 use serde::{Deserialize, Serialize};
 
 /// JSON result of one method.
@@ -59,7 +59,7 @@ pub(crate) struct ResultDocument {
     pub(crate) iterations_predicted: Option<u32>,
     /// Stop rule of the iteration, Δ₁ and Δ₂.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) stop_rule: Option<StopRuleDocument>,
+    pub(crate) stop_rule: Option<StopRule>,
     /// Changes of the parameters in each step after the first approximation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) changes: Option<Vec<ChangeDocument>>,
@@ -134,16 +134,6 @@ impl NoiseDocument {
             turn_on_degrees_of_freedom: finite(turn_on.degrees_of_freedom),
         }
     }
-}
-
-/// Stop rule of the iteration: the paper's Δ₁ and Δ₂.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct StopRuleDocument {
-    /// Δ₁, percent.
-    pub(crate) delta1_percent: f64,
-    /// Δ₂, °/(h·g).
-    pub(crate) delta2_deg_per_h: f64,
 }
 
 /// Changes of the parameters in one step of the iterative method.
@@ -242,12 +232,8 @@ pub(crate) struct ResidualDocument {
     pub(crate) u_y: Option<f64>,
 }
 
-fn rows(matrix: &Matrix2<f64>) -> [[f64; 2]; 2] {
-    [[matrix.m11, matrix.m12], [matrix.m21, matrix.m22]]
-}
-
-fn rows_of_three(matrix: &Matrix2x3<f64>) -> [[f64; 3]; 2] {
-    [[matrix.m11, matrix.m12, matrix.m13], [matrix.m21, matrix.m22, matrix.m23]]
+fn rows<const C: usize>(matrix: &SMatrix<f64, 2, C>) -> [[f64; C]; 2] {
+    [0, 1].map(|row| std::array::from_fn(|column| matrix[(row, column)]))
 }
 
 impl ResultDocument {
@@ -269,7 +255,7 @@ impl ResultDocument {
             omega_n_deg_per_h_per_g: of_the_paper.then(|| rows(&result.omega_n_deg_per_h_per_g)),
             omega_g_deg_per_h_per_g: result.value(Parameter::OmegaG),
             omega_k_deg_per_h_per_g: result.value(Parameter::OmegaK),
-            g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows_of_three(&g.deg_per_h_per_g)),
+            g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows(&g.deg_per_h_per_g)),
             model_test: result.model_test,
             drift_deg_per_h_per_h: result.drift.map(|drift| drift.deg_per_h_per_h.into()),
             cycles: result
@@ -283,10 +269,7 @@ impl ResultDocument {
             iterations_predicted: iteration
                 .and_then(|iteration| iteration.predicted_steps)
                 .filter(|steps| *steps <= LARGEST_NUMBER_OF_STEPS),
-            stop_rule: iteration.map(|iteration| StopRuleDocument {
-                delta1_percent: iteration.stop_rule.delta1_percent,
-                delta2_deg_per_h: iteration.stop_rule.delta2_deg_per_h,
-            }),
+            stop_rule: iteration.map(|iteration| iteration.stop_rule),
             changes: iteration.map(|iteration| (2..).zip(&iteration.changes).map(ChangeDocument::new).collect()),
             spectral_radius: iteration.map(|iteration| iteration.spectral_radius),
             remainder_k_deg_per_h_per_ma: iteration.map(|it| rows(&it.remainder_k_deg_per_h_per_ma)),
@@ -304,27 +287,17 @@ impl ResultDocument {
     }
 
     pub(crate) fn found(&self, gravity_m_per_s2: f64, gravity_u_m_per_s2: Option<f64>) -> Found {
-        let [[kx, kxy], [kyx, ky]] = self.k_deg_per_h_per_ma;
         let u = &self.standard_uncertainty;
-        let [[u_kx, u_kxy], [u_kyx, u_ky]] = u.k_deg_per_h_per_ma;
-        let [u_0x, u_0y] = u.omega0_deg_per_h;
+        let eight = |[[kx, kxy], [kyx, ky]]: [[f64; 2]; 2], [x, y]: [f64; 2], per_g: [Option<f64>; 2]| {
+            let [omega_g, omega_k] = per_g.map(|value| value.unwrap_or(f64::NAN));
+            [kx, kxy, kyx, ky, x, y, omega_g, omega_k]
+        };
+        let per_g = [self.omega_g_deg_per_h_per_g, self.omega_k_deg_per_h_per_g];
+        let u_per_g = [u.omega_g_deg_per_h_per_g, u.omega_k_deg_per_h_per_g];
+        let values = eight(self.k_deg_per_h_per_ma, self.omega0_deg_per_h, per_g);
         Found {
-            parameters: GyroParameters {
-                k_deg_per_h_per_ma: Matrix2::new(kx, kxy, kyx, ky),
-                omega0_deg_per_h: Vector2::from(self.omega0_deg_per_h),
-                omega_g_deg_per_h_per_g: self.omega_g_deg_per_h_per_g.unwrap_or(f64::NAN),
-                omega_k_deg_per_h_per_g: self.omega_k_deg_per_h_per_g.unwrap_or(f64::NAN),
-            },
-            standard_uncertainty: [
-                u_kx,
-                u_kxy,
-                u_kyx,
-                u_ky,
-                u_0x,
-                u_0y,
-                u.omega_g_deg_per_h_per_g.unwrap_or(f64::NAN),
-                u.omega_k_deg_per_h_per_g.unwrap_or(f64::NAN),
-            ],
+            parameters: GyroParameters::from_vector(&values),
+            standard_uncertainty: eight(u.k_deg_per_h_per_ma, u.omega0_deg_per_h, u_per_g),
             degrees_of_freedom: [f64::INFINITY; 8],
             gravity_m_per_s2,
             gravity_u_m_per_s2: gravity_u_m_per_s2.unwrap_or(0.0),
@@ -332,7 +305,8 @@ impl ResultDocument {
     }
 }
 
-fn finite(value: f64) -> Option<f64> {
+/// Returns a number if JSON can have it.
+pub(crate) fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
@@ -366,7 +340,7 @@ impl UncertaintyDocument {
                 .then(|| rows(&result.omega_n_uncertainty_deg_per_h_per_g)),
             omega_g_deg_per_h_per_g: result.standard_uncertainty(Parameter::OmegaG),
             omega_k_deg_per_h_per_g: result.standard_uncertainty(Parameter::OmegaK),
-            g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows_of_three(&g.standard_uncertainty_deg_per_h_per_g)),
+            g_matrix_deg_per_h_per_g: result.g_matrix.map(|g| rows(&g.standard_uncertainty_deg_per_h_per_g)),
             drift_deg_per_h_per_h: result.drift.map(|drift| drift.standard_uncertainty_deg_per_h_per_h.into()),
             anisoelasticity_deg_per_h_per_g2: result.standard_uncertainty(Parameter::Anisoelasticity),
         }

@@ -2,6 +2,7 @@
 //! of other positions.
 
 use super::{OtherRuns, Reading, averages};
+use crate::attitude::ANGLES;
 use crate::coefficients::PositionIndex;
 use crate::statistics::coincidences::{self, Coincidence};
 use crate::text::problem::{MOST_PROBLEMS, Problem};
@@ -112,14 +113,8 @@ fn other_scales(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Prob
         let ratio = (own / usual).sqrt();
         let near = |factor: f64| (1.0 / FACTOR_MARGIN..FACTOR_MARGIN).contains(&(ratio * factor));
         let problem = |words: String, advice: &str| {
-            at_run(
-                table,
-                rows,
-                run,
-                format!("run {run}, whose angles are {words}"),
-                "about those of the other runs",
-                advice,
-            )
+            let found = format!("run {run}, whose angles are {words}");
+            at_run(table, rows, run, found, "about those of the other runs", advice)
         };
         let too_small = UNITS.into_iter().find(|(factor, _)| near(*factor));
         let too_large = UNITS.into_iter().find(|(factor, _)| near(1.0 / factor));
@@ -128,13 +123,8 @@ fn other_scales(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Prob
             small.extend(problem(words, &format!("the run is in {unit}; convert it to arcseconds")));
         } else if let Some((factor, unit)) = too_large {
             let words = format!("{factor:.0} times those of the other runs");
-            large.extend(problem(
-                words,
-                &format!(
-                    "convert it only once, or check whether the other runs are in \
-                     {unit}"
-                ),
-            ));
+            let advice = format!("convert it only once, or check whether the other runs are in {unit}");
+            large.extend(problem(words, &advice));
         } else if correlation < 0.0 && near(1.0) {
             small.extend(problem("those of the other runs with the opposite sign".to_owned(), "correct the sign"));
         }
@@ -142,9 +132,6 @@ fn other_scales(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Prob
     // If one run is too small, all others look too large compared with it.
     if small.is_empty() { large } else { small }
 }
-
-/// Names of the angles.
-const ANGLES: [&str; 3] = ["alpha", "beta", "gamma"];
 
 /// Column of the file for each angle, with its sign.
 type Axes = [(usize, f64); 3];

@@ -76,9 +76,9 @@ const LARGEST_NORMAL: f64 = 8.5;
 impl Kernel {
     pub(crate) fn new(setup: &Setup, means_ma: &[Vector2<f64>], plan: &Plan) -> Self {
         let earth = setup.earth_rate_east_north_up();
-        let each = setup.turns().iter().zip(setup.coefficients().positions.iter()).zip(means_ma).enumerate();
+        let each = setup.turns.iter().zip(means_ma).enumerate();
         let places: Vec<Place> = each
-            .map(|(place, ((turn, _), means_ma))| {
+            .map(|(place, (turn, means_ma))| {
                 let certified = turn.certified;
                 let angles_rad = [certified.alpha_rad, certified.beta_rad, certified.gamma_rad];
                 Place {

@@ -18,11 +18,11 @@ pub(crate) mod plan;
 pub(crate) mod refit;
 mod student;
 
+use crate::calibration::analytic::NoAnalyticSolution;
 use crate::calibration::procedure::{Linearised, linearise};
 use crate::calibration::result::MethodRefusal;
 use crate::calibration::{Method, Options, Readings, Setup};
 use crate::statistics::wide_random::{Column, WIDTH, WideRandom};
-use closed::Closed;
 use kernel::Kernel;
 use plan::Plan;
 use refit::Refit;
@@ -46,14 +46,15 @@ pub enum ReadingShape {
 /// Method that computes the parameters in every trial.
 #[derive(Debug, Clone)]
 enum Solver {
-    Closed(Closed),
+    /// Analytic method, with the places of the eight positions.
+    Closed([usize; 8]),
     Refit(Box<Refit>),
 }
 
 /// Monte Carlo engine, prepared for one calibration.
 #[derive(Debug, Clone)]
 pub struct Engine {
-    plan: Plan,
+    pub(crate) plan: Plan,
     kernel: Kernel,
     solver: Solver,
 }
@@ -75,17 +76,20 @@ impl Engine {
     /// # Errors
     /// Returns [`MethodRefusal`] if the method has no solution for these readings.
     pub fn new(setup: &Setup, readings: &Readings, method: Method, shape: ReadingShape) -> Result<Self, MethodRefusal> {
-        let Linearised { fit, repeats, offsets, .. } = linearise(setup, readings, method, &Options::default())?;
-        if !offsets.are_balanced() {
+        let Linearised { fit, data, .. } = linearise(setup, readings, method, &Options::default())?;
+        if !data.offsets.are_balanced() {
             return Err(MethodRefusal::NotThisModel);
         }
         let setup = &*setup.of_readings(readings);
         let means_ma = readings.means_ma();
         let solver = match method {
             Method::LeastSquares => Solver::Refit(Box::new(Refit::new(&fit))),
-            Method::Analytic | Method::Iterative => Solver::Closed(Closed::new(setup)?),
+            Method::Analytic | Method::Iterative => {
+                let eight = setup.coefficients().eight();
+                Solver::Closed(eight.ok_or(NoAnalyticSolution::EightPositionsMissing)?)
+            }
         };
-        let plan = Plan::new(setup, &means_ma, &repeats, shape);
+        let plan = Plan::new(setup, &means_ma, &data.repeats, shape);
         let kernel = Kernel::new(setup, &means_ma, &plan);
         Ok(Self { plan, kernel, solver })
     }
@@ -105,7 +109,7 @@ impl Engine {
     }
 
     /// Returns the parameters for given standard deviates, one row per trial (at most [`WIDTH`]), in the order of
-    /// [`Plan::inputs`]; for tests against the exact path.
+    /// `Plan::inputs`; for tests against the exact path.
     #[cfg(test)]
     pub(crate) fn solutions_for(&self, trials: &[Vec<f64>]) -> Vec<[f64; 8]> {
         let mut work = self.workspace();
@@ -114,22 +118,16 @@ impl Engine {
                 column[trial] = *deviate;
             }
         }
-        pulp::Arch::new().dispatch(Chunk { engine: self, work: &mut work });
+        self.solve(&mut work);
         let count = trials.len().min(WIDTH);
         (0..count).map(|trial| std::array::from_fn(|place| work.solutions[place][trial])).collect()
-    }
-
-    /// Returns the plan of the inputs that are drawn.
-    #[cfg(test)]
-    pub(crate) fn plan(&self) -> &Plan {
-        &self.plan
     }
 
     #[inline(always)]
     fn solve(&self, work: &mut Workspace) {
         self.kernel.run(&work.deviates, &mut work.positions);
         match &self.solver {
-            Solver::Closed(closed) => closed.solve(&work.positions, &mut work.solutions),
+            Solver::Closed(eight) => closed::solve(eight, &work.positions, &mut work.solutions),
             Solver::Refit(refit) => refit.solve(&work.positions, &mut work.solutions),
         }
     }
@@ -153,22 +151,6 @@ impl<F: FnMut(&Solutions)> pulp::WithSimd for Block<'_, F> {
             self.engine.solve(self.work);
             (self.each)(&self.work.solutions);
         }
-    }
-}
-
-#[cfg(test)]
-struct Chunk<'a> {
-    engine: &'a Engine,
-    work: &'a mut Workspace,
-}
-
-#[cfg(test)]
-impl pulp::WithSimd for Chunk<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        self.engine.solve(self.work);
     }
 }
 

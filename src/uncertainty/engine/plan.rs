@@ -64,7 +64,7 @@ pub(crate) struct DrawnInput {
 /// Inputs that are drawn, in the order of their columns.
 #[derive(Debug, Clone)]
 pub(crate) struct Plan {
-    inputs: Vec<DrawnInput>,
+    pub(crate) inputs: Vec<DrawnInput>,
     /// Degrees of freedom of the estimates that some inputs depend on.
     estimates: Vec<f64>,
 }
@@ -119,12 +119,6 @@ impl Plan {
             add(Drawn::TurnOn(axis), repeats.turn_on_of_mean_deg_per_h(), estimates.turn_ons, normal);
         }
         Self { inputs, estimates: estimates.degrees_of_freedom }
-    }
-
-    /// Returns the inputs, in the order of their columns.
-    #[cfg(test)]
-    pub(crate) fn inputs(&self) -> &[DrawnInput] {
-        &self.inputs
     }
 
     /// Returns the number of columns of standard deviates, including the column of zeros and one for each estimate.

@@ -11,13 +11,19 @@ const MOST_WITHOUT_BRANCHES: f64 = 38.0;
 /// Draws ν/χ² for every trial: the variance given an estimate of 1 with ν degrees of freedom.
 #[inline(always)]
 pub(crate) fn variance(lanes: &mut WideRandom, factor: &mut Column, degrees_of_freedom: f64) {
-    *factor = if degrees_of_freedom <= MOST_WITHOUT_BRANCHES && degrees_of_freedom.fract() == 0.0 {
+    *factor = chi_square(lanes, degrees_of_freedom);
+    for value in factor {
+        *value = degrees_of_freedom / *value;
+    }
+}
+
+/// Draws χ² with any degrees of freedom.
+#[inline(always)]
+fn chi_square(lanes: &mut WideRandom, degrees_of_freedom: f64) -> Column {
+    if degrees_of_freedom <= MOST_WITHOUT_BRANCHES && degrees_of_freedom.fract() == 0.0 {
         whole(lanes, degrees_of_freedom)
     } else {
         any(lanes, degrees_of_freedom)
-    };
-    for value in factor {
-        *value = degrees_of_freedom / *value;
     }
 }
 
@@ -119,12 +125,7 @@ mod tests {
             let n = 3000 * WIDTH;
             let mut values = Vec::with_capacity(n);
             for _ in 0..3000 {
-                let column = if degrees_of_freedom <= MOST_WITHOUT_BRANCHES && f64::fract(degrees_of_freedom) == 0.0 {
-                    whole(&mut lanes, degrees_of_freedom)
-                } else {
-                    any(&mut lanes, degrees_of_freedom)
-                };
-                values.extend(column);
+                values.extend(chi_square(&mut lanes, degrees_of_freedom));
             }
             let n = n as f64;
             let mean = values.iter().sum::<f64>() / n;

@@ -14,7 +14,7 @@ fn found(readings: u32) -> Plan {
     let question = Question {
         site: &fixtures::site(fixtures::SITE),
         stand: None,
-        angles: Angles::Quadrants,
+        angles: Angles::QUADRANTS,
         gyro: &GyroType::gvk_6(),
         laboratory: &Laboratory::paper(),
         readings,

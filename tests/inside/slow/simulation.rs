@@ -206,7 +206,7 @@ fn unweighted_least_squares() {
                 let mut currents: Vec<_> = at.positions.iter().map(|at| nominal.currents_ma(at).unwrap()).collect();
                 CurrentError::Independent.add(stream, 0.015, &mut currents);
                 let closed = analytic::solve(&at, &currents).unwrap().parameters;
-                let fitted = least_squares::solve(&at, &currents, &equal, Model::Paper).unwrap().parameters;
+                let fitted = least_squares::solve(&at, &currents, &equal, Model::Paper).unwrap();
                 for (errors, found) in errors.iter_mut().zip([closed, fitted]) {
                     for ((summary, found), nominal) in errors.iter_mut().zip(found.to_vector()).zip(nominal.to_vector())
                     {

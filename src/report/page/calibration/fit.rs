@@ -217,14 +217,14 @@ fn explained(explanation: &Explanation, language: Language) -> String {
 /// Returns the name of an input without a stated uncertainty.
 pub(crate) fn not_stated(what: NotStated) -> Text {
     match what {
-        NotStated::Angles => texts::NOT_STATED_ANGLES,
-        NotStated::Return => texts::NOT_STATED_RETURN,
+        NotStated::Angles => texts::CAUSE_ANGLE,
+        NotStated::Return => texts::CAUSE_RETURN,
         NotStated::Platform => texts::NOT_STATED_PLATFORM,
         NotStated::Base => texts::NOT_STATED_BASE,
-        NotStated::Latitude => texts::NOT_STATED_LATITUDE,
-        NotStated::Deflection => texts::NOT_STATED_DEFLECTION,
-        NotStated::Azimuth => texts::NOT_STATED_AZIMUTH,
-        NotStated::Mark => texts::NOT_STATED_MARK,
+        NotStated::Latitude => texts::CAUSE_LATITUDE,
+        NotStated::Deflection => texts::CAUSE_DEFLECTION,
+        NotStated::Azimuth => texts::CAUSE_AZIMUTH,
+        NotStated::Mark => texts::CAUSE_MARK,
         NotStated::Level => texts::NOT_STATED_LEVEL,
         NotStated::Seat => texts::NOT_STATED_SEAT,
         NotStated::Gain => texts::NOT_STATED_GAIN,

@@ -1,7 +1,7 @@
 //! Object of the calibration: gyro, stand, passport and readings.
 
 use super::{CalibrationPage, Section, UsedPassport, boxed};
-use crate::calibration::document::ExclusionDocument;
+use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::TemperatureOutside;
 use crate::laboratory::Laboratory;
 use crate::report::page::language::Languages;
@@ -57,7 +57,7 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
     let result = page.result();
     let subject = result.subject.as_ref();
     let celsius = |value: f64| quantity(languages, &Number::exact(value), units::CELSIUS);
-    let excluded = |at: &ExclusionDocument| {
+    let excluded = |at: &Exclusion| {
         let cycle = at.cycle.map(|cycle| format!(", {cycle}")).unwrap_or_default();
         format!("({}, {}), {}{cycle}: {}", at.i, at.j, at.visit, at.why)
     };

@@ -355,19 +355,13 @@ texts! {
         ru: "Не указано (или указано равным нулю) и не учтено в неопределённости:"
     }
     ALL_STATED { en: "All relevant uncertainties are stated.", ru: "Все учитываемые неопределённости указаны." }
-    NOT_STATED_ANGLES { en: "certified angles", ru: "аттестованные углы" }
-    NOT_STATED_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
     NOT_STATED_PLATFORM { en: "common part of the platform", ru: "общая составляющая платформы" }
     NOT_STATED_BASE { en: "common part of the base of the stand", ru: "общая составляющая основания стенда" }
-    NOT_STATED_LATITUDE { en: "latitude", ru: "широта" }
-    NOT_STATED_DEFLECTION { en: "deflection of the vertical", ru: "уклонение отвесной линии" }
-    NOT_STATED_MARK { en: "azimuth of the mark", ru: "азимут ориентирного пункта" }
     NOT_STATED_GAIN { en: "gain of the meter", ru: "коэффициент преобразования измерителя" }
     NOT_STATED_OFFSET { en: "offset of the meter", ru: "смещение нуля измерителя" }
     NOT_STATED_VISITS { en: "gyro noise from visit to visit", ru: "шум гироскопа от установки к установке" }
     NOT_STATED_TURN_ONS { en: "gyro noise from turn-on to turn-on", ru: "нестабильность гироскопа от запуска к запуску" }
     NOT_STATED_GRAVITY { en: "gravity", ru: "ускорение свободного падения" }
-    NOT_STATED_AZIMUTH { en: "azimuth of the base", ru: "азимут основания" }
     NOT_STATED_LEVEL { en: "level of the base", ru: "горизонтирование основания" }
     NOT_STATED_SEAT { en: "gyro seat", ru: "установка гироскопа на посадочную поверхность" }
 

@@ -31,7 +31,7 @@ fn rotation(turn: Vector3<f64>) -> Matrix3<f64> {
 
 /// Coefficients and currents of one trial, by nalgebra and libm, one thing after the other.
 fn exactly(case: &Case, engine: &Engine, deviates: &[f64]) -> (Coefficients, Vec<Vector2<f64>>) {
-    let inputs = engine.plan().inputs();
+    let inputs = &engine.plan.inputs;
     let value = |what: Drawn| {
         let place = inputs.iter().position(|input| input.what == what);
         place.map_or(0.0, |place| deviates[place] * inputs[place].standard_uncertainty)
@@ -82,7 +82,7 @@ fn exactly(case: &Case, engine: &Engine, deviates: &[f64]) -> (Coefficients, Vec
 /// Standard deviates of as many trials as run side by side.
 fn deviates(engine: &Engine, seed: u64, factor: f64) -> Vec<Vec<f64>> {
     let mut stream = Stream::new(seed);
-    (0..WIDTH).map(|_| engine.plan().inputs().iter().map(|_| factor * stream.normal()).collect()).collect()
+    (0..WIDTH).map(|_| engine.plan.inputs.iter().map(|_| factor * stream.normal()).collect()).collect()
 }
 
 /// Expected: the same trials by nalgebra, libm and the library's own closed solution, 1e-12 of each parameter; the last
@@ -96,13 +96,13 @@ fn the_fast_path_agrees_with_the_exact_one() {
             // Currents far off would make a singular gyro: only angles are made large.
             let mut trials = deviates(&engine, seed, 1.0);
             for trial in &mut trials {
-                for (deviate, input) in trial.iter_mut().zip(engine.plan().inputs()) {
+                for (deviate, input) in trial.iter_mut().zip(&engine.plan.inputs) {
                     if matches!(input.what, Drawn::Angle(..) | Drawn::Case(_) | Drawn::Base(_)) {
                         *deviate *= factor;
                     }
                 }
             }
-            let long_tails = engine.plan().inputs().iter().any(|input| input.degrees_of_freedom.is_finite());
+            let long_tails = engine.plan.inputs.iter().any(|input| input.degrees_of_freedom.is_finite());
             if factor > 10.0 && !long_tails {
                 continue; // Normal deviates never come this far, and the engine relies on it.
             }
@@ -135,7 +135,7 @@ fn the_refit_is_that_of_least_squares() {
     for (trial, found) in trials.iter().zip(engine.solutions_for(&trials)) {
         let (coefficients, currents) = exactly(&case, &engine, trial);
         let due = least_squares::solve(&coefficients, &currents, &paper_meter(), Model::Paper).unwrap();
-        for ((found, due), line) in found.iter().zip(due.parameters.to_vector()).zip(&budget.parameters) {
+        for ((found, due), line) in found.iter().zip(due.to_vector()).zip(&budget.parameters) {
             assert!((found - due).abs() < 0.01 * line.standard_uncertainty, "{}: {found} {due}", line.parameter.key());
         }
     }
