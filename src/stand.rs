@@ -133,6 +133,13 @@ record! {
     }
 }
 
+impl Certificate {
+    /// Returns the date to which the deviations belong: that of the measurement, else that of issue.
+    pub(crate) fn measured(&self) -> Date {
+        self.performed.unwrap_or(self.issued)
+    }
+}
+
 impl CertifiedPosition {
     /// Returns the index (i, j) of the position.
     pub fn index(&self) -> PositionIndex {

@@ -122,8 +122,18 @@ impl Run<'_> {
     }
 
     fn chunk(&mut self, tell: Listener) {
-        let done = parallel::map(&self.pairs, self.batch.threads, |pair| Some(self.one(pair)));
+        let done = parallel::map(&self.pairs, self.batch.threads, |pair| {
+            let outcome = self.one(pair);
+            let objection = self.objection(&outcome);
+            (outcome, objection)
+        });
         self.pairs.clear();
+        for (outcome, objection) in &done {
+            if let (Outcome::There(there), Some(words)) = (outcome, objection) {
+                tell(Event::Remark { file: there.id.clone(), words: words.clone() });
+            }
+        }
+        let done = done.into_iter().map(|(outcome, _)| Some(outcome)).collect();
         self.batch.tell(done, tell);
     }
 
@@ -138,6 +148,12 @@ impl Run<'_> {
             || folder.next_first(stand, site, order),
             |seal| folder.issue(stand, site, order, seal),
         )
+    }
+
+    /// Returns why a passport that was there already may not be used, or `None` if nothing is known against it.
+    fn objection(&self, outcome: &Outcome) -> Option<String> {
+        let (Outcome::There(there), Some((trust, time))) = (outcome, self.job.known) else { return None };
+        if there.new { None } else { self.job.folder.against_passport(there, trust, time) }
     }
 }
 

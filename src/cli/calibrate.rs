@@ -1,7 +1,7 @@
 //! Verb `calibrate`: the gyro's parameters from a passport and currents, or those of several gyros.
 
 use super::administrative::AdministrativeFile;
-use super::inputs::{self, Each};
+use super::inputs::{self, Each, Once};
 use super::output::Format;
 use super::render::languages;
 use super::show::{Read, Whom};
@@ -31,7 +31,6 @@ use crate::uncertainty::document::WholeDocument;
 use clap::{Args, ValueEnum};
 use jiff::Timestamp;
 use jiff::civil::Date;
-use nalgebra::Vector2;
 use serde::Serialize;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -303,19 +302,10 @@ impl Bench<'_> {
             output::complain(&format!("WARNING: {warning}"));
         }
         let mut written = HashMap::new();
-        let mut calibrated: Vec<(Vec<Vector2<f64>>, String)> = Vec::new();
+        let mut calibrated = Once::new();
         let calibrate = |path: &Path| {
             let found = self.calibrate(path)?;
-            let (currents_ma, file) = (found.done.readings.means_ma(), found.currents.0.clone());
-            if let Some((_, other)) = calibrated.iter().find(|(other, _)| *other == currents_ma) {
-                let words = format!(
-                    "{}: found the currents of {}, expected those of another gyro",
-                    Printable(&file),
-                    Printable(other)
-                );
-                return Err(Failure::refused(words));
-            }
-            calibrated.push((currents_ma, file));
+            calibrated.check(found.done.readings.means_ma(), &found.currents.0, ["currents", "gyro"])?;
             if let Some(folder) = &options.out {
                 self.write(folder, path, &found, &mut written)?;
             }

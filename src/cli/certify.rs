@@ -2,10 +2,11 @@
 
 use super::diff::past;
 use super::exclusion::ExclusionOptions;
+use super::inputs::{self, Once};
 use super::output::Format;
 use super::render::languages;
 use super::trust_options::OptionalTrust;
-use super::{Code, Failure, REFUSED, inputs, output};
+use super::{Code, Failure, REFUSED, output};
 use crate::batch::{Purpose, paths};
 use crate::certification::comparison::compare;
 use crate::certification::{AngleReadings, Certification, Header, certify, predicted};
@@ -98,6 +99,7 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
         let words = "is not a folder; with --out, --stand is the folder of the headers, NAME.yaml for NAME.csv";
         return Err(Failure::usage(format!("--stand {}: {words}", shown(headers))));
     }
+    let (mut measured, mut numbered) = (Once::new(), Once::new());
     let work = |readings: &Path| {
         let header = header_of(headers, readings)?;
         let bytes = inputs::bytes(readings, Kind::Angles.words())?;
@@ -108,6 +110,12 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
         }
         let certified = certify(&header, &read);
         let certified = certified.map_err(|refused| Failure::refused(format!("{}: {refused}", Printable(&name))))?;
+        measured.check(read.means_arcsec().to_vec(), &name, ["angles", "stand"])?;
+        let number = &certified.stand.certificate.number;
+        if let Some(other) = numbered.earlier(number.clone(), &name) {
+            let (name, number, other) = (Printable(&name), Printable(number), Printable(other));
+            output::say(&format!("{name}: WARNING: its certificate has the number of that for {other}, {number}"));
+        }
         let stand = &certified.stand.stand;
         let path = folder.join(stand.model.as_str()).join(stand.serial.as_str()).join("stand.yaml");
         write(&path, &certified, &[], options.force)?;

@@ -302,6 +302,16 @@ impl Folder {
         }
     }
 
+    /// Returns why a passport that was there already may not be used, in words; `None` if nothing with it in its folder
+    /// speaks against it.
+    pub(crate) fn against_passport(&self, there: &Issued, trust: &Trust, time: Timestamp) -> Option<String> {
+        let folder = there.path.parent()?;
+        let (register, _) = search::register(folder, trust.clone(), &Asked::at(time), 1).ok()?;
+        let line = register.passports.into_iter().find(|line| line.sha256 == there.sha256)?;
+        (!line.is_usable())
+            .then(|| format!("WARNING: this passport may not be used, it is {}: {}", line.state.words(), line.why))
+    }
+
     /// Issues revision 1 of a stand for a site.
     ///
     /// An equal passport (apart from its time, program and signature) is left unchanged; a different one of that name

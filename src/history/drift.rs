@@ -1,7 +1,6 @@
 //! Drift of the certified deviations: a straight line through each over the years, and the tests of the line and of its
 //! slope. A deviation that is not on a line has jumped: it has no rate.
 
-use super::measured;
 use crate::coefficients::PositionIndex;
 use crate::passport::difference::u_of_deviations_arcsec;
 use crate::stand::{ActsOn, CertifiedPosition, Stand};
@@ -87,7 +86,9 @@ impl Drift {
     /// The uncertainties of different certificates are taken as independent. Contributions that they share, such as
     /// those of one autocollimator, then make a drift look less significant than it is.
     pub(crate) fn of(certificates: &[&Stand]) -> Self {
-        let Some(first) = certificates.first().map(|stand| measured(stand)) else { return Self { series: Vec::new() } };
+        let Some(first) = certificates.first().map(|stand| stand.certificate.measured()) else {
+            return Self { series: Vec::new() };
+        };
         let mut nominal: Vec<(PositionIndex, f64, f64)> = Vec::new();
         for at in certificates.iter().flat_map(|stand| &stand.positions) {
             let position = (at.index(), at.theta_deg, at.phi_deg);
@@ -175,7 +176,7 @@ fn reject_lines(series: &mut [Series]) {
 fn value(stand: &Stand, position: &(PositionIndex, f64, f64), angle: usize, first: Date) -> Option<Value> {
     let same = |at: &&CertifiedPosition| (at.index(), at.theta_deg, at.phi_deg) == *position;
     let at = stand.positions.iter().find(same)?;
-    let date = measured(stand);
+    let date = stand.certificate.measured();
     let days = first.until(date).map_or(0, |span| span.get_days());
     let u_arcsec = u_of_deviations_arcsec(at, &stand.certificate)[angle];
     Some(Value {

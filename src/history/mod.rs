@@ -14,7 +14,6 @@ use crate::stand::Stand;
 use crate::text::scalar::day;
 use drift::Drift;
 use jiff::Timestamp;
-use jiff::civil::Date;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -93,11 +92,6 @@ impl Recorded {
     }
 }
 
-/// Returns the date to which the deviations of a certificate belong: that of the measurement, else that of issue.
-pub(crate) fn measured(stand: &Stand) -> Date {
-    stand.certificate.performed.unwrap_or(stand.certificate.issued)
-}
-
 impl History {
     /// Creates the history of a stand, `<model>/<serial>`, from the files of its passports; `register` and `trust` are
     /// those of their folder.
@@ -144,7 +138,7 @@ fn certificates(recorded: &[Recorded], remarks: &mut Vec<String>) -> Vec<PastCer
         }
     }
     found.sort_by(|a, b| {
-        let key = |at: &PastCertificate| (measured(&at.stand), at.stand.certificate.issued);
+        let key = |at: &PastCertificate| (at.stand.certificate.measured(), at.stand.certificate.issued);
         key(a).cmp(&key(b)).then_with(|| a.stand.certificate.number.cmp(&b.stand.certificate.number))
     });
     for (place, at) in found.iter().enumerate() {

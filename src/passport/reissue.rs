@@ -7,7 +7,7 @@ use super::issue::{Draft, Issue, IssueRefused, PreparedStand, Reissued};
 use super::verification::Verification;
 use crate::document::sha256_hex;
 use crate::site::Site;
-use crate::stand::{Identity, Stand};
+use crate::stand::{Certificate, Identity, Stand};
 use crate::text::{Field, Node, number, rule};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -83,6 +83,21 @@ pub enum ReissueRefused {
         /// Time of issue of the predecessor.
         old: Timestamp,
     },
+    /// The given certificate is older than that of the predecessor.
+    #[error(
+        "certificate {given} was measured on {given_measured}, before certificate {old} ({old_measured}) of the \
+         predecessor; use the newest stand file, or withdraw the predecessor first if its certificate is wrong"
+    )]
+    OlderCertificate {
+        /// Number of the certificate in the stand file.
+        given: String,
+        /// Its date of measurement, or of issue if that is not stated.
+        given_measured: Date,
+        /// Number of the certificate in the predecessor.
+        old: String,
+        /// Its date of measurement, or of issue if that is not stated.
+        old_measured: Date,
+    },
     /// The new passport cannot be issued.
     #[error(transparent)]
     Issue(#[from] IssueRefused),
@@ -135,6 +150,11 @@ pub fn successor(old_bytes: &[u8], verification: &Verification, order: &Order) -
     let (given, known) = (name(&stand.stand), name(&old.stand));
     if given != known {
         return Err(ReissueRefused::OtherStand { given, old: known });
+    }
+    let [given_measured, old_measured] = [&stand.certificate, &old.certificate].map(Certificate::measured);
+    if matches!(usable, Usable::Whole) && given_measured < old_measured {
+        let [given, old] = [&stand.certificate, &old.certificate].map(|certificate| certificate.number.clone());
+        return Err(ReissueRefused::OlderCertificate { given, given_measured, old, old_measured });
     }
     let same_site = site.id == old.site.id;
     if same_site && order.moved {

@@ -2,7 +2,7 @@
 
 use crate::attitude::ANGLES;
 use crate::history::drift::{DRIFTS, Drift, Jump, SUSPECTED, Series};
-use crate::history::{History, PastCertificate, PastPassport, measured};
+use crate::history::{History, PastCertificate, PastPassport};
 use crate::report::page::language::capital;
 use crate::report::picture::history::LETTERS;
 use crate::report::{columns, style};
@@ -170,7 +170,7 @@ fn time_line(history: &History) -> Vec<(String, &'static str, String)> {
             "{}, {}{runs}, issued {}{withdrawn}",
             certificate.number, certificate.laboratory, certificate.issued
         );
-        events.push((measured(&at.stand).to_string(), "measured", words));
+        events.push((certificate.measured().to_string(), "measured", words));
     }
     for passport in &history.passports {
         let Some(issued) = passport.issued_at else { continue };

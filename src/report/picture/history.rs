@@ -5,7 +5,7 @@ use super::chart::Field;
 use super::drawing::{Anchor, Panel, Point, Scale, Ticks, coordinate, line, rectangle, words};
 use super::file::{caption, file};
 use crate::history::drift::{DRIFTS, Drift, Series};
-use crate::history::{History, PastPassport, measured};
+use crate::history::{History, PastPassport};
 use crate::report::page::language::{Language, Languages};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -64,7 +64,7 @@ fn year_of_time(time: Timestamp) -> f64 {
 }
 
 fn time_scale(history: &History, now: Timestamp) -> Scale {
-    let certificates = history.certificates.iter().map(|at| year_of(measured(&at.stand)));
+    let certificates = history.certificates.iter().map(|at| year_of(at.stand.certificate.measured()));
     let issued = history.passports.iter().filter_map(|at| at.issued_at).map(year_of_time);
     let (low, high) = certificates
         .chain(issued)
@@ -111,7 +111,7 @@ fn time_line(history: &History, time: &Scale, bottom: f64) -> Markup {
         }
         (words([ACROSS[0] - 8.0, row(0) + 4.0], Anchor::End, "small", "certificates"))
         @for at in &history.certificates {
-            (super::drawing::mark([time.place(year_of(measured(&at.stand))), row(0)], 1, "mark"))
+            (super::drawing::mark([time.place(year_of(at.stand.certificate.measured())), row(0)], 1, "mark"))
         }
         @for (place, stay) in (1..).zip(&history.places) {
             (words([ACROSS[0] - 8.0, row(place) + 4.0], Anchor::End, "small", &shortened(&stay.site)))
@@ -232,10 +232,9 @@ fn whisker_sample() -> Markup {
 }
 
 fn in_words(history: &History) -> String {
-    let certificates = history
-        .certificates
-        .iter()
-        .map(|at| format!("certificate {} measured on {}", at.stand.certificate.number, measured(&at.stand)));
+    let certificates = history.certificates.iter().map(|at| {
+        format!("certificate {} measured on {}", at.stand.certificate.number, at.stand.certificate.measured())
+    });
     let passports = history.passports.iter().filter_map(|at| {
         let ended = at.ended_at.map_or_else(|| "in force".to_owned(), |end| format!("until {end}"));
         Some(format!("passport {} from {}, {ended}", at.line.id.as_deref()?, at.issued_at?))
