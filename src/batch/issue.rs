@@ -9,6 +9,7 @@ use crate::passport::content::passport_id;
 use crate::passport::issue::{Issue, PreparedStand};
 use crate::site::Site;
 use jiff::Timestamp;
+use std::collections::BTreeMap;
 use std::io::BufRead;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -49,7 +50,8 @@ impl Batch<'_> {
         fail(bad_stands, all_sites, tell);
         fail(bad_sites, stands.len() as u64, tell);
         tell(Event::Planned(self.shard.share((stands.len() * sites.len()) as u64)));
-        let mut run = Run { batch: self, job, sweeper: Sweeper::default(), pairs: Vec::new() };
+        let mut run =
+            Run { batch: self, job, sweeper: Sweeper::default(), pairs: Vec::new(), unusable: BTreeMap::new() };
         if self.seal.is_some() {
             run.sweeper.sweep(job.folder.root());
         }
@@ -62,6 +64,8 @@ struct Run<'a> {
     job: &'a Job<'a>,
     sweeper: Sweeper,
     pairs: Vec<Pair>,
+    /// Passports that may not be used, by folder and SHA-256: each folder is read once, and only if something was there.
+    unusable: BTreeMap<PathBuf, BTreeMap<String, String>>,
 }
 
 impl Run<'_> {
@@ -122,18 +126,11 @@ impl Run<'_> {
     }
 
     fn chunk(&mut self, tell: Listener) {
-        let done = parallel::map(&self.pairs, self.batch.threads, |pair| {
-            let outcome = self.one(pair);
-            let objection = self.objection(&outcome);
-            (outcome, objection)
-        });
+        let done = parallel::map(&self.pairs, self.batch.threads, |pair| Some(self.one(pair)));
         self.pairs.clear();
-        for (outcome, objection) in &done {
-            if let (Outcome::There(there), Some(words)) = (outcome, objection) {
-                tell(Event::Remark { file: there.id.clone(), words: words.clone() });
-            }
+        for outcome in done.iter().flatten() {
+            self.remark_on_unusable(outcome, tell);
         }
-        let done = done.into_iter().map(|(outcome, _)| Some(outcome)).collect();
         self.batch.tell(done, tell);
     }
 
@@ -150,10 +147,18 @@ impl Run<'_> {
         )
     }
 
-    /// Returns why a passport that was there already may not be used, or `None` if nothing is known against it.
-    fn objection(&self, outcome: &Outcome) -> Option<String> {
-        let (Outcome::There(there), Some((trust, time))) = (outcome, self.job.known) else { return None };
-        if there.new { None } else { self.job.folder.against_passport(there, trust, time) }
+    /// Reports a passport that was there already and may not be used.
+    fn remark_on_unusable(&mut self, outcome: &Outcome, tell: Listener) {
+        let (Outcome::There(there), Some((trust, time))) = (outcome, self.job.known) else { return };
+        if there.new {
+            return;
+        }
+        let folder = folder_of(&there.path);
+        let read = || Folder::unusable(folder, trust, time, self.batch.threads);
+        let unusable = self.unusable.entry(folder.to_owned()).or_insert_with(read);
+        if let Some(words) = unusable.get(&there.sha256) {
+            tell(Event::Remark { file: there.id.clone(), words: words.clone() });
+        }
     }
 }
 

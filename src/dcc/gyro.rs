@@ -8,6 +8,7 @@ use super::{Administrative, Dcc};
 use crate::calibration::document::Subject as GyroSubject;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::readings::Exclusion;
+use crate::calibration::stated::TemperatureOutside;
 use crate::calibration::verdict::{Decision, Found, ParameterVerdict, Verdict};
 use crate::calibration::{Method, Model};
 use crate::gyro::GyroType;
@@ -131,7 +132,17 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
             languages,
         ))
     });
-    conformity.into_iter().chain([currents]).chain(excluded).chain(missing).collect()
+    let certificate = &calibrated.content.certificate;
+    let outside =
+        TemperatureOutside::of(certificate, calibrated.subject, calibrated.laboratory).map(|outside| {
+            let TemperatureOutside { here_c, low_c, high_c } = outside;
+            let [here, low, high] = [here_c, low_c, high_c].map(|celsius| celsius.to_string());
+            let values = [("here", here.as_str()), ("low", &low), ("high", &high)];
+            Element::new("dcc:statement")
+                .and(in_words("dcc:name", texts::TEMPERATURE_IS_OUTSIDE, languages))
+                .and(filled("dcc:declaration", texts::TEMPERATURE_OUTSIDE, &values, languages))
+        });
+    conformity.into_iter().chain([currents]).chain(excluded).chain(outside).chain(missing).collect()
 }
 
 fn passes(row: &ParameterVerdict) -> bool {
@@ -204,11 +215,22 @@ fn quantities(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
         let decisions = calibrated.judged.map(|judged| decisions(judged, parameters, unit, languages));
         quantity(Some("basic_measuredValue"), in_words("dcc:name", name, languages), list).and(decisions)
     };
-    vec![
+    // Unlimited degrees of freedom are not stated.
+    let freedom = Parameter::EIGHT.map(|parameter| (parameter, per_m_per_s2.degrees_of_freedom[parameter.place()]));
+    let known: Vec<_> = freedom.into_iter().filter(|(_, freedom)| freedom.is_finite()).collect();
+    let labels = known.iter().map(|(parameter, _)| parameter.key()).collect::<Vec<_>>().join(" ");
+    let each: Vec<f64> = known.iter().map(|(_, freedom)| *freedom).collect();
+    let freedom = (!known.is_empty()).then(|| {
+        let name = in_words("dcc:name", texts::EFFECTIVE_FREEDOM, languages);
+        quantity(None, name, parts::reals(Some(&labels), &each, units::ONE, &[]))
+    });
+    let mut quantities = vec![
         group(words::SCALE_FACTORS, &[Kx, Kxy, Kyx, Ky], units::DEG_PER_H_PER_MA),
         group(words::CONSTANT_DRIFT, &[Omega0x, Omega0y], units::DEG_PER_H),
         group(words::G_DRIFT, &[OmegaG, OmegaK], units::DEG_PER_H_PER_M_PER_S2),
-    ]
+    ];
+    quantities.extend(freedom);
+    quantities
 }
 
 /// Returns the decisions on parameters and the limits of their tolerances, in their order and unit.

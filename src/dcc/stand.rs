@@ -9,6 +9,7 @@ use crate::document::sha256_hex;
 use crate::passport::Content;
 use crate::report::Languages;
 use crate::report::page::language::Text;
+use crate::report::page::texts::calibration as texts;
 use crate::stand::{CertifiedPosition, Datum};
 use crate::text::Problems;
 
@@ -143,7 +144,11 @@ fn quantities(positions: &[CertifiedPosition], languages: &Languages) -> Vec<Ele
         let name = in_words("dcc:name", name, languages);
         quantity(Some("basic_measuredValue"), name, reals(None, &values, units::ARCSECOND, &u))
     };
-    vec![
+    let freedom: Vec<f64> = positions.iter().map(|at| at.degrees_of_freedom.unwrap_or(f64::NAN)).collect();
+    let freedom = positions.iter().any(|at| at.degrees_of_freedom.is_some()).then(|| {
+        quantity(None, in_words("dcc:name", texts::FREEDOM, languages), reals(None, &freedom, units::ONE, &[]))
+    });
+    let mut quantities = vec![
         column(None, words::INDEX_I, units::ONE, |at| f64::from(at.i)),
         column(None, words::INDEX_J, units::ONE, |at| f64::from(at.j)),
         column(Some("basic_nominalValue"), words::THETA, units::DEGREE, |at| at.theta_deg),
@@ -151,5 +156,7 @@ fn quantities(positions: &[CertifiedPosition], languages: &Languages) -> Vec<Ele
         measured(words::ALPHA, |at| (at.alpha_arcsec, at.u_alpha_arcsec)),
         measured(words::BETA, |at| (at.beta_arcsec, at.u_beta_arcsec)),
         measured(words::GAMMA, |at| (at.gamma_arcsec, at.u_gamma_arcsec)),
-    ]
+    ];
+    quantities.extend(freedom);
+    quantities
 }

@@ -26,7 +26,7 @@ use crate::passport::issue::{Draft, Issue, IssueRefused, PreparedStand, Remarks}
 use crate::passport::reissue::{Successor, changes};
 use crate::passport::verification::{Question, Trust, verify};
 use crate::passport::{NAMESPACE, read};
-use crate::register::Asked;
+use crate::register::{Asked, Line};
 use crate::site::Site;
 use crate::stand::{Identity, Stand};
 use crate::text::scalar::Identifier;
@@ -34,7 +34,7 @@ use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use names::{Names, Of};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -302,14 +302,15 @@ impl Folder {
         }
     }
 
-    /// Returns why a passport that was there already may not be used, in words; `None` if nothing with it in its folder
-    /// speaks against it.
-    pub(crate) fn against_passport(&self, there: &Issued, trust: &Trust, time: Timestamp) -> Option<String> {
-        let folder = there.path.parent()?;
-        let (register, _) = search::register(folder, trust.clone(), &Asked::at(time), 1).ok()?;
-        let line = register.passports.into_iter().find(|line| line.sha256 == there.sha256)?;
-        (!line.is_usable())
-            .then(|| format!("WARNING: this passport may not be used, it is {}: {}", line.state.words(), line.why))
+    /// Returns why passports in the folder of a stand may not be used, by their SHA-256, in words.
+    pub(crate) fn unusable(folder: &Path, trust: &Trust, time: Timestamp, threads: usize) -> BTreeMap<String, String> {
+        let Ok((register, _)) = search::register(folder, trust.clone(), &Asked::at(time), threads) else {
+            return BTreeMap::new();
+        };
+        let lines = register.passports.into_iter().filter(|line| !line.is_usable());
+        let words =
+            |line: &Line| format!("WARNING: this passport may not be used, it is {}: {}", line.state.words(), line.why);
+        lines.map(|line| (line.sha256.clone(), words(&line))).collect()
     }
 
     /// Issues revision 1 of a stand for a site.

@@ -234,9 +234,11 @@ fn every_example_is_valid_and_reads_back_bit_for_bit() {
             ("alpha_arcsec", Some("u_alpha_arcsec"), r"\arcsecond"),
             ("beta_arcsec", Some("u_beta_arcsec"), r"\arcsecond"),
             ("gamma_arcsec", Some("u_gamma_arcsec"), r"\arcsecond"),
+            ("degrees_of_freedom", None, r"\one"),
         ];
         let results = judged["results"].as_array().unwrap();
-        assert_eq!(results.len(), columns.len());
+        let stated = shown["positions"].as_array().unwrap().iter().any(|at| at["degrees_of_freedom"].is_number());
+        assert_eq!(results.len(), if stated { columns.len() } else { columns.len() - 1 });
         for (found, (key, u, unit)) in results.iter().zip(columns) {
             let column = |key: &str| -> Vec<Value> {
                 shown["positions"].as_array().unwrap().iter().map(|at| bits(&at[key])).collect()
@@ -611,7 +613,17 @@ fn a_gyro_has_its_certificate_with_decisions() {
         let keys = ["k_x k_xy k_yx k_y", "omega_0x omega_0y", "omega_g omega_k"];
         let expected = keys.map(|keys| keys.split(' ').map(decision).collect::<Vec<_>>().join(" "));
         assert_eq!(texts("conformityXMLList"), expected);
-        assert_eq!(texts("labelXMLList"), keys);
+        let every = keys.join(" ");
+        assert_eq!(texts("labelXMLList"), [&keys[..], &[every.as_str()]].concat());
+        // Without these a reader could only multiply u by 2. The uncertainty of g adds degrees of freedom.
+        let freedom = judged["results"][3]["values"].as_array().unwrap();
+        for (key, found) in every.split(' ').zip(freedom) {
+            let (due, found) = (result["degrees_of_freedom"][key].as_f64().unwrap(), number(found));
+            assert!(
+                found == due || found > due && key.starts_with("omega_") && !key.contains('0'),
+                "{key}: {found} {due}"
+            );
+        }
         seen.extend(expected.iter().flat_map(|decisions| decisions.split(' ')).map(str::to_owned));
         let overall = texts("conformity")[0];
         match verdict["overall"].as_str().unwrap() {
