@@ -23,7 +23,7 @@ use catalogue::{Catalogue, Listed};
 use shard::Shard;
 
 use crate::files::{Durability, FileError, leftovers};
-use crate::folder::{self, FolderRefused, Issued, Next, Seal, Visited};
+use crate::folder::{self, FolderRefused, Issued, Next, Seal, Unwritten, Visited};
 use crate::parallel;
 use crate::passport::issue::Remarks;
 use crate::text::{Unreadable, name_of};
@@ -115,6 +115,12 @@ pub(crate) struct Planned {
     pub remarks: Remarks,
 }
 
+impl From<Unwritten> for Planned {
+    fn from(new: Unwritten) -> Self {
+        Self { id: new.id().to_owned(), remarks: new.draft.remarks(), path: new.path }
+    }
+}
+
 /// Failure of an order or of an input.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Failure {
@@ -181,10 +187,7 @@ impl Batch<'_> {
             Some(seal) => issue(seal).map(Outcome::There),
             None => next().map(|next| match next {
                 Next::There(issued) => Outcome::There(issued),
-                Next::New(new) => {
-                    let (id, remarks) = (new.id().to_owned(), new.draft.remarks());
-                    Outcome::Planned(Planned { id, path: new.path, remarks })
-                }
+                Next::New(new) => Outcome::Planned(new.into()),
             }),
         };
         there.unwrap_or_else(|refused| Outcome::Failed(Failure::of_order(id(), &refused)))

@@ -4,6 +4,7 @@
 //! Everything is computed, signed and verified before anything is written, and the files are then written together. A
 //! second run with the same input completes a run that was killed in between, and changes nothing otherwise.
 
+use super::Planned;
 use super::successors::FORKED;
 use crate::certification::comparison::compare;
 use crate::certification::{AngleReadings, Certification, Comparison, Header, certify, predicted};
@@ -11,7 +12,7 @@ use crate::files::{self, FileError, folder_of, leftovers};
 use crate::folder::archive::Superseded;
 use crate::folder::{Folder, FolderRefused, Issued, Next, Seal, Sealed, Superseding, search};
 use crate::passport::difference::{NumberDifference, of_deviations};
-use crate::passport::issue::PreparedStand;
+use crate::passport::issue::{PreparedStand, Remarks};
 use crate::passport::reissue::{Order, successor};
 use crate::passport::{Content, Question, Trust, verify};
 use crate::register::{Asked, Line, Register};
@@ -88,8 +89,8 @@ pub(crate) enum NewPassport {
     There(Issued),
     /// Passport that an earlier run issued, which was in force before this one.
     Done(Line),
-    /// Passport that would be issued without the dry run: its id and its path.
-    Planned(String, PathBuf),
+    /// Passport that would be issued without the dry run.
+    Planned(Planned),
 }
 
 /// Result of a recertification.
@@ -114,11 +115,12 @@ pub(crate) struct Recertified {
 }
 
 impl Recertified {
-    /// Returns the passports that were written.
-    pub(crate) fn new_passports(&self) -> impl Iterator<Item = &Issued> {
+    /// Returns the ids of the passports that were written or would be without the dry run, with the remarks on them.
+    pub(crate) fn remarks(&self) -> impl Iterator<Item = (&str, &Remarks)> {
         self.passports.iter().filter_map(|passport| match passport {
-            NewPassport::There(issued) => Some(issued).filter(|issued| issued.new),
-            NewPassport::Done(_) | NewPassport::Planned(..) => None,
+            NewPassport::There(issued) if issued.new => Some((issued.id.as_str(), &issued.remarks)),
+            NewPassport::Planned(planned) => Some((planned.id.as_str(), &planned.remarks)),
+            NewPassport::There(_) | NewPassport::Done(_) => None,
         })
     }
 }
@@ -202,7 +204,7 @@ impl Recertification<'_> {
         match seal {
             None => passports.extend(next.into_iter().map(|next| match next {
                 Next::There(issued) => NewPassport::There(issued),
-                Next::New(new) => NewPassport::Planned(new.id().to_owned(), new.path),
+                Next::New(new) => NewPassport::Planned(new.into()),
             })),
             Some(seal) => {
                 let sealed = next.into_iter().map(|next| {

@@ -279,6 +279,12 @@ impl Setup {
 }
 
 impl Turn {
+    /// Returns the matrix that gives (α, β, γ) of a small rotation of the case, in the unit of the rotation.
+    pub(crate) fn angles_of_rotation(&self) -> Matrix3<f64> {
+        // The angles solve axes · angles = rotation; the three axes are never coplanar while the angles are within ±45°.
+        Matrix3::from_columns(&self.axes).try_inverse().unwrap_or_else(Matrix3::identity)
+    }
+
     /// Returns the orientation of a position; `base` is [`attitude::base`], or the identity if only the axes of the
     /// stand matter.
     pub(crate) fn of(position: &Position, base: &Matrix3<f64>) -> Self {

@@ -139,7 +139,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let dry_run = options.dry_run;
     options.format.write(|| report::to_json(&found, dry_run), || report::text(&found, dry_run))?;
     let mut told = Told::default();
-    found.new_passports().for_each(|issued| told.add_all(&issued.id, &issued.remarks));
+    found.remarks().for_each(|(id, remarks)| told.add_all(id, remarks));
     told.lines().iter().for_each(|line| output::say(line));
     Ok(0)
 }

@@ -1,9 +1,10 @@
 //! Drift of the certified deviations: a straight line through each over the years, and the tests of the line and of its
 //! slope. A deviation that is not on a line has jumped: it has no rate.
 
+use super::relative;
 use crate::coefficients::PositionIndex;
 use crate::passport::difference::u_of_deviations_arcsec;
-use crate::stand::{ActsOn, CertifiedPosition, Stand};
+use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
 use crate::statistics::beta::f_larger;
 use crate::statistics::propagation::effective_degrees_of_freedom;
 use crate::statistics::straight_line::{Point, StraightLine, holm};
@@ -78,16 +79,19 @@ pub(crate) struct Jump {
 pub(crate) struct Drift {
     /// Every deviation of every position, sorted by (i, j), then α, β, γ.
     pub series: Vec<Series>,
+    /// Deviations relative to the others of their certificate; empty if no common parts are stated.
+    pub relative: Vec<Series>,
 }
 
 impl Drift {
     /// Compares the certificates of one stand, which are in the order of their measurement.
     ///
     /// The uncertainties of different certificates are taken as independent. Contributions that they share, such as
-    /// those of one autocollimator, then make a drift look less significant than it is.
+    /// those of one autocollimator, then make a drift look less significant than it is. The parts common to the positions
+    /// of one certificate do so, too; therefore the deviations are also tested relative to each other.
     pub(crate) fn of(certificates: &[&Stand]) -> Self {
         let Some(first) = certificates.first().map(|stand| stand.certificate.measured()) else {
-            return Self { series: Vec::new() };
+            return Self { series: Vec::new(), relative: Vec::new() };
         };
         let mut nominal: Vec<(PositionIndex, f64, f64)> = Vec::new();
         for at in certificates.iter().flat_map(|stand| &stand.positions) {
@@ -105,14 +109,11 @@ impl Drift {
                 Series::of(position.0, angle, values)
             })
             .collect();
-        let tested: Vec<usize> = (0..series.len()).filter(|at| series[*at].line.is_some()).collect();
-        let probabilities: Vec<f64> =
-            tested.iter().filter_map(|at| Some(series[*at].line.as_ref()?.probability())).collect();
-        for (at, corrected) in tested.into_iter().zip(holm(&probabilities)) {
-            series[at].corrected_probability = Some(corrected);
+        let mut relative = relative::series(certificates, first);
+        for all in [&mut series, &mut relative] {
+            test(all);
         }
-        reject_lines(&mut series);
-        Self { series }
+        Self { series, relative }
     }
 
     /// Returns the number of tested deviations.
@@ -139,14 +140,42 @@ impl Drift {
         tested.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, series)| series)
     }
 
-    /// Returns whether any deviation drifts steadily, or `None` if none was tested.
-    pub(crate) fn drifts(&self) -> Option<bool> {
-        (self.tested() > 0).then(|| {
-            self.most_significant()
-                .and_then(|at| at.corrected_probability)
-                .is_some_and(|probability| probability < DRIFTS)
-        })
+    /// Returns the deviation that has changed most relative to the others, steadily or in a jump, or `None` if no such
+    /// change is significant, or if a deviation shows one by itself.
+    pub(crate) fn hidden_change(&self) -> Option<&Series> {
+        let is_change = |at: &&Series| at.jump.is_some() || at.is_drift();
+        if self.series.iter().any(|at| is_change(&at)) {
+            return None;
+        }
+        // The others change too, relative to the one that moved, but less: chi-square of no change at all tells which.
+        let chi_square = |at: &Series| {
+            let line = at.line.or(at.jump.as_ref().map(|jump| jump.line));
+            line.map_or(0.0, |line| line.chi_square + (line.slope / line.u_slope).powi(2))
+        };
+        self.relative.iter().filter(is_change).max_by(|a, b| chi_square(a).total_cmp(&chi_square(b)))
     }
+
+    /// Returns whether any deviation drifts steadily, by itself or relative to the others, or `None` if none was tested.
+    pub(crate) fn drifts(&self) -> Option<bool> {
+        (self.tested() > 0).then(|| self.series.iter().chain(self.hidden_change()).any(Series::is_drift))
+    }
+}
+
+/// Tests the slope of every line, and replaces the lines that their own residuals reject.
+fn test(series: &mut [Series]) {
+    let tested: Vec<usize> = (0..series.len()).filter(|at| series[*at].line.is_some()).collect();
+    let probabilities: Vec<f64> =
+        tested.iter().filter_map(|at| Some(series[*at].line.as_ref()?.probability())).collect();
+    for (at, corrected) in tested.into_iter().zip(holm(&probabilities)) {
+        series[at].corrected_probability = Some(corrected);
+    }
+    reject_lines(series);
+}
+
+/// Returns the years from the first certificate to the measurement of another one.
+pub(super) fn years(first: Date, certificate: &Certificate) -> f64 {
+    let days = first.until(certificate.measured()).map_or(0, |span| span.get_days());
+    f64::from(days) / DAYS_PER_YEAR
 }
 
 /// Replaces the lines that their own residuals reject by the largest change. The tests are corrected for their number by
@@ -176,13 +205,11 @@ fn reject_lines(series: &mut [Series]) {
 fn value(stand: &Stand, position: &(PositionIndex, f64, f64), angle: usize, first: Date) -> Option<Value> {
     let same = |at: &&CertifiedPosition| (at.index(), at.theta_deg, at.phi_deg) == *position;
     let at = stand.positions.iter().find(same)?;
-    let date = stand.certificate.measured();
-    let days = first.until(date).map_or(0, |span| span.get_days());
     let u_arcsec = u_of_deviations_arcsec(at, &stand.certificate)[angle];
     Some(Value {
         certificate: stand.certificate.number.clone(),
-        date,
-        years: f64::from(days) / DAYS_PER_YEAR,
+        date: stand.certificate.measured(),
+        years: years(first, &stand.certificate),
         arcsec: [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec][angle],
         u_arcsec,
         degrees_of_freedom: u_arcsec.map_or(f64::INFINITY, |u| degrees_of_freedom(stand, at, angle, u)),
@@ -206,13 +233,18 @@ fn degrees_of_freedom(stand: &Stand, at: &CertifiedPosition, angle: usize, u: f6
 }
 
 impl Series {
-    fn of(index: PositionIndex, angle: usize, values: Vec<Value>) -> Self {
+    pub(super) fn of(index: PositionIndex, angle: usize, values: Vec<Value>) -> Self {
         let point = |at: &Value| {
             Some(Point { x: at.years, y: at.arcsec, u: at.u_arcsec?, degrees_of_freedom: at.degrees_of_freedom })
         };
         let points: Vec<Point> = values.iter().filter_map(point).collect();
         let line = StraightLine::fit(&points);
         Self { index, angle, values, line, jump: None, corrected_probability: None }
+    }
+
+    /// Returns `true` if the slope is significant.
+    pub(crate) fn is_drift(&self) -> bool {
+        self.corrected_probability.is_some_and(|probability| probability < DRIFTS)
     }
 
     /// Returns the values that were tested: those with an uncertainty.

@@ -1,10 +1,12 @@
 //! One stand over the years: its certificates, passports, places and withdrawals, and the drift of its deviations.
 //!
 //! * `drift`: the deviations of all certificates, and the test whether they drift.
+//! * `relative`: the deviations relative to each other, without what all positions have in common.
 //!
 //! A history is a function of verified passports; [`crate::folder`] finds the files.
 
 pub(crate) mod drift;
+mod relative;
 
 use crate::document::sha256_hex;
 use crate::passport::{Content, Question, Trust, verify};

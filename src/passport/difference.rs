@@ -204,8 +204,7 @@ fn uncertainties(content: &Content) -> HashMap<String, f64> {
 pub(crate) fn u_of_deviations_arcsec(position: &CertifiedPosition, certificate: &Certificate) -> [Option<f64>; 3] {
     // The certificate is about the axes of its own laboratory, wherever the base points at a site.
     let turn = Turn::of(&position.to_model(), &Matrix3::identity());
-    // The angles solve axes · angles = rotation; the three axes are never coplanar while the angles are within ±45°.
-    let to_angles = Matrix3::from_columns(&turn.axes).try_inverse().unwrap_or_else(Matrix3::identity);
+    let to_angles = turn.angles_of_rotation();
     let common = [certificate.common_platform_arcsec, certificate.common_base_arcsec];
     let common = common.into_iter().flatten().map(|u| u * u).sum::<f64>();
     let own = position.u_arcsec();

@@ -45,6 +45,7 @@ fn drift_json(drift: &Drift) -> Value {
         "tested": drift.tested(),
         "probability": worst.and_then(|series| series.corrected_probability),
         "sentence": sentence(drift, ANGLES),
+        "relative": drift.hidden_change().map(series_json),
         "deviations": drift.series.iter().map(series_json).collect::<Vec<_>>(),
     })
 }
@@ -70,13 +71,43 @@ fn series_json(series: &Series) -> Value {
 
 /// Returns the result of the test for drift in words, with the given names of the angles α, β, γ.
 pub(crate) fn sentence(drift: &Drift, angles: [&str; 3]) -> String {
-    match drift.worst_jump() {
+    let of_each = match drift.worst_jump() {
         Some((series, jump)) if drift.most_significant().is_none() => jumped(drift, angles, series, jump),
         Some((series, jump)) => {
             format!("{}; of the other deviations: {}", jumped(drift, angles, series, jump), of_lines(drift, angles))
         }
         None => of_lines(drift, angles),
+    };
+    match drift.hidden_change() {
+        Some(series) => format!("{of_each}; but {}", relative(drift, angles, series)),
+        None => of_each,
     }
+}
+
+/// Returns the sentence on a change of one deviation that the parts common to all positions hide.
+fn relative(drift: &Drift, angles: [&str; 3], series: &Series) -> String {
+    let name = format!("{} of position {}", angles[series.angle], series.index);
+    let (what, probability) = match (&series.jump, &series.line) {
+        (Some(Jump { certificates: [from, to], change_arcsec, u_arcsec, corrected_probability, .. }), _) => {
+            let decimals = columns::decimals(*u_arcsec);
+            let change = columns::signed(*change_arcsec, decimals);
+            let words =
+                format!("has jumped by {change} arcsec (u {u_arcsec:.decimals$}) between certificates {from} and {to}");
+            (words, *corrected_probability)
+        }
+        (None, line) => {
+            let (slope, u) = line.map_or((0.0, 0.0), |line| (line.slope, line.u_slope));
+            let decimals = columns::decimals(u);
+            let words = format!("drifts by {} arcsec per year (u {u:.decimals$})", columns::signed(slope, decimals));
+            (words, series.corrected_probability.unwrap_or(1.0))
+        }
+    };
+    format!(
+        "{name} {what} relative to the other positions, probability {}, corrected for {} tests; the uncertainty common to \
+         all positions hides it",
+        columns::probability(probability),
+        drift.relative.len()
+    )
 }
 
 /// Returns the sentence on the deviations that are not on a line.

@@ -1,5 +1,6 @@
 //! Result of a recertification, as text and as JSON.
 
+use crate::batch::Planned;
 use crate::batch::recertification::{NewPassport, Recertified};
 use crate::report::{certification, columns, difference, style};
 use crate::text::{Printable, name_of, shown};
@@ -29,7 +30,9 @@ impl<'a> Row<'a> {
                 file: line.file.clone(),
                 sha256: Some(&line.sha256),
             },
-            NewPassport::Planned(id, path) => Self { state: "planned", id, file: name_of(path), sha256: None },
+            NewPassport::Planned(Planned { id, path, .. }) => {
+                Self { state: "planned", id, file: name_of(path), sha256: None }
+            }
         }
     }
 }

@@ -20,14 +20,18 @@ pub(crate) fn accuracy(found: &Accuracy) -> String {
         "method", "parameter", "worst", "std. dev.", "paper"
     );
     for row in &found.rows {
+        let or_dash = |value: f64, decimals: usize| match value.is_nan() {
+            true => "-".to_owned(),
+            false => format!("{value:.decimals$}"),
+        };
         let paper = row.paper_bound.map_or_else(|| "-".to_owned(), |bound| format!("< {bound}"));
         let _ = writeln!(
             out,
-            "  {:<13}  {:<9}  {:>10.5}  {:>10.6}  {paper:>9}  {}",
+            "  {:<13}  {:<9}  {:>10}  {:>10}  {paper:>9}  {}",
             row.method,
             symbol_of(row.parameter),
-            row.worst,
-            row.standard_deviation,
+            or_dash(row.worst, 5),
+            or_dash(row.standard_deviation, 6),
             printed(row.unit)
         );
         if row.not_solved > 0 {

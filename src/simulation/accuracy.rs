@@ -91,7 +91,7 @@ pub struct AccuracyRow {
     pub parameter: &'static str,
     /// Unit of the errors: percent of the nominal value for K.
     pub unit: &'static str,
-    /// Largest magnitude of the error.
+    /// Largest magnitude of the error; NaN, as the standard deviation and the mean, if no trial gave a result.
     pub worst: f64,
     /// Standard deviation of the error about its mean.
     pub standard_deviation: f64,
@@ -215,13 +215,14 @@ impl<'a> Simulation<'a> {
     fn row(&self, method: Method, parameter: Parameter, bound: f64, errors: &Summary, trials: u64) -> AccuracyRow {
         let of_the_paper = self.options.gyro.nominal == GyroType::gvk_6().nominal;
         let relative = parameter.place() < 4 && self.nominal.to_vector()[parameter.place()] != 0.0;
+        let known = |value: f64| if errors.count > 0 { value } else { f64::NAN };
         AccuracyRow {
             method: method.key(),
             parameter: parameter.key(),
             unit: if relative { "%" } else { parameter.unit() },
-            worst: errors.worst,
-            standard_deviation: errors.standard_deviation(),
-            mean: errors.mean(),
+            worst: known(errors.worst),
+            standard_deviation: known(errors.standard_deviation()),
+            mean: known(errors.mean()),
             not_solved: trials - errors.count,
             paper_bound: of_the_paper.then_some(bound),
         }
