@@ -109,11 +109,10 @@ fn item(calibrated: &Calibrated, languages: &Languages) -> Element {
 
 fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
     let conformity = calibrated.judged.map(|(gyro_type, verdict)| {
-        let name = [("type", gyro_type.r#type.as_str())];
         Element::new("dcc:statement")
             .with("id", RULE_ID)
             .with("refType", "basic_conformity")
-            .and(filled("dcc:name", words::CONFORMITY, &name, languages))
+            .and(filled("dcc:name", words::CONFORMITY, &[("type", &gyro_type.r#type)], languages))
             .and(in_words("dcc:declaration", words::RULE, languages))
             .and(Element::text("dcc:conformity", decided(verdict.overall, verdict.parameters.iter().all(passes))))
     });

@@ -5,6 +5,7 @@ use super::spacing::spaced;
 use super::symbols::italic;
 use crate::text::words;
 use maud::{Markup, html};
+use std::fmt::Display;
 
 words! {
     /// A language of the pages and of a DCC; its word is its code in ISO 639-1.
@@ -45,12 +46,12 @@ impl Text {
     }
 
     /// Returns the text in `language` with every `{name}` replaced by its value.
-    pub(crate) fn filled(&self, language: Language, values: &[(&str, &str)]) -> String {
-        let piece = |piece| match piece {
-            Piece::Words(words) => words,
-            Piece::Name(name) => values.iter().find(|(key, _)| *key == name).map_or("", |(_, value)| value),
+    pub(crate) fn filled(&self, language: Language, values: &[(&str, &dyn Display)]) -> String {
+        let piece = |piece: Piece| match piece {
+            Piece::Words(words) => Some(words.to_owned()),
+            Piece::Name(name) => values.iter().find(|(key, _)| *key == name).map(|(_, value)| value.to_string()),
         };
-        pieces(&self.words(language)).into_iter().map(piece).collect()
+        pieces(&self.words(language)).into_iter().filter_map(piece).collect()
     }
 
     /// Returns the text in `language` with every `{name}` replaced by a number, with the marks of that language.

@@ -195,12 +195,47 @@ impl Tail {
     }
 }
 
-/// Writes a column of numbers with aligned decimal marks.
-pub(crate) fn column(languages: &Languages, numbers: impl IntoIterator<Item = Option<Number>>) -> Vec<Option<Markup>> {
-    let numbers: Vec<Option<Number>> = numbers.into_iter().collect();
-    let tails = numbers.iter().flatten().map(|number| Tail::of(&number.text(languages.first())));
+/// A cell of a column.
+#[derive(Debug, Clone)]
+pub(crate) enum Cell {
+    /// A number; its decimal mark aligns with those of the column.
+    Number(Number),
+    /// Anything else.
+    Words(Markup),
+}
+
+impl Cell {
+    /// Returns the cell of a quantity that there is not.
+    pub(crate) fn none() -> Self {
+        Self::Words(html! { "–" })
+    }
+}
+
+impl From<Number> for Cell {
+    fn from(number: Number) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<Option<Number>> for Cell {
+    fn from(number: Option<Number>) -> Self {
+        number.map_or_else(Self::none, Self::Number)
+    }
+}
+
+/// Writes the cells of a column, its numbers with aligned decimal marks.
+pub(crate) fn column(languages: &Languages, cells: impl IntoIterator<Item = impl Into<Cell>>) -> Vec<Markup> {
+    let cells: Vec<Cell> = cells.into_iter().map(Into::into).collect();
+    let tails = cells.iter().filter_map(|cell| match cell {
+        Cell::Number(number) => Some(Tail::of(&number.text(languages.first()))),
+        Cell::Words(_) => None,
+    });
     let longest = tails.fold(Tail::default(), Tail::or_longer);
-    numbers.iter().map(|number| number.as_ref().map(|number| number.aligned(languages, &longest))).collect()
+    let written = cells.into_iter().map(|cell| match cell {
+        Cell::Number(number) => number.aligned(languages, &longest),
+        Cell::Words(words) => words,
+    });
+    written.collect()
 }
 
 /// Returns the place (power of ten) of the second significant digit of `u`, after rounding: 0.0996 becomes 0.10.

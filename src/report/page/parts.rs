@@ -42,20 +42,19 @@ pub(crate) fn blank(languages: &Languages) -> Markup {
 
 /// Writes a name and its value, or a space to fill in by hand if the value is `None`.
 pub(crate) fn field(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
-    html! {
-        div {
-            dt { (languages.label(name)) }
-            dd { @match value { Some(value) => (value), None => (blank(languages)) } }
-        }
-    }
+    field_of(None, languages, name, value)
 }
 
 /// Writes a field over the full width, for long texts.
 pub(crate) fn wide_field(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
+    field_of(Some("wide"), languages, name, value)
+}
+
+fn field_of(class: Option<&str>, languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
     html! {
-        div.wide {
+        div class=[class] {
             dt { (languages.label(name)) }
-            dd { @match value { Some(value) => (value), None => (blank(languages)) } }
+            dd { (value.unwrap_or_else(|| blank(languages))) }
         }
     }
 }
@@ -236,7 +235,50 @@ pub(crate) struct Table {
     pub class: &'static str,
 }
 
+/// A column of a table after the names of its rows.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Column {
+    /// Heading of the column.
+    pub heading: Markup,
+    /// A cell for each row.
+    pub cells: Vec<Markup>,
+    /// What stands below the cells, such as the axis of strips. Most columns have nothing there.
+    pub foot: Markup,
+}
+
+impl Column {
+    /// Creates a column with nothing below it.
+    pub(crate) fn new(heading: Markup, cells: Vec<Markup>) -> Self {
+        Self { heading, cells, foot: html! {} }
+    }
+}
+
+/// Returns the rows with which a group of equal values begins, after the first.
+pub(crate) fn starts<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<usize> {
+    let values: Vec<T> = values.into_iter().collect();
+    (1..values.len()).filter(|row| values[*row] != values[row - 1]).collect()
+}
+
 impl Table {
+    /// Creates a table from the names of its rows, with the headings above them, and its columns.
+    pub(crate) fn of(above: Vec<Markup>, names: Vec<Vec<Markup>>, columns: &[Column]) -> Self {
+        let cells = |row: usize| columns.iter().map(move |column| column.cells[row].clone());
+        let rows = names.into_iter().enumerate().map(|(row, name)| name.into_iter().chain(cells(row)).collect());
+        let rows = rows.collect();
+        let row_headings = above.len();
+        let foot = match columns.iter().any(|column| !column.foot.0.is_empty()) {
+            true => above.iter().map(|_| html! {}).chain(columns.iter().map(|column| column.foot.clone())).collect(),
+            false => Vec::new(),
+        };
+        let headings = above.into_iter().chain(columns.iter().map(|column| column.heading.clone())).collect();
+        Self { headings, rows, foot, row_headings, class: "numbers", ..Self::default() }
+    }
+
+    /// Writes the table with a caption, which is its name for screen readers too.
+    pub(crate) fn captioned(self, languages: &Languages, caption: Text) -> Markup {
+        Self { caption: Some(languages.label(caption)), ..self }.markup(languages.spoken(caption))
+    }
+
     /// Writes the table. It scrolls sideways on a narrow screen, and the keyboard can then focus it.
     pub(crate) fn markup(&self, name: &str) -> Markup {
         html! {

@@ -121,14 +121,12 @@ fn bar(row: &Row, scale: &Scale, y: f64) -> Markup {
 fn in_words(language: Language, rows: &[Row]) -> String {
     let each = rows.iter().map(|row| {
         let (name, u) = (plain_symbol(row.parameter.symbol()), Number::uncertainty(row.u).text(language));
-        let values = [("parameter", name.as_str()), ("u", u.as_str()), ("unit", unit(row.parameter).of(language))];
-        match row.share {
-            Some(share) => {
-                let share = Number::significant(100.0 * share, 2).text(language);
-                texts::ACCURACY_IN_WORDS.filled(language, &[values.as_slice(), &[("share", share.as_str())]].concat())
-            }
-            None => texts::ACCURACY_NO_TOLERANCE_IN_WORDS.filled(language, &values),
-        }
+        let unit = unit(row.parameter).of(language);
+        let (text, share) = match row.share {
+            Some(share) => (texts::ACCURACY_IN_WORDS, Number::significant(100.0 * share, 2).text(language)),
+            None => (texts::ACCURACY_NO_TOLERANCE_IN_WORDS, String::new()),
+        };
+        text.filled(language, &[("parameter", &name), ("u", &u), ("unit", &unit), ("share", &share)])
     });
     each.collect::<Vec<_>>().join("; ") + "."
 }

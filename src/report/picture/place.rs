@@ -187,19 +187,14 @@ fn in_words(language: Language, content: &Content) -> String {
     let earth = &content.earth;
     let radius = Number::fixed(earth.valid_radius_m, 0).text(language);
     let latitude = short(latitude_deg(content)).text(language);
-    let mut values = vec![("radius", radius.as_str()), ("latitude", latitude.as_str())];
-    let longitude = content.site.longitude_deg.map(|value| short(value).text(language));
-    let area = match &longitude {
-        Some(longitude) => {
-            values.push(("longitude", longitude));
-            texts::PLACE_CIRCLE
-        }
-        None => texts::PLACE_BAND,
+    let area = match content.site.longitude_deg.map(|value| short(value).text(language)) {
+        Some(longitude) => texts::PLACE_CIRCLE
+            .filled(language, &[("radius", &radius), ("latitude", &latitude), ("longitude", &longitude)]),
+        None => texts::PLACE_BAND.filled(language, &[("radius", &radius), ("latitude", &latitude)]),
     };
-    let azimuth = earth.azimuth_deg.map(|value| azimuth(content, value).text(language));
-    let mark = match &azimuth {
-        Some(azimuth) => texts::PLACE_MARK_IN_WORDS.filled(language, &[("azimuth", azimuth)]),
+    let mark = match earth.azimuth_deg.map(|value| azimuth(content, value).text(language)) {
+        Some(azimuth) => texts::PLACE_MARK_IN_WORDS.filled(language, &[("azimuth", &azimuth)]),
         None => texts::PLACE_NO_MARK_IN_WORDS.of(language).to_owned(),
     };
-    area.filled(language, &values) + " " + &mark
+    area + " " + &mark
 }

@@ -15,6 +15,7 @@ use crate::stand::CertifiedPosition;
 use crate::units::{degrees_from_radians, sin_cos_of_degrees};
 use maud::{Markup, html};
 use nalgebra::{Matrix3, Vector3};
+use std::fmt::Display;
 
 /// Pixels that a panel needs for readable letters.
 const PANEL_PIXELS: u32 = 155;
@@ -171,7 +172,7 @@ fn position(languages: &Languages, at: &CertifiedPosition, base_axes: &Matrix3<f
         axes(&view, &designed, &real),
     ];
     panel.svg(
-        |language| texts::POSITION_TITLE.filled(language, &[("index", &position.index.to_string())]),
+        |language| texts::POSITION_TITLE.filled(language, &[("index", &position.index)]),
         |language| in_words(language, at, &true_axes),
         &drawing,
     )
@@ -294,22 +295,21 @@ pub(super) fn rows(matrix: &Matrix3<f64>) -> [Vector3<f64>; 3] {
 
 /// Describes the direction of every axis: the nearest of east, west, north, south, up, down, and the angle from it.
 fn in_words(language: Language, at: &CertifiedPosition, real: &Matrix3<f64>) -> String {
-    let exact = |value: f64| Number::exact(value).text(language);
-    let [x, y, z] = rows(real).map(|axis| {
+    let [theta, phi] = [at.theta_deg, at.phi_deg].map(|value| Number::exact(value).text(language));
+    let [(x, x_angle), (y, y_angle), (z, z_angle)] = rows(real).map(|axis| {
         let (whither, angle_deg) = nearest(&axis);
         (whither.of(language), Number::significant(angle_deg, 2).text(language))
     });
-    let values = [
-        ("theta", exact(at.theta_deg)),
-        ("phi", exact(at.phi_deg)),
-        ("x", x.0.to_owned()),
-        ("y", y.0.to_owned()),
-        ("z", z.0.to_owned()),
-        ("x_angle", x.1),
-        ("y_angle", y.1),
-        ("z_angle", z.1),
+    let values: [(&str, &dyn Display); 8] = [
+        ("theta", &theta),
+        ("phi", &phi),
+        ("x", &x),
+        ("y", &y),
+        ("z", &z),
+        ("x_angle", &x_angle),
+        ("y_angle", &y_angle),
+        ("z_angle", &z_angle),
     ];
-    let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
     texts::POSITION_DESCRIPTION.filled(language, &values)
 }
 

@@ -52,7 +52,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         (texts::PART_AXIS, xi * 1.75),
     ];
     let named = named.map(|(text, at)| {
-        let name = |language| text.filled(language, &[("azimuth", azimuth(language).as_str())]);
+        let name = |language| text.filled(language, &[("azimuth", &azimuth(language))]);
         (languages.iter().map(name).collect(), view.point(&at))
     });
     let drawing = [

@@ -199,9 +199,8 @@ fn differences_of(
     let [[left, top], [right, bottom]] = plane.layout.field;
     let axis = labels::Area { low: [left, top], high: [left + 86.0, top + 18.0] };
     let field = labels::Area { low: [left, top], high: [right, bottom] };
-    let frame = pairs.first().map_or_else(String::new, |pair| pair.index.i.to_string());
-    let title = |language: Language| match part {
-        Some(_) => subject.of_frame.filled(language, &[("i", &frame)]),
+    let title = |language: Language| match pairs.first().filter(|_| part.is_some()) {
+        Some(pair) => subject.of_frame.filled(language, &[("i", &pair.index.i)]),
         None => subject.title.words(language),
     };
     let (title_lines, more) = heading_with(languages, [2.0, 13.0], title);
@@ -234,8 +233,8 @@ fn along(from: Point, to: Point) -> Vec<Point> {
 fn in_words(language: Language, unit: Text, pairs: &[Pair]) -> String {
     let each = pairs.iter().map(|pair| {
         let [x, y] = pair.difference().map(|value| Number::significant(value, 5).text(language));
-        texts::VECTOR_IN_WORDS.filled(language, &[("index", &pair.index.to_string()), ("x", &x), ("y", &y)])
+        texts::VECTOR_IN_WORDS.filled(language, &[("index", &pair.index), ("x", &x), ("y", &y)])
     });
     let list = each.collect::<Vec<_>>().join("; ");
-    texts::VECTORS_DESCRIPTION.filled(language, &[("unit", unit.of(language)), ("list", &list)])
+    texts::VECTORS_DESCRIPTION.filled(language, &[("unit", &unit.of(language)), ("list", &list)])
 }

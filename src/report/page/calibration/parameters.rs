@@ -6,9 +6,9 @@ use crate::calibration::document::ResultDocument;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::parameter::Parameter;
 use crate::report::page::language::{Languages, Text};
-use crate::report::page::number::Number;
-use crate::report::page::parts::{field, fields, figure, heading, quantity, symbol};
-use crate::report::page::passport::numbers::{Cell, parameters};
+use crate::report::page::number::{Cell, Number};
+use crate::report::page::parts::{Table, field, fields, figure, heading, quantity, symbol};
+use crate::report::page::passport::numbers::parameters;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::convergence::convergence;
@@ -41,8 +41,7 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
         let cells = |number: &dyn Fn(Parameter) -> Number| {
             // The general model has no ω_g and ω_k.
             let found = |parameter: &Parameter| !values[parameter.place()].is_nan();
-            Parameter::AS_IN_THE_PAPER
-                .map(|parameter| Some(parameter).filter(found).map_or_else(Cell::none, |at| Cell::Number(number(at))))
+            Parameter::AS_IN_THE_PAPER.map(|parameter| Cell::from(Some(parameter).filter(found).map(number)))
         };
         let adopted = page.adopted().is_some_and(|adopted| adopted.method == result.method);
         let name = languages.label_with(|language| match (adopted, method(&result.method).words(language)) {
@@ -60,8 +59,8 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     });
     let (g, u) = (page.result().gravity_m_per_s2, page.result().gravity_u_m_per_s2);
     let caption = with_gravity(languages, texts::PARAMETERS_CAPTION, &Number::measured(g, u.unwrap_or(0.0)));
-    let caption = Some(caption);
-    parameters(languages, caption, rows.collect()).markup(languages.spoken(texts::METHODS))
+    let table = Table { caption: Some(caption), ..parameters(languages, rows.collect()) };
+    table.markup(languages.spoken(texts::METHODS))
 }
 
 /// Writes the terms of a model that goes beyond the eight parameters.
@@ -104,10 +103,9 @@ fn general(result: &ResultDocument, languages: &Languages) -> Markup {
         }
         @if let Some(test) = &result.model_test {
             (languages.paragraph_with(|language| {
-                let [further, rest] = test.degrees_of_freedom.map(|known| known.to_string());
+                let [further, rest] = &test.degrees_of_freedom;
                 let (f, p) = (Number::significant(test.f, 3).text(language), Number::significant(test.probability, 2).text(language));
-                let values = [("f", f.as_str()), ("further", &further), ("rest", &rest), ("p", &p)];
-                italic(&texts::MODEL_TEST.filled(language, &values))
+                italic(&texts::MODEL_TEST.filled(language, &[("f", &f), ("further", further), ("rest", rest), ("p", &p)]))
             }))
         }
     }
@@ -158,8 +156,7 @@ fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
     let predicted = match result.iterations_predicted {
         Some(steps) => whole(steps),
         None => {
-            let most = LARGEST_NUMBER_OF_STEPS.to_string();
-            languages.inline_with(|language| texts::STEPS_OVER.filled(language, &[("most", &most)]))
+            languages.inline_with(|language| texts::STEPS_OVER.filled(language, &[("most", &LARGEST_NUMBER_OF_STEPS)]))
         }
     };
     let steps = fields([

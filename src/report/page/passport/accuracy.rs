@@ -2,13 +2,13 @@
 
 use super::PassportPage;
 use super::figures::{Slot, figure};
-use super::numbers::{Cell, numbers_of, parameters};
+use super::numbers::{numbers_of, parameters};
 use crate::calibration::parameter::Parameter;
 use crate::laboratory::Laboratory;
 use crate::passport::accuracy::Accuracy;
 use crate::passport::annotations::{Absence, absent};
 use crate::report::page::language::{Languages, Text};
-use crate::report::page::number::Number;
+use crate::report::page::number::{Cell, Number};
 use crate::report::page::parts::{fields, given, heading, quantity, section as part, stated, symbol, wide_stated};
 use crate::report::page::texts::{absences, passport as texts, units};
 use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
@@ -98,8 +98,7 @@ fn uncertainties(accuracy: &Accuracy, languages: &Languages) -> Markup {
         (symbol("u", ""), us),
         (languages.label(texts::TOLERANCE), limits),
     ];
-    let caption = Some(languages.label(texts::ACCURACY_CAPTION));
-    parameters(languages, caption, rows).markup(languages.spoken(texts::ACCURACY_CAPTION))
+    parameters(languages, rows).captioned(languages, texts::ACCURACY_CAPTION)
 }
 
 fn not_stated(page: &PassportPage, languages: &Languages) -> Markup {

@@ -5,7 +5,8 @@ use super::figures::{Slot, figure};
 use crate::report::page::language::{Language, Languages};
 use crate::report::page::number::{LARGEST_IN_ARCSEC, Number, column};
 use crate::report::page::parts::{
-    Table, fields, given, heading, not_stated, quantity, section as part, stated, symbol, symbol_and_unit, wide_stated,
+    Column, Table, fields, given, heading, not_stated, quantity, section as part, starts, stated, symbol,
+    symbol_and_unit, wide_stated,
 };
 use crate::report::page::texts::{passport as texts, units};
 use crate::report::picture::deviations::{ANGLES, Bars};
@@ -44,76 +45,43 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
 /// Writes the deviations with their bars.
 pub(crate) fn positions(positions: &[CertifiedPosition], languages: &Languages) -> Markup {
     let bars = Bars::of(positions);
-    let numbers =
-        |number: &dyn Fn(&CertifiedPosition) -> Option<Number>| column(languages, positions.iter().map(number));
-    let mut columns =
-        vec![numbers(&|at| Some(Number::exact(at.theta_deg))), numbers(&|at| Some(Number::exact(at.phi_deg)))];
+    let with = |symbol: Markup, unit| symbol_and_unit(languages, &symbol, unit);
+    let numbers = |heading: Markup, number: &dyn Fn(&CertifiedPosition) -> Option<Number>| {
+        Column::new(heading, column(languages, positions.iter().map(number)))
+    };
+    let mut columns = vec![
+        numbers(with(symbol("θ", ""), units::DEGREES), &|at| Some(Number::exact(at.theta_deg))),
+        numbers(with(symbol("φ", ""), units::DEGREES), &|at| Some(Number::exact(at.phi_deg))),
+    ];
     // One angle with degrees and minutes, and all are marked in their cells.
     let large = positions.iter().any(|at| ANGLES.iter().any(|(_, of)| of(at).0.abs() > LARGEST_IN_ARCSEC));
-    for (_, of) in ANGLES {
-        let angles = numbers(&|at| Some(Number::angle(of(at).0, of(at).1.unwrap_or(0.0))));
-        let marked = |angle: Markup| html! { (angle) span { "″" } };
-        columns.push(angles.into_iter().map(|angle| if large { angle.map(marked) } else { angle }).collect());
-        columns.push(numbers(&|at| of(at).1.map(Number::uncertainty)));
-        columns.push(positions.iter().map(|at| Some(bars.bar(of(at)))).collect());
-    }
-    columns.push(numbers(&|at| at.degrees_of_freedom.map(Number::exact)));
-    let rows = positions.iter().enumerate().map(|(row, at)| {
-        let cells = columns.iter().map(|column| match column.get(row).cloned().flatten() {
-            Some(number) => number,
-            None => html! { "–" },
-        });
-        [html! { (at.i) }, html! { (at.j) }].into_iter().chain(cells).collect()
-    });
-    // Every third column from the seventh on is of bars.
-    let axis = |place: usize| {
-        if place >= 6 && place.is_multiple_of(3) {
-            bars.axis(languages)
-        } else {
-            html! {}
+    for (name, of) in ANGLES {
+        let heading = if large { symbol(name, "") } else { with(symbol(name, ""), units::ARCSEC) };
+        let mut angles = numbers(heading, &|at| Some(Number::angle(of(at).0, of(at).1.unwrap_or(0.0))));
+        if large {
+            angles.cells.iter_mut().for_each(|angle| *angle = html! { (angle) span { "″" } });
         }
-    };
-    let table = Table {
-        caption: Some(languages.label(texts::DEVIATIONS_CAPTION)),
-        headings: headings(languages, large),
-        rows: rows.collect(),
-        starts: starts(positions.iter().map(|at| at.i)),
-        foot: (0..14).map(axis).collect(),
-        row_headings: 2,
-        class: if large { "numbers deviations large" } else { "numbers deviations" },
-        ..Table::default()
-    };
-    html! { (table.markup(languages.spoken(texts::DEVIATIONS_CAPTION))) (bars.key(languages)) }
-}
-
-/// Returns the rows in which the first index of the positions changes.
-pub(crate) fn starts(indices: impl Iterator<Item = u32>) -> Vec<usize> {
-    let indices: Vec<u32> = indices.collect();
-    let changed = indices.windows(2).enumerate().filter(|(_, pair)| pair[0] != pair[1]);
-    changed.map(|(row, _)| row + 1).collect()
-}
-
-/// Returns the headings; the cells of `large` angles have their own marks.
-fn headings(languages: &Languages, large: bool) -> Vec<Markup> {
-    let with = |symbol: Markup, unit| symbol_and_unit(languages, &symbol, unit);
-    let mut headings = vec![symbol("i", ""), symbol("j", "")];
-    headings.extend(["θ", "φ"].map(|name| with(symbol(name, ""), units::DEGREES)));
-    for (name, _) in ANGLES {
-        headings.push(if large { symbol(name, "") } else { with(symbol(name, ""), units::ARCSEC) });
-        headings.push(with(html! { i { "u" } "(" i { (name) } ")" }, units::ARCSEC));
-        headings.push(html! {});
+        let u_heading = with(html! { i { "u" } "(" i { (name) } ")" }, units::ARCSEC);
+        let us = numbers(u_heading, &|at| of(at).1.map(Number::uncertainty));
+        let cells = positions.iter().map(|at| bars.bar(of(at))).collect();
+        columns.extend([angles, us, Column { heading: html! {}, cells, foot: bars.axis(languages) }]);
     }
-    headings.push(symbol("ν", ""));
-    headings
+    columns.push(numbers(symbol("ν", ""), &|at| at.degrees_of_freedom.map(Number::exact)));
+    let names = positions.iter().map(|at| vec![html! { (at.i) }, html! { (at.j) }]).collect();
+    let table = Table {
+        starts: starts(positions.iter().map(|at| at.i)),
+        class: if large { "numbers deviations large" } else { "numbers deviations" },
+        ..Table::of(vec![symbol("i", ""), symbol("j", "")], names, &columns)
+    };
+    html! { (table.captioned(languages, texts::DEVIATIONS_CAPTION)) (bars.key(languages)) }
 }
 
 /// Writes an excluded reading or run, with the reason.
 fn exclusion(excluded: &Excluded, languages: &Languages) -> Markup {
-    let run = excluded.run.to_string();
-    let index = excluded.index().map(|index| index.to_string());
-    let words = |language: Language| match &index {
-        Some(index) => texts::EXCLUDED_READING.filled(language, &[("index", index), ("run", &run)]),
-        None => texts::EXCLUDED_RUN.filled(language, &[("run", &run)]),
+    let run = &excluded.run;
+    let words = |language: Language| match excluded.index() {
+        Some(index) => texts::EXCLUDED_READING.filled(language, &[("index", &index), ("run", run)]),
+        None => texts::EXCLUDED_RUN.filled(language, &[("run", run)]),
     };
     html! { (languages.inline_with(words)) ": " (given(&excluded.why)) }
 }

@@ -82,11 +82,10 @@ pub(crate) fn withdrawal_not_checked(page: &PassportPage) -> bool {
 pub(crate) fn line(page: &PassportPage, languages: &Languages) -> Markup {
     let count = |state| CHECKS.into_iter().filter(|name| State::of(page, *name) == state).count();
     let counted = |language: Language| {
-        let [passed, not_asked, failed] = State::ALL.map(|state| count(state).to_string());
-        let text = if failed == "0" { texts::COUNTED } else { texts::COUNTED_FAILED };
+        let [passed, not_asked, failed] = State::ALL.map(count);
+        let text = if failed == 0 { texts::COUNTED } else { texts::COUNTED_FAILED };
         let time = time_text(language, page.question.time);
-        let values = [("time", time.as_str()), ("passed", &passed), ("not_asked", &not_asked), ("failed", &failed)];
-        text.filled(language, &values)
+        text.filled(language, &[("time", &time), ("passed", &passed), ("not_asked", &not_asked), ("failed", &failed)])
     };
     html! {
         (languages.paragraph_with(|language| html! { (counted(language)) }))
@@ -212,11 +211,11 @@ fn words(page: &PassportPage, check: &Check, language: Language) -> String {
         CheckName::Grammar => plain(texts::GRAMMAR_OK),
         CheckName::Signature => plain(texts::SIGNATURE_OK),
         CheckName::Schema => texts::SCHEMA_OK.filled(language, &[("format", &content.format)]),
-        CheckName::Signer => texts::SIGNER_OK.filled(language, &[("issuer", issuer)]),
+        CheckName::Signer => texts::SIGNER_OK.filled(language, &[("issuer", &issuer)]),
         CheckName::Recomputed => plain(texts::RECOMPUTED_OK),
         CheckName::Revocation => revocation(page, language),
         CheckName::InForce => validity(page, check.code, language),
-        CheckName::Issuer => texts::ISSUER_OK.filled(language, &[("issuer", issuer)]),
+        CheckName::Issuer => texts::ISSUER_OK.filled(language, &[("issuer", &issuer)]),
         CheckName::Stand => stand(page, check.code, language),
         CheckName::Place => place(page, language),
         CheckName::Register if check.code == Code::Ok => plain(texts::REGISTER_OK),
@@ -233,8 +232,8 @@ fn revocation(page: &PassportPage, language: Language) -> String {
     }
     match withdrawn.newest() {
         Some(list) => {
-            let (sequence, time) = (list.sequence.to_string(), time_text(language, list.issued_at));
-            texts::REVOCATION_LIST.filled(language, &[("sequence", &sequence), ("time", &time)])
+            let time = time_text(language, list.issued_at);
+            texts::REVOCATION_LIST.filled(language, &[("sequence", &list.sequence), ("time", &time)])
         }
         None => texts::REVOCATION_KEYS_ONLY.words(language),
     }
@@ -259,7 +258,7 @@ fn validity(page: &PassportPage, code: Code, language: Language) -> String {
 fn stand(page: &PassportPage, code: Code, language: Language) -> String {
     let text = if code == Code::Ok { texts::STAND_OK } else { texts::STAND_WRONG };
     let asked = page.question.serial.as_deref().unwrap_or_default();
-    text.filled(language, &[("serial", page.content.stand.serial.as_str()), ("asked", asked)])
+    text.filled(language, &[("serial", &page.content.stand.serial), ("asked", &asked)])
 }
 
 fn place(page: &PassportPage, language: Language) -> String {

@@ -141,9 +141,8 @@ impl<'a> PassportPage<'a> {
     fn margin(&self, languages: &Languages) -> String {
         let (stand, site) = (&self.content.stand, &self.content.site.id);
         let stand = format!("{}/{}", stand.model, stand.serial);
-        let revision = self.content.passport.revision.to_string();
-        let values = [("stand", stand.as_str()), ("site", site.as_str()), ("revision", &revision)];
-        texts::MARGIN_PASSPORT.filled(languages.first(), &values)
+        let revision = &self.content.passport.revision;
+        texts::MARGIN_PASSPORT.filled(languages.first(), &[("stand", &stand), ("site", site), ("revision", revision)])
     }
 
     fn body(&self, languages: &Languages) -> Markup {
