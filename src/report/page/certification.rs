@@ -10,14 +10,13 @@ mod evidence;
 pub(crate) mod remarks;
 
 use super::language::{Languages, Text};
-use super::parts::{contents, data_address, given, heading, section as part, signature_of, verbatim};
+use super::parts::{contents, data_address, file_name, given, heading, section as part, signature_of, verbatim};
 use super::passport::{characteristics, general};
 use super::shell::{Margins, document};
 use super::texts::{calibration as calibration_texts, certification as texts, passport as passport_texts};
 use crate::certification::{Certification, Comparison};
 use crate::passport::difference::NumberDifference;
 use maud::{Markup, html};
-use std::path::Path;
 
 /// Certification with everything that its record states.
 #[derive(Debug, Clone)]
@@ -54,11 +53,6 @@ impl CertificationPage<'_> {
         document(languages, &title, &margins, &self.body(languages))
     }
 
-    /// Returns the name of the file of readings without its folder.
-    fn readings_name(&self) -> &str {
-        Path::new(self.readings.0).file_name().and_then(|name| name.to_str()).unwrap_or(self.readings.0)
-    }
-
     /// Returns the SHA-256 of the file of readings.
     fn sha256(&self) -> String {
         crate::document::sha256_hex(self.readings.1)
@@ -72,7 +66,7 @@ impl CertificationPage<'_> {
                 h1 { (given(stand.stand.model.as_str())) " №\u{a0}" (given(stand.stand.serial.as_str())) ", " (given(&stand.certificate.number)) }
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
-            (contents(languages, texts::SAVE, (&data_address("text/csv", self.readings.1), self.readings_name()), &SECTIONS))
+            (contents(languages, texts::SAVE, (&data_address("text/csv", self.readings.1), file_name(self.readings.0)), &SECTIONS))
             main {
                 (change::verdict(self, languages))
                 (part(languages, "subject", "1", texts::SUBJECT, &html! {
@@ -117,9 +111,9 @@ fn signatures(languages: &Languages) -> Markup {
         div.pair {
             (signature_of(languages, texts::MEASURED_BY))
             (signature_of(languages, texts::CHECKED_BY))
-            (signature_of(languages, texts::AUTHORISED_BY))
+            (signature_of(languages, passport_texts::AUTHORISED_BY))
         }
         div.statement { (languages.paragraph(calibration_texts::VALID_WHEN_SIGNED)) }
     };
-    part(languages, "signatures", "", texts::SIGNATURES, &body)
+    part(languages, "signatures", "", calibration_texts::SIGNATURES, &body)
 }

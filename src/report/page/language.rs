@@ -189,27 +189,14 @@ impl Languages {
         self.inline_with(|language| text.words(language))
     }
 
-    /// Writes a unit within a line, the second language in brackets: a solidus would be part of the unit.
-    pub(crate) fn in_brackets(&self, unit: Text) -> Markup {
-        let sayings = self.sayings(|language| unit.words(language));
-        html! {
-            @for (index, (language, words)) in sayings.iter().enumerate() {
-                @if index > 0 { " (" }
-                span lang=[self.marked(*language)] { (words) }
-                @if index > 0 { ")" }
-            }
-        }
-    }
-
     /// Writes words as `inline` does; `say` makes them for each language.
     pub(crate) fn inline_with(&self, say: impl Fn(Language) -> String) -> Markup {
-        let sayings = self.sayings(say);
-        html! {
-            @for (index, (language, words)) in sayings.iter().enumerate() {
-                @if index > 0 { " / " }
-                span lang=[self.marked(*language)] { (italic(words)) }
-            }
-        }
+        self.spans(say, [" / ", ""], None)
+    }
+
+    /// Writes a unit within a line, the second language in brackets: a solidus would be part of the unit.
+    pub(crate) fn in_brackets(&self, unit: Text) -> Markup {
+        self.spans(|language| unit.words(language), [" (", ")"], None)
     }
 
     /// Writes the name of a row or column, or a heading: the second language smaller, below the first.
@@ -219,11 +206,17 @@ impl Languages {
 
     /// Writes a name as `label` does; `say` makes it for each language.
     pub(crate) fn label_with(&self, say: impl Fn(Language) -> String) -> Markup {
-        let sayings = self.sayings(say);
+        self.spans(say, [" ", ""], Some("second"))
+    }
+
+    /// Writes the wordings within a line, the languages after the first between these strings and in this class.
+    fn spans(&self, say: impl Fn(Language) -> String, [before, after]: [&str; 2], class: Option<&str>) -> Markup {
         html! {
-            @for (index, (language, words)) in sayings.iter().enumerate() {
-                @if index > 0 { " " }
-                span class=[(index > 0).then_some("second")] lang=[self.marked(*language)] { (italic(words)) }
+            @for (index, (language, words)) in self.sayings(say).iter().enumerate() {
+                @let other = index > 0;
+                @if other { (before) }
+                span class=[class.filter(|_| other)] lang=[self.marked(*language)] { (italic(words)) }
+                @if other { (after) }
             }
         }
     }

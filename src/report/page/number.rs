@@ -89,18 +89,18 @@ impl Number {
 
     /// Creates the number of a standard uncertainty: two significant digits, or a plain 0.
     pub(crate) fn uncertainty(u: f64) -> Self {
-        Self::to_place(u, place(u))
+        Self::to_place(u, Self::place_of(u))
     }
 
     /// Creates the number of a value with the standard uncertainty `u`. It ends at the place of the second digit of
     /// `u`, or is exact if `u` is 0.
     pub(crate) fn measured(value: f64, u: f64) -> Self {
-        if u > 0.0 { Self::to_place(value, place(u)) } else { Self::exact(value) }
+        if u > 0.0 { Self::to_place(value, Self::place_of(u)) } else { Self::exact(value) }
     }
 
-    /// Returns the place (power of ten) of the second significant digit of `u`.
+    /// Returns the place (power of ten) of the second significant digit of `u`, after rounding: 0.0996 becomes 0.10.
     pub(crate) fn place_of(u: f64) -> i32 {
-        place(u)
+        if u > 0.0 && u.is_finite() { number::exponent_as_printed(u, 2) - 1 } else { 0 }
     }
 
     /// Creates a number rounded to a multiple of 10 to the power `place`.
@@ -108,7 +108,7 @@ impl Number {
         if place <= 0 {
             return Self::fixed(value, place.unsigned_abs() as usize);
         }
-        let digits = match usize::try_from(exponent(value) - place) {
+        let digits = match usize::try_from(number::exponent_of(&format!("{value:e}")) - place) {
             Ok(digits) => scaled(&format!("{value:.digits$e}")),
             // Values smaller than one unit of the place: up to half a unit they are rounded to 0.
             Err(_) if value.abs() > 0.5 * libm::pow(10.0, f64::from(place)) => {
@@ -236,16 +236,6 @@ pub(crate) fn column(languages: &Languages, cells: impl IntoIterator<Item = impl
         Cell::Words(words) => words,
     });
     written.collect()
-}
-
-/// Returns the place (power of ten) of the second significant digit of `u`, after rounding: 0.0996 becomes 0.10.
-fn place(u: f64) -> i32 {
-    if u > 0.0 && u.is_finite() { number::exponent_as_printed(u, 2) - 1 } else { 0 }
-}
-
-/// Returns the power of ten of the first significant digit.
-fn exponent(value: f64) -> i32 {
-    number::exponent_of(&format!("{value:e}"))
 }
 
 /// Converts scientific notation with fewer decimals than its exponent to plain digits: `1.23e5` to `123000`.

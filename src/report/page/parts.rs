@@ -4,12 +4,13 @@ use super::language::{Language, Languages, Text};
 use super::number::Number;
 use super::spacing::BLANK;
 use super::symbols::index;
-use super::texts::{calibration, units, words};
+use super::texts::{record, units, words};
 use base64ct::{Base64, Encoding};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use jiff::tz::TimeZone;
 use maud::{Markup, html};
+use std::path::Path;
 
 /// Writes a section with its number and heading; `id` is its anchor.
 pub(crate) fn section(languages: &Languages, id: &str, number: &str, heading: Text, body: &Markup) -> Markup {
@@ -76,7 +77,7 @@ pub(crate) fn not_stated(languages: &Languages) -> Markup {
 
 /// Writes the fields of a signature.
 pub(crate) fn signature(languages: &Languages) -> Markup {
-    let names = [calibration::POST_AND_NAME, calibration::SIGNATURE, calibration::DATE, calibration::STAMP];
+    let names = [record::POST_AND_NAME, record::SIGNATURE, record::DATE, record::STAMP];
     fields(names.map(|name| field(languages, name, None)))
 }
 
@@ -107,13 +108,9 @@ pub(crate) fn band(languages: &Languages, cells: [(Text, Markup, Markup); 4]) ->
 
 /// Writes a number and its unit without a line break between them.
 pub(crate) fn quantity(languages: &Languages, number: &Number, unit: Text) -> Markup {
-    html! { span.quantity { (number.markup(languages)) (unit_after(languages, unit)) } }
-}
-
-/// Writes a unit after its number, without a space before the marks of angles (SI Brochure, 5.4.3).
-fn unit_after(languages: &Languages, unit: Text) -> Markup {
+    // No space before the marks of angles (SI Brochure, 5.4.3).
     let close = unit == units::ARCSEC || unit == units::DEGREES;
-    html! { @if !close { (BLANK) } (languages.in_brackets(unit)) }
+    html! { span.quantity { (number.markup(languages)) @if !close { (BLANK) } (languages.in_brackets(unit)) } }
 }
 
 /// Writes a date in the format of the page's first language.
@@ -125,7 +122,7 @@ pub(crate) fn date(languages: &Languages, date: Date) -> Markup {
 pub(crate) fn date_text(language: Language, date: Date) -> String {
     match language {
         Language::English => date.to_string(),
-        Language::Russian => format!("{:02}.{:02}.{:04}", date.day(), date.month(), date.year()),
+        Language::Russian => date.strftime("%d.%m.%Y").to_string(),
     }
 }
 
@@ -137,9 +134,7 @@ pub(crate) fn time(languages: &Languages, time: Timestamp) -> Markup {
 /// Returns a time in UTC in the format of `language`.
 pub(crate) fn time_text(language: Language, time: Timestamp) -> String {
     let at = time.to_zoned(TimeZone::UTC);
-    let clock = at.time();
-    let (hour, minute, second) = (clock.hour(), clock.minute(), clock.second());
-    format!("{}{BLANK}{hour:02}:{minute:02}:{second:02}{BLANK}UTC", date_text(language, at.date()))
+    format!("{}{BLANK}{}{BLANK}UTC", date_text(language, at.date()), at.strftime("%H:%M:%S"))
 }
 
 /// Writes a symbol with its subscript.
@@ -192,6 +187,11 @@ fn unbroken_powers(line: &str) -> Markup {
             @if word.contains("e-") { span.n { (word.trim_end()) } (&word[word.trim_end().len()..]) } @else { (word) }
         }
     }
+}
+
+/// Returns the name of a file without its folder.
+pub(crate) fn file_name(path: &str) -> &str {
+    Path::new(path).file_name().and_then(|name| name.to_str()).unwrap_or(path)
 }
 
 /// Returns the address of a file that the page itself contains.

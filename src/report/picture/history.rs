@@ -2,11 +2,12 @@
 //! first certificate, all to one scale.
 
 use super::chart::Field;
-use super::drawing::{Anchor, Panel, Point, Scale, Ticks, coordinate, line, rectangle, words};
+use super::drawing::{Anchor, Point, Scale, Ticks, coordinate, line, rectangle, words};
 use super::file::{caption, file};
+use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::history::drift::{DRIFTS, Drift, Series};
 use crate::history::{History, PastPassport, measured};
-use crate::report::page::language::{Language, Languages};
+use crate::report::page::language::Language;
 use jiff::Timestamp;
 use jiff::civil::Date;
 use maud::{Markup, html};
@@ -25,9 +26,6 @@ const PANEL_ROW: f64 = 74.0;
 const PLOT_HEIGHT: f64 = 52.0;
 const LEFT: f64 = 56.0;
 
-/// Half-length of the whiskers, in standard uncertainties.
-const COVERAGE_FACTOR: f64 = 2.0;
-
 /// Letters of the angles.
 pub(crate) const LETTERS: [&str; 3] = ["α", "β", "γ"];
 
@@ -42,14 +40,16 @@ pub(crate) fn history(history: &History, now: Timestamp) -> String {
     let positions = history.drift.series.len().div_ceil(LETTERS.len()) as f64;
     let height = if changes { panels_top + PANEL_ROW * positions + 24.0 } else { bottom + 40.0 };
     let title = format!("Stand {} over the years", history.stand);
-    let languages = Languages::from(Language::English);
-    let panel = Panel { name: "history", languages: &languages, size: [WIDTH, height] };
     let drawing = [
         words([20.0, 20.0], Anchor::Start, "title", &title),
         time_line(history, &time, bottom),
-        if changes { drift(&history.drift, panels_top) } else { super::drawing::nothing() },
+        if changes {
+            drift(&history.drift, panels_top)
+        } else {
+            html! {}
+        },
     ];
-    file(&panel, &title, &in_words(history), &drawing)
+    file("history", [WIDTH, height], &title, &in_words(history), &drawing)
 }
 
 /// Decimal year of a date, for the horizontal axis.
@@ -124,7 +124,7 @@ fn time_line(history: &History, time: &Scale, bottom: f64) -> Markup {
 
 /// Draws the time in which a passport was in force.
 fn bar(passport: &PastPassport, history: &History, time: &Scale, y: f64) -> Markup {
-    let Some(from) = passport.issued_at.map(year_of_time) else { return super::drawing::nothing() };
+    let Some(from) = passport.issued_at.map(year_of_time) else { return html! {} };
     let until = passport.ended_at.map_or(time.values[1], year_of_time);
     let withdrawn = history.withdrawals.iter().any(|entry| entry.sha256 == passport.line.sha256);
     let class = if withdrawn { "frame-line" } else { "bar" };
@@ -142,7 +142,7 @@ fn shortened(site: &str) -> String {
 
 fn drift(drift: &Drift, top: f64) -> Markup {
     if drift.series.is_empty() {
-        return super::drawing::nothing();
+        return html! {};
     }
     let ends = drift.series.iter().flat_map(|series| {
         let first = series.values.first().map_or(0.0, |at| at.arcsec);
@@ -180,12 +180,9 @@ fn drift(drift: &Drift, top: f64) -> Markup {
 
 fn panel(series: &Series, field: &Field, lowest: bool) -> Markup {
     let language = Language::English;
-    let marked = |ticks: Ticks| -> Vec<(f64, String)> {
-        ticks.values.iter().map(|value| (*value, ticks.text(*value, language))).collect()
-    };
-    let years = marked(Ticks::along(&field.x, language)).into_iter().filter(|(year, _)| *year >= 0.0);
+    let years = Ticks::along(&field.x, language).marks(language).into_iter().filter(|(year, _)| *year >= 0.0);
     let years = years.map(|(year, printed)| (year, if lowest { printed } else { String::new() }));
-    let changes = marked(Ticks::between(field.y.values[0], field.y.values[1], 3));
+    let changes = Ticks::between(field.y.values[0], field.y.values[1], 3).marks(language);
     let first = series.values.first().map_or(0.0, |at| at.arcsec);
     let drifts = series.corrected_probability.is_some_and(|p| p < DRIFTS);
     let [left, right] = field.x.places;

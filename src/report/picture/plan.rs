@@ -1,12 +1,12 @@
 //! A plan next to the paper's eight positions as a picture file: the uncertainty of each parameter, and what errors
 //! cost that all positions share.
 
-use super::drawing::{Anchor, Panel, Point, Scale, label, number_of, plain_symbol, rectangle, symbol, symbols, words};
+use super::drawing::{Anchor, Point, Scale, label, number, plain_symbol, rectangle, symbol, symbols, words};
 use super::file::{caption, file};
 use crate::calibration::parameter::Parameter;
 use crate::plan::sensitivity::Effect;
 use crate::plan::{Evaluation, Plan};
-use crate::report::page::language::{Language, Languages};
+use crate::report::page::language::Language;
 use crate::report::page::number::Number;
 use maud::{Markup, html};
 
@@ -44,10 +44,8 @@ pub(crate) fn plan(plan: &Plan) -> String {
         panel(&uncertainties, BARS[0]),
         panel(&errors, BARS[1]),
     ];
-    let languages = Languages::from(Language::English);
-    let height = TOP + ROW * rows as f64 + 10.0;
-    let picture = Panel { name: "plan", languages: &languages, size: [WIDTH, height] };
-    file(&picture, "Plan of readings", &in_words(plan, &errors), &drawing)
+    let size = [WIDTH, TOP + ROW * rows as f64 + 10.0];
+    file("plan", size, "Plan of readings", &in_words(plan, &errors), &drawing)
 }
 
 fn name_of(effect: &Effect) -> String {
@@ -78,7 +76,7 @@ fn panel(rows: &[Row], [left, right]: Point) -> Markup {
         let width = scale.place(value) - left;
         html! {
             @if width >= 0.3 { (rectangle([left, top], [left + width, top + BAR - 1.0], class, None)) }
-            (number_of("small", [left + width + 5.0, top + BAR - 2.0], Anchor::Start, value, &percent(value)))
+            (number([left + width + 5.0, top + BAR - 2.0], Anchor::Start, "small", value, &percent(value)))
         }
     };
     html! {

@@ -315,7 +315,7 @@ fn in_words(language: Language, at: &CertifiedPosition, real: &Matrix3<f64>) -> 
 
 /// Returns the nearest of six directions, and the angle from it in degrees.
 fn nearest(axis: &Vector3<f64>) -> (Text, f64) {
-    let names = [(compass::EAST, compass::WEST), (compass::NORTH, compass::SOUTH), (texts::UPWARDS, texts::DOWNWARDS)];
+    let names = [(compass::EAST, compass::WEST), (compass::NORTH, compass::SOUTH), (compass::UP, texts::DOWNWARDS)];
     let largest = axis.iamax();
     let (positive, negative) = names[largest];
     let name = if axis[largest] < 0.0 { negative } else { positive };

@@ -2,8 +2,8 @@
 //! gyro's x-y plane ([the paper](crate::bibliography::Bibliography::Tang17), eq. (5)).
 
 use super::drawing::{
-    Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading_with, label, legend, line, mark, nothing, panels,
-    power, power_of_ten, rectangle, words,
+    Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading_with, label, legend, line, mark, panels, power,
+    power_of_ten, rectangle, words,
 };
 use super::label as labels;
 use crate::attitude;
@@ -87,7 +87,7 @@ fn small_multiples(languages: &Languages, subject: &Subject) -> Markup {
     });
     let drawings: Vec<Markup> =
         parts.enumerate().map(|(place, part)| differences_of(languages, subject, &plane, part, Some(place))).collect();
-    panels(SMALL.columns, SMALL.pixels, &drawings, &nothing())
+    panels(SMALL.columns, SMALL.pixels, &drawings, &html! {})
 }
 
 fn key(languages: &Languages, content: &Content) -> Markup {
@@ -163,18 +163,17 @@ impl Plane {
         let factor = power_of_ten(self.exponent);
         let reach = self.x.values[1] / factor;
         let ticks = Ticks::between(-0.93 * reach, 0.93 * reach, self.layout.ticks);
-        let text = |value: &f64| ticks.text(*value, languages.first());
         let unit = match self.exponent {
             0 => languages.plain(unit),
             exponent => format!("{}\u{a0}{}", power(exponent, languages.first()), languages.plain(unit)),
         };
         html! {
-            @for value in &ticks.values {
+            @for (value, text) in ticks.marks(languages.first()) {
                 @let (x, y) = (self.x.place(value * factor), self.y.place(value * factor));
                 (line([x, top], [x, bottom], "grid"))
                 (line([left, y], [right, y], "grid"))
-                (words([x, bottom + 12.0], Anchor::Middle, "small", &text(value)))
-                (words([left - 4.0, y + 4.0], Anchor::End, "small", &text(value)))
+                (words([x, bottom + 12.0], Anchor::Middle, "small", &text))
+                (words([left - 4.0, y + 4.0], Anchor::End, "small", &text))
             }
             (rectangle([left, top], [right, bottom], "frame-line", None))
             (label([right, bottom + 27.0], Anchor::End, "", &html! { tspan.letter { "x" } ", " (unit) }))

@@ -27,7 +27,7 @@ pub(super) fn json(page: &CalibrationPage) -> String {
     // Every number of a result is finite, and its keys are strings. So this JSON can always be written.
     let mut json = Vec::new();
     let mut writer = Serializer::with_formatter(&mut json, Lines { depth: 0, in_list: false });
-    match page.result().serialize(&mut writer) {
+    match page.document.serialize(&mut writer) {
         // A space before an object that begins a line; a string contains no line feed.
         Ok(()) => String::from_utf8(json).unwrap_or_default().replace(", \n", ",\n") + "\n",
         Err(_) => String::new(),

@@ -9,7 +9,7 @@ use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{Cell, Number, column};
 use crate::report::page::parts::{Column, Table, heading, quantity, symbol};
-use crate::report::page::texts::{calibration as texts, units};
+use crate::report::page::texts::{calibration as texts, passport, units};
 use crate::report::picture::accuracy::unit;
 use crate::report::picture::tolerances::{Strips, decision, key, parameter_of, printed, unit_of};
 use maud::{Markup, html};
@@ -25,7 +25,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
             None => (alone(page, languages)),
         }
         @if let Some(result) = adopted { (parameters::beyond_the_eight(result, languages)) }
-        @if let Some(change) = &page.result().change {
+        @if let Some(change) = &page.document.change {
             (heading(languages, texts::CHANGE))
             (table(languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY], false))
         }
@@ -78,7 +78,7 @@ fn alone(page: &CalibrationPage, languages: &Languages) -> Markup {
         Column::new(languages.label(texts::FOUND), values),
         Column::new(symbol("u", ""), us),
         Column::new(
-            languages.label(texts::UNIT),
+            languages.label(passport::UNIT),
             found.iter().map(|(parameter, ..)| languages.inline(unit(*parameter))).collect(),
         ),
     ];
@@ -149,7 +149,7 @@ fn from_gravity(page: &CalibrationPage, verdict: &Verdict, languages: &Languages
     if rows.is_empty() {
         return html! {};
     }
-    let u = Number::uncertainty(page.result().gravity_u_m_per_s2.unwrap_or(0.0));
+    let u = Number::uncertainty(page.document.gravity_u_m_per_s2.unwrap_or(0.0));
     let part = |row: &ParameterVerdict, language: Language| {
         let gravity = Number::uncertainty(row.expanded_uncertainty_from_gravity.unwrap_or(0.0));
         let gravity = quantity(&language.into(), &gravity, unit_of(row));

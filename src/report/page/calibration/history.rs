@@ -26,7 +26,7 @@ pub(super) fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     if page.previous.len() < 2 {
         return html! {};
     }
-    let results = page.previous.iter().chain([page.result()]);
+    let results = page.previous.iter().chain([page.document]);
     let all: Vec<Past> = results
         .filter_map(|result| {
             let found = result.answer()?;
@@ -41,7 +41,7 @@ pub(super) fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
 }
 
 fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
-    let gravity = page.gyro.map_or(page.result().gravity_m_per_s2, GyroType::gravity);
+    let gravity = page.gyro.map_or(page.document.gravity_m_per_s2, GyroType::gravity);
     let strips = Strips::of(all.iter().filter_map(|past| past.verdict.as_ref()));
     // The calibrations of a parameter stand below one another, so that its strips show what has changed.
     let each = Parameter::AS_IN_THE_PAPER.into_iter().flat_map(|parameter| {

@@ -18,7 +18,7 @@ use maud::{Markup, html};
 const NEGLIGIBLE: f64 = 1e-3;
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let results = &page.result().results;
+    let results = &page.document.results;
     let body = html! {
         (table(page, languages))
         @if results.iter().any(|result| result.from_least_squares.is_some()) { (languages.paragraph(texts::OFF_BY_NOTE)) }
@@ -34,7 +34,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
 }
 
 fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let results = &page.result().results;
+    let results = &page.document.results;
     // The adopted result comes first: it is the last of the methods.
     let rows = results.iter().rev().flat_map(|result| {
         let [values, u] = values(result);
@@ -57,7 +57,7 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
         }));
         rows
     });
-    let (g, u) = (page.result().gravity_m_per_s2, page.result().gravity_u_m_per_s2);
+    let (g, u) = (page.document.gravity_m_per_s2, page.document.gravity_u_m_per_s2);
     let caption = with_gravity(languages, texts::PARAMETERS_CAPTION, &Number::measured(g, u.unwrap_or(0.0)));
     let table = Table { caption: Some(caption), ..parameters(languages, rows.collect()) };
     table.markup(languages.spoken(texts::METHODS))

@@ -6,10 +6,10 @@ use crate::certification::suspects::AXES;
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{
-    Column, Table, field, fields, given, heading, section as part, symbol, symbol_and_unit, wide_field,
+    Column, Table, field, fields, file_name, given, heading, section as part, symbol, symbol_and_unit, wide_field,
 };
 use crate::report::page::passport::characteristics;
-use crate::report::page::texts::{certification as texts, units};
+use crate::report::page::texts::{calibration, certification as texts, units, words};
 use crate::statistics::outlier::Bartlett;
 use maud::{Markup, html};
 
@@ -32,7 +32,7 @@ pub(super) fn readings(page: &CertificationPage, languages: &Languages) -> Marku
     };
     let body = html! {
         (fields([
-            field(languages, texts::FILE, Some(given(page.readings_name()))),
+            field(languages, texts::FILE, Some(given(file_name(page.readings.0)))),
             field(languages, texts::RUNS, Some(html! { (runs.len()) " (" (runs.join(", ")) ")" })),
             field(languages, texts::POSITIONS, Some(html! { (certification.stand.positions.len()) })),
             field(languages, texts::REPEATED, Some(html! { (certification.repeated_rows) })),
@@ -97,7 +97,7 @@ fn components(page: &CertificationPage, languages: &Languages) -> Markup {
 
 fn run_turns(page: &CertificationPage, languages: &Languages) -> Markup {
     let turns = &page.certification.components.run_turns;
-    let of_base = [texts::EAST, texts::NORTH, texts::UP].map(|text| languages.label(text));
+    let of_base = [words::EAST, words::NORTH, words::UP].map(|text| languages.label(text));
     let headings = AXES.map(|axis| symbol(axis, "")).into_iter().chain(of_base);
     let columns = headings.enumerate().map(|(place, heading)| {
         let values = turns.iter().map(|turn| turn.platform_arcsec.iter().chain(&turn.base_arcsec).nth(place));
@@ -147,7 +147,7 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
     let statistic = column(languages, found.iter().map(|(_, value, ..)| value.clone()));
     let freedom = column(languages, found.iter().map(|(_, _, freedom, _)| freedom.clone()));
     let p = column(languages, found.iter().map(|(.., p)| p.map(|p| Number::scientific(p, 2))));
-    let columns = [(texts::STATISTIC, statistic), (texts::FREEDOM, freedom), (texts::PROBABILITY, p)];
+    let columns = [(texts::STATISTIC, statistic), (calibration::FREEDOM, freedom), (texts::PROBABILITY, p)];
     let columns = columns.map(|(heading, cells)| Column::new(languages.label(heading), cells));
     let names = found.into_iter().map(|(name, ..)| vec![name]).collect();
     let table = Table::of(vec![languages.label(texts::TEST)], names, &columns);

@@ -8,7 +8,7 @@ use crate::certification::suspects::{AXES, OUTLIER};
 use crate::report::page::language::{Language, Text};
 use crate::report::page::number::Number;
 use crate::report::page::parts::date_text;
-use crate::report::page::texts::{certification as terms, remarks as texts};
+use crate::report::page::texts::{remarks as texts, words as compass};
 use crate::report::picture::history::LETTERS;
 use crate::stand::remarks::Odd;
 use jiff::civil::Date;
@@ -82,7 +82,7 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
 pub(super) fn axis_of_run(at: &BumpedRun, language: Language) -> String {
     match at.axis {
         axis @ 0..3 => AXES[axis].to_owned(),
-        axis => [terms::EAST, terms::NORTH, terms::UP][axis - 3].words(language),
+        axis => [compass::EAST, compass::NORTH, compass::UP][axis - 3].words(language),
     }
 }
 

@@ -1,15 +1,15 @@
 //! Characteristics: the certified deviations with their uncertainties, the datum surfaces, the site.
 
 use super::PassportPage;
-use super::figures::{Slot, figure};
 use crate::report::page::language::{Language, Languages};
 use crate::report::page::number::{LARGEST_IN_ARCSEC, Number, column};
 use crate::report::page::parts::{
-    Column, Table, fields, given, heading, not_stated, quantity, section as part, starts, stated, symbol,
+    Column, Table, fields, figure, given, heading, not_stated, quantity, section as part, starts, stated, symbol,
     symbol_and_unit, wide_stated,
 };
 use crate::report::page::texts::{passport as texts, units};
 use crate::report::picture::deviations::{ANGLES, Bars};
+use crate::report::picture::{place as map, positions as picture};
 use crate::site::{Earth, Site};
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Datum, Excluded, TypeB};
 use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
@@ -17,11 +17,12 @@ use maud::{Markup, html};
 
 pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
+    let stand = picture::positions(languages, &content.positions, content.site.frame_axis_azimuth_deg());
     let body = html! {
         (heading(languages, texts::DEVIATIONS))
         (positions(&content.positions, languages))
         (languages.paragraph(texts::DEVIATIONS_NOTE))
-        (figure(Slot::Positions, content, languages))
+        (figure(languages, "positions", &stand, texts::FIGURE_POSITIONS))
         (heading(languages, texts::COMMON))
         (common(&content.certificate, languages))
         (heading(languages, texts::DATUM))
@@ -33,7 +34,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
         @if content.earth.azimuth_deg.is_some() {
             div.with-figure {
                 (the_earth(&content.site, &content.earth, languages))
-                (figure(Slot::Radius, content, languages))
+                (figure(languages, "radius", &map::place(languages, content), texts::FIGURE_RADIUS))
             }
         } @else {
             (the_earth(&content.site, &content.earth, languages))
@@ -134,10 +135,11 @@ pub(crate) fn datum(datum: Option<&Datum>, languages: &Languages) -> Markup {
 
 fn place(site: &Site, languages: &Languages) -> Markup {
     let degrees = |value: f64| quantity(languages, &Number::exact(value), units::DEGREES);
-    let latitude_u = site.uncertainty.as_ref().and_then(|base| base.latitude_arcsec);
     let arcsec = |value: f64| quantity(languages, &Number::exact(value), units::ARCSEC);
     let u = |u: f64| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
     let base = site.uncertainty.as_ref();
+    let latitude_u = base.and_then(|base| base.latitude_arcsec);
+    let measured_gravity = site.gravity_m_per_s2.map(|value| gravity(value, site.gravity_u_m_per_s2, languages));
     let measured = |value: f64, u: f64| quantity(languages, &Number::measured(value, u), units::ARCSEC);
     let deflection = site.deflection_arcsec.as_ref().map(|deflection| match deflection.u {
         Some(known) => html! {
@@ -165,12 +167,12 @@ fn place(site: &Site, languages: &Languages) -> Markup {
             stated(languages, texts::HEIGHT,
                 site.height_m.map(|height| quantity(languages, &Number::exact(height), units::METRES))),
             stated(languages, texts::DEFLECTION, deflection),
-            stated(languages, texts::GRAVITY_MEASURED, gravity_measured(site, languages)),
+            stated(languages, texts::GRAVITY_MEASURED, measured_gravity),
             frame_axis.unwrap_or_default(),
-            stated(languages, texts::LATITUDE_U, base.and_then(|base| base.latitude_arcsec).map(u)),
+            stated(languages, texts::LATITUDE_U, latitude_u.map(u)),
             stated(languages, texts::AZIMUTH_U, base.and_then(|base| base.azimuth_arcsec).map(u)),
             stated(languages, texts::LEVEL_U, base.and_then(|base| base.level_arcsec).map(u)),
-            wide_stated(languages, texts::SITE_NAME, site.name.as_deref().map(given)),
+            wide_stated(languages, texts::NAME, site.name.as_deref().map(given)),
             wide_stated(languages, texts::SOURCE, site.source.as_deref().map(given)),
         ]))
         (mark(site, languages))
@@ -186,13 +188,8 @@ fn angle(degrees: f64, u_arcsec: Option<f64>, languages: &Languages) -> Markup {
     quantity(languages, &number, units::DEGREES)
 }
 
-fn gravity_measured(site: &Site, languages: &Languages) -> Option<Markup> {
-    let value = site.gravity_m_per_s2?;
-    Some(gravity(value, site.gravity_u_m_per_s2, languages))
-}
-
 /// Writes g, with its uncertainty if that is known.
-fn gravity(value: f64, u: Option<f64>, languages: &Languages) -> Markup {
+pub(crate) fn gravity(value: f64, u: Option<f64>, languages: &Languages) -> Markup {
     let Some(u) = u else { return quantity(languages, &Number::exact(value), units::M_PER_S2) };
     html! {
         (quantity(languages, &Number::measured(value, u), units::M_PER_S2)) ", " (symbol("u", "")) " "

@@ -11,78 +11,48 @@ use crate::report::page::spacing::BLANK;
 use crate::report::page::texts::{checks as texts, units};
 use maud::{Markup, html};
 
-/// Every check, in the order of the report.
-const CHECKS: [CheckName; 11] = [
-    CheckName::Grammar,
-    CheckName::Signature,
-    CheckName::Schema,
-    CheckName::Signer,
-    CheckName::Revocation,
-    CheckName::Recomputed,
-    CheckName::InForce,
-    CheckName::Issuer,
-    CheckName::Stand,
-    CheckName::Place,
-    CheckName::Register,
-];
-
-/// The result of a check on a page. What was not asked is neither passed nor failed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum State {
-    Passed,
-    NotAsked,
-    Failed,
+/// Returns whether the check `name` passed; `None` if it was not asked. Without any list, nothing was asked about a
+/// withdrawal.
+fn passed(page: &PassportPage, name: CheckName) -> Option<bool> {
+    let check = page.verification.checks().iter().find(|check| check.name == name);
+    let no_list = page.trust.revoked.is_empty() && page.trust.withdrawn.newest().is_none();
+    let passed = check.and_then(Check::passed);
+    passed.filter(|passed| !(*passed && name == CheckName::Revocation && no_list))
 }
 
-impl State {
-    const ALL: [Self; 3] = [Self::Passed, Self::NotAsked, Self::Failed];
+/// Writes the mark of a result.
+fn mark(passed: Option<bool>) -> Markup {
+    let (class, mark) = match passed {
+        Some(true) => ("state passed", "●"),
+        None => ("state", "○"),
+        Some(false) => ("state failed", "✕"),
+    };
+    html! { span class=(class) aria-hidden="true" { (mark) } }
+}
 
-    /// Returns the result of the check `name`. Without any list, nothing was asked about a withdrawal.
-    fn of(page: &PassportPage, name: CheckName) -> Self {
-        let check = page.verification.checks().iter().find(|check| check.name == name);
-        let no_list = page.trust.revoked.is_empty() && page.trust.withdrawn.newest().is_none();
-        match check.and_then(Check::passed) {
-            Some(true) if name == CheckName::Revocation && no_list => Self::NotAsked,
-            Some(true) => Self::Passed,
-            Some(false) => Self::Failed,
-            None => Self::NotAsked,
-        }
+fn word(passed: Option<bool>) -> Text {
+    match passed {
+        Some(true) => texts::PASSED,
+        None => texts::NOT_ASKED,
+        Some(false) => texts::FAILED,
     }
+}
 
-    /// Writes the mark of this result.
-    fn mark(self) -> Markup {
-        let (class, mark) = match self {
-            Self::Passed => ("state passed", "●"),
-            Self::NotAsked => ("state", "○"),
-            Self::Failed => ("state failed", "✕"),
-        };
-        html! { span class=(class) aria-hidden="true" { (mark) } }
-    }
-
-    fn word(self) -> Text {
-        match self {
-            Self::Passed => texts::PASSED,
-            Self::NotAsked => texts::NOT_ASKED,
-            Self::Failed => texts::FAILED,
-        }
-    }
-
-    /// Writes the mark and its word.
-    fn named(self, languages: &Languages) -> Markup {
-        html! { (self.mark()) " " (languages.label(self.word())) }
-    }
+/// Writes the mark of a result and its word.
+fn named(passed: Option<bool>, languages: &Languages) -> Markup {
+    html! { (mark(passed)) " " (languages.label(word(passed))) }
 }
 
 /// Returns `true` if nothing shows whether the passport has been withdrawn.
 pub(crate) fn withdrawal_not_checked(page: &PassportPage) -> bool {
-    State::of(page, CheckName::Revocation) == State::NotAsked
+    passed(page, CheckName::Revocation).is_none()
 }
 
 /// Writes every check as a mark with its name, and the number of checks with each result.
 pub(crate) fn line(page: &PassportPage, languages: &Languages) -> Markup {
-    let count = |state| CHECKS.into_iter().filter(|name| State::of(page, *name) == state).count();
+    let count = |result| CheckName::ALL.into_iter().filter(|name| passed(page, *name) == result).count();
     let counted = |language: Language| {
-        let [passed, not_asked, failed] = State::ALL.map(count);
+        let [passed, not_asked, failed] = [Some(true), None, Some(false)].map(count);
         let text = if failed == 0 { texts::COUNTED } else { texts::COUNTED_FAILED };
         let time = time_text(language, page.question.time);
         text.filled(language, &[("time", &time), ("passed", &passed), ("not_asked", &not_asked), ("failed", &failed)])
@@ -90,11 +60,11 @@ pub(crate) fn line(page: &PassportPage, languages: &Languages) -> Markup {
     html! {
         (languages.paragraph_with(|language| html! { (counted(language)) }))
         ul.marks {
-            @for check in CHECKS {
-                @let state = State::of(page, check);
+            @for check in CheckName::ALL {
+                @let passed = passed(page, check);
                 li {
-                    (state.mark()) " " (languages.inline(name(check)))
-                    span.unseen { ": " (languages.spoken(state.word())) }
+                    (mark(passed)) " " (languages.inline(name(check)))
+                    span.unseen { ": " (languages.spoken(word(passed))) }
                 }
             }
         }
@@ -147,14 +117,14 @@ pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
     let caption = languages
         .label_with(|language| texts::CAPTION.filled(language, &[("time", &time_text(language, page.question.time))]));
     let (not_asked, asked): (Vec<_>, Vec<_>) =
-        CHECKS.into_iter().partition(|check| State::of(page, *check) == State::NotAsked);
+        CheckName::ALL.into_iter().partition(|check| passed(page, *check).is_none());
     let found = |check| page.verification.checks().iter().find(|one| one.name == check);
     let mut rows: Vec<_> = asked
         .into_iter()
         .filter_map(found)
         .map(|found| {
             let words = languages.label_with(|language| words(page, found, language));
-            vec![languages.label(name(found.name)), State::of(page, found.name).named(languages), words]
+            vec![languages.label(name(found.name)), named(passed(page, found.name), languages), words]
         })
         .collect();
     if !not_asked.is_empty() {
@@ -162,7 +132,7 @@ pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
             let words = |language| not_asked.iter().map(|check| of(*check).words(language)).collect::<Vec<_>>();
             languages.label_with(|language| words(language).join(between))
         };
-        rows.push(vec![joined(name, ", "), State::NotAsked.named(languages), joined(absent, "; ")]);
+        rows.push(vec![joined(name, ", "), named(None, languages), joined(absent, "; ")]);
     }
     let table = Table {
         headings: [texts::CHECK, texts::RESULT, texts::FOUND].map(|text| languages.label(text)).into(),

@@ -1,15 +1,15 @@
 //! Numbers that a calibration uses: matrices, vectors, the self-check.
 
 use super::PassportPage;
-use super::figures::{Slot, figure};
 use crate::calibration::parameter::Parameter;
 use crate::gyro::Parameters;
 use crate::passport::Content;
 use crate::passport::content::{MatrixRows, Rows, SelfCheck};
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::{Cell, Number, column};
-use crate::report::page::parts::{Column, Table, heading, section as part, starts, symbol, symbol_and_unit};
+use crate::report::page::parts::{Column, Table, figure, heading, section as part, starts, symbol, symbol_and_unit};
 use crate::report::page::texts::{passport as texts, units};
+use crate::report::picture::vectors::vectors as picture;
 use maud::{Markup, html};
 
 /// Paper from which the equations are numbered.
@@ -35,7 +35,7 @@ pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
         }
         (heading(languages, texts::VECTORS))
         (vectors(content, languages))
-        (figure(Slot::EarthRate, content, languages))
+        (figure(languages, "vectors", &picture(languages, content), texts::FIGURE_VECTORS))
         @if let Some(check) = &content.self_check {
             (heading(languages, texts::SELF_CHECK))
             (languages.paragraph(texts::SELF_CHECK_NOTE))
