@@ -10,7 +10,7 @@ mod evidence;
 pub(crate) mod remarks;
 
 use super::language::{Languages, Text};
-use super::parts::{contents, data_address, file_name, given, heading, section as part, signature_of, verbatim};
+use super::parts::{contents, data_address, file_name, given, heading, section as part, signatures, verbatim};
 use super::passport::{characteristics, general};
 use super::shell::{Margins, document};
 use super::texts::{calibration as calibration_texts, certification as texts, passport as passport_texts};
@@ -60,6 +60,7 @@ impl CertificationPage<'_> {
 
     fn body(&self, languages: &Languages) -> Markup {
         let stand = &self.certification.stand;
+        let who = [texts::MEASURED_BY, texts::CHECKED_BY, passport_texts::AUTHORISED_BY];
         html! {
             header.title {
                 p.kind { (languages.label(texts::TITLE)) }
@@ -80,7 +81,7 @@ impl CertificationPage<'_> {
                 (evidence::uncertainty(self, languages))
                 (evidence::tests(self, languages))
                 (change::section(self, languages))
-                (signatures(languages))
+                (part(languages, "signatures", "", calibration_texts::SIGNATURES, &signatures(languages, who)))
                 (self.annex(languages))
             }
         }
@@ -104,16 +105,4 @@ impl CertificationPage<'_> {
         let body = html! { (languages.paragraph(texts::ANNEX_NOTE)) (verbatim("", &text, &end)) };
         part(languages, "annex", "", texts::ANNEX, &body)
     }
-}
-
-fn signatures(languages: &Languages) -> Markup {
-    let body = html! {
-        div.pair {
-            (signature_of(languages, texts::MEASURED_BY))
-            (signature_of(languages, texts::CHECKED_BY))
-            (signature_of(languages, passport_texts::AUTHORISED_BY))
-        }
-        div.statement { (languages.paragraph(calibration_texts::VALID_WHEN_SIGNED)) }
-    };
-    part(languages, "signatures", "", calibration_texts::SIGNATURES, &body)
 }

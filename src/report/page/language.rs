@@ -157,7 +157,7 @@ impl Languages {
 
     /// Returns the distinct wordings, each with the first language that uses it. So a unit that is written alike in two
     /// languages appears once.
-    fn sayings(&self, say: impl Fn(Language) -> String) -> Vec<(Language, String)> {
+    pub(crate) fn sayings(&self, say: impl Fn(Language) -> String) -> Vec<(Language, String)> {
         let mut sayings: Vec<(Language, String)> = Vec::new();
         for language in self.iter() {
             let words = say(language);

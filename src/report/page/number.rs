@@ -155,43 +155,35 @@ impl Number {
 /// of ten.
 #[derive(Debug, Clone, Default)]
 struct Tail {
-    marks: usize,
-    digits: usize,
-    spaces: usize,
+    /// Number of characters of each of the `KINDS`.
+    counts: [usize; 3],
     power: String,
 }
 
 impl Tail {
+    /// A mark, a digit and a space: digits have one width, and so have both marks.
+    const KINDS: [char; 3] = ['.', '0', THIN_BLANK];
+
     fn of(text: &str) -> Self {
         let power = text.find(['\u{00D7}', '\u{00B7}']).map_or(text.len(), |at| at - THIN_BLANK.len_utf8());
         let (mantissa, power) = text.split_at(power);
         let decimals = mantissa.split_once(['.', ',']).map(|(_, decimals)| decimals);
         let count = |of: fn(char) -> bool| decimals.map_or(0, |decimals| decimals.chars().filter(|c| of(*c)).count());
-        Self {
-            marks: usize::from(decimals.is_some()),
-            digits: count(|c| c.is_ascii_digit()),
-            spaces: count(|c| c == THIN_BLANK),
-            power: power.to_owned(),
-        }
+        let counts = [usize::from(decimals.is_some()), count(|c| c.is_ascii_digit()), count(|c| c == THIN_BLANK)];
+        Self { counts, power: power.to_owned() }
     }
 
     /// Returns the longest of each part.
     fn or_longer(self, other: Self) -> Self {
         let longer = if other.power.chars().count() > self.power.chars().count() { other.power } else { self.power };
-        Self {
-            marks: self.marks.max(other.marks),
-            digits: self.digits.max(other.digits),
-            spaces: self.spaces.max(other.spaces),
-            power: longer,
-        }
+        Self { counts: [0, 1, 2].map(|kind| self.counts[kind].max(other.counts[kind])), power: longer }
     }
 
-    /// Returns characters as wide as what this tail has beyond `own`. Digits have one width, and so have both marks.
+    /// Returns characters as wide as what this tail has beyond `own`.
     fn beyond(&self, own: &Self) -> String {
-        let mut missing = ".".repeat(self.marks - own.marks) + &"0".repeat(self.digits - own.digits);
-        missing.extend(std::iter::repeat_n(THIN_BLANK, self.spaces - own.spaces));
-        missing.extend(self.power.chars().skip(own.power.chars().count()));
-        missing
+        let counts = self.counts.iter().zip(own.counts).zip(Self::KINDS);
+        let missing = counts.flat_map(|((longest, own), kind)| std::iter::repeat_n(kind, longest - own));
+        missing.chain(self.power.chars().skip(own.power.chars().count())).collect()
     }
 }
 
@@ -288,18 +280,11 @@ fn grouped(out: &mut String, digits: &str, head: usize) {
 
 /// Returns an exponent in superscript digits.
 pub(crate) fn superscripts(exponent: &str) -> String {
-    exponent.chars().filter_map(superscript).collect()
-}
-
-fn superscript(c: char) -> Option<char> {
-    Some(match c {
-        '-' => '\u{207B}',
-        '1' => '\u{00B9}',
-        '2' => '\u{00B2}',
-        '3' => '\u{00B3}',
-        '0' | '4'..='9' => char::from_u32(0x2070 + c.to_digit(10)?)?,
-        _ => return None,
-    })
+    let raised = |c: char| match c {
+        '-' => Some('⁻'),
+        c => "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(c.to_digit(10)? as usize),
+    };
+    exponent.chars().filter_map(raised).collect()
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::language::{Language, Languages, Text};
 use super::number::Number;
 use super::spacing::BLANK;
 use super::symbols::index;
-use super::texts::{record, units, words};
+use super::texts::{calibration, record, units, words};
 use base64ct::{Base64, Encoding};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -75,15 +75,23 @@ pub(crate) fn not_stated(languages: &Languages) -> Markup {
     html! { span.absent { (languages.inline(words::NOT_STATED)) } }
 }
 
+/// Writes a headline and words about it in a box.
+pub(crate) fn boxed(class: &str, headline: Markup, words: Markup) -> Markup {
+    html! { div class=(class) { p.headline { (headline) } (words) } }
+}
+
 /// Writes the fields of a signature.
 pub(crate) fn signature(languages: &Languages) -> Markup {
     let names = [record::POST_AND_NAME, record::SIGNATURE, record::DATE, record::STAMP];
     fields(names.map(|name| field(languages, name, None)))
 }
 
-/// Writes the form for the signature of a person.
-pub(crate) fn signature_of(languages: &Languages, who: Text) -> Markup {
-    html! { div.part.pen { (heading(languages, who)) (signature(languages)) } }
+/// Writes forms for the signatures of some persons.
+pub(crate) fn signatures<const N: usize>(languages: &Languages, who: [Text; N]) -> Markup {
+    html! {
+        div.pair { @for who in who { div.part.pen { (heading(languages, who)) (signature(languages)) } } }
+        div.statement { (languages.paragraph(calibration::VALID_WHEN_SIGNED)) }
+    }
 }
 
 /// Writes fields in as many columns as fit.
@@ -247,6 +255,11 @@ pub(crate) struct Column {
 }
 
 impl Column {
+    /// Creates a column with a text as its heading.
+    pub(crate) fn named(languages: &Languages, heading: Text, cells: Vec<Markup>) -> Self {
+        Self::new(languages.label(heading), cells)
+    }
+
     /// Creates a column with nothing below it.
     pub(crate) fn new(heading: Markup, cells: Vec<Markup>) -> Self {
         Self { heading, cells, foot: html! {} }

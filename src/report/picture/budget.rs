@@ -82,11 +82,8 @@ fn bars(line: &ParameterBudget) -> Vec<(String, f64)> {
 }
 
 fn with_unit(line: &ParameterBudget) -> String {
-    format!("{}{BLANK}{}", printed(line.standard_uncertainty), unit(line.parameter).of(Language::English))
-}
-
-fn printed(u: f64) -> String {
-    Number::scientific(u, 2).text(Language::English)
+    let u = Number::scientific(line.standard_uncertainty, 2).text(Language::English);
+    format!("{u}{BLANK}{}", unit(line.parameter).of(Language::English))
 }
 
 fn in_words(budget: &Budget) -> String {

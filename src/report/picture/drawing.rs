@@ -231,16 +231,10 @@ pub(crate) fn plain_symbol(name: &str) -> String {
 /// `say` gives its words in each.
 pub(crate) fn heading_with(languages: &Languages, at: Point, say: impl Fn(Language) -> String) -> (Markup, f64) {
     const LINE: f64 = 15.0;
-    let mut said: Vec<String> = Vec::new();
-    let mut lines: Vec<(&str, String)> = Vec::new();
-    for (place, language) in languages.iter().enumerate() {
-        let words = say(language);
-        if !said.contains(&words) {
-            let class = if place == 0 { "title" } else { "small" };
-            lines.extend(lines_of(&words).into_iter().map(|line| (class, line)));
-            said.push(words);
-        }
-    }
+    let classes = std::iter::once("title").chain(std::iter::repeat("small"));
+    let sayings = classes.zip(languages.sayings(say));
+    let lines = sayings.flat_map(|(class, (_, words))| lines_of(&words).into_iter().map(move |line| (class, line)));
+    let lines: Vec<(&str, String)> = lines.collect();
     let drawn = html! {
         @for (row, (class, line)) in lines.iter().enumerate() {
             (label([at[0], at[1] + LINE * row as f64], Anchor::Start, class, &symbols(line)))

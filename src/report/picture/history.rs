@@ -2,7 +2,7 @@
 //! first certificate, all to one scale.
 
 use super::chart::Field;
-use super::drawing::{Anchor, Point, Scale, Ticks, coordinate, line, rectangle, words};
+use super::drawing::{Anchor, Point, Scale, Ticks, coordinate, line, mark, rectangle, words};
 use super::file::{caption, file};
 use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::history::drift::{DRIFTS, Drift, Series};
@@ -102,7 +102,7 @@ fn time_line(history: &History, time: &Scale, bottom: f64) -> Markup {
         (caption([20.0, 42.0], "", &[
             (rectangle([2.0, 2.5], [26.0, 11.5], sure, None), "in force"),
             (rectangle([2.0, 2.5], [26.0, 11.5], unsure, None), "withdrawn later"),
-            (super::drawing::mark([14.0, 7.0], 1, "mark"), "measured for a certificate"),
+            (mark([14.0, 7.0], 1, "mark"), "measured for a certificate"),
         ]))
         @for (year, name) in marks(time) {
             @let x = time.place(year);
@@ -111,7 +111,7 @@ fn time_line(history: &History, time: &Scale, bottom: f64) -> Markup {
         }
         (words([ACROSS[0] - 8.0, row(0) + 4.0], Anchor::End, "small", "certificates"))
         @for at in &history.certificates {
-            (super::drawing::mark([time.place(year_of(measured(&at.stand))), row(0)], 1, "mark"))
+            (mark([time.place(year_of(measured(&at.stand))), row(0)], 1, "mark"))
         }
         @for (place, stay) in (1..).zip(&history.places) {
             (words([ACROSS[0] - 8.0, row(place) + 4.0], Anchor::End, "small", &shortened(&stay.site)))
@@ -157,8 +157,9 @@ fn drift(drift: &Drift, top: f64) -> Markup {
     let (low, high) = (low - margin, high + margin);
     let last = drift.series.iter().flat_map(|series| &series.values).map(|at| at.years).fold(0.0, f64::max);
     let years = [-0.06 * last.max(1.0), 1.06 * last.max(1.0)];
+    let sample = html! { (whisker(14.0, 1.0, 13.0)) (mark([14.0, 7.0], 1, "mark")) };
     let legend = [
-        (whisker_sample(), "change since the first certificate, ± 2 u"),
+        (sample, "change since the first certificate, ± 2 u"),
         (line([1.0, 7.0], [27.0, 7.0], "series"), "line of a deviation that drifts"),
         (line([1.0, 7.0], [27.0, 7.0], "grid"), "other line"),
     ];
@@ -211,7 +212,7 @@ fn panel(series: &Series, field: &Field, lowest: bool) -> Markup {
                 @if half > 0.0 {
                     (whisker(x, field.y.clamped(at.arcsec - first - half), field.y.clamped(at.arcsec - first + half)))
                 }
-                (super::drawing::mark([x, field.y.clamped(at.arcsec - first)], 1, "mark"))
+                (mark([x, field.y.clamped(at.arcsec - first)], 1, "mark"))
             }
             (words([right, field.y.places[1] - 3.0], Anchor::End, if drifts { "title" } else { "small" }, &title))
         }
@@ -222,10 +223,6 @@ fn whisker(x: f64, from: f64, to: f64) -> Markup {
     let [left, right, middle, from, to] = [x - 2.5, x + 2.5, x, from, to].map(coordinate);
     let d = format!("M{middle},{from}V{to}M{left},{from}H{right}M{left},{to}H{right}");
     html! { path.frame-line d=(d) {} }
-}
-
-fn whisker_sample() -> Markup {
-    html! { (whisker(14.0, 1.0, 13.0)) (super::drawing::mark([14.0, 7.0], 1, "mark")) }
 }
 
 fn in_words(history: &History) -> String {

@@ -119,18 +119,13 @@ impl View {
 
     /// Draws a circle around `centre`, seen as an ellipse; its long axis is perpendicular to the circle's normal.
     fn circle(&self, centre: &Vector3<f64>, normal: &Vector3<f64>, radius: f64, class: &str) -> Markup {
-        let ([x, y], tilt) = (self.point(centre), self.tilt_deg(normal));
+        let ([x, y], across) = (self.point(centre), self.across(normal));
+        let tilt = -degrees_from_radians(libm::atan2(across.dot(&self.up), across.dot(&self.right)));
         let (major, minor) = (radius * self.unit, radius * self.unit * normal.dot(&self.towards).abs());
         html! {
             ellipse class=(class) rx={ (format!("{major:.1}")) } ry={ (format!("{minor:.1}")) }
                 transform={ (format!("translate({x:.1} {y:.1}) rotate({tilt:.1})")) } {}
         }
-    }
-
-    /// Returns the clockwise rotation of the long axis of a circle's ellipse on the drawing, degrees.
-    fn tilt_deg(&self, normal: &Vector3<f64>) -> f64 {
-        let across = self.across(normal);
-        -degrees_from_radians(libm::atan2(across.dot(&self.up), across.dot(&self.right)))
     }
 
     /// Returns the unit vector in the plane of a circle that is seen at full length.
@@ -180,12 +175,11 @@ fn position(languages: &Languages, at: &CertifiedPosition, base_axes: &Matrix3<f
 
 fn heading(at: &CertifiedPosition, languages: &Languages) -> Markup {
     let degrees = |value: f64| format!("{}°", Number::exact(value).text(languages.first()));
-    html! {
-        (label([4.0, 16.0], Anchor::Start, "", &html! {
-            tspan.title { (at.index().to_string()) } "\u{2002}"
-            tspan.letter { "θ" } " " (degrees(at.theta_deg)) "\u{2002}" tspan.letter { "φ" } " " (degrees(at.phi_deg))
-        }))
-    }
+    let words = html! {
+        tspan.title { (at.index().to_string()) } "\u{2002}"
+        tspan.letter { "θ" } " " (degrees(at.theta_deg)) "\u{2002}" tspan.letter { "φ" } " " (degrees(at.phi_deg))
+    };
+    label([4.0, 16.0], Anchor::Start, "", &words)
 }
 
 /// Draws the plate that carries the posts, with its upper side at the foot of the axes.
@@ -200,7 +194,7 @@ pub(super) fn plate(view: &View, base_axes: &Matrix3<f64>) -> Markup {
 pub(super) fn stand(view: &View, base_axes: &Matrix3<f64>, frame: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
     let [_, eta, _] = rows(base_axes);
     let [xi, across, out] = rows(frame);
-    let [_, _, spin] = rows(real);
+    let [x, _, spin] = rows(real);
     let bar = |centre: Vector3<f64>, along: Vector3<f64>, thick: Vector3<f64>| {
         view.cuboid(&centre, &[along, thick, out * BAR_HALF], "frame")
     };
@@ -227,18 +221,13 @@ pub(super) fn stand(view: &View, base_axes: &Matrix3<f64>, frame: &Matrix3<f64>,
         (post(-near_end)) (side(-near_end)) (crossbar(-nearer))
         @if !gyro_is_near { (gyro) }
         (view.circle(&centre, &spin, PLATFORM, "solid platform s1"))
-        (platform_mark(view, real))
+        // The two pins of the gyro seat, which are along x.
+        @for sign in [-1.0, 1.0] { (view.circle(&(x * (sign * 0.5)), &spin, 0.055, "pin")) }
         (crossbar(nearer)) (side(near_end)) (post(near_end))
         (line(view.point(&(xi * -1.42)), view.point(&(xi * -1.1)), "axle"))
         (line(view.point(&(xi * 1.1)), view.point(&(xi * 1.42)), "axle"))
         @if gyro_is_near { (gyro) }
     }
-}
-
-/// Draws the two pins of the gyro seat, which are along x.
-fn platform_mark(view: &View, real: &Matrix3<f64>) -> Markup {
-    let [x, _, spin] = rows(real);
-    html! { @for sign in [-1.0, 1.0] { (view.circle(&(x * (sign * 0.5)), &spin, 0.055, "pin")) } }
 }
 
 /// Draws the case axes: nominal (thin) and actual, z from the end of the gyro. Their letters avoid each other.

@@ -48,8 +48,7 @@ fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, language
 pub(super) fn counted(verdict: &Verdict, of_what: Option<Text>, languages: &Languages) -> Markup {
     let of = |decision: Decision| verdict.parameters.iter().filter(move |row| row.guarded == decision);
     let names = |decision: Decision| {
-        let names: Vec<Markup> = of(decision).map(parameter).collect();
-        html! { @for (place, name) in names.iter().enumerate() { @if place > 0 { ", " } (name) } }
+        html! { @for (place, row) in of(decision).enumerate() { @if place > 0 { ", " } (parameter(row)) } }
     };
     let values = [("passed", html! { (of(Decision::Pass).count()) }), ("all", html! { (verdict.parameters.len()) })];
     let rest = [(Decision::Undecided, texts::ARE_UNDECIDED), (Decision::Fail, texts::FAIL)];
@@ -74,13 +73,11 @@ fn alone(page: &CalibrationPage, languages: &Languages) -> Markup {
         found.map(|parameter| (parameter, values[parameter.place()], us[parameter.place()])).collect();
     let values = column(languages, found.iter().map(|(_, x, u)| Number::measured(*x, *u)));
     let us = column(languages, found.iter().map(|(.., u)| Number::uncertainty(*u)));
+    let units = found.iter().map(|(parameter, ..)| languages.inline(unit(*parameter)));
     let columns = [
-        Column::new(languages.label(texts::FOUND), values),
+        Column::named(languages, texts::FOUND, values),
         Column::new(symbol("u", ""), us),
-        Column::new(
-            languages.label(passport::UNIT),
-            found.iter().map(|(parameter, ..)| languages.inline(unit(*parameter))).collect(),
-        ),
+        Column::named(languages, passport::UNIT, units.collect()),
     ];
     let names = found.iter().map(|(parameter, ..)| vec![name_of(parameter.symbol())]).collect();
     let table = Table::of(vec![languages.label(texts::PARAMETER)], names, &columns);
@@ -98,11 +95,12 @@ fn table(
     let rows = &verdict.parameters;
     let expanded = |row: &ParameterVerdict| row.coverage_factor * row.standard_uncertainty;
     let strips = Strips::of([verdict]);
-    let named = |heading: Text, cells| Column::new(languages.label(heading), cells);
     let numbers = |heading, number: &dyn Fn(&ParameterVerdict) -> Number| {
-        named(heading, column(languages, rows.iter().map(number)))
+        Column::named(languages, heading, column(languages, rows.iter().map(number)))
     };
-    let each = |heading, cell: &dyn Fn(&ParameterVerdict) -> Markup| named(heading, rows.iter().map(cell).collect());
+    let each = |heading, cell: &dyn Fn(&ParameterVerdict) -> Markup| {
+        Column::named(languages, heading, rows.iter().map(cell).collect())
+    };
     let with_unit = |row: &ParameterVerdict| {
         let unit = parameter_of(row).map_or(units::PERCENT, unit);
         html! { (parameter(row)) ", " (languages.spoken(unit)) }
@@ -124,7 +122,7 @@ fn table(
         tolerances,
         Column { foot: strips.axis(languages), ..each(texts::IN_TOLERANCE, &|row| strips.strip(row)) },
         each(texts::GUARDED, &|row| decided(languages, row.guarded)),
-        named(texts::SIMPLE, risks),
+        Column::named(languages, texts::SIMPLE, risks),
     ];
     if !with_u {
         columns.remove(1);

@@ -69,24 +69,19 @@ fn chi_square(result: &ResultDocument, languages: &Languages) -> Markup {
 
 fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
     let calibration = page.calibration;
-    let rows = calibration.row_scatter.as_ref();
     html! {
         @if let Some(digits) = &calibration.digits {
             (languages.paragraph_with(|language| html! { (recorded::words(digits, language).join(" ")) }))
         }
-        @match rows.map(|rows| (rows, &rows.against_stated)) {
-            Some((_, Some(stated))) => { (agreement(stated, texts::ROW_SCATTER, languages)) }
-            Some((rows, None)) => {
+        @if let Some(rows) = &calibration.row_scatter {
+            @if let Some(stated) = &rows.against_stated { (agreement(stated, texts::ROW_SCATTER, languages)) }
+            @else {
+                @let s = quantity(languages, &Number::scientific(rows.standard_deviation_ma, 2), units::MILLIAMPERES);
                 (fields([
-                    field(
-                        languages,
-                        texts::ROW_DEVIATION,
-                        Some(quantity(languages, &Number::scientific(rows.standard_deviation_ma, 2), units::MILLIAMPERES)),
-                    ),
+                    field(languages, texts::ROW_DEVIATION, Some(s)),
                     field(languages, texts::FREEDOM, Some(whole(rows.degrees_of_freedom))),
                 ]))
             }
-            None => {}
         }
         @if let Some(visits) = &calibration.scatter {
             (agreement(visits, texts::SCATTER, languages))

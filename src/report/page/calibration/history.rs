@@ -5,7 +5,7 @@ use super::parameters::name_of;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Found, Verdict};
 use crate::gyro::GyroType;
-use crate::report::page::language::{Languages, Text};
+use crate::report::page::language::Languages;
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{Column, Table, date, heading, starts};
 use crate::report::page::texts::calibration as texts;
@@ -71,10 +71,10 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
         let row = rows.find(|row| row.parameter == parameter.key());
         row.map_or_else(Markup::default, |row| strips.strip(row))
     });
-    let named = |heading: Text, cells| Column::new(languages.label(heading), cells);
-    let mut columns = vec![named(texts::FOUND, values), named(texts::PLUS_MINUS, us)];
+    let mut columns =
+        vec![Column::named(languages, texts::FOUND, values), Column::named(languages, texts::PLUS_MINUS, us)];
     if page.gyro.is_some() {
-        let drawn = named(texts::IN_TOLERANCE, drawn.collect());
+        let drawn = Column::named(languages, texts::IN_TOLERANCE, drawn.collect());
         columns.push(Column { foot: strips.axis(languages), ..drawn });
     }
     let headings = [texts::PARAMETER, texts::CALIBRATED].map(|text| languages.label(text));

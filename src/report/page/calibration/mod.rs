@@ -21,7 +21,7 @@ mod uncertainty;
 pub(crate) use fit::not_stated;
 
 use super::language::{Language, Languages, Text};
-use super::parts;
+use super::parts::{self, boxed};
 use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use super::symbols::italic;
@@ -253,11 +253,8 @@ impl CalibrationPage<'_> {
 
     fn verdict(&self, languages: &Languages) -> Markup {
         let Some((gyro, verdict)) = self.judged() else {
-            return boxed(
-                "verdict neutral",
-                languages.label(texts::NO_TYPE),
-                languages.paragraph(texts::NO_TYPE_WORDS),
-            );
+            let words = languages.paragraph(texts::NO_TYPE_WORDS);
+            return boxed("verdict neutral", languages.label(texts::NO_TYPE), words);
         };
         let (class, text) = match verdict.overall {
             Decision::Pass => ("verdict", texts::CONFORMS),
@@ -278,10 +275,6 @@ impl CalibrationPage<'_> {
 
 fn warning(languages: &Languages, headline: Text, words: Text) -> Markup {
     boxed("verdict refused", languages.label(headline), languages.paragraph(words))
-}
-
-fn boxed(class: &str, headline: Markup, words: Markup) -> Markup {
-    html! { div class=(class) { p.headline { (headline) } (words) } }
 }
 
 /// Returns the name of a method from its key in results.

@@ -143,7 +143,6 @@ fn changing(result: &ResultDocument, languages: &Languages) -> Markup {
 fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
     let Some((radius, steps)) = result.spectral_radius.zip(result.iterations) else { return html! {} };
     let largest = |rows: [[f64; 2]; 2]| rows.into_iter().flatten().fold(0.0, |most, x: f64| f64::max(most, x.abs()));
-    let smallest = |rows: [[f64; 2]; 2]| rows.into_iter().flatten().fold(f64::INFINITY, f64::min);
     // What is far below the uncertainty is rounding, not a result.
     let missing = |rows: Option<[[f64; 2]; 2]>, u: f64, unit| {
         rows.map(largest).map(|most| match most < NEGLIGIBLE * u {
@@ -152,6 +151,9 @@ fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
         })
     };
     let us = &result.standard_uncertainty;
+    let u_k = us.k_deg_per_h_per_ma.into_iter().flatten().fold(f64::INFINITY, f64::min);
+    let u_omega = us.omega_g_deg_per_h_per_g.unwrap_or(0.0);
+    let remainder_omega = result.remainder_omega_n_deg_per_h_per_g;
     let whole = |steps: u32| html! { data value=(steps) { (steps) } };
     let predicted = match result.iterations_predicted {
         Some(steps) => whole(steps),
@@ -166,17 +168,9 @@ fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
         field(
             languages,
             texts::REMAINDER_K,
-            missing(result.remainder_k_deg_per_h_per_ma, smallest(us.k_deg_per_h_per_ma), units::DEG_PER_H_PER_MA),
+            missing(result.remainder_k_deg_per_h_per_ma, u_k, units::DEG_PER_H_PER_MA),
         ),
-        field(
-            languages,
-            texts::REMAINDER_OMEGA,
-            missing(
-                result.remainder_omega_n_deg_per_h_per_g,
-                us.omega_g_deg_per_h_per_g.unwrap_or(0.0),
-                units::DEG_PER_H_PER_G,
-            ),
-        ),
+        field(languages, texts::REMAINDER_OMEGA, missing(remainder_omega, u_omega, units::DEG_PER_H_PER_G)),
     ]);
     html! {
         (heading(languages, texts::ITERATIVE))

@@ -1,13 +1,13 @@
 //! Object of the calibration: gyro, stand, passport and readings.
 
-use super::{CalibrationPage, Section, UsedPassport, boxed};
+use super::{CalibrationPage, Section, UsedPassport};
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::TemperatureOutside;
 use crate::laboratory::Laboratory;
 use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
-    self, blank, date_text, field, fields, file_name, given, heading, quantity, time, wide_field,
+    self, blank, boxed, date, date_text, field, fields, file_name, given, heading, quantity, time, wide_field,
 };
 use crate::report::page::passport::{accuracy, characteristics, checks};
 use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units};
@@ -27,8 +27,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
 /// Writes which gyro was calibrated on which stand, on whose word, and from which file.
 pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     let content = page.content();
-    let subject = page.document.subject.as_ref();
-    let date = subject.and_then(|subject| subject.date).map(|date| parts::date(languages, date));
+    let day = page.document.date().map(|day| date(languages, day));
     let stand = html! { (given(content.stand.model.as_str())) " №\u{a0}" (given(content.stand.serial.as_str())) };
     let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
     let verified = match &page.passport {
@@ -42,7 +41,7 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
             (
                 texts::SERIAL,
                 page.serial().map_or_else(|| blank(languages), given),
-                html! { @if let Some(date) = date { p { (languages.inline(texts::MEASURED)) ": " (date) } } },
+                html! { @if let Some(day) = day { p { (languages.inline(texts::MEASURED)) ": " (day) } } },
             ),
             (texts::STAND, stand, html! { p { (given(site)) } }),
             (passport_texts::WORD, given(&content.certificate.number), certificate),
@@ -57,6 +56,8 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
     let result = page.document;
     let subject = result.subject.as_ref();
     let celsius = |value: f64| quantity(languages, &Number::exact(value), units::CELSIUS);
+    let temperature = subject.and_then(|subject| subject.temperature_c).map(celsius);
+    let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
     let excluded = |at: &Exclusion| {
         let cycle = at.cycle.map(|cycle| format!(", {cycle}")).unwrap_or_default();
         format!("({}, {}), {}{cycle}: {}", at.i, at.j, at.visit, at.why)
@@ -75,24 +76,12 @@ fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
             field(languages, passport_texts::CUSTOMER, None),
             field(languages, record::CUSTOMER_CONTACT, None),
             field(languages, texts::RECEIVED, None),
-            field(
-                languages,
-                texts::MEASURED,
-                subject.and_then(|subject| subject.date).map(|date| parts::date(languages, date)),
-            ),
+            field(languages, texts::MEASURED, result.date().map(|day| date(languages, day))),
             field(languages, texts::OPERATOR, subject.and_then(|subject| subject.operator.as_deref()).map(given)),
-            field(
-                languages,
-                texts::MEASURED_TEMPERATURE,
-                subject.and_then(|subject| subject.temperature_c).map(celsius),
-            ),
+            field(languages, texts::MEASURED_TEMPERATURE, temperature),
             field(languages, texts::STAND, Some(given(&stand))),
             field(languages, texts::CURRENTS, Some(given(file_name(page.currents.0)))),
-            wide_field(
-                languages,
-                texts::SITE,
-                Some(given(content.site.name.as_deref().unwrap_or(content.site.id.as_str()))),
-            ),
+            wide_field(languages, texts::SITE, Some(given(site))),
             wide_field(languages, texts::CURRENTS_SHA256, Some(html! { code { (page.currents.1) } })),
         ]
         .into_iter()

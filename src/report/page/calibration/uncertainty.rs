@@ -96,7 +96,7 @@ fn shares(budget: &Budget, languages: &Languages) -> Markup {
     let lines: Vec<&ParameterBudget> = lines.collect();
     let us = lines.iter().map(|line| Number::uncertainty(line.standard_uncertainty));
     let drawn = lines.iter().map(|line| strips::shares(&named.iter().map(|kind| of(line, kind)).collect::<Vec<_>>()));
-    let drawn = Column::new(languages.label(texts::SHARES), drawn.collect());
+    let drawn = Column::named(languages, texts::SHARES, drawn.collect());
     let columns =
         [Column::new(symbol("u", ""), column(languages, us)), Column { foot: strips::axis(languages), ..drawn }];
     let name = |line: &&ParameterBudget| {

@@ -8,7 +8,7 @@ use crate::passport::difference::NumberDifference;
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{
-    Column, Table, field, fields, heading, section as part, starts, symbol, symbol_and_unit,
+    Column, Table, boxed, field, fields, heading, section as part, starts, symbol, symbol_and_unit,
 };
 use crate::report::page::texts::{certification as texts, pictures, units};
 use crate::report::picture::residuals::{Bars, key_of};
@@ -18,36 +18,26 @@ use maud::{Markup, html};
 pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup {
     let Some((comparison, _)) = &page.change else {
         let (positions, runs) = (page.certification.stand.positions.len(), page.certification.runs.len());
-        return html! {
-            div.verdict.neutral {
-                p.headline {
-                    (languages.label_with(|language| {
-                        texts::CERTIFIED.filled(language, &[("positions", &positions), ("runs", &runs)])
-                    }))
-                }
-                (languages.paragraph(texts::NOT_COMPARED))
-            }
-        };
+        let headline = languages
+            .label_with(|language| texts::CERTIFIED.filled(language, &[("positions", &positions), ("runs", &runs)]));
+        return boxed("verdict neutral", headline, languages.paragraph(texts::NOT_COMPARED));
     };
     let (class, verdict) = match comparison.same_stand {
         true => ("verdict", texts::SAME),
         false if comparison.is_undecided() => ("verdict refused", texts::UNDECIDED),
         false => ("verdict refused", texts::CHANGED),
     };
-    html! {
-        div class=(class) {
-            p.headline {
-                (languages.label_with(|language| verdict.filled(language, &[("number", &comparison.certificate)])))
-            }
-            @if !comparison.findings.is_empty() {
-                ul {
-                    @for found in &comparison.findings {
-                        li { (languages.label_with(|language| remarks::finding(found, language))) }
-                    }
+    let headline = languages.label_with(|language| verdict.filled(language, &[("number", &comparison.certificate)]));
+    let reasons = html! {
+        @if !comparison.findings.is_empty() {
+            ul {
+                @for found in &comparison.findings {
+                    li { (languages.label_with(|language| remarks::finding(found, language))) }
                 }
             }
         }
-    }
+    };
+    boxed(class, headline, reasons)
 }
 
 pub(super) fn section(page: &CertificationPage, languages: &Languages) -> Markup {
@@ -92,7 +82,7 @@ fn rotations(comparison: &Comparison, languages: &Languages) -> Markup {
         columns.push(Column::new(symbol("u", ""), column(languages, us)));
     }
     let p = positions.iter().map(|at| Number::scientific(at.test.probability, 2));
-    columns.push(Column::new(languages.label(texts::PROBABILITY), column(languages, p)));
+    columns.push(Column::named(languages, texts::PROBABILITY, column(languages, p)));
     let word = |repeats: bool| languages.inline(if repeats { texts::REPEATS } else { texts::REPEATS_NOT });
     columns.push(Column::new(html! {}, positions.iter().map(|at| word(at.repeats)).collect()));
     let names = positions.iter().map(|at| vec![html! { (at.index.to_string()) }]).collect();
@@ -104,7 +94,7 @@ fn rotations(comparison: &Comparison, languages: &Languages) -> Markup {
 fn table(changes: &[NumberDifference], languages: &Languages) -> Markup {
     let of = |heading: Text, number: fn(&NumberDifference) -> Option<f64>| {
         let each = changes.iter().map(|at| Some(Number::measured(number(at)?, at.standard_uncertainty.unwrap_or(0.0))));
-        Column::new(languages.label(heading), column(languages, each))
+        Column::named(languages, heading, column(languages, each))
     };
     let us = changes.iter().map(|at| at.standard_uncertainty.map(Number::uncertainty));
     let ratios = changes.iter().map(|at| at.ratio().map(|ratio| Number::fixed(ratio, 1)));
@@ -116,7 +106,7 @@ fn table(changes: &[NumberDifference], languages: &Languages) -> Markup {
         of(texts::NEW, |at| at.b),
         of(texts::DIFFERENCE, NumberDifference::difference),
         Column::new(symbol("u", ""), column(languages, us)),
-        Column::new(languages.label(texts::DIFFERENCE_IN_U), column(languages, ratios)),
+        Column::named(languages, texts::DIFFERENCE_IN_U, column(languages, ratios)),
         Column { heading: html! {}, cells: drawn.collect(), foot: bars.axis(languages) },
     ];
     let names = changes.iter().map(|at| {

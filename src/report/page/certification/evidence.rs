@@ -88,7 +88,7 @@ fn components(page: &CertificationPage, languages: &Languages) -> Markup {
         Column::new(arcsec(symbol("s", "")), s),
         Column::new(symbol("ν", ""), freedom),
         Column::new(mean, of_mean),
-        Column::new(languages.label(texts::UPPER), upper),
+        Column::named(languages, texts::UPPER, upper),
     ];
     let names = found.iter().map(|(name, ..)| vec![languages.label(*name)]).collect();
     let table = Table::of(vec![languages.label(texts::COMPONENT)], names, &columns);
@@ -148,7 +148,7 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
     let freedom = column(languages, found.iter().map(|(_, _, freedom, _)| freedom.clone()));
     let p = column(languages, found.iter().map(|(.., p)| p.map(|p| Number::scientific(p, 2))));
     let columns = [(texts::STATISTIC, statistic), (calibration::FREEDOM, freedom), (texts::PROBABILITY, p)];
-    let columns = columns.map(|(heading, cells)| Column::new(languages.label(heading), cells));
+    let columns = columns.map(|(heading, cells)| Column::named(languages, heading, cells));
     let names = found.into_iter().map(|(name, ..)| vec![name]).collect();
     let table = Table::of(vec![languages.label(texts::TEST)], names, &columns);
     let body = html! {

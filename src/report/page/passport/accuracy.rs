@@ -44,16 +44,12 @@ fn stated_for(accuracy: &Accuracy, languages: &Languages) -> Markup {
     let seat =
         seat.map(|seat| html! { (arcsec(seat.about_x)) ", " (arcsec(seat.about_y)) ", " (arcsec(seat.about_z)) });
     let base = laboratory.base.as_ref();
-    let temperature = laboratory.temperature_c;
+    let temperature = laboratory.temperature_c.map(|t| quantity(languages, &Number::exact(t), units::CELSIUS));
     fields([
         stated(languages, texts::GYRO_TYPE, Some(given(&gyro.r#type))),
         stated(languages, texts::GYRO_GRAVITY, gravity),
         stated(languages, texts::CALIBRATING_LABORATORY, laboratory.name.as_deref().map(given)),
-        stated(
-            languages,
-            texts::LABORATORY_TEMPERATURE,
-            temperature.map(|t| quantity(languages, &Number::exact(t), units::CELSIUS)),
-        ),
+        stated(languages, texts::LABORATORY_TEMPERATURE, temperature),
         stated(languages, texts::SEATING, seat),
         stated(languages, texts::BASE_AZIMUTH_U, base.and_then(|base| base.azimuth_arcsec).map(arcsec)),
         stated(languages, texts::BASE_LEVEL_U, base.and_then(|base| base.level_arcsec).map(arcsec)),

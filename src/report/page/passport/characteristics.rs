@@ -224,6 +224,7 @@ fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
         quantity(languages, &number, units::DEG_PER_H)
     };
     let u = site.gravity_u_m_per_s2();
+    let radius = quantity(languages, &Number::fixed(earth.valid_radius_m, 0), units::METRES);
     let within = quantity(languages, &Number::exact(earth.valid_within_deg_per_h), units::DEG_PER_H);
     let azimuth = earth.azimuth_deg.map(|azimuth| match earth.azimuth_u_arcsec {
         Some(u) => html! {
@@ -242,11 +243,7 @@ fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
         stated(languages, texts::HORIZONTAL, Some(rate(horizontal, vertical))),
         stated(languages, texts::VERTICAL, Some(rate(vertical, horizontal))),
         stated(languages, texts::GRAVITY, Some(gravity(earth.gravity_m_per_s2, u, languages))),
-        stated(
-            languages,
-            texts::RADIUS,
-            Some(quantity(languages, &Number::fixed(earth.valid_radius_m, 0), units::METRES)),
-        ),
+        stated(languages, texts::RADIUS, Some(radius)),
         stated(languages, texts::RADIUS_WITHIN, Some(within)),
         stated(languages, texts::AZIMUTH, azimuth),
     ])

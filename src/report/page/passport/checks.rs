@@ -6,7 +6,7 @@ use crate::passport::place::Nearness;
 use crate::passport::{Check, CheckName, Code, Dated};
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::Number;
-use crate::report::page::parts::{Table, date_text, time_text};
+use crate::report::page::parts::{Table, boxed, date_text, time_text};
 use crate::report::page::spacing::BLANK;
 use crate::report::page::texts::{checks as texts, units};
 use maud::{Markup, html};
@@ -73,18 +73,15 @@ pub(crate) fn line(page: &PassportPage, languages: &Languages) -> Markup {
 
 /// Writes why the passport may not be used, in large letters; nothing if it may.
 pub(crate) fn refusal(page: &PassportPage, languages: &Languages) -> Markup {
-    html! {
-        @if !page.verification.valid() {
-            div.verdict.refused {
-                p.headline { (languages.label_with(|language| headline(page, language))) }
-                (languages.paragraph_with(|language| {
-                    let why: Vec<String> = failed(page).map(|check| words(page, check, language)).collect();
-                    let time = time_text(language, page.question.time);
-                    html! { (texts::GENUINE.filled(language, &[("time", &time), ("why", &why.join("; "))])) }
-                }))
-            }
-        }
+    if page.verification.valid() {
+        return html! {};
     }
+    let why = languages.paragraph_with(|language| {
+        let why: Vec<String> = failed(page).map(|check| words(page, check, language)).collect();
+        let time = time_text(language, page.question.time);
+        html! { (texts::GENUINE.filled(language, &[("time", &time), ("why", &why.join("; "))])) }
+    });
+    boxed("verdict refused", languages.label_with(|language| headline(page, language)), why)
 }
 
 /// Returns "In force", or the reasons why the passport may not be used.
