@@ -110,11 +110,10 @@ fn item(calibrated: &Calibrated, languages: &Languages) -> Element {
 
 fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
     let conformity = calibrated.judged.map(|(gyro_type, verdict)| {
-        let name = [("type", gyro_type.r#type.as_str())];
         Element::new("dcc:statement")
             .with("id", RULE_ID)
             .with("refType", "basic_conformity")
-            .and(filled("dcc:name", words::CONFORMITY, &name, languages))
+            .and(filled("dcc:name", words::CONFORMITY, &[("type", &gyro_type.r#type)], languages))
             .and(in_words("dcc:declaration", words::RULE, languages))
             .and(Element::text("dcc:conformity", decided(verdict.overall, verdict.parameters.iter().all(passes))))
     });
@@ -133,15 +132,15 @@ fn statements(calibrated: &Calibrated, languages: &Languages) -> Vec<Element> {
         ))
     });
     let certificate = &calibrated.content.certificate;
-    let outside =
-        TemperatureOutside::of(certificate, calibrated.subject, calibrated.laboratory).map(|outside| {
-            let TemperatureOutside { here_c, low_c, high_c } = outside;
-            let [here, low, high] = [here_c, low_c, high_c].map(|celsius| celsius.to_string());
-            let values = [("here", here.as_str()), ("low", &low), ("high", &high)];
-            Element::new("dcc:statement")
-                .and(in_words("dcc:name", texts::TEMPERATURE_IS_OUTSIDE, languages))
-                .and(filled("dcc:declaration", texts::TEMPERATURE_OUTSIDE, &values, languages))
-        });
+    let outside = TemperatureOutside::of(certificate, calibrated.subject, calibrated.laboratory).map(|outside| {
+        let TemperatureOutside { here_c, low_c, high_c } = outside;
+        Element::new("dcc:statement").and(in_words("dcc:name", texts::TEMPERATURE_IS_OUTSIDE, languages)).and(filled(
+            "dcc:declaration",
+            texts::TEMPERATURE_OUTSIDE,
+            &[("here", &here_c), ("low", &low_c), ("high", &high_c)],
+            languages,
+        ))
+    });
     conformity.into_iter().chain([currents]).chain(excluded).chain(outside).chain(missing).collect()
 }
 

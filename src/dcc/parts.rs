@@ -7,6 +7,7 @@ use super::xml::Element;
 use crate::report::Languages;
 use crate::report::page::language::Text;
 use base64ct::{Base64, Encoding};
+use std::fmt::Display;
 
 /// Version of the schema.
 const SCHEMA_VERSION: &str = "3.3.0";
@@ -33,7 +34,12 @@ pub(super) fn in_words(name: &'static str, text: Text, languages: &Languages) ->
 }
 
 /// Returns an element with a text in every language of the DCC, with values in it.
-pub(super) fn filled(name: &'static str, text: Text, values: &[(&str, &str)], languages: &Languages) -> Element {
+pub(super) fn filled(
+    name: &'static str,
+    text: Text,
+    values: &[(&str, &dyn Display)],
+    languages: &Languages,
+) -> Element {
     let content = |language: crate::report::Language| {
         Element::text("dcc:content", text.filled(language, values)).with("lang", language.tag())
     };

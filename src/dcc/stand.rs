@@ -36,13 +36,12 @@ pub(crate) fn of_stand(
         statements: statements(content, &facts),
     };
     let sha256 = sha256_hex(bytes);
-    let note = [("id", id.as_str()), ("sha256", sha256.as_str())];
     let file_name = format!("{}-{}.yaml", content.site.id, content.passport.revision);
     let document = parts::file(
         "dcc:document",
         [
             in_words("dcc:name", words::PASSPORT, languages),
-            parts::filled("dcc:description", words::PASSPORT_NOTE, &note, languages),
+            parts::filled("dcc:description", words::PASSPORT_NOTE, &[("id", id), ("sha256", &sha256)], languages),
         ],
         (&file_name, "application/yaml", bytes),
     );

@@ -35,12 +35,12 @@ fn causes(mistaken: &CurrentsMistaken, language: Language) -> Vec<String> {
         (false, false) => {}
     }
     let factor = Number::fixed(libm::pow(10.0, f64::from(mistaken.power_of_ten.abs())), 0).text(language);
-    let factor = [("factor", factor.as_str())];
+    let too = |text: Text| text.filled(language, &[("factor", &factor)]);
     match mistaken.power_of_ten {
         0 => {}
         MICROAMPERES => add(texts::MISTAKE_MICROAMPERES),
-        power if power > 0 => causes.push(texts::MISTAKE_TOO_LARGE.filled(language, &factor)),
-        _ => causes.push(texts::MISTAKE_TOO_SMALL.filled(language, &factor)),
+        power if power > 0 => causes.push(too(texts::MISTAKE_TOO_LARGE)),
+        _ => causes.push(too(texts::MISTAKE_TOO_SMALL)),
     }
     causes
 }

@@ -10,14 +10,13 @@ mod evidence;
 pub(crate) mod remarks;
 
 use super::language::{Languages, Text};
-use super::parts::{contents, data_address, given, heading, section as part, signature_of, verbatim};
+use super::parts::{contents, data_address, file_name, given, heading, section as part, signatures, verbatim};
 use super::passport::{characteristics, general};
 use super::shell::{Margins, document};
 use super::texts::{calibration as calibration_texts, certification as texts, passport as passport_texts};
 use crate::certification::{Certification, Comparison};
 use crate::passport::difference::NumberDifference;
 use maud::{Markup, html};
-use std::path::Path;
 
 /// Certification with everything that its record states.
 #[derive(Debug, Clone)]
@@ -54,11 +53,6 @@ impl CertificationPage<'_> {
         document(languages, &title, &margins, &self.body(languages))
     }
 
-    /// Returns the name of the file of readings without its folder.
-    fn readings_name(&self) -> &str {
-        Path::new(self.readings.0).file_name().and_then(|name| name.to_str()).unwrap_or(self.readings.0)
-    }
-
     /// Returns the SHA-256 of the file of readings.
     fn sha256(&self) -> String {
         crate::document::sha256_hex(self.readings.1)
@@ -66,13 +60,14 @@ impl CertificationPage<'_> {
 
     fn body(&self, languages: &Languages) -> Markup {
         let stand = &self.certification.stand;
+        let who = [texts::MEASURED_BY, texts::CHECKED_BY, passport_texts::AUTHORISED_BY];
         html! {
             header.title {
                 p.kind { (languages.label(texts::TITLE)) }
                 h1 { (given(stand.stand.model.as_str())) " №\u{a0}" (given(stand.stand.serial.as_str())) ", " (given(&stand.certificate.number)) }
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
-            (contents(languages, texts::SAVE, (&data_address("text/csv", self.readings.1), self.readings_name()), &SECTIONS))
+            (contents(languages, texts::SAVE, (&data_address("text/csv", self.readings.1), file_name(self.readings.0)), &SECTIONS))
             main {
                 (change::verdict(self, languages))
                 (part(languages, "subject", "1", texts::SUBJECT, &html! {
@@ -86,7 +81,7 @@ impl CertificationPage<'_> {
                 (evidence::uncertainty(self, languages))
                 (evidence::tests(self, languages))
                 (change::section(self, languages))
-                (signatures(languages))
+                (part(languages, "signatures", "", calibration_texts::SIGNATURES, &signatures(languages, who)))
                 (self.annex(languages))
             }
         }
@@ -110,16 +105,4 @@ impl CertificationPage<'_> {
         let body = html! { (languages.paragraph(texts::ANNEX_NOTE)) (verbatim("", &text, &end)) };
         part(languages, "annex", "", texts::ANNEX, &body)
     }
-}
-
-fn signatures(languages: &Languages) -> Markup {
-    let body = html! {
-        div.pair {
-            (signature_of(languages, texts::MEASURED_BY))
-            (signature_of(languages, texts::CHECKED_BY))
-            (signature_of(languages, texts::AUTHORISED_BY))
-        }
-        div.statement { (languages.paragraph(calibration_texts::VALID_WHEN_SIGNED)) }
-    };
-    part(languages, "signatures", "", texts::SIGNATURES, &body)
 }

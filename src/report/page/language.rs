@@ -5,6 +5,7 @@ use super::spacing::spaced;
 use super::symbols::italic;
 use crate::text::words;
 use maud::{Markup, html};
+use std::fmt::Display;
 
 words! {
     /// A language of the pages and of a DCC; its word is its code in ISO 639-1.
@@ -45,12 +46,12 @@ impl Text {
     }
 
     /// Returns the text in `language` with every `{name}` replaced by its value.
-    pub(crate) fn filled(&self, language: Language, values: &[(&str, &str)]) -> String {
-        let piece = |piece| match piece {
-            Piece::Words(words) => words,
-            Piece::Name(name) => values.iter().find(|(key, _)| *key == name).map_or("", |(_, value)| value),
+    pub(crate) fn filled(&self, language: Language, values: &[(&str, &dyn Display)]) -> String {
+        let piece = |piece: Piece| match piece {
+            Piece::Words(words) => Some(words.to_owned()),
+            Piece::Name(name) => values.iter().find(|(key, _)| *key == name).map(|(_, value)| value.to_string()),
         };
-        pieces(&self.words(language)).into_iter().map(piece).collect()
+        pieces(&self.words(language)).into_iter().filter_map(piece).collect()
     }
 
     /// Returns the text in `language` with every `{name}` replaced by a number, with the marks of that language.
@@ -156,7 +157,7 @@ impl Languages {
 
     /// Returns the distinct wordings, each with the first language that uses it. So a unit that is written alike in two
     /// languages appears once.
-    fn sayings(&self, say: impl Fn(Language) -> String) -> Vec<(Language, String)> {
+    pub(crate) fn sayings(&self, say: impl Fn(Language) -> String) -> Vec<(Language, String)> {
         let mut sayings: Vec<(Language, String)> = Vec::new();
         for language in self.iter() {
             let words = say(language);
@@ -188,27 +189,14 @@ impl Languages {
         self.inline_with(|language| text.words(language))
     }
 
-    /// Writes a unit within a line, the second language in brackets: a solidus would be part of the unit.
-    pub(crate) fn in_brackets(&self, unit: Text) -> Markup {
-        let sayings = self.sayings(|language| unit.words(language));
-        html! {
-            @for (index, (language, words)) in sayings.iter().enumerate() {
-                @if index > 0 { " (" }
-                span lang=[self.marked(*language)] { (words) }
-                @if index > 0 { ")" }
-            }
-        }
-    }
-
     /// Writes words as `inline` does; `say` makes them for each language.
     pub(crate) fn inline_with(&self, say: impl Fn(Language) -> String) -> Markup {
-        let sayings = self.sayings(say);
-        html! {
-            @for (index, (language, words)) in sayings.iter().enumerate() {
-                @if index > 0 { " / " }
-                span lang=[self.marked(*language)] { (italic(words)) }
-            }
-        }
+        self.spans(say, [" / ", ""], None)
+    }
+
+    /// Writes a unit within a line, the second language in brackets: a solidus would be part of the unit.
+    pub(crate) fn in_brackets(&self, unit: Text) -> Markup {
+        self.spans(|language| unit.words(language), [" (", ")"], None)
     }
 
     /// Writes the name of a row or column, or a heading: the second language smaller, below the first.
@@ -218,11 +206,17 @@ impl Languages {
 
     /// Writes a name as `label` does; `say` makes it for each language.
     pub(crate) fn label_with(&self, say: impl Fn(Language) -> String) -> Markup {
-        let sayings = self.sayings(say);
+        self.spans(say, [" ", ""], Some("second"))
+    }
+
+    /// Writes the wordings within a line, the languages after the first between these strings and in this class.
+    fn spans(&self, say: impl Fn(Language) -> String, [before, after]: [&str; 2], class: Option<&str>) -> Markup {
         html! {
-            @for (index, (language, words)) in sayings.iter().enumerate() {
-                @if index > 0 { " " }
-                span class=[(index > 0).then_some("second")] lang=[self.marked(*language)] { (italic(words)) }
+            @for (index, (language, words)) in self.sayings(say).iter().enumerate() {
+                @let other = index > 0;
+                @if other { (before) }
+                span class=[class.filter(|_| other)] lang=[self.marked(*language)] { (italic(words)) }
+                @if other { (after) }
             }
         }
     }

@@ -89,18 +89,18 @@ impl Number {
 
     /// Creates the number of a standard uncertainty: two significant digits, or a plain 0.
     pub(crate) fn uncertainty(u: f64) -> Self {
-        Self::to_place(u, place(u))
+        Self::to_place(u, Self::place_of(u))
     }
 
     /// Creates the number of a value with the standard uncertainty `u`. It ends at the place of the second digit of
     /// `u`, or is exact if `u` is 0.
     pub(crate) fn measured(value: f64, u: f64) -> Self {
-        if u > 0.0 { Self::to_place(value, place(u)) } else { Self::exact(value) }
+        if u > 0.0 { Self::to_place(value, Self::place_of(u)) } else { Self::exact(value) }
     }
 
-    /// Returns the place (power of ten) of the second significant digit of `u`.
+    /// Returns the place (power of ten) of the second significant digit of `u`, after rounding: 0.0996 becomes 0.10.
     pub(crate) fn place_of(u: f64) -> i32 {
-        place(u)
+        if u > 0.0 && u.is_finite() { number::exponent_as_printed(u, 2) - 1 } else { 0 }
     }
 
     /// Creates a number rounded to a multiple of 10 to the power `place`.
@@ -108,7 +108,7 @@ impl Number {
         if place <= 0 {
             return Self::fixed(value, place.unsigned_abs() as usize);
         }
-        let digits = match usize::try_from(exponent(value) - place) {
+        let digits = match usize::try_from(number::exponent_of(&format!("{value:e}")) - place) {
             Ok(digits) => scaled(&format!("{value:.digits$e}")),
             // Values smaller than one unit of the place: up to half a unit they are rounded to 0.
             Err(_) if value.abs() > 0.5 * libm::pow(10.0, f64::from(place)) => {
@@ -155,62 +155,79 @@ impl Number {
 /// of ten.
 #[derive(Debug, Clone, Default)]
 struct Tail {
-    marks: usize,
-    digits: usize,
-    spaces: usize,
+    /// Number of characters of each of the `KINDS`.
+    counts: [usize; 3],
     power: String,
 }
 
 impl Tail {
+    /// A mark, a digit and a space: digits have one width, and so have both marks.
+    const KINDS: [char; 3] = ['.', '0', THIN_BLANK];
+
     fn of(text: &str) -> Self {
         let power = text.find(['\u{00D7}', '\u{00B7}']).map_or(text.len(), |at| at - THIN_BLANK.len_utf8());
         let (mantissa, power) = text.split_at(power);
         let decimals = mantissa.split_once(['.', ',']).map(|(_, decimals)| decimals);
         let count = |of: fn(char) -> bool| decimals.map_or(0, |decimals| decimals.chars().filter(|c| of(*c)).count());
-        Self {
-            marks: usize::from(decimals.is_some()),
-            digits: count(|c| c.is_ascii_digit()),
-            spaces: count(|c| c == THIN_BLANK),
-            power: power.to_owned(),
-        }
+        let counts = [usize::from(decimals.is_some()), count(|c| c.is_ascii_digit()), count(|c| c == THIN_BLANK)];
+        Self { counts, power: power.to_owned() }
     }
 
     /// Returns the longest of each part.
     fn or_longer(self, other: Self) -> Self {
         let longer = if other.power.chars().count() > self.power.chars().count() { other.power } else { self.power };
-        Self {
-            marks: self.marks.max(other.marks),
-            digits: self.digits.max(other.digits),
-            spaces: self.spaces.max(other.spaces),
-            power: longer,
-        }
+        Self { counts: [0, 1, 2].map(|kind| self.counts[kind].max(other.counts[kind])), power: longer }
     }
 
-    /// Returns characters as wide as what this tail has beyond `own`. Digits have one width, and so have both marks.
+    /// Returns characters as wide as what this tail has beyond `own`.
     fn beyond(&self, own: &Self) -> String {
-        let mut missing = ".".repeat(self.marks - own.marks) + &"0".repeat(self.digits - own.digits);
-        missing.extend(std::iter::repeat_n(THIN_BLANK, self.spaces - own.spaces));
-        missing.extend(self.power.chars().skip(own.power.chars().count()));
-        missing
+        let counts = self.counts.iter().zip(own.counts).zip(Self::KINDS);
+        let missing = counts.flat_map(|((longest, own), kind)| std::iter::repeat_n(kind, longest - own));
+        missing.chain(self.power.chars().skip(own.power.chars().count())).collect()
     }
 }
 
-/// Writes a column of numbers with aligned decimal marks.
-pub(crate) fn column(languages: &Languages, numbers: impl IntoIterator<Item = Option<Number>>) -> Vec<Option<Markup>> {
-    let numbers: Vec<Option<Number>> = numbers.into_iter().collect();
-    let tails = numbers.iter().flatten().map(|number| Tail::of(&number.text(languages.first())));
+/// A cell of a column.
+#[derive(Debug, Clone)]
+pub(crate) enum Cell {
+    /// A number; its decimal mark aligns with those of the column.
+    Number(Number),
+    /// Anything else.
+    Words(Markup),
+}
+
+impl Cell {
+    /// Returns the cell of a quantity that there is not.
+    pub(crate) fn none() -> Self {
+        Self::Words(html! { "–" })
+    }
+}
+
+impl From<Number> for Cell {
+    fn from(number: Number) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<Option<Number>> for Cell {
+    fn from(number: Option<Number>) -> Self {
+        number.map_or_else(Self::none, Self::Number)
+    }
+}
+
+/// Writes the cells of a column, its numbers with aligned decimal marks.
+pub(crate) fn column(languages: &Languages, cells: impl IntoIterator<Item = impl Into<Cell>>) -> Vec<Markup> {
+    let cells: Vec<Cell> = cells.into_iter().map(Into::into).collect();
+    let tails = cells.iter().filter_map(|cell| match cell {
+        Cell::Number(number) => Some(Tail::of(&number.text(languages.first()))),
+        Cell::Words(_) => None,
+    });
     let longest = tails.fold(Tail::default(), Tail::or_longer);
-    numbers.iter().map(|number| number.as_ref().map(|number| number.aligned(languages, &longest))).collect()
-}
-
-/// Returns the place (power of ten) of the second significant digit of `u`, after rounding: 0.0996 becomes 0.10.
-fn place(u: f64) -> i32 {
-    if u > 0.0 && u.is_finite() { number::exponent_as_printed(u, 2) - 1 } else { 0 }
-}
-
-/// Returns the power of ten of the first significant digit.
-fn exponent(value: f64) -> i32 {
-    number::exponent_of(&format!("{value:e}"))
+    let written = cells.into_iter().map(|cell| match cell {
+        Cell::Number(number) => number.aligned(languages, &longest),
+        Cell::Words(words) => words,
+    });
+    written.collect()
 }
 
 /// Converts scientific notation with fewer decimals than its exponent to plain digits: `1.23e5` to `123000`.
@@ -263,18 +280,11 @@ fn grouped(out: &mut String, digits: &str, head: usize) {
 
 /// Returns an exponent in superscript digits.
 pub(crate) fn superscripts(exponent: &str) -> String {
-    exponent.chars().filter_map(superscript).collect()
-}
-
-fn superscript(c: char) -> Option<char> {
-    Some(match c {
-        '-' => '\u{207B}',
-        '1' => '\u{00B9}',
-        '2' => '\u{00B2}',
-        '3' => '\u{00B3}',
-        '0' | '4'..='9' => char::from_u32(0x2070 + c.to_digit(10)?)?,
-        _ => return None,
-    })
+    let raised = |c: char| match c {
+        '-' => Some('⁻'),
+        c => "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(c.to_digit(10)? as usize),
+    };
+    exponent.chars().filter_map(raised).collect()
 }
 
 #[cfg(test)]

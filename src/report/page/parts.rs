@@ -4,12 +4,13 @@ use super::language::{Language, Languages, Text};
 use super::number::Number;
 use super::spacing::BLANK;
 use super::symbols::index;
-use super::texts::{calibration, units, words};
+use super::texts::{calibration, record, units, words};
 use base64ct::{Base64, Encoding};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use jiff::tz::TimeZone;
 use maud::{Markup, html};
+use std::path::Path;
 
 /// Writes a section with its number and heading; `id` is its anchor.
 pub(crate) fn section(languages: &Languages, id: &str, number: &str, heading: Text, body: &Markup) -> Markup {
@@ -42,20 +43,19 @@ pub(crate) fn blank(languages: &Languages) -> Markup {
 
 /// Writes a name and its value, or a space to fill in by hand if the value is `None`.
 pub(crate) fn field(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
-    html! {
-        div {
-            dt { (languages.label(name)) }
-            dd { @match value { Some(value) => (value), None => (blank(languages)) } }
-        }
-    }
+    field_of(None, languages, name, value)
 }
 
 /// Writes a field over the full width, for long texts.
 pub(crate) fn wide_field(languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
+    field_of(Some("wide"), languages, name, value)
+}
+
+fn field_of(class: Option<&str>, languages: &Languages, name: Text, value: Option<Markup>) -> Markup {
     html! {
-        div.wide {
+        div class=[class] {
             dt { (languages.label(name)) }
-            dd { @match value { Some(value) => (value), None => (blank(languages)) } }
+            dd { (value.unwrap_or_else(|| blank(languages))) }
         }
     }
 }
@@ -75,15 +75,23 @@ pub(crate) fn not_stated(languages: &Languages) -> Markup {
     html! { span.absent { (languages.inline(words::NOT_STATED)) } }
 }
 
+/// Writes a headline and words about it in a box.
+pub(crate) fn boxed(class: &str, headline: Markup, words: Markup) -> Markup {
+    html! { div class=(class) { p.headline { (headline) } (words) } }
+}
+
 /// Writes the fields of a signature.
 pub(crate) fn signature(languages: &Languages) -> Markup {
-    let names = [calibration::POST_AND_NAME, calibration::SIGNATURE, calibration::DATE, calibration::STAMP];
+    let names = [record::POST_AND_NAME, record::SIGNATURE, record::DATE, record::STAMP];
     fields(names.map(|name| field(languages, name, None)))
 }
 
-/// Writes the form for the signature of a person.
-pub(crate) fn signature_of(languages: &Languages, who: Text) -> Markup {
-    html! { div.part.pen { (heading(languages, who)) (signature(languages)) } }
+/// Writes forms for the signatures of some persons.
+pub(crate) fn signatures<const N: usize>(languages: &Languages, who: [Text; N]) -> Markup {
+    html! {
+        div.pair { @for who in who { div.part.pen { (heading(languages, who)) (signature(languages)) } } }
+        div.statement { (languages.paragraph(calibration::VALID_WHEN_SIGNED)) }
+    }
 }
 
 /// Writes fields in as many columns as fit.
@@ -108,13 +116,9 @@ pub(crate) fn band(languages: &Languages, cells: [(Text, Markup, Markup); 4]) ->
 
 /// Writes a number and its unit without a line break between them.
 pub(crate) fn quantity(languages: &Languages, number: &Number, unit: Text) -> Markup {
-    html! { span.quantity { (number.markup(languages)) (unit_after(languages, unit)) } }
-}
-
-/// Writes a unit after its number, without a space before the marks of angles (SI Brochure, 5.4.3).
-fn unit_after(languages: &Languages, unit: Text) -> Markup {
+    // No space before the marks of angles (SI Brochure, 5.4.3).
     let close = unit == units::ARCSEC || unit == units::DEGREES;
-    html! { @if !close { (BLANK) } (languages.in_brackets(unit)) }
+    html! { span.quantity { (number.markup(languages)) @if !close { (BLANK) } (languages.in_brackets(unit)) } }
 }
 
 /// Writes a date in the format of the page's first language.
@@ -126,7 +130,7 @@ pub(crate) fn date(languages: &Languages, date: Date) -> Markup {
 pub(crate) fn date_text(language: Language, date: Date) -> String {
     match language {
         Language::English => date.to_string(),
-        Language::Russian => format!("{:02}.{:02}.{:04}", date.day(), date.month(), date.year()),
+        Language::Russian => date.strftime("%d.%m.%Y").to_string(),
     }
 }
 
@@ -138,9 +142,7 @@ pub(crate) fn time(languages: &Languages, time: Timestamp) -> Markup {
 /// Returns a time in UTC in the format of `language`.
 pub(crate) fn time_text(language: Language, time: Timestamp) -> String {
     let at = time.to_zoned(TimeZone::UTC);
-    let clock = at.time();
-    let (hour, minute, second) = (clock.hour(), clock.minute(), clock.second());
-    format!("{}{BLANK}{hour:02}:{minute:02}:{second:02}{BLANK}UTC", date_text(language, at.date()))
+    format!("{}{BLANK}{}{BLANK}UTC", date_text(language, at.date()), at.strftime("%H:%M:%S"))
 }
 
 /// Writes a symbol with its subscript.
@@ -195,6 +197,11 @@ fn unbroken_powers(line: &str) -> Markup {
     }
 }
 
+/// Returns the name of a file without its folder.
+pub(crate) fn file_name(path: &str) -> &str {
+    Path::new(path).file_name().and_then(|name| name.to_str()).unwrap_or(path)
+}
+
 /// Returns the address of a file that the page itself contains.
 pub(crate) fn data_address(kind: &str, bytes: &[u8]) -> String {
     format!("data:{kind};base64,{}", Base64::encode_string(bytes))
@@ -236,7 +243,55 @@ pub(crate) struct Table {
     pub class: &'static str,
 }
 
+/// A column of a table after the names of its rows.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Column {
+    /// Heading of the column.
+    pub heading: Markup,
+    /// A cell for each row.
+    pub cells: Vec<Markup>,
+    /// What stands below the cells, such as the axis of strips. Most columns have nothing there.
+    pub foot: Markup,
+}
+
+impl Column {
+    /// Creates a column with a text as its heading.
+    pub(crate) fn named(languages: &Languages, heading: Text, cells: Vec<Markup>) -> Self {
+        Self::new(languages.label(heading), cells)
+    }
+
+    /// Creates a column with nothing below it.
+    pub(crate) fn new(heading: Markup, cells: Vec<Markup>) -> Self {
+        Self { heading, cells, foot: html! {} }
+    }
+}
+
+/// Returns the rows with which a group of equal values begins, after the first.
+pub(crate) fn starts<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<usize> {
+    let values: Vec<T> = values.into_iter().collect();
+    (1..values.len()).filter(|row| values[*row] != values[row - 1]).collect()
+}
+
 impl Table {
+    /// Creates a table from the names of its rows, with the headings above them, and its columns.
+    pub(crate) fn of(above: Vec<Markup>, names: Vec<Vec<Markup>>, columns: &[Column]) -> Self {
+        let cells = |row: usize| columns.iter().map(move |column| column.cells[row].clone());
+        let rows = names.into_iter().enumerate().map(|(row, name)| name.into_iter().chain(cells(row)).collect());
+        let rows = rows.collect();
+        let row_headings = above.len();
+        let foot = match columns.iter().any(|column| !column.foot.0.is_empty()) {
+            true => above.iter().map(|_| html! {}).chain(columns.iter().map(|column| column.foot.clone())).collect(),
+            false => Vec::new(),
+        };
+        let headings = above.into_iter().chain(columns.iter().map(|column| column.heading.clone())).collect();
+        Self { headings, rows, foot, row_headings, class: "numbers", ..Self::default() }
+    }
+
+    /// Writes the table with a caption, which is its name for screen readers too.
+    pub(crate) fn captioned(self, languages: &Languages, caption: Text) -> Markup {
+        Self { caption: Some(languages.label(caption)), ..self }.markup(languages.spoken(caption))
+    }
+
     /// Writes the table. It scrolls sideways on a narrow screen, and the keyboard can then focus it.
     pub(crate) fn markup(&self, name: &str) -> Markup {
         html! {

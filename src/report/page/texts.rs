@@ -77,5 +77,6 @@ pub(crate) mod words {
         SOUTH { en: "south", ru: "юг" }
         EAST { en: "east", ru: "восток" }
         WEST { en: "west", ru: "запад" }
+        UP { en: "up", ru: "верх" }
     }
 }

@@ -1,14 +1,14 @@
 //! Expected calibration uncertainty: the standard uncertainty of every parameter against the tolerance of a gyro type.
 
 use super::drawing::{
-    Anchor, Panel, Scale, Ticks, label, legend, line, nothing, panels, plain_symbol, rectangle, symbol, words,
+    Anchor, Panel, Scale, Ticks, label, legend, line, panels, plain_symbol, rectangle, symbol, words,
 };
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{COVERAGE_FACTOR, Found, against_type};
 use crate::passport::accuracy::Accuracy;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::Number;
-use crate::report::page::texts::{pictures as texts, units};
+use crate::report::page::texts::{calibration, pictures as texts, units};
 use maud::{Markup, html};
 
 const PANEL_PIXELS: u32 = 330;
@@ -95,17 +95,17 @@ pub(crate) fn unit(parameter: Parameter) -> Text {
 fn grid(languages: &Languages, scale: &Scale, bottom: f64) -> Markup {
     let ticks = Ticks::between(0.0, 100.0 * scale.values[1], 6);
     html! {
-        @for percent in &ticks.values {
+        @for (percent, text) in ticks.marks(languages.first()) {
             @let x = scale.place(percent / 100.0);
             (line([x, TOP], [x, bottom + 4.0], "grid"))
-            (words([x, bottom + 16.0], Anchor::Middle, "small", &ticks.text(*percent, languages.first())))
+            (words([x, bottom + 16.0], Anchor::Middle, "small", &text))
         }
-        (words([BARS[0], bottom + 31.0], Anchor::Start, "small", &languages.plain(texts::ACCURACY_AXIS)))
+        (words([BARS[0], bottom + 31.0], Anchor::Start, "small", &languages.plain(calibration::IN_TOLERANCE)))
     }
 }
 
 fn bar(row: &Row, scale: &Scale, y: f64) -> Markup {
-    let bars = row.share.map_or_else(nothing, |share| {
+    let bars = row.share.map_or_else(Markup::default, |share| {
         let end = |share: f64, half: f64| [scale.clamped(share), y + half];
         html! {
             (rectangle([BARS[0], y - BAR_HALF], end(COVERAGE_FACTOR * share, BAR_HALF), "bar-open", None))
@@ -121,14 +121,12 @@ fn bar(row: &Row, scale: &Scale, y: f64) -> Markup {
 fn in_words(language: Language, rows: &[Row]) -> String {
     let each = rows.iter().map(|row| {
         let (name, u) = (plain_symbol(row.parameter.symbol()), Number::uncertainty(row.u).text(language));
-        let values = [("parameter", name.as_str()), ("u", u.as_str()), ("unit", unit(row.parameter).of(language))];
-        match row.share {
-            Some(share) => {
-                let share = Number::significant(100.0 * share, 2).text(language);
-                texts::ACCURACY_IN_WORDS.filled(language, &[values.as_slice(), &[("share", share.as_str())]].concat())
-            }
-            None => texts::ACCURACY_NO_TOLERANCE_IN_WORDS.filled(language, &values),
-        }
+        let unit = unit(row.parameter).of(language);
+        let (text, share) = match row.share {
+            Some(share) => (texts::ACCURACY_IN_WORDS, Number::significant(100.0 * share, 2).text(language)),
+            None => (texts::ACCURACY_NO_TOLERANCE_IN_WORDS, String::new()),
+        };
+        text.filled(language, &[("parameter", &name), ("u", &u), ("unit", &unit), ("share", &share)])
     });
     each.collect::<Vec<_>>().join("; ") + "."
 }

@@ -1,9 +1,9 @@
 //! Uncertainty budget as a picture file: one panel for each parameter, its largest contributions as bars.
 
 use super::accuracy::unit;
-use super::drawing::{Anchor, Panel, Point, Scale, label, number, plain_symbol, rectangle, symbol, symbols};
+use super::drawing::{Anchor, Point, Scale, label, number, plain_symbol, rectangle, symbol, symbols};
 use super::file::file;
-use crate::report::page::language::{Language, Languages};
+use crate::report::page::language::Language;
 use crate::report::page::number::Number;
 use crate::report::page::spacing::BLANK;
 use crate::uncertainty::Budget;
@@ -37,9 +37,8 @@ pub(crate) fn budget(budget: &Budget) -> Option<String> {
         html! { @for (place, line) in budget.parameters.iter().enumerate() { g { (parameter(line, corner(place))) } } },
         label([14.0, height + 10.0], Anchor::Start, "", &symbols(WORDS)),
     ];
-    let languages = Languages::from(Language::English);
-    let panel = Panel { name: "budget", languages: &languages, size: [WIDTH * COLUMNS as f64, height + WORDS_HEIGHT] };
-    Some(file(&panel, "Uncertainty budget", &in_words(budget), &drawing))
+    let size = [WIDTH * COLUMNS as f64, height + WORDS_HEIGHT];
+    Some(file("budget", size, "Uncertainty budget", &in_words(budget), &drawing))
 }
 
 fn parameter(line: &ParameterBudget, [left, top]: Point) -> Markup {
@@ -58,7 +57,7 @@ fn parameter(line: &ParameterBudget, [left, top]: Point) -> Markup {
         html! {
             (label([start - 6.0, y + 4.0], Anchor::End, "", &symbols(name)))
             (rectangle([start, y - BAR_HALF], [scale.clamped(*contribution), y + BAR_HALF], "bar", None))
-            (number([end + 6.0, y + 4.0], Anchor::Start, *contribution, &digits(*contribution)))
+            (number([end + 6.0, y + 4.0], Anchor::Start, "", *contribution, &digits(*contribution)))
         }
     };
     let title = html! { (symbol(line.parameter.symbol())) tspan dy="-3" { ": " (symbols("u = ")) (with_unit(line)) } };
@@ -83,11 +82,8 @@ fn bars(line: &ParameterBudget) -> Vec<(String, f64)> {
 }
 
 fn with_unit(line: &ParameterBudget) -> String {
-    format!("{}{BLANK}{}", printed(line.standard_uncertainty), unit(line.parameter).of(Language::English))
-}
-
-fn printed(u: f64) -> String {
-    Number::scientific(u, 2).text(Language::English)
+    let u = Number::scientific(line.standard_uncertainty, 2).text(Language::English);
+    format!("{u}{BLANK}{}", unit(line.parameter).of(Language::English))
 }
 
 fn in_words(budget: &Budget) -> String {

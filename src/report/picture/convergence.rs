@@ -102,10 +102,9 @@ fn decade(exponent: i32, language: Language) -> String {
 
 fn in_words(language: Language, changes: &[ChangeDocument], rule: &StopRule) -> String {
     let each = changes.iter().map(|change| {
-        let step = change.step.to_string();
         let [k, g] = [change.main_scale_factors_percent, change.g_drifts_deg_per_h_per_g]
             .map(|value| Number::scientific(value, 2).text(language));
-        texts::CONVERGENCE_IN_WORDS.filled(language, &[("step", &step), ("k", &k), ("g", &g)])
+        texts::CONVERGENCE_IN_WORDS.filled(language, &[("step", &change.step), ("k", &k), ("g", &g)])
     });
     let list = each.collect::<Vec<_>>().join("; ");
     let [k, g] = [rule.delta1_percent, rule.delta2_deg_per_h].map(|value| Number::exact(value).text(language));

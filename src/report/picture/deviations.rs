@@ -1,6 +1,7 @@
 //! Certified deviations as bars in their table: a column for each of α, β, γ, all to one scale.
 
-use super::drawing::{Scale, legend, line, nothing, rectangle, strip, strip_axis, whisker};
+use super::drawing::{Scale, legend, line, rectangle, strip, strip_axis, whisker};
+use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::report::page::language::Languages;
 use crate::report::page::number::LARGEST_IN_ARCSEC;
 use crate::report::page::texts::pictures as texts;
@@ -13,9 +14,6 @@ const HEIGHT: f64 = 13.0;
 /// Left and right end of the bars, with room for the outer numbers of the axis.
 const BARS: [f64; 2] = [8.0, 108.0];
 const BAR_HALF: f64 = 4.0;
-
-/// Half-length of the whiskers, in standard uncertainties.
-const COVERAGE_FACTOR: f64 = 2.0;
 
 /// Largest value on an axis, arcsec: 180°. The uncertainties themselves have no limit.
 const LARGEST_ARCSEC: f64 = 648_000.0;
@@ -76,7 +74,7 @@ impl Bars {
     pub(crate) fn key(&self, languages: &Languages) -> Markup {
         let bar = rectangle([2.0, 2.5], [26.0, 11.5], "bar", None);
         let whisker = whisker(2.0, 26.0, 7.0, 3.0);
-        let second = if self.stated { (whisker, texts::DEVIATION_WHISKER) } else { (nothing(), texts::DEVIATION_NO_U) };
+        let second = if self.stated { (whisker, texts::DEVIATION_WHISKER) } else { (html! {}, texts::DEVIATION_NO_U) };
         legend(languages, &[(bar, texts::DEVIATION_BAR), second])
     }
 }

@@ -7,7 +7,7 @@
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{Number, localised};
 use crate::report::page::symbols::{Piece, pieces};
-use maud::{Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 /// A point of a drawing: distance to the right and down, in units of the drawing.
 pub(crate) type Point = [f64; 2];
@@ -93,10 +93,9 @@ pub(crate) fn strip([width, height]: Point, drawing: &Markup) -> Markup {
 /// Draws the axis below the strips of a column: round values with their numbers, each followed by `unit`.
 pub(crate) fn strip_axis(languages: &Languages, scale: &Scale, width: f64, unit: &str) -> Markup {
     const HALF_LETTER: f64 = 3.2;
-    let ticks = Ticks::along(scale, languages.first());
     let drawing = html! {
-        @for value in &ticks.values {
-            @let (x, text) = (scale.place(*value), ticks.text(*value, languages.first()) + unit);
+        @for (value, text) in Ticks::along(scale, languages.first()).marks(languages.first()) {
+            @let (x, text) = (scale.place(value), text + unit);
             @let half = HALF_LETTER * text.chars().count() as f64;
             // A long number at the end would be cut off.
             @if x > half && x < width - half {
@@ -198,12 +197,7 @@ pub(crate) fn words(at: Point, anchor: Anchor, class: &str, words: &str) -> Mark
 }
 
 /// Draws a number of a document; programs can find it by its value.
-pub(crate) fn number(at: Point, anchor: Anchor, value: f64, printed: &str) -> Markup {
-    number_of("", at, anchor, value, printed)
-}
-
-/// Writes a number as `number` does, in a class of letters.
-pub(crate) fn number_of(class: &str, at: Point, anchor: Anchor, value: f64, printed: &str) -> Markup {
+pub(crate) fn number(at: Point, anchor: Anchor, class: &str, value: f64, printed: &str) -> Markup {
     label(at, anchor, class, &html! { tspan data-value=(crate::text::number::decimal(value)) { (printed) } })
 }
 
@@ -237,16 +231,10 @@ pub(crate) fn plain_symbol(name: &str) -> String {
 /// `say` gives its words in each.
 pub(crate) fn heading_with(languages: &Languages, at: Point, say: impl Fn(Language) -> String) -> (Markup, f64) {
     const LINE: f64 = 15.0;
-    let mut said: Vec<String> = Vec::new();
-    let mut lines: Vec<(&str, String)> = Vec::new();
-    for (place, language) in languages.iter().enumerate() {
-        let words = say(language);
-        if !said.contains(&words) {
-            let class = if place == 0 { "title" } else { "small" };
-            lines.extend(lines_of(&words).into_iter().map(|line| (class, line)));
-            said.push(words);
-        }
-    }
+    let classes = std::iter::once("title").chain(std::iter::repeat("small"));
+    let sayings = classes.zip(languages.sayings(say));
+    let lines = sayings.flat_map(|(class, (_, words))| lines_of(&words).into_iter().map(move |line| (class, line)));
+    let lines: Vec<(&str, String)> = lines.collect();
     let drawn = html! {
         @for (row, (class, line)) in lines.iter().enumerate() {
             (label([at[0], at[1] + LINE * row as f64], Anchor::Start, class, &symbols(line)))
@@ -352,17 +340,17 @@ impl Ticks {
         let [low, high] = scale.values;
         let length = (scale.places[1] - scale.places[0]).abs();
         let fits = |ticks: &Self| {
-            let widest =
-                ticks.values.iter().map(|value| ticks.text(*value, language).chars().count()).max().unwrap_or(0);
+            let widest = ticks.marks(language).iter().map(|(_, text)| text.chars().count()).max().unwrap_or(0);
             LETTER * widest as f64 + GAP <= ticks.step / (high - low) * length
         };
         let fewer = (2..=8).rev().map(|most| Self::between(low, high, most));
         fewer.into_iter().find(fits).unwrap_or_else(|| Self::between(low, high, 1))
     }
 
-    /// Formats a value for the axis.
-    pub(crate) fn text(&self, value: f64, language: Language) -> String {
-        Number::fixed(value, self.decimals).text(language)
+    /// Returns each value, and how it is written at the axis.
+    pub(crate) fn marks(&self, language: Language) -> Vec<(f64, String)> {
+        let text = |value: &f64| (*value, Number::fixed(*value, self.decimals).text(language));
+        self.values.iter().map(text).collect()
     }
 }
 
@@ -407,11 +395,6 @@ pub(crate) fn crowding(reach: f64) -> i32 {
     Some(exponent(reach)).filter(|exponent| !(-2..4).contains(exponent)).unwrap_or(0)
 }
 
-/// Returns empty markup.
-pub(crate) fn nothing() -> Markup {
-    PreEscaped(String::new())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -424,7 +407,7 @@ mod tests {
         let ticks = Ticks::between(-0.003, 0.003, 4);
         assert_eq!(ticks.step, 0.002);
         assert_eq!(ticks.values.len(), 3);
-        assert_eq!(ticks.text(ticks.values[0], Language::Russian), "\u{2212}0,002");
+        assert_eq!(ticks.marks(Language::Russian)[0].1, "\u{2212}0,002");
         assert_eq!(Ticks::between(0.0, 0.0, 4).values, [0.0]);
     }
 

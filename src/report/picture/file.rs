@@ -2,14 +2,16 @@
 
 use super::drawing::{Anchor, Panel, Point, coordinate, words};
 use super::label::width;
+use crate::report::page::language::Language;
 use maud::{Markup, PreEscaped, html};
 
 /// Style in black and grey on a white ground. Its rules are plain, because not only browsers draw these files.
 const STYLE: &str = include_str!("file.css");
 
-/// Returns the file of a picture with the single panel `panel`, in its first language.
-pub(crate) fn file(panel: &Panel, title: &str, description: &str, drawing: &[Markup]) -> String {
-    let [width, height] = panel.size.map(coordinate);
+/// Returns the file of a picture with a single panel, in English.
+pub(crate) fn file(name: &str, size: Point, title: &str, description: &str, drawing: &[Markup]) -> String {
+    let panel = Panel { name, languages: &Language::English.into(), size };
+    let [width, height] = size.map(coordinate);
     let picture = panel.svg(|_| title.to_owned(), |_| description.to_owned(), drawing);
     let file = html! {
         svg xmlns="http://www.w3.org/2000/svg" width=(width) height=(height) viewBox={ "0 0 " (width) " " (height) } {

@@ -2,11 +2,12 @@
 //! first certificate, all to one scale.
 
 use super::chart::Field;
-use super::drawing::{Anchor, Panel, Point, Scale, Ticks, coordinate, line, rectangle, words};
+use super::drawing::{Anchor, Point, Scale, Ticks, coordinate, line, mark, rectangle, words};
 use super::file::{caption, file};
+use crate::calibration::verdict::COVERAGE_FACTOR;
 use crate::history::drift::{DRIFTS, Drift, Series};
 use crate::history::{History, PastPassport};
-use crate::report::page::language::{Language, Languages};
+use crate::report::page::language::Language;
 use jiff::Timestamp;
 use jiff::civil::Date;
 use maud::{Markup, html};
@@ -25,9 +26,6 @@ const PANEL_ROW: f64 = 74.0;
 const PLOT_HEIGHT: f64 = 52.0;
 const LEFT: f64 = 56.0;
 
-/// Half-length of the whiskers, in standard uncertainties.
-const COVERAGE_FACTOR: f64 = 2.0;
-
 /// Letters of the angles.
 pub(crate) const LETTERS: [&str; 3] = ["α", "β", "γ"];
 
@@ -42,14 +40,16 @@ pub(crate) fn history(history: &History, now: Timestamp) -> String {
     let positions = history.drift.series.len().div_ceil(LETTERS.len()) as f64;
     let height = if changes { panels_top + PANEL_ROW * positions + 24.0 } else { bottom + 40.0 };
     let title = format!("Stand {} over the years", history.stand);
-    let languages = Languages::from(Language::English);
-    let panel = Panel { name: "history", languages: &languages, size: [WIDTH, height] };
     let drawing = [
         words([20.0, 20.0], Anchor::Start, "title", &title),
         time_line(history, &time, bottom),
-        if changes { drift(&history.drift, panels_top) } else { super::drawing::nothing() },
+        if changes {
+            drift(&history.drift, panels_top)
+        } else {
+            html! {}
+        },
     ];
-    file(&panel, &title, &in_words(history), &drawing)
+    file("history", [WIDTH, height], &title, &in_words(history), &drawing)
 }
 
 /// Decimal year of a date, for the horizontal axis.
@@ -102,7 +102,7 @@ fn time_line(history: &History, time: &Scale, bottom: f64) -> Markup {
         (caption([20.0, 42.0], "", &[
             (rectangle([2.0, 2.5], [26.0, 11.5], sure, None), "in force"),
             (rectangle([2.0, 2.5], [26.0, 11.5], unsure, None), "withdrawn later"),
-            (super::drawing::mark([14.0, 7.0], 1, "mark"), "measured for a certificate"),
+            (mark([14.0, 7.0], 1, "mark"), "measured for a certificate"),
         ]))
         @for (year, name) in marks(time) {
             @let x = time.place(year);
@@ -111,7 +111,7 @@ fn time_line(history: &History, time: &Scale, bottom: f64) -> Markup {
         }
         (words([ACROSS[0] - 8.0, row(0) + 4.0], Anchor::End, "small", "certificates"))
         @for at in &history.certificates {
-            (super::drawing::mark([time.place(year_of(at.stand.certificate.measured())), row(0)], 1, "mark"))
+            (mark([time.place(year_of(at.stand.certificate.measured())), row(0)], 1, "mark"))
         }
         @for (place, stay) in (1..).zip(&history.places) {
             (words([ACROSS[0] - 8.0, row(place) + 4.0], Anchor::End, "small", &shortened(&stay.site)))
@@ -124,7 +124,7 @@ fn time_line(history: &History, time: &Scale, bottom: f64) -> Markup {
 
 /// Draws the time in which a passport was in force.
 fn bar(passport: &PastPassport, history: &History, time: &Scale, y: f64) -> Markup {
-    let Some(from) = passport.issued_at.map(year_of_time) else { return super::drawing::nothing() };
+    let Some(from) = passport.issued_at.map(year_of_time) else { return html! {} };
     let until = passport.ended_at.map_or(time.values[1], year_of_time);
     let withdrawn = history.withdrawals.iter().any(|entry| entry.sha256 == passport.line.sha256);
     let class = if withdrawn { "frame-line" } else { "bar" };
@@ -142,7 +142,7 @@ fn shortened(site: &str) -> String {
 
 fn drift(drift: &Drift, top: f64) -> Markup {
     if drift.series.is_empty() {
-        return super::drawing::nothing();
+        return html! {};
     }
     let ends = drift.series.iter().flat_map(|series| {
         let first = series.values.first().map_or(0.0, |at| at.arcsec);
@@ -157,8 +157,9 @@ fn drift(drift: &Drift, top: f64) -> Markup {
     let (low, high) = (low - margin, high + margin);
     let last = drift.series.iter().flat_map(|series| &series.values).map(|at| at.years).fold(0.0, f64::max);
     let years = [-0.06 * last.max(1.0), 1.06 * last.max(1.0)];
+    let sample = html! { (whisker(14.0, 1.0, 13.0)) (mark([14.0, 7.0], 1, "mark")) };
     let legend = [
-        (whisker_sample(), "change since the first certificate, ± 2 u"),
+        (sample, "change since the first certificate, ± 2 u"),
         (line([1.0, 7.0], [27.0, 7.0], "series"), "line of a deviation that drifts"),
         (line([1.0, 7.0], [27.0, 7.0], "grid"), "other line"),
     ];
@@ -180,12 +181,9 @@ fn drift(drift: &Drift, top: f64) -> Markup {
 
 fn panel(series: &Series, field: &Field, lowest: bool) -> Markup {
     let language = Language::English;
-    let marked = |ticks: Ticks| -> Vec<(f64, String)> {
-        ticks.values.iter().map(|value| (*value, ticks.text(*value, language))).collect()
-    };
-    let years = marked(Ticks::along(&field.x, language)).into_iter().filter(|(year, _)| *year >= 0.0);
+    let years = Ticks::along(&field.x, language).marks(language).into_iter().filter(|(year, _)| *year >= 0.0);
     let years = years.map(|(year, printed)| (year, if lowest { printed } else { String::new() }));
-    let changes = marked(Ticks::between(field.y.values[0], field.y.values[1], 3));
+    let changes = Ticks::between(field.y.values[0], field.y.values[1], 3).marks(language);
     let first = series.values.first().map_or(0.0, |at| at.arcsec);
     let drifts = series.corrected_probability.is_some_and(|p| p < DRIFTS);
     let [left, right] = field.x.places;
@@ -214,7 +212,7 @@ fn panel(series: &Series, field: &Field, lowest: bool) -> Markup {
                 @if half > 0.0 {
                     (whisker(x, field.y.clamped(at.arcsec - first - half), field.y.clamped(at.arcsec - first + half)))
                 }
-                (super::drawing::mark([x, field.y.clamped(at.arcsec - first)], 1, "mark"))
+                (mark([x, field.y.clamped(at.arcsec - first)], 1, "mark"))
             }
             (words([right, field.y.places[1] - 3.0], Anchor::End, if drifts { "title" } else { "small" }, &title))
         }
@@ -225,10 +223,6 @@ fn whisker(x: f64, from: f64, to: f64) -> Markup {
     let [left, right, middle, from, to] = [x - 2.5, x + 2.5, x, from, to].map(coordinate);
     let d = format!("M{middle},{from}V{to}M{left},{from}H{right}M{left},{to}H{right}");
     html! { path.frame-line d=(d) {} }
-}
-
-fn whisker_sample() -> Markup {
-    html! { (whisker(14.0, 1.0, 13.0)) (super::drawing::mark([14.0, 7.0], 1, "mark")) }
 }
 
 fn in_words(history: &History) -> String {

@@ -110,15 +110,12 @@ pub(crate) fn width(words: &str) -> f64 {
 }
 
 impl Label {
-    fn width(&self) -> f64 {
-        width(&self.words)
-    }
-
     /// Returns the box of the label next to `at`: to the right of `at` if the label is to the right of its point, and
     /// so on.
     fn area(&self, [x, y]: Point, cos: f64) -> Area {
-        let left = x - 0.5 * self.width() * (1.0 - cos);
-        Area { low: [left, y - 0.5 * LINE], high: [left + self.width(), y + 0.5 * LINE] }
+        let width = width(&self.words);
+        let left = x - 0.5 * width * (1.0 - cos);
+        Area { low: [left, y - 0.5 * LINE], high: [left + width, y + 0.5 * LINE] }
     }
 
     fn markup(&self, area: &Area, far: bool) -> Markup {

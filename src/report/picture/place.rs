@@ -1,7 +1,7 @@
 //! Area where a passport is valid: a schematic map around the site, north at the top.
 
 use super::drawing::{
-    Anchor, Panel, Point, arrow, coordinate, legend, line, nothing, number, panels, rectangle, round_below, words,
+    Anchor, Panel, Point, arrow, coordinate, legend, line, number, panels, rectangle, round_below, words,
 };
 use crate::passport::content::Content;
 use crate::report::page::language::{Language, Languages, Text};
@@ -104,7 +104,7 @@ fn towards(azimuth_deg: f64, distance: f64) -> Point {
 }
 
 fn mark(content: &Content) -> Markup {
-    let Some(azimuth_deg) = content.earth.azimuth_deg else { return nothing() };
+    let Some(azimuth_deg) = content.earth.azimuth_deg else { return html! {} };
     const ARC: f64 = 34.0;
     let (start, end) = (towards(0.0, ARC), towards(azimuth_deg, ARC));
     let large = if azimuth_deg > 180.0 { "1" } else { "0" };
@@ -134,7 +134,7 @@ fn radius(languages: &Languages, content: &Content) -> Markup {
         (false, true) => ([middle[0], middle[1] - 8.0], Anchor::Start),
         (false, false) => ([middle[0], middle[1] - 8.0], Anchor::End),
     };
-    html! { (arrow(from, tip, "dimension-arrow")) (number(at, anchor, metres, &printed)) }
+    html! { (arrow(from, tip, "dimension-arrow")) (number(at, anchor, "", metres, &printed)) }
 }
 
 fn scale_bar(languages: &Languages, radius_m: f64) -> Markup {
@@ -162,7 +162,7 @@ fn coordinates(languages: &Languages, content: &Content) -> Markup {
         @for (row, (name, value, printed)) in rows.iter().enumerate() {
             @let y = BELOW + LINE * row as f64;
             (words([150.0, y], Anchor::End, "small", &languages.plain(*name)))
-            (number([158.0, y], Anchor::Start, *value, &(printed.text(languages.first()) + "°")))
+            (number([158.0, y], Anchor::Start, "", *value, &(printed.text(languages.first()) + "°")))
         }
     }
 }
@@ -187,19 +187,14 @@ fn in_words(language: Language, content: &Content) -> String {
     let earth = &content.earth;
     let radius = Number::fixed(earth.valid_radius_m, 0).text(language);
     let latitude = short(latitude_deg(content)).text(language);
-    let mut values = vec![("radius", radius.as_str()), ("latitude", latitude.as_str())];
-    let longitude = content.site.longitude_deg.map(|value| short(value).text(language));
-    let area = match &longitude {
-        Some(longitude) => {
-            values.push(("longitude", longitude));
-            texts::PLACE_CIRCLE
-        }
-        None => texts::PLACE_BAND,
+    let area = match content.site.longitude_deg.map(|value| short(value).text(language)) {
+        Some(longitude) => texts::PLACE_CIRCLE
+            .filled(language, &[("radius", &radius), ("latitude", &latitude), ("longitude", &longitude)]),
+        None => texts::PLACE_BAND.filled(language, &[("radius", &radius), ("latitude", &latitude)]),
     };
-    let azimuth = earth.azimuth_deg.map(|value| azimuth(content, value).text(language));
-    let mark = match &azimuth {
-        Some(azimuth) => texts::PLACE_MARK_IN_WORDS.filled(language, &[("azimuth", azimuth)]),
+    let mark = match earth.azimuth_deg.map(|value| azimuth(content, value).text(language)) {
+        Some(azimuth) => texts::PLACE_MARK_IN_WORDS.filled(language, &[("azimuth", &azimuth)]),
         None => texts::PLACE_NO_MARK_IN_WORDS.of(language).to_owned(),
     };
-    area.filled(language, &values) + " " + &mark
+    area + " " + &mark
 }

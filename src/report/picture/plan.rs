@@ -1,12 +1,12 @@
 //! A plan next to the paper's eight positions as a picture file: the uncertainty of each parameter, and what errors
 //! cost that all positions share.
 
-use super::drawing::{Anchor, Panel, Point, Scale, label, number_of, plain_symbol, rectangle, symbol, symbols, words};
+use super::drawing::{Anchor, Point, Scale, label, number, plain_symbol, rectangle, symbol, symbols, words};
 use super::file::{caption, file};
 use crate::calibration::parameter::Parameter;
 use crate::plan::sensitivity::Effect;
 use crate::plan::{Evaluation, Plan};
-use crate::report::page::language::{Language, Languages};
+use crate::report::page::language::Language;
 use crate::report::page::number::Number;
 use maud::{Markup, html};
 
@@ -17,23 +17,27 @@ const TOP: f64 = 62.0;
 const ROW: f64 = 30.0;
 const BAR: f64 = 12.0;
 
-/// A row of a panel: its name, and the values of the plan and of the paper's eight, % of the tolerance.
-type Row = (Markup, f64, Option<f64>);
+/// A row of a panel: its name as drawn and in words, and the values of the plan and of the paper's eight, % of the
+/// tolerance.
+struct Row {
+    drawn: Markup,
+    name: String,
+    plan: f64,
+    paper: Option<f64>,
+}
 
 /// Draws a plan, in black and white.
 pub(crate) fn plan(plan: &Plan) -> String {
-    let uncertainties: Vec<Row> = Parameter::AS_IN_THE_PAPER
-        .map(|parameter| {
-            let share = |of: &Evaluation| {
-                100.0 * of.standard_uncertainty[parameter.place()] / plan.tolerance[parameter.place()]
-            };
-            (symbol(parameter.symbol()), share(&plan.evaluation), plan.paper.as_ref().map(share))
-        })
-        .into();
+    let uncertainties = Parameter::AS_IN_THE_PAPER.map(|parameter| {
+        let (name, place) = (parameter.symbol(), parameter.place());
+        let share = |of: &Evaluation| 100.0 * of.standard_uncertainty[place] / plan.tolerance[place];
+        let (drawn, paper) = (symbol(name), plan.paper.as_ref().map(share));
+        Row { drawn, name: plain_symbol(name), plan: share(&plan.evaluation), paper }
+    });
     let errors = plan.evaluation.effects.iter().enumerate().map(|(place, effect)| {
         let percent = |effect: &Effect| 100.0 * effect.largest_over_tolerance;
-        let paper = plan.paper.as_ref().map(|paper| percent(&paper.effects[place]));
-        (symbols(&name_of(effect)), percent(effect), paper)
+        let (name, paper) = (name_of(effect), plan.paper.as_ref().map(|paper| percent(&paper.effects[place])));
+        Row { drawn: symbols(&name), name, plan: percent(effect), paper }
     });
     let errors: Vec<Row> = errors.collect();
     let rows = uncertainties.len().max(errors.len());
@@ -44,10 +48,8 @@ pub(crate) fn plan(plan: &Plan) -> String {
         panel(&uncertainties, BARS[0]),
         panel(&errors, BARS[1]),
     ];
-    let languages = Languages::from(Language::English);
-    let height = TOP + ROW * rows as f64 + 10.0;
-    let picture = Panel { name: "plan", languages: &languages, size: [WIDTH, height] };
-    file(&picture, "Plan of readings", &in_words(plan, &errors), &drawing)
+    let size = [WIDTH, TOP + ROW * rows as f64 + 10.0];
+    file("plan", size, "Plan of readings", &in_words(&uncertainties, &errors), &drawing)
 }
 
 fn name_of(effect: &Effect) -> String {
@@ -70,7 +72,7 @@ fn key(plan: &Plan) -> Markup {
 }
 
 fn panel(rows: &[Row], [left, right]: Point) -> Markup {
-    let longest = rows.iter().flat_map(|(_, plan, paper)| [*plan, paper.unwrap_or(0.0)]).fold(0.0, f64::max);
+    let longest = rows.iter().flat_map(|row| [row.plan, row.paper.unwrap_or(0.0)]).fold(0.0, f64::max);
     // Without any length any scale will do.
     let scale = Scale { values: [0.0, if longest > 0.0 { longest } else { 1.0 }], places: [left, right] };
     let bar = |value: f64, top: f64, class: &str| {
@@ -78,15 +80,15 @@ fn panel(rows: &[Row], [left, right]: Point) -> Markup {
         let width = scale.place(value) - left;
         html! {
             @if width >= 0.3 { (rectangle([left, top], [left + width, top + BAR - 1.0], class, None)) }
-            (number_of("small", [left + width + 5.0, top + BAR - 2.0], Anchor::Start, value, &percent(value)))
+            (number([left + width + 5.0, top + BAR - 2.0], Anchor::Start, "small", value, &percent(value)))
         }
     };
     html! {
-        @for (place, (name, plan, paper)) in rows.iter().enumerate() {
+        @for (place, row) in rows.iter().enumerate() {
             @let top = TOP + ROW * place as f64;
-            (label([left - 7.0, top + BAR + 3.0], Anchor::End, "", name))
-            (bar(*plan, top, "bar"))
-            @if let Some(paper) = paper { (bar(*paper, top + BAR, "bar open")) }
+            (label([left - 7.0, top + BAR + 3.0], Anchor::End, "", &row.drawn))
+            (bar(row.plan, top, "bar"))
+            @if let Some(paper) = row.paper { (bar(paper, top + BAR, "bar open")) }
         }
     }
 }
@@ -96,27 +98,17 @@ fn percent(value: f64) -> String {
     if value < 1e-6 { "0".to_owned() } else { Number::significant(value, 2).text(Language::English) }
 }
 
-fn in_words(plan: &Plan, errors: &[Row]) -> String {
-    let of = |name: &str, value: f64, paper: Option<f64>| {
-        let paper = paper.map_or_else(String::new, |paper| format!(" (paper’s eight: {} %)", percent(paper)));
-        format!("{name} {} %{paper}", percent(value))
+fn in_words(uncertainties: &[Row], errors: &[Row]) -> String {
+    let listed = |rows: &[Row]| {
+        let each = rows.iter().map(|Row { name, plan, paper, .. }| {
+            let paper = paper.map_or_else(String::new, |paper| format!(" (paper’s eight: {} %)", percent(paper)));
+            format!("{name} {} %{paper}", percent(*plan))
+        });
+        each.collect::<Vec<_>>().join("; ")
     };
-    let share = |of: &Evaluation, place: usize| 100.0 * of.standard_uncertainty[place] / plan.tolerance[place];
-    let uncertainties = Parameter::AS_IN_THE_PAPER.map(|parameter| {
-        let place = parameter.place();
-        let paper = plan.paper.as_ref().map(|paper| share(paper, place));
-        of(&plain_symbol(parameter.symbol()), share(&plan.evaluation, place), paper)
-    });
-    let errors: Vec<String> = plan
-        .evaluation
-        .effects
-        .iter()
-        .zip(errors)
-        .map(|(effect, (_, value, paper))| of(&name_of(effect), *value, *paper))
-        .collect();
     format!(
         "Standard uncertainty in % of the tolerance: {}. Largest change of a parameter in % of its tolerance: {}.",
-        uncertainties.join("; "),
-        errors.join("; ")
+        listed(uncertainties),
+        listed(errors)
     )
 }

@@ -15,6 +15,7 @@ use crate::stand::CertifiedPosition;
 use crate::units::{degrees_from_radians, sin_cos_of_degrees};
 use maud::{Markup, html};
 use nalgebra::{Matrix3, Vector3};
+use std::fmt::Display;
 
 /// Pixels that a panel needs for readable letters.
 const PANEL_PIXELS: u32 = 155;
@@ -118,18 +119,13 @@ impl View {
 
     /// Draws a circle around `centre`, seen as an ellipse; its long axis is perpendicular to the circle's normal.
     fn circle(&self, centre: &Vector3<f64>, normal: &Vector3<f64>, radius: f64, class: &str) -> Markup {
-        let ([x, y], tilt) = (self.point(centre), self.tilt_deg(normal));
+        let ([x, y], across) = (self.point(centre), self.across(normal));
+        let tilt = -degrees_from_radians(libm::atan2(across.dot(&self.up), across.dot(&self.right)));
         let (major, minor) = (radius * self.unit, radius * self.unit * normal.dot(&self.towards).abs());
         html! {
             ellipse class=(class) rx={ (format!("{major:.1}")) } ry={ (format!("{minor:.1}")) }
                 transform={ (format!("translate({x:.1} {y:.1}) rotate({tilt:.1})")) } {}
         }
-    }
-
-    /// Returns the clockwise rotation of the long axis of a circle's ellipse on the drawing, degrees.
-    fn tilt_deg(&self, normal: &Vector3<f64>) -> f64 {
-        let across = self.across(normal);
-        -degrees_from_radians(libm::atan2(across.dot(&self.up), across.dot(&self.right)))
     }
 
     /// Returns the unit vector in the plane of a circle that is seen at full length.
@@ -171,7 +167,7 @@ fn position(languages: &Languages, at: &CertifiedPosition, base_axes: &Matrix3<f
         axes(&view, &designed, &real),
     ];
     panel.svg(
-        |language| texts::POSITION_TITLE.filled(language, &[("index", &position.index.to_string())]),
+        |language| texts::POSITION_TITLE.filled(language, &[("index", &position.index)]),
         |language| in_words(language, at, &true_axes),
         &drawing,
     )
@@ -179,12 +175,11 @@ fn position(languages: &Languages, at: &CertifiedPosition, base_axes: &Matrix3<f
 
 fn heading(at: &CertifiedPosition, languages: &Languages) -> Markup {
     let degrees = |value: f64| format!("{}°", Number::exact(value).text(languages.first()));
-    html! {
-        (label([4.0, 16.0], Anchor::Start, "", &html! {
-            tspan.title { (at.index().to_string()) } "\u{2002}"
-            tspan.letter { "θ" } " " (degrees(at.theta_deg)) "\u{2002}" tspan.letter { "φ" } " " (degrees(at.phi_deg))
-        }))
-    }
+    let words = html! {
+        tspan.title { (at.index().to_string()) } "\u{2002}"
+        tspan.letter { "θ" } " " (degrees(at.theta_deg)) "\u{2002}" tspan.letter { "φ" } " " (degrees(at.phi_deg))
+    };
+    label([4.0, 16.0], Anchor::Start, "", &words)
 }
 
 /// Draws the plate that carries the posts, with its upper side at the foot of the axes.
@@ -199,7 +194,7 @@ pub(super) fn plate(view: &View, base_axes: &Matrix3<f64>) -> Markup {
 pub(super) fn stand(view: &View, base_axes: &Matrix3<f64>, frame: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
     let [_, eta, _] = rows(base_axes);
     let [xi, across, out] = rows(frame);
-    let [_, _, spin] = rows(real);
+    let [x, _, spin] = rows(real);
     let bar = |centre: Vector3<f64>, along: Vector3<f64>, thick: Vector3<f64>| {
         view.cuboid(&centre, &[along, thick, out * BAR_HALF], "frame")
     };
@@ -226,18 +221,13 @@ pub(super) fn stand(view: &View, base_axes: &Matrix3<f64>, frame: &Matrix3<f64>,
         (post(-near_end)) (side(-near_end)) (crossbar(-nearer))
         @if !gyro_is_near { (gyro) }
         (view.circle(&centre, &spin, PLATFORM, "solid platform s1"))
-        (platform_mark(view, real))
+        // The two pins of the gyro seat, which are along x.
+        @for sign in [-1.0, 1.0] { (view.circle(&(x * (sign * 0.5)), &spin, 0.055, "pin")) }
         (crossbar(nearer)) (side(near_end)) (post(near_end))
         (line(view.point(&(xi * -1.42)), view.point(&(xi * -1.1)), "axle"))
         (line(view.point(&(xi * 1.1)), view.point(&(xi * 1.42)), "axle"))
         @if gyro_is_near { (gyro) }
     }
-}
-
-/// Draws the two pins of the gyro seat, which are along x.
-fn platform_mark(view: &View, real: &Matrix3<f64>) -> Markup {
-    let [x, _, spin] = rows(real);
-    html! { @for sign in [-1.0, 1.0] { (view.circle(&(x * (sign * 0.5)), &spin, 0.055, "pin")) } }
 }
 
 /// Draws the case axes: nominal (thin) and actual, z from the end of the gyro. Their letters avoid each other.
@@ -294,28 +284,27 @@ pub(super) fn rows(matrix: &Matrix3<f64>) -> [Vector3<f64>; 3] {
 
 /// Describes the direction of every axis: the nearest of east, west, north, south, up, down, and the angle from it.
 fn in_words(language: Language, at: &CertifiedPosition, real: &Matrix3<f64>) -> String {
-    let exact = |value: f64| Number::exact(value).text(language);
-    let [x, y, z] = rows(real).map(|axis| {
+    let [theta, phi] = [at.theta_deg, at.phi_deg].map(|value| Number::exact(value).text(language));
+    let [(x, x_angle), (y, y_angle), (z, z_angle)] = rows(real).map(|axis| {
         let (whither, angle_deg) = nearest(&axis);
         (whither.of(language), Number::significant(angle_deg, 2).text(language))
     });
-    let values = [
-        ("theta", exact(at.theta_deg)),
-        ("phi", exact(at.phi_deg)),
-        ("x", x.0.to_owned()),
-        ("y", y.0.to_owned()),
-        ("z", z.0.to_owned()),
-        ("x_angle", x.1),
-        ("y_angle", y.1),
-        ("z_angle", z.1),
+    let values: [(&str, &dyn Display); 8] = [
+        ("theta", &theta),
+        ("phi", &phi),
+        ("x", &x),
+        ("y", &y),
+        ("z", &z),
+        ("x_angle", &x_angle),
+        ("y_angle", &y_angle),
+        ("z_angle", &z_angle),
     ];
-    let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
     texts::POSITION_DESCRIPTION.filled(language, &values)
 }
 
 /// Returns the nearest of six directions, and the angle from it in degrees.
 fn nearest(axis: &Vector3<f64>) -> (Text, f64) {
-    let names = [(compass::EAST, compass::WEST), (compass::NORTH, compass::SOUTH), (texts::UPWARDS, texts::DOWNWARDS)];
+    let names = [(compass::EAST, compass::WEST), (compass::NORTH, compass::SOUTH), (compass::UP, texts::DOWNWARDS)];
     let largest = axis.iamax();
     let (positive, negative) = names[largest];
     let name = if axis[largest] < 0.0 { negative } else { positive };

@@ -1,9 +1,7 @@
 //! Residuals of each equation after the fit, and changes of deviations, as bars in their table with limits from their
 //! uncertainty.
 
-use super::drawing::{
-    Anchor, Scale, Ticks, crowding, legend, line, nothing, power, power_of_ten, rectangle, strip, words,
-};
+use super::drawing::{Anchor, Scale, Ticks, crowding, legend, line, power, power_of_ten, rectangle, strip, words};
 use crate::calibration::document::{ResidualDocument, ResultDocument};
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::times;
@@ -47,7 +45,7 @@ impl Bars {
             |u: f64| rectangle([scale.place(-LIMIT * u), y - 5.5], [scale.place(LIMIT * u), y + 5.5], "limits", None);
         let zero = scale.place(0.0);
         let drawing = html! {
-            (u.map_or_else(nothing, band))
+            (u.map_or_else(Markup::default, band))
             (rectangle([zero, y - 2.5], [scale.place(value), y + 2.5], "bar", None))
             (line([zero, 0.0], [zero, HEIGHT], "zero"))
         };
@@ -60,15 +58,15 @@ impl Bars {
         let exponent = crowding(scale.values[1]);
         let factor = power_of_ten(exponent);
         let shown = Scale { values: scale.values.map(|value| value / factor), ..*scale };
-        let ticks = Ticks::along(&shown, languages.first());
+        let language = languages.first();
         let drawing = html! {
             @if exponent != 0 {
-                (words([WIDTH, 14.0], Anchor::End, "small", &format!("{}\u{202f}{}", times(languages.first()), power(exponent, languages.first()))))
+                (words([WIDTH, 14.0], Anchor::End, "small", &format!("{}\u{202f}{}", times(language), power(exponent, language))))
             }
-            @for value in &ticks.values {
-                @let x = shown.place(*value);
+            @for (value, text) in Ticks::along(&shown, language).marks(language) {
+                @let x = shown.place(value);
                 (line([x, 0.0], [x, 4.0], "grid"))
-                (words([x, 14.0], Anchor::Middle, "small", &ticks.text(*value, languages.first())))
+                (words([x, 14.0], Anchor::Middle, "small", &text))
             }
         };
         strip([WIDTH, 17.0], &drawing)

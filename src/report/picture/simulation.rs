@@ -1,10 +1,10 @@
 //! The paper's Fig. 4 as a picture file: steps of the iterative method against the limit of the deviations.
 
 use super::chart::{Field, Look, sample};
-use super::drawing::{Anchor, Panel, Point, Scale, Ticks, line, nothing, words};
+use super::drawing::{Anchor, Point, Scale, Ticks, line, words};
 use super::file::{caption, file};
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
-use crate::report::page::language::{Language, Languages};
+use crate::report::page::language::Language;
 use crate::simulation::convergence::{Convergence, ConvergenceRow};
 use maud::{Markup, html};
 
@@ -46,9 +46,7 @@ pub(crate) fn convergence(found: &Convergence) -> Option<String> {
         html! { g { (share(x, &found.rows)) } },
         words([right, SHARE[0] + 32.0], Anchor::End, "small", "limit D of the deviations, degrees"),
     ];
-    let languages = Languages::from(Language::English);
-    let panel = Panel { name: "steps", languages: &languages, size: SIZE };
-    Some(file(&panel, &title, &in_words(&found.rows), &drawing))
+    Some(file("steps", SIZE, &title, &in_words(&found.rows), &drawing))
 }
 
 fn steps(x: Scale, rows: &[ConvergenceRow]) -> Markup {
@@ -71,7 +69,7 @@ fn steps(x: Scale, rows: &[ConvergenceRow]) -> Markup {
 fn share(x: Scale, rows: &[ConvergenceRow]) -> Markup {
     let most = rows.iter().map(|row| row.not_converged_percent).fold(1.0, f64::max);
     let field = Field { x, y: Scale { values: [0.0, 1.1 * most], places: SHARE } };
-    let marks = marked(&Ticks::between(0.0, 1.1 * most, 5));
+    let marks = Ticks::between(0.0, 1.1 * most, 5).marks(Language::English);
     let entries: Vec<_> = KINDS.into_iter().zip(LOOKS).map(|((_, name), look)| (sample(look), name)).collect();
     let points = |kind: &str| -> Vec<Point> {
         let rows = rows.iter().filter(|row| row.deviations == kind);
@@ -86,18 +84,14 @@ fn share(x: Scale, rows: &[ConvergenceRow]) -> Markup {
 }
 
 fn limits(x: &Scale) -> Vec<(f64, String)> {
-    marked(&Ticks::along(x, Language::English))
-}
-
-fn marked(ticks: &Ticks) -> Vec<(f64, String)> {
-    ticks.values.iter().map(|value| (*value, ticks.text(*value, Language::English))).collect()
+    Ticks::along(x, Language::English).marks(Language::English)
 }
 
 fn paper_limit(x: &Scale) -> Markup {
     const ROOM: f64 = 60.0;
     let ([_, farthest], [bottom, top], at) = (x.values, STEPS, x.place(PAPER_LIMIT_DEG));
     if farthest < PAPER_LIMIT_DEG {
-        return nothing();
+        return html! {};
     }
     let (to_label, anchor) = if at + ROOM < ACROSS[1] { (5.0, Anchor::Start) } else { (-5.0, Anchor::End) };
     html! {

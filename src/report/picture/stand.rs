@@ -52,7 +52,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         (texts::PART_AXIS, xi * 1.75),
     ];
     let named = named.map(|(text, at)| {
-        let name = |language| text.filled(language, &[("azimuth", azimuth(language).as_str())]);
+        let name = |language| text.filled(language, &[("azimuth", &azimuth(language))]);
         (languages.iter().map(name).collect(), view.point(&at))
     });
     let drawing = [
@@ -122,7 +122,7 @@ fn letters(view: &View, letters: &[(&str, Vector3<f64>)]) -> Markup {
 /// Draws east, north and up, as the view shows them.
 fn compass_rose(languages: &Languages) -> Markup {
     let view = View::new(COMPASS, COMPASS_UNIT);
-    let named = [compass::EAST, compass::NORTH, texts::UP];
+    let named = [compass::EAST, compass::NORTH, compass::UP];
     let directions = [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().zip(named);
     html! {
         @for (direction, name) in directions {

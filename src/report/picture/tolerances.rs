@@ -72,11 +72,11 @@ impl Strips {
 
 /// Draws what the parts of a strip mean.
 pub(crate) fn key(languages: &Languages) -> Markup {
-    let entry = |decision: Decision, text: Text| (decided([21.0, 7.0], decision), text);
+    let entry = |found: Decision| (decided([21.0, 7.0], found), decision(found));
     let entries = [
-        entry(Decision::Pass, texts::DECISION_PASS),
-        entry(Decision::Undecided, texts::DECISION_UNDECIDED),
-        entry(Decision::Fail, texts::DECISION_FAIL),
+        entry(Decision::Pass),
+        entry(Decision::Undecided),
+        entry(Decision::Fail),
         (whisker(2.0, 26.0, 7.0, 4.0), texts::TOLERANCES_WHISKER),
         (rectangle([2.0, 2.0], [26.0, 12.0], "limits", None), texts::TOLERANCES_GUARDED),
         (line([21.0, 0.0], [21.0, 14.0], "limit"), texts::TOLERANCES_LIMIT),

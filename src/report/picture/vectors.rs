@@ -2,8 +2,8 @@
 //! gyro's x-y plane ([the paper](crate::bibliography::Bibliography::Tang17), eq. (5)).
 
 use super::drawing::{
-    Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading_with, label, legend, line, mark, nothing, panels,
-    power, power_of_ten, rectangle, words,
+    Anchor, Panel, Point, Scale, Ticks, arrow, crowding, heading_with, label, legend, line, mark, panels, power,
+    power_of_ten, rectangle, words,
 };
 use super::label as labels;
 use crate::attitude;
@@ -87,7 +87,7 @@ fn small_multiples(languages: &Languages, subject: &Subject) -> Markup {
     });
     let drawings: Vec<Markup> =
         parts.enumerate().map(|(place, part)| differences_of(languages, subject, &plane, part, Some(place))).collect();
-    panels(SMALL.columns, SMALL.pixels, &drawings, &nothing())
+    panels(SMALL.columns, SMALL.pixels, &drawings, &html! {})
 }
 
 fn key(languages: &Languages, content: &Content) -> Markup {
@@ -163,18 +163,17 @@ impl Plane {
         let factor = power_of_ten(self.exponent);
         let reach = self.x.values[1] / factor;
         let ticks = Ticks::between(-0.93 * reach, 0.93 * reach, self.layout.ticks);
-        let text = |value: &f64| ticks.text(*value, languages.first());
         let unit = match self.exponent {
             0 => languages.plain(unit),
             exponent => format!("{}\u{a0}{}", power(exponent, languages.first()), languages.plain(unit)),
         };
         html! {
-            @for value in &ticks.values {
+            @for (value, text) in ticks.marks(languages.first()) {
                 @let (x, y) = (self.x.place(value * factor), self.y.place(value * factor));
                 (line([x, top], [x, bottom], "grid"))
                 (line([left, y], [right, y], "grid"))
-                (words([x, bottom + 12.0], Anchor::Middle, "small", &text(value)))
-                (words([left - 4.0, y + 4.0], Anchor::End, "small", &text(value)))
+                (words([x, bottom + 12.0], Anchor::Middle, "small", &text))
+                (words([left - 4.0, y + 4.0], Anchor::End, "small", &text))
             }
             (rectangle([left, top], [right, bottom], "frame-line", None))
             (label([right, bottom + 27.0], Anchor::End, "", &html! { tspan.letter { "x" } ", " (unit) }))
@@ -199,9 +198,8 @@ fn differences_of(
     let [[left, top], [right, bottom]] = plane.layout.field;
     let axis = labels::Area { low: [left, top], high: [left + 86.0, top + 18.0] };
     let field = labels::Area { low: [left, top], high: [right, bottom] };
-    let frame = pairs.first().map_or_else(String::new, |pair| pair.index.i.to_string());
-    let title = |language: Language| match part {
-        Some(_) => subject.of_frame.filled(language, &[("i", &frame)]),
+    let title = |language: Language| match pairs.first().filter(|_| part.is_some()) {
+        Some(pair) => subject.of_frame.filled(language, &[("i", &pair.index.i)]),
         None => subject.title.words(language),
     };
     let (title_lines, more) = heading_with(languages, [2.0, 13.0], title);
@@ -234,8 +232,8 @@ fn along(from: Point, to: Point) -> Vec<Point> {
 fn in_words(language: Language, unit: Text, pairs: &[Pair]) -> String {
     let each = pairs.iter().map(|pair| {
         let [x, y] = pair.difference().map(|value| Number::significant(value, 5).text(language));
-        texts::VECTOR_IN_WORDS.filled(language, &[("index", &pair.index.to_string()), ("x", &x), ("y", &y)])
+        texts::VECTOR_IN_WORDS.filled(language, &[("index", &pair.index), ("x", &x), ("y", &y)])
     });
     let list = each.collect::<Vec<_>>().join("; ");
-    texts::VECTORS_DESCRIPTION.filled(language, &[("unit", unit.of(language)), ("list", &list)])
+    texts::VECTORS_DESCRIPTION.filled(language, &[("unit", &unit.of(language)), ("list", &list)])
 }

@@ -2,7 +2,7 @@
 
 use super::CalibrationPage;
 use crate::report::page::language::Languages;
-use crate::report::page::parts::{section as part, signature_of, verbatim};
+use crate::report::page::parts::{section as part, signatures, verbatim};
 use crate::report::page::texts::calibration as texts;
 use maud::{Markup, html};
 use serde::Serialize;
@@ -11,13 +11,12 @@ use serde_json::ser::Formatter;
 use std::io::{self, Write};
 
 pub(super) fn sections(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let signatures = html! {
+    let signed = html! {
         (languages.paragraph(texts::ONLY_THIS_ONE))
-        div.pair { (signature_of(languages, texts::CALIBRATED_BY)) (signature_of(languages, texts::APPROVED_BY)) }
-        div.statement { (languages.paragraph(texts::VALID_WHEN_SIGNED)) }
+        (signatures(languages, [texts::CALIBRATED_BY, texts::APPROVED_BY]))
     };
     html! {
-        (part(languages, "signatures", "", texts::SIGNATURES, &signatures))
+        (part(languages, "signatures", "", texts::SIGNATURES, &signed))
         (annex(page, languages))
     }
 }
@@ -27,7 +26,7 @@ pub(super) fn json(page: &CalibrationPage) -> String {
     // Every number of a result is finite, and its keys are strings. So this JSON can always be written.
     let mut json = Vec::new();
     let mut writer = Serializer::with_formatter(&mut json, Lines { depth: 0, in_list: false });
-    match page.result().serialize(&mut writer) {
+    match page.document.serialize(&mut writer) {
         // A space before an object that begins a line; a string contains no line feed.
         Ok(()) => String::from_utf8(json).unwrap_or_default().replace(", \n", ",\n") + "\n",
         Err(_) => String::new(),

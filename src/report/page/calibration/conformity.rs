@@ -7,9 +7,9 @@ use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text};
-use crate::report::page::number::{Number, column};
-use crate::report::page::parts::{Table, heading, quantity, symbol};
-use crate::report::page::texts::{calibration as texts, units};
+use crate::report::page::number::{Cell, Number, column};
+use crate::report::page::parts::{Column, Table, heading, quantity, symbol};
+use crate::report::page::texts::{calibration as texts, passport, units};
 use crate::report::picture::accuracy::unit;
 use crate::report::picture::tolerances::{Strips, decision, key, parameter_of, printed, unit_of};
 use maud::{Markup, html};
@@ -25,7 +25,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
             None => (alone(page, languages)),
         }
         @if let Some(result) = adopted { (parameters::beyond_the_eight(result, languages)) }
-        @if let Some(change) = &page.result().change {
+        @if let Some(change) = &page.document.change {
             (heading(languages, texts::CHANGE))
             (table(languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY], false))
         }
@@ -48,8 +48,7 @@ fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, language
 pub(super) fn counted(verdict: &Verdict, of_what: Option<Text>, languages: &Languages) -> Markup {
     let of = |decision: Decision| verdict.parameters.iter().filter(move |row| row.guarded == decision);
     let names = |decision: Decision| {
-        let names: Vec<Markup> = of(decision).map(parameter).collect();
-        html! { @for (place, name) in names.iter().enumerate() { @if place > 0 { ", " } (name) } }
+        html! { @for (place, row) in of(decision).enumerate() { @if place > 0 { ", " } (parameter(row)) } }
     };
     let values = [("passed", html! { (of(Decision::Pass).count()) }), ("all", html! { (verdict.parameters.len()) })];
     let rest = [(Decision::Undecided, texts::ARE_UNDECIDED), (Decision::Fail, texts::FAIL)];
@@ -72,27 +71,17 @@ fn alone(page: &CalibrationPage, languages: &Languages) -> Markup {
     let found = Parameter::AS_IN_THE_PAPER.into_iter().filter(|parameter| !values[parameter.place()].is_nan());
     let found: Vec<(Parameter, f64, f64)> =
         found.map(|parameter| (parameter, values[parameter.place()], us[parameter.place()])).collect();
-    let value = column(languages, found.iter().map(|(_, x, u)| Some(Number::measured(*x, *u))));
-    let u = column(languages, found.iter().map(|(.., u)| Some(Number::uncertainty(*u))));
-    let rows = found.iter().zip(value).zip(u).map(|(((parameter, ..), value), u)| {
-        let name = name_of(parameter.symbol());
-        vec![name, value.unwrap_or_default(), u.unwrap_or_default(), languages.inline(unit(*parameter))]
-    });
-    let headings = vec![
-        languages.label(texts::PARAMETER),
-        languages.label(texts::FOUND),
-        symbol("u", ""),
-        languages.label(texts::UNIT),
+    let values = column(languages, found.iter().map(|(_, x, u)| Number::measured(*x, *u)));
+    let us = column(languages, found.iter().map(|(.., u)| Number::uncertainty(*u)));
+    let units = found.iter().map(|(parameter, ..)| languages.inline(unit(*parameter)));
+    let columns = [
+        Column::named(languages, texts::FOUND, values),
+        Column::new(symbol("u", ""), us),
+        Column::named(languages, passport::UNIT, units.collect()),
     ];
-    let table = Table {
-        caption: Some(languages.label(texts::RESULT_CAPTION)),
-        headings,
-        rows: rows.collect(),
-        row_headings: 1,
-        class: "numbers narrow",
-        ..Table::default()
-    };
-    table.markup(languages.spoken(texts::RESULT_CAPTION))
+    let names = found.iter().map(|(parameter, ..)| vec![name_of(parameter.symbol())]).collect();
+    let table = Table::of(vec![languages.label(texts::PARAMETER)], names, &columns);
+    Table { class: "numbers narrow", ..table }.captioned(languages, texts::RESULT_CAPTION)
 }
 
 /// Writes a comparison; `with_u` says whether the standard uncertainty of a row is that of its value.
@@ -106,62 +95,43 @@ fn table(
     let rows = &verdict.parameters;
     let expanded = |row: &ParameterVerdict| row.coverage_factor * row.standard_uncertainty;
     let strips = Strips::of([verdict]);
-    let numbers =
-        |number: &dyn Fn(&ParameterVerdict) -> Number| column(languages, rows.iter().map(|row| Some(number(row))));
-    let each = |cell: &dyn Fn(&ParameterVerdict) -> Markup| rows.iter().map(|row| Some(cell(row))).collect();
+    let numbers = |heading, number: &dyn Fn(&ParameterVerdict) -> Number| {
+        Column::named(languages, heading, column(languages, rows.iter().map(number)))
+    };
+    let each = |heading, cell: &dyn Fn(&ParameterVerdict) -> Markup| {
+        Column::named(languages, heading, rows.iter().map(cell).collect())
+    };
     let with_unit = |row: &ParameterVerdict| {
         let unit = parameter_of(row).map_or(units::PERCENT, unit);
         html! { (parameter(row)) ", " (languages.spoken(unit)) }
     };
-    let known = rows.iter().map(|row| (row.specific_risk >= LEAST_RISK).then(|| probability_number(row.specific_risk)));
-    let risks = column(languages, known).into_iter().zip(rows);
-    let risks = risks.map(|(number, row)| {
-        let risk = number.unwrap_or_else(|| probability(languages, row.specific_risk));
-        Some(html! { (mark_of(languages, row)) " " (risk) })
-    });
-    let risks = risks.collect();
-    let tolerances = numbers(&|row| Number::exact(row.tolerance)).into_iter().zip(rows);
-    let tolerances = tolerances.map(|(number, row)| {
-        Some(html! { (number.unwrap_or_default()) " " span.unit { (languages.spoken(unit_of(row))) } })
-    });
-    let tolerances = tolerances.collect();
-    let mut columns: Vec<(Text, Vec<Option<Markup>>)> = vec![
-        (texts::FOUND, numbers(&|row| Number::measured(row.value, expanded(row)))),
-        (texts::PLUS_MINUS, numbers(&|row| Number::uncertainty(expanded(row)))),
-        (reference, numbers(&|row| Number::measured(row.reference_value, expanded(row)))),
-        (deviation, numbers(&|row| printed(row).0)),
-        (texts::PLUS_MINUS, numbers(&|row| printed(row).1)),
-        (texts::TOLERANCE, tolerances),
-        (texts::IN_TOLERANCE, each(&|row| strips.strip(row))),
-        (texts::GUARDED, each(&|row| decided(languages, row.guarded))),
-        (texts::SIMPLE, risks),
+    let mut risks = column(languages, rows.iter().map(|row| probability_cell(languages, row.specific_risk)));
+    for (risk, row) in risks.iter_mut().zip(rows) {
+        *risk = html! { (mark_of(languages, row)) " " (risk) };
+    }
+    let mut tolerances = numbers(texts::TOLERANCE, &|row| Number::exact(row.tolerance));
+    for (tolerance, row) in tolerances.cells.iter_mut().zip(rows) {
+        *tolerance = html! { (tolerance) " " span.unit { (languages.spoken(unit_of(row))) } };
+    }
+    let mut columns = vec![
+        numbers(texts::FOUND, &|row| Number::measured(row.value, expanded(row))),
+        numbers(texts::PLUS_MINUS, &|row| Number::uncertainty(expanded(row))),
+        numbers(reference, &|row| Number::measured(row.reference_value, expanded(row))),
+        numbers(deviation, &|row| printed(row).0),
+        numbers(texts::PLUS_MINUS, &|row| printed(row).1),
+        tolerances,
+        Column { foot: strips.axis(languages), ..each(texts::IN_TOLERANCE, &|row| strips.strip(row)) },
+        each(texts::GUARDED, &|row| decided(languages, row.guarded)),
+        Column::named(languages, texts::SIMPLE, risks),
     ];
     if !with_u {
         columns.remove(1);
     }
-    let in_tolerance = 1 + columns.iter().take_while(|(heading, _)| *heading != texts::IN_TOLERANCE).count();
-    let cells =
-        |place: usize| columns.iter().map(move |(_, cells)| cells.get(place).cloned().flatten().unwrap_or_default());
-    let headings = std::iter::once(texts::PARAMETER).chain(columns.iter().map(|(heading, _)| *heading));
-    let foot = (0..=columns.len()).map(|place| {
-        if place == in_tolerance {
-            strips.axis(languages)
-        } else {
-            html! {}
-        }
-    });
+    let names = rows.iter().map(|row| vec![with_unit(row)]).collect();
     let table = Table {
         caption: Some(with_gravity(languages, caption, &Number::exact(verdict.gravity_m_per_s2))),
-        headings: headings.map(|text| languages.label(text)).collect(),
-        rows: rows
-            .iter()
-            .enumerate()
-            .map(|(place, row)| std::iter::once(with_unit(row)).chain(cells(place)).collect())
-            .collect(),
-        foot: foot.collect(),
-        row_headings: 1,
         class: "numbers result",
-        ..Table::default()
+        ..Table::of(vec![languages.label(texts::PARAMETER)], names, &columns)
     };
     table.markup(languages.spoken(texts::RESULT))
 }
@@ -177,7 +147,7 @@ fn from_gravity(page: &CalibrationPage, verdict: &Verdict, languages: &Languages
     if rows.is_empty() {
         return html! {};
     }
-    let u = Number::uncertainty(page.result().gravity_u_m_per_s2.unwrap_or(0.0));
+    let u = Number::uncertainty(page.document.gravity_u_m_per_s2.unwrap_or(0.0));
     let part = |row: &ParameterVerdict, language: Language| {
         let gravity = Number::uncertainty(row.expanded_uncertainty_from_gravity.unwrap_or(0.0));
         let gravity = quantity(&language.into(), &gravity, unit_of(row));
@@ -219,15 +189,19 @@ fn mark(found: Decision) -> (&'static str, &'static str) {
 
 /// Writes a probability with two digits, or as less than `LEAST_RISK`.
 pub(super) fn probability(languages: &Languages, p: f64) -> Markup {
-    if p < LEAST_RISK {
-        let limit = Number::scientific(LEAST_RISK, 1);
-        return languages.inline_with(|language: Language| {
-            texts::BELOW.filled(language, &[("limit", &limit.text(languages.first()))])
-        });
+    match probability_cell(languages, p) {
+        Cell::Number(number) => number.markup(languages),
+        Cell::Words(words) => words,
     }
-    probability_number(p).markup(languages)
 }
 
-fn probability_number(p: f64) -> Number {
-    if p < 0.01 { Number::scientific(p, 2) } else { Number::fixed(p, 2) }
+fn probability_cell(languages: &Languages, p: f64) -> Cell {
+    if p < LEAST_RISK {
+        let limit = Number::scientific(LEAST_RISK, 1).text(languages.first());
+        Cell::Words(languages.inline_with(|language| texts::BELOW.filled(language, &[("limit", &limit)])))
+    } else if p < 0.01 {
+        Cell::Number(Number::scientific(p, 2))
+    } else {
+        Cell::Number(Number::fixed(p, 2))
+    }
 }

@@ -10,8 +10,7 @@ use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{Number, column};
-use crate::report::page::parts::{Table, field, fields, heading, quantity, symbol, symbol_and_unit};
-use crate::report::page::passport::characteristics::starts;
+use crate::report::page::parts::{Column, Table, field, fields, heading, quantity, starts, symbol, symbol_and_unit};
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::residuals::{AXES, Bars, key};
@@ -70,24 +69,19 @@ fn chi_square(result: &ResultDocument, languages: &Languages) -> Markup {
 
 fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
     let calibration = page.calibration;
-    let rows = calibration.row_scatter.as_ref();
     html! {
         @if let Some(digits) = &calibration.digits {
             (languages.paragraph_with(|language| html! { (recorded::words(digits, language).join(" ")) }))
         }
-        @match rows.map(|rows| (rows, &rows.against_stated)) {
-            Some((_, Some(stated))) => { (agreement(stated, texts::ROW_SCATTER, languages)) }
-            Some((rows, None)) => {
+        @if let Some(rows) = &calibration.row_scatter {
+            @if let Some(stated) = &rows.against_stated { (agreement(stated, texts::ROW_SCATTER, languages)) }
+            @else {
+                @let s = quantity(languages, &Number::scientific(rows.standard_deviation_ma, 2), units::MILLIAMPERES);
                 (fields([
-                    field(
-                        languages,
-                        texts::ROW_DEVIATION,
-                        Some(quantity(languages, &Number::scientific(rows.standard_deviation_ma, 2), units::MILLIAMPERES)),
-                    ),
+                    field(languages, texts::ROW_DEVIATION, Some(s)),
                     field(languages, texts::FREEDOM, Some(whole(rows.degrees_of_freedom))),
                 ]))
             }
-            None => {}
         }
         @if let Some(visits) = &calibration.scatter {
             (agreement(visits, texts::SCATTER, languages))
@@ -100,7 +94,7 @@ fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
         }
         (noise(calibration, languages))
         @if calibration.drift_test.is_some_and(|test| test.is_significant()) {
-            (languages.paragraph_with(|language| italic(&texts::DRIFTS.filled(language, &[("option", "--drift")]))))
+            (languages.paragraph_with(|language| italic(&texts::DRIFTS.filled(language, &[("option", &"--drift")]))))
         }
     }
 }
@@ -139,45 +133,24 @@ fn agreement(found: &Scatter, what: Text, languages: &Languages) -> Markup {
 fn table(result: &ResultDocument, languages: &Languages) -> Markup {
     let residuals = &result.residuals_deg_per_h;
     let bars = Bars::of(result);
-    let columns = AXES.into_iter().flat_map(|(_, of)| {
-        let value = |at: &ResidualDocument| Some(Number::measured(of(at).0, of(at).1.unwrap_or(0.0)));
+    let columns = AXES.into_iter().flat_map(|(axis, of)| {
+        let value = |at: &ResidualDocument| Number::measured(of(at).0, of(at).1.unwrap_or(0.0));
         let u = |at: &ResidualDocument| of(at).1.map(Number::uncertainty);
+        let heading = |symbol: Markup| symbol_and_unit(languages, &symbol, units::DEG_PER_H);
+        let cells = residuals.iter().map(|at| bars.bar(of(at))).collect();
         [
-            column(languages, residuals.iter().map(value)),
-            column(languages, residuals.iter().map(u)),
-            residuals.iter().map(|at| Some(bars.bar(of(at)))).collect(),
+            Column::new(heading(symbol(axis, "")), column(languages, residuals.iter().map(value))),
+            Column::new(heading(symbol("u", axis)), column(languages, residuals.iter().map(u))),
+            Column { heading: html! {}, cells, foot: bars.axis(languages) },
         ]
     });
-    let columns: Vec<Vec<Option<Markup>>> = columns.collect();
-    let rows = residuals.iter().enumerate().map(|(row, at)| {
-        let cells = columns.iter().map(|column| column[row].clone().unwrap_or_else(|| html! { "–" }));
-        [html! { (at.i) }, html! { (at.j) }].into_iter().chain(cells).collect()
-    });
-    let mut headings = vec![symbol("i", ""), symbol("j", "")];
-    for (axis, _) in AXES {
-        headings.push(symbol_and_unit(languages, &symbol(axis, ""), units::DEG_PER_H));
-        headings.push(symbol_and_unit(languages, &symbol("u", axis), units::DEG_PER_H));
-        headings.push(html! {});
-    }
-    // Every third column from the fifth on is of bars.
-    let axis = |place: usize| {
-        if place >= 4 && place % 3 == 1 {
-            bars.axis(languages)
-        } else {
-            html! {}
-        }
-    };
+    let names = residuals.iter().map(|at| vec![html! { (at.i) }, html! { (at.j) }]).collect();
     let table = Table {
-        caption: Some(languages.label(texts::RESIDUALS_CAPTION)),
-        headings,
-        rows: rows.collect(),
-        foot: (0..8).map(axis).collect(),
         starts: starts(residuals.iter().map(|at| at.i)),
-        row_headings: 2,
         class: "numbers residuals",
-        ..Table::default()
+        ..Table::of(vec![symbol("i", ""), symbol("j", "")], names, &columns.collect::<Vec<_>>())
     };
-    table.markup(languages.spoken(texts::RESIDUALS_CAPTION))
+    table.captioned(languages, texts::RESIDUALS_CAPTION)
 }
 
 fn what_may_be_wrong(hint: &Hint, languages: &Languages) -> Markup {
@@ -197,19 +170,12 @@ fn what_may_be_wrong(hint: &Hint, languages: &Languages) -> Markup {
 
 fn explained(explanation: &Explanation, language: Language) -> String {
     match explanation {
-        Explanation::Exchanged(one, other) => {
-            texts::HINT_EXCHANGED.filled(language, &[("one", &one.to_string()), ("other", &other.to_string())])
-        }
+        Explanation::Exchanged(one, other) => texts::HINT_EXCHANGED.filled(language, &[("one", one), ("other", other)]),
         Explanation::DidNotRepeat { index, angle_arcsec, current_ua } => {
             let two = |value: f64| Number::significant(value, 2).text(language);
-            let values = [
-                ("index", index.to_string()),
-                ("angle", two(*angle_arcsec)),
-                ("jx", two(current_ua.x)),
-                ("jy", two(current_ua.y)),
-            ];
-            let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
-            texts::HINT_DID_NOT_REPEAT.filled(language, &values)
+            let [angle, jx, jy] = [*angle_arcsec, current_ua.x, current_ua.y].map(two);
+            texts::HINT_DID_NOT_REPEAT
+                .filled(language, &[("index", index), ("angle", &angle), ("jx", &jx), ("jy", &jy)])
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::calibration::verdict::{COVERAGE_FACTOR, Found, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::Languages;
 use crate::report::page::number::{Number, column};
-use crate::report::page::parts::{Table, date, heading};
+use crate::report::page::parts::{Column, Table, date, heading, starts};
 use crate::report::page::texts::calibration as texts;
 use crate::report::picture::accuracy::unit;
 use crate::report::picture::tolerances::Strips;
@@ -26,7 +26,7 @@ pub(super) fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
     if page.previous.len() < 2 {
         return html! {};
     }
-    let results = page.previous.iter().chain([page.result()]);
+    let results = page.previous.iter().chain([page.document]);
     let all: Vec<Past> = results
         .filter_map(|result| {
             let found = result.answer()?;
@@ -41,7 +41,7 @@ pub(super) fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
 }
 
 fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
-    let gravity = page.gyro.map_or(page.result().gravity_m_per_s2, GyroType::gravity);
+    let gravity = page.gyro.map_or(page.document.gravity_m_per_s2, GyroType::gravity);
     let strips = Strips::of(all.iter().filter_map(|past| past.verdict.as_ref()));
     // The calibrations of a parameter stand below one another, so that its strips show what has changed.
     let each = Parameter::AS_IN_THE_PAPER.into_iter().flat_map(|parameter| {
@@ -53,53 +53,31 @@ fn rows(page: &CalibrationPage, all: &[Past], languages: &Languages) -> Markup {
         })
     });
     let each: Vec<_> = each.collect();
-    let numbers = |number: &dyn Fn(f64, f64) -> Number| {
-        column(languages, each.iter().map(|(.., value, u)| Some(number(*value, *u))))
-    };
+    let numbers =
+        |number: &dyn Fn(f64, f64) -> Number| column(languages, each.iter().map(|(.., value, u)| number(*value, *u)));
     let values = numbers(&|value, u| Number::measured(value, COVERAGE_FACTOR * u));
     let us = numbers(&|_, u| Number::uncertainty(COVERAGE_FACTOR * u));
-    let mut cells = Vec::with_capacity(each.len());
-    let starts: Vec<usize> = (1..each.len()).filter(|place| each[*place].0 != each[*place - 1].0).collect();
-    for (place, ((parameter, number, past, ..), (value, u))) in each.iter().zip(values.into_iter().zip(us)).enumerate()
-    {
+    let starts = starts(each.iter().map(|(parameter, ..)| *parameter));
+    let names = each.iter().enumerate().map(|(place, (parameter, number, past, ..))| {
         // The name is shown once for its calibrations; screen readers say it in each row.
         let name = html! { (name_of(parameter.symbol())) ", " (languages.spoken(unit(*parameter))) };
         let first = place == 0 || starts.contains(&place);
-        let row = past
-            .verdict
-            .as_ref()
-            .and_then(|found| found.parameters.iter().find(|row| row.parameter == parameter.key()));
-        cells.push(vec![
-            if first {
-                name
-            } else {
-                html! { span.unseen { (name) } }
-            },
-            past.date.map_or_else(|| html! { (number) }, |day| date(languages, day)),
-            value.unwrap_or_default(),
-            u.unwrap_or_default(),
-            row.map_or_else(Markup::default, |row| strips.strip(row)),
-        ]);
-    }
-    let headings = [texts::PARAMETER, texts::CALIBRATED, texts::FOUND, texts::PLUS_MINUS, texts::IN_TOLERANCE];
-    let columns = if page.gyro.is_some() { headings.len() } else { headings.len() - 1 };
-    cells.iter_mut().for_each(|row| row.truncate(columns));
-    let foot = (0..columns).map(|place| {
-        if place == 4 {
-            strips.axis(languages)
-        } else {
-            html! {}
-        }
+        let day = past.date.map_or_else(|| html! { (number) }, |day| date(languages, day));
+        vec![html! { @if first { (name) } @else { span.unseen { (name) } } }, day]
     });
-    let table = Table {
-        caption: Some(languages.label(texts::HISTORY_CAPTION)),
-        headings: headings.iter().take(columns).map(|text| languages.label(*text)).collect(),
-        starts,
-        foot: if page.gyro.is_some() { foot.collect() } else { Vec::new() },
-        rows: cells,
-        row_headings: 2,
-        class: "numbers result past",
-        ..Table::default()
-    };
-    table.markup(languages.spoken(texts::HISTORY_CAPTION))
+    let names = names.collect();
+    let drawn = each.iter().map(|(parameter, _, past, ..)| {
+        let mut rows = past.verdict.iter().flat_map(|found| &found.parameters);
+        let row = rows.find(|row| row.parameter == parameter.key());
+        row.map_or_else(Markup::default, |row| strips.strip(row))
+    });
+    let mut columns =
+        vec![Column::named(languages, texts::FOUND, values), Column::named(languages, texts::PLUS_MINUS, us)];
+    if page.gyro.is_some() {
+        let drawn = Column::named(languages, texts::IN_TOLERANCE, drawn.collect());
+        columns.push(Column { foot: strips.axis(languages), ..drawn });
+    }
+    let headings = [texts::PARAMETER, texts::CALIBRATED].map(|text| languages.label(text));
+    let table = Table::of(headings.into(), names, &columns);
+    Table { starts, class: "numbers result past", ..table }.captioned(languages, texts::HISTORY_CAPTION)
 }

@@ -21,7 +21,7 @@ mod uncertainty;
 pub(crate) use fit::not_stated;
 
 use super::language::{Language, Languages, Text};
-use super::parts;
+use super::parts::{self, boxed};
 use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use super::symbols::italic;
@@ -37,7 +37,6 @@ use crate::report::mistake;
 use crate::uncertainty::{Budget, MonteCarlo};
 use jiff::Timestamp;
 use maud::{Markup, html};
-use std::path::Path;
 
 /// The passport used for a calibration.
 #[derive(Debug, Clone)]
@@ -57,14 +56,14 @@ pub enum UsedPassport<'a> {
 impl UsedPassport<'_> {
     fn content(&self) -> &Content {
         match self {
-            Self::Verified(page) => page.content(),
+            Self::Verified(page) => &page.content,
             Self::NotVerified { content, .. } => content,
         }
     }
 
     fn sha256(&self) -> &str {
         match self {
-            Self::Verified(page) => page.sha256(),
+            Self::Verified(page) => &page.sha256,
             Self::NotVerified { sha256, .. } => sha256,
         }
     }
@@ -87,28 +86,16 @@ impl Section {
     const ALL: [Self; 7] =
         [Self::Result, Self::Fit, Self::Blind, Self::Budget, Self::MonteCarlo, Self::Methods, Self::Subject];
 
-    fn heading(self) -> Text {
+    /// Returns the anchor of the section in the HTML document, and its heading.
+    fn named(self) -> (&'static str, Text) {
         match self {
-            Self::Result => texts::RESULT,
-            Self::Fit => texts::FIT,
-            Self::Blind => texts::BLIND,
-            Self::Budget => texts::BUDGET,
-            Self::MonteCarlo => texts::MONTE_CARLO,
-            Self::Methods => texts::METHODS,
-            Self::Subject => texts::SUBJECT,
-        }
-    }
-
-    /// Returns the anchor of the section in the HTML document.
-    fn id(self) -> &'static str {
-        match self {
-            Self::Result => "result",
-            Self::Fit => "fit",
-            Self::Blind => "blind",
-            Self::Budget => "budget",
-            Self::MonteCarlo => "monte-carlo",
-            Self::Methods => "methods",
-            Self::Subject => "subject",
+            Self::Result => ("result", texts::RESULT),
+            Self::Fit => ("fit", texts::FIT),
+            Self::Blind => ("blind", texts::BLIND),
+            Self::Budget => ("budget", texts::BUDGET),
+            Self::MonteCarlo => ("monte-carlo", texts::MONTE_CARLO),
+            Self::Methods => ("methods", texts::METHODS),
+            Self::Subject => ("subject", texts::SUBJECT),
         }
     }
 }
@@ -161,10 +148,6 @@ impl CalibrationPage<'_> {
         self.passport.content()
     }
 
-    fn result(&self) -> &CalibrationDocument {
-        self.document
-    }
-
     /// Returns the sections that this report contains.
     fn sections(&self) -> impl Iterator<Item = Section> {
         Section::ALL.into_iter().filter(|one| match one {
@@ -177,28 +160,24 @@ impl CalibrationPage<'_> {
     /// Returns a section with its number. Only the sections that this report contains are numbered.
     fn section(&self, languages: &Languages, section: Section, body: &Markup) -> Markup {
         let number = 1 + self.sections().take_while(|one| *one != section).count();
-        parts::section(languages, section.id(), &number.to_string(), section.heading(), body)
+        let (id, heading) = section.named();
+        parts::section(languages, id, &number.to_string(), heading, body)
     }
 
     /// Returns the gyro type and the verdict against it, or `None` if no type was specified.
     fn judged(&self) -> Option<(&GyroType, &Verdict)> {
-        self.gyro.zip(self.result().verdict.as_ref())
+        self.gyro.zip(self.document.verdict.as_ref())
     }
 
     /// Returns the adopted result: that of least squares, otherwise the last.
     fn adopted(&self) -> Option<&ResultDocument> {
-        let results = &self.result().results;
+        let results = &self.document.results;
         results.iter().find(|result| result.method == Method::LeastSquares.key()).or(results.last())
-    }
-
-    /// Returns the name of the currents file without its folder.
-    fn currents_name(&self) -> &str {
-        Path::new(self.currents.0).file_name().and_then(|name| name.to_str()).unwrap_or(self.currents.0)
     }
 
     /// Returns the serial number of the gyro, if it was stated.
     fn serial(&self) -> Option<&str> {
-        self.result().subject.as_ref().and_then(|subject| subject.gyro_serial.as_deref())
+        self.document.subject.as_ref().and_then(|subject| subject.gyro_serial.as_deref())
     }
 
     /// Returns the type and the serial number of the gyro, or the id of the passport if neither is known.
@@ -235,7 +214,7 @@ impl CalibrationPage<'_> {
                 languages,
                 texts::SAVE,
                 (&parts::data_address("application/json", closing::json(self).as_bytes()), "calibration.json"),
-                &self.sections().map(|one| (one.id(), one.heading())).chain([("annex", texts::ANNEX)]).collect::<Vec<_>>(),
+                &self.sections().map(Section::named).chain([("annex", texts::ANNEX)]).collect::<Vec<_>>(),
             ))
             main {
                 (self.headlines(languages))
@@ -250,20 +229,20 @@ impl CalibrationPage<'_> {
         }
     }
 
-    fn is_from_the_readings_of(&self, earlier: &CalibrationDocument) -> bool {
-        self.result().answer().zip(earlier.answer()).is_some_and(|(found, earlier)| found.is_same(&earlier))
-    }
-
     /// Writes the warnings at the head of the report, the most serious first.
     fn headlines(&self, languages: &Languages) -> Markup {
+        let answer = self.document.answer();
+        let from_these_readings = |earlier: &CalibrationDocument| {
+            answer.as_ref().zip(earlier.answer()).is_some_and(|(found, earlier)| found.is_same(&earlier))
+        };
         html! {
             @if !self.verified() { (warning(languages, texts::NOT_VERIFIED, texts::NOT_VERIFIED_WORDS)) }
             @if !self.fits() { (warning(languages, texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS)) }
-            @if let Some(mistake) = &self.result().mistake {
+            @if let Some(mistake) = &self.document.mistake {
                 @let words = languages.paragraph_with(|language| italic(&mistake::words(mistake, language)));
                 (boxed("verdict refused", languages.label(texts::MISTAKE), words))
             }
-            @if self.previous.iter().any(|earlier| self.is_from_the_readings_of(earlier)) {
+            @if self.previous.iter().any(from_these_readings) {
                 (warning(languages, texts::SAME_READINGS, texts::SAME_READINGS_WORDS))
             }
             (subject::temperature(self, languages))
@@ -274,11 +253,8 @@ impl CalibrationPage<'_> {
 
     fn verdict(&self, languages: &Languages) -> Markup {
         let Some((gyro, verdict)) = self.judged() else {
-            return boxed(
-                "verdict neutral",
-                languages.label(texts::NO_TYPE),
-                languages.paragraph(texts::NO_TYPE_WORDS),
-            );
+            let words = languages.paragraph(texts::NO_TYPE_WORDS);
+            return boxed("verdict neutral", languages.label(texts::NO_TYPE), words);
         };
         let (class, text) = match verdict.overall {
             Decision::Pass => ("verdict", texts::CONFORMS),
@@ -288,7 +264,7 @@ impl CalibrationPage<'_> {
         let name = |language: Language| text.filled(language, &[("type", &gyro.r#type)]);
         let words = html! {
             (conformity::counted(verdict, None, languages))
-            @if let Some(change) = &self.result().change {
+            @if let Some(change) = &self.document.change {
                 (conformity::counted(change, Some(texts::CHANGE_COUNTED), languages))
             }
             (languages.paragraph(texts::RULE))
@@ -299,10 +275,6 @@ impl CalibrationPage<'_> {
 
 fn warning(languages: &Languages, headline: Text, words: Text) -> Markup {
     boxed("verdict refused", languages.label(headline), languages.paragraph(words))
-}
-
-fn boxed(class: &str, headline: Markup, words: Markup) -> Markup {
-    html! { div class=(class) { p.headline { (headline) } (words) } }
 }
 
 /// Returns the name of a method from its key in results.

@@ -6,9 +6,9 @@ use crate::calibration::document::ResultDocument;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::parameter::Parameter;
 use crate::report::page::language::{Languages, Text};
-use crate::report::page::number::Number;
-use crate::report::page::parts::{field, fields, figure, heading, quantity, symbol};
-use crate::report::page::passport::numbers::{Cell, parameters};
+use crate::report::page::number::{Cell, Number};
+use crate::report::page::parts::{Table, field, fields, figure, heading, quantity, symbol};
+use crate::report::page::passport::numbers::parameters;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::convergence::convergence;
@@ -18,7 +18,7 @@ use maud::{Markup, html};
 const NEGLIGIBLE: f64 = 1e-3;
 
 pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let results = &page.result().results;
+    let results = &page.document.results;
     let body = html! {
         (table(page, languages))
         @if results.iter().any(|result| result.from_least_squares.is_some()) { (languages.paragraph(texts::OFF_BY_NOTE)) }
@@ -34,15 +34,14 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
 }
 
 fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let results = &page.result().results;
+    let results = &page.document.results;
     // The adopted result comes first: it is the last of the methods.
     let rows = results.iter().rev().flat_map(|result| {
         let [values, u] = values(result);
         let cells = |number: &dyn Fn(Parameter) -> Number| {
             // The general model has no ω_g and ω_k.
             let found = |parameter: &Parameter| !values[parameter.place()].is_nan();
-            Parameter::AS_IN_THE_PAPER
-                .map(|parameter| Some(parameter).filter(found).map_or_else(Cell::none, |at| Cell::Number(number(at))))
+            Parameter::AS_IN_THE_PAPER.map(|parameter| Cell::from(Some(parameter).filter(found).map(number)))
         };
         let adopted = page.adopted().is_some_and(|adopted| adopted.method == result.method);
         let name = languages.label_with(|language| match (adopted, method(&result.method).words(language)) {
@@ -58,10 +57,10 @@ fn table(page: &CalibrationPage, languages: &Languages) -> Markup {
         }));
         rows
     });
-    let (g, u) = (page.result().gravity_m_per_s2, page.result().gravity_u_m_per_s2);
+    let (g, u) = (page.document.gravity_m_per_s2, page.document.gravity_u_m_per_s2);
     let caption = with_gravity(languages, texts::PARAMETERS_CAPTION, &Number::measured(g, u.unwrap_or(0.0)));
-    let caption = Some(caption);
-    parameters(languages, caption, rows.collect()).markup(languages.spoken(texts::METHODS))
+    let table = Table { caption: Some(caption), ..parameters(languages, rows.collect()) };
+    table.markup(languages.spoken(texts::METHODS))
 }
 
 /// Writes the terms of a model that goes beyond the eight parameters.
@@ -104,10 +103,9 @@ fn general(result: &ResultDocument, languages: &Languages) -> Markup {
         }
         @if let Some(test) = &result.model_test {
             (languages.paragraph_with(|language| {
-                let [further, rest] = test.degrees_of_freedom.map(|known| known.to_string());
+                let [further, rest] = &test.degrees_of_freedom;
                 let (f, p) = (Number::significant(test.f, 3).text(language), Number::significant(test.probability, 2).text(language));
-                let values = [("f", f.as_str()), ("further", &further), ("rest", &rest), ("p", &p)];
-                italic(&texts::MODEL_TEST.filled(language, &values))
+                italic(&texts::MODEL_TEST.filled(language, &[("f", &f), ("further", further), ("rest", rest), ("p", &p)]))
             }))
         }
     }
@@ -145,7 +143,6 @@ fn changing(result: &ResultDocument, languages: &Languages) -> Markup {
 fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
     let Some((radius, steps)) = result.spectral_radius.zip(result.iterations) else { return html! {} };
     let largest = |rows: [[f64; 2]; 2]| rows.into_iter().flatten().fold(0.0, |most, x: f64| f64::max(most, x.abs()));
-    let smallest = |rows: [[f64; 2]; 2]| rows.into_iter().flatten().fold(f64::INFINITY, f64::min);
     // What is far below the uncertainty is rounding, not a result.
     let missing = |rows: Option<[[f64; 2]; 2]>, u: f64, unit| {
         rows.map(largest).map(|most| match most < NEGLIGIBLE * u {
@@ -154,12 +151,14 @@ fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
         })
     };
     let us = &result.standard_uncertainty;
+    let u_k = us.k_deg_per_h_per_ma.into_iter().flatten().fold(f64::INFINITY, f64::min);
+    let u_omega = us.omega_g_deg_per_h_per_g.unwrap_or(0.0);
+    let remainder_omega = result.remainder_omega_n_deg_per_h_per_g;
     let whole = |steps: u32| html! { data value=(steps) { (steps) } };
     let predicted = match result.iterations_predicted {
         Some(steps) => whole(steps),
         None => {
-            let most = LARGEST_NUMBER_OF_STEPS.to_string();
-            languages.inline_with(|language| texts::STEPS_OVER.filled(language, &[("most", &most)]))
+            languages.inline_with(|language| texts::STEPS_OVER.filled(language, &[("most", &LARGEST_NUMBER_OF_STEPS)]))
         }
     };
     let steps = fields([
@@ -169,17 +168,9 @@ fn iteration(result: &ResultDocument, languages: &Languages) -> Markup {
         field(
             languages,
             texts::REMAINDER_K,
-            missing(result.remainder_k_deg_per_h_per_ma, smallest(us.k_deg_per_h_per_ma), units::DEG_PER_H_PER_MA),
+            missing(result.remainder_k_deg_per_h_per_ma, u_k, units::DEG_PER_H_PER_MA),
         ),
-        field(
-            languages,
-            texts::REMAINDER_OMEGA,
-            missing(
-                result.remainder_omega_n_deg_per_h_per_g,
-                us.omega_g_deg_per_h_per_g.unwrap_or(0.0),
-                units::DEG_PER_H_PER_G,
-            ),
-        ),
+        field(languages, texts::REMAINDER_OMEGA, missing(remainder_omega, u_omega, units::DEG_PER_H_PER_G)),
     ]);
     html! {
         (heading(languages, texts::ITERATIVE))

@@ -1,15 +1,15 @@
 //! Object of the calibration: gyro, stand, passport and readings.
 
-use super::{CalibrationPage, Section, UsedPassport, boxed};
+use super::{CalibrationPage, Section, UsedPassport};
 use crate::calibration::readings::Exclusion;
 use crate::calibration::stated::TemperatureOutside;
 use crate::laboratory::Laboratory;
 use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
-    self, blank, date_text, field, fields, given, heading, quantity, symbol, time, wide_field,
+    self, blank, boxed, date, date_text, field, fields, file_name, given, heading, quantity, time, wide_field,
 };
-use crate::report::page::passport::{accuracy, checks};
+use crate::report::page::passport::{accuracy, characteristics, checks};
 use crate::report::page::texts::{calibration as texts, passport as passport_texts, record, units};
 use maud::{Markup, html};
 
@@ -18,7 +18,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
         (gyro(page, languages))
         (heading(languages, texts::PASSPORT))
         (passport(page, languages))
-        (heading(languages, texts::LABORATORY))
+        (heading(languages, passport_texts::LABORATORY))
         (laboratory(page, languages))
     };
     page.section(languages, Section::Subject, &body)
@@ -27,8 +27,7 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
 /// Writes which gyro was calibrated on which stand, on whose word, and from which file.
 pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
     let content = page.content();
-    let subject = page.result().subject.as_ref();
-    let date = subject.and_then(|subject| subject.date).map(|date| parts::date(languages, date));
+    let day = page.document.date().map(|day| date(languages, day));
     let stand = html! { (given(content.stand.model.as_str())) " №\u{a0}" (given(content.stand.serial.as_str())) };
     let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
     let verified = match &page.passport {
@@ -42,11 +41,11 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
             (
                 texts::SERIAL,
                 page.serial().map_or_else(|| blank(languages), given),
-                html! { @if let Some(date) = date { p { (languages.inline(texts::MEASURED)) ": " (date) } } },
+                html! { @if let Some(day) = day { p { (languages.inline(texts::MEASURED)) ": " (day) } } },
             ),
             (texts::STAND, stand, html! { p { (given(site)) } }),
             (passport_texts::WORD, given(&content.certificate.number), certificate),
-            (texts::CURRENTS, given(page.currents_name()), html! { p { "SHA-256 " code { (page.currents.1) } } }),
+            (texts::CURRENTS, given(file_name(page.currents.0)), html! { p { "SHA-256 " code { (page.currents.1) } } }),
         ],
     )
 }
@@ -54,54 +53,40 @@ pub(super) fn band(page: &CalibrationPage, languages: &Languages) -> Markup {
 fn gyro(page: &CalibrationPage, languages: &Languages) -> Markup {
     let content = page.content();
     let stand = format!("{} {}", content.stand.model, content.stand.serial);
-    let result = page.result();
+    let result = page.document;
     let subject = result.subject.as_ref();
     let celsius = |value: f64| quantity(languages, &Number::exact(value), units::CELSIUS);
+    let temperature = subject.and_then(|subject| subject.temperature_c).map(celsius);
+    let site = content.site.name.as_deref().unwrap_or(content.site.id.as_str());
     let excluded = |at: &Exclusion| {
         let cycle = at.cycle.map(|cycle| format!(", {cycle}")).unwrap_or_default();
         format!("({}, {}), {}{cycle}: {}", at.i, at.j, at.visit, at.why)
     };
     let excluded: Vec<String> = result.excluded.iter().map(excluded).collect();
     let left_out: Vec<String> = result.left_out.iter().map(|at| format!("({}, {})", at.i, at.j)).collect();
-    let listed = |each: Vec<String>| (!each.is_empty()).then(|| given(&each.join("; ")));
+    let listed = |name, each: Vec<String>| {
+        (!each.is_empty()).then(|| wide_field(languages, name, Some(given(&each.join("; ")))))
+    };
     fields(
         [
             field(languages, texts::TYPE, page.gyro.map(|gyro| given(&gyro.r#type))),
             field(languages, texts::SERIAL, page.serial().map(given)),
             field(languages, texts::CONDITION, None),
             field(languages, texts::REPORT_NUMBER, None),
-            field(languages, texts::CUSTOMER, None),
+            field(languages, passport_texts::CUSTOMER, None),
             field(languages, record::CUSTOMER_CONTACT, None),
             field(languages, texts::RECEIVED, None),
-            field(
-                languages,
-                texts::MEASURED,
-                subject.and_then(|subject| subject.date).map(|date| parts::date(languages, date)),
-            ),
+            field(languages, texts::MEASURED, result.date().map(|day| date(languages, day))),
             field(languages, texts::OPERATOR, subject.and_then(|subject| subject.operator.as_deref()).map(given)),
-            field(
-                languages,
-                texts::MEASURED_TEMPERATURE,
-                subject.and_then(|subject| subject.temperature_c).map(celsius),
-            ),
+            field(languages, texts::MEASURED_TEMPERATURE, temperature),
             field(languages, texts::STAND, Some(given(&stand))),
-            field(languages, texts::CURRENTS, Some(given(page.currents_name()))),
-            wide_field(
-                languages,
-                texts::SITE,
-                Some(given(content.site.name.as_deref().unwrap_or(content.site.id.as_str()))),
-            ),
+            field(languages, texts::CURRENTS, Some(given(file_name(page.currents.0)))),
+            wide_field(languages, texts::SITE, Some(given(site))),
             wide_field(languages, texts::CURRENTS_SHA256, Some(html! { code { (page.currents.1) } })),
         ]
         .into_iter()
-        .chain(
-            [
-                listed(excluded).map(|visits| wide_field(languages, texts::EXCLUDED, Some(visits))),
-                listed(left_out).map(|positions| wide_field(languages, texts::LEFT_OUT, Some(positions))),
-            ]
-            .into_iter()
-            .flatten(),
-        ),
+        .chain(listed(texts::EXCLUDED, excluded))
+        .chain(listed(texts::LEFT_OUT, left_out)),
     )
 }
 
@@ -115,7 +100,7 @@ fn passport(page: &CalibrationPage, languages: &Languages) -> Markup {
     let signer = signed.into_iter().flat_map(|passport| {
         [
             field(languages, passport_texts::ISSUER, Some(given(&header.issuer))),
-            wide_field(languages, passport_texts::KEY, Some(html! { code { (passport.key().fingerprint()) } })),
+            wide_field(languages, passport_texts::KEY, Some(html! { code { (passport.key.fingerprint()) } })),
         ]
     });
     html! {
@@ -131,24 +116,20 @@ fn passport(page: &CalibrationPage, languages: &Languages) -> Markup {
 fn laboratory(page: &CalibrationPage, languages: &Languages) -> Markup {
     let laboratory = page.laboratory.cloned().unwrap_or_else(Laboratory::paper);
     let celsius = |value: f64| quantity(languages, &Number::exact(value), units::CELSIUS);
-    let (g, u) = (page.result().gravity_m_per_s2, page.result().gravity_u_m_per_s2);
-    let gravity = html! {
-        (quantity(languages, &Number::measured(g, u.unwrap_or(0.0)), units::M_PER_S2))
-        @if let Some(u) = u { ", " (symbol("u", "")) " " (quantity(languages, &Number::uncertainty(u), units::M_PER_S2)) }
-    };
+    let (g, u) = (page.document.gravity_m_per_s2, page.document.gravity_u_m_per_s2);
     // A blank invites a second reading of the temperature beside the first.
-    let measured = page.result().subject.as_ref().is_some_and(|subject| subject.temperature_c.is_some());
+    let measured = page.document.subject.as_ref().is_some_and(|subject| subject.temperature_c.is_some());
     let temperature = (laboratory.temperature_c.is_some() || !measured)
         .then(|| field(languages, texts::TEMPERATURE, laboratory.temperature_c.map(celsius)));
     html! {
         (fields([
-            Some(field(languages, texts::LABORATORY_NAME, laboratory.name.as_deref().map(given))),
-            Some(field(languages, passport_texts::ADDRESS, None)),
-            Some(field(languages, texts::PROCEDURE, None)),
-            temperature,
-            Some(field(languages, texts::GRAVITY, Some(gravity))),
-            Some(wide_field(languages, passport_texts::METER, Some(accuracy::meter(&laboratory, languages)))),
-        ].into_iter().flatten()))
+            field(languages, passport_texts::NAME, laboratory.name.as_deref().map(given)),
+            field(languages, passport_texts::ADDRESS, None),
+            field(languages, texts::PROCEDURE, None),
+            temperature.unwrap_or_default(),
+            field(languages, texts::GRAVITY, Some(characteristics::gravity(g, u, languages))),
+            wide_field(languages, passport_texts::METER, Some(accuracy::meter(&laboratory, languages))),
+        ]))
         @if page.laboratory.is_none() { div.statement { (languages.paragraph(texts::METER_ASSUMED)) } }
     }
 }

@@ -1,13 +1,14 @@
 //! Uncertainty budget and Monte Carlo with the test of linear propagation. Both appear only on request.
 
+use super::parameters::name_of;
 use super::{CalibrationPage, Section};
 use crate::calibration::causes::Cause;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::ParameterVerdict;
 use crate::report::page::language::{Language, Languages, Text, capital};
-use crate::report::page::number::{Number, column};
-use crate::report::page::parts::{Table, symbol, symbol_and_unit};
-use crate::report::page::passport::numbers::{Cell, parameters};
+use crate::report::page::number::{Cell, Number, column};
+use crate::report::page::parts::{Column, Table, symbol, symbol_and_unit};
+use crate::report::page::passport::numbers::parameters;
 use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, pictures, units, words};
@@ -66,7 +67,6 @@ fn sentences(remedy: &Dominant, worst: Text, languages: &Languages) -> Markup {
         format!("{}{BLANK}{}", Number::scientific(u, 2).text(language), unit.of(language))
     };
     languages.paragraph_with(|language| {
-        let words = |words: String| html! { (words) };
         let percent = Number::fixed(100.0 * first.share, 0).text(language);
         let effect = match remedy.effect {
             Effect::HalvesAt(limit) => {
@@ -74,8 +74,8 @@ fn sentences(remedy: &Dominant, worst: Text, languages: &Languages) -> Markup {
             }
             Effect::Leaves(rest) => texts::BUDGET_LEAVES.filled(language, &[("rest", &amount(rest, language))]),
         };
-        let (letter, index) = line.parameter.symbol().split_once('_').unwrap_or((line.parameter.symbol(), ""));
-        let known = [("parameter", symbol(letter, index)), ("u", words(amount(line.standard_uncertainty, language)))];
+        let u = html! { (amount(line.standard_uncertainty, language)) };
+        let known = [("parameter", name_of(line.parameter.symbol())), ("u", u)];
         html! {
             (worst.marked_up(language, &known)) " "
             (italic(&share.filled(language, &[("share", &percent), ("source", &cause(first.cause, language))]))) " "
@@ -94,27 +94,22 @@ fn shares(budget: &Budget, languages: &Languages) -> Markup {
     };
     let lines = Parameter::AS_IN_THE_PAPER.into_iter().filter_map(|parameter| line_of(budget, parameter));
     let lines: Vec<&ParameterBudget> = lines.collect();
-    let us = lines.iter().map(|line| Some(Number::uncertainty(line.standard_uncertainty)));
-    let rows = lines.iter().zip(column(languages, us)).map(|(line, u)| {
-        let (letter, index) = line.parameter.symbol().split_once('_').unwrap_or((line.parameter.symbol(), ""));
-        let name = symbol_and_unit(languages, &symbol(letter, index), parameter_unit(line.parameter));
-        let parts: Vec<f64> = named.iter().map(|kind| of(line, kind)).collect();
-        vec![name, u.unwrap_or_default(), strips::shares(&parts)]
-    });
-    let table = Table {
-        caption: Some(languages.label(texts::SHARES_CAPTION)),
-        headings: vec![languages.label(texts::PARAMETER), symbol("u", ""), languages.label(texts::SHARES)],
-        rows: rows.collect(),
-        foot: vec![html! {}, html! {}, strips::axis(languages)],
-        row_headings: 1,
-        class: "numbers shares",
-        ..Table::default()
+    let us = lines.iter().map(|line| Number::uncertainty(line.standard_uncertainty));
+    let drawn = lines.iter().map(|line| strips::shares(&named.iter().map(|kind| of(line, kind)).collect::<Vec<_>>()));
+    let drawn = Column::named(languages, texts::SHARES, drawn.collect());
+    let columns =
+        [Column::new(symbol("u", ""), column(languages, us)), Column { foot: strips::axis(languages), ..drawn }];
+    let name = |line: &&ParameterBudget| {
+        vec![symbol_and_unit(languages, &name_of(line.parameter.symbol()), parameter_unit(line.parameter))]
     };
+    let names = lines.iter().map(name).collect();
+    let table = Table::of(vec![languages.label(texts::PARAMETER)], names, &columns);
+    let table = Table { class: "numbers shares", ..table };
     let samples: Vec<Markup> = (0..named.len()).map(|place| strips::sample(Some(place))).collect();
     let names = named.iter().map(|kind| languages.label_with(|language| cause(kind.cause, language)));
     let rest = (kinds.len() > named.len()).then(|| (strips::sample(None), languages.label(texts::OTHER_INPUTS)));
     html! {
-        (table.markup(languages.spoken(texts::SHARES_CAPTION)))
+        (table.captioned(languages, texts::SHARES_CAPTION))
         (legend_with(samples.iter().zip(names).chain(rest.iter().map(|(sample, name)| (sample, name.clone())))))
     }
 }
@@ -136,7 +131,7 @@ fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
                 let part = line.contributions.iter().find(|part| part.cause.kind() == kind.cause.kind());
                 let place = Number::place_of(line.standard_uncertainty);
                 let number = part.map(|part| Number::to_place(part.contribution, place));
-                number.filter(|number| !number.is_printed_as_zero()).map_or_else(Cell::none, Cell::Number)
+                number.filter(|number| !number.is_printed_as_zero()).into()
             };
             (input(kind, languages), each(&contribution))
         })
@@ -158,9 +153,8 @@ fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
         languages.label(texts::EXPANDED),
         each(&|line| Cell::Number(Number::uncertainty(line.expanded_uncertainty()))),
     ));
-    let caption = Some(languages.label(texts::BUDGET_CAPTION));
     html! {
-        (parameters(languages, caption, rows).markup(languages.spoken(texts::BUDGET_CAPTION)))
+        (parameters(languages, rows).captioned(languages, texts::BUDGET_CAPTION))
         (languages.paragraph(texts::BUDGET_DASH))
         @if !small.is_empty() {
             (languages.paragraph_with(|language| {
@@ -212,7 +206,7 @@ fn of_input(cause: Cause, u: f64, language: Language) -> String {
 }
 
 fn cause(cause: Cause, language: Language) -> String {
-    let about = |text: Text, axis: &str| text.filled(language, &[("axis", axis)]);
+    let about = |text: Text, axis: &str| text.filled(language, &[("axis", &axis)]);
     let case = |axis: usize| ["x", "y", "z"].get(axis).copied().unwrap_or_default();
     // No letters of the base axes, because the frame's axis ξ may point to any azimuth.
     let base = |axis: usize| {
@@ -263,13 +257,13 @@ fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
         });
         rows.push((languages.label(texts::FIRST_ORDER), valid));
     }
-    let seed = found.seed.to_string();
     let caption = Some(languages.label_with(|language| {
         let trials = Number::fixed(found.trials as f64, 0).text(language);
-        texts::MONTE_CARLO_CAPTION.filled(language, &[("trials", &trials), ("seed", &seed)])
+        texts::MONTE_CARLO_CAPTION.filled(language, &[("trials", &trials), ("seed", &found.seed)])
     }));
+    let table = Table { caption, ..parameters(languages, rows) };
     html! {
-        (parameters(languages, caption, rows).markup(languages.spoken(texts::MONTE_CARLO)))
+        (table.markup(languages.spoken(texts::MONTE_CARLO)))
         @if !found.stable { (languages.paragraph(texts::NOT_STABLE)) }
     }
 }

@@ -1,13 +1,15 @@
 //! Change of the stand since its last certificate.
 
-use super::evidence::{numbers, rows};
 use super::{CertificationPage, remarks};
 use crate::certification::compared::Test;
 use crate::certification::comparison::Comparison;
+use crate::certification::suspects::AXES;
 use crate::passport::difference::NumberDifference;
-use crate::report::page::language::Languages;
+use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::{Number, column};
-use crate::report::page::parts::{Table, field, fields, heading, section as part, symbol, symbol_and_unit};
+use crate::report::page::parts::{
+    Column, Table, boxed, field, fields, heading, section as part, starts, symbol, symbol_and_unit,
+};
 use crate::report::page::texts::{certification as texts, pictures, units};
 use crate::report::picture::residuals::{Bars, key_of};
 use maud::{Markup, html};
@@ -15,38 +17,27 @@ use maud::{Markup, html};
 /// Writes whether the stand has changed since its last certificate, and the reasons.
 pub(super) fn verdict(page: &CertificationPage, languages: &Languages) -> Markup {
     let Some((comparison, _)) = &page.change else {
-        let certification = page.certification;
-        let values = [certification.stand.positions.len(), certification.runs.len()].map(|count| count.to_string());
-        let [positions, runs] = &values;
-        return html! {
-            div.verdict.neutral {
-                p.headline {
-                    (languages.label_with(|language| {
-                        texts::CERTIFIED.filled(language, &[("positions", positions), ("runs", runs)])
-                    }))
-                }
-                (languages.paragraph(texts::NOT_COMPARED))
-            }
-        };
+        let (positions, runs) = (page.certification.stand.positions.len(), page.certification.runs.len());
+        let headline = languages
+            .label_with(|language| texts::CERTIFIED.filled(language, &[("positions", &positions), ("runs", &runs)]));
+        return boxed("verdict neutral", headline, languages.paragraph(texts::NOT_COMPARED));
     };
     let (class, verdict) = match comparison.same_stand {
         true => ("verdict", texts::SAME),
         false if comparison.is_undecided() => ("verdict refused", texts::UNDECIDED),
         false => ("verdict refused", texts::CHANGED),
     };
-    let number = [("number", comparison.certificate.as_str())];
-    html! {
-        div class=(class) {
-            p.headline { (languages.label_with(|language| verdict.filled(language, &number))) }
-            @if !comparison.findings.is_empty() {
-                ul {
-                    @for found in &comparison.findings {
-                        li { (languages.label_with(|language| remarks::finding(found, language))) }
-                    }
+    let headline = languages.label_with(|language| verdict.filled(language, &[("number", &comparison.certificate)]));
+    let reasons = html! {
+        @if !comparison.findings.is_empty() {
+            ul {
+                @for found in &comparison.findings {
+                    li { (languages.label_with(|language| remarks::finding(found, language))) }
                 }
             }
         }
-    }
+    };
+    boxed(class, headline, reasons)
 }
 
 pub(super) fn section(page: &CertificationPage, languages: &Languages) -> Markup {
@@ -58,7 +49,7 @@ pub(super) fn section(page: &CertificationPage, languages: &Languages) -> Markup
 }
 
 fn compared(comparison: &Comparison, changes: &[NumberDifference], languages: &Languages) -> Markup {
-    let number = [("number", comparison.certificate.as_str())];
+    let caption = |language| texts::CHANGE_CAPTION.filled(language, &[("number", &comparison.certificate)]);
     let common = comparison.common.test.as_ref();
     html! {
         (heading(languages, texts::ROTATIONS))
@@ -67,7 +58,7 @@ fn compared(comparison: &Comparison, changes: &[NumberDifference], languages: &L
             field(languages, texts::ALL_TOGETHER, Some(test(&comparison.all, languages))),
             field(languages, texts::COMMON_TURN, Some(common.map_or_else(|| html! { "–" }, |of| test(of, languages)))),
         ]))
-        p { (languages.label_with(|language| texts::CHANGE_CAPTION.filled(language, &number))) }
+        p { (languages.label_with(caption)) }
         (table(changes, languages))
     }
 }
@@ -82,71 +73,50 @@ fn test(test: &Test, languages: &Languages) -> Markup {
 
 fn rotations(comparison: &Comparison, languages: &Languages) -> Markup {
     let positions = &comparison.positions;
-    let mut headings = vec![languages.label(texts::POSITION)];
     let mut columns = Vec::new();
-    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-        headings.push(symbol_and_unit(languages, &symbol(name, ""), units::ARCSEC));
-        headings.push(symbol("u", ""));
-        let values = positions.iter().map(|at| Some(Number::measured(at.turn_arcsec[axis], at.u_arcsec[axis])));
-        columns.push(column(languages, values));
-        let us = positions.iter().map(|at| Some(Number::uncertainty(at.u_arcsec[axis])));
-        columns.push(column(languages, us));
+    for (axis, name) in AXES.into_iter().enumerate() {
+        let values = positions.iter().map(|at| Number::measured(at.turn_arcsec[axis], at.u_arcsec[axis]));
+        let us = positions.iter().map(|at| Number::uncertainty(at.u_arcsec[axis]));
+        let heading = symbol_and_unit(languages, &symbol(name, ""), units::ARCSEC);
+        columns.push(Column::new(heading, column(languages, values)));
+        columns.push(Column::new(symbol("u", ""), column(languages, us)));
     }
-    headings.push(languages.label(texts::PROBABILITY));
-    let p = positions.iter().map(|at| Some(Number::scientific(at.test.probability, 2)));
-    columns.push(column(languages, p));
-    headings.push(html! {});
+    let p = positions.iter().map(|at| Number::scientific(at.test.probability, 2));
+    columns.push(Column::named(languages, texts::PROBABILITY, column(languages, p)));
     let word = |repeats: bool| languages.inline(if repeats { texts::REPEATS } else { texts::REPEATS_NOT });
-    columns.push(positions.iter().map(|at| Some(word(at.repeats))).collect());
+    columns.push(Column::new(html! {}, positions.iter().map(|at| word(at.repeats)).collect()));
     let names = positions.iter().map(|at| vec![html! { (at.index.to_string()) }]).collect();
-    numbers(languages, headings, names, &columns, texts::ROTATIONS)
+    let table = Table::of(vec![languages.label(texts::POSITION)], names, &columns);
+    table.markup(languages.spoken(texts::ROTATIONS))
 }
 
 /// Writes the deviations of both certificates, and their change as a number and as a bar.
 fn table(changes: &[NumberDifference], languages: &Languages) -> Markup {
-    let of = |number: fn(&NumberDifference) -> Option<f64>| -> Vec<Option<Markup>> {
+    let of = |heading: Text, number: fn(&NumberDifference) -> Option<f64>| {
         let each = changes.iter().map(|at| Some(Number::measured(number(at)?, at.standard_uncertainty.unwrap_or(0.0))));
-        column(languages, each)
+        Column::named(languages, heading, column(languages, each))
     };
     let us = changes.iter().map(|at| at.standard_uncertainty.map(Number::uncertainty));
     let ratios = changes.iter().map(|at| at.ratio().map(|ratio| Number::fixed(ratio, 1)));
     let change = |at: &NumberDifference| Some((at.difference()?, at.standard_uncertainty));
     let bars = Bars::over(changes.iter().filter_map(change));
+    let drawn = changes.iter().map(|at| change(at).map_or_else(|| html! { "–" }, |change| bars.bar(change)));
     let columns = [
-        of(|at| at.a),
-        of(|at| at.b),
-        of(NumberDifference::difference),
-        column(languages, us),
-        column(languages, ratios),
-        changes.iter().map(|at| change(at).map(|change| bars.bar(change))).collect(),
+        of(texts::OLD, |at| at.a),
+        of(texts::NEW, |at| at.b),
+        of(texts::DIFFERENCE, NumberDifference::difference),
+        Column::new(symbol("u", ""), column(languages, us)),
+        Column::named(languages, texts::DIFFERENCE_IN_U, column(languages, ratios)),
+        Column { heading: html! {}, cells: drawn.collect(), foot: bars.axis(languages) },
     ];
-    let headings = vec![
-        languages.label(texts::POSITION),
-        html! {},
-        languages.label(texts::OLD),
-        languages.label(texts::NEW),
-        languages.label(texts::DIFFERENCE),
-        symbol("u", ""),
-        languages.label(texts::DIFFERENCE_IN_U),
-        html! {},
-    ];
-    let mut foot = vec![html! {}; headings.len()];
-    if let Some(last) = foot.last_mut() {
-        *last = bars.axis(languages);
-    }
     let names = changes.iter().map(|at| {
         let (index, angle) = of_key(&at.key);
         vec![html! { "(" (index.replace(',', ", ")) ")" }, symbol(angle, "")]
     });
-    let starts = (1..changes.len()).filter(|row| of_key(&changes[*row].key).0 != of_key(&changes[row - 1].key).0);
     let table = Table {
-        headings,
-        rows: rows(names.collect(), &columns),
-        starts: starts.collect(),
-        foot,
-        row_headings: 2,
+        starts: starts(changes.iter().map(|at| of_key(&at.key).0)),
         class: "numbers residuals",
-        ..Table::default()
+        ..Table::of(vec![languages.label(texts::POSITION), html! {}], names.collect(), &columns)
     };
     html! {
         (table.markup(languages.spoken(texts::CHANGE)))

@@ -6,10 +6,10 @@ use crate::certification::suspects::AXES;
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{
-    Table, field, fields, given, heading, section as part, symbol, symbol_and_unit, wide_field,
+    Column, Table, field, fields, file_name, given, heading, section as part, symbol, symbol_and_unit, wide_field,
 };
 use crate::report::page::passport::characteristics;
-use crate::report::page::texts::{certification as texts, units};
+use crate::report::page::texts::{calibration, certification as texts, units, words};
 use crate::statistics::outlier::Bartlett;
 use maud::{Markup, html};
 
@@ -32,7 +32,7 @@ pub(super) fn readings(page: &CertificationPage, languages: &Languages) -> Marku
     };
     let body = html! {
         (fields([
-            field(languages, texts::FILE, Some(given(page.readings_name()))),
+            field(languages, texts::FILE, Some(given(file_name(page.readings.0)))),
             field(languages, texts::RUNS, Some(html! { (runs.len()) " (" (runs.join(", ")) ")" })),
             field(languages, texts::POSITIONS, Some(html! { (certification.stand.positions.len()) })),
             field(languages, texts::REPEATED, Some(html! { (certification.repeated_rows) })),
@@ -78,43 +78,36 @@ fn components(page: &CertificationPage, languages: &Languages) -> Markup {
     ];
     found.extend(components.base.iter().map(|base| run(texts::BASE, base)));
     let root = (page.certification.runs.len() as f64).sqrt();
-    let columns = [
-        column(languages, found.iter().map(|(_, s, ..)| Some(Number::fixed(*s, 2)))),
-        column(languages, found.iter().map(|(_, _, freedom, _)| Some(Number::fixed(*freedom, 1)))),
-        column(languages, found.iter().map(|(_, s, ..)| Some(Number::fixed(s / root, 2)))),
-        column(languages, found.iter().map(|(.., upper)| upper.map(|s| Number::fixed(s, 2)))),
-    ];
     let arcsec = |markup: Markup| symbol_and_unit(languages, &markup, units::ARCSEC);
-    let headings = vec![
-        languages.label(texts::COMPONENT),
-        arcsec(symbol("s", "")),
-        symbol("ν", ""),
-        arcsec(html! { i { "s" } "/√" i { "R" } }),
-        languages.label(texts::UPPER),
+    let mean = arcsec(html! { i { "s" } "/√" i { "R" } });
+    let s = column(languages, found.iter().map(|(_, s, ..)| Number::fixed(*s, 2)));
+    let freedom = column(languages, found.iter().map(|(_, _, freedom, _)| Number::fixed(*freedom, 1)));
+    let of_mean = column(languages, found.iter().map(|(_, s, ..)| Number::fixed(s / root, 2)));
+    let upper = column(languages, found.iter().map(|(.., upper)| upper.map(|s| Number::fixed(s, 2))));
+    let columns = [
+        Column::new(arcsec(symbol("s", "")), s),
+        Column::new(symbol("ν", ""), freedom),
+        Column::new(mean, of_mean),
+        Column::named(languages, texts::UPPER, upper),
     ];
     let names = found.iter().map(|(name, ..)| vec![languages.label(*name)]).collect();
-    numbers(languages, headings, names, &columns, texts::COMPONENTS)
+    let table = Table::of(vec![languages.label(texts::COMPONENT)], names, &columns);
+    table.markup(languages.spoken(texts::COMPONENTS))
 }
 
 fn run_turns(page: &CertificationPage, languages: &Languages) -> Markup {
     let turns = &page.certification.components.run_turns;
-    let of = |number: usize| -> Vec<Option<Markup>> {
-        let value = |turn: &crate::certification::components::RunTurn| {
-            turn.platform_arcsec.iter().chain(&turn.base_arcsec).nth(number).copied()
-        };
-        column(languages, turns.iter().map(|turn| value(turn).map(|value| Number::fixed(value, 2))))
-    };
-    let mut headings = vec![languages.label(texts::RUN)];
-    headings.extend(AXES.map(|axis| symbol(axis, "")));
-    headings.extend([texts::EAST, texts::NORTH, texts::UP].map(|text| languages.label(text)));
-    let columns: Vec<_> = (0..6).map(of).collect();
+    let of_base = [words::EAST, words::NORTH, words::UP].map(|text| languages.label(text));
+    let headings = AXES.map(|axis| symbol(axis, "")).into_iter().chain(of_base);
+    let columns = headings.enumerate().map(|(place, heading)| {
+        let values = turns.iter().map(|turn| turn.platform_arcsec.iter().chain(&turn.base_arcsec).nth(place));
+        Column::new(heading, column(languages, values.map(|value| value.map(|value| Number::fixed(*value, 2)))))
+    });
+    let columns: Vec<Column> = columns.collect();
+    let names = turns.iter().map(|turn| vec![html! { (turn.run) }]).collect();
     let table = Table {
         groups: vec![(3, languages.label(texts::OF_PLATFORM)), (3, languages.label(texts::OF_BASE))],
-        headings,
-        rows: rows(turns.iter().map(|turn| vec![html! { (turn.run) }]).collect(), &columns),
-        row_headings: 1,
-        class: "numbers",
-        ..Table::default()
+        ..Table::of(vec![languages.label(texts::RUN)], names, &columns)
     };
     table.markup(languages.spoken(texts::RUN_TURNS))
 }
@@ -132,37 +125,34 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
     found.extend(suspects.positions.iter().map(|test| bartlett(texts::BARTLETT_POSITIONS, test)));
     found.extend(suspects.axes.iter().map(|test| bartlett(texts::BARTLETT_AXES, test)));
     found.extend(suspects.worse.iter().map(|at| {
-        let index = at.index.to_string();
-        let name = languages.label_with(|language| texts::COCHRAN.filled(language, &[("index", &index)]));
+        let name = languages.label_with(|language| texts::COCHRAN.filled(language, &[("index", &at.index)]));
         (name, Some(Number::fixed(at.ratio, 2)), None, Some(at.probability))
     }));
     found.extend(suspects.outliers.iter().map(|out| {
-        let (index, run) = (out.index.to_string(), out.run.to_string());
-        let values = [("index", index.as_str()), ("run", &run), ("axis", AXES[out.axis])];
-        let name = languages.label_with(|language| texts::GRUBBS.filled(language, &values));
+        let name = languages.label_with(|language| {
+            texts::GRUBBS.filled(language, &[("index", &out.index), ("run", &out.run), ("axis", &AXES[out.axis])])
+        });
         (name, Some(Number::fixed(out.residual_arcsec, 2)), None, Some(out.probability))
     }));
     found.extend(page.certification.bumped_runs.iter().map(|at| {
         let of = if at.is_of_the_base() { texts::GRUBBS_BASE } else { texts::GRUBBS_PLATFORM };
-        let run = at.run.to_string();
         let name = languages.label_with(|language| {
-            of.filled(language, &[("run", &run), ("axis", &remarks::axis_of_run(at, language))])
+            of.filled(language, &[("run", &at.run), ("axis", &remarks::axis_of_run(at, language))])
         });
         (name, Some(Number::fixed(at.turn_arcsec, 2)), None, Some(at.probability))
     }));
     if suspects.outliers.is_empty() {
         found.push((languages.label(texts::NO_OUTLIER), None, None, None));
     }
-    let columns = [
-        column(languages, found.iter().map(|(_, value, ..)| value.clone())),
-        column(languages, found.iter().map(|(_, _, freedom, _)| freedom.clone())),
-        column(languages, found.iter().map(|(.., p)| p.map(|p| Number::scientific(p, 2)))),
-    ];
-    let headings =
-        [texts::TEST, texts::STATISTIC, texts::FREEDOM, texts::PROBABILITY].map(|text| languages.label(text));
-    let names = found.iter().map(|(name, ..)| vec![name.clone()]).collect();
+    let statistic = column(languages, found.iter().map(|(_, value, ..)| value.clone()));
+    let freedom = column(languages, found.iter().map(|(_, _, freedom, _)| freedom.clone()));
+    let p = column(languages, found.iter().map(|(.., p)| p.map(|p| Number::scientific(p, 2))));
+    let columns = [(texts::STATISTIC, statistic), (calibration::FREEDOM, freedom), (texts::PROBABILITY, p)];
+    let columns = columns.map(|(heading, cells)| Column::named(languages, heading, cells));
+    let names = found.into_iter().map(|(name, ..)| vec![name]).collect();
+    let table = Table::of(vec![languages.label(texts::TEST)], names, &columns);
     let body = html! {
-        (numbers(languages, headings.into(), names, &columns, texts::TESTS))
+        (table.markup(languages.spoken(texts::TESTS)))
         (languages.paragraph(texts::TESTS_NOTE))
         @if !page.certification.remarks.is_empty() {
             (heading(languages, texts::WARNINGS))
@@ -174,26 +164,4 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
         }
     };
     part(languages, "tests", "5", texts::TESTS, &body)
-}
-
-/// Writes a table of numbers with one row heading; a missing number is a dash.
-pub(super) fn numbers(
-    languages: &Languages,
-    headings: Vec<Markup>,
-    names: Vec<Vec<Markup>>,
-    columns: &[Vec<Option<Markup>>],
-    name: Text,
-) -> Markup {
-    let row_headings = names.first().map_or(1, Vec::len);
-    let table = Table { headings, rows: rows(names, columns), row_headings, class: "numbers", ..Table::default() };
-    table.markup(languages.spoken(name))
-}
-
-pub(super) fn rows(names: Vec<Vec<Markup>>, columns: &[Vec<Option<Markup>>]) -> Vec<Vec<Markup>> {
-    let cell = |column: &Vec<Option<Markup>>, row: usize| match column.get(row).cloned().flatten() {
-        Some(number) => number,
-        None => html! { "–" },
-    };
-    let each = names.into_iter().enumerate();
-    each.map(|(row, name)| name.into_iter().chain(columns.iter().map(|column| cell(column, row))).collect()).collect()
 }

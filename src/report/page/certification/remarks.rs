@@ -8,79 +8,72 @@ use crate::certification::suspects::{AXES, OUTLIER};
 use crate::report::page::language::{Language, Text};
 use crate::report::page::number::Number;
 use crate::report::page::parts::date_text;
-use crate::report::page::texts::{certification as terms, remarks as texts};
+use crate::report::page::texts::{remarks as texts, words as compass};
+use crate::report::picture::history::LETTERS;
 use crate::stand::remarks::Odd;
+use jiff::civil::Date;
+use std::fmt::Display;
 
 /// Returns a remark as a sentence.
 pub(crate) fn words(remark: &Remark, language: Language) -> String {
-    let fill = |text: Text, values: &[(&str, String)]| {
-        let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
-        text.filled(language, &values)
-    };
+    let fill = |text: Text, values: &[(&str, &dyn Display)]| text.filled(language, values);
     let fixed = |value: f64, decimals: usize| Number::fixed(value, decimals).text(language);
     let exact = |value: f64| Number::exact(value).text(language);
-    let chance = |p: f64| ("p", Number::scientific(p, 2).text(language));
-    let grade = |p: f64| ("grade", if p < OUTLIER { texts::OUTLIER } else { texts::STRAGGLER }.words(language));
+    let day = |date: Date| date_text(language, date);
+    // A suspect value: how suspect, and its probability.
+    let suspect = |text: Text, p: f64, values: &[(&str, &dyn Display)]| {
+        let grade = if p < OUTLIER { texts::OUTLIER } else { texts::STRAGGLER }.words(language);
+        let p = Number::scientific(p, 2).text(language);
+        fill(text, &[values, &[("grade", &grade), ("p", &p)]].concat())
+    };
     match remark {
         Remark::Worse(at) => {
-            let ratio = ("ratio", fixed(at.ratio, 1));
-            let values = [grade(at.probability), ("index", at.index.to_string()), ratio, chance(at.probability)];
-            fill(texts::WORSE, &values)
+            suspect(texts::WORSE, at.probability, &[("index", &at.index), ("ratio", &fixed(at.ratio, 1))])
         }
         Remark::Outlier(out) => {
-            let values = [
-                grade(out.probability),
-                ("index", out.index.to_string()),
-                ("run", out.run.to_string()),
-                ("residual", fixed(out.residual_arcsec, 2)),
-                ("axis", AXES[out.axis].to_owned()),
-                chance(out.probability),
-                ("line", out.line.map_or_else(String::new, |line| line.to_string())),
-            ];
-            fill(if out.line.is_some() { texts::OUTLIER_IN_LINE } else { texts::OUTLIER_READING }, &values)
+            let (text, line) = match out.line {
+                Some(line) => (texts::OUTLIER_IN_LINE, line),
+                None => (texts::OUTLIER_READING, 0),
+            };
+            let (residual, axis) = (fixed(out.residual_arcsec, 2), AXES[out.axis]);
+            suspect(
+                text,
+                out.probability,
+                &[("index", &out.index), ("run", &out.run), ("residual", &residual), ("axis", &axis), ("line", &line)],
+            )
         }
         Remark::BumpedRun(at) => {
-            let values = [
-                grade(at.probability),
-                ("run", at.run.to_string()),
-                ("turn", fixed(at.turn_arcsec, 2)),
-                ("axis", axis_of_run(at, language)),
-                ("mean", fixed(at.in_the_mean_arcsec.abs(), 2)),
-                chance(at.probability),
-            ];
-            fill(if at.is_of_the_base() { texts::BUMPED_RUN_BASE } else { texts::BUMPED_RUN_PLATFORM }, &values)
+            let text = if at.is_of_the_base() { texts::BUMPED_RUN_BASE } else { texts::BUMPED_RUN_PLATFORM };
+            let (turn, mean) = (fixed(at.turn_arcsec, 2), fixed(at.in_the_mean_arcsec.abs(), 2));
+            let axis = axis_of_run(at, language);
+            let values: [(&str, &dyn Display); 4] =
+                [("run", &at.run), ("turn", &turn), ("axis", &axis), ("mean", &mean)];
+            suspect(text, at.probability, &values)
         }
-        Remark::TwoRuns(one, other) => fill(texts::TWO_RUNS, &[("one", one.to_string()), ("other", other.to_string())]),
+        Remark::TwoRuns(one, other) => fill(texts::TWO_RUNS, &[("one", one), ("other", other)]),
         Remark::NotCompared => fill(texts::NOT_COMPARED, &[]),
-        Remark::Twins(one, other) => fill(texts::TWINS, &[("one", one.to_string()), ("other", other.to_string())]),
-        Remark::AxesDiffer(p) => fill(texts::AXES_DIFFER, &[chance(*p)]),
+        Remark::Twins(one, other) => fill(texts::TWINS, &[("one", one), ("other", other)]),
+        Remark::AxesDiffer(p) => fill(texts::AXES_DIFFER, &[("p", &Number::scientific(*p, 2).text(language))]),
         Remark::FewRuns { runs, degrees_of_freedom: freedom } => {
             let doubt = fixed(Remark::doubt_percent(*freedom), 0);
-            fill(texts::FEW_RUNS, &[("runs", runs.to_string()), ("freedom", freedom.to_string()), ("doubt", doubt)])
+            fill(texts::FEW_RUNS, &[("runs", runs), ("freedom", freedom), ("doubt", &doubt)])
         }
         Remark::BaseAxes(0) => fill(texts::BASE_NOT_SEEN, &[]),
-        Remark::BaseAxes(axes) => fill(texts::BASE_IN_PART, &[("axes", axes.to_string())]),
-        Remark::SmallAngles(largest) => fill(texts::SMALL_ANGLES, &[("largest", fixed(*largest, 2))]),
+        Remark::BaseAxes(axes) => fill(texts::BASE_IN_PART, &[("axes", axes)]),
+        Remark::SmallAngles(largest) => fill(texts::SMALL_ANGLES, &[("largest", &fixed(*largest, 2))]),
         Remark::Odd(Odd::FarAngle { angle, index, arcsec, usual_arcsec }) => {
-            let values = [
-                ("angle", ["α", "β", "γ"][*angle].to_owned()),
-                ("index", index.to_string()),
-                ("value", exact(*arcsec)),
-                ("usual", exact(*usual_arcsec)),
-            ];
-            fill(texts::FAR_ANGLE, &values)
+            let (angle, value, usual) = (LETTERS[*angle], exact(*arcsec), exact(*usual_arcsec));
+            fill(texts::FAR_ANGLE, &[("angle", &angle), ("index", index), ("value", &value), ("usual", &usual)])
         }
-        Remark::Odd(Odd::Temperature { celsius, .. }) => fill(texts::TEMPERATURE, &[("value", exact(*celsius))]),
-        Remark::Odd(Odd::OldMeasurement { performed, issued }) => fill(
-            texts::OLD_MEASUREMENT,
-            &[("performed", date_text(language, *performed)), ("issued", date_text(language, *issued))],
-        ),
-        Remark::Odd(Odd::LongValidity { valid_until, issued }) => fill(
-            texts::LONG_VALIDITY,
-            &[("until", date_text(language, *valid_until)), ("issued", date_text(language, *issued))],
-        ),
+        Remark::Odd(Odd::Temperature { celsius, .. }) => fill(texts::TEMPERATURE, &[("value", &exact(*celsius))]),
+        Remark::Odd(Odd::OldMeasurement { performed, issued }) => {
+            fill(texts::OLD_MEASUREMENT, &[("performed", &day(*performed)), ("issued", &day(*issued))])
+        }
+        Remark::Odd(Odd::LongValidity { valid_until, issued }) => {
+            fill(texts::LONG_VALIDITY, &[("until", &day(*valid_until)), ("issued", &day(*issued))])
+        }
         Remark::Odd(Odd::OutsideRange { celsius, range: [low, high] }) => {
-            fill(texts::OUTSIDE_RANGE, &[("value", exact(*celsius)), ("low", exact(*low)), ("high", exact(*high))])
+            fill(texts::OUTSIDE_RANGE, &[("value", &exact(*celsius)), ("low", &exact(*low)), ("high", &exact(*high))])
         }
     }
 }
@@ -89,32 +82,32 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
 pub(super) fn axis_of_run(at: &BumpedRun, language: Language) -> String {
     match at.axis {
         axis @ 0..3 => AXES[axis].to_owned(),
-        axis => [terms::EAST, terms::NORTH, terms::UP][axis - 3].words(language),
+        axis => [compass::EAST, compass::NORTH, compass::UP][axis - 3].words(language),
     }
 }
 
 /// Returns a finding of a comparison with the last certificate as a sentence.
 pub(crate) fn finding(finding: &Finding, language: Language) -> String {
+    let arcsec = |value: f64| Number::fixed(value, 2).text(language);
     let text = match finding {
         Finding::Changed(ComparedPosition { index, turn_arcsec, .. }) => {
-            let [x, y, z] = turn_arcsec.map(|value| Number::fixed(value, 2).text(language));
-            let index = index.to_string();
-            let values = [("index", index.as_str()), ("x", &x), ("y", &y), ("z", &z)];
+            let [x, y, z] = turn_arcsec.map(arcsec);
+            let values: [(&str, &dyn Display); 4] = [("index", index), ("x", &x), ("y", &y), ("z", &z)];
             return texts::POSITION_CHANGED.filled(language, &values);
         }
         Finding::BumpedRun(at) => {
-            let [turn, mean] =
-                [at.turn_arcsec, at.in_the_mean_arcsec].map(|value| Number::fixed(value, 2).text(language));
-            let (run, axis) = (at.run.to_string(), axis_of_run(at, language));
+            let [turn, mean] = [at.turn_arcsec, at.in_the_mean_arcsec].map(arcsec);
+            let axis = axis_of_run(at, language);
             let text = if at.is_of_the_base() { texts::CHECK_BUMPED_BASE } else { texts::CHECK_BUMPED_PLATFORM };
-            return text.filled(language, &[("run", &run), ("turn", &turn), ("axis", &axis), ("mean", &mean)]);
+            return text.filled(language, &[("run", &at.run), ("turn", &turn), ("axis", &axis), ("mean", &mean)]);
         }
         Finding::Outlier(out, mean) => {
-            let [residual, mean] = [out.residual_arcsec, *mean].map(|value| Number::fixed(value, 2).text(language));
-            let (index, run) = (out.index.to_string(), out.run.to_string());
-            let values =
-                [("index", &*index), ("run", &run), ("residual", &residual), ("axis", AXES[out.axis]), ("mean", &mean)];
-            return texts::CHECK_OUTLIER.filled(language, &values);
+            let ([residual, mean], axis) = ([out.residual_arcsec, *mean].map(arcsec), AXES[out.axis]);
+            let (index, run) = (&out.index, &out.run);
+            return texts::CHECK_OUTLIER.filled(
+                language,
+                &[("index", index), ("run", run), ("residual", &residual), ("axis", &axis), ("mean", &mean)],
+            );
         }
         Finding::AnotherStand => texts::ANOTHER_STAND,
         Finding::ChangedTogether => texts::CHANGED_TOGETHER,

@@ -1,16 +1,18 @@
 //! Expected calibration uncertainty, and inputs that the passport does not state.
 
 use super::PassportPage;
-use super::figures::{Slot, figure};
-use super::numbers::{Cell, numbers_of, parameters};
+use super::numbers::{numbers_of, parameters};
 use crate::calibration::parameter::Parameter;
 use crate::laboratory::Laboratory;
 use crate::passport::accuracy::Accuracy;
 use crate::passport::annotations::{Absence, absent};
 use crate::report::page::language::{Languages, Text};
-use crate::report::page::number::Number;
-use crate::report::page::parts::{fields, given, heading, quantity, section as part, stated, symbol, wide_stated};
+use crate::report::page::number::{Cell, Number};
+use crate::report::page::parts::{
+    fields, figure, given, heading, quantity, section as part, stated, symbol, wide_stated,
+};
 use crate::report::page::texts::{absences, passport as texts, units};
+use crate::report::picture::accuracy::accuracy as picture;
 use crate::site::{LATITUDE_MARGIN_ARCSEC, UNKNOWN_DEFLECTION_U_ARCSEC};
 use maud::{Markup, html};
 
@@ -24,7 +26,7 @@ pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
             Some(accuracy) => {
                 (stated_for(accuracy, languages))
                 (uncertainties(accuracy, languages))
-                (figure(Slot::Accuracy, content, languages))
+                (figure(languages, "tolerance", &picture(languages, accuracy, content.earth.gravity_m_per_s2), texts::FIGURE_ACCURACY))
             }
             None => (languages.paragraph(texts::ACCURACY_NONE)),
         }
@@ -42,16 +44,12 @@ fn stated_for(accuracy: &Accuracy, languages: &Languages) -> Markup {
     let seat =
         seat.map(|seat| html! { (arcsec(seat.about_x)) ", " (arcsec(seat.about_y)) ", " (arcsec(seat.about_z)) });
     let base = laboratory.base.as_ref();
-    let temperature = laboratory.temperature_c;
+    let temperature = laboratory.temperature_c.map(|t| quantity(languages, &Number::exact(t), units::CELSIUS));
     fields([
         stated(languages, texts::GYRO_TYPE, Some(given(&gyro.r#type))),
         stated(languages, texts::GYRO_GRAVITY, gravity),
         stated(languages, texts::CALIBRATING_LABORATORY, laboratory.name.as_deref().map(given)),
-        stated(
-            languages,
-            texts::LABORATORY_TEMPERATURE,
-            temperature.map(|t| quantity(languages, &Number::exact(t), units::CELSIUS)),
-        ),
+        stated(languages, texts::LABORATORY_TEMPERATURE, temperature),
         stated(languages, texts::SEATING, seat),
         stated(languages, texts::BASE_AZIMUTH_U, base.and_then(|base| base.azimuth_arcsec).map(arcsec)),
         stated(languages, texts::BASE_LEVEL_U, base.and_then(|base| base.level_arcsec).map(arcsec)),
@@ -98,8 +96,7 @@ fn uncertainties(accuracy: &Accuracy, languages: &Languages) -> Markup {
         (symbol("u", ""), us),
         (languages.label(texts::TOLERANCE), limits),
     ];
-    let caption = Some(languages.label(texts::ACCURACY_CAPTION));
-    parameters(languages, caption, rows).markup(languages.spoken(texts::ACCURACY_CAPTION))
+    parameters(languages, rows).captioned(languages, texts::ACCURACY_CAPTION)
 }
 
 fn not_stated(page: &PassportPage, languages: &Languages) -> Markup {
@@ -111,7 +108,6 @@ fn not_stated(page: &PassportPage, languages: &Languages) -> Markup {
 }
 
 fn sentence(absence: Absence, languages: &Languages) -> Markup {
-    let number = |name, number: Number| vec![(name, number)];
     let (text, values): (Text, Vec<(&str, Number)>) = match absence {
         Absence::Uncertainty => (absences::UNCERTAINTY, vec![]),
         Absence::Repeatability => (absences::REPEATABILITY, vec![]),
@@ -122,15 +118,14 @@ fn sentence(absence: Absence, languages: &Languages) -> Markup {
         Absence::Datum => (absences::DATUM, vec![]),
         Absence::EightPositions => (absences::EIGHT_POSITIONS, vec![]),
         Absence::Deflection { cost_deg_per_h } => {
-            let mut values = number("u", Number::exact(UNKNOWN_DEFLECTION_U_ARCSEC));
-            values.extend(number("cost", Number::uncertainty(cost_deg_per_h)));
-            (absences::DEFLECTION, values)
+            let (u, cost) = (Number::exact(UNKNOWN_DEFLECTION_U_ARCSEC), Number::uncertainty(cost_deg_per_h));
+            (absences::DEFLECTION, vec![("u", u), ("cost", cost)])
         }
         Absence::Longitude => (absences::LONGITUDE, vec![]),
         Absence::GeodeticLatitude => {
-            (absences::GEODETIC_LATITUDE, number("margin", Number::exact(LATITUDE_MARGIN_ARCSEC)))
+            (absences::GEODETIC_LATITUDE, vec![("margin", Number::exact(LATITUDE_MARGIN_ARCSEC))])
         }
-        Absence::Height => (absences::HEIGHT, number("slope", Number::exact(GRAVITY_SLOPE_M_PER_S2_PER_M))),
+        Absence::Height => (absences::HEIGHT, vec![("slope", Number::exact(GRAVITY_SLOPE_M_PER_S2_PER_M))]),
         Absence::BaseUncertainty => (absences::BASE_UNCERTAINTY, vec![]),
         Absence::AzimuthMark => (absences::AZIMUTH_MARK, vec![]),
     };

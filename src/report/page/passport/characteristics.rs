@@ -1,14 +1,15 @@
 //! Characteristics: the certified deviations with their uncertainties, the datum surfaces, the site.
 
 use super::PassportPage;
-use super::figures::{Slot, figure};
 use crate::report::page::language::{Language, Languages};
 use crate::report::page::number::{LARGEST_IN_ARCSEC, Number, column};
 use crate::report::page::parts::{
-    Table, fields, given, heading, not_stated, quantity, section as part, stated, symbol, symbol_and_unit, wide_stated,
+    Column, Table, fields, figure, given, heading, not_stated, quantity, section as part, starts, stated, symbol,
+    symbol_and_unit, wide_stated,
 };
 use crate::report::page::texts::{passport as texts, units};
 use crate::report::picture::deviations::{ANGLES, Bars};
+use crate::report::picture::{place as map, positions as picture};
 use crate::site::{Earth, Site};
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Datum, Excluded, TypeB};
 use crate::units::{ARCSECONDS_PER_DEGREE, radians_from_arcseconds};
@@ -16,11 +17,12 @@ use maud::{Markup, html};
 
 pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
+    let stand = picture::positions(languages, &content.positions, content.site.frame_axis_azimuth_deg());
     let body = html! {
         (heading(languages, texts::DEVIATIONS))
         (positions(&content.positions, languages))
         (languages.paragraph(texts::DEVIATIONS_NOTE))
-        (figure(Slot::Positions, content, languages))
+        (figure(languages, "positions", &stand, texts::FIGURE_POSITIONS))
         (heading(languages, texts::COMMON))
         (common(&content.certificate, languages))
         (heading(languages, texts::DATUM))
@@ -32,7 +34,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
         @if content.earth.azimuth_deg.is_some() {
             div.with-figure {
                 (the_earth(&content.site, &content.earth, languages))
-                (figure(Slot::Radius, content, languages))
+                (figure(languages, "radius", &map::place(languages, content), texts::FIGURE_RADIUS))
             }
         } @else {
             (the_earth(&content.site, &content.earth, languages))
@@ -44,76 +46,43 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
 /// Writes the deviations with their bars.
 pub(crate) fn positions(positions: &[CertifiedPosition], languages: &Languages) -> Markup {
     let bars = Bars::of(positions);
-    let numbers =
-        |number: &dyn Fn(&CertifiedPosition) -> Option<Number>| column(languages, positions.iter().map(number));
-    let mut columns =
-        vec![numbers(&|at| Some(Number::exact(at.theta_deg))), numbers(&|at| Some(Number::exact(at.phi_deg)))];
+    let with = |symbol: Markup, unit| symbol_and_unit(languages, &symbol, unit);
+    let numbers = |heading: Markup, number: &dyn Fn(&CertifiedPosition) -> Option<Number>| {
+        Column::new(heading, column(languages, positions.iter().map(number)))
+    };
+    let mut columns = vec![
+        numbers(with(symbol("θ", ""), units::DEGREES), &|at| Some(Number::exact(at.theta_deg))),
+        numbers(with(symbol("φ", ""), units::DEGREES), &|at| Some(Number::exact(at.phi_deg))),
+    ];
     // One angle with degrees and minutes, and all are marked in their cells.
     let large = positions.iter().any(|at| ANGLES.iter().any(|(_, of)| of(at).0.abs() > LARGEST_IN_ARCSEC));
-    for (_, of) in ANGLES {
-        let angles = numbers(&|at| Some(Number::angle(of(at).0, of(at).1.unwrap_or(0.0))));
-        let marked = |angle: Markup| html! { (angle) span { "″" } };
-        columns.push(angles.into_iter().map(|angle| if large { angle.map(marked) } else { angle }).collect());
-        columns.push(numbers(&|at| of(at).1.map(Number::uncertainty)));
-        columns.push(positions.iter().map(|at| Some(bars.bar(of(at)))).collect());
-    }
-    columns.push(numbers(&|at| at.degrees_of_freedom.map(Number::exact)));
-    let rows = positions.iter().enumerate().map(|(row, at)| {
-        let cells = columns.iter().map(|column| match column.get(row).cloned().flatten() {
-            Some(number) => number,
-            None => html! { "–" },
-        });
-        [html! { (at.i) }, html! { (at.j) }].into_iter().chain(cells).collect()
-    });
-    // Every third column from the seventh on is of bars.
-    let axis = |place: usize| {
-        if place >= 6 && place.is_multiple_of(3) {
-            bars.axis(languages)
-        } else {
-            html! {}
+    for (name, of) in ANGLES {
+        let heading = if large { symbol(name, "") } else { with(symbol(name, ""), units::ARCSEC) };
+        let mut angles = numbers(heading, &|at| Some(Number::angle(of(at).0, of(at).1.unwrap_or(0.0))));
+        if large {
+            angles.cells.iter_mut().for_each(|angle| *angle = html! { (angle) span { "″" } });
         }
-    };
-    let table = Table {
-        caption: Some(languages.label(texts::DEVIATIONS_CAPTION)),
-        headings: headings(languages, large),
-        rows: rows.collect(),
-        starts: starts(positions.iter().map(|at| at.i)),
-        foot: (0..14).map(axis).collect(),
-        row_headings: 2,
-        class: if large { "numbers deviations large" } else { "numbers deviations" },
-        ..Table::default()
-    };
-    html! { (table.markup(languages.spoken(texts::DEVIATIONS_CAPTION))) (bars.key(languages)) }
-}
-
-/// Returns the rows in which the first index of the positions changes.
-pub(crate) fn starts(indices: impl Iterator<Item = u32>) -> Vec<usize> {
-    let indices: Vec<u32> = indices.collect();
-    let changed = indices.windows(2).enumerate().filter(|(_, pair)| pair[0] != pair[1]);
-    changed.map(|(row, _)| row + 1).collect()
-}
-
-/// Returns the headings; the cells of `large` angles have their own marks.
-fn headings(languages: &Languages, large: bool) -> Vec<Markup> {
-    let with = |symbol: Markup, unit| symbol_and_unit(languages, &symbol, unit);
-    let mut headings = vec![symbol("i", ""), symbol("j", "")];
-    headings.extend(["θ", "φ"].map(|name| with(symbol(name, ""), units::DEGREES)));
-    for (name, _) in ANGLES {
-        headings.push(if large { symbol(name, "") } else { with(symbol(name, ""), units::ARCSEC) });
-        headings.push(with(html! { i { "u" } "(" i { (name) } ")" }, units::ARCSEC));
-        headings.push(html! {});
+        let u_heading = with(html! { i { "u" } "(" i { (name) } ")" }, units::ARCSEC);
+        let us = numbers(u_heading, &|at| of(at).1.map(Number::uncertainty));
+        let cells = positions.iter().map(|at| bars.bar(of(at))).collect();
+        columns.extend([angles, us, Column { heading: html! {}, cells, foot: bars.axis(languages) }]);
     }
-    headings.push(symbol("ν", ""));
-    headings
+    columns.push(numbers(symbol("ν", ""), &|at| at.degrees_of_freedom.map(Number::exact)));
+    let names = positions.iter().map(|at| vec![html! { (at.i) }, html! { (at.j) }]).collect();
+    let table = Table {
+        starts: starts(positions.iter().map(|at| at.i)),
+        class: if large { "numbers deviations large" } else { "numbers deviations" },
+        ..Table::of(vec![symbol("i", ""), symbol("j", "")], names, &columns)
+    };
+    html! { (table.captioned(languages, texts::DEVIATIONS_CAPTION)) (bars.key(languages)) }
 }
 
 /// Writes an excluded reading or run, with the reason.
 fn exclusion(excluded: &Excluded, languages: &Languages) -> Markup {
-    let run = excluded.run.to_string();
-    let index = excluded.index().map(|index| index.to_string());
-    let words = |language: Language| match &index {
-        Some(index) => texts::EXCLUDED_READING.filled(language, &[("index", index), ("run", &run)]),
-        None => texts::EXCLUDED_RUN.filled(language, &[("run", &run)]),
+    let run = &excluded.run;
+    let words = |language: Language| match excluded.index() {
+        Some(index) => texts::EXCLUDED_READING.filled(language, &[("index", &index), ("run", run)]),
+        None => texts::EXCLUDED_RUN.filled(language, &[("run", run)]),
     };
     html! { (languages.inline_with(words)) ": " (given(&excluded.why)) }
 }
@@ -166,10 +135,11 @@ pub(crate) fn datum(datum: Option<&Datum>, languages: &Languages) -> Markup {
 
 fn place(site: &Site, languages: &Languages) -> Markup {
     let degrees = |value: f64| quantity(languages, &Number::exact(value), units::DEGREES);
-    let latitude_u = site.uncertainty.as_ref().and_then(|base| base.latitude_arcsec);
     let arcsec = |value: f64| quantity(languages, &Number::exact(value), units::ARCSEC);
     let u = |u: f64| quantity(languages, &Number::uncertainty(u), units::ARCSEC);
     let base = site.uncertainty.as_ref();
+    let latitude_u = base.and_then(|base| base.latitude_arcsec);
+    let measured_gravity = site.gravity_m_per_s2.map(|value| gravity(value, site.gravity_u_m_per_s2, languages));
     let measured = |value: f64, u: f64| quantity(languages, &Number::measured(value, u), units::ARCSEC);
     let deflection = site.deflection_arcsec.as_ref().map(|deflection| match deflection.u {
         Some(known) => html! {
@@ -197,12 +167,12 @@ fn place(site: &Site, languages: &Languages) -> Markup {
             stated(languages, texts::HEIGHT,
                 site.height_m.map(|height| quantity(languages, &Number::exact(height), units::METRES))),
             stated(languages, texts::DEFLECTION, deflection),
-            stated(languages, texts::GRAVITY_MEASURED, gravity_measured(site, languages)),
+            stated(languages, texts::GRAVITY_MEASURED, measured_gravity),
             frame_axis.unwrap_or_default(),
-            stated(languages, texts::LATITUDE_U, base.and_then(|base| base.latitude_arcsec).map(u)),
+            stated(languages, texts::LATITUDE_U, latitude_u.map(u)),
             stated(languages, texts::AZIMUTH_U, base.and_then(|base| base.azimuth_arcsec).map(u)),
             stated(languages, texts::LEVEL_U, base.and_then(|base| base.level_arcsec).map(u)),
-            wide_stated(languages, texts::SITE_NAME, site.name.as_deref().map(given)),
+            wide_stated(languages, texts::NAME, site.name.as_deref().map(given)),
             wide_stated(languages, texts::SOURCE, site.source.as_deref().map(given)),
         ]))
         (mark(site, languages))
@@ -218,13 +188,8 @@ fn angle(degrees: f64, u_arcsec: Option<f64>, languages: &Languages) -> Markup {
     quantity(languages, &number, units::DEGREES)
 }
 
-fn gravity_measured(site: &Site, languages: &Languages) -> Option<Markup> {
-    let value = site.gravity_m_per_s2?;
-    Some(gravity(value, site.gravity_u_m_per_s2, languages))
-}
-
 /// Writes g, with its uncertainty if that is known.
-fn gravity(value: f64, u: Option<f64>, languages: &Languages) -> Markup {
+pub(crate) fn gravity(value: f64, u: Option<f64>, languages: &Languages) -> Markup {
     let Some(u) = u else { return quantity(languages, &Number::exact(value), units::M_PER_S2) };
     html! {
         (quantity(languages, &Number::measured(value, u), units::M_PER_S2)) ", " (symbol("u", "")) " "
@@ -259,6 +224,7 @@ fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
         quantity(languages, &number, units::DEG_PER_H)
     };
     let u = site.gravity_u_m_per_s2();
+    let radius = quantity(languages, &Number::fixed(earth.valid_radius_m, 0), units::METRES);
     let within = quantity(languages, &Number::exact(earth.valid_within_deg_per_h), units::DEG_PER_H);
     let azimuth = earth.azimuth_deg.map(|azimuth| match earth.azimuth_u_arcsec {
         Some(u) => html! {
@@ -277,11 +243,7 @@ fn the_earth(site: &Site, earth: &Earth, languages: &Languages) -> Markup {
         stated(languages, texts::HORIZONTAL, Some(rate(horizontal, vertical))),
         stated(languages, texts::VERTICAL, Some(rate(vertical, horizontal))),
         stated(languages, texts::GRAVITY, Some(gravity(earth.gravity_m_per_s2, u, languages))),
-        stated(
-            languages,
-            texts::RADIUS,
-            Some(quantity(languages, &Number::fixed(earth.valid_radius_m, 0), units::METRES)),
-        ),
+        stated(languages, texts::RADIUS, Some(radius)),
         stated(languages, texts::RADIUS_WITHIN, Some(within)),
         stated(languages, texts::AZIMUTH, azimuth),
     ])

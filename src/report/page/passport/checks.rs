@@ -6,96 +6,65 @@ use crate::passport::place::Nearness;
 use crate::passport::{Check, CheckName, Code, Dated};
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::Number;
-use crate::report::page::parts::{Table, date_text, time_text};
+use crate::report::page::parts::{Table, boxed, date_text, time_text};
 use crate::report::page::spacing::BLANK;
 use crate::report::page::texts::{checks as texts, units};
 use maud::{Markup, html};
 
-/// Every check, in the order of the report.
-const CHECKS: [CheckName; 11] = [
-    CheckName::Grammar,
-    CheckName::Signature,
-    CheckName::Schema,
-    CheckName::Signer,
-    CheckName::Revocation,
-    CheckName::Recomputed,
-    CheckName::InForce,
-    CheckName::Issuer,
-    CheckName::Stand,
-    CheckName::Place,
-    CheckName::Register,
-];
-
-/// The result of a check on a page. What was not asked is neither passed nor failed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum State {
-    Passed,
-    NotAsked,
-    Failed,
+/// Returns whether the check `name` passed; `None` if it was not asked. Without any list, nothing was asked about a
+/// withdrawal.
+fn passed(page: &PassportPage, name: CheckName) -> Option<bool> {
+    let check = page.verification.checks().iter().find(|check| check.name == name);
+    let no_list = page.trust.revoked.is_empty() && page.trust.withdrawn.newest().is_none();
+    let passed = check.and_then(Check::passed);
+    passed.filter(|passed| !(*passed && name == CheckName::Revocation && no_list))
 }
 
-impl State {
-    const ALL: [Self; 3] = [Self::Passed, Self::NotAsked, Self::Failed];
+/// Writes the mark of a result.
+fn mark(passed: Option<bool>) -> Markup {
+    let (class, mark) = match passed {
+        Some(true) => ("state passed", "●"),
+        None => ("state", "○"),
+        Some(false) => ("state failed", "✕"),
+    };
+    html! { span class=(class) aria-hidden="true" { (mark) } }
+}
 
-    /// Returns the result of the check `name`. Without any list, nothing was asked about a withdrawal.
-    fn of(page: &PassportPage, name: CheckName) -> Self {
-        let check = page.verification.checks().iter().find(|check| check.name == name);
-        let no_list = page.trust.revoked.is_empty() && page.trust.withdrawn.newest().is_none();
-        match check.and_then(Check::passed) {
-            Some(true) if name == CheckName::Revocation && no_list => Self::NotAsked,
-            Some(true) => Self::Passed,
-            Some(false) => Self::Failed,
-            None => Self::NotAsked,
-        }
+fn word(passed: Option<bool>) -> Text {
+    match passed {
+        Some(true) => texts::PASSED,
+        None => texts::NOT_ASKED,
+        Some(false) => texts::FAILED,
     }
+}
 
-    /// Writes the mark of this result.
-    fn mark(self) -> Markup {
-        let (class, mark) = match self {
-            Self::Passed => ("state passed", "●"),
-            Self::NotAsked => ("state", "○"),
-            Self::Failed => ("state failed", "✕"),
-        };
-        html! { span class=(class) aria-hidden="true" { (mark) } }
-    }
-
-    fn word(self) -> Text {
-        match self {
-            Self::Passed => texts::PASSED,
-            Self::NotAsked => texts::NOT_ASKED,
-            Self::Failed => texts::FAILED,
-        }
-    }
-
-    /// Writes the mark and its word.
-    fn named(self, languages: &Languages) -> Markup {
-        html! { (self.mark()) " " (languages.label(self.word())) }
-    }
+/// Writes the mark of a result and its word.
+fn named(passed: Option<bool>, languages: &Languages) -> Markup {
+    html! { (mark(passed)) " " (languages.label(word(passed))) }
 }
 
 /// Returns `true` if nothing shows whether the passport has been withdrawn.
 pub(crate) fn withdrawal_not_checked(page: &PassportPage) -> bool {
-    State::of(page, CheckName::Revocation) == State::NotAsked
+    passed(page, CheckName::Revocation).is_none()
 }
 
 /// Writes every check as a mark with its name, and the number of checks with each result.
 pub(crate) fn line(page: &PassportPage, languages: &Languages) -> Markup {
-    let count = |state| CHECKS.into_iter().filter(|name| State::of(page, *name) == state).count();
+    let count = |result| CheckName::ALL.into_iter().filter(|name| passed(page, *name) == result).count();
     let counted = |language: Language| {
-        let [passed, not_asked, failed] = State::ALL.map(|state| count(state).to_string());
-        let text = if failed == "0" { texts::COUNTED } else { texts::COUNTED_FAILED };
+        let [passed, not_asked, failed] = [Some(true), None, Some(false)].map(count);
+        let text = if failed == 0 { texts::COUNTED } else { texts::COUNTED_FAILED };
         let time = time_text(language, page.question.time);
-        let values = [("time", time.as_str()), ("passed", &passed), ("not_asked", &not_asked), ("failed", &failed)];
-        text.filled(language, &values)
+        text.filled(language, &[("time", &time), ("passed", &passed), ("not_asked", &not_asked), ("failed", &failed)])
     };
     html! {
         (languages.paragraph_with(|language| html! { (counted(language)) }))
         ul.marks {
-            @for check in CHECKS {
-                @let state = State::of(page, check);
+            @for check in CheckName::ALL {
+                @let passed = passed(page, check);
                 li {
-                    (state.mark()) " " (languages.inline(name(check)))
-                    span.unseen { ": " (languages.spoken(state.word())) }
+                    (mark(passed)) " " (languages.inline(name(check)))
+                    span.unseen { ": " (languages.spoken(word(passed))) }
                 }
             }
         }
@@ -104,18 +73,15 @@ pub(crate) fn line(page: &PassportPage, languages: &Languages) -> Markup {
 
 /// Writes why the passport may not be used, in large letters; nothing if it may.
 pub(crate) fn refusal(page: &PassportPage, languages: &Languages) -> Markup {
-    html! {
-        @if !page.verification.valid() {
-            div.verdict.refused {
-                p.headline { (languages.label_with(|language| headline(page, language))) }
-                (languages.paragraph_with(|language| {
-                    let why: Vec<String> = failed(page).map(|check| words(page, check, language)).collect();
-                    let time = time_text(language, page.question.time);
-                    html! { (texts::GENUINE.filled(language, &[("time", &time), ("why", &why.join("; "))])) }
-                }))
-            }
-        }
+    if page.verification.valid() {
+        return html! {};
     }
+    let why = languages.paragraph_with(|language| {
+        let why: Vec<String> = failed(page).map(|check| words(page, check, language)).collect();
+        let time = time_text(language, page.question.time);
+        html! { (texts::GENUINE.filled(language, &[("time", &time), ("why", &why.join("; "))])) }
+    });
+    boxed("verdict refused", languages.label_with(|language| headline(page, language)), why)
 }
 
 /// Returns "In force", or the reasons why the passport may not be used.
@@ -148,14 +114,14 @@ pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
     let caption = languages
         .label_with(|language| texts::CAPTION.filled(language, &[("time", &time_text(language, page.question.time))]));
     let (not_asked, asked): (Vec<_>, Vec<_>) =
-        CHECKS.into_iter().partition(|check| State::of(page, *check) == State::NotAsked);
+        CheckName::ALL.into_iter().partition(|check| passed(page, *check).is_none());
     let found = |check| page.verification.checks().iter().find(|one| one.name == check);
     let mut rows: Vec<_> = asked
         .into_iter()
         .filter_map(found)
         .map(|found| {
             let words = languages.label_with(|language| words(page, found, language));
-            vec![languages.label(name(found.name)), State::of(page, found.name).named(languages), words]
+            vec![languages.label(name(found.name)), named(passed(page, found.name), languages), words]
         })
         .collect();
     if !not_asked.is_empty() {
@@ -163,7 +129,7 @@ pub(crate) fn table(page: &PassportPage, languages: &Languages) -> Markup {
             let words = |language| not_asked.iter().map(|check| of(*check).words(language)).collect::<Vec<_>>();
             languages.label_with(|language| words(language).join(between))
         };
-        rows.push(vec![joined(name, ", "), State::NotAsked.named(languages), joined(absent, "; ")]);
+        rows.push(vec![joined(name, ", "), named(None, languages), joined(absent, "; ")]);
     }
     let table = Table {
         headings: [texts::CHECK, texts::RESULT, texts::FOUND].map(|text| languages.label(text)).into(),
@@ -212,11 +178,11 @@ fn words(page: &PassportPage, check: &Check, language: Language) -> String {
         CheckName::Grammar => plain(texts::GRAMMAR_OK),
         CheckName::Signature => plain(texts::SIGNATURE_OK),
         CheckName::Schema => texts::SCHEMA_OK.filled(language, &[("format", &content.format)]),
-        CheckName::Signer => texts::SIGNER_OK.filled(language, &[("issuer", issuer)]),
+        CheckName::Signer => texts::SIGNER_OK.filled(language, &[("issuer", &issuer)]),
         CheckName::Recomputed => plain(texts::RECOMPUTED_OK),
         CheckName::Revocation => revocation(page, language),
         CheckName::InForce => validity(page, check.code, language),
-        CheckName::Issuer => texts::ISSUER_OK.filled(language, &[("issuer", issuer)]),
+        CheckName::Issuer => texts::ISSUER_OK.filled(language, &[("issuer", &issuer)]),
         CheckName::Stand => stand(page, check.code, language),
         CheckName::Place => place(page, language),
         CheckName::Register if check.code == Code::Ok => plain(texts::REGISTER_OK),
@@ -233,8 +199,8 @@ fn revocation(page: &PassportPage, language: Language) -> String {
     }
     match withdrawn.newest() {
         Some(list) => {
-            let (sequence, time) = (list.sequence.to_string(), time_text(language, list.issued_at));
-            texts::REVOCATION_LIST.filled(language, &[("sequence", &sequence), ("time", &time)])
+            let time = time_text(language, list.issued_at);
+            texts::REVOCATION_LIST.filled(language, &[("sequence", &list.sequence), ("time", &time)])
         }
         None => texts::REVOCATION_KEYS_ONLY.words(language),
     }
@@ -259,7 +225,7 @@ fn validity(page: &PassportPage, code: Code, language: Language) -> String {
 fn stand(page: &PassportPage, code: Code, language: Language) -> String {
     let text = if code == Code::Ok { texts::STAND_OK } else { texts::STAND_WRONG };
     let asked = page.question.serial.as_deref().unwrap_or_default();
-    text.filled(language, &[("serial", page.content.stand.serial.as_str()), ("asked", asked)])
+    text.filled(language, &[("serial", &page.content.stand.serial), ("asked", &asked)])
 }
 
 fn place(page: &PassportPage, language: Language) -> String {

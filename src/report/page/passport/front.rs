@@ -1,14 +1,14 @@
 //! First page: what the passport is for, until when it is in force, where, on whose word, and how to check it.
 
-use super::figures::{Slot, figure};
 use super::{PassportPage, checks};
 use crate::report::page::code;
 use crate::report::page::language::Languages;
 use crate::report::page::number::Number;
 use crate::report::page::parts::{
-    band, date, date_text, fields, given, quantity, signature, stated, time, wide_stated,
+    band, date, date_text, fields, figure, given, quantity, signature, stated, time, wide_stated,
 };
 use crate::report::page::texts::{checks as check_texts, passport as texts, record, units, words};
+use crate::report::picture::stand::stand as picture;
 use maud::{Markup, html};
 
 /// Writes the head of the page: kind of the document, the stand, and the id.
@@ -32,7 +32,7 @@ pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
             (checks::refusal(page, languages))
             (answers(page, languages))
             div.front {
-                (figure(Slot::Stand, &page.content, languages))
+                (figure(languages, "stand", &picture(languages, page.content.site.frame_axis_azimuth_deg()), texts::FIGURE_STAND))
                 (proof(page, languages))
                 div.note { (languages.paragraph(texts::PAPER_IS_NOT_SIGNED)) }
             }

@@ -49,7 +49,7 @@ pub(crate) fn certificate(certificate: &Certificate, languages: &Languages) -> M
             stated(languages, texts::CERTIFICATE_ISSUED, Some(day(certificate.issued))),
             stated(languages, texts::PERFORMED, certificate.performed.map(day)),
             stated(languages, texts::RECEIVED, certificate.received.map(day)),
-            stated(languages, texts::CERTIFICATE_VALID_UNTIL, certificate.valid_until.map(day)),
+            stated(languages, texts::VALID_UNTIL, certificate.valid_until.map(day)),
             stated(languages, texts::VALID_UNTIL_BASIS, certificate.valid_until_basis.as_deref().map(given)),
             stated(languages, texts::LABORATORY, Some(given(&certificate.laboratory))),
             stated(languages, texts::ADDRESS, certificate.address.as_deref().map(given)),

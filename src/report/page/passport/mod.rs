@@ -11,21 +11,17 @@
 //! * `numbers`: the numbers that a calibration uses.
 //! * `accuracy`: expected calibration uncertainty, inputs that are not stated.
 //! * `record`: the parts to fill in by hand.
-//! * `annex`: the signed file.
-//! * `figures`: the pictures.
 
 pub(super) mod accuracy;
-mod annex;
 pub(super) mod characteristics;
 pub(super) mod checks;
-mod figures;
 mod front;
 pub(super) mod general;
 pub(super) mod numbers;
 mod record;
 
 use super::language::{Languages, Text};
-use super::parts::{contents, data_address};
+use super::parts::{contents, data_address, section as part, verbatim};
 use super::shell::{Margins, document};
 use super::texts::{passport as texts, record as record_texts};
 use crate::document::sha256_hex;
@@ -38,12 +34,14 @@ use maud::{Markup, html};
 #[derive(Debug, Clone)]
 pub struct PassportPage<'a> {
     text: &'a str,
-    sha256: String,
+    /// SHA-256 of the passport's file, lower-case hexadecimal.
+    pub(crate) sha256: String,
     trust: &'a Trust,
     question: &'a Question,
-    verification: Verification,
-    content: Content,
-    key: PublicKey,
+    pub(crate) verification: Verification,
+    pub(crate) content: Content,
+    /// Key that signed the passport.
+    pub(crate) key: PublicKey,
 }
 
 /// Anchor and heading of each section of the page.
@@ -97,26 +95,6 @@ impl<'a> PassportPage<'a> {
         }
     }
 
-    /// Returns the result of the verification.
-    pub(crate) fn verification(&self) -> &Verification {
-        &self.verification
-    }
-
-    /// Returns the content of the passport.
-    pub(crate) fn content(&self) -> &Content {
-        &self.content
-    }
-
-    /// Returns the SHA-256 of the passport's file, lower-case hexadecimal.
-    pub(crate) fn sha256(&self) -> &str {
-        &self.sha256
-    }
-
-    /// Returns the key that signed the passport.
-    pub(crate) fn key(&self) -> &PublicKey {
-        &self.key
-    }
-
     /// Returns the page as one self-contained HTML document.
     pub fn html(&self, languages: &Languages) -> String {
         let header = &self.content.passport;
@@ -141,9 +119,8 @@ impl<'a> PassportPage<'a> {
     fn margin(&self, languages: &Languages) -> String {
         let (stand, site) = (&self.content.stand, &self.content.site.id);
         let stand = format!("{}/{}", stand.model, stand.serial);
-        let revision = self.content.passport.revision.to_string();
-        let values = [("stand", stand.as_str()), ("site", site.as_str()), ("revision", &revision)];
-        texts::MARGIN_PASSPORT.filled(languages.first(), &values)
+        let revision = &self.content.passport.revision;
+        texts::MARGIN_PASSPORT.filled(languages.first(), &[("stand", &stand), ("site", site), ("revision", revision)])
     }
 
     fn body(&self, languages: &Languages) -> Markup {
@@ -157,8 +134,20 @@ impl<'a> PassportPage<'a> {
                 (numbers::section(self, languages))
                 (accuracy::section(self, languages))
                 (record::section(self, languages))
-                (annex::section(self, languages))
+                (self.annex(languages))
             }
         }
+    }
+
+    /// Writes the signed file verbatim, to read, to copy and to save.
+    fn annex(&self, languages: &Languages) -> Markup {
+        let (id, name) = (&self.content.passport.id, self.file_name());
+        let end = languages.label_with(|language| texts::END.filled(language, &[("id", id)]));
+        let body = html! {
+            (checks::table(self, languages))
+            (languages.paragraph_with(|language| html! { (texts::ANNEX_NOTE.filled(language, &[("name", &name)])) }))
+            (verbatim("en", self.text, &end))
+        };
+        part(languages, "annex", "", texts::ANNEX, &body)
     }
 }

@@ -1,16 +1,15 @@
 //! Numbers that a calibration uses: matrices, vectors, the self-check.
 
 use super::PassportPage;
-use super::characteristics::starts;
-use super::figures::{Slot, figure};
 use crate::calibration::parameter::Parameter;
 use crate::gyro::Parameters;
 use crate::passport::Content;
 use crate::passport::content::{MatrixRows, Rows, SelfCheck};
 use crate::report::page::language::{Languages, Text};
-use crate::report::page::number::{Number, column};
-use crate::report::page::parts::{Table, heading, section as part, symbol, symbol_and_unit};
+use crate::report::page::number::{Cell, Number, column};
+use crate::report::page::parts::{Column, Table, figure, heading, section as part, starts, symbol, symbol_and_unit};
 use crate::report::page::texts::{passport as texts, units};
+use crate::report::picture::vectors::vectors as picture;
 use maud::{Markup, html};
 
 /// Paper from which the equations are numbered.
@@ -23,7 +22,7 @@ pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
     let content = &page.content;
     let body = html! {
         (languages.paragraph_with(|language| {
-            html! { (texts::DIGITS_NOTE.words(language)) " " (texts::EQUATIONS_NOTE.filled(language, &[("source", PAPER)])) }
+            html! { (texts::DIGITS_NOTE.words(language)) " " (texts::EQUATIONS_NOTE.filled(language, &[("source", &PAPER)])) }
         }))
         @match &content.matrices {
             Some(m) => {
@@ -36,7 +35,7 @@ pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
         }
         (heading(languages, texts::VECTORS))
         (vectors(content, languages))
-        (figure(Slot::EarthRate, content, languages))
+        (figure(languages, "vectors", &picture(languages, content), texts::FIGURE_VECTORS))
         @if let Some(check) = &content.self_check {
             (heading(languages, texts::SELF_CHECK))
             (languages.paragraph(texts::SELF_CHECK_NOTE))
@@ -47,8 +46,7 @@ pub(crate) fn section(page: &PassportPage, languages: &Languages) -> Markup {
 }
 
 fn numbers(languages: &Languages, values: &[Option<f64>]) -> Vec<Markup> {
-    let numbers = values.iter().map(|value| value.map(|value| Number::fixed(value, DECIMALS)));
-    column(languages, numbers).into_iter().map(|cell| cell.unwrap_or_else(|| html! { "–" })).collect()
+    column(languages, values.iter().map(|value| value.map(|value| Number::fixed(value, DECIMALS))))
 }
 
 fn matrices(m: &MatrixRows, languages: &Languages) -> Markup {
@@ -69,9 +67,8 @@ fn matrices(m: &MatrixRows, languages: &Languages) -> Markup {
     ];
     let mut headings = vec![languages.label(texts::MATRIX), languages.label(texts::UNIT)];
     headings.extend(["11", "12", "21", "22"].map(|place| html! { (place) }));
-    let caption = Some(languages.label(texts::MATRICES_CAPTION));
-    let table = Table { caption, headings, rows, row_headings: 1, class: "numbers with-unit", ..Table::default() };
-    table.markup(languages.spoken(texts::MATRICES_CAPTION))
+    let table = Table { headings, rows, row_headings: 1, class: "numbers with-unit", ..Table::default() };
+    table.captioned(languages, texts::MATRICES_CAPTION)
 }
 
 /// Writes the paper's equations, which differ between languages in one word only.
@@ -116,62 +113,27 @@ fn vectors(content: &Content, languages: &Languages) -> Markup {
     if currents.is_some() {
         headings.extend(["x", "y"].map(|axis| unit(symbol("J", axis), units::MILLIAMPERES)));
     }
-    let caption_text = if currents.is_some() { texts::VECTORS_CAPTION } else { texts::VECTORS_ALONE_CAPTION };
-    let caption = Some(languages.label(caption_text));
-    let table = Table {
-        caption,
-        headings,
-        rows: rows.collect(),
-        starts,
-        row_headings: 2,
-        class: "numbers",
-        ..Table::default()
-    };
-    table.markup(languages.spoken(caption_text))
+    let caption = if currents.is_some() { texts::VECTORS_CAPTION } else { texts::VECTORS_ALONE_CAPTION };
+    let rows = rows.collect();
+    let table = Table { headings, rows, starts, row_headings: 2, class: "numbers", ..Table::default() };
+    table.captioned(languages, caption)
 }
 
 fn self_check(check: &SelfCheck, languages: &Languages) -> Markup {
     let values = numbers_of(&check.parameters()).map(|value| Cell::Number(Number::exact(value)));
     let rows = vec![(languages.label(texts::VALUE), values)];
-    parameters(languages, None, rows).markup(languages.spoken(texts::SELF_CHECK))
-}
-
-/// A cell of a table of parameters.
-#[derive(Debug, Clone)]
-pub(crate) enum Cell {
-    /// A number; its decimal mark aligns with those of the column.
-    Number(Number),
-    /// Anything else.
-    Words(Markup),
-}
-
-impl Cell {
-    /// Returns the cell of a quantity that there is not.
-    pub(crate) fn none() -> Self {
-        Self::Words(html! { "–" })
-    }
+    parameters(languages, rows).markup(languages.spoken(texts::SELF_CHECK))
 }
 
 /// Returns a table of the eight parameters of a gyro in the paper's groups, one row for each quantity. Cells have the
 /// order of [`numbers_of`].
-pub(crate) fn parameters(languages: &Languages, caption: Option<Markup>, rows: Vec<(Markup, [Cell; 8])>) -> Table {
-    let aligned = |place: usize| {
-        let numbers = rows.iter().map(|(_, cells)| match &cells[place] {
-            Cell::Number(number) => Some(number.clone()),
-            Cell::Words(_) => None,
-        });
-        column(languages, numbers)
-    };
-    let columns: Vec<_> = (0..8).map(aligned).collect();
-    let cell = |row: usize, place: usize, cell: &Cell| match cell {
-        Cell::Words(words) => words.clone(),
-        Cell::Number(_) => columns[place][row].clone().unwrap_or_default(),
-    };
-    let rows = rows.iter().enumerate().map(|(row, (name, cells))| {
-        let cells = cells.iter().enumerate().map(|(place, of)| cell(row, place, of));
-        std::iter::once(name.clone()).chain(cells).collect()
+pub(crate) fn parameters(languages: &Languages, rows: Vec<(Markup, [Cell; 8])>) -> Table {
+    let symbols = [("K", "x"), ("K", "y"), ("K", "xy"), ("K", "yx"), ("ω", "0x"), ("ω", "0y"), ("ω", "g"), ("ω", "k")];
+    let columns = symbols.into_iter().enumerate().map(|(place, (letter, subscript))| {
+        let cells = rows.iter().map(|(_, cells)| cells[place].clone());
+        Column::new(symbol(letter, subscript), column(languages, cells))
     });
-    let rows: Vec<Vec<Markup>> = rows.collect();
+    let columns: Vec<Column> = columns.collect();
     let groups = [
         (texts::SCALE_FACTORS_MAIN, units::DEG_PER_H_PER_MA),
         (texts::SCALE_FACTORS_CROSS, units::DEG_PER_H_PER_MA),
@@ -182,17 +144,8 @@ pub(crate) fn parameters(languages: &Languages, caption: Option<Markup>, rows: V
         let heading = |language| format!("{}, {}", name.words(language), unit.of(language));
         (2, languages.label_with(heading))
     });
-    let columns = [("K", "x"), ("K", "y"), ("K", "xy"), ("K", "yx"), ("ω", "0x"), ("ω", "0y"), ("ω", "g"), ("ω", "k")];
-    let columns = columns.map(|(letter, subscript)| symbol(letter, subscript));
-    Table {
-        caption,
-        groups: groups.into(),
-        headings: std::iter::once(html! {}).chain(columns).collect(),
-        rows,
-        row_headings: 1,
-        class: "numbers parameters",
-        ..Table::default()
-    }
+    let names = rows.into_iter().map(|(name, _)| vec![name]).collect();
+    Table { groups: groups.into(), class: "numbers parameters", ..Table::of(vec![html! {}], names, &columns) }
 }
 
 /// Returns the numbers of the eight parameters: K_x, K_y, K_xy, K_yx, ω_0x, ω_0y, ω_g, ω_k.

@@ -5,7 +5,7 @@
 use super::PassportPage;
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::parts::{Table, blank, field, fields, given, heading, section as part};
-use crate::report::page::texts::record as texts;
+use crate::report::page::texts::{passport, record as texts};
 use maud::{Markup, html};
 
 pub(super) fn section(page: &PassportPage, languages: &Languages) -> Markup {
@@ -77,7 +77,7 @@ fn completeness(page: &PassportPage, languages: &Languages) -> Markup {
         vec![given(&page.content.passport.id), languages.label(texts::THIS_PASSPORT), html! {}, html! {}, html! {}],
         vec![html! {}; 5],
     ];
-    let headings = [texts::DESIGNATION, texts::ITEM, texts::QUANTITY, texts::SERIAL, texts::NOTE];
+    let headings = [texts::DESIGNATION, texts::ITEM, texts::QUANTITY, passport::SERIAL, texts::NOTE];
     table(languages, texts::COMPLETENESS, "form complete", &headings, rows)
 }
 

@@ -86,7 +86,6 @@ texts! {
     SUBJECT { en: "Object, place and equipment of the calibration", ru: "Объект, место и средства калибровки" }
     TYPE { en: "Type", ru: "Тип" }
     SERIAL { en: "Serial number of the gyro", ru: "Заводской номер гироскопа" }
-    CUSTOMER { en: "Customer", ru: "Заказчик" }
     CONDITION { en: "Condition of the gyro", ru: "Состояние гироскопа" }
     RECEIVED { en: "Gyro received", ru: "Дата поступления" }
     MEASURED { en: "Date of the readings", ru: "Дата измерений" }
@@ -103,8 +102,6 @@ texts! {
     CURRENTS_SHA256 { en: "SHA-256 of the file of currents", ru: "SHA-256 файла токов" }
     PASSPORT { en: "Passport of the stand", ru: "Паспорт стенда" }
     PASSPORT_SHA256 { en: "SHA-256 of the passport", ru: "SHA-256 паспорта" }
-    LABORATORY { en: "Laboratory", ru: "Лаборатория" }
-    LABORATORY_NAME { en: "Name", ru: "Наименование" }
     METER_ASSUMED {
         en: "No laboratory file states the current meter. This report assumes a meter with an error uniformly \
              distributed within ±0.015 % of the reading, and no other uncertainty of the laboratory.",
@@ -208,7 +205,6 @@ texts! {
              U (k = 2 или коэффициент Стьюдента); составляющие дрейфа отнесены к g, указанному для типа: {g} м/с²"
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
-    UNIT { en: "Unit", ru: "Единица" }
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
     EARLIER { en: "Previous", ru: "Прежнее значение" }
     FOUND { en: "Value", ru: "Значение" }
@@ -464,10 +460,6 @@ texts! {
     SIGNATURES { en: "Signatures", ru: "Подписи" }
     CALIBRATED_BY { en: "Calibrated by", ru: "Калибровку выполнил" }
     APPROVED_BY { en: "Approved by", ru: "Утвердил" }
-    POST_AND_NAME { en: "Position and name", ru: "Должность, фамилия" }
-    SIGNATURE { en: "Signature", ru: "Подпись" }
-    DATE { en: "Date", ru: "Дата" }
-    STAMP { en: "Stamp", ru: "М. П." }
     VALID_WHEN_SIGNED {
         en: "Valid only with a handwritten signature.",
         ru: "Действительно только с собственноручной подписью."

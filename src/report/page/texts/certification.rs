@@ -57,14 +57,10 @@ texts! {
     RUN_TURNS { en: "Rotation of each run relative to the mean, ″", ru: "Поворот каждой серии относительно среднего, ″" }
     OF_PLATFORM { en: "Platform", ru: "Платформа" }
     OF_BASE { en: "Base", ru: "Основание" }
-    EAST { en: "east", ru: "восток" }
-    NORTH { en: "north", ru: "север" }
-    UP { en: "up", ru: "верх" }
 
     TESTS { en: "Tests", ru: "Статистические критерии" }
     TEST { en: "Test", ru: "Критерий" }
     STATISTIC { en: "Statistic", ru: "Статистика" }
-    FREEDOM { en: "Degrees of freedom", ru: "Число степеней свободы" }
     PROBABILITY { en: "Probability", ru: "Вероятность" }
     BARTLETT_POSITIONS { en: "Bartlett: equal variances of all positions", ru: "Бартлетта: равенство дисперсий всех положений" }
     BARTLETT_AXES { en: "Bartlett: equal variances about x, y and z", ru: "Бартлетта: равенство дисперсий вокруг x, y и z" }
@@ -125,10 +121,8 @@ texts! {
     ALL_TOGETHER { en: "All positions, chi-square (ν)", ru: "Все положения, хи-квадрат (ν)" }
     COMMON_TURN { en: "Common rotation, chi-square (ν)", ru: "Общий поворот, хи-квадрат (ν)" }
 
-    SIGNATURES { en: "Signatures", ru: "Подписи" }
     MEASURED_BY { en: "Measured by", ru: "Измерения выполнил" }
     CHECKED_BY { en: "Checked by", ru: "Проверил" }
-    AUTHORISED_BY { en: "Authorised by", ru: "Утвердил" }
 
     ANNEX { en: "Annex: the file of readings", ru: "Приложение: файл показаний" }
     ANNEX_NOTE {

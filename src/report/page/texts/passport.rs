@@ -69,7 +69,6 @@ texts! {
     CERTIFICATE_ISSUED { en: "Date of issue", ru: "Дата выдачи" }
     PERFORMED { en: "Date of measurement", ru: "Дата измерений" }
     RECEIVED { en: "Stand received", ru: "Дата поступления" }
-    CERTIFICATE_VALID_UNTIL { en: "Valid until (inclusive)", ru: "Действителен по (включительно)" }
     VALID_UNTIL_BASIS { en: "Basis of validity period", ru: "Основание срока действия" }
     LABORATORY { en: "Laboratory", ru: "Лаборатория" }
     ADDRESS { en: "Address", ru: "Адрес" }
@@ -135,7 +134,6 @@ texts! {
 
     SITE { en: "Site (place of delivery)", ru: "Место установки (место поставки)" }
     SITE_ID { en: "Identifier", ru: "Обозначение" }
-    SITE_NAME { en: "Name", ru: "Наименование" }
     LATITUDE { en: "Geodetic latitude (WGS 84)", ru: "Геодезическая широта (WGS 84)" }
     ASTRONOMIC_LATITUDE { en: "Astronomic latitude, given", ru: "Астрономическая широта, заданная" }
     LONGITUDE { en: "Longitude, east", ru: "Долгота, восточная" }

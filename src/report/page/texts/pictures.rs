@@ -3,13 +3,11 @@
 use super::texts;
 
 texts! {
-    UPWARDS { en: "up", ru: "верх" }
     DOWNWARDS { en: "down", ru: "низ" }
     NORTH_LETTER { en: "N", ru: "С" }
     EAST_LETTER { en: "E", ru: "В" }
     SOUTH_LETTER { en: "S", ru: "Ю" }
     WEST_LETTER { en: "W", ru: "З" }
-    UP { en: "up", ru: "верх" }
 
     STAND_TITLE { en: "Stand with its parts, axes and angles", ru: "Стенд: части, оси и углы" }
     STAND_DESCRIPTION {
@@ -92,7 +90,6 @@ texts! {
         en: "Standard uncertainty of a calibration relative to the tolerance of the gyro type",
         ru: "Стандартная неопределённость калибровки в сравнении с допуском типа"
     }
-    ACCURACY_AXIS { en: "% of the tolerance", ru: "% допуска" }
     ACCURACY_IN_WORDS {
         en: "{parameter}: u = {u} {unit}, {share} % of the tolerance",
         ru: "{parameter}: u = {u} {unit}, {share} % допуска"

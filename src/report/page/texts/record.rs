@@ -12,6 +12,7 @@ texts! {
     ADJUSTMENT { en: "Results before adjustment or repair", ru: "Данные до юстировки или ремонта" }
     EXTERNAL { en: "Results from external providers", ru: "Результаты внешних поставщиков" }
     SIGNATURE { en: "Signature", ru: "Подпись" }
+    POST_AND_NAME { en: "Position and name", ru: "Должность, фамилия" }
 
     RECORD { en: "Record of the stand", ru: "Учёт изделия" }
     ON_PAPER {
@@ -22,7 +23,6 @@ texts! {
     DESIGNATION { en: "Designation", ru: "Обозначение" }
     ITEM { en: "Item", ru: "Наименование" }
     QUANTITY { en: "Quantity", ru: "Кол-во" }
-    SERIAL { en: "Serial number", ru: "Заводской номер" }
     NOTE { en: "Note", ru: "Примечание" }
     TEST_STAND { en: "Test stand", ru: "Испытательный стенд" }
     THIS_PASSPORT { en: "This passport (signed file)", ru: "Настоящий паспорт (подписанный файл)" }
