@@ -145,6 +145,14 @@ impl Subject {
         let first = known.next()?;
         known.find(|serial| *serial != first).map(|other| [first, other])
     }
+
+    /// Returns the days of an earlier result and of these readings if the result is from later readings, or `None` if
+    /// none is, or if no days are stated.
+    pub(crate) fn later_result(&self, earlier: &[CalibrationDocument]) -> Option<[Date; 2]> {
+        let date = self.date?;
+        let days = earlier.iter().filter_map(|result| result.subject.as_ref()?.date);
+        days.max().filter(|latest| *latest > date).map(|latest| [latest, date])
+    }
 }
 
 impl CalibrationDocument {

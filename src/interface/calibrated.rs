@@ -211,6 +211,11 @@ impl<'a> Prepared<'a> {
             let [before, now] = [before, now].map(printable::printable);
             return Err(Stopped::Refused(format!("the previous result is that of gyro {before}, not of {now}")));
         }
+        if let Some([later, now]) = subject.later_result(previous) {
+            let words =
+                format!("the previous result is of {later}, after these readings of {now}; check which is earlier");
+            return Err(Stopped::Refused(words));
+        }
         let calibration = calibration::calibrate(&setup, &readings, options);
         let calibration = calibration.map_err(|error| Stopped::Refused(error.to_string()))?;
         missing.extend(calibration.noise_not_stated());

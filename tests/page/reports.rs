@@ -25,7 +25,7 @@ const USUAL: &[&str] =
 const CURRENTS: &[&str] = &["docs/currents.csv"];
 const LABORATORY: &[&str] = &["--laboratory", "docs/laboratory.yaml"];
 const GYRO: &[&str] = &["--gyro", "docs/gvk-6.yaml"];
-const WHOLE: &[&str] = &["--budget", "--monte-carlo", "--trials", "16384"];
+const WHOLE: &[&str] = &["--budget", "--monte-carlo", "--trials", "65536"];
 const PREVIOUS: &[&str] = &["--previous", "@earlier.json"];
 const SEVERAL: &[&str] = &["--previous", "@earlier.json", "--previous", "@older.json"];
 

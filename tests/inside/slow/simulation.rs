@@ -261,5 +261,9 @@ fn a_given_stand() {
     // n_2 is singular where both frame positions are alike: nothing is solved, nothing panics.
     let flat = stand.map(|position| Position { theta_deg: 0.0, ..position });
     let options = AccuracyOptions { stands: Stands::Given(flat.to_vec()), ..options };
-    assert!(accuracy(&options, &Run::new(100, 5)).rows.iter().all(|row| row.not_solved == 100 && row.worst == 0.0));
+    let unsolved = accuracy(&options, &Run::new(100, 5));
+    assert!(unsolved.rows.iter().all(|row| row.not_solved == 100 && row.worst.is_nan()));
+    assert!(
+        serde_json::to_string(&unsolved).unwrap().contains("\"worst\":null,\"standard_deviation\":null,\"mean\":null")
+    );
 }

@@ -11,7 +11,7 @@ use crate::report::page::parts::{Column, Table, symbol, symbol_and_unit};
 use crate::report::page::passport::numbers::parameters;
 use crate::report::page::spacing::BLANK;
 use crate::report::page::symbols::italic;
-use crate::report::page::texts::{calibration as texts, pictures, units, words};
+use crate::report::page::texts::{calibration as texts, units, words};
 use crate::report::picture::accuracy::unit as parameter_unit;
 use crate::report::picture::drawing::legend_with;
 use crate::report::picture::shares as strips;
@@ -249,11 +249,12 @@ fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
         (languages.label(texts::UPPER), each(&|line| measured(line.symmetric[1], line))),
     ];
     // Too few trials decide nothing.
-    if found.parameters.iter().any(|line| line.first_order.valid.is_some()) {
+    let decided = found.parameters.iter().filter(|line| line.first_order.valid.is_some()).count();
+    if decided > 0 {
         let valid = each(&|line| match line.first_order.valid {
             Some(true) => Cell::Words(languages.label(words::YES)),
             Some(false) => Cell::Words(languages.label(words::NO)),
-            None => Cell::Words(languages.label(pictures::DECISION_UNDECIDED)),
+            None => Cell::none(),
         });
         rows.push((languages.label(texts::FIRST_ORDER), valid));
     }
@@ -264,6 +265,7 @@ fn monte_carlo(found: &MonteCarlo, languages: &Languages) -> Markup {
     let table = Table { caption, ..parameters(languages, rows) };
     html! {
         (table.markup(languages.spoken(texts::MONTE_CARLO)))
+        @if (1..found.parameters.len()).contains(&decided) { (languages.paragraph(texts::FIRST_ORDER_UNDECIDED)) }
         @if !found.stable { (languages.paragraph(texts::NOT_STABLE)) }
     }
 }

@@ -286,7 +286,7 @@ texts! {
     }
     LAST_DIGIT {
         en: "The currents are recorded to {digit} mA. Rounding to this digit has a standard uncertainty of {u} mA, which \
-             is larger than the stated constant part of the meter's error and takes its place. To reduce it, record more \
+             is larger than the stated constant part of the meter’s error and takes its place. To reduce it, record more \
              digits.",
         ru: "Токи записаны с точностью до {digit} мА. Стандартная неопределённость округления {u} мА больше указанной \
              постоянной части погрешности измерителя и принята вместо неё. Для уменьшения следует записывать больше \
@@ -446,6 +446,10 @@ texts! {
     LOWER { en: "Lower end", ru: "Нижняя граница" }
     UPPER { en: "Upper end", ru: "Верхняя граница" }
     FIRST_ORDER { en: "Linear approximation valid", ru: "Линейное приближение применимо" }
+    FIRST_ORDER_UNDECIDED {
+        en: "–: not decided; this needs more trials.",
+        ru: "–: не определено, требуется большее число испытаний."
+    }
     NOT_STABLE {
         en: "Not all stated digits are stable; more trials would change some of them.",
         ru: "Не все приведённые цифры установились; при большем числе испытаний некоторые изменятся."
