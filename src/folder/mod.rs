@@ -308,9 +308,9 @@ impl Folder {
             return BTreeMap::new();
         };
         let lines = register.passports.into_iter().filter(|line| !line.is_usable());
-        let words =
-            |line: &Line| format!("WARNING: this passport may not be used, it is {}: {}", line.state.words(), line.why);
-        lines.map(|line| (line.sha256.clone(), words(&line))).collect()
+        lines
+            .map(|Line { sha256, why, .. }| (sha256, format!("WARNING: this passport may not be used: {why}")))
+            .collect()
     }
 
     /// Issues revision 1 of a stand for a site.
