@@ -17,7 +17,7 @@ use crate::report::page::{Language, Languages, PassportPage};
 use crate::signing::allowed_signers_line;
 use crate::simulation::draw::CurrentError;
 use crate::site::Site;
-use crate::stand::Stand;
+use crate::stand::{CertifiedPosition, Stand};
 use crate::statistics::random::Stream;
 use crate::text::scalar::day;
 use crate::text::{LARGEST_DOCUMENT_BYTES, shown};
@@ -127,7 +127,7 @@ impl Stage<'_> {
         files::write_new(&self.path("stand.yaml"), STAND.as_bytes(), Access::Shared)?;
         files::write_new(&self.path("sites/moscow-bmstu.yaml"), MOSCOW.as_bytes(), Access::Shared)?;
         files::write_new(&self.path("sites/beijing-nim.yaml"), BEIJING.as_bytes(), Access::Shared)?;
-        let angles = stand.positions.iter().flat_map(|at| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec]);
+        let angles = stand.positions.iter().flat_map(CertifiedPosition::angles_arcsec);
         let largest = angles.fold(0.0, |largest: f64, angle| largest.max(angle.abs())) / 3600.0;
         self.line(&format!(
             "2. measures the deviations of a low-cost stand from its eight positions: up to {largest:.1} degrees."

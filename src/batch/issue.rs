@@ -3,7 +3,7 @@
 use super::catalogue::{Catalogue, Listed};
 use super::{Batch, Event, Listener, Outcome, Purpose, Sweeper, fail, parallel};
 use crate::files::folder_of;
-use crate::folder::Folder;
+use crate::folder::{Folder, search};
 use crate::passport::Trust;
 use crate::passport::content::passport_id;
 use crate::passport::issue::{Issue, PreparedStand};
@@ -154,7 +154,7 @@ impl Run<'_> {
             return;
         }
         let folder = folder_of(&there.path);
-        let read = || Folder::unusable(folder, trust, time, self.batch.threads);
+        let read = || search::unusable(folder, trust, time, self.batch.threads);
         let unusable = self.unusable.entry(folder.to_owned()).or_insert_with(read);
         if let Some(words) = unusable.get(&there.sha256) {
             tell(Event::Remark { file: there.id.clone(), words: words.clone() });

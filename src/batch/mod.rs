@@ -8,12 +8,14 @@
 //! * `paths`: arguments of the user: files, folders, patterns, lists.
 //! * `catalogue`: stand and site files by their ids.
 //! * `shard`: a part of a job, for one of several machines.
+//! * `once`: readings that are given twice under two names.
 //! * `issue`: every stand at every site.
 //! * `successors`: re-issue of passports.
 //! * `recertification`: a new certificate of one stand, and the successors of its passports.
 
 pub(crate) mod catalogue;
 pub(crate) mod issue;
+pub(crate) mod once;
 pub(crate) mod paths;
 pub(crate) mod recertification;
 pub(crate) mod shard;

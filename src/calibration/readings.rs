@@ -121,7 +121,7 @@ pub struct Readings {
     pub(crate) left_out: Vec<PositionIndex>,
     /// Visits that were left out, with their reasons.
     pub(crate) exclusions: Vec<Exclusion>,
-    /// What the digits of the readings show; nothing if they were not read from a file.
+    /// Last digit and scatter of the recorded currents; the default if they were not read from a file.
     pub(crate) recorded: Recorded,
     /// Remark that lists the columns which were not used.
     pub(crate) remark: Option<String>,

@@ -67,10 +67,7 @@ pub(crate) fn uncertainties(
         }
         radians_from_arcseconds(arcsec.unwrap_or(0.0))
     };
-    let angles_rad = positions
-        .iter()
-        .map(|at| [at.u_alpha_arcsec, at.u_beta_arcsec, at.u_gamma_arcsec].map(|u| angle(u, NotStated::Angles)))
-        .collect();
+    let angles_rad = positions.iter().map(|at| at.u_arcsec().map(|u| angle(u, NotStated::Angles))).collect();
     let (of_site, measured) = (site.uncertainty.as_ref(), laboratory.base.as_ref());
     let azimuth_mark = site.azimuth_mark.as_ref();
     // From the mark to the base, stated or measured. From the pillar to the mark it is computed.

@@ -17,7 +17,7 @@ words! {
         Paper = "paper",
         /// The paper's model with the anisoelastic coefficient of eq. (2).
         Anisoelastic = "paper",
-        /// A full 2×3 matrix of g-sensitive drift in place of ω_g and ω_k.
+        /// General model: a full 2×3 matrix of g-sensitive drift replaces ω_g and ω_k.
         General = "general",
     }
 }

@@ -176,11 +176,7 @@ fn certified_u_arcsec(position: &CertifiedPosition) -> Option<Vector3<f64>> {
 impl Differences {
     fn new(certificate: &Stand, readings: &AngleReadings, scatter: Variance) -> Result<Self, NotCompared> {
         let positions: Vec<_> = certificate.positions.iter().map(CertifiedPosition::to_model).collect();
-        let certified: Vec<_> = certificate
-            .positions
-            .iter()
-            .map(|at| Vector3::new(at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec))
-            .collect();
+        let certified: Vec<_> = certificate.positions.iter().map(|at| Vector3::from(at.angles_arcsec())).collect();
         let turns = turns_at(&positions, &certified);
         let model = RunModel::new(&turns).ok_or(NotCompared::TooFewPositions)?;
         let rows = 3 * turns.len();

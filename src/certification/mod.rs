@@ -109,9 +109,8 @@ impl Certification {
         if *number != there.certificate.number || same_readings {
             return Ok(());
         }
-        let angles = |at: &CertifiedPosition| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec];
         let kept = |at: &CertifiedPosition, among: &[CertifiedPosition]| {
-            among.iter().any(|other| other.index() == at.index() && angles(other) == angles(at))
+            among.iter().any(|other| other.index() == at.index() && other.angles_arcsec() == at.angles_arcsec())
         };
         let new = self.stand.positions.iter().find(|at| !kept(at, &there.positions));
         match new.or_else(|| there.positions.iter().find(|at| !kept(at, &self.stand.positions))) {
@@ -363,7 +362,7 @@ fn remarks_on(components: &Components, runs: usize, positions: &[CertifiedPositi
     if components.base_axes < 3 {
         remarks.push(Remark::BaseAxes(components.base_axes));
     }
-    let angles = positions.iter().flat_map(|at| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec]);
+    let angles = positions.iter().flat_map(CertifiedPosition::angles_arcsec);
     let largest_arcsec = angles.fold(0.0, |a, b| f64::max(a, b.abs()));
     if largest_arcsec < 0.5 {
         remarks.push(Remark::SmallAngles(largest_arcsec));

@@ -1,12 +1,13 @@
 //! Verb `calibrate`: the gyro's parameters from a passport and currents, or those of several gyros.
 
 use super::administrative::AdministrativeFile;
-use super::inputs::{self, Each, Once};
+use super::inputs::{self, Each};
 use super::output::Format;
 use super::render::languages;
 use super::show::{Read, Whom};
 use super::trust_options::date;
 use super::{Code, Failure, REFUSED, defaults, exclusion, output, uncertainty};
+use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
 use crate::calibration::document::{CalibrationDocument, Subject};
 use crate::calibration::iterative::StopRule;
@@ -305,7 +306,9 @@ impl Bench<'_> {
         let mut calibrated = Once::new();
         let calibrate = |path: &Path| {
             let found = self.calibrate(path)?;
-            calibrated.check(found.done.readings.means_ma(), &found.currents.0, ["currents", "gyro"])?;
+            calibrated
+                .check(found.done.readings.means_ma(), &found.currents.0, ["currents", "gyro"])
+                .map_err(Failure::refused)?;
             if let Some(folder) = &options.out {
                 self.write(folder, path, &found, &mut written)?;
             }

@@ -2,11 +2,11 @@
 
 use super::diff::past;
 use super::exclusion::ExclusionOptions;
-use super::inputs::{self, Once};
 use super::output::Format;
 use super::render::languages;
 use super::trust_options::OptionalTrust;
-use super::{Code, Failure, REFUSED, output};
+use super::{Code, Failure, REFUSED, inputs, output};
+use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
 use crate::certification::comparison::compare;
 use crate::certification::{AngleReadings, Certification, Header, certify, predicted};
@@ -110,7 +110,7 @@ fn several(options: &Options, folder: &Path) -> Result<Code, Failure> {
         }
         let certified = certify(&header, &read);
         let certified = certified.map_err(|refused| Failure::refused(format!("{}: {refused}", Printable(&name))))?;
-        measured.check(read.means_arcsec().to_vec(), &name, ["angles", "stand"])?;
+        measured.check(read.means_arcsec(), &name, ["angles", "stand"]).map_err(Failure::refused)?;
         let number = &certified.stand.certificate.number;
         if let Some(other) = numbered.earlier(number.clone(), &name) {
             let (name, number, other) = (Printable(&name), Printable(number), Printable(other));

@@ -106,31 +106,6 @@ pub(super) fn each<T>(
     Ok(code)
 }
 
-/// What each of several inputs contains, to find one that is there twice under two names.
-pub(super) struct Once<T>(Vec<(T, String)>);
-
-impl<T: PartialEq> Once<T> {
-    pub(super) fn new() -> Self {
-        Self(Vec::new())
-    }
-
-    /// Returns the earlier file with the same content, or `None`, and keeps the content.
-    pub(super) fn earlier(&mut self, content: T, file: &str) -> Option<&str> {
-        let there = self.0.iter().position(|(known, _)| *known == content);
-        if there.is_none() {
-            self.0.push((content, file.to_owned()));
-        }
-        Some(&self.0[there?].1)
-    }
-
-    /// Refuses a file with the content of an earlier one; `what` and `of` are words such as "currents" and "gyro".
-    pub(super) fn check(&mut self, content: T, file: &str, [what, of]: [&str; 2]) -> Result<(), Failure> {
-        let Some(other) = self.earlier(content, file) else { return Ok(()) };
-        let (file, other) = (Printable(file), Printable(other));
-        Err(Failure::refused(format!("{file}: found the {what} of {other}, expected those of another {of}")))
-    }
-}
-
 /// Reports the failure of an input, whose name the message states.
 fn refused<T>((file, failure): (String, Failure)) -> Each<T> {
     let name = Printable(&file).to_string();

@@ -3,38 +3,40 @@
 //!
 //! * `search`: the files in a folder, their register, and the history of one stand.
 //! * `archive`: stand files that a new certificate supersedes.
+//! * `refused`: reasons why a passport is not written.
 
 pub(crate) mod archive;
 mod claim;
 mod names;
+mod refused;
 pub(crate) mod search;
 mod superseding;
 mod visited;
 
 pub use crate::files::{Durability, FileError};
+pub use refused::FolderRefused;
 pub use search::register;
 pub(crate) use superseding::Superseding;
 pub(crate) use visited::Visited;
 
-use crate::document::sha256_hex;
-use crate::document::{SignedText, Signer};
+use crate::document::{SignedText, Signer, sha256_hex};
 #[cfg(feature = "cli")]
 use crate::files::walk::{Entry, Walk};
 use crate::files::{self, Access, or_here};
 use crate::passport::content::Content;
-use crate::passport::issue::{Draft, Issue, IssueRefused, PreparedStand, Remarks};
+use crate::passport::issue::{Draft, Issue, PreparedStand, Remarks};
 use crate::passport::reissue::{Successor, changes};
 use crate::passport::verification::{Question, Trust, verify};
 use crate::passport::{NAMESPACE, read};
-use crate::register::{Asked, Line};
+use crate::register::Asked;
 use crate::site::Site;
 use crate::stand::{Identity, Stand};
 use crate::text::scalar::Identifier;
-use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
+use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use jiff::Timestamp;
 use jiff::civil::Date;
 use names::{Names, Of};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -110,106 +112,6 @@ pub(crate) struct Sealed {
 
 /// Number of times that an order is tried; each retry means that another run has just written a passport.
 const ATTEMPTS: usize = 8;
-
-/// Reason why no new passport was written to a folder.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum FolderRefused {
-    /// Existing passport of this name with other content.
-    #[error(
-        "{}: already exists with other content ({changed}); to issue the changes, use `reissue {}`",
-        shown(path),
-        shown(path)
-    )]
-    OtherContent {
-        /// Path of the existing file.
-        path: PathBuf,
-        /// Differences from the existing file, in words.
-        changed: String,
-    },
-    /// Existing successor of the predecessor for this site, with other content.
-    #[error(
-        "{}: is already a successor of this passport for this site, with other content; re-issue that successor",
-        shown(path)
-    )]
-    OtherSuccessor {
-        /// Path of the existing successor.
-        path: PathBuf,
-    },
-    /// Existing passport that supersedes the predecessor for another site or in another folder.
-    #[error(
-        "{}: already supersedes this passport; re-issue that successor, because a second one would be a fork",
-        shown(path)
-    )]
-    Fork {
-        /// Path of the existing successor.
-        path: PathBuf,
-    },
-    /// Existing next revision that was re-issued from another passport.
-    #[error(
-        "{}: is already the next revision for this site, re-issued from another passport; re-issue that revision",
-        shown(path)
-    )]
-    LaterRevision {
-        /// Path of the existing revision.
-        path: PathBuf,
-    },
-    /// Existing file of this name that is not a passport.
-    #[error(
-        "{}: already exists and cannot be compared as a passport ({reason}); move it to another folder",
-        shown(path)
-    )]
-    NotComparable {
-        /// Path of the existing file.
-        path: PathBuf,
-        /// Reason why it cannot be compared.
-        reason: String,
-    },
-    /// Link in the path of the passport.
-    #[error("{}: is a link; specify its target with --out, because links may lead out of the folder", shown(path))]
-    Link {
-        /// Path of the link.
-        path: PathBuf,
-    },
-    /// Existing name that differs only in case.
-    #[error(
-        "{}: found {}, which differs only in case; use the same spelling, or rename one, because Windows and macOS do \
-         not distinguish them",
-        shown(path),
-        shown(there)
-    )]
-    OtherCase {
-        /// Path of the folder or file that would be created.
-        path: PathBuf,
-        /// Path of the existing folder or file.
-        there: PathBuf,
-    },
-    /// New passport that fails verification with the given trust.
-    #[error("the new passport failed verification ({check}: {detail}); nothing was written")]
-    NotVerifiable {
-        /// Name of the check that failed.
-        check: &'static str,
-        /// Detail of the check, in words.
-        detail: String,
-    },
-    /// Passport that cannot be issued.
-    #[error(transparent)]
-    Issue(#[from] IssueRefused),
-    /// Failure of the file system.
-    #[error(transparent)]
-    File(#[from] FileError),
-}
-
-impl FolderRefused {
-    /// Returns `true` if the file system or the signer failed, `false` if a document was refused.
-    pub(crate) fn is_unusable(&self) -> bool {
-        match self {
-            Self::File(FileError::Exists { .. }) => false,
-            Self::File(_) | Self::Issue(IssueRefused::Signing(_) | IssueRefused::Identity(_)) => true,
-            _ => false,
-        }
-    }
-}
 
 /// Number of files among which the nearest id is looked for.
 #[cfg(feature = "cli")]
@@ -300,17 +202,6 @@ impl Folder {
             Ok((register, _)) => register.against_certificate(&stand.stand.id(), number),
             Err(_) => Vec::new(),
         }
-    }
-
-    /// Returns why passports in the folder of a stand may not be used, by their SHA-256, in words.
-    pub(crate) fn unusable(folder: &Path, trust: &Trust, time: Timestamp, threads: usize) -> BTreeMap<String, String> {
-        let Ok((register, _)) = search::register(folder, trust.clone(), &Asked::at(time), threads) else {
-            return BTreeMap::new();
-        };
-        let lines = register.passports.into_iter().filter(|line| !line.is_usable());
-        lines
-            .map(|Line { sha256, why, .. }| (sha256, format!("WARNING: this passport may not be used: {why}")))
-            .collect()
     }
 
     /// Issues revision 1 of a stand for a site.

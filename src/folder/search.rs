@@ -8,10 +8,11 @@ use crate::files::{self, FileError};
 use crate::history::{History, Recorded};
 use crate::parallel;
 use crate::passport::Trust;
-use crate::register::{Alarm, Asked, Concern, Examined, Register, examine};
+use crate::register::{Alarm, Asked, Concern, Examined, Line, Register, examine};
 use crate::revocation::{ListRefused, RevocationList, Series, claims_to_be_a_list};
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use jiff::Timestamp;
+use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
@@ -120,6 +121,16 @@ pub(crate) fn passports(root: &Path) -> Result<Vec<Result<PathBuf, FileError>>, 
 /// others.
 pub fn register(root: &Path, trust: Trust, asked: &Asked, threads: usize) -> Result<(Register, Trust), FileError> {
     register_of(root, None, trust, asked, threads)
+}
+
+/// Returns why passports in the folder of a stand may not be used, by their SHA-256, in words; nothing if the folder cannot
+/// be read.
+pub(crate) fn unusable(root: &Path, trust: &Trust, time: Timestamp, threads: usize) -> BTreeMap<String, String> {
+    let lines = register(root, trust.clone(), &Asked::at(time), threads).map(|(register, _)| register.passports);
+    let unusable = lines.unwrap_or_default().into_iter().filter(|line| !line.is_usable());
+    unusable
+        .map(|Line { sha256, why, .. }| (sha256, format!("WARNING: this passport may not be used: {why}")))
+        .collect()
 }
 
 /// Returns the register of a folder as [`register`] does, but if a `stand`, `<model>/<serial>`, is given, without the

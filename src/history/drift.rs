@@ -111,7 +111,7 @@ impl Drift {
             .collect();
         let mut relative = relative::series(certificates, first);
         for all in [&mut series, &mut relative] {
-            test(all);
+            test_lines(all);
         }
         Self { series, relative }
     }
@@ -143,8 +143,7 @@ impl Drift {
     /// Returns the deviation that has changed most relative to the others, steadily or in a jump, or `None` if no such
     /// change is significant, or if a deviation shows one by itself.
     pub(crate) fn hidden_change(&self) -> Option<&Series> {
-        let is_change = |at: &&Series| at.jump.is_some() || at.is_drift();
-        if self.series.iter().any(|at| is_change(&at)) {
+        if self.series.iter().any(Series::has_changed) {
             return None;
         }
         // The others change too, relative to the one that moved, but less: chi-square of no change at all tells which.
@@ -152,7 +151,8 @@ impl Drift {
             let line = at.line.or(at.jump.as_ref().map(|jump| jump.line));
             line.map_or(0.0, |line| line.chi_square + (line.slope / line.u_slope).powi(2))
         };
-        self.relative.iter().filter(is_change).max_by(|a, b| chi_square(a).total_cmp(&chi_square(b)))
+        let changed = self.relative.iter().filter(|at| at.has_changed());
+        changed.max_by(|a, b| chi_square(a).total_cmp(&chi_square(b)))
     }
 
     /// Returns whether any deviation drifts steadily, by itself or relative to the others, or `None` if none was tested.
@@ -162,7 +162,7 @@ impl Drift {
 }
 
 /// Tests the slope of every line, and replaces the lines that their own residuals reject.
-fn test(series: &mut [Series]) {
+fn test_lines(series: &mut [Series]) {
     let tested: Vec<usize> = (0..series.len()).filter(|at| series[*at].line.is_some()).collect();
     let probabilities: Vec<f64> =
         tested.iter().filter_map(|at| Some(series[*at].line.as_ref()?.probability())).collect();
@@ -210,7 +210,7 @@ fn value(stand: &Stand, position: &(PositionIndex, f64, f64), angle: usize, firs
         certificate: stand.certificate.number.clone(),
         date: stand.certificate.measured(),
         years: years(first, &stand.certificate),
-        arcsec: [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec][angle],
+        arcsec: at.angles_arcsec()[angle],
         u_arcsec,
         degrees_of_freedom: u_arcsec.map_or(f64::INFINITY, |u| degrees_of_freedom(stand, at, angle, u)),
     })
@@ -220,7 +220,7 @@ fn value(stand: &Stand, position: &(PositionIndex, f64, f64), angle: usize, firs
 /// varies about three axes in each of the runs but one; contributions of type B are taken as known exactly.
 fn degrees_of_freedom(stand: &Stand, at: &CertifiedPosition, angle: usize, u: f64) -> f64 {
     let certificate = &stand.certificate;
-    let own = [at.u_alpha_arcsec, at.u_beta_arcsec, at.u_gamma_arcsec][angle].unwrap_or(0.0);
+    let own = at.u_arcsec()[angle].unwrap_or(0.0);
     let runs = certificate.evidence.as_ref().map_or(f64::INFINITY, |evidence| 3.0 * (f64::from(evidence.runs) - 1.0));
     let type_b = [ActsOn::Platform, ActsOn::Base].map(|on| certificate.type_b_arcsec2(on)).iter().sum::<f64>();
     let common = (u * u - own * own).max(0.0);
@@ -245,6 +245,10 @@ impl Series {
     /// Returns `true` if the slope is significant.
     pub(crate) fn is_drift(&self) -> bool {
         self.corrected_probability.is_some_and(|probability| probability < DRIFTS)
+    }
+
+    fn has_changed(&self) -> bool {
+        self.jump.is_some() || self.is_drift()
     }
 
     /// Returns the values that were tested: those with an uncertainty.

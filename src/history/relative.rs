@@ -26,15 +26,11 @@ pub(super) fn series(certificates: &[&Stand], first: Date) -> Vec<Series> {
     if known.len() < 2 || !known.iter().any(is_common) {
         return Vec::new();
     }
-    let nominal = |at: &CertifiedPosition| (at.index(), at.theta_deg, at.phi_deg);
-    let in_all = |at: &&CertifiedPosition| {
-        known.iter().all(|stand| stand.positions.iter().any(|other| nominal(other) == nominal(at)))
-    };
-    let mut wanted: Vec<&CertifiedPosition> = known[0].positions.iter().filter(in_all).collect();
+    let mut wanted: Vec<&CertifiedPosition> = known[0].positions.iter().collect();
+    wanted.retain(|at| known.iter().all(|stand| position(stand, at).is_some()));
     wanted.sort_by_key(|at| at.index());
-    let positions = known.iter().map(|stand| -> Vec<&CertifiedPosition> {
-        wanted.iter().filter_map(|at| stand.positions.iter().find(|other| nominal(other) == nominal(at))).collect()
-    });
+    let positions =
+        known.iter().map(|stand| -> Vec<_> { wanted.iter().filter_map(|at| position(stand, at)).collect() });
     let each: Vec<_> = positions
         .zip(&known)
         .map(|(positions, stand)| (covariance(&positions, &stand.certificate), positions, *stand))
@@ -63,6 +59,12 @@ pub(super) fn series(certificates: &[&Stand], first: Date) -> Vec<Series> {
         Series::of(wanted[row / 3].index(), row % 3, values)
     };
     (0..size).map(of_row).collect()
+}
+
+/// Returns the position of a stand with the index and the nominal angles of another one.
+fn position<'a>(stand: &'a Stand, other: &CertifiedPosition) -> Option<&'a CertifiedPosition> {
+    let nominal = |at: &CertifiedPosition| (at.index(), at.theta_deg, at.phi_deg);
+    stand.positions.iter().find(|at| nominal(at) == nominal(other))
 }
 
 /// Returns the covariance of α, β, γ of all positions, arcsec²: their own parts, and the turns of platform and base.

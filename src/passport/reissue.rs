@@ -91,11 +91,11 @@ pub enum ReissueRefused {
     OlderCertificate {
         /// Number of the certificate in the stand file.
         given: String,
-        /// Its date of measurement, or of issue if that is not stated.
+        /// Date on which the stand was measured for it, or its date of issue if none is stated.
         given_measured: Date,
         /// Number of the certificate in the predecessor.
         old: String,
-        /// Its date of measurement, or of issue if that is not stated.
+        /// Date on which the stand was measured for it, or its date of issue if none is stated.
         old_measured: Date,
     },
     /// The new passport cannot be issued.
@@ -109,13 +109,13 @@ pub struct Successor {
     stand: Arc<PreparedStand>,
     /// Site of the new passport.
     pub(crate) site: Site,
-    /// Whether it is the predecessor's site; the new passport is then the next revision and supersedes it.
+    /// `true` if the site is that of the predecessor, which the new passport, its next revision, then supersedes.
     pub(crate) same_site: bool,
     old_revision: u32,
     issue: Issue,
-    /// Whether stand, site, issuer and expiry date equal those of the predecessor.
+    /// `true` if stand, site, issuer and expiry date are those of the predecessor.
     pub(crate) says_the_same: bool,
-    /// Whether the predecessor was itself re-issued for the same reason.
+    /// `true` if the predecessor itself was re-issued for the same reason.
     pub(crate) for_the_same_reason: bool,
     /// File of another passport that supersedes the same predecessor; `None` if none is known.
     pub(crate) rival: Option<PathBuf>,

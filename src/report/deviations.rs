@@ -13,8 +13,10 @@ const LEAST_SIDE: usize = 4;
 /// Appends a line for every position with a bar for each of α, β, γ, all to one scale; nothing if the terminal has no
 /// room for bars.
 pub(crate) fn picture(out: &mut String, positions: &[CertifiedPosition]) {
-    let angles = |at: &CertifiedPosition| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec];
-    let largest = positions.iter().flat_map(angles).fold(0.0, |largest: f64, angle| largest.max(angle.abs()));
+    let largest = positions
+        .iter()
+        .flat_map(CertifiedPosition::angles_arcsec)
+        .fold(0.0, |largest: f64, angle| largest.max(angle.abs()));
     // Beside the bars a line has the indices, three axes and two gaps.
     let side = (columns::width().saturating_sub(8 + 3 + 4) / 6).min(SIDE);
     if largest == 0.0 || side < LEAST_SIDE {
@@ -23,7 +25,7 @@ pub(crate) fn picture(out: &mut String, positions: &[CertifiedPosition]) {
     let names = ["α", "β", "γ"].map(|name| format!("{name:^width$}", width = 2 * side + 1));
     let _ = writeln!(out, "{}", style::faint(format!("  i  j  {}", names.join("  ")).trim_end()));
     for at in positions {
-        let bars = angles(at).map(|angle| bar(angle / largest, side));
+        let bars = at.angles_arcsec().map(|angle| bar(angle / largest, side));
         let _ = writeln!(out, "{}", format!("{:>3}{:>3}  {}", at.i, at.j, bars.join("  ")).trim_end());
     }
     let _ = writeln!(out, "  the longest bar is {largest} arcsec; bars to the left are negative");

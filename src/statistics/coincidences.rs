@@ -91,16 +91,14 @@ pub(crate) fn last_digit(numbers: impl Iterator<Item = f64>) -> f64 {
 /// decimals, as [`last_digit`]; of numbers with one number of significant digits, that of the largest.
 pub(crate) fn digit_of_meter(numbers: impl Iterator<Item = f64>) -> f64 {
     let places: Vec<(i32, i32)> = numbers.filter_map(last_place).collect();
-    let finest = places.iter().map(|(place, _)| *place).min();
+    let Some(finest) = places.iter().map(|(place, _)| *place).min() else { return 0.0 };
     let most = places.iter().map(|(_, significant)| *significant).max();
-    // Zeros at the end of a number are lost, so that neither holds for all.
-    let [decimals, significant] = [
-        places.iter().filter(|(place, _)| Some(*place) == finest).count(),
-        places.iter().filter(|(_, significant)| Some(*significant) == most).count(),
-    ];
-    let is_of_significant = significant > decimals && 4 * significant >= 3 * places.len();
-    let coarsest = places.iter().filter(|(_, significant)| Some(*significant) == most).map(|(place, _)| *place).max();
-    (if is_of_significant { coarsest } else { finest }).map_or(0.0, power_of_ten)
+    // Zeros at the end of a number are lost, so neither its decimals nor its significant digits are the same for all.
+    let of_most: Vec<i32> =
+        places.iter().filter(|(_, significant)| Some(*significant) == most).map(|(place, _)| *place).collect();
+    let with_finest = places.iter().filter(|(place, _)| *place == finest).count();
+    let is_of_significant = of_most.len() > with_finest && 4 * of_most.len() >= 3 * places.len();
+    power_of_ten(of_most.into_iter().max().filter(|_| is_of_significant).unwrap_or(finest))
 }
 
 /// Returns the place (power of ten) of the last digit of a number, and its number of significant digits; `None` for 0.

@@ -83,7 +83,7 @@ pub(crate) fn outgoing(text: &str, codes: &[&str]) -> String {
     shown
 }
 
-/// Returns a value as JSON, with invisible characters in its strings as `\uXXXX`.
+/// Returns the JSON of a value; invisible characters in its strings are escaped as `\uXXXX`.
 ///
 /// # Errors
 /// Returns an error if the value cannot be written as JSON.

@@ -75,7 +75,7 @@ fn key(languages: &Languages, factor: f64) -> Markup {
 /// Returns the power of ten by which the deviations are exaggerated: the largest that keeps them below 15°.
 fn exaggeration(positions: &[CertifiedPosition]) -> f64 {
     const LARGEST_ARCSEC: f64 = 15.0 * 3600.0;
-    let all = positions.iter().flat_map(|at| [at.alpha_arcsec, at.beta_arcsec, at.gamma_arcsec]);
+    let all = positions.iter().flat_map(CertifiedPosition::angles_arcsec);
     let largest = all.fold(0.0, |most, value: f64| f64::max(most, value.abs()));
     let factors = [1000.0, 100.0, 10.0];
     factors.into_iter().find(|factor| largest > 0.0 && factor * largest <= LARGEST_ARCSEC).unwrap_or(1.0)

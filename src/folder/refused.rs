@@ -1,0 +1,106 @@
+//! Reasons why a passport is not written to a folder.
+
+use crate::files::FileError;
+use crate::passport::issue::IssueRefused;
+use crate::text::shown;
+use std::path::PathBuf;
+
+/// Reason why no new passport was written to a folder.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FolderRefused {
+    /// Existing passport of this name with other content.
+    #[error(
+        "{}: already exists with other content ({changed}); to issue the changes, use `reissue {}`",
+        shown(path),
+        shown(path)
+    )]
+    OtherContent {
+        /// Path of the existing file.
+        path: PathBuf,
+        /// Differences from the existing file, in words.
+        changed: String,
+    },
+    /// Existing successor of the predecessor for this site, with other content.
+    #[error(
+        "{}: is already a successor of this passport for this site, with other content; re-issue that successor",
+        shown(path)
+    )]
+    OtherSuccessor {
+        /// Path of the existing successor.
+        path: PathBuf,
+    },
+    /// Existing passport that supersedes the predecessor for another site or in another folder.
+    #[error(
+        "{}: already supersedes this passport; re-issue that successor, because a second one would be a fork",
+        shown(path)
+    )]
+    Fork {
+        /// Path of the existing successor.
+        path: PathBuf,
+    },
+    /// Existing next revision that was re-issued from another passport.
+    #[error(
+        "{}: is already the next revision for this site, re-issued from another passport; re-issue that revision",
+        shown(path)
+    )]
+    LaterRevision {
+        /// Path of the existing revision.
+        path: PathBuf,
+    },
+    /// Existing file of this name that is not a passport.
+    #[error(
+        "{}: already exists and cannot be compared as a passport ({reason}); move it to another folder",
+        shown(path)
+    )]
+    NotComparable {
+        /// Path of the existing file.
+        path: PathBuf,
+        /// Reason why it cannot be compared.
+        reason: String,
+    },
+    /// Link in the path of the passport.
+    #[error("{}: is a link; specify its target with --out, because links may lead out of the folder", shown(path))]
+    Link {
+        /// Path of the link.
+        path: PathBuf,
+    },
+    /// Existing name that differs only in case.
+    #[error(
+        "{}: found {}, which differs only in case; use the same spelling, or rename one, because Windows and macOS do \
+         not distinguish them",
+        shown(path),
+        shown(there)
+    )]
+    OtherCase {
+        /// Path of the folder or file that would be created.
+        path: PathBuf,
+        /// Path of the existing folder or file.
+        there: PathBuf,
+    },
+    /// New passport that fails verification with the given trust.
+    #[error("the new passport failed verification ({check}: {detail}); nothing was written")]
+    NotVerifiable {
+        /// Name of the check that failed.
+        check: &'static str,
+        /// Detail of the check, in words.
+        detail: String,
+    },
+    /// Passport that cannot be issued.
+    #[error(transparent)]
+    Issue(#[from] IssueRefused),
+    /// Failure of the file system.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+impl FolderRefused {
+    /// Returns `true` if the file system or the signer failed, `false` if a document was refused.
+    pub(crate) fn is_unusable(&self) -> bool {
+        match self {
+            Self::File(FileError::Exists { .. }) => false,
+            Self::File(_) | Self::Issue(IssueRefused::Signing(_) | IssueRefused::Identity(_)) => true,
+            _ => false,
+        }
+    }
+}
