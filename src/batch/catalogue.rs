@@ -8,6 +8,7 @@ use crate::passport::issue::PreparedStand;
 use crate::site::Site;
 use crate::stand::Stand;
 use crate::text::placeholder::filled_in;
+use crate::text::words::first_few;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of, shown};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -231,7 +232,7 @@ impl<T: Listed> Draft<T> {
                 catalogue.files.push(seen.file);
             } else {
                 let others: Vec<_> = seen.others.iter().map(|path| shown(path).to_string()).collect();
-                let (what, id, others, path) = (T::NAME, seen.id, others.join(", "), shown(&seen.file.path));
+                let (what, id, others, path) = (T::NAME, seen.id, first_few(&others), shown(&seen.file.path));
                 let why = format!("{path}: is {what} {id}, like {others}, but with other content; keep one file");
                 self.failures.push(Failure::refused(&seen.file.path, why));
             }

@@ -18,6 +18,7 @@ use crate::passport::{Content, Question, Trust, verify};
 use crate::register::{Asked, Line, Register};
 use crate::site::Site;
 use crate::stand::{Excluded, Stand};
+use crate::text::words::first_few;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, Unreadable, name_of, rule, shown};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -406,7 +407,7 @@ impl Recertification<'_> {
                 let in_force: Vec<&str> = in_force.filter_map(|line| line.site.as_deref()).collect();
                 return Err(refused(format!(
                     "no passport of the stand is in force for site {site}; found {}",
-                    in_force.join(", ")
+                    first_few(&in_force)
                 )));
             }
         }

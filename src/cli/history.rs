@@ -9,6 +9,7 @@ use crate::parallel;
 use crate::report::history as report;
 use crate::report::picture::history as picture;
 use crate::text::scalar::Identifier;
+use crate::text::words::first_few;
 use crate::text::{Printable, shown};
 use clap::Args;
 use std::path::PathBuf;
@@ -49,13 +50,11 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     let Some(history) = history else {
         let known: std::collections::BTreeSet<&str> =
             register.passports.iter().filter_map(|line| line.stand.as_deref()).collect();
-        let some: Vec<&str> = known.iter().take(5).copied().collect();
+        let known: Vec<&str> = known.into_iter().collect();
         let there =
-            if some.is_empty() { "no passports".to_owned() } else { format!("passports of {}", some.join(", ")) };
-        let more = known.len().saturating_sub(some.len());
-        let more = if more > 0 { format!(" and of {more} more stands") } else { String::new() };
+            if known.is_empty() { "no passports".to_owned() } else { format!("passports of {}", first_few(&known)) };
         return Err(Failure::refused(format!(
-            "{}: found no passport of {}; the folder contains {}{more}",
+            "{}: found no passport of {}; the folder contains {}",
             shown(&options.passports),
             options.stand,
             Printable(there)

@@ -14,6 +14,7 @@ use crate::register::{Line, Register, State};
 use crate::revocation::Entry;
 use crate::stand::Stand;
 use crate::text::scalar::day;
+use crate::text::words::first_few;
 use drift::Drift;
 use jiff::Timestamp;
 use serde::Serialize;
@@ -146,7 +147,7 @@ fn certificates(recorded: &[Recorded], remarks: &mut Vec<String>) -> Vec<PastCer
     for (place, at) in found.iter().enumerate() {
         let number = &at.stand.certificate.number;
         if found[..place].iter().any(|other| other.stand.certificate.number == *number) {
-            remarks.push(format!("certificate {number} has different contents in {}", at.passports.join(", ")));
+            remarks.push(format!("certificate {number} has different contents in {}", first_few(&at.passports)));
         }
         if !at.counts {
             remarks.push(format!(

@@ -4,6 +4,7 @@ use super::successors::Successor;
 use super::{Examined, Line, series_of};
 use crate::revocation::{ListRefused, RevocationList, SeriesAlarm};
 use crate::text::words;
+use crate::text::words::first_few;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Printable};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -128,7 +129,7 @@ impl Alarm {
     pub(crate) fn reason(&self) -> String {
         match self.files.first() {
             Some(first) if !self.words.starts_with(first.as_str()) => {
-                format!("{}: {}", self.files.join(", "), self.words)
+                format!("{}: {}", first_few(&self.files), self.words)
             }
             _ => self.words.clone(),
         }
@@ -149,7 +150,7 @@ impl Alarm {
 
 impl Display for Alarm {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let files = if self.files.is_empty() { String::new() } else { format!(": {}", self.files.join(", ")) };
+        let files = if self.files.is_empty() { String::new() } else { format!(": {}", first_few(&self.files)) };
         Printable(format_args!("ALARM ({}): {}{files}", self.kind.key(), self.words)).fmt(f)
     }
 }

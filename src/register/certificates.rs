@@ -2,6 +2,7 @@
 //! was re-issued under another one. A stand in force under two certificates has two sets of deviations.
 
 use super::{Alarm, AlarmKind, Examined, State};
+use crate::text::words::first_few;
 use std::collections::{BTreeMap, HashMap};
 
 /// Certificates of each stand, `<model>/<serial>`, that has more than one.
@@ -39,7 +40,7 @@ impl Certificates {
         let others = known.in_force.iter().filter(|(other, _)| *other != number);
         let others = others.map(|(other, passports)| {
             let ids: Vec<&str> = passports.iter().map(|(id, _)| id.as_str()).collect();
-            format!("the stand is also in force under certificate {other}: {}", ids.join(", "))
+            format!("the stand is also in force under certificate {other}: {}", first_few(&ids))
         });
         replaced.into_iter().chain(others).collect()
     }

@@ -48,6 +48,16 @@ macro_rules! word_of_a_key {
 }
 pub(crate) use {word_of_a_key, words};
 
+/// Lists names, of many only the first five: a, b, c, d, e and 195 more.
+pub(crate) fn first_few<T: AsRef<str>>(names: &[T]) -> String {
+    const FEW: usize = 5;
+    let list = names.iter().take(FEW).map(AsRef::as_ref).collect::<Vec<_>>().join(", ");
+    match names.len().saturating_sub(FEW) {
+        0 => list,
+        more => format!("{list} and {more} more"),
+    }
+}
+
 /// Lists words in quotation marks: "a", "b" or "c".
 pub(crate) fn listed(words: &[&str]) -> String {
     let quoted: Vec<String> = words.iter().map(|word| format!("{word:?}")).collect();

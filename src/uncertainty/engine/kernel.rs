@@ -147,16 +147,19 @@ impl Kernel {
     }
 
     /// Returns `true` if an angle of the chunk is beyond the range of the polynomials.
-    #[cold]
-    #[inline(never)]
+    #[inline(always)]
     fn has_large(&self, deviates: &[Column]) -> bool {
         let angles = self.places.iter().flat_map(|place| place.angles.iter().chain(&place.returns));
         let shared = self.case.as_flattened().iter().chain(self.base.as_flattened());
-        let all = angles.chain(shared).chain([&self.latitude]);
-        let largest = all.fold(0.0, |largest: f64, (slot, u)| {
-            deviates[*slot].iter().fold(largest, |largest, deviate| largest.max((deviate * u).abs()))
-        });
-        4.0 * largest > SMALL_RAD
+        let mut largest = [0.0; WIDTH];
+        for (slot, u) in angles.chain(shared).chain([&self.latitude]) {
+            // Unlike `f64::max`, this needs no instructions for NaN.
+            for (largest, deviate) in largest.iter_mut().zip(&deviates[*slot]) {
+                let size = (deviate * u).abs();
+                *largest = if size > *largest { size } else { *largest };
+            }
+        }
+        largest.iter().any(|largest| 4.0 * largest > SMALL_RAD)
     }
 
     /// Computes all quantities of a chunk with the sine and cosine of libm.
