@@ -77,13 +77,13 @@ pub(crate) fn header(positions: &Positions) -> String {
     )
 }
 
-/// Returns a table of angles for `certify`. Their digits are arbitrary and differ from run to run, because runs with
-/// the same angles are refused as copies.
+/// Returns a table of angles for `certify`. They are arbitrary and scatter from run to run far more than any stand, so
+/// that `certify` reports one that was not replaced as an outlier.
 pub(crate) fn readings(positions: &Positions, runs: u32) -> String {
     let mut text = String::from(
         "# Angles for `certify`: deviation of the actual from the nominal orientation, in arcseconds.\n\
-         # Replace every angle: these are arbitrary. Measure every position in every run, and move the platform away\n\
-         # and back between the runs.\n\
+         # Replace every angle: these are arbitrary, and scatter so much that a forgotten one is found.\n\
+         # Measure every position in every run, and move the platform away and back between the runs.\n\
          i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec\n",
     );
     let mut order: Vec<PositionIndex> = Vec::new();
@@ -94,9 +94,9 @@ pub(crate) fn readings(positions: &Positions, runs: u32) -> String {
     }
     for run in 1..=runs {
         for (place, PositionIndex { i, j }) in (0..).zip(&order) {
-            let [x, y, z] = [0, 1, 2].map(|axis: u32| f64::from((37 * run + 17 * place + 29 * axis) % 101) / 100.0);
+            let [x, y, z] = [0, 1, 2].map(|axis: u32| (37 * run + 17 * place + 29 * axis) % 101);
             // Writing into a string cannot fail.
-            let _ = writeln!(text, "{i},{j},{run},{x:.2},{y:.2},{z:.2}");
+            let _ = writeln!(text, "{i},{j},{run},{x},{y},{z}");
         }
     }
     text
