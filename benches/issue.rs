@@ -51,7 +51,9 @@ impl Job {
         for stand in &stands {
             let folder = inputs.join("stands").join(stand.stand.serial.as_str());
             fs::create_dir_all(&folder).expect("a folder");
-            fs::write(folder.join("stand.yaml"), json!(stand).to_string()).expect("a stand");
+            let mut file = json!(stand);
+            file["format"] = json!("dtg-stand/1");
+            fs::write(folder.join("stand.yaml"), file.to_string()).expect("a stand");
         }
         fs::create_dir_all(inputs.join("sites")).expect("a folder");
         for site in &sites {

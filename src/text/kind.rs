@@ -84,7 +84,9 @@ impl Kind {
         let is_key_type =
             |word: &str| ["ssh-", "sk-ssh-", "ecdsa-sha2-", "sk-ecdsa-"].iter().any(|prefix| word.starts_with(prefix));
         let lower = line.to_ascii_lowercase();
-        let has_column = |column: &str| lower.contains(column) && lower.contains([',', ';', '\t']);
+        // A line of JSON may contain the name of a column as a key.
+        let has_column =
+            |column: &str| !line.starts_with('{') && lower.contains(column) && lower.contains([',', ';', '\t']);
         let words: Vec<&str> = line.split_ascii_whitespace().collect();
         match line {
             _ if line.starts_with("-----BEGIN") && line.contains("PRIVATE KEY") => Some(Self::PrivateKey),
@@ -164,6 +166,7 @@ mod tests {
             b"format: \"dtg-other/1\"\n",
             b"\xFF\xFE\0",
             b"{}",
+            b"{\"id\": \"a\", \"positions\": [{\"alpha_arcsec\": 1.0}]}",
             b"i,j,k\n",
         ] {
             assert_eq!(Kind::of(text), None, "{text:?}");
