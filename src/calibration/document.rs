@@ -79,7 +79,7 @@ pub struct CalibrationDocument {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) hint: Option<String>,
     /// Error that explains the result if the readings fit but the parameters are not those of the gyro.
-    #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
+    #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) mistake: Option<Mistake>,
     /// Comparison with the gyro type.
     #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
@@ -115,6 +115,15 @@ pub(crate) struct Subject {
     pub passport_verified_as_of: Option<Timestamp>,
     /// SHA-256 of the file of currents.
     pub currents_sha256: String,
+}
+
+/// Reason why a difference from an earlier result is no change of the gyro.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum NoChange {
+    /// Both results are from the same readings.
+    SameReadings,
+    /// The earlier readings did not fit the stand, or contained an error.
+    EarlierNotValid,
 }
 
 /// Skips the decisions in an earlier result, because they are made again.
@@ -243,12 +252,29 @@ impl CalibrationDocument {
         Some(self.withheld(against_type(&self.answer()?, gyro_type)))
     }
 
-    /// Returns the comparison of the adopted result with an earlier one, within the tolerance of a gyro type, as `judged`
-    /// does. Nothing is decided if both results are from the same readings.
-    pub(crate) fn changed(&self, earlier: &Found, gyro_type: &GyroType) -> Option<Verdict> {
-        let found = self.answer()?;
-        let change = against_earlier(&found, earlier, gyro_type);
-        Some(if found.is_same(earlier) { change.undecided() } else { self.withheld(change) })
+    /// Returns the comparison of the adopted result with that of `earlier`, within the tolerance of a gyro type, as
+    /// `judged` does. Nothing is decided if the results are no two measurements of the gyro.
+    pub(crate) fn changed(&self, earlier: &Self, gyro_type: &GyroType) -> Option<Verdict> {
+        let change = against_earlier(&self.answer()?, &earlier.answer()?, gyro_type);
+        Some(if self.no_change(earlier).is_some() { change.undecided() } else { self.withheld(change) })
+    }
+
+    /// Returns the reason why a difference from `earlier` is no change of the gyro, if there is one.
+    pub(crate) fn no_change(&self, earlier: &Self) -> Option<NoChange> {
+        let file = |of: &Self| of.subject.as_ref().map(|subject| subject.currents_sha256.clone());
+        let same_file = file(self).filter(|sha256| !sha256.is_empty()).is_some_and(|here| file(earlier) == Some(here));
+        // The same readings may have been saved anew.
+        let same_result = || self.answer().zip(earlier.answer()).is_some_and(|(here, there)| here.is_same(&there));
+        if same_file || same_result() {
+            Some(NoChange::SameReadings)
+        } else {
+            (!earlier.is_valid()).then_some(NoChange::EarlierNotValid)
+        }
+    }
+
+    /// Returns `false` if the readings do not fit the stand, or if an error explains the result.
+    pub(crate) fn is_valid(&self) -> bool {
+        self.hint.is_none() && self.mistake.is_none()
     }
 
     fn withheld(&self, verdict: Verdict) -> Verdict {

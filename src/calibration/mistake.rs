@@ -11,7 +11,7 @@ use crate::coefficients::EarthRate;
 use crate::earth::{NORMAL_GRAVITY_WITHOUT_HEIGHT_U_M_PER_S2, normal_gravity_m_per_s2};
 use crate::gyro::{GyroParameters, GyroType};
 use nalgebra::Matrix2;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Ratio of distances above which an error clearly explains a result: the result as read, or with any other error
 /// undone, is this many times farther from the gyro type.
@@ -28,7 +28,7 @@ const IMPLAUSIBLE_POWER: i32 = 3;
 const MOST_DEG: f64 = 89.9;
 
 /// Error that explains why a result is not that of the gyro.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Mistake {
@@ -42,7 +42,7 @@ pub enum Mistake {
 }
 
 /// Difference of the columns of currents from J_x and J_y in mA: first exchanged, then reversed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct CurrentsMistaken {
     /// `true` if the column of x contains J_y, and that of y contains J_x.
     pub exchanged: bool,

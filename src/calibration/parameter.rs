@@ -98,6 +98,13 @@ impl Parameter {
         self.words()[2]
     }
 
+    /// Returns rows about parameters in the order of the paper's table; those of parameters beyond it follow.
+    pub(crate) fn in_paper_order<T>(rows: impl IntoIterator<Item = T>, of: impl Fn(&T) -> Self) -> Vec<T> {
+        let mut rows: Vec<T> = rows.into_iter().collect();
+        rows.sort_by_key(|row| Self::AS_IN_THE_PAPER.iter().position(|one| *one == of(row)).unwrap_or(usize::MAX));
+        rows
+    }
+
     /// Returns `true` for the elements of K, whose tolerances are in percent.
     pub(crate) fn is_scale_factor(self) -> bool {
         matches!(self, Self::Kx | Self::Kxy | Self::Kyx | Self::Ky)

@@ -408,7 +408,7 @@ impl Bench<'_> {
             meter_assumed: self.options.laboratory.is_none(),
             mistake: document.mistake.as_ref(),
             verdict: self.verdict(found),
-            change: done.earlier.as_ref().map(|earlier| (earlier, document.change.as_ref())),
+            change: done.earlier.as_ref().map(|(earlier, no_change)| (earlier, *no_change, document.change.as_ref())),
             readings: Some((&done.readings, done.cost_of_missing)),
             further: done.further,
         };

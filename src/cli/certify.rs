@@ -188,7 +188,7 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
     let page = certified.as_ref().zip(options.report.as_ref()).map(|(certified, path)| {
         let change = comparison.as_ref().zip(against.as_ref());
         let change = change.map(|(comparison, old)| (comparison, of_deviations(old, &certified.stand)));
-        let page = CertificationPage { certification: certified, readings: (&name, &bytes), change };
+        let page = CertificationPage { certification: certified, readings: (&name, &bytes), change, dry_run: false };
         (path, page.html(&languages(&options.lang)))
     });
     // Nothing is written if the record cannot be.

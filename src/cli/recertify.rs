@@ -131,12 +131,13 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     }
     let seal = signer.as_deref().map(|signer| Seal { signer, trust: Some(&trust) });
     let found = order.run(seal).map_err(failure)?;
+    let dry_run = options.dry_run;
     if let Some(path) = &options.report {
         let change = Some((&found.comparison, found.changes.clone()));
-        let page = CertificationPage { certification: &found.certification, readings: (&name, &bytes), change };
+        let page =
+            CertificationPage { certification: &found.certification, readings: (&name, &bytes), change, dry_run };
         output::saved(path, &page.html(&languages(&options.lang)), options.force)?;
     }
-    let dry_run = options.dry_run;
     options.format.write(|| report::to_json(&found, dry_run), || report::text(&found, dry_run))?;
     let mut told = Told::default();
     found.remarks().for_each(|(id, remarks)| told.add_all(id, remarks));

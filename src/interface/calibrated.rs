@@ -2,7 +2,7 @@
 
 use super::{Failed, json};
 use crate::calibration::diagnosis::INCONSISTENT;
-use crate::calibration::document::Subject;
+use crate::calibration::document::{NoChange, Subject};
 use crate::calibration::mistake::Mistake;
 use crate::calibration::prediction::{FurtherVisit, best_further_visit, cost_of_missing};
 use crate::calibration::stated::{NotStated, TemperatureOutside};
@@ -161,8 +161,8 @@ pub(crate) struct Done {
     pub missing: Vec<NotStated>,
     /// Result as `calibrate` writes it, with the verdict and the change.
     pub document: CalibrationDocument,
-    /// Earlier result with which this one was compared.
-    pub earlier: Option<Found>,
+    /// Earlier result with which this one was compared, and the reason why the difference is no change.
+    pub earlier: Option<(Found, Option<NoChange>)>,
     /// Parameter that suffers most from positions without a reading, and the ratio of its uncertainty.
     pub cost_of_missing: Option<(Parameter, f64)>,
     /// Parameter whose uncertainty takes most of its tolerance, and the single visit that would reduce it most.
@@ -232,15 +232,16 @@ impl<'a> Prepared<'a> {
             let words = calibration.refused.iter().map(|(method, why)| format!("{}: {why}", method.key()));
             return Err(Stopped::Refused(words.collect::<Vec<_>>().join("\n")));
         };
-        let earlier = previous.last().and_then(CalibrationDocument::answer);
-        // Without a type or an earlier result, the nominal values of the paper's gyro still reveal an error by a
+        let last = previous.last();
+        // Without a type or a valid earlier result, the nominal values of the paper's gyro still reveal an error by a
         // factor of a thousand.
-        let usual = earlier.as_ref().map_or_else(|| GyroType::gvk_6().nominal.to_model(), |found| found.parameters);
+        let usual = last.filter(|earlier| earlier.is_valid()).and_then(CalibrationDocument::answer);
+        let usual = usual.map_or_else(|| GyroType::gvk_6().nominal.to_model(), |found| found.parameters);
         let rate = content.earth.rate(&content.site);
         document.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type, &usual);
         document.verdict = gyro_type.and_then(|gyro_type| document.judged(gyro_type));
-        let judged = earlier.as_ref().zip(gyro_type);
-        document.change = judged.and_then(|(earlier, gyro_type)| document.changed(earlier, gyro_type));
+        document.change = last.zip(gyro_type).and_then(|(earlier, gyro_type)| document.changed(earlier, gyro_type));
+        let earlier = last.and_then(|earlier| Some((earlier.answer()?, document.no_change(earlier))));
         let cost_of_missing = cost_of_missing(&setup, &readings, &found.parameters);
         let further = document.verdict.as_ref().and_then(Verdict::least_certain).and_then(|parameter| {
             let result = (&calibration, &found.parameters);

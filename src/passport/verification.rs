@@ -296,7 +296,8 @@ impl Run {
             return false;
         }
         if let Some(entry) = trust.withdrawn.entry(&sha256_hex(bytes)) {
-            self.note(CheckName::Revocation, Code::PassportRevoked, entry.to_string());
+            let detail = format!("{entry}; ask the issuer for a new passport");
+            self.note(CheckName::Revocation, Code::PassportRevoked, detail);
             return true;
         }
         let detail = match (trust.withdrawn.newest(), trust.revoked.is_empty()) {

@@ -1,6 +1,7 @@
 //! Result of a calibration as text: the decision, the parameters and the fit come first, the evidence below.
 
 use crate::calibration::diagnosis::INCONSISTENT;
+use crate::calibration::document::NoChange;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::mistake::Mistake;
 use crate::calibration::noise::NoiseSource;
@@ -12,6 +13,7 @@ use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{Decision, Found, ParameterVerdict, Verdict, change_in_uncertainties};
 use crate::calibration::{Calibration, Method, MethodResult, Readings};
 use crate::report::page::Language;
+use crate::report::page::calibration::why_no_change;
 use crate::report::page::texts::calibration as texts;
 use crate::report::{columns, mistake, recorded, style};
 use crate::text::printable::printable;
@@ -35,8 +37,9 @@ pub(crate) struct Context<'a> {
     pub mistake: Option<&'a Mistake>,
     /// Name of the gyro type, and the verdict against it.
     pub verdict: Option<(&'a str, &'a Verdict)>,
-    /// An earlier result, and the verdict on the change since then against the same tolerance.
-    pub change: Option<(&'a Found, Option<&'a Verdict>)>,
+    /// An earlier result, the reason why the difference is no change, and the verdict on the change since then against
+    /// the same tolerance.
+    pub change: Option<(&'a Found, Option<NoChange>, Option<&'a Verdict>)>,
     /// Readings, and the parameter that suffers most from positions without a reading, with the ratio of its uncertainty.
     pub readings: Option<(&'a Readings, Option<(Parameter, f64)>)>,
     /// Parameter whose uncertainty takes most of its tolerance, and the further visit that would reduce it most.
@@ -103,8 +106,8 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
         let words = format!("The uncertainty of {symbol} takes most of its tolerance. {effect}");
         columns::paragraph(&mut out, "  ", &words);
     }
-    if let Some((earlier, verdict)) = context.change {
-        change(&mut out, calibration, context.gravity_m_per_s2, earlier, verdict);
+    if let Some(of) = context.change {
+        change(&mut out, calibration, context.gravity_m_per_s2, of);
     }
     let _ = writeln!(out);
     columns::paragraph(&mut out, "", texts::CANNOT_TELL.of(Language::English));
@@ -202,12 +205,16 @@ pub(super) fn symbol_of(key: &'static str) -> &'static str {
     Parameter::NINE.into_iter().find(|parameter| parameter.key() == key).map_or(key, Parameter::symbol)
 }
 
+fn in_paper_order(answer: &MethodResult) -> Vec<Parameter> {
+    Parameter::in_paper_order(answer.model.parameters().iter().copied(), |parameter| *parameter)
+}
+
 /// Writes the adopted values with their uncertainties, and the decision for each if there is a type.
 fn parameters(out: &mut String, calibration: &Calibration, verdict: Option<&Verdict>) {
     let Some(answer) = calibration.answer() else { return };
     let mut names = vec!["", "unit", answer.method.key(), "u"];
     names.extend(verdict.map(|_| "decision"));
-    let rows = answer.model.parameters().iter().filter_map(|&parameter| {
+    let rows = in_paper_order(answer).into_iter().filter_map(|parameter| {
         let (value, u) = (answer.value(parameter)?, answer.standard_uncertainty(parameter)?);
         let digits = columns::decimals(u);
         let mut row = vec![parameter.symbol().to_owned(), printed(parameter.unit())];
@@ -225,18 +232,18 @@ fn parameters(out: &mut String, calibration: &Calibration, verdict: Option<&Verd
 fn comparison(out: &mut String, answer: &MethodResult, others: &[&MethodResult]) {
     let mut names = vec!["", answer.method.key()];
     names.extend(others.iter().flat_map(|other| [other.method.key(), "diff. / u"]));
-    let row = |parameter: &Parameter| {
-        let (value, u) = (answer.value(*parameter)?, answer.standard_uncertainty(*parameter)?);
+    let row = |parameter: Parameter| {
+        let (value, u) = (answer.value(parameter)?, answer.standard_uncertainty(parameter)?);
         let digits = columns::decimals(u);
         let mut row = vec![parameter.symbol().to_owned(), format!("{value:.digits$}")];
         for other in others {
-            row.push(other.value(*parameter).map_or_else(String::new, |value| format!("{value:.digits$}")));
+            row.push(other.value(parameter).map_or_else(String::new, |value| format!("{value:.digits$}")));
             let off = other.from_least_squares.and_then(|all| all.get(parameter.place()).copied());
             row.push(off.map_or_else(String::new, |off| columns::signed(off, 1)));
         }
         Some(row)
     };
-    columns::table(out, &names, answer.model.parameters().iter().filter_map(row));
+    columns::table(out, &names, in_paper_order(answer).into_iter().filter_map(row));
     let words = "diff. / u: difference from the first column, in units of the standard uncertainty of that difference.";
     columns::paragraph(out, "  ", words);
 }
@@ -477,15 +484,14 @@ fn change(
     out: &mut String,
     calibration: &Calibration,
     (gravity, u): (f64, Option<f64>),
-    earlier: &Found,
-    verdict: Option<&Verdict>,
+    (earlier, no_change, verdict): (&Found, Option<NoChange>, Option<&Verdict>),
 ) {
     let Some(answer) = calibration.answer() else { return };
     let found = answer.found(gravity, u.unwrap_or(0.0));
     let change = change_in_uncertainties(&found, earlier);
-    let words: Vec<String> = Parameter::EIGHT
-        .iter()
-        .zip(change)
+    let each = Parameter::in_paper_order(Parameter::EIGHT.into_iter().zip(change), |(parameter, _)| *parameter);
+    let words: Vec<String> = each
+        .into_iter()
         .filter(|(_, change)| change.is_finite())
         .map(|(parameter, change)| format!("{} {}", parameter.symbol(), columns::signed(change, 1)))
         .collect();
@@ -494,8 +500,8 @@ fn change(
         "\nChange since the previous result, in units of its standard uncertainty (drifts at the same g):"
     );
     columns::paragraph(out, "  ", &(words.join(", ") + "."));
-    if found.is_same(earlier) {
-        columns::paragraph(out, "  ", &format!("WARNING: {}", texts::SAME_READINGS_WORDS.of(Language::English)));
+    if let Some(why) = no_change {
+        columns::paragraph(out, "  ", &format!("WARNING: {}", why_no_change(why).of(Language::English)));
     }
     if let Some(verdict) = verdict {
         let _ =

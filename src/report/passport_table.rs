@@ -199,9 +199,9 @@ fn matrices(out: &mut String, content: &Content) {
         row("Δ", "1", &m.delta),
         row("B", "°/h", &m.b_deg_per_h),
         row("C", "°/(h·g)", &m.c_deg_per_h_per_g),
-        row("n_1", "1", &m.n1),
-        row("n_2", "1", &m.n2),
-        row("n_2⁻¹", "1", &m.n2_inverse),
+        row("n_1", "g", &m.n1),
+        row("n_2", "g", &m.n2),
+        row("n_2⁻¹", "1/g", &m.n2_inverse),
         row("ω_31", "°/h", &m.omega1_deg_per_h),
         row("ω_32", "°/h", &m.omega2_deg_per_h),
     ];
@@ -241,7 +241,7 @@ fn accuracy(out: &mut String, content: &Content) {
     option(out, "gyro seat, arcsec", seat.map(|seat| format!("{}, {}, {}", seat.about_x, seat.about_y, seat.about_z)));
     let u = &accuracy.standard_uncertainty;
     let (us, nominal) = (u.to_model().to_vector(), gyro.nominal.to_model().to_vector());
-    let rows = Parameter::EIGHT.map(|parameter| {
+    let rows = Parameter::AS_IN_THE_PAPER.map(|parameter| {
         let (u, unit, limit) = (us[parameter.place()], printed(parameter.unit()), gyro.tolerance.of(parameter));
         let percent = 100.0 * u / nominal[parameter.place()].abs();
         let (percent, limit) = match parameter.is_scale_factor() {

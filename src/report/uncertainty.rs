@@ -1,5 +1,6 @@
 //! Uncertainty budget, and result of a Monte Carlo run, as text.
 
+use crate::calibration::parameter::Parameter;
 use crate::report::columns;
 use crate::uncertainty::budget::{COVERAGE, Contribution, ParameterBudget};
 use crate::uncertainty::monte_carlo::Distribution;
@@ -17,7 +18,7 @@ pub(crate) fn budget(budget: &Budget, sentence: Option<&str>) -> String {
     if let Some(sentence) = sentence {
         columns::paragraph(&mut out, "", &columns::powers(&format!("{sentence}.")));
     }
-    for line in &budget.parameters {
+    for line in Parameter::in_paper_order(&budget.parameters, |line| line.parameter) {
         parameter(&mut out, line);
     }
     out
@@ -84,7 +85,8 @@ pub(crate) fn monte_carlo(found: &MonteCarlo) -> String {
         100.0 * COVERAGE
     );
     let names = ["", "mean", "u", "symmetric", "shortest", "difference", "allowed", "linear"];
-    columns::table(&mut out, &names, found.parameters.iter().map(distribution));
+    let rows = Parameter::in_paper_order(&found.parameters, |line| line.parameter);
+    columns::table(&mut out, &names, rows.into_iter().map(distribution));
     let words = "difference: of the ends of the interval by linear approximation from those of the symmetric one (the \
                  larger of the two); allowed: half a unit of the second digit of u (JCGM 101, clause 8); linear: \
                  whether the linear approximation is valid.";

@@ -259,8 +259,8 @@ class Report:
             "u": ("standard_uncertainty",),
             "combined": ("standard_uncertainty",),
             "суммарная": ("standard_uncertainty",),
-            "expanded": ("expanded_uncertainty",),
-            "расширенная": ("expanded_uncertainty",),
+            "half": ("expanded_uncertainty",),
+            "полуширина": ("expanded_uncertainty",),
             "mean": ("mean",),
             "среднее": ("mean",),
             "lower": ("symmetric_interval", 0),
@@ -343,8 +343,13 @@ class Report:
             self.cell(f"{part}, {name}, tolerance", row[5], line["tolerance"])
             for column, key in ((7, "guarded"), (8, "simple")):
                 mark = {"pass": "●", "undecided": "○", "fail": "✕"}[line[key]]
+                # Readings that do not fit have no risk, and nothing is accepted.
+                if key == "simple" and not self.result["consistent"]:
+                    mark = "–"
                 if not row[column]["text"].startswith(mark):
                     self.wrong.append(f"{part}, {name}: {row[column]['text']}, and {line[key]} in the result")
+            if not self.result["consistent"]:
+                continue
             if row[8]["values"]:
                 self.cell(f"{part}, {name}, risk", row[8], line["specific_risk"])
             elif "<" not in row[8]["text"] or line["specific_risk"] >= 1e-6:

@@ -10,7 +10,7 @@ mod evidence;
 pub(crate) mod remarks;
 
 use super::language::{Languages, Text};
-use super::parts::{contents, data_address, file_name, given, heading, section as part, signatures, verbatim};
+use super::parts::{boxed, contents, data_address, file_name, given, heading, section as part, signatures, verbatim};
 use super::passport::{characteristics, general};
 use super::shell::{Margins, document};
 use super::texts::{calibration as calibration_texts, certification as texts, passport as passport_texts};
@@ -27,6 +27,8 @@ pub(crate) struct CertificationPage<'a> {
     pub readings: (&'a str, &'a [u8]),
     /// Comparison with the last certificate, and the deviations of both; `None` without an earlier one.
     pub change: Option<(&'a Comparison, Vec<NumberDifference>)>,
+    /// `true` if the certificate was not written, only computed.
+    pub dry_run: bool,
 }
 
 /// Anchor and heading of each section of the record.
@@ -46,7 +48,7 @@ impl CertificationPage<'_> {
         let number = &self.certification.stand.certificate.number;
         let margins = Margins {
             top_left: texts::MARGIN.filled(languages.first(), &[("number", number)]),
-            top_right: String::new(),
+            top_right: if self.dry_run { languages.plain(texts::DRAFT) } else { String::new() },
             bottom_left: texts::MARGIN_SHA256.filled(languages.first(), &[("sha256", &self.sha256())]),
         };
         let title = format!("{} {number}", languages.plain(texts::TITLE));
@@ -69,6 +71,9 @@ impl CertificationPage<'_> {
             }
             (contents(languages, texts::SAVE, (&data_address("text/csv", self.readings.1), file_name(self.readings.0)), &SECTIONS))
             main {
+                @if self.dry_run {
+                    (boxed("verdict refused", languages.label(texts::DRAFT), languages.paragraph(texts::DRAFT_WORDS)))
+                }
                 (change::verdict(self, languages))
                 (part(languages, "subject", "1", texts::SUBJECT, &html! {
                     (general::stand(&stand.stand, languages))
@@ -81,7 +86,9 @@ impl CertificationPage<'_> {
                 (evidence::uncertainty(self, languages))
                 (evidence::tests(self, languages))
                 (change::section(self, languages))
-                (part(languages, "signatures", "", calibration_texts::SIGNATURES, &signatures(languages, who)))
+                @if !self.dry_run {
+                    (part(languages, "signatures", "", calibration_texts::SIGNATURES, &signatures(languages, who)))
+                }
                 (self.annex(languages))
             }
         }

@@ -50,7 +50,8 @@ fn is_symbol(before: Option<char>, letter: char, after: &str) -> bool {
     let factor = |c: char| c.is_ascii_digit() && matches!(letter, 'u' | 'U');
     let begins = before.is_none_or(|c| factor(c) || !c.is_alphanumeric() && !"·°'’.-_@".contains(c));
     let subscript = |c: char| c == '_' || ('₀'..='₉').contains(&c);
-    let ends = next.is_none_or(|c| greek && subscript(c) || !c.is_alphanumeric() && !"'’_@".contains(c));
+    let squared = |c: char| letter == 'u' && c == '²';
+    let ends = next.is_none_or(|c| greek && subscript(c) || squared(c) || !c.is_alphanumeric() && !"'’_@".contains(c));
     let abbreviated = next == Some('.') && second.is_some_and(char::is_alphanumeric);
     begins && ends && !abbreviated
 }

@@ -3,6 +3,7 @@
 use super::accuracy::unit;
 use super::drawing::{Anchor, Point, Scale, label, number, plain_symbol, rectangle, symbol, symbols};
 use super::file::file;
+use crate::calibration::parameter::Parameter;
 use crate::report::page::language::Language;
 use crate::report::page::number::Number;
 use crate::report::page::spacing::BLANK;
@@ -33,8 +34,9 @@ pub(crate) fn budget(budget: &Budget) -> Option<String> {
     }
     let height = HEIGHT * budget.parameters.len().div_ceil(COLUMNS) as f64;
     let corner = |place: usize| [WIDTH * (place % COLUMNS) as f64, HEIGHT * (place / COLUMNS) as f64];
+    let lines = Parameter::in_paper_order(&budget.parameters, |line| line.parameter);
     let drawing = [
-        html! { @for (place, line) in budget.parameters.iter().enumerate() { g { (parameter(line, corner(place))) } } },
+        html! { @for (place, line) in lines.into_iter().enumerate() { g { (parameter(line, corner(place))) } } },
         label([14.0, height + 10.0], Anchor::Start, "", &symbols(WORDS)),
     ];
     let size = [WIDTH * COLUMNS as f64, height + WORDS_HEIGHT];
@@ -93,5 +95,10 @@ fn in_words(budget: &Budget) -> String {
         });
         format!("{}: u = {}{most}", plain_symbol(line.parameter.symbol()), with_unit(line))
     };
-    budget.parameters.iter().map(line).collect::<Vec<_>>().join("; ") + "."
+    Parameter::in_paper_order(&budget.parameters, |line| line.parameter)
+        .into_iter()
+        .map(line)
+        .collect::<Vec<_>>()
+        .join("; ")
+        + "."
 }

@@ -1,8 +1,8 @@
 //! Certified deviations as bars in their table: a column for each of α, β, γ, all to one scale.
 
-use super::drawing::{Scale, legend, line, rectangle, strip, strip_axis, whisker};
+use super::drawing::{Scale, Ticks, legend, line, rectangle, strip, strip_axis, whisker};
 use crate::calibration::verdict::COVERAGE_FACTOR;
-use crate::report::page::language::Languages;
+use crate::report::page::language::{Language, Languages};
 use crate::report::page::number::LARGEST_IN_ARCSEC;
 use crate::report::page::texts::pictures as texts;
 use crate::stand::CertifiedPosition;
@@ -28,6 +28,14 @@ pub(crate) const ANGLES: [(&str, OfPosition); 3] = [
     ("γ", |at| (at.gamma_arcsec, at.u_gamma_arcsec)),
 ];
 
+/// Returns a scale whose longer bars have a number on their own side of 0: an end not far from one moves out to it.
+fn widened([low, high]: [f64; 2]) -> Scale {
+    let scale = Scale { values: [low, high], places: BARS };
+    let step = Ticks::along(&scale, Language::English).step;
+    let end = |end: f64| if end >= 0.5 * step && end < step { step } else { end };
+    Scale { values: [-end(-low), end(high)], ..scale }
+}
+
 /// Bars of all deviations of a stand or of a passport, with their uncertainties if stated.
 pub(crate) struct Bars {
     scale: Scale,
@@ -45,7 +53,7 @@ impl Bars {
         let (low, high) = ends.fold((0.0, 0.0), |(low, high), end| (f64::min(low, end), f64::max(high, end)));
         let (low, high) = (low.max(-LARGEST_ARCSEC), high.min(LARGEST_ARCSEC));
         let high = if high > low { high } else { 1.0 };
-        Self { scale: Scale { values: [low, high], places: BARS }, stated: all.clone().any(|(_, u)| u.is_some()) }
+        Self { scale: widened([low, high]), stated: all.clone().any(|(_, u)| u.is_some()) }
     }
 
     /// Draws a deviation.

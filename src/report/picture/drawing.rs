@@ -326,14 +326,17 @@ pub(crate) struct Ticks {
 impl Ticks {
     /// Creates at most about `most` values between `low` and `high`.
     pub(crate) fn between(low: f64, high: f64, most: usize) -> Self {
-        let (step, exponent) = round_step((high - low) / most.max(1) as f64);
+        Self::of_step(low, high, round_step((high - low) / most.max(1) as f64))
+    }
+
+    fn of_step(low: f64, high: f64, (step, exponent): (f64, i32)) -> Self {
         let first = (low / step - 1e-9).ceil() as i64;
         let last = (high / step + 1e-9).floor() as i64;
         let values = (first..=last).map(|multiple| multiple as f64 * step + 0.0).collect();
         Self { step, values, decimals: usize::try_from(-exponent).unwrap_or(0) }
     }
 
-    /// Creates as many values as have room for their numbers along `scale`.
+    /// Creates as many values as have room for their numbers along `scale`, at least one beside 0.
     pub(crate) fn along(scale: &Scale, language: Language) -> Self {
         const LETTER: f64 = 6.0;
         const GAP: f64 = 10.0;
@@ -344,7 +347,8 @@ impl Ticks {
             LETTER * widest as f64 + GAP <= ticks.step / (high - low) * length
         };
         let fewer = (2..=8).rev().map(|most| Self::between(low, high, most));
-        fewer.into_iter().find(fits).unwrap_or_else(|| Self::between(low, high, 1))
+        let largest = round_below(high.max(-low));
+        fewer.into_iter().find(fits).unwrap_or_else(|| Self::of_step(low, high, (largest, exponent(largest))))
     }
 
     /// Returns each value, and how it is written at the axis.
@@ -392,7 +396,7 @@ fn exponent(value: f64) -> i32 {
 
 /// Returns the power of ten to factor out of the numbers of an axis up to `reach`: 0 unless they would have many zeros.
 pub(crate) fn crowding(reach: f64) -> i32 {
-    Some(exponent(reach)).filter(|exponent| !(-2..4).contains(exponent)).unwrap_or(0)
+    Some(exponent(reach)).filter(|exponent| !(-1..4).contains(exponent)).unwrap_or(0)
 }
 
 #[cfg(test)]

@@ -39,10 +39,11 @@ pub(crate) fn history(history: &History, now: Timestamp) -> String {
     let changes = history.drift.series.iter().any(|series| series.values.len() > 1);
     let positions = history.drift.series.len().div_ceil(LETTERS.len()) as f64;
     let height = if changes { panels_top + PANEL_ROW * positions + 24.0 } else { bottom + 40.0 };
-    let title = format!("Stand {} over the years", history.stand);
+    let day = now.to_zoned(jiff::tz::TimeZone::UTC).date();
+    let title = format!("Stand {} over the years, as of {day}", history.stand);
     let drawing = [
         words([20.0, 20.0], Anchor::Start, "title", &title),
-        time_line(history, &time, bottom),
+        time_line(history, now, &time, bottom),
         if changes {
             drift(&history.drift, panels_top)
         } else {
@@ -95,7 +96,7 @@ fn marks(time: &Scale) -> Vec<(f64, String)> {
     MONTHS.into_iter().map(every).find(|marks| marks.len() <= MOST_MARKS).unwrap_or_default()
 }
 
-fn time_line(history: &History, time: &Scale, bottom: f64) -> Markup {
+fn time_line(history: &History, now: Timestamp, time: &Scale, bottom: f64) -> Markup {
     let (sure, unsure) = ("bar", "frame-line");
     let row = |place: usize| TOP + ROW * place as f64;
     html! {
@@ -116,16 +117,16 @@ fn time_line(history: &History, time: &Scale, bottom: f64) -> Markup {
         @for (place, stay) in (1..).zip(&history.places) {
             (words([ACROSS[0] - 8.0, row(place) + 4.0], Anchor::End, "small", &shortened(&stay.site)))
             @for passport in history.passports.iter().filter(|at| at.line.site.as_ref() == Some(&stay.site)) {
-                (bar(passport, history, time, row(place)))
+                (bar(passport, history, now, time, row(place)))
             }
         }
     }
 }
 
-/// Draws the time in which a passport was in force.
-fn bar(passport: &PastPassport, history: &History, time: &Scale, y: f64) -> Markup {
+/// Draws the time in which a passport was in force, until `now` if it still is.
+fn bar(passport: &PastPassport, history: &History, now: Timestamp, time: &Scale, y: f64) -> Markup {
     let Some(from) = passport.issued_at.map(year_of_time) else { return html! {} };
-    let until = passport.ended_at.map_or(time.values[1], year_of_time);
+    let until = year_of_time(passport.ended_at.unwrap_or(now));
     let withdrawn = history.withdrawals.iter().any(|entry| entry.sha256 == passport.line.sha256);
     let class = if withdrawn { "frame-line" } else { "bar" };
     rectangle([time.clamped(from), y - BAR_HALF], [time.clamped(until), y + BAR_HALF], class, None)

@@ -87,8 +87,12 @@ fn panel(rows: &[Row], [left, right]: Point) -> Markup {
         @for (place, row) in rows.iter().enumerate() {
             @let top = TOP + ROW * place as f64;
             (label([left - 7.0, top + BAR + 3.0], Anchor::End, "", &row.drawn))
-            (bar(row.plan, top, "bar"))
-            @if let Some(paper) = row.paper { (bar(paper, top + BAR, "bar open")) }
+            @if let Some(paper) = row.paper {
+                (bar(row.plan, top, "bar"))
+                (bar(paper, top + BAR, "bar open"))
+            } @else {
+                (bar(row.plan, top + 0.5 * BAR, "bar"))
+            }
         }
     }
 }

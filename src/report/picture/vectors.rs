@@ -67,14 +67,14 @@ pub(crate) fn vectors(languages: &Languages, content: &Content) -> Markup {
     let subjects = subjects(content);
     if content.positions.len() > MOST_IN_A_PANEL {
         let each = subjects.map(|subject| small_multiples(languages, &subject));
-        return html! { @for row in &each { (row) } (key(languages, content)) };
+        return html! { @for row in &each { (row) } (key(languages, None)) };
     }
     let whole = |subject: &Subject| {
         let plane = Plane::about(WHOLE, &subject.pairs);
         differences_of(languages, subject, &plane, &subject.pairs, None)
     };
     let drawings: Vec<Markup> = subjects.iter().map(whole).collect();
-    panels(WHOLE.columns, WHOLE.pixels, &drawings, &key(languages, content))
+    panels(WHOLE.columns, WHOLE.pixels, &drawings, &key(languages, Some(content)))
 }
 
 /// Draws a panel for each frame index, all to one scale.
@@ -90,15 +90,19 @@ fn small_multiples(languages: &Languages, subject: &Subject) -> Markup {
     panels(SMALL.columns, SMALL.pixels, &drawings, &html! {})
 }
 
-fn key(languages: &Languages, content: &Content) -> Markup {
+/// Draws what the marks mean; with a panel for each frame index, its title says what `together` the marks say.
+fn key(languages: &Languages, together: Option<&Content>) -> Markup {
+    let difference = (arrow([2.0, 7.0], [26.0, 7.0], "real"), texts::VECTOR_DIFFERENCE);
+    let Some(content) = together else {
+        return legend(languages, &[difference, (mark([14.0, 7.0], 1, "mark"), texts::VECTOR_LABEL)]);
+    };
     // The marks that the drawing has, of four in all.
     let frames: BTreeSet<u32> = content.positions.iter().map(|at| (at.i.max(1) - 1) % 4 + 1).collect();
     let apart = 28.0 / frames.len() as f64;
     let marks =
         frames.iter().enumerate().map(|(place, frame)| mark([(place as f64 + 0.5) * apart, 7.0], *frame, "mark"));
     let marks = html! { @for mark in marks { (mark) } };
-    let entries = [(arrow([2.0, 7.0], [26.0, 7.0], "real"), texts::VECTOR_DIFFERENCE), (marks, texts::VECTOR_MARKS)];
-    legend(languages, &entries)
+    legend(languages, &[difference, (marks, texts::VECTOR_MARKS)])
 }
 
 fn subjects(content: &Content) -> [Subject; 2] {
@@ -207,7 +211,7 @@ fn differences_of(
         g transform={ "translate(0 " (more) ")" } {
             (plane.grid(languages, subject.unit))
             @for (tip, _) in &tips { (arrow(origin, *tip, "real")) }
-            @for (tip, index) in &tips { (mark(*tip, index.i, "mark")) }
+            @for (tip, index) in &tips { (mark(*tip, if part.is_some() { 1 } else { index.i }, "mark")) }
             (labels::place(&labels::together(&named), &[axis], &lines, &field))
         }
     };

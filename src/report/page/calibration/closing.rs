@@ -34,7 +34,7 @@ pub(super) fn json(page: &CalibrationPage) -> String {
 }
 
 fn annex(page: &CalibrationPage, languages: &Languages) -> Markup {
-    let end = languages.label_with(|language| texts::END.filled(language, &[("name", &page.name())]));
+    let end = languages.label_with(|language| texts::END.filled(language, &[("name", &page.name(language))]));
     let body = html! { (languages.paragraph(texts::ANNEX_NOTE)) (verbatim("en", &json(page), &end)) };
     part(languages, "annex", "", texts::ANNEX, &body)
 }

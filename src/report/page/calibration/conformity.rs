@@ -3,12 +3,14 @@
 
 use super::parameters::{self, name_of, values};
 use super::{CalibrationPage, Section, history};
+use crate::calibration::document::CalibrationDocument;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{Cell, Number, column};
-use crate::report::page::parts::{Column, Table, heading, quantity, symbol};
+use crate::report::page::parts::{Column, Table, date_text, heading, quantity, symbol};
+use crate::report::page::symbols::italic;
 use crate::report::page::texts::{calibration as texts, passport, units};
 use crate::report::picture::accuracy::unit;
 use crate::report::picture::tolerances::{Strips, decision, key, parameter_of, printed, unit_of};
@@ -27,7 +29,10 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
         @if let Some(result) = adopted { (parameters::beyond_the_eight(result, languages)) }
         @if let Some(change) = &page.document.change {
             (heading(languages, texts::CHANGE))
-            (table(languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY], false))
+            @if let Some(day) = page.previous.last().and_then(CalibrationDocument::date) {
+                (languages.paragraph_with(|language| italic(&texts::PREVIOUS_DAY.filled(language, &[("day", &date_text(language, day))]))))
+            }
+            (table(page, languages, change, texts::CHANGE_CAPTION, [texts::EARLIER, texts::CHANGED_BY], false))
         }
         (history::table(page, languages))
     };
@@ -37,9 +42,9 @@ pub(super) fn section(page: &CalibrationPage, languages: &Languages) -> Markup {
 fn compared(page: &CalibrationPage, gyro: &GyroType, verdict: &Verdict, languages: &Languages) -> Markup {
     html! {
         h3 { (languages.label_with(|language| texts::CONFORMITY.filled(language, &[("type", &gyro.r#type)]))) }
-        (table(languages, verdict, texts::VERDICT_CAPTION, [texts::NOMINAL, texts::DEVIATION], true))
+        (table(page, languages, verdict, texts::VERDICT_CAPTION, [texts::NOMINAL, texts::DEVIATION], true))
         (key(languages))
-        (languages.paragraph(texts::RISK_NOTE))
+        @if page.fits() { (languages.paragraph(texts::RISK_NOTE)) }
         (from_gravity(page, verdict, languages))
     }
 }
@@ -86,6 +91,7 @@ fn alone(page: &CalibrationPage, languages: &Languages) -> Markup {
 
 /// Writes a comparison; `with_u` says whether the standard uncertainty of a row is that of its value.
 fn table(
+    page: &CalibrationPage,
     languages: &Languages,
     verdict: &Verdict,
     caption: Text,
@@ -107,7 +113,12 @@ fn table(
     };
     let mut risks = column(languages, rows.iter().map(|row| probability_cell(languages, row.specific_risk)));
     for (risk, row) in risks.iter_mut().zip(rows) {
-        *risk = html! { (mark_of(languages, row)) " " (risk) };
+        // Without a model that fits, a risk has no meaning.
+        *risk = if page.fits() {
+            html! { (mark_of(languages, row)) " " (risk) }
+        } else {
+            html! { "–" }
+        };
     }
     let mut tolerances = numbers(texts::TOLERANCE, &|row| Number::exact(row.tolerance));
     for (tolerance, row) in tolerances.cells.iter_mut().zip(rows) {

@@ -158,7 +158,7 @@ fn what_may_be_wrong(hint: &Hint, languages: &Languages) -> Markup {
         (heading(languages, texts::HINT))
         @if hint.explanations.is_empty() {
             (languages.paragraph_with(|language| {
-                let size = Number::significant(hint.size_arcsec, 2).text(language);
+                let size = Number::fixed(hint.size_arcsec, 0).text(language);
                 italic(&texts::HINT_NOTHING.filled(language, &[("size", &size)]))
             }))
         }

@@ -26,7 +26,7 @@ use super::passport::PassportPage;
 use super::shell::{Margins, document};
 use super::symbols::italic;
 use super::texts::calibration as texts;
-use crate::calibration::document::{CalibrationDocument, ResultDocument};
+use crate::calibration::document::{CalibrationDocument, NoChange, ResultDocument};
 use crate::calibration::stated::NotStated;
 use crate::calibration::verdict::{Decision, Verdict};
 use crate::calibration::{Calibration, Method};
@@ -130,7 +130,7 @@ pub struct CalibrationPage<'a> {
 impl CalibrationPage<'_> {
     /// Returns the report as one self-contained HTML document.
     pub fn html(&self, languages: &Languages) -> String {
-        let name = self.name();
+        let name = self.name(languages.first());
         let margins = Margins {
             top_left: texts::MARGIN.filled(languages.first(), &[("name", &name)]),
             top_right: match (self.verified(), self.fits()) {
@@ -180,18 +180,20 @@ impl CalibrationPage<'_> {
         self.document.subject.as_ref().and_then(|subject| subject.gyro_serial.as_deref())
     }
 
-    /// Returns the type and the serial number of the gyro, or the id of the passport if neither is known.
-    fn gyro_name(&self) -> String {
+    /// Returns the type and the serial number of the gyro, as far as they were stated.
+    fn gyro_name(&self, language: Language) -> String {
         let of_type = self.gyro.map(|gyro| gyro.r#type.clone());
         let name: Vec<_> = of_type.into_iter().chain(self.serial().map(|serial| format!("№\u{a0}{serial}"))).collect();
-        if name.is_empty() { self.content().passport.id.clone() } else { name.join(" ") }
+        if name.is_empty() { texts::GYRO_NOT_STATED.words(language) } else { name.join(" ") }
     }
 
-    /// Returns the name of the gyro, and the id of the passport if it has no serial number.
-    fn name(&self) -> String {
+    /// Returns the name of the gyro, and the passport if it has no serial number.
+    fn name(&self, language: Language) -> String {
+        let id = &self.content().passport.id;
         match (self.gyro, self.serial()) {
-            (Some(gyro), None) => format!("{}, {}", gyro.r#type, self.content().passport.id),
-            _ => self.gyro_name(),
+            (_, Some(_)) => self.gyro_name(language),
+            (Some(gyro), None) => format!("{}, {id}", gyro.r#type),
+            (None, None) => texts::WITH_PASSPORT.filled(language, &[("id", id)]),
         }
     }
 
@@ -207,7 +209,7 @@ impl CalibrationPage<'_> {
         html! {
             header.title {
                 p.kind { (languages.label(texts::TITLE)) }
-                h1 { (self.gyro_name()) }
+                h1 { (languages.label_with(|language| self.gyro_name(language))) }
                 p.subject { (languages.label(texts::SUBTITLE)) }
             }
             (parts::contents(
@@ -231,10 +233,6 @@ impl CalibrationPage<'_> {
 
     /// Writes the warnings at the head of the report, the most serious first.
     fn headlines(&self, languages: &Languages) -> Markup {
-        let answer = self.document.answer();
-        let from_these_readings = |earlier: &CalibrationDocument| {
-            answer.as_ref().zip(earlier.answer()).is_some_and(|(found, earlier)| found.is_same(&earlier))
-        };
         html! {
             @if !self.verified() { (warning(languages, texts::NOT_VERIFIED, texts::NOT_VERIFIED_WORDS)) }
             @if !self.fits() { (warning(languages, texts::DOES_NOT_FIT, texts::DOES_NOT_FIT_WORDS)) }
@@ -242,8 +240,8 @@ impl CalibrationPage<'_> {
                 @let words = languages.paragraph_with(|language| italic(&mistake::words(mistake, language)));
                 (boxed("verdict refused", languages.label(texts::MISTAKE), words))
             }
-            @if self.previous.iter().any(from_these_readings) {
-                (warning(languages, texts::SAME_READINGS, texts::SAME_READINGS_WORDS))
+            @if let Some(why) = self.previous.iter().rev().find_map(|earlier| self.document.no_change(earlier)) {
+                (warning(languages, texts::NO_CHANGE, why_no_change(why)))
             }
             (subject::temperature(self, languages))
             (subject::date_of_readings(self, languages))
@@ -256,6 +254,10 @@ impl CalibrationPage<'_> {
             let words = languages.paragraph(texts::NO_TYPE_WORDS);
             return boxed("verdict neutral", languages.label(texts::NO_TYPE), words);
         };
+        if !self.fits() {
+            let name = |language: Language| texts::NO_STATEMENT.filled(language, &[("type", &gyro.r#type)]);
+            return boxed("verdict neutral", languages.label_with(name), html! {});
+        }
         let (class, text) = match verdict.overall {
             Decision::Pass => ("verdict", texts::CONFORMS),
             Decision::Undecided => ("verdict neutral", texts::UNDECIDED),
@@ -275,6 +277,14 @@ impl CalibrationPage<'_> {
 
 fn warning(languages: &Languages, headline: Text, words: Text) -> Markup {
     boxed("verdict refused", languages.label(headline), languages.paragraph(words))
+}
+
+/// Returns the sentence why a difference from an earlier result is no change.
+pub(crate) fn why_no_change(why: NoChange) -> Text {
+    match why {
+        NoChange::SameReadings => texts::SAME_READINGS,
+        NoChange::EarlierNotValid => texts::EARLIER_NOT_VALID,
+    }
 }
 
 /// Returns the name of a method from its key in results.

@@ -142,7 +142,9 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
         (name, Some(Number::fixed(at.turn_arcsec, 2)), None, Some(at.probability))
     }));
     if suspects.outliers.is_empty() {
-        found.push((languages.label(texts::NO_OUTLIER), None, None, None));
+        let count = page.certification.runs.len() * page.certification.components.keeps.nrows();
+        let name = languages.label_with(|language| texts::NO_OUTLIER.filled(language, &[("count", &count)]));
+        found.push((name, None, None, None));
     }
     let statistic = column(languages, found.iter().map(|(_, value, ..)| value.clone()));
     let freedom = column(languages, found.iter().map(|(_, _, freedom, _)| freedom.clone()));

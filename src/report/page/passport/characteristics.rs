@@ -154,10 +154,8 @@ fn place(site: &Site, languages: &Languages) -> Markup {
         site.frame_axis_azimuth_deg.map(|azimuth_deg| stated(languages, texts::FRAME_AXIS, Some(degrees(azimuth_deg))));
     // A site states one of the two latitudes, never both.
     let latitude = match site.astronomic_latitude_deg {
-        Some(astronomic) => {
-            stated(languages, texts::ASTRONOMIC_LATITUDE, Some(angle(astronomic, latitude_u, languages)))
-        }
-        None => stated(languages, texts::LATITUDE, site.latitude_deg.map(|value| angle(value, latitude_u, languages))),
+        Some(astronomic) => stated(languages, texts::ASTRONOMIC_LATITUDE, Some(degrees(astronomic))),
+        None => stated(languages, texts::LATITUDE, site.latitude_deg.map(degrees)),
     };
     html! {
         (fields([

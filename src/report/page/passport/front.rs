@@ -77,7 +77,7 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
         @if content.positions.iter().any(|at| at.u_alpha_arcsec.is_none()) {
             p { (languages.label(texts::WITHOUT_UNCERTAINTY)) }
         }
-        p { (languages.inline(texts::SIGNED_BY)) }
+        p.name { (languages.label(texts::SIGNED_BY)) }
         p { (given(&content.passport.issuer)) }
     };
     let radius = quantity(languages, &Number::fixed(content.earth.valid_radius_m, 0), units::METRES);

@@ -4,6 +4,8 @@ use super::texts;
 
 texts! {
     TITLE { en: "Calibration of a dynamically tuned gyro", ru: "Калибровка динамически настраиваемого гироскопа" }
+    WITH_PASSPORT { en: "with passport {id}", ru: "по паспорту {id}" }
+    GYRO_NOT_STATED { en: "Type and serial number not stated", ru: "Тип и номер не указаны" }
     SUBTITLE {
         en: "Scale factors and drifts in case axes, determined from the torquer currents in the positions of a \
              certified stand",
@@ -31,6 +33,10 @@ texts! {
     }
     CONFORMS { en: "Within the tolerances of gyro type {type}", ru: "Соответствует допускам типа {type}" }
     CONFORMS_NOT { en: "NOT within the tolerances of gyro type {type}", ru: "НЕ соответствует допускам типа {type}" }
+    NO_STATEMENT {
+        en: "No statement of conformity with type {type}: the readings do not fit",
+        ru: "Заключение о соответствии типу {type} невозможно: показания не согласуются"
+    }
     UNDECIDED { en: "Conformity with gyro type {type} is undecided", ru: "Соответствие типу {type} не определено" }
     RULE {
         en: "Decision rule: guarded acceptance with a guard band equal to the expanded uncertainty U, \
@@ -76,12 +82,18 @@ texts! {
         ru: "все токи занижены в {factor} раз"
     }
 
-    SAME_READINGS { en: "No change can be shown", ru: "Изменение установить нельзя" }
-    SAME_READINGS_WORDS {
+    NO_CHANGE { en: "No change can be shown", ru: "Изменение установить нельзя" }
+    SAME_READINGS {
         en: "The previous result is from these same readings, so it does not show a change. Compare with the result of \
              an earlier calibration.",
         ru: "Прежний результат получен по этим же показаниям и изменения не показывает. Следует сравнить с \
              результатом более ранней калибровки."
+    }
+    EARLIER_NOT_VALID {
+        en: "The previous result is not valid: its readings did not fit the stand, or contained an error. Compare with a \
+             valid result.",
+        ru: "Прежний результат недействителен: его показания не согласуются со стендом или содержат ошибку. Следует \
+             сравнить с действительным результатом."
     }
     SUBJECT { en: "Object, place and equipment of the calibration", ru: "Объект, место и средства калибровки" }
     TYPE { en: "Type", ru: "Тип" }
@@ -206,6 +218,7 @@ texts! {
     }
     PARAMETER { en: "Parameter", ru: "Параметр" }
     NOMINAL { en: "Nominal", ru: "Номин. значение" }
+    PREVIOUS_DAY { en: "Date of the previous calibration: {day}.", ru: "Дата предыдущей калибровки: {day}." }
     EARLIER { en: "Previous", ru: "Прежнее значение" }
     FOUND { en: "Value", ru: "Значение" }
     FROM_GRAVITY {
@@ -413,15 +426,15 @@ texts! {
     BUDGET_LEAVES { en: "Without this source, u would be {rest}.", ru: "Без этого источника u составила бы {rest}." }
     COMBINED { en: "Combined, u", ru: "Суммарная, u" }
     EFFECTIVE_FREEDOM { en: "Effective degrees of freedom", ru: "Эффективное число степеней свободы" }
-    EXPANDED { en: "Expanded, U for 95 % (Student’s t)", ru: "Расширенная, U для 95 % (Стьюдент)" }
+    EXPANDED { en: "Half of the 95 % interval (Student’s t)", ru: "Полуширина интервала 95 % (Стьюдент)" }
     INPUT { en: "{input}: u = {u}", ru: "{input}: u = {u}" }
     CAUSE_ANGLE { en: "certified angles", ru: "аттестованные углы" }
     CAUSE_RETURN { en: "repeatability of positioning", ru: "повторяемость положений" }
     CAUSE_READING { en: "meter, specification", ru: "измеритель, погрешность показания" }
     CAUSE_FLOOR { en: "meter, floor", ru: "измеритель, постоянная часть" }
-    CAUSE_VISITS { en: "gyro, visit to visit", ru: "гироскоп, от установки к установке" }
+    CAUSE_VISITS { en: "gyro, mean of the visits", ru: "гироскоп, среднее по установкам" }
     CAUSE_DIFFERENCES { en: "differences between visits", ru: "разности между установками" }
-    CAUSE_TURN_ON { en: "gyro, turn-ons, axis {axis}", ru: "гироскоп, запуски, ось {axis}" }
+    CAUSE_TURN_ON { en: "gyro, mean of the turn-ons, axis {axis}", ru: "гироскоп, среднее по запускам, ось {axis}" }
     CAUSE_NOISE { en: "meter, noise", ru: "измеритель, шум показаний" }
     CAUSE_PLATFORM { en: "rotation of the platform about {axis}", ru: "поворот платформы вокруг {axis}" }
     CAUSE_SEAT { en: "rotation of the gyro seat about {axis}", ru: "поворот посадочной поверхности вокруг {axis}" }

@@ -78,8 +78,8 @@ texts! {
         ru: "Граббса: серия {run}, основание, ось «{axis}», поворот, ″"
     }
     NO_OUTLIER {
-        en: "Grubbs: no straggler or outlier among the readings (5 %)",
-        ru: "Граббса: квазивыбросов и выбросов среди показаний нет (5 %)"
+        en: "Grubbs: no straggler or outlier (5 %) among {count} angles",
+        ru: "Граббса: среди показаний углов ({count}) нет ни квазивыбросов, ни выбросов (5 %)"
     }
     TESTS_NOTE {
         en: "Probability of a result at least as extreme by chance. Below 5 % it is a straggler, below 1 % an \
@@ -89,7 +89,12 @@ texts! {
     }
     WARNINGS { en: "Warnings of the program", ru: "Предупреждения программы" }
 
-    CHANGE { en: "Change since the previous certificate", ru: "Изменение с прошлой калибровки" }
+    DRAFT { en: "Draft: this certificate was not issued", ru: "Проект: этот сертификат не выдан" }
+    DRAFT_WORDS {
+        en: "A dry run computed it. Neither a certificate nor a passport was written.",
+        ru: "Он вычислен в пробном запуске. Ни сертификат, ни паспорт не записаны."
+    }
+    CHANGE { en: "Change since the previous certificate", ru: "Изменение после предыдущей калибровки" }
     CERTIFIED {
         en: "Positions certified: {positions}; runs: {runs}",
         ru: "Аттестовано положений: {positions}; серий: {runs}"

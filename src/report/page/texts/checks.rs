@@ -59,8 +59,8 @@ texts! {
         ru: "не отозван: в списке {sequence} от {time} не указан"
     }
     REVOCATION_WITHDRAWN {
-        en: "withdrawn at {time}; stated reason: {reason}",
-        ru: "отозван {time}; указанная причина: {reason}"
+        en: "withdrawn at {time}; stated reason: {reason}; ask the issuer for a new passport",
+        ru: "отозван {time}; указанная причина: {reason}; запросите новый паспорт"
     }
     RECOMPUTED { en: "Numbers", ru: "Числа" }
     RECOMPUTED_OK {

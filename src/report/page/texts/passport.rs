@@ -21,7 +21,7 @@ texts! {
     AROUND_PARALLEL { en: "north or south of latitude", ru: "к северу и югу от широты" }
     WORD { en: "Based on certificate", ru: "На основании сертификата" }
     WITHOUT_UNCERTAINTY { en: "no uncertainty stated", ru: "неопределённость не указана" }
-    SIGNED_BY { en: "passport signed by", ru: "паспорт подписал" }
+    SIGNED_BY { en: "Passport signed by", ru: "Паспорт подписал" }
     CHECKING { en: "How to check", ru: "Как проверить" }
     CHECKING_HOW {
         en: "of the file: scan the code and compare, or run dtg-passport verify",
@@ -252,10 +252,10 @@ texts! {
     NOMINAL { en: "Nominal value", ru: "Номинальное значение" }
     TOLERANCE { en: "Tolerance (%: of nominal)", ru: "Допуск (% — от номинального)" }
 
-    ABSENCES { en: "Information not stated", ru: "Неуказанные сведения" }
+    ABSENCES { en: "Missing information", ru: "Недостающие сведения" }
     ABSENCES_NONE {
-        en: "All information provided for by the format is stated.",
-        ru: "Указаны все сведения, предусмотренные форматом."
+        en: "Nothing that affects the use of the passport is missing.",
+        ru: "Все сведения, влияющие на применение паспорта, указаны."
     }
 
     ANNEX { en: "Annex: the signed file", ru: "Приложение: подписанный файл" }

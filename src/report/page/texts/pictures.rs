@@ -60,6 +60,7 @@ texts! {
     VECTOR_IN_WORDS { en: "position {index}: x {x}, y {y}", ru: "положение {index}: x {x}, y {y}" }
     VECTORS_DESCRIPTION { en: "In {unit}: {list}.", ru: "В {unit}: {list}." }
     VECTOR_DIFFERENCE { en: "actual minus ideal stand", ru: "отличие от идеального стенда" }
+    VECTOR_LABEL { en: "label: position (i, j)", ru: "подпись: положение (i, j)" }
     VECTOR_MARKS {
         en: "one symbol for each frame index i; labels are (i, j)",
         ru: "для каждого индекса рамки i свой знак; подписи — (i, j)"
