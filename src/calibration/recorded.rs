@@ -2,7 +2,7 @@
 
 use super::inputs::{MeterUncertainty, Setup};
 use super::readings::{PositionReadings, Visit};
-use crate::statistics::coincidences::digit_of_meter;
+use crate::statistics::coincidences::step_of_meter;
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -14,8 +14,8 @@ const SPREAD_OVER_DIGITS: f64 = 0.5;
 /// Digits and scatter of the currents of a file.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Recorded {
-    /// Last decimal digit of the coarser channel, mA, that of its largest current if the number of significant digits is
-    /// fixed; 0 if the currents were computed.
+    /// Step of the coarser channel and of the coarsest range of the meter, mA; that of double precision if the currents
+    /// were computed.
     pub(crate) last_digit_ma: f64,
     /// Standard deviation of the readings of a position within a turn-on, mA; `None` if no position has several.
     pub(crate) spread_ma: Option<f64>,
@@ -50,7 +50,10 @@ impl Recorded {
         let visits = || positions.iter().flat_map(|at| &at.visits);
         let same_rows = |visit: &Visit| visit.each_ma.iter().all(|row| *row == visit.each_ma[0]);
         let identical_rows = visits().any(|visit| visit.each_ma.len() > 1) && visits().all(same_rows);
-        let [x, y] = [0, 1].map(|axis| digit_of_meter(visits().flat_map(|visit| &visit.each_ma).map(|row| row[axis])));
+        let rows = || visits().flat_map(|visit| &visit.each_ma);
+        // Both channels together may show what one alone has too few readings for.
+        let each = [0, 1].map(|axis| step_of_meter(rows().map(|row| row[axis])));
+        let last_digit_ma = each.into_iter().fold(step_of_meter(rows().flat_map(|row| [row.x, row.y])), f64::max);
         for visit in positions.iter_mut().flat_map(|at| &mut at.visits).filter(|_| identical_rows) {
             visit.each_ma.truncate(1);
             visit.mean_ma = visit.each_ma[0];
@@ -61,7 +64,7 @@ impl Recorded {
             at.visits.truncate(if identical_visits { 1 } else { at.visits.len() });
             *at = PositionReadings::new(at.index, std::mem::take(&mut at.visits));
         }
-        Self { last_digit_ma: x.max(y), spread_ma: spread_ma(positions), identical_rows, identical_visits }
+        Self { last_digit_ma, spread_ma: spread_ma(positions), identical_rows, identical_visits }
     }
 
     /// Returns the standard uncertainty of the rounding, mA, or 0 if the readings spread over several digits.

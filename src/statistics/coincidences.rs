@@ -12,6 +12,12 @@ const MOST_DECIMALS: usize = 14;
 /// Ratio of a last digit to the number below which the number was computed.
 const COMPUTED: f64 = 1e-11;
 
+/// Ratio of a last digit to the number below which single precision does not show it.
+const SINGLE: f64 = 1e-6;
+
+/// Probability by chance below which numbers without a last digit, or with a common divisor, are taken for coarser ones.
+const BY_CHANCE: f64 = 1.5e-4;
+
 /// Reading that is identical to an earlier one of the same quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Coincidence {
@@ -84,30 +90,49 @@ fn common_divisor(one: u64, other: u64) -> u64 {
 
 /// Returns the last decimal digit to which any of the numbers is written, or 0 if all are 0.
 pub(crate) fn last_digit(numbers: impl Iterator<Item = f64>) -> f64 {
-    numbers.filter_map(last_place).map(|(place, _)| place).min().map_or(0.0, power_of_ten)
+    numbers.filter_map(last_place).min().map_or(0.0, power_of_ten)
 }
 
-/// Returns the last decimal digit of a meter that has shown the numbers, or 0 if all are 0: of numbers with one number of
-/// decimals, as [`last_digit`]; of numbers with one number of significant digits, that of the largest.
-pub(crate) fn digit_of_meter(numbers: impl Iterator<Item = f64>) -> f64 {
-    let places: Vec<(i32, i32)> = numbers.filter_map(last_place).collect();
-    let Some(finest) = places.iter().map(|(place, _)| *place).min() else { return 0.0 };
-    let most = places.iter().map(|(_, significant)| *significant).max();
-    // Zeros at the end of a number are lost, so neither its decimals nor its significant digits are the same for all.
-    let of_most: Vec<i32> =
-        places.iter().filter(|(_, significant)| Some(*significant) == most).map(|(place, _)| *place).collect();
-    let with_finest = places.iter().filter(|(place, _)| *place == finest).count();
-    let is_of_significant = of_most.len() > with_finest && 4 * of_most.len() >= 3 * places.len();
-    power_of_ten(of_most.into_iter().max().filter(|_| is_of_significant).unwrap_or(finest))
+/// Returns the step of a meter that has shown the numbers, or 0 if all are 0: that of the coarsest of its ranges.
+///
+/// The largest numbers are of the coarsest range if all of them lack the last digit of the others, and are too many to end
+/// in zeros by chance. The step of a range is a multiple of its last digit. Numbers that were once stored in single
+/// precision have the digits that they had before.
+pub(crate) fn step_of_meter(numbers: impl Iterator<Item = f64>) -> f64 {
+    let mut sizes: Vec<f64> = numbers.map(f64::abs).filter(|size| *size > 0.0).collect();
+    sizes.sort_by(|one, other| other.total_cmp(one));
+    sizes.dedup();
+    let Some(largest) = sizes.first().copied() else { return 0.0 };
+    // Of numbers with more digits than single precision has, the shortest form has no fewer by chance.
+    let single: Vec<f64> = sizes.iter().filter_map(|size| (*size as f32).to_string().parse().ok()).collect();
+    let [short, written] = [&single, &sizes].map(|sizes| last_digit(sizes.iter().copied()));
+    if short > SINGLE * largest && short > 50.0 * written {
+        sizes = single;
+    }
+    coarsest(&sizes)
 }
 
-/// Returns the place (power of ten) of the last digit of a number, and its number of significant digits; `None` for 0.
-fn last_place(number: f64) -> Option<(i32, i32)> {
+/// Returns the step of the coarsest range of numbers in descending order.
+fn coarsest(sizes: &[f64]) -> f64 {
+    let places: Vec<i32> = sizes.iter().filter_map(|size| last_place(*size)).collect();
+    let Some(finest) = places.iter().copied().min() else { return 0.0 };
+    let coarse = places.iter().take_while(|place| **place > finest).count();
+    let by_chance = |divisor: f64, count: usize| libm::pow(divisor, -(count as f64)) > BY_CHANCE;
+    if !by_chance(10.0, coarse) {
+        return coarsest(&sizes[..coarse]);
+    }
+    let last = power_of_ten(finest);
+    let divisor = sizes.iter().map(|size| (size / last).round() as u64).fold(0, common_divisor) as f64;
+    if by_chance(divisor, sizes.len()) { last } else { last * divisor }
+}
+
+/// Returns the place (power of ten) of the last digit of a number; `None` for 0.
+fn last_place(number: f64) -> Option<i32> {
     let written = format!("{number:.MOST_DECIMALS$e}");
     let (mantissa, exponent) = written.split_once('e')?;
     let decimals = mantissa.trim_end_matches('0').split_once('.')?.1.len() as i32;
     let exponent: i32 = exponent.parse().ok()?;
-    (number != 0.0).then_some((exponent - decimals, decimals + 1))
+    (number != 0.0).then_some(exponent - decimals)
 }
 
 fn power_of_ten(place: i32) -> f64 {

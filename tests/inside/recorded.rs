@@ -113,6 +113,32 @@ fn a_meter_of_fixed_significant_digits_has_the_digit_of_its_largest_current() {
     assert!(ranged.answer().unwrap().chi_square.probability > 0.01);
 }
 
+/// Expected: by hand. Four decimals from 0.2 mA on and five below are uncertain by at most the rounding of four; the steps
+/// of a converter are multiples of 5e-5 mA; and numbers with four decimals in single precision have four decimals.
+#[test]
+fn the_step_of_a_meter_may_differ_from_the_last_digit() {
+    let setup = bench(1, 0.0);
+    let exact = currents(&setup, &gvk_6());
+    let step_ma = |shown: fn(f64) -> String| {
+        let mut csv = "i,j,jx_ma,jy_ma\n".to_owned();
+        for (at, exact) in setup.coefficients().positions.iter().zip(&exact) {
+            csv += &format!("{},{},{},{}\n", at.index.i, at.index.j, shown(exact.x), shown(exact.y));
+        }
+        solved(&setup, csv.as_bytes()).digits.unwrap().last_digit_ma.unwrap()
+    };
+    let autorange = |j: f64| if j.abs() >= 0.2 { format!("{j:.4}") } else { format!("{j:.5}") };
+    let half = |j: f64| format!("{:.5}", (j / 5e-5).round() * 5e-5);
+    fn rounded(j: f64) -> f64 {
+        (j * 1e4).round() / 1e4
+    }
+    let single = |j: f64| format!("{:.8e}", rounded(j) as f32);
+    let cast = |j: f64| format!("{}", f64::from(rounded(j) as f32));
+    for (shown, expected) in [(autorange as fn(f64) -> String, 1e-4), (half, 5e-5), (single, 1e-4), (cast, 1e-4)] {
+        let step = step_ma(shown);
+        assert!((step / expected - 1.0).abs() < 1e-12, "{step} {expected}");
+    }
+}
+
 /// Expected: copies of rows or of visits add nothing to one reading, neither a smaller uncertainty nor a noise of 0.
 #[test]
 fn copies_of_readings_count_as_one() {
@@ -152,6 +178,7 @@ fn the_last_digit_is_that_of_the_decimal_number() {
         solved(&setup, format!("i,j,jx_ma,jy_ma\n{}", csv.collect::<String>()).as_bytes()).digits
     };
     assert_eq!(each(|exact| exact), None);
+    assert_eq!(each(|exact| f64::from(exact as f32)), None);
     let converted = each(|exact| (exact * 1e4).round() * 0.1 * 1e-3).unwrap().last_digit_ma.unwrap();
     assert!((converted / DIGIT_MA - 1.0).abs() < 1e-12, "{converted}");
 }
