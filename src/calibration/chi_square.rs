@@ -5,8 +5,8 @@ use super::estimates::{Basis, Estimates};
 use super::inputs::Setup;
 use super::least_squares::{Fit, multiply_rows};
 use super::sensitivity::{Sensitivity, Shared};
-use crate::statistics::scaled_f::{Part, ScaledF};
-use nalgebra::{DMatrix, DVector, Matrix2, Vector3};
+use crate::statistics::scaled_f::{self, Part, ScaledF};
+use nalgebra::{DMatrix, DVector, DVectorView, Matrix2, Vector3};
 
 /// Chi-square test of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,7 +17,8 @@ pub struct ChiSquare {
     pub degrees_of_freedom: usize,
     /// Probability of a larger value if the readings agree with all stated uncertainties.
     ///
-    /// It is computed from a scaled F distribution if uncertainties rest on estimates with few degrees of freedom.
+    /// It is computed from a scaled F distribution if uncertainties rest on estimates with few degrees of freedom, and from
+    /// its mean over the noise of visits if that is estimated.
     pub probability: f64,
     /// Denominator degrees of freedom of that F distribution; infinite if every uncertainty is known.
     pub of_uncertainties: f64,
@@ -42,14 +43,43 @@ pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> ChiSquare {
         // With as many readings as unknowns, the residuals are only rounding.
         return ChiSquare { value: 0.0, degrees_of_freedom, probability: 1.0, of_uncertainties: f64::INFINITY };
     }
-    let (value, parts) = quadratic_form(setup, fit, data);
-    let distribution = ScaledF::new(degrees_of_freedom, &parts);
-    let (probability, of_uncertainties) = (distribution.larger(value), distribution.denominator);
+    let (value, Estimated { parts, visits }) = quadratic_form(setup, fit, data);
+    let with =
+        |factor: f64| visits.iter().flat_map(|(_, terms)| terms).fold(value, |sum, term| sum - term.taken(factor));
+    let poorest = visits.as_ref().map(|(estimate, _)| *estimate);
+    let probability = scaled_f::larger(degrees_of_freedom, &parts, poorest, with);
+    let of_uncertainties = ScaledF::new(degrees_of_freedom, &parts).denominator;
     ChiSquare { value, degrees_of_freedom, probability, of_uncertainties }
 }
 
-/// Returns the value of chi-square, and the parts of the covariance that rest on estimates.
-fn quadratic_form(setup: &Setup, fit: &Fit, data: &Data) -> (f64, Vec<Part>) {
+/// What of the covariance of the residuals rests on estimates with few degrees of freedom.
+#[derive(Debug, Default)]
+struct Estimated {
+    /// Part of each estimate.
+    parts: Vec<Part>,
+    /// Index of the estimate of the scatter of visits, and how chi-square changes with it.
+    visits: Option<(usize, Vec<Term>)>,
+}
+
+/// Term of the change of chi-square if the variance of visits is multiplied by a factor.
+#[derive(Debug, Clone, Copy)]
+struct Term {
+    /// Share of this variance in the variance of a combination of the residuals.
+    share: f64,
+    /// Square of the derivative of that combination.
+    square: f64,
+}
+
+impl Term {
+    /// Returns what `factor` takes from chi-square.
+    fn taken(&self, factor: f64) -> f64 {
+        let more = factor - 1.0;
+        self.square * more / (1.0 + self.share * more)
+    }
+}
+
+/// Returns the value of chi-square, and what of it rests on estimates.
+fn quadratic_form(setup: &Setup, fit: &Fit, data: &Data) -> (f64, Estimated) {
     let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma, &data.repeats);
     let count = shared.ncols();
     // The misclosures follow the common part as one more column, so that a single rotation transforms both.
@@ -73,19 +103,27 @@ fn quadratic_form(setup: &Setup, fit: &Fit, data: &Data) -> (f64, Vec<Part>) {
     let cholesky = inner.cholesky();
     let taken = cholesky.as_ref().map_or(0.0, |cholesky| projected.dot(&cholesky.solve(&projected)));
     let lower = cholesky.map(|cholesky| cholesky.unpack());
-    (z.norm_squared() - taken, parts(setup, fit, data, &whitened.columns(0, count).into_owned(), lower))
+    let shared = whitened.columns(0, count).into_owned();
+    (z.norm_squared() - taken, estimated(setup, fit, data, &shared, lower, whitened.column(count)))
 }
 
 /// Returns the parts of the covariance of the residuals that rest on estimates with few degrees of freedom. `shared` is
-/// the whitened common part of all positions, and `lower` is L with L L' = 1 + B'B.
+/// the whitened common part of all positions, `lower` is L with L L' = 1 + B'B, and `y` are the whitened misclosures.
 ///
 /// χ² is y' M y of the whitened misclosures y, with M = 1 − V V'. V consists of Q₁ and Q₂ B L'⁻¹ side by side; Q₁ = W X
 /// R⁻¹ is the part that the parameters absorb. A part D of the covariance of y enters through tr D M and tr D M D M. Own
 /// parts of positions are blocks of D, so D M costs little more than M itself.
-fn parts(setup: &Setup, fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Option<DMatrix<f64>>) -> Vec<Part> {
+fn estimated(
+    setup: &Setup,
+    fit: &Fit,
+    data: &Data,
+    shared: &DMatrix<f64>,
+    lower: Option<DMatrix<f64>>,
+    y: DVectorView<f64>,
+) -> Estimated {
     let estimates = Estimates::new(setup, &data.repeats);
     if estimates.degrees_of_freedom.is_empty() {
-        return Vec::new();
+        return Estimated::default();
     }
     let v = absorbed(fit, data, shared, lower);
     let rows = v.ncols();
@@ -117,7 +155,38 @@ fn parts(setup: &Setup, fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Op
         let degrees_of_freedom = estimates.degrees_of_freedom[estimate];
         parts.push(Part { degrees_of_freedom, trace: product.trace(), square });
     }
-    parts
+    let visits = estimates.of_visits().map(|estimate| (estimate, terms(m, &own[estimate], y)));
+    Estimated { parts, visits }
+}
+
+/// Returns how chi-square changes with the variance of visits, whose whitened part is D = G G', `own` for the positions and
+/// 1 for the differences.
+///
+/// With (M⁻ + a D)⁻ in place of M, y' M y loses a g' (1 + a G'M G)⁻¹ g, where g = G'M y.
+fn terms(mut m: DMatrix<f64>, own: &[Matrix2<f64>], y: DVectorView<f64>) -> Vec<Term> {
+    let mut g = &m * y;
+    let roots: Vec<Matrix2<f64>> = own.iter().map(|block| root(*block)).collect();
+    for _ in 0..2 {
+        for (place, root) in roots.iter().enumerate() {
+            multiply_rows(&mut m, place, root);
+        }
+        m.transpose_mut();
+    }
+    for (place, root) in roots.iter().enumerate() {
+        let rows = root * g.fixed_rows::<2>(2 * place);
+        g.fixed_rows_mut::<2>(2 * place).copy_from(&rows);
+    }
+    let eigen = m.symmetric_eigen();
+    let squares = eigen.eigenvectors.tr_mul(&g);
+    let each = eigen.eigenvalues.iter().zip(squares.iter());
+    each.map(|(share, g)| Term { share: share.max(0.0), square: g * g }).collect()
+}
+
+/// Returns the symmetric root of a covariance.
+fn root(covariance: Matrix2<f64>) -> Matrix2<f64> {
+    let eigen = covariance.symmetric_eigen();
+    let roots = Matrix2::from_diagonal(&eigen.eigenvalues.map(|value| value.max(0.0).sqrt()));
+    eigen.eigenvectors * roots * eigen.eigenvectors.transpose()
 }
 
 /// Returns V' of [`parts`].
@@ -288,7 +357,7 @@ mod tests {
         let readings = Readings::from_csv("run.csv", run.as_bytes(), setup.coefficients(), 1000.0).unwrap();
         for options in [Options::default(), Options { model: Model::General, ..Options::default() }] {
             let Linearised { fit, data, .. } = linearise(&setup, &readings, Method::LeastSquares, &options).unwrap();
-            let (_, parts) = quadratic_form(&setup, &fit, &data);
+            let (value, Estimated { parts, visits }) = quadratic_form(&setup, &fit, &data);
             let estimates = Estimates::new(&setup, &data.repeats);
             assert!(parts.len() >= 6, "angles, returns and noise, platform, base and turn-ons: {parts:?}");
             let (inputs, columns) =
@@ -311,6 +380,26 @@ mod tests {
                 let is = |found: f64, expected: f64| (found - expected).abs() < 1e-7 * expected.abs().max(1e-5);
                 assert!(is(part.trace, trace), "{estimate}: {part:?} {trace}");
                 assert!(is(part.square, square), "{estimate}: {part:?} {square}");
+            }
+            // The same form with another variance of the visits, which scales the columns of that estimate.
+            let (of_visits, terms) = visits.expect("a noise of the gyro that is estimated");
+            let mut y: Vec<f64> = Vec::new();
+            for (place, current) in data.currents_ma.iter().enumerate() {
+                y.extend(fit.misclosure(place, current).iter());
+            }
+            y.extend(fit.of_differences(&data.offsets).iter());
+            let y = DVector::from_vec(y);
+            for factor in [0.2, 1.0, 7.0] {
+                let mut scaled = columns.clone();
+                for (input, mut column) in inputs.iter().zip(scaled.column_iter_mut()) {
+                    column *= if input.basis == Basis::Estimate(of_visits) { f64::sqrt(factor) } else { 1.0 };
+                }
+                let inverse = (&scaled * scaled.transpose()).try_inverse().unwrap();
+                let weighted = &inverse * &design;
+                let p = &inverse - &weighted * (design.tr_mul(&weighted)).try_inverse().unwrap() * weighted.transpose();
+                let due = y.dot(&(p * &y));
+                let found = terms.iter().fold(value, |sum, term| sum - term.taken(factor));
+                assert!((found / due - 1.0).abs() < 1e-6, "{factor}: {found} {due}");
             }
         }
     }

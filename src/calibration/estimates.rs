@@ -100,6 +100,11 @@ impl Estimates {
         Basis::Estimate(self.degrees_of_freedom.len() - 1)
     }
 
+    /// Returns the index of the estimate of the scatter of visits, if they were repeated and it is in use.
+    pub(crate) fn of_visits(&self) -> Option<usize> {
+        if let Basis::Estimate(place) = self.visits { Some(place) } else { None }
+    }
+
     /// Returns the degrees of freedom of a basis; for the mean of three variances, those of all three together.
     pub(crate) fn degrees_of_freedom(&self, basis: Basis) -> f64 {
         match basis {

@@ -62,6 +62,12 @@ pub enum NoLeastSquares {
     /// A drift in time is asked for, but all readings have the same time.
     #[error("a drift in time cannot be fitted, because all readings have the same time_s")]
     ConstantTime,
+    /// A drift in time is asked for, but would leave the noise of the gyro from visit to visit without degrees of freedom.
+    #[error(
+        "a drift in time cannot be fitted, because the repeated visits cannot tell it from the noise of the gyro: visit \
+         more positions again, or state noise.visit_deg_per_h in the gyro type"
+    )]
+    DriftOrNoise,
     /// A current or an uncertainty that is not finite, or a meter without any uncertainty.
     #[error("every current must be finite and every uncertainty positive")]
     NotUsable,
@@ -198,14 +204,10 @@ impl Fit {
         }
     }
 
-    /// Returns the drift in time about x and y, °/h², and its covariance from the own parts of the positions; `None` if it
-    /// was not fitted.
-    pub(crate) fn drift(&self, offsets: &Offsets) -> Option<(Vector2<f64>, Matrix2<f64>)> {
+    /// Returns the drift in time about x and y, °/h²; `None` if it was not fitted.
+    pub(crate) fn drift(&self, offsets: &Offsets) -> Option<Vector2<f64>> {
         let &[.., x, y] = self.changing.as_slice() else { return None };
-        let r_inverse = &self.model.r_inverse;
-        let rows = r_inverse.rows(r_inverse.nrows() - 2, 2);
-        let covariance = Matrix2::from_fn(|row, column| rows.row(row).dot(&rows.row(column)));
-        offsets.drift.then_some((Vector2::new(x, y), covariance))
+        offsets.drift.then_some(Vector2::new(x, y))
     }
 
     /// Returns the standard uncertainties of the offsets from the own parts of the positions, °/h or °/h².

@@ -187,6 +187,11 @@ impl Differences {
         (count > 0).then_some(Self { terms, determined, positions, count })
     }
 
+    /// Returns the number of differences that no x explains.
+    pub(crate) fn degrees_of_freedom(&self) -> usize {
+        self.count - 2 * self.determined.as_ref().map_or(self.terms, DMatrix::ncols)
+    }
+
     /// Returns what the differences say of x; `k` is K, and `covariance` returns the covariance of the errors of a visit,
     /// (°/h)², 2×2, by the indices of position and visit. The result is `None` if a covariance has no inverse.
     ///
@@ -239,7 +244,7 @@ impl Differences {
         }
         .transpose();
         let chi_square = (squares - right.norm_squared()).max(0.0);
-        Some(Condensed { rows, right, chi_square, degrees_of_freedom: self.count - columns })
+        Some(Condensed { rows, right, chi_square, degrees_of_freedom: self.degrees_of_freedom() })
     }
 }
 

@@ -1,21 +1,24 @@
 //! The whole calibration: every requested method with its uncertainty and its fit.
 
 use super::analytic::{self, AnalyticMap, NoAnalyticSolution};
+use super::causes;
 use super::chi_square::{ChiSquare, chi_square};
 use super::data::{Data, Observation};
 use super::diagnosis;
+use super::estimates::Estimates;
 use super::inputs::Setup;
 use super::iterative::{self, NoIterativeSolution, StopRule};
 use super::least_squares::{Fit, NoLeastSquares};
+use super::offsets::{Differences, Offsets};
 use super::parameter::Parameter;
-use super::propagation::{Propagation, covariance, standard_deviations};
+use super::propagation::{Propagation, covariance, product, standard_deviations};
 use super::readings::Readings;
 use super::result::{
     Calibration, Cycle, Drift, DriftTest, GMatrix, Iteration, Method, MethodRefusal, MethodResult, ModelTest, Residual,
 };
 use super::unknowns::{Model, Unknowns};
 use crate::gyro::GyroParameters;
-use crate::statistics::distributions::chi_square_larger;
+use crate::statistics::scaled_f::{self, Part};
 use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2};
 
 /// Options of a calibration.
@@ -49,8 +52,9 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
     if !indices.eq(setup.coefficients().positions.iter().map(|at| at.index)) {
         return Err(NoLeastSquares::OtherPositions);
     }
+    let possible = drift_can_be_fitted(setup, readings);
     if options.drift {
-        drift_can_be_fitted(readings)?;
+        possible.clone()?;
     }
     // If the positions do not determine the model, least squares alone has no result.
     let (Observation { data, fit, seen }, refused) =
@@ -71,7 +75,8 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
         turn_on_scatter: seen.turn_ons,
         visit_noise: data.repeats.visit,
         turn_on_noise: data.repeats.turn_on,
-        drift_test: (!options.drift).then(|| drift_test(setup, readings, options)).flatten(),
+        drift_test: if possible.is_ok() && !options.drift { drift_test(setup, readings, options) } else { None },
+        drift_or_noise: possible == Err(NoLeastSquares::DriftOrNoise),
         settled: fit.settled,
         hint,
     };
@@ -102,27 +107,65 @@ pub fn calibrate(setup: &Setup, readings: &Readings, options: &Options) -> Resul
     Ok(calibration)
 }
 
-/// Checks that all readings have times, and not all the same.
-fn drift_can_be_fitted(readings: &Readings) -> Result<(), NoLeastSquares> {
+/// Checks that all readings have times, and not all the same, and that the noise of the gyro is still known with a drift:
+/// stated, or estimated if it is without the drift.
+fn drift_can_be_fitted(setup: &Setup, readings: &Readings) -> Result<(), NoLeastSquares> {
     let mut times = readings.positions().iter().flat_map(|at| &at.visits).map(|visit| visit.time_s);
     let first = times.next().flatten().ok_or(NoLeastSquares::NoTimes)?;
     let mut same = true;
     for time_s in times {
         same &= time_s.ok_or(NoLeastSquares::NoTimes)? == first;
     }
-    if same { Err(NoLeastSquares::ConstantTime) } else { Ok(()) }
+    if same {
+        return Err(NoLeastSquares::ConstantTime);
+    }
+    let of_noise = |drift| {
+        let differences = Differences::new(readings, &Offsets::new(readings, drift));
+        differences.map_or(0, |differences| differences.degrees_of_freedom())
+    };
+    let stated = setup.uncertainty().visit_deg_per_h.is_some();
+    if !stated && of_noise(false) > 0 && of_noise(true) == 0 { Err(NoLeastSquares::DriftOrNoise) } else { Ok(()) }
 }
 
 /// Tests whether the drift differs from 0 where it is not fitted; `None` if there are no times, or they do not determine
 /// it.
 fn drift_test(setup: &Setup, readings: &Readings, options: &Options) -> Option<DriftTest> {
-    drift_can_be_fitted(readings).ok()?;
     let Observation { data, fit, .. } = Observation::new(setup, readings, options.model, true).ok()?;
-    let (drift, covariance) = fit.drift(&data.offsets)?;
-    let probability = chi_square_larger(drift.dot(&(covariance.try_inverse()? * drift)), 2);
+    let drift = fit.drift(&data.offsets)?;
+    let probability = probability_of_drift(setup, &data, &fit, &drift)?;
     let rest = chi_square(setup, &fit, &data);
     let explains = !rest.judges() || rest.probability >= diagnosis::ALARM;
     Some(DriftTest { drift_deg_per_h_per_h: drift, probability, explains })
+}
+
+/// Returns the probability of a larger drift than `drift` if there is none; `None` if its covariance has no inverse.
+fn probability_of_drift(setup: &Setup, data: &Data, fit: &Fit, drift: &Vector2<f64>) -> Option<f64> {
+    let (inputs, columns) = causes::inputs(setup, &fit.unknowns, &fit.currents_ma, &data.repeats, &data.offsets);
+    let response = Propagation::new(setup, fit, data).response_of_least_squares();
+    let spread = product(&response.rows(response.nrows() - 2, 2).into_owned(), &columns);
+    let estimates = Estimates::new(setup, &data.repeats);
+    let mut whole = Matrix2::zeros();
+    let mut of_estimates = vec![Matrix2::zeros(); estimates.degrees_of_freedom.len()];
+    for (input, change) in inputs.iter().zip(spread.column_iter()) {
+        let square = change * change.transpose();
+        let square = Matrix2::from_fn(|row, column| square[(row, column)]);
+        whole += square;
+        for (estimate, share) in input.basis.shares() {
+            of_estimates[estimate] += square * share;
+        }
+    }
+    let inverse = whole.try_inverse()?;
+    let parts = of_estimates.iter().zip(&estimates.degrees_of_freedom).map(|(part, &degrees_of_freedom)| {
+        let s = inverse * part;
+        Part { degrees_of_freedom, trace: s.trace(), square: (s * s).trace() }
+    });
+    let parts: Vec<Part> = parts.collect();
+    let of_visits = estimates.of_visits().map_or_else(Matrix2::zeros, |estimate| of_estimates[estimate]);
+    let value = |factor: f64| {
+        let inverse = (whole + of_visits * (factor - 1.0)).try_inverse();
+        inverse.map_or(0.0, |inverse| drift.dot(&(inverse * drift)))
+    };
+    Some(scaled_f::larger(2, &parts, estimates.of_visits(), value))
 }
 
 /// First-order response of a calibration to small changes of all its inputs.
@@ -225,7 +268,7 @@ impl<'a> Evaluation<'a> {
                 covariance[(place, place)].sqrt()
             }),
         });
-        let drift = self.fit.drift(&self.data.offsets).map(|(deg_per_h_per_h, _)| {
+        let drift = self.fit.drift(&self.data.offsets).map(|deg_per_h_per_h| {
             let place = all.nrows() - 2;
             let u = [0, 1].map(|axis| all[(place + axis, place + axis)].sqrt());
             Drift { deg_per_h_per_h, standard_uncertainty_deg_per_h_per_h: u.into() }

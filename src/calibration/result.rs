@@ -63,8 +63,11 @@ pub struct Calibration {
     pub visit_noise: DriftNoise,
     /// Noise of ω_0 from one turn-on of the gyro to the next, each axis.
     pub turn_on_noise: DriftNoise,
-    /// Test for a drift in time that was not fitted; `None` if it was, or the readings have no times.
+    /// Test for a drift in time that was not fitted; `None` if it was, the readings have no times, or the repeated visits
+    /// cannot tell it from the noise of the gyro.
     pub drift_test: Option<DriftTest>,
+    /// `true` if there are times, but the repeated visits cannot tell a drift from the noise of the gyro.
+    pub(crate) drift_or_noise: bool,
     /// `true` if the fit converged. Otherwise the readings are far from those of any gyro on this stand.
     pub settled: bool,
     /// Possible causes if the readings do not fit; otherwise `None`.

@@ -151,14 +151,13 @@ impl Repeats {
             offsets.with(differences.condensed(&k, |place, visit| known(place, visit) + variance)?);
             return scatter.map(|scatter| Scatter { variance_factor: 1.0, ..scatter });
         }
-        let scatter = scatter?;
-        if scatter.variance_factor > 1.0 {
+        if let Some(scatter) = scatter.filter(|scatter| scatter.variance_factor > 1.0) {
             self.visit_factor = scatter.variance_factor;
             self.visit_degrees_of_freedom = scatter.degrees_of_freedom as f64;
         }
         let factor = self.visit_factor;
         offsets.with(differences.condensed(&k, |place, visit| of_stated(place, visit) * factor)?);
-        Some(scatter)
+        scatter
     }
 
     /// Returns the parts of the covariance of the visits that rest on estimates.

@@ -413,6 +413,11 @@ fn scatter(out: &mut String, calibration: &Calibration) {
         );
         columns::paragraph(out, "", &words);
     }
+    if calibration.drift_or_noise {
+        let words = "A drift of ω_0 in time was not tested, because the repeated visits cannot tell it from the noise of the \
+                     gyro. Visit more positions again, or state noise.visit_deg_per_h in the gyro type.";
+        columns::paragraph(out, "  ", words);
+    }
 }
 
 /// Formats a value with two significant digits and its sign.

@@ -1,5 +1,7 @@
 //! Distribution of z′ Ĉ⁻¹ z where parts of the covariance Ĉ are themselves estimates.
 //!
+//! One estimate may have very few degrees of freedom: [`larger`] averages over its own distribution.
+//!
 //! Source: [Kenward and Roger](crate::bibliography::Bibliography::KenwardRoger97), section 4. The first two moments, to
 //! first order in the variances of the estimates, are those of a scaled F. With one estimate of all of Ĉ the
 //! distribution is F itself; without estimates it is chi-square.
@@ -62,6 +64,40 @@ impl ScaledF {
     }
 }
 
+/// Weight, relative to the largest, below which [`larger`] leaves out the rest of a distribution.
+const NEGLIGIBLE: f64 = 1e-40;
+
+/// Returns the probability that a quadratic form in `numerator` dimensions is larger than it is. `value(w)` is the form
+/// with the estimate `poorest` multiplied by w; `parts` has all estimates in their order.
+///
+/// A true variance is w times its estimate, and ν/w has chi-square with ν degrees of freedom. The probability is the mean
+/// over w, as a Monte Carlo would draw it. The moments of [`ScaledF`] would see how much of the covariance is uncertain
+/// only through the estimate, and so least of all where this is too small by chance. With one estimate of all of Ĉ the
+/// mean is F as well. The other estimates enter by their moments.
+pub(crate) fn larger(numerator: usize, parts: &[Part], poorest: Option<usize>, value: impl Fn(f64) -> f64) -> f64 {
+    let Some(poorest) = poorest else { return ScaledF::new(numerator, parts).larger(value(1.0)) };
+    let mut others = parts.to_vec();
+    let half = others.remove(poorest).degrees_of_freedom / 2.0;
+    let of_others = ScaledF::new(numerator, &others);
+    // With w = e^(−s) the density is analytic and falls off exponentially, so that equal steps are enough.
+    let step = 0.35 / half.sqrt().max(1.0);
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for direction in [-step, step] {
+        let mut number = if direction > 0.0 { 1.0 } else { 0.0 };
+        loop {
+            let s = number * direction;
+            let weight = libm::exp(half * (s - libm::expm1(s)));
+            sum += weight * of_others.larger(value(libm::exp(-s)));
+            weights += weight;
+            number += 1.0;
+            if weight < NEGLIGIBLE {
+                break;
+            }
+        }
+    }
+    sum / weights
+}
+
 #[cfg(all(test, feature = "monte-carlo"))]
 mod tests {
     use super::*;
@@ -80,6 +116,46 @@ mod tests {
             }
         }
         assert_eq!(ScaledF::new(8, &[]).larger(9.0), chi_square_larger(9.0, 8));
+    }
+
+    /// Expected: F, if the estimate is of all the covariance.
+    #[test]
+    fn the_mean_over_an_estimate_of_all_is_f() {
+        for (p, nu) in [(1, 1.0), (2, 2.0), (2, 4.0), (8, 2.0), (8, 14.0), (24, 300.0), (8, 1e5)] {
+            let part = Part { degrees_of_freedom: nu, trace: f64::from(p), square: f64::from(p) };
+            let p = p as usize;
+            for value in [0.3, 1.0, 4.0, 40.0] {
+                let (found, due) = (larger(p, &[part], Some(0), |w| value * p as f64 / w), f_larger(value, p, nu));
+                assert!((found - due).abs() < 1e-8 * due + 1e-30, "{p} {nu} {value}: {found} {due}");
+            }
+        }
+    }
+
+    /// Expected: never more than the probability itself, within three standard errors: eight numbers, a share of whose
+    /// variance is one estimate with few degrees of freedom. The moments alone give far more.
+    #[test]
+    fn an_estimate_of_a_share() {
+        const TRIALS: u32 = 20_000;
+        let mut worst = 0;
+        for (seed, (nu, share)) in [(2, 0.2), (2, 0.5), (2, 0.8), (4, 0.5), (14, 0.5)].into_iter().enumerate() {
+            let mut stream = Stream::new(40 + seed as u64);
+            let (mut improbable, mut by_moments) = (0, 0);
+            for _ in 0..TRIALS {
+                let estimate = (0..nu).map(|_| stream.normal().powi(2)).sum::<f64>() / f64::from(nu) * share;
+                let squares = (0..8).map(|_| stream.normal().powi(2)).sum::<f64>();
+                let form = |w: f64| squares / (1.0 - share + w * estimate);
+                let of_all = estimate / (1.0 - share + estimate);
+                let part =
+                    Part { degrees_of_freedom: f64::from(nu), trace: 8.0 * of_all, square: 8.0 * of_all * of_all };
+                improbable += u32::from(larger(8, &[part], Some(0), form) < 0.05);
+                by_moments += u32::from(ScaledF::new(8, &[part]).larger(form(1.0)) < 0.05);
+            }
+            let (due, error) = (f64::from(TRIALS) * 0.05, (f64::from(TRIALS) * 0.05 * 0.95).sqrt());
+            assert!(f64::from(improbable) < due + 3.0 * error, "{nu} {share}: {improbable}");
+            assert!(f64::from(improbable) > 0.2 * due, "{nu} {share}: {improbable}");
+            worst = worst.max(by_moments);
+        }
+        assert!(worst > 2 * TRIALS / 20, "{worst}");
     }
 
     /// Expected: by simulation, 5 % within two standard errors and half a percent: eight numbers, whose variance is

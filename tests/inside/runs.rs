@@ -358,6 +358,84 @@ fn a_drift_is_named() {
     assert_eq!(calibrate(&setup, &readings, &drifting(Model::Paper)).unwrap_err(), NoLeastSquares::ConstantTime);
 }
 
+/// Eight positions, and some of them once more an hour later.
+fn revisited(places: &[usize]) -> Vec<Planned> {
+    let again = places.iter().enumerate().map(|(number, place)| (*place, 1, 3600.0 + 60.0 * number as f64));
+    whole_cycles(1, &[0, 1, 2, 3, 4, 5, 6, 7]).into_iter().chain(again).collect()
+}
+
+/// Expected: a probability is below 5 % in at most 5 % of runs without a drift and with a correct model, and if nothing
+/// but the noise of the gyro acts, in exactly 5 %: the noise is then the only estimate. The bound is three standard errors.
+#[test]
+fn few_degrees_of_freedom_of_the_noise_are_no_drift() {
+    const TRIALS: u32 = 3000;
+    let due = 0.05 * f64::from(TRIALS);
+    let error = (due * 0.95).sqrt();
+    let options = Options { methods: vec![Method::LeastSquares], ..Options::default() };
+    let stand = drawn_stand(&mut Stream::new(8), 0.5);
+    for (seed, (reading, again)) in
+        [(0.0, &[0, 1, 2][..]), (0.0, &[0]), (8.7e-5, &[0, 1, 2]), (8.7e-5, &[0, 4]), (8.7e-5, &[0])]
+            .into_iter()
+            .enumerate()
+    {
+        let mut setup = bench(&stand, None, None);
+        if reading > 0.0 {
+            let mut u = InputUncertainty::of_meter(paper_meter());
+            u.meter.reading = reading;
+            setup = with_uncertainty(&stand, LATITUDE_DEG, u);
+        }
+        let exact = currents(&setup, &gvk_6());
+        let k = gvk_6().k_deg_per_h_per_ma;
+        let mut stream = Stream::new(60 + seed as u64);
+        let (mut drifts, mut misfits, mut tests) = (0, 0, 0);
+        for _ in 0..TRIALS {
+            let own: Vec<Vector2<f64>> = exact.iter().map(|j| k * j.map(|j| reading * j * stream.normal())).collect();
+            let plan = revisited(again);
+            let mut place = plan.iter().map(|(place, ..)| *place);
+            let error =
+                || own[place.next().unwrap()] + Vector2::from_fn(|_, _| EQUAL_NOISE_DEG_PER_H * stream.normal());
+            let found = solved(&setup, &Drifting::none().read(&setup, &plan, error), &options);
+            misfits += u32::from(least_squares(&found).chi_square.probability < 0.05);
+            tests += u32::from(found.drift_test.is_some());
+            drifts += u32::from(found.drift_test.is_some_and(|test| test.probability < 0.05));
+        }
+        let case = format!("{reading} {again:?}: drifts {drifts}, misfits {misfits}");
+        assert_eq!(tests, if again.len() > 1 { TRIALS } else { 0 }, "{case}");
+        for count in [drifts, misfits] {
+            assert!(f64::from(count) < due + 3.0 * error, "{case}");
+        }
+        if reading == 0.0 {
+            assert!((f64::from(misfits) - due).abs() < 3.0 * error, "{case}");
+            assert!(tests == 0 || (f64::from(drifts) - due).abs() < 3.0 * error, "{case}");
+        }
+    }
+}
+
+/// One position visited again tells either the noise or a drift: the drift is then neither tested nor fitted, unless the
+/// noise is stated. A drift that more visits show is found.
+#[test]
+fn a_drift_or_noise() {
+    let read = |setup: &Setup, again: &[usize], per_hour: f64| {
+        let mut stream = Stream::new(5);
+        let gyro = Drifting { per_hour: Vector2::new(per_hour, 0.0), ..Drifting::none() };
+        gyro.read(setup, &revisited(again), || Vector2::from_fn(|_, _| EQUAL_NOISE_DEG_PER_H * stream.normal()))
+    };
+    let setup = bench(&ideal(), None, None);
+    let closing = read(&setup, &[0], 0.1);
+    assert_eq!(calibrate(&setup, &closing, &drifting(Model::Paper)).unwrap_err(), NoLeastSquares::DriftOrNoise);
+    let found = solved(&setup, &closing, &Options::default());
+    assert!(found.drift_or_noise && found.drift_test.is_none());
+    assert_eq!(found.visit_noise.degrees_of_freedom, 2.0);
+    let found = solved(&setup, &read(&setup, &[0, 1, 2], 0.1), &Options::default());
+    assert!(!found.drift_or_noise && found.drift_test.unwrap().is_significant(), "{:?}", found.drift_test);
+    // One difference and the stated noise determine a drift without any fit: u = √2 ε per hour at most.
+    let setup = bench(&ideal(), Some(EQUAL_NOISE_DEG_PER_H), None);
+    let found = solved(&setup, &closing, &drifting(Model::Paper));
+    let u = least_squares(&found).drift.unwrap().standard_uncertainty_deg_per_h_per_h;
+    assert!(u.max() < 1.001 * std::f64::consts::SQRT_2 * EQUAL_NOISE_DEG_PER_H, "{u}");
+    assert!(solved(&setup, &closing, &Options::default()).drift_test.unwrap().is_significant());
+}
+
 /// The F test names a gyro that needs the general model, and hardly another.
 #[test]
 fn the_general_model_is_found_to_be_needed() {

@@ -96,6 +96,7 @@ fn scatter(page: &CalibrationPage, languages: &Languages) -> Markup {
         @if calibration.drift_test.is_some_and(|test| test.is_significant()) {
             (languages.paragraph_with(|language| italic(&texts::DRIFTS.filled(language, &[("option", &"--drift")]))))
         }
+        @if calibration.drift_or_noise { (languages.paragraph(texts::DRIFT_OR_NOISE)) }
     }
 }
 

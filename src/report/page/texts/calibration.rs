@@ -282,6 +282,10 @@ texts! {
         en: "The residuals change with time more than chance explains: the gyro drifted during the run. Fit a linear drift with {option}.",
         ru: "Остатки меняются со временем больше, чем можно объяснить случайностью: за\u{a0}время измерений гироскоп дрейфовал. Учтите линейное изменение: {option}."
     }
+    DRIFT_OR_NOISE {
+        en: "A drift in time was not tested, because the repeated visits cannot tell it from the noise of the gyro.",
+        ru: "Изменение дрейфа во времени не проверено: по повторным установкам в\u{a0}положение его нельзя отличить от шума гироскопа."
+    }
     G_MATRIX { en: "Matrix of g-sensitive drift", ru: "Матрица дрейфа, зависящего от\u{a0}g" }
     MODEL_TEST {
         en: "Test whether ω_g and ω_k alone are enough: F = {f} with {further} and {rest} degrees of freedom, probability of a larger value {p}.",
