@@ -57,6 +57,9 @@ pub struct CalibrationDocument {
     pub(crate) degrees_of_freedom: BTreeMap<String, f64>,
     /// Results, one for each method.
     pub(crate) results: Vec<ResultDocument>,
+    /// Reasons why methods gave no result, by the keys of the methods.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty", default)]
+    pub(crate) refused: BTreeMap<String, String>,
     /// Inputs whose uncertainty certificate, site and laboratory do not state; the result does not include it.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub(crate) not_stated: Vec<String>,
@@ -188,6 +191,11 @@ impl CalibrationDocument {
             consistent: calibration.hint.is_none(),
             degrees_of_freedom: BTreeMap::new(),
             results: calibration.results.iter().map(|result| ResultDocument::new(result, calibration)).collect(),
+            refused: calibration
+                .refused
+                .iter()
+                .map(|(method, why)| (method.key().to_owned(), why.to_string()))
+                .collect(),
             not_stated: not_stated.iter().map(|what| what.words().to_owned()).collect(),
             scatter: calibration.scatter,
             turn_on_scatter: calibration.turn_on_scatter,

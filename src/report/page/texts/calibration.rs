@@ -52,9 +52,10 @@ texts! {
     MISTAKE { en: "These are not the parameters of this gyro", ru: "Это не параметры данного гироскопа" }
     MISTAKE_CURRENTS {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: {causes}. Check the \
-             torquer cables and the signs and unit of the currents; then calibrate again.",
+             torquer cables, the signs and unit of the currents, and how the gyro is seated; then calibrate again.",
         ru: "Показания согласуются, но параметры не соответствуют данному гироскопу. Это объясняется одной ошибкой: \
-             {causes}. Следует проверить кабели датчиков момента, знаки и единицу токов и повторить калибровку."
+             {causes}. Следует проверить кабели датчиков момента, знаки и единицу токов, установку гироскопа и повторить \
+             калибровку."
     }
     MISTAKE_PLACE {
         en: "The readings fit, but the parameters do not match this gyro. One error explains this: the passport is for \
