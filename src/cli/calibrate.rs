@@ -4,8 +4,8 @@ use super::administrative::AdministrativeFile;
 use super::inputs::{self, Each};
 use super::output::Format;
 use super::render::languages;
-use super::show::{Read, Whom};
-use super::trust_options::date;
+use super::show::{Read, Reader, Whom};
+use super::trust_options::{Verifier, date};
 use super::{Code, Failure, REFUSED, defaults, exclusion, output, uncertainty};
 use crate::batch::once::Once;
 use crate::batch::{Purpose, paths};
@@ -22,7 +22,6 @@ use crate::files;
 use crate::gyro::GyroType;
 use crate::interface::calibrated::{Done, Prepared};
 use crate::laboratory::{Laboratory, TEMPERATURES_C};
-use crate::passport::{Content, Question, Trust, Verification};
 use crate::report::Language;
 use crate::report::calibration as report;
 use crate::report::page::{CalibrationPage, PassportPage, UsedPassport};
@@ -154,9 +153,11 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if one.is_none() {
         options.check_for_several()?;
     }
+    let reader = options.whom.reader()?;
     let bench = Bench {
         options,
-        passport: options.whom.reader()?.read(&options.passport)?,
+        passport: reader.read(&options.passport)?,
+        reader,
         laboratory: inputs::laboratory(options.laboratory.as_deref())?,
         gyro_type: inputs::gyro(options.gyro.as_deref())?,
         previous: previous(options)?,
@@ -172,6 +173,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
 /// Everything but the currents.
 struct Bench<'a> {
     options: &'a Options,
+    reader: Reader,
     passport: Read,
     laboratory: Laboratory,
     gyro_type: Option<GyroType>,
@@ -211,7 +213,7 @@ struct Line<'a> {
 impl Bench<'_> {
     /// Returns the time for which the passport was verified, or `None` if it was not.
     fn verified_as_of(&self) -> Option<Timestamp> {
-        self.passport.verification.as_ref().map(|(_, _, question)| question.time)
+        self.reader.0.as_ref().map(|verifier| verifier.question.time)
     }
 
     /// Returns what is calibrated and under which conditions, without the digest of the currents.
@@ -370,11 +372,11 @@ impl Bench<'_> {
 
     /// Returns the report for paper.
     fn page(&self, found: &Found) -> Result<String, Failure> {
-        let (Read { content, bytes, verification }, done) = (&self.passport, &found.done);
+        let done = &found.done;
         let (name, sha256) = &found.currents;
         let page = CalibrationPage {
-            passport: used(content, bytes, verification.as_ref())?,
-            time: verification.as_ref().map_or_else(Timestamp::now, |(_, _, question)| question.time),
+            passport: used(&self.passport, self.reader.0.as_ref())?,
+            time: self.verified_as_of().unwrap_or_else(Timestamp::now),
             currents: (name, sha256.clone()),
             gyro: self.gyro_type.as_ref(),
             laboratory: self.options.laboratory.is_some().then_some(&self.laboratory),
@@ -451,12 +453,9 @@ impl Options {
 }
 
 /// Returns the passport in the form that the report takes.
-fn used<'a>(
-    content: &'a Content,
-    bytes: &'a [u8],
-    verification: Option<&'a (Verification, Trust, Question)>,
-) -> Result<UsedPassport<'a>, Failure> {
-    let Some((verification, trust, question)) = verification else {
+fn used<'a>(passport: &'a Read, verifier: Option<&'a Verifier>) -> Result<UsedPassport<'a>, Failure> {
+    let Read { content, bytes, verification } = passport;
+    let Some((verification, Verifier { trust, question, .. })) = verification.as_ref().zip(verifier) else {
         return Ok(UsedPassport::NotVerified { content, sha256: sha256_hex(bytes) });
     };
     match PassportPage::of(bytes, trust, question, verification.clone()) {

@@ -219,9 +219,11 @@ fn one(options: &Options, readings: &Path) -> Result<Code, Failure> {
 fn certified(path: &Path, trust: &OptionalTrust) -> Result<Stand, Failure> {
     let is_passport =
         files::read_first(path, LARGEST_DOCUMENT_BYTES).is_ok_and(|bytes| claims_to_be_a_passport(&bytes));
-    match (is_passport, trust.load()?) {
-        (false, _) => inputs::stand(path),
-        (true, Some((trust, question))) => Ok(past(path, &trust, &question)?.content.to_stand()),
-        (true, None) => Err(Failure::unusable(format!("{}: is a passport; specify --trust to verify it", shown(path)))),
+    if !is_passport {
+        return inputs::stand(path);
+    }
+    match trust.load()? {
+        Some(verifier) => Ok(past(path, &verifier)?.content.to_stand()),
+        None => Err(Failure::unusable(format!("{}: is a passport; specify --trust to verify it", shown(path)))),
     }
 }

@@ -124,8 +124,8 @@ fn values(workspace: Option<&Workspace>, verb: &str) -> impl Iterator<Item = Add
         ("--list", verb == "revoke", stated(|workspace| workspace.lists().map(Into::into))),
         // `register` has its folder without an option.
         ("--passports", verb != "register", passports()),
-        // Otherwise a passport that the workspace itself withdrew would be valid in it.
-        ("--register", verb == "verify", passports()),
+        // Otherwise a passport that the workspace itself withdrew could be used in it.
+        ("--register", true, passports()),
     ];
     let of_this_verb = of_this_verb.map(|(option, applies, value)| Some((option, value.filter(|_| applies)?, FILE)));
     of_any_verb.into_iter().chain(of_this_verb).flatten()
@@ -148,7 +148,7 @@ fn lacks(command: &Command, matches: &ArgMatches, option: &str) -> bool {
         .find(|argument| argument.get_long().is_some_and(|long| option.strip_prefix("--") == Some(long)));
     let given =
         |id: &str| matches.try_contains_id(id).is_ok() && matches.value_source(id) == Some(ValueSource::CommandLine);
-    let excluded = option == "--trust" && given("no_verify");
+    let excluded = ["--trust", "--register"].contains(&option) && given("no_verify");
     found.is_some_and(|argument| !given(argument.get_id().as_str()) && !excluded)
 }
 

@@ -1,11 +1,10 @@
 //! Verb `diff`: two passports, number by number.
 
 use super::output::{self, Format};
-use super::trust_options::TrustOptions;
+use super::trust_options::{TrustAmong, Verifier};
 use super::{Code, Failure, defaults, inputs};
 use crate::document::sha256_hex;
 use crate::passport::difference::Differences;
-use crate::passport::{CheckName, Question, Trust, verify};
 use crate::report::difference::{self, Side};
 use crate::text::kind::Kind;
 use crate::text::{name_of, printable};
@@ -22,31 +21,31 @@ pub(super) struct Options {
     #[arg(value_name = "PASSPORT", value_parser = defaults::passport())]
     b: PathBuf,
     #[command(flatten)]
-    trust: TrustOptions,
+    trust: TrustAmong,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let (trust, question) = options.trust.load()?;
-    let a = past(&options.a, &trust, &question)?;
-    let b = past(&options.b, &trust, &question)?;
+    let verifier = options.trust.load()?;
+    let a = past(&options.a, &verifier)?;
+    let b = past(&options.b, &verifier)?;
     let found = Differences::of(&a.content, &b.content);
     options.format.write(|| difference::to_json(&a, &b, &found), || difference::text(&a, &b, &found))?;
     Ok(0)
 }
 
-/// Reads and verifies a passport to compare it, not to use it: it may have expired, which is reported.
-pub(super) fn past(path: &Path, trust: &Trust, question: &Question) -> Result<Side, Failure> {
+/// Reads and verifies a passport to compare it, not to use it: it may have expired, or been superseded or withdrawn, which
+/// is reported.
+pub(super) fn past(path: &Path, verifier: &Verifier) -> Result<Side, Failure> {
     let bytes = inputs::bytes(path, Kind::Passport.words())?;
     let file = name_of(path);
-    let verification = verify(&file, &bytes, trust, question);
-    let Some(content) = verification.content_even_if_expired().cloned() else {
+    let verification = verifier.verify(&file, &bytes);
+    let Some(content) = verification.content_even_if_past().cloned() else {
         return Err(Failure::verdict("", &file, &verification));
     };
-    let expired = verification.checks().iter().find(|check| check.name == CheckName::InForce);
-    if let Some(check) = expired.filter(|check| check.passed() == Some(false)) {
+    for check in verification.checks().iter().filter(|check| check.passed() == Some(false)) {
         output::say(&format!("{}: {}", printable(&file), check.detail));
     }
     Ok(Side { file, sha256: sha256_hex(&bytes), content })

@@ -4,7 +4,7 @@ use super::administrative::{AdministrativeFile, DCC_IS_NOT_SIGNED};
 use super::inputs::{self, Each};
 use super::output::Format;
 use super::render::languages;
-use super::trust_options::TrustOptions;
+use super::trust_options::{TrustAmong, Verifier};
 use super::{Code, Failure, REFUSED, UNUSABLE, defaults, output};
 use crate::batch::{Purpose, paths};
 use crate::dcc;
@@ -13,7 +13,7 @@ use crate::files::{self, FileError};
 use crate::parallel;
 use crate::passport::export::{site_file, stand_file};
 use crate::passport::verification::unreadable;
-use crate::passport::{Content, Question, Trust, Verification, verify};
+use crate::passport::{Content, Verification};
 use crate::report::Language;
 use crate::report::exported;
 use crate::text::{LARGEST_DOCUMENT_BYTES, Unreadable, name_of, printable, shown};
@@ -39,7 +39,7 @@ pub(super) struct Options {
     #[arg(long, value_enum, value_delimiter = ',', required = true, value_name = "FORM")]
     to: Vec<Form>,
     #[command(flatten)]
-    trust: TrustOptions,
+    trust: TrustAmong,
     /// Folder to write to [default: the current folder; JSON goes to standard output, one line for each passport]
     #[arg(short, long, visible_alias = "output", value_name = "DIR")]
     out: Option<PathBuf>,
@@ -73,10 +73,10 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if !options.to.contains(&Form::Dcc) && (options.administrative.is_some() || !options.lang.is_empty()) {
         return Err(Failure::usage("--administrative and --lang are for a DCC; add --to dcc, or omit them"));
     }
-    let (trust, question) = options.trust.load()?;
+    let verifier = options.trust.load()?;
     let administrative = AdministrativeFile::read(options.administrative.as_deref())?;
     let written = HashMap::new();
-    let mut run = Run { options, trust, question, administrative, written, code: 0, next: Vec::new() };
+    let mut run = Run { options, verifier, administrative, written, code: 0, next: Vec::new() };
     let mut list = std::io::stdin().lock();
     for found in paths::files(&options.passports, &mut list, Purpose::Passports) {
         match found {
@@ -105,8 +105,7 @@ struct Exported {
 
 struct Run<'a> {
     options: &'a Options,
-    trust: Trust,
-    question: Question,
+    verifier: Verifier,
     administrative: AdministrativeFile,
     /// SHA-256 of the files written so far, and the passports that they come from.
     written: HashMap<PathBuf, (String, PathBuf)>,
@@ -146,10 +145,10 @@ impl Run<'_> {
         let name = name_of(path);
         let (bytes, verification, unread) = match files::read_first(path, LARGEST_DOCUMENT_BYTES + 1) {
             Ok(bytes) => {
-                let verification = verify(&name, &bytes, &self.trust, &self.question);
+                let verification = self.verifier.verify(&name, &bytes);
                 (bytes, verification, false)
             }
-            Err(error) => (Vec::new(), unreadable(&error.to_string(), &self.question), true),
+            Err(error) => (Vec::new(), unreadable(&error.to_string(), &self.verifier.question), true),
         };
         let to = |form: Form| self.options.to.contains(&form);
         let json = || {

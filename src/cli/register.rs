@@ -5,7 +5,6 @@ use super::trust_options::{TrustOptions, date};
 use super::{Code, Failure, REFUSED, UNUSABLE};
 use crate::folder::search;
 use crate::parallel;
-use crate::passport::{Question, Trust};
 use crate::register::{Asked, Line, Register, State};
 use crate::report::issued::Form;
 use crate::report::register as report;
@@ -122,18 +121,4 @@ impl Options {
             && self.site.as_ref().is_none_or(|site| line.site.as_ref() == Some(site))
             && self.expiring_before.is_none_or(before)
     }
-}
-
-/// Reads the register of `folder`, and adds the revocation lists found there to `trust`. The register is `None` without
-/// a folder.
-pub(super) fn asked(
-    folder: Option<&Path>,
-    trust: Trust,
-    question: &Question,
-) -> Result<(Option<Register>, Trust), Failure> {
-    let Some(folder) = folder else { return Ok((None, trust)) };
-    let (register, trust) =
-        search::register(folder, trust, &Asked::at(question.time), parallel::processors()).map_err(Failure::file)?;
-    register.alarms.iter().for_each(|alarm| output::complain(&alarm.to_string()));
-    Ok((Some(register), trust))
 }

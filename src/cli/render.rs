@@ -1,8 +1,8 @@
 //! Verb `render`: the printed form of a verified passport.
 
 use super::output::Format;
-use super::trust_options::TrustOptions;
-use super::{Code, Failure, defaults, inputs, output, register};
+use super::trust_options::{TrustAmong, Verifier};
+use super::{Code, Failure, defaults, inputs, output};
 use crate::batch::Purpose;
 use crate::folder::Folder;
 use crate::report::page::{Language, Languages, PassportPage};
@@ -28,10 +28,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
-    trust: TrustOptions,
-    /// Folder of passports: state on the page if another passport in it supersedes this one
-    #[arg(long, visible_alias = "passports", value_name = "DIR")]
-    register: Option<PathBuf>,
+    trust: TrustAmong,
     /// Page languages; the first sets the number format: en, ru, or en,ru for both side by side
     #[arg(long, value_enum, value_delimiter = ',', default_value = "en", value_name = "LANGUAGE")]
     lang: Vec<Language>,
@@ -59,8 +56,7 @@ pub(super) fn languages(written: &[Language]) -> Languages {
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let (trust, question) = options.trust.load()?;
-    let (register, trust) = register::asked(options.register.as_deref(), trust, &question)?;
+    let Verifier { trust, question, register } = options.trust.load()?;
     let write = |passport: &Path, output: Option<&Path>| {
         let bytes = inputs::bytes(passport, Kind::Passport.words())?;
         let name = name_of(passport);

@@ -2,11 +2,11 @@
 
 use super::inputs::{self, Each};
 use super::output::Format;
-use super::trust_options::OptionalTrust;
+use super::trust_options::{OptionalTrust, Verifier};
 use super::{Code, Failure, defaults, output};
 use crate::batch::{Purpose, paths};
 use crate::document::sha256_hex;
-use crate::passport::{Content, Question, Trust, Verification, read, verify};
+use crate::passport::{Content, Verification, read};
 use crate::report::{exported, passport_table};
 use crate::text::kind::Kind;
 use crate::text::{Node, name_of};
@@ -36,19 +36,19 @@ pub(super) struct Whom {
     #[command(flatten)]
     trust: OptionalTrust,
     /// Do not verify the passport; the output carries a warning
-    #[arg(long, conflicts_with_all = ["issuer", "serial", "at", "time"])]
+    #[arg(long, conflicts_with_all = ["issuer", "serial", "at", "time", "register"])]
     no_verify: bool,
 }
 
-/// Reader of passports that are used: the trust and the question, or `None` if passports are not verified.
-pub(super) struct Reader(Option<(Trust, Question)>);
+/// Reader of passports that are used: their verifier, or `None` if passports are not verified.
+pub(super) struct Reader(pub Option<Verifier>);
 
 /// A passport that was read, and the result of its verification.
 pub(super) struct Read {
     pub content: Content,
     pub bytes: Vec<u8>,
-    /// Verification with the trust and the question used; `None` if the passport was not verified.
-    pub verification: Option<(Verification, Trust, Question)>,
+    /// `None` if the passport was not verified.
+    pub verification: Option<Verification>,
 }
 
 impl Whom {
@@ -68,15 +68,15 @@ impl Reader {
     pub(super) fn read(&self, path: &Path) -> Result<Read, Failure> {
         let bytes = inputs::bytes(path, Kind::Passport.words())?;
         let name = name_of(path);
-        let Some((trust, question)) = &self.0 else {
+        let Some(verifier) = &self.0 else {
             let content = read::content_from_anyone(&name, &bytes).map_err(Failure::unreadable)?;
             return Ok(Read { content, bytes, verification: None });
         };
-        let verification = verify(&name, &bytes, trust, question);
+        let verification = verifier.verify(&name, &bytes);
         match verification.passport() {
             Some(passport) => {
                 let content = passport.content().clone();
-                Ok(Read { content, bytes, verification: Some((verification, trust.clone(), question.clone())) })
+                Ok(Read { content, bytes, verification: Some(verification) })
             }
             None => Err(Failure::verdict("", &name, &verification)),
         }
@@ -86,8 +86,7 @@ impl Reader {
 impl Read {
     /// Returns the passport and the result of its verification, for programs.
     fn for_programs(&self) -> Node {
-        let verification = self.verification.as_ref().map(|(verification, ..)| verification);
-        exported::shown(&self.content, &sha256_hex(&self.bytes), verification)
+        exported::shown(&self.content, &sha256_hex(&self.bytes), self.verification.as_ref())
     }
 }
 

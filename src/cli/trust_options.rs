@@ -1,12 +1,15 @@
-//! Options of trust: the trusted keys, and the question to verify for. Every verb uses this code, so the options are
-//! the same everywhere.
+//! Options of trust: the trusted keys, the question to verify for, and the folder of passports that tells which are
+//! superseded or withdrawn. Every verb uses this code, so the options are the same everywhere.
 
 use super::{Failure, output};
 use crate::earth::Place;
 use crate::files;
+use crate::folder::search;
 use crate::interface::enquiry::{self, NoTrust};
 pub(super) use crate::interface::enquiry::{date, time};
-use crate::passport::{Question, Trust};
+use crate::parallel;
+use crate::passport::{Question, Trust, Verification, verify};
+use crate::register::{self, Register};
 use crate::text::name_of;
 use crate::trust::LARGEST_TRUST_FILE_BYTES;
 use clap::Args;
@@ -41,6 +44,23 @@ pub(super) struct TrustOptions {
     asked: Asked,
 }
 
+/// Folder in which a passport may be superseded or withdrawn.
+#[derive(Args)]
+pub(super) struct Among {
+    /// Folder of passports: apply its lists of withdrawn passports, and reject a passport that another one in it supersedes
+    #[arg(long, visible_alias = "passports", value_name = "DIR")]
+    register: Option<PathBuf>,
+}
+
+/// Options of trust of a verb that reads passports.
+#[derive(Args)]
+pub(super) struct TrustAmong {
+    #[command(flatten)]
+    trust: TrustOptions,
+    #[command(flatten)]
+    among: Among,
+}
+
 /// Options of trust of a verb that also works without a passport.
 #[derive(Args)]
 pub(super) struct OptionalTrust {
@@ -52,14 +72,53 @@ pub(super) struct OptionalTrust {
     revoked: Vec<PathBuf>,
     #[command(flatten)]
     asked: Asked,
+    #[command(flatten)]
+    among: Among,
+}
+
+/// Trust and question of a command, and the register of its folder of passports, which is read once.
+pub(super) struct Verifier {
+    /// Trusted keys, and the lists of withdrawn passports that were given or are in the folder.
+    pub trust: Trust,
+    pub question: Question,
+    pub register: Option<Register>,
+}
+
+impl Verifier {
+    /// Reads the register of `folder`, if there is one, and its lists of withdrawn passports.
+    pub(super) fn new(trust: Trust, question: Question, folder: Option<&Path>) -> Result<Self, Failure> {
+        let Some(folder) = folder else { return Ok(Self { trust, question, register: None }) };
+        let asked = register::Asked::at(question.time);
+        let (register, trust) =
+            search::register(folder, trust, &asked, parallel::processors()).map_err(Failure::file)?;
+        register.alarms.iter().for_each(|alarm| output::complain(&alarm.to_string()));
+        Ok(Self { trust, question, register: Some(register) })
+    }
+
+    /// Verifies the bytes of a passport.
+    pub(super) fn verify(&self, name: &str, bytes: &[u8]) -> Verification {
+        let verification = verify(name, bytes, &self.trust, &self.question);
+        match &self.register {
+            Some(register) => register.asked(verification, bytes),
+            None => verification,
+        }
+    }
 }
 
 impl OptionalTrust {
-    /// Returns the trust and the question, or `None` if no `--trust` is given.
-    pub(super) fn load(&self) -> Result<Option<(Trust, Question)>, Failure> {
+    /// Returns the verifier, or `None` if no `--trust` is given.
+    pub(super) fn load(&self) -> Result<Option<Verifier>, Failure> {
         let question = self.asked.question();
         let Some(signers) = &self.trust else { return Ok(None) };
-        Ok(Some((load(signers, &self.revoked, question.time)?, question)))
+        let trust = load(signers, &self.revoked, question.time)?;
+        Verifier::new(trust, question, self.among.register.as_deref()).map(Some)
+    }
+}
+
+impl TrustAmong {
+    pub(super) fn load(&self) -> Result<Verifier, Failure> {
+        let (trust, question) = self.trust.load()?;
+        Verifier::new(trust, question, self.among.register.as_deref())
     }
 }
 

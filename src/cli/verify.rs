@@ -1,11 +1,10 @@
 //! Verb `verify`: the check that a passport is valid for this stand, place and time.
 
 use super::output::Format;
-use super::trust_options::TrustOptions;
-use super::{Code, Failure, REFUSED, UNUSABLE, defaults, output, register};
+use super::trust_options::TrustAmong;
+use super::{Code, Failure, REFUSED, UNUSABLE, defaults, output};
 use crate::files::{self, FileError};
 use crate::passport::verification::unreadable;
-use crate::passport::verify;
 use crate::report::verdict;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use clap::Args;
@@ -18,18 +17,14 @@ pub(super) struct Options {
     #[arg(required = true, value_name = "PASSPORT", value_parser = defaults::passport())]
     passports: Vec<PathBuf>,
     #[command(flatten)]
-    trust: TrustOptions,
-    /// Folder of passports: reject a passport that another one in it supersedes
-    #[arg(long, visible_alias = "passports", value_name = "DIR")]
-    register: Option<PathBuf>,
+    trust: TrustAmong,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }
 
 pub(super) fn run(options: &Options) -> Result<Code, Failure> {
-    let (trust, question) = options.trust.load()?;
-    let (register, trust) = register::asked(options.register.as_deref(), trust, &question)?;
+    let verifier = options.trust.load()?;
     let mut code = 0;
     let mut verdicts = Vec::new();
     for path in &options.passports {
@@ -38,11 +33,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
         // verdict.
         match files::read_first(path, LARGEST_DOCUMENT_BYTES + 1) {
             Ok(bytes) => {
-                let verification = verify(&name, &bytes, &trust, &question);
-                let verification = match &register {
-                    Some(register) => register.asked(verification, &bytes),
-                    None => verification,
-                };
+                let verification = verifier.verify(&name, &bytes);
                 code = code.max(if verification.valid() { 0 } else { REFUSED });
                 verdicts.push(verdict::Verdict::of(&name, &verification));
             }
@@ -54,7 +45,7 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
                 };
                 output::complain(&words);
                 code = code.max(UNUSABLE);
-                verdicts.push(verdict::Verdict::of(&name, &unreadable(&words, &question)));
+                verdicts.push(verdict::Verdict::of(&name, &unreadable(&words, &verifier.question)));
             }
         }
     }

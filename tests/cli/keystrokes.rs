@@ -163,7 +163,8 @@ impl Way {
     /// their states.
     fn signed(&self) -> (Vec<Value>, Vec<String>) {
         let trust = "--trust allowed_signers";
-        let shown = self.run(&format!("dtg-passport show passports --format json {trust}"));
+        // In a workspace `show` refuses what is superseded or withdrawn; `register` verifies all.
+        let shown = self.run("dtg-passport show passports --format json --no-verify");
         let contents = shown.lines().map(|line| {
             let mut content: Value = serde_json::from_str(line).unwrap();
             // What the verification found is of this file and this moment.
