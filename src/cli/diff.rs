@@ -36,8 +36,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     Ok(0)
 }
 
-/// Reads and verifies a passport to compare it, not to use it: it may have expired, or been superseded or withdrawn, which
-/// is reported.
+/// Reads and verifies a passport to compare it, not to use it: it may have expired, or been superseded or withdrawn,
+/// which is reported.
 pub(super) fn past(path: &Path, verifier: &Verifier) -> Result<Side, Failure> {
     let bytes = inputs::bytes(path, Kind::Passport.words())?;
     let file = name_of(path);

@@ -87,8 +87,8 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     })
 }
 
-/// Warns of files that the passports of the workspace show as superseded or withdrawn; in folders these are skipped. A file
-/// may be re-issued nevertheless, because its successor may be what corrects it.
+/// Warns of files that the passports of the workspace show as superseded or withdrawn; in folders these are skipped. A
+/// file is re-issued nevertheless, because its successor may be what corrects it.
 fn warn_of_past(passports: &[PathBuf], trust: &Trust, question: &Question) -> Result<(), Failure> {
     let mut no_list = std::io::empty();
     let named = paths::named(passports, &mut no_list).flatten();

@@ -47,7 +47,7 @@ pub(super) struct TrustOptions {
 /// Folder in which a passport may be superseded or withdrawn.
 #[derive(Args)]
 pub(super) struct Among {
-    /// Folder of passports: apply its lists of withdrawn passports, and reject a passport that another one in it supersedes
+    /// Folder of passports, which shows whether a passport was superseded or withdrawn
     #[arg(long, visible_alias = "passports", value_name = "DIR")]
     register: Option<PathBuf>,
 }

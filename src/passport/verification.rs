@@ -149,8 +149,8 @@ impl Verification {
         self.content_from_anyone().filter(|_| issuer && numbers).zip(self.key_from_anyone())
     }
 
-    /// Returns the content if every requested check passed, even if the passport has expired, or may have been superseded or
-    /// withdrawn; otherwise `None`: for a comparison with the past, not for use.
+    /// Returns the content if every requested check passed, even if the passport has expired or may have been
+    /// superseded or withdrawn; otherwise `None`: for a comparison with the past, not for use.
     pub(crate) fn content_even_if_past(&self) -> Option<&Content> {
         let past = [Code::Ok, Code::Expired, Code::PassportRevoked, Code::Superseded, Code::RegisterUnknown];
         let good = |check: &Check| past.contains(&check.code);
