@@ -478,7 +478,7 @@ fn write(
     if let Some(superseded) = superseded {
         superseded.keep()?;
     }
-    let written = files::together::write_together(&new, &(stand_file.to_owned(), text.as_bytes().to_vec()));
+    let written = files::together::write_together(&new, &[(stand_file.to_owned(), text.as_bytes().to_vec())]);
     if written.is_err()
         && let Some(superseded) = superseded.filter(|superseded| !superseded.kept)
     {

@@ -354,11 +354,7 @@ impl Bench<'_> {
         let page = (named(".html"), self.page(found)?);
         let text = printable::json(&found.whole()).map_err(Failure::unusable)? + "\n";
         let pages = [(json.clone(), text), page];
-        let force = self.options.uncertainty.force;
-        files::check_replaceable(pages.iter().map(|(path, _)| path), force).map_err(Failure::file)?;
-        for (path, text) in &pages {
-            output::file(path, text, force)?;
-        }
+        output::together(&pages, self.options.uncertainty.force)?;
         output::say(&format!("wrote {} and .html", shown(&json)));
         written.insert(json, found.currents.0.clone());
         Ok(())

@@ -206,11 +206,11 @@ impl Run<'_> {
             Ok(new) => new,
             Err(failure) => return self.failed(name, failure),
         };
-        let mut written = Vec::new();
-        for (target, text, sha256) in new {
-            output::saved(&target, &text, self.options.force)?;
-            written.push(name_of(&target));
-            self.written.insert(target, (sha256, path.clone()));
+        output::together(&new, self.options.force)?;
+        let written: Vec<String> = new.iter().map(|(target, _)| name_of(target)).collect();
+        for (target, text) in new {
+            output::say(&format!("wrote {}", shown(&target)));
+            self.written.insert(target, (sha256_hex(text.as_bytes()), path.clone()));
         }
         match self.options.format {
             Format::Json if line.is_none() => inputs::json_line(&json!({ "file": name, "written": written })),
@@ -218,12 +218,12 @@ impl Run<'_> {
         }
     }
 
-    /// Returns the files of one passport that are not there yet, with their SHA-256.
+    /// Returns the files of one passport that are not there yet.
     fn new_files(
         &self,
         path: &Path,
         files: Result<&Vec<(PathBuf, String)>, &Unreadable>,
-    ) -> Result<Vec<(PathBuf, String, String)>, Failure> {
+    ) -> Result<Vec<(PathBuf, String)>, Failure> {
         let files = files.map_err(|error| {
             let words = format!("nothing was exported from {}\n{}", shown(path), error.with_lines(""));
             Failure { message: words, code: REFUSED, ..Failure::unreadable(error.clone()) }
@@ -246,7 +246,7 @@ impl Run<'_> {
                     let words = format!("{error}; nothing was exported from {}", shown(path));
                     return Err(Failure { message: words, ..Failure::file(error) });
                 }
-                None => new.push((target.clone(), text.clone(), sha256)),
+                None => new.push((target.clone(), text.clone())),
             }
         }
         Ok(new)

@@ -100,6 +100,11 @@ pub(super) fn file(path: &Path, text: &str, force: bool) -> Result<(), Failure> 
     files::write_replaceable(path, text.as_bytes(), force).map_err(Failure::file)
 }
 
+/// Writes the results that belong together as [`file`] does, all of them or none.
+pub(super) fn together(results: &[(PathBuf, String)], force: bool) -> Result<(), Failure> {
+    files::together::write_replaceable_together(results, force).map_err(Failure::file)
+}
+
 /// Writes a result to a file as [`file`] does, and says so.
 pub(super) fn saved(path: &Path, text: &str, force: bool) -> Result<(), Failure> {
     file(path, text, force)?;

@@ -266,15 +266,18 @@ pub(crate) fn write_new_as(path: &Path, bytes: &[u8], access: Access, durability
 /// Checks that no file is in the way of [`write_replaceable`], so that none of several is written if one cannot be.
 ///
 /// # Errors
-/// Returns [`FileError::Folder`], or [`FileError::Exists`] without `force`.
-pub(crate) fn check_replaceable<'a>(
-    paths: impl IntoIterator<Item = &'a PathBuf>,
+/// Returns [`FileError::Folder`]; [`FileError::Exists`] without `force`, or for a file that is never replaced.
+pub(crate) fn check_replaceable<P: AsRef<Path>>(
+    paths: impl IntoIterator<Item = P>,
     force: bool,
 ) -> Result<(), FileError> {
     for path in paths {
-        let path = path.clone();
+        let path = path.as_ref().to_owned();
         if path.is_dir() {
             return Err(FileError::Folder { path });
+        }
+        if path.metadata().is_ok_and(|there| !there.is_file()) || (force && is_irreplaceable(&path)) {
+            return Err(FileError::Exists { path, replaceable: false });
         }
         if !force && path.symlink_metadata().is_ok() {
             return Err(FileError::Exists { path, replaceable: true });
@@ -306,12 +309,7 @@ pub(crate) fn check_distinct<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -
 /// # Errors
 /// Returns the errors of [`write_new`].
 pub(crate) fn write_replaceable(path: &Path, bytes: &[u8], force: bool) -> Result<(), FileError> {
-    if path.is_dir() {
-        return Err(FileError::Folder { path: path.to_owned() });
-    }
-    if path.metadata().is_ok_and(|there| !there.is_file()) || (force && is_irreplaceable(path)) {
-        return Err(FileError::Exists { path: path.to_owned(), replaceable: false });
-    }
+    check_replaceable([path], force)?;
     let persist = |temporary: NamedTempFile| match force {
         true => temporary.persist(path),
         false => temporary.persist_noclobber(path),

@@ -1,32 +1,44 @@
 //! Several files that belong together: all of them are written, or none.
 
-use super::{Access, Durability, FileError, folder_of, make_folder, sync_folder, temporary};
+use super::{Access, Durability, FileError, check_replaceable, folder_of, make_folder, sync_folder, temporary};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 use tempfile::{NamedTempFile, PersistError};
 
-/// Writes several new files, and then `last`, which may replace another: all of them or none.
+/// Writes several files as [`super::write_replaceable`] does: all of them or none.
+///
+/// # Errors
+/// Returns the errors of [`check_replaceable`], or [`FileError::Write`].
+pub(crate) fn write_replaceable_together<B: AsRef<[u8]>>(files: &[(PathBuf, B)], force: bool) -> Result<(), FileError> {
+    check_replaceable(files.iter().map(|(path, _)| path), force)?;
+    if force { write_together(&[], files) } else { write_together(files, &[]) }
+}
+
+/// Writes several new files, and then those of `last`, which may replace others: all of them or none.
 ///
 /// All are first written and synced under temporary names, so that only their renaming, which needs no space, remains.
-/// If one cannot be renamed, those renamed before are removed. A kill between two renames can leave some of the new
-/// files, each of them whole.
+/// If one cannot be renamed, the new ones renamed before are removed. A kill between two renames can leave some of the
+/// new files, each of them whole.
 ///
 /// # Errors
 /// Returns [`FileError::Exists`] if a name of a new file is already used, or [`FileError::Write`].
-pub(crate) fn write_together(new: &[(PathBuf, Vec<u8>)], last: &(PathBuf, Vec<u8>)) -> Result<(), FileError> {
+pub(crate) fn write_together<B: AsRef<[u8]>>(new: &[(PathBuf, B)], last: &[(PathBuf, B)]) -> Result<(), FileError> {
     let failed = |path: &Path| {
         let path = path.to_owned();
         move |error| FileError::Write { path, error }
     };
-    let stage = |(path, bytes): &(PathBuf, Vec<u8>)| {
+    let stage = |(path, bytes): &(PathBuf, B)| {
         make_folders(folder_of(path)).map_err(failed(path))?;
-        temporary(folder_of(path), bytes, Access::Shared, Durability::Named).map_err(failed(path))
+        temporary(folder_of(path), bytes.as_ref(), Access::Shared, Durability::Named).map_err(failed(path))
     };
     let staged = new.iter().map(stage).collect::<Result<Vec<_>, _>>()?;
-    let staged_last = stage(last)?;
+    let staged_last = last.iter().map(stage).collect::<Result<Vec<_>, _>>()?;
     let mut written = Vec::new();
-    let published = publish(new, staged, &mut written)
-        .and_then(|()| staged_last.persist(&last.0).map_err(|error| failed(&last.0)(error.error)));
+    let mut replacing = last.iter().zip(staged_last);
+    let replace = |((path, _), temporary): (&(PathBuf, B), NamedTempFile)| {
+        temporary.persist(path).map(drop).map_err(|error| failed(path)(error.error))
+    };
+    let published = publish(new, staged, &mut written).and_then(|()| replacing.try_for_each(replace));
     if let Err(error) = published {
         // Nobody has seen these files, which were written a moment ago.
         for path in &written {
@@ -34,15 +46,15 @@ pub(crate) fn write_together(new: &[(PathBuf, Vec<u8>)], last: &(PathBuf, Vec<u8
         }
         return Err(error);
     }
-    for (path, _) in new.iter().chain([last]) {
+    for (path, _) in new.iter().chain(last) {
         sync_folder(folder_of(path)).map_err(failed(path))?;
     }
     Ok(())
 }
 
 /// Gives temporary files the names of `new`, none of which may be used, and adds each to `written`.
-fn publish<'a>(
-    new: &'a [(PathBuf, Vec<u8>)],
+fn publish<'a, B>(
+    new: &'a [(PathBuf, B)],
     staged: Vec<NamedTempFile>,
     written: &mut Vec<&'a Path>,
 ) -> Result<(), FileError> {
@@ -71,19 +83,34 @@ mod tests {
         let file = |name: &str, text: &str| (at(name), text.as_bytes().to_vec());
         fs::write(at("last"), "old").unwrap();
         fs::write(at("b"), "there").unwrap();
-        let refused = write_together(&[file("a", "1"), file("b", "2")], &file("last", "new"));
+        let refused = write_together(&[file("a", "1"), file("b", "2")], &[file("last", "new")]);
         assert!(matches!(refused, Err(FileError::Exists { path, .. }) if path == at("b")));
         let read = |name: &str| fs::read_to_string(at(name)).ok();
         assert_eq!((read("a"), read("b"), read("last")), (None, Some("there".into()), Some("old".into())));
         // A folder in place of the last file: the new ones are removed again.
         fs::create_dir(at("folder")).unwrap();
-        assert!(write_together(&[file("a", "1")], &file("folder", "new")).is_err());
+        assert!(write_together(&[file("a", "1")], &[file("folder", "new")]).is_err());
         assert_eq!(read("a"), None);
-        write_together(&[file("deep/er/a", "1"), file("c", "2")], &file("last", "new")).unwrap();
+        write_together(&[file("deep/er/a", "1"), file("c", "2")], &[file("last", "new")]).unwrap();
         assert_eq!(
             (read("deep/er/a"), read("c"), read("last")),
             (Some("1".into()), Some("2".into()), Some("new".into()))
         );
+        // What cannot be written leaves none of the others, nor replaces any.
+        for force in [false, true] {
+            let refused = write_replaceable_together(&[file("d", "1"), file("b/below", "2")], force);
+            assert!(matches!(refused, Err(FileError::Write { path, .. }) if path == at("b/below")));
+            assert!(write_replaceable_together(&[file("d", "1"), file("folder", "2")], force).is_err());
+            assert_eq!(read("d"), None);
+        }
+        let refused = write_replaceable_together(&[file("d", "1"), file("b", "2")], false);
+        assert!(matches!(refused, Err(FileError::Exists { replaceable: true, .. })));
+        write_replaceable_together(&[file("c", "3"), file("b", "4")], true).unwrap();
+        assert_eq!((read("c"), read("b"), read("d")), (Some("3".into()), Some("4".into()), None));
+        fs::write(at("b"), "format: \"dtg-passport/1\"\n").unwrap();
+        let refused = write_replaceable_together(&[file("c", "5"), file("b", "6")], true);
+        assert!(matches!(refused, Err(FileError::Exists { replaceable: false, .. })));
+        assert_eq!(read("c"), Some("3".into()));
         let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         assert_eq!(left.len(), 5, "no temporary file is left: {left:?}");
     }

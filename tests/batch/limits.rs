@@ -86,6 +86,40 @@ fn no_file_may_grow_large_enough() {
 }
 
 #[test]
+fn results_that_belong_together_are_there_or_not() {
+    let workshop = Workshop::new(1, 1);
+    fs::create_dir(workshop.path("gyros")).unwrap();
+    fs::copy(programs::project("docs/currents.csv"), workshop.path("gyros/4711.csv")).unwrap();
+    let passport = programs::project("passports/SPS-2/0017/moscow-bmstu-1.yaml");
+    let read = format!(
+        "{} --time 2026-11-20 --trust {}",
+        passport.display(),
+        programs::project("docs/allowed_signers").display()
+    );
+    let calibrate = read.replacen(' ', " gyros --method least-squares ", 1);
+    for (job, small, large) in [
+        (format!("calibrate {calibrate} --out out"), "4711.json", "4711.html"),
+        (format!("export {read} --to site,json --out out"), "moscow-bmstu.yaml", "SPS-2/0017/moscow-bmstu-1.json"),
+    ] {
+        let size = |name: &str| fs::metadata(workshop.path(&format!("out/{name}"))).map(|found| found.len());
+        workshop.run(&job, 0);
+        let (fits, does_not) = (size(small).unwrap(), size(large).unwrap());
+        assert!(fits + 1024 < does_not, "{job}: {fits}, {does_not}");
+        fs::remove_dir_all(workshop.path("out")).unwrap();
+        // The limit is in units of 512 bytes; the smaller file is below it.
+        let limit = fits.div_ceil(512);
+        let limited = format!("trap '' XFSZ; ulimit -f {limit}; exec \"$DTG\" {job}");
+        let output = workshop.shell(&limited).output().unwrap();
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(words.contains(large) && words.contains("no file was left"), "{words}");
+        assert!(size(small).is_err() && size(large).is_err(), "{job}");
+        // The same command does it when there is room.
+        workshop.run(&job, 0);
+        fs::remove_dir_all(workshop.path("out")).unwrap();
+    }
+}
+
+#[test]
 fn too_few_file_handles_cost_what_needs_them() {
     let workshop = Workshop::new(2, 20);
     let issue = format!("issue stands --site sites {SIGN}");
