@@ -241,7 +241,11 @@ impl CalibrationDocument {
     /// Returns [`Unreadable`] with line and column if `bytes` is not such a result.
     pub fn from_json(name: &str, bytes: &[u8]) -> Result<Self, Unreadable> {
         serde_json::from_slice(bytes).map_err(|error| {
-            let advice = "create it with `calibrate --format json`";
+            // A line of JSON for one of several gyros begins with the name of its file.
+            let advice = match bytes.trim_ascii_start().starts_with(b"{\"file\":") {
+                true => "these are the results of several gyros; `calibrate --out DIR` writes each of them to a file",
+                false => "create it with `calibrate --format json`",
+            };
             Unreadable::json(name, bytes, &error, "the JSON result of an earlier calibration", advice)
         })
     }

@@ -63,8 +63,8 @@ pub(super) struct Options {
     /// Laboratory (dtg-laboratory/1) [default: the paper's meter, 0.015 %]
     #[arg(long, value_name = "FILE")]
     laboratory: Option<PathBuf>,
-    /// Previous result of this gyro (from --format json), to report the change. May be repeated: the latest one is
-    /// compared, and --report shows all
+    /// Previous result of this gyro (from --format json or --out), to report the change. May be repeated: the latest
+    /// one is compared, and --report shows all
     #[arg(long, value_name = "RESULT.json")]
     previous: Vec<PathBuf>,
     /// Stop limit of the iteration for the main scale factors, percent
