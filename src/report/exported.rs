@@ -2,25 +2,9 @@
 
 use crate::passport::verification::not_run;
 use crate::passport::{Content, Verification};
+use crate::stand::{CertifiedPosition, TypeB};
+use crate::text::record::Record;
 use crate::text::{Field, Node};
-
-/// Keys of a position, in the order of the file.
-const POSITION: [&str; 11] = [
-    "i",
-    "j",
-    "theta_deg",
-    "phi_deg",
-    "alpha_arcsec",
-    "beta_arcsec",
-    "gamma_arcsec",
-    "u_alpha_arcsec",
-    "u_beta_arcsec",
-    "u_gamma_arcsec",
-    "degrees_of_freedom",
-];
-
-/// Keys of a contribution of type B, in the order of the file.
-const TYPE_B: [&str; 4] = ["source", "acts_on", "u_arcsec", "degrees_of_freedom"];
 
 /// Returns a passport as JSON: `{file, verified, sha256, checks, …}`, then the keys of the passport if every check
 /// passed. The objects in a list have the same keys, null where a value is absent, so that programs such as MATLAB read
@@ -80,11 +64,11 @@ fn uniform_content(content: &Content) -> Vec<(String, Node)> {
     let mut entries = entries_of(content);
     for (key, value) in &mut entries {
         match key.as_str() {
-            "positions" => uniform(value, &POSITION),
+            "positions" => uniform(value, CertifiedPosition::KEYS),
             "certificate" => {
                 if let Node::Map(certificate) = value {
                     let type_b = certificate.iter_mut().filter(|(key, _)| key == "type_b");
-                    type_b.for_each(|(_, lines)| uniform(lines, &TYPE_B));
+                    type_b.for_each(|(_, lines)| uniform(lines, TypeB::KEYS));
                 }
             }
             _ => {}
@@ -99,31 +83,5 @@ fn uniform(list: &mut Node, keys: &[&str]) {
     for item in items {
         let filled = keys.iter().map(|key| ((*key).to_owned(), item.get(key).cloned().unwrap_or(Node::Null)));
         *item = Node::Map(filled.collect());
-    }
-}
-
-#[cfg(all(test, feature = "factory"))]
-mod tests {
-    use super::*;
-    use crate::stand::Stand;
-
-    /// Expected: the keys that the records write when every optional value is stated.
-    #[test]
-    fn the_uniform_keys_are_those_of_the_records() {
-        let mut stand = Stand::from_yaml("stand", include_bytes!("../../passports/SPS-2/0017/stand.yaml")).unwrap();
-        let position = &mut stand.positions[0];
-        position.degrees_of_freedom = Some(1.0);
-        let keys = |node: Option<Node>| match node {
-            Some(Node::Map(entries)) => entries.into_iter().map(|(key, _)| key).collect::<Vec<_>>(),
-            _ => Vec::new(),
-        };
-        assert_eq!(keys(position.write()), POSITION);
-        let type_b = crate::stand::TypeB {
-            source: String::new(),
-            acts_on: crate::stand::ActsOn::Base,
-            u_arcsec: 1.0,
-            degrees_of_freedom: Some(1.0),
-        };
-        assert_eq!(keys(type_b.write()), TYPE_B);
     }
 }

@@ -48,6 +48,9 @@ pub(crate) trait Field: Sized + Clone + Send + Sync + 'static {
 
 /// Type whose fields are the keys of a mapping.
 pub(crate) trait Record: Field {
+    /// Keys of the record, in the order of the file.
+    const KEYS: &'static [&'static str];
+
     /// Writes the keys of the record into a mapping that may also have others.
     fn emit_entries<S: Sink>(&self, sink: &mut S);
 
@@ -131,6 +134,8 @@ macro_rules! record {
         }
 
         impl $crate::text::record::Record for $name {
+            const KEYS: &'static [&'static str] = &[$($crate::text::record::key(stringify!($field))),*];
+
             fn emit_entries<S: $crate::text::node::Sink>(&self, sink: &mut S) {
                 $(if !$crate::text::Field::is_absent(&self.$field)
                     && sink.key(const { $crate::text::record::key(stringify!($field)) })
@@ -145,8 +150,7 @@ macro_rules! record {
                 at: &$crate::text::Path,
                 problems: &mut $crate::text::Problems,
             ) -> Option<Self> {
-                let own = [$($crate::text::record::key(stringify!($field))),*];
-                let known: Vec<&str> = beside.iter().chain(&own).copied().collect();
+                let known: Vec<&str> = beside.iter().chain(Self::KEYS).copied().collect();
                 let entries = $crate::text::record::entries(node, at, problems, &known)?;
                 $(let $field = $crate::text::record::read_field(entries, $crate::text::record::key(stringify!($field)), at, problems);)*
                 Some(Self { $($field: $field?,)* })

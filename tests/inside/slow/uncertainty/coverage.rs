@@ -1,7 +1,8 @@
 //! Whether stated 95 % intervals hold the truth in 95 % of cases: simulated stands, certified and then used.
 
 use crate::inside::reference::*;
-use dtg_passport::attitude::{Deviation, actual, deviation, nominal};
+use crate::inside::simulated_stands::{angles, header, normal, turn};
+use dtg_passport::attitude::{Deviation, actual, nominal};
 use dtg_passport::calibration::{InputUncertainty, Method, NotStated, Options, Setup, calibrate};
 use dtg_passport::certification::{AngleReadings, Header, certify};
 use dtg_passport::coefficients::{EarthRate, Position, PositionIndex};
@@ -15,7 +16,7 @@ use dtg_passport::stand::Stand;
 use dtg_passport::statistics::random::{Run, Stream};
 use dtg_passport::trust::{AllowedSigners, SigningKey};
 use dtg_passport::uncertainty::Budget;
-use dtg_passport::units::{arcseconds_from_radians, radians_from_arcseconds};
+use dtg_passport::units::radians_from_arcseconds;
 use jiff::Timestamp;
 use nalgebra::{Matrix3, Vector2, Vector3};
 
@@ -27,20 +28,6 @@ const PAIRS: u64 = 10_000;
 const ANGLES: [f64; 3] = [6.0, 6.0, 9.0];
 const RETURN: f64 = 4.0;
 const OF_A_RUN: f64 = 8.0;
-
-const HEADER: &str = r#"format: "dtg-stand/1"
-stand: {model: "SPS-2", serial: "0017"}
-certificate: {number: "C-1", issued: "2026-11-02", laboratory: "Example"}
-positions:
-  - {i: 1, j: 1, theta_deg: 0, phi_deg: 0}
-  - {i: 1, j: 2, theta_deg: 0, phi_deg: 90}
-  - {i: 1, j: 3, theta_deg: 0, phi_deg: 180}
-  - {i: 1, j: 4, theta_deg: 0, phi_deg: 270}
-  - {i: 2, j: 1, theta_deg: 90, phi_deg: 0}
-  - {i: 2, j: 2, theta_deg: 90, phi_deg: 90}
-  - {i: 2, j: 3, theta_deg: 90, phi_deg: 180}
-  - {i: 2, j: 4, theta_deg: 90, phi_deg: 270}
-"#;
 
 const SITE: &str = r#"format: "dtg-site/1"
 id: "here"
@@ -72,7 +59,7 @@ impl Files {
             key,
             trust,
             time: "2026-11-09T09:00:00Z".parse().expect("a time"),
-            header: Header::from_yaml("header.yaml", HEADER.as_bytes()).expect("a header"),
+            header: header(),
             site: Site::from_yaml("here.yaml", SITE.as_bytes()).expect("a site"),
             laboratory: Laboratory::from_yaml("laboratory.yaml", LABORATORY.as_bytes()).expect("a laboratory"),
         }
@@ -105,7 +92,7 @@ impl Files {
             let (platform, base) = (small_turn(stream, OF_A_RUN), small_turn(stream, OF_A_RUN));
             for (read, at) in each.iter_mut().zip(real) {
                 let attitude = small_turn(stream, RETURN) * platform * attitude_of(at) * base;
-                read.push(angles_arcsec(&(attitude * nominal(at.theta_deg, at.phi_deg).transpose())));
+                read.push(angles(&(attitude * nominal(at.theta_deg, at.phi_deg).transpose())));
             }
         }
         let mut csv = "i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec\n".to_owned();
@@ -134,8 +121,8 @@ impl Files {
     /// Currents of a gyro in the laboratory: it sits askew, the base is turned, every return is a little off.
     fn currents(&self, stream: &mut Stream, real: &[Position], gyro: &GyroParameters) -> Vec<Vector2<f64>> {
         let seat = self.laboratory.seating_arcsec.as_ref().expect("a seat");
-        let seat = turned([seat.about_x, seat.about_y, seat.about_z].map(|sigma| sigma * stream.normal()));
-        let base = turned([0.0, 0.0, 8.0 * stream.normal()]);
+        let seat = turn(normal(stream, [seat.about_x, seat.about_y, seat.about_z]));
+        let base = turn(Vector3::new(0.0, 0.0, 8.0 * stream.normal()));
         let earth = EarthRate::at_astronomic_latitude(LATITUDE_DEG);
         let rate = Vector3::new(0.0, earth.horizontal_deg_per_h, earth.vertical_deg_per_h);
         let meter = &self.laboratory.meter;
@@ -152,21 +139,8 @@ fn attitude_of(at: &Position) -> Matrix3<f64> {
     actual(at.theta_deg, at.phi_deg, &at.deviation)
 }
 
-/// An exact rotation about x, y, z one after the other.
-fn turned(angles: [f64; 3]) -> Matrix3<f64> {
-    let [alpha_rad, beta_rad, gamma_rad] = angles.map(radians_from_arcseconds);
-    deviation(&Deviation { alpha_rad, beta_rad, gamma_rad })
-}
-
 fn small_turn(stream: &mut Stream, sigma_arcsec: f64) -> Matrix3<f64> {
-    turned([(); 3].map(|()| sigma_arcsec * stream.normal()))
-}
-
-/// The angles of E, from its elements: sin β, −sin α cos β, −cos β sin γ (see the matrix above eq. (4)).
-fn angles_arcsec(e: &Matrix3<f64>) -> Vector3<f64> {
-    let alpha = libm::atan2(-e[(2, 1)], e[(2, 2)]);
-    let gamma = libm::atan2(-e[(1, 0)], e[(0, 0)]);
-    Vector3::new(alpha, libm::asin(e[(2, 0)]), gamma).map(arcseconds_from_radians)
+    turn(normal(stream, [sigma_arcsec; 3]))
 }
 
 /// The current of a gyro there: K J = ω_3 − ω_0 − ω_n n.
