@@ -25,14 +25,18 @@ pub(crate) fn cases() -> [Case; 2] {
     let errors: Vec<[f64; 2]> = stands.iter().map(errors).collect();
     let worst = |which: usize| match errors.as_slice() {
         [] => f64::NAN,
-        // NaN means that there is no result, so it counts as the largest error.
-        some => some.iter().map(|pair| pair[which]).fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a }),
+        some => largest(some.iter().map(|pair| pair[which])),
     };
     let of = format!("worst of {} stands", errors.len());
     [
         case(format!("error of a coefficient, {of}"), COEFFICIENT_LIMIT, worst(0)),
         case(format!("error of a parameter, {of}"), PARAMETER_LIMIT, worst(1)),
     ]
+}
+
+/// Returns the largest error. NaN means that there is no result, so it counts as the largest.
+fn largest(errors: impl Iterator<Item = f64>) -> f64 {
+    errors.fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a })
 }
 
 fn case(quantity: String, tolerance: f64, found: f64) -> Case {
@@ -105,11 +109,11 @@ fn coefficient_error(found: &Coefficients, reference: &Value) -> Option<f64> {
         if expected.len() != found.len() {
             return f64::INFINITY;
         }
-        let largest = expected.iter().fold(0.0, |a, b| f64::max(a, b.abs()));
-        let worst = found.iter().zip(&expected).fold(0.0, |a, (x, y)| f64::max(a, (x - y).abs()));
-        if largest == 0.0 { worst } else { worst / largest }
+        let size = largest(expected.iter().map(|x| x.abs()));
+        let worst = largest(found.iter().zip(&expected).map(|(x, y)| (x - y).abs()));
+        if size == 0.0 { worst } else { worst / size }
     });
-    Some(errors.fold(0.0, f64::max))
+    Some(largest(errors))
 }
 
 /// Returns the largest relative error of the gyro parameters computed from the reference currents by eq. (13)-(16),
@@ -127,5 +131,19 @@ fn parameter_error(found: &Coefficients, reference: &Value) -> Option<f64> {
     if expected.len() != parameters.len() {
         return None;
     }
-    Some(parameters.iter().zip(&expected).fold(0.0, |worst, (x, y)| f64::max(worst, (x / y - 1.0).abs())))
+    Some(largest(parameters.iter().zip(&expected).map(|(x, y)| (x / y - 1.0).abs())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A result that is no number is no agreement, wherever it stands.
+    #[test]
+    fn what_is_not_a_number_is_the_largest_error() {
+        for errors in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
+            assert!(largest(errors.into_iter()).is_nan());
+        }
+        assert_eq!(largest([0.5, 2.0, 1.0].into_iter()), 2.0);
+    }
 }

@@ -12,7 +12,7 @@ use maud::{Markup, html};
 const WIDTH: f64 = 116.0;
 const HEIGHT: f64 = 13.0;
 /// Left and right end of the bars, with room for the outer numbers of the axis.
-const BARS: [f64; 2] = [8.0, 108.0];
+const BARS: [f64; 2] = [13.0, 103.0];
 const BAR_HALF: f64 = 4.0;
 
 /// Largest value on an axis, arcsec: 180°. The uncertainties themselves have no limit.

@@ -97,9 +97,11 @@ pub(crate) fn strip_axis(languages: &Languages, scale: &Scale, width: f64, unit:
         @for (value, text) in Ticks::along(scale, languages.first()).marks(languages.first()) {
             @let (x, text) = (scale.place(value), text + unit);
             @let half = HALF_LETTER * text.chars().count() as f64;
-            (line([x, 0.0], [x, 4.0], "grid"))
             // A long number at the end would be cut off.
-            (words([x.max(half).min(width - half), 14.0], Anchor::Middle, "small", &text))
+            @if x > half && x < width - half {
+                (line([x, 0.0], [x, 4.0], "grid"))
+                (words([x, 14.0], Anchor::Middle, "small", &text))
+            }
         }
     };
     strip([width, 17.0], &drawing)
