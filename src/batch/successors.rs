@@ -8,10 +8,11 @@ use super::paths;
 use super::{Batch, Event, Failure, Listener, Outcome, Purpose, Sweeper, fail, parallel};
 use crate::document::sha256_hex;
 use crate::files::{self, FileError, folder_of};
+use crate::folder::verifier::Verifier;
 use crate::folder::{Folder, Issued, Superseding, search};
 use crate::passport::issue::PreparedStand;
 use crate::passport::reissue::{Order, ReissueRefused, Successor, successor};
-use crate::passport::{Question, Trust, verify};
+use crate::passport::{Check, CheckName, Question, Trust, verify};
 use crate::register::{Alarm, AlarmKind, Asked, Line, Register, State};
 use crate::site::Site;
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of, shown};
@@ -36,6 +37,9 @@ pub(crate) struct Change<'a> {
     pub trust: Trust,
     /// Question by which the predecessors are verified.
     pub question: Question,
+    /// Register of a folder that shows which of the given files are superseded or withdrawn. These are re-issued with a
+    /// warning, because the successor may be what corrects them; in a given folder they are skipped.
+    pub workspace: Option<Verifier>,
     /// Folder of the successors; `None` for the root that the path of each predecessor shows.
     pub folder: Option<Arc<Folder>>,
 }
@@ -68,6 +72,8 @@ struct Following {
     successor: Successor,
     /// Folder of the successor.
     folder: Arc<Folder>,
+    /// Warnings about the predecessor.
+    warnings: Vec<String>,
 }
 
 impl Batch<'_> {
@@ -176,6 +182,9 @@ impl Run<'_> {
         let mut places: BTreeMap<(String, &str), Vec<usize>> = BTreeMap::new();
         for (index, examined) in examined.iter().enumerate() {
             if let Examined::Next(next) = examined {
+                next.warnings
+                    .iter()
+                    .for_each(|words| tell(Event::Remark { file: next.name.clone(), words: words.clone() }));
                 let successor = &next.successor;
                 let place = (successor.stand().stand.id(), successor.site.id.as_str());
                 places.entry(place).or_default().push(index);
@@ -196,7 +205,7 @@ impl Run<'_> {
     /// Issues a successor; every successor of a batch is made here.
     fn follow(&self, examined: &Examined) -> Option<Outcome> {
         let Examined::Next(next) = examined else { return None };
-        let Following { name, successor, folder } = &**next;
+        let Following { name, successor, folder, .. } = &**next;
         if self.batch.seal.is_some() {
             self.sweeper.sweep(folder.root());
             let path = folder.path_of(&successor.stand().stand, &successor.site.id, successor.first_revision());
@@ -240,7 +249,16 @@ impl Run<'_> {
         }
         let folder = self.folder_for(path, &next)?;
         next.rival = self.rival(path, &folder, &next, trust);
-        Ok(Examined::Next(Box::new(Following { name, successor: next, folder })))
+        let warnings = if candidate.found.is_none() { self.warnings(&name, &bytes) } else { Vec::new() };
+        Ok(Examined::Next(Box::new(Following { name, successor: next, folder, warnings })))
+    }
+
+    /// Returns why a given file is not for use, if it is superseded or withdrawn.
+    fn warnings(&self, name: &str, bytes: &[u8]) -> Vec<String> {
+        let Some(workspace) = &self.change.workspace else { return Vec::new() };
+        let verification = workspace.verify(name, bytes);
+        let of_the_past = |check: &&Check| check.passed() == Some(false) && check.name != CheckName::InForce;
+        verification.checks().iter().filter(of_the_past).map(|check| format!("WARNING: {}", check.detail)).collect()
     }
 
     /// Returns the folder for the successor of the passport at `path`.

@@ -46,13 +46,13 @@ pub(crate) fn chi_square(setup: &Setup, fit: &Fit, data: &Data) -> ChiSquare {
     let (value, Estimated { parts, visits }) = quadratic_form(setup, fit, data);
     let with =
         |factor: f64| visits.iter().flat_map(|(_, terms)| terms).fold(value, |sum, term| sum - term.taken(factor));
-    let poorest = visits.as_ref().map(|(estimate, _)| *estimate);
-    let probability = scaled_f::larger(degrees_of_freedom, &parts, poorest, with);
+    let of_visits = visits.as_ref().map(|(estimate, _)| *estimate);
+    let probability = scaled_f::larger(degrees_of_freedom, &parts, of_visits, with);
     let of_uncertainties = ScaledF::new(degrees_of_freedom, &parts).denominator;
     ChiSquare { value, degrees_of_freedom, probability, of_uncertainties }
 }
 
-/// What of the covariance of the residuals rests on estimates with few degrees of freedom.
+/// Parts of the covariance of the residuals that rest on estimates with few degrees of freedom.
 #[derive(Debug, Default)]
 struct Estimated {
     /// Part of each estimate.
@@ -78,7 +78,7 @@ impl Term {
     }
 }
 
-/// Returns the value of chi-square, and what of it rests on estimates.
+/// Returns the value of chi-square, and the parts of the covariance that rest on estimates.
 fn quadratic_form(setup: &Setup, fit: &Fit, data: &Data) -> (f64, Estimated) {
     let shared = Sensitivity::new(setup, &fit.unknowns).shared(&fit.currents_ma, &data.repeats);
     let count = shared.ncols();
@@ -162,7 +162,8 @@ fn estimated(
 /// Returns how chi-square changes with the variance of visits, whose whitened part is D = G G', `own` for the positions and
 /// 1 for the differences.
 ///
-/// With (M⁻ + a D)⁻ in place of M, y' M y loses a g' (1 + a G'M G)⁻¹ g, where g = G'M y.
+/// If this variance is multiplied by 1 + a, the covariance of y gains a D. By Woodbury, χ² = y' M y then loses
+/// a g' (1 + a G'M G)⁻¹ g, where g = G'M y. The eigenvectors of G'M G make a sum of this.
 fn terms(mut m: DMatrix<f64>, own: &[Matrix2<f64>], y: DVectorView<f64>) -> Vec<Term> {
     let mut g = &m * y;
     let roots: Vec<Matrix2<f64>> = own.iter().map(|block| root(*block)).collect();
@@ -189,7 +190,7 @@ fn root(covariance: Matrix2<f64>) -> Matrix2<f64> {
     eigen.eigenvectors * roots * eigen.eigenvectors.transpose()
 }
 
-/// Returns V' of [`parts`].
+/// Returns V' of [`estimated`].
 fn absorbed(fit: &Fit, data: &Data, shared: &DMatrix<f64>, lower: Option<DMatrix<f64>>) -> DMatrix<f64> {
     let mut taken = fit.design(&data.offsets);
     for (place, whiten) in fit.whitening.iter().enumerate() {

@@ -147,8 +147,8 @@ fn probability_of_drift(setup: &Setup, data: &Data, fit: &Fit, drift: &Vector2<f
     let mut whole = Matrix2::zeros();
     let mut of_estimates = vec![Matrix2::zeros(); estimates.degrees_of_freedom.len()];
     for (input, change) in inputs.iter().zip(spread.column_iter()) {
+        let change = change.fixed_rows::<2>(0);
         let square = change * change.transpose();
-        let square = Matrix2::from_fn(|row, column| square[(row, column)]);
         whole += square;
         for (estimate, share) in input.basis.shares() {
             of_estimates[estimate] += square * share;

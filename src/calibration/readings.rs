@@ -3,7 +3,7 @@
 //! A visit is one arrival at a position with its rows, which are the readings taken there without leaving the position.
 //! Further visits reduce errors that further rows of the same visit do not reduce.
 
-mod csv;
+pub(crate) mod csv;
 
 use super::recorded::Recorded;
 use crate::coefficients::{Coefficients, PositionIndex};

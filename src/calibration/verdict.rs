@@ -8,7 +8,7 @@
 use super::parameter::Parameter;
 use crate::gyro::{GyroParameters, GyroType};
 use crate::statistics::beta::{student_beyond, student_factor};
-use crate::statistics::propagation::effective_degrees_of_freedom;
+use crate::statistics::welch_satterthwaite::effective_degrees_of_freedom;
 use serde::Serialize;
 
 /// Coverage factor of expanded uncertainties with unlimited degrees of freedom.

@@ -40,7 +40,7 @@ use crate::coefficients::PositionIndex;
 use crate::stand::{self, ActsOn, Certificate, CertifiedPosition, Evidence, Stand};
 use components::{case_turn, turns_at};
 use deletion::Deletion;
-use nalgebra::{DVector, Matrix3, Vector3};
+use nalgebra::{DVector, Vector3};
 
 /// Smallest number of runs for which the program does not warn that there are few.
 pub(crate) const ENOUGH_RUNS: usize = 4;
@@ -244,7 +244,7 @@ pub(crate) fn predicted(
         let (turns, deletion) = fit(&completed)?;
         let shift = |(number, (place, _)): (usize, &(usize, usize))| {
             let shift = deletion.shifts_arcsec.fixed_rows::<3>(3 * number).into_owned();
-            to_angles(&turns[*place]) * shift
+            turns[*place].angles_of_rotation() * shift
         };
         let shifts: Vec<Vector3<f64>> = readings.missing.iter().enumerate().map(shift).collect();
         completed = completed.shifted(&shifts);
@@ -265,12 +265,6 @@ fn share_of_mean(place: usize, axis: usize, runs: usize, deletion: Option<(&Dele
     let pairs = own.iter().flat_map(|one| own.iter().map(move |other| (3 * one + axis, 3 * other + axis)));
     let shifts = pairs.map(|at| deletion.spread[at]).sum::<f64>();
     1.0 / runs + shifts / (runs * runs)
-}
-
-/// Returns the matrix from a rotation of the case to the angles α, β, γ of a position.
-fn to_angles(turn: &Turn) -> Matrix3<f64> {
-    // The angles solve axes · angles = rotation; the three axes are never coplanar while the angles are within ±45°.
-    Matrix3::from_columns(&turn.axes).try_inverse().unwrap_or_else(Matrix3::identity)
 }
 
 /// Returns the name of an angle that is the same in all runs of every position, or `None` if all angles vary.
@@ -316,7 +310,7 @@ fn of_mean(axis: Variance, scatter: Option<Variance>, share: f64, certificate: &
 /// Returns the certified position with the means `mean` (α, β, γ, arcsec) and their uncertainties, where `own` is the
 /// variance of its rotation about each axis of the case, arcsec².
 fn certified(nominal: &NominalPosition, mean: &Vector3<f64>, turn: &Turn, own: &[Variance; 3]) -> CertifiedPosition {
-    let to_angles = to_angles(turn);
+    let to_angles = turn.angles_of_rotation();
     let u = |angle: usize| {
         let variance =
             (0..3).map(|axis| to_angles[(angle, axis)] * to_angles[(angle, axis)] * own[axis].value).sum::<f64>();

@@ -3,6 +3,7 @@
 mod whole_runs;
 
 use super::header::NominalPosition;
+use crate::calibration::readings::csv::position;
 use crate::coefficients::PositionIndex;
 use crate::stand::{Excluded, LARGEST_DEVIATION_DEG};
 use crate::text::Unreadable;
@@ -97,7 +98,9 @@ impl AngleReadings {
             if problems.len() >= MOST_PROBLEMS {
                 break;
             }
-            let index = position(&table, row, positions, &mut problems);
+            let known = positions.iter().map(NominalPosition::index);
+            let advice = "check that these are the readings of this stand";
+            let index = position(&table, row, known, ("a position of the stand file", advice), &mut problems);
             let run = table.index(row, 2, &mut problems);
             let angles = [3, 4, 5].map(|column| angle(&table, row, column, &mut problems));
             if let (Some(index), Some(run), [Some(x), Some(y), Some(z)]) = (index, run, angles) {
@@ -186,24 +189,6 @@ fn averages(rows: &[Reading]) -> BTreeMap<Place, (Vector3<f64>, usize)> {
         *count += 1.0;
     }
     sums.into_iter().map(|(place, (sum, count, line))| (place, (sum / count, line))).collect()
-}
-
-fn position(
-    table: &Table,
-    row: &Row,
-    positions: &[NominalPosition],
-    problems: &mut Vec<Problem>,
-) -> Option<PositionIndex> {
-    let i = table.index(row, 0, problems);
-    let j = table.index(row, 1, problems);
-    let index = PositionIndex { i: i?, j: j? };
-    if positions.iter().any(|at| at.index() == index) {
-        return Some(index);
-    }
-    let advice = "check that these are the readings of this stand";
-    let found = format!("position {index}");
-    problems.push(table.problem(&row.cells[0], 0, found, "a position of the stand file", advice));
-    None
 }
 
 fn angle(table: &Table, row: &Row, column: usize, problems: &mut Vec<Problem>) -> Option<f64> {

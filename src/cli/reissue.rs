@@ -1,16 +1,11 @@
 //! Verb `reissue`: successors of existing passports.
 
 use super::batch::BatchOptions;
-use super::trust_options::{self, TrustOptions, Verifier};
-use super::{Code, Failure, defaults, inputs, output};
-use crate::batch::paths;
+use super::trust_options::{self, TrustOptions, verifier};
+use super::{Code, Failure, defaults, inputs};
 use crate::batch::successors::Change;
-use crate::files;
-use crate::parallel;
 use crate::passport::issue::time_of_issue;
 use crate::passport::reissue::Order;
-use crate::passport::{CheckName, Question, Trust};
-use crate::text::{LARGEST_DOCUMENT_BYTES, Printable, name_of};
 use clap::Args;
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -79,33 +74,14 @@ pub(super) fn run(options: &Options) -> Result<Code, Failure> {
     if let Some(public) = options.batch.public_key(signer.as_deref())? {
         options.batch.warn_unless_authorised(&trust.signers, &public, order.issued_at, "--trust");
     }
-    warn_of_past(&options.passports, &trust, &question)?;
+    let workspace = defaults::workspace().and_then(|workspace| workspace.passports.as_deref());
+    // The register of a folder is its own.
+    let all_folders = options.passports.iter().all(|path| path.is_dir());
+    let workspace = workspace.filter(|folder| folder.is_dir() && !all_folders);
+    let workspace = workspace.map(|folder| verifier(trust.clone(), question.clone(), Some(folder))).transpose()?;
     let folder = options.out.as_deref().map(|out| Arc::new(options.batch.folder(out)));
-    let change = Change { order, stands: &options.stands, sites: &options.sites, trust, question, folder };
+    let change = Change { order, stands: &options.stands, sites: &options.sites, trust, question, workspace, folder };
     options.batch.run(signer.as_deref(), None, |batch, tell| {
         batch.reissue(&options.passports, &mut std::io::stdin().lock(), change, tell);
     })
-}
-
-/// Warns of files that the passports of the workspace show as superseded or withdrawn; in folders these are skipped. A
-/// file is re-issued nevertheless, because its successor may be what corrects it.
-fn warn_of_past(passports: &[PathBuf], trust: &Trust, question: &Question) -> Result<(), Failure> {
-    let mut no_list = std::io::empty();
-    let named = paths::named(passports, &mut no_list).flatten();
-    let named: Vec<PathBuf> = named.filter(|path| path.is_file()).collect();
-    let folder = defaults::workspace().and_then(|workspace| workspace.passports.as_deref());
-    let Some(folder) = folder.filter(|folder| folder.is_dir() && !named.is_empty()) else { return Ok(()) };
-    let verifier = Verifier::new(trust.clone(), question.clone(), Some(folder))?;
-    let warnings = parallel::map(&named, parallel::processors(), |path| {
-        // What cannot be read is refused when its turn comes.
-        let bytes = files::read(path, LARGEST_DOCUMENT_BYTES).unwrap_or_default();
-        let name = name_of(path);
-        let verification = verifier.verify(&name, &bytes);
-        let content = verification.content_even_if_past();
-        let failed = verification.checks().iter().filter(|check| content.is_some() && check.passed() == Some(false));
-        let failed = failed.filter(|check| check.name != CheckName::InForce);
-        failed.map(|check| format!("{}: WARNING: {}", Printable(&name), check.detail)).collect::<Vec<_>>()
-    });
-    warnings.iter().flatten().for_each(|warning| output::complain(warning));
-    Ok(())
 }

@@ -4,12 +4,10 @@
 use super::{Failure, output};
 use crate::earth::Place;
 use crate::files;
-use crate::folder::search;
+pub(super) use crate::folder::verifier::Verifier;
 use crate::interface::enquiry::{self, NoTrust};
 pub(super) use crate::interface::enquiry::{date, time};
-use crate::parallel;
-use crate::passport::{Question, Trust, Verification, verify};
-use crate::register::{self, Register};
+use crate::passport::{Question, Trust};
 use crate::text::name_of;
 use crate::trust::LARGEST_TRUST_FILE_BYTES;
 use clap::Args;
@@ -76,49 +74,20 @@ pub(super) struct OptionalTrust {
     among: Among,
 }
 
-/// Trust and question of a command, and the register of its folder of passports, which is read once.
-pub(super) struct Verifier {
-    /// Trusted keys, and the lists of withdrawn passports that were given or are in the folder.
-    pub trust: Trust,
-    pub question: Question,
-    pub register: Option<Register>,
-}
-
-impl Verifier {
-    /// Reads the register of `folder`, if there is one, and its lists of withdrawn passports.
-    pub(super) fn new(trust: Trust, question: Question, folder: Option<&Path>) -> Result<Self, Failure> {
-        let Some(folder) = folder else { return Ok(Self { trust, question, register: None }) };
-        let asked = register::Asked::at(question.time);
-        let (register, trust) =
-            search::register(folder, trust, &asked, parallel::processors()).map_err(Failure::file)?;
-        register.alarms.iter().for_each(|alarm| output::complain(&alarm.to_string()));
-        Ok(Self { trust, question, register: Some(register) })
-    }
-
-    /// Verifies the bytes of a passport.
-    pub(super) fn verify(&self, name: &str, bytes: &[u8]) -> Verification {
-        let verification = verify(name, bytes, &self.trust, &self.question);
-        match &self.register {
-            Some(register) => register.asked(verification, bytes),
-            None => verification,
-        }
-    }
-}
-
 impl OptionalTrust {
     /// Returns the verifier, or `None` if no `--trust` is given.
     pub(super) fn load(&self) -> Result<Option<Verifier>, Failure> {
         let question = self.asked.question();
         let Some(signers) = &self.trust else { return Ok(None) };
         let trust = load(signers, &self.revoked, question.time)?;
-        Verifier::new(trust, question, self.among.register.as_deref()).map(Some)
+        verifier(trust, question, self.among.register.as_deref()).map(Some)
     }
 }
 
 impl TrustAmong {
     pub(super) fn load(&self) -> Result<Verifier, Failure> {
         let (trust, question) = self.trust.load()?;
-        Verifier::new(trust, question, self.among.register.as_deref())
+        verifier(trust, question, self.among.register.as_deref())
     }
 }
 
@@ -138,6 +107,14 @@ impl Asked {
             place: self.at,
         }
     }
+}
+
+/// Reads the register of `folder`, if there is one, and reports its alarms.
+pub(super) fn verifier(trust: Trust, question: Question, folder: Option<&Path>) -> Result<Verifier, Failure> {
+    let verifier = Verifier::new(trust, question, folder).map_err(Failure::file)?;
+    let alarms = verifier.register.iter().flat_map(|register| &register.alarms);
+    alarms.for_each(|alarm| output::complain(&alarm.to_string()));
+    Ok(verifier)
 }
 
 /// Reads the trust files. Lists of withdrawn passports are verified at `time`; the newest list applies.

@@ -2,6 +2,7 @@
 //! never replace another file.
 //!
 //! * `search`: the files in a folder, their register, and the history of one stand.
+//! * `verifier`: verification of passports against the register of a folder.
 //! * `archive`: stand files that a new certificate supersedes.
 //! * `refused`: reasons why a passport is not written.
 
@@ -11,6 +12,7 @@ mod names;
 mod refused;
 pub(crate) mod search;
 mod superseding;
+pub(crate) mod verifier;
 mod visited;
 
 pub use crate::files::{Durability, FileError};

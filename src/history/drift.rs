@@ -6,8 +6,8 @@ use crate::coefficients::PositionIndex;
 use crate::passport::difference::u_of_deviations_arcsec;
 use crate::stand::{ActsOn, Certificate, CertifiedPosition, Stand};
 use crate::statistics::beta::f_larger;
-use crate::statistics::propagation::effective_degrees_of_freedom;
 use crate::statistics::straight_line::{Point, StraightLine, holm};
+use crate::statistics::welch_satterthwaite::effective_degrees_of_freedom;
 use jiff::civil::Date;
 use serde::Serialize;
 

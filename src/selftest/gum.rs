@@ -4,9 +4,10 @@
 //! without rounding the results that the guide states with fewer digits or rounds on the way.
 
 use super::Case;
+use crate::calibration::propagation::{covariance, product, standard_deviations};
 use crate::statistics::least_squares::Factorised;
-use crate::statistics::propagation::{Linearised, Propagated, effective_degrees_of_freedom, of_means};
-use nalgebra::{DMatrix, DVector};
+use crate::statistics::welch_satterthwaite::effective_degrees_of_freedom;
+use nalgebra::DMatrix;
 
 const BY_GTC: &str = "GTC 1.5.1 (Measurement Standards Laboratory of New Zealand) with the same inputs";
 
@@ -21,6 +22,14 @@ fn printed(example: &'static str) -> impl Fn(&'static str, &str, f64, i32, f64) 
         let tolerance = 0.5 * 10_f64.powi(-decimals);
         Case { example, quantity: quantity.to_owned(), source, expected, tolerance, found, digits: None }
     }
+}
+
+/// Returns the standard uncertainties of results and their correlation coefficients, from their errors for one standard
+/// uncertainty of each cause (results × causes).
+fn uncertainty(spread: &DMatrix<f64>) -> (Vec<f64>, DMatrix<f64>) {
+    let u = standard_deviations(spread);
+    let correlation = covariance(spread).map_with_location(|one, other, element| element / (u[one] * u[other]));
+    (u, correlation)
 }
 
 /// Returns the cases of H.1, nm: the length of an end gauge at 20 °C, l = l_S + d − l_S (δα θ + α_S δθ).
@@ -45,21 +54,16 @@ fn end_gauge() -> Vec<Case> {
     ];
     let [l, d, alpha, d_alpha, theta, d_theta] = ESTIMATES;
     let gradient = [1.0 - (d_alpha * theta + alpha * d_theta), 1.0, -l * d_theta, -l * theta, -l * d_alpha, -l * alpha];
-    let model = Linearised {
-        values: DVector::from_element(1, l + d - l * (d_alpha * theta + alpha * d_theta)),
-        gradient: DMatrix::from_row_slice(1, 6, &gradient),
-    };
-    let variances = DVector::from_iterator(6, inputs.iter().map(|(u, _)| u * u));
-    let found = model.propagated(&DMatrix::from_diagonal(&variances));
+    let length = l + d - l * (d_alpha * theta + alpha * d_theta);
     let contributions: Vec<(f64, f64)> = inputs.iter().zip(gradient).map(|((u, nu), c)| (u * c, *nu)).collect();
+    let u = standard_deviations(&DMatrix::from_fn(1, 6, |_, input| contributions[input].0))[0];
     let case = printed(EXAMPLE);
     // H.1.6 uses the contributions and ν(d) with the digits printed there, but u(l) itself with all digits.
     const PRINTED: [(f64, f64); 4] = [(25.0, 18.0), (9.7, 25.6), (2.9, 50.0), (16.6, 2.0)];
-    let u = found.standard_uncertainty(0);
     let as_printed = u * u * u * u / PRINTED.iter().map(|(u, nu)| u * u * u * u / nu).sum::<f64>();
     let unrounded = effective_degrees_of_freedom(&contributions);
     vec![
-        case("JCGM 100:2008, H.1.5", "length, nm", 50_000_838.0, 0, found.values[0]),
+        case("JCGM 100:2008, H.1.5", "length, nm", 50_000_838.0, 0, length),
         case("JCGM 100:2008, H.1.3.2", "u(difference), nm", 9.7, 1, u_d),
         case("JCGM 100:2008, H.1.6", "effective degrees of freedom, terms as printed", 16.7, 1, as_printed),
         case(BY_GTC, "u(length), nm, printed as 32", 31.66388, 5, u),
@@ -82,9 +86,12 @@ fn impedance() -> Vec<Case> {
         4.990, 19.685e-3, 1.0428,
         4.999, 19.678e-3, 1.0433,
     ];
-    let means = of_means(&DMatrix::from_row_slice(5, 3, &READINGS));
-    let (v, i) = (means.values[0], means.values[1]);
-    let (sin, cos) = libm::sincos(means.values[2]);
+    let readings = DMatrix::from_column_slice(3, 5, &READINGS);
+    let means = readings.column_mean();
+    // Each of the five readings is a cause: the sum of the squares is the variance of the mean.
+    let of_means = DMatrix::from_fn(3, 5, |row, reading| (readings[(row, reading)] - means[row]) / 20_f64.sqrt());
+    let (v, i) = (means[0], means[1]);
+    let (sin, cos) = libm::sincos(means[2]);
     let z = v / i;
     #[rustfmt::skip]
     let gradient = [
@@ -92,30 +99,26 @@ fn impedance() -> Vec<Case> {
         sin / i, -z * sin / i, z * cos,
         1.0 / i, -z / i, 0.0,
     ];
-    let model = Linearised {
-        values: DVector::from_row_slice(&[z * cos, z * sin, z]),
-        gradient: DMatrix::from_row_slice(3, 3, &gradient),
-    };
-    let found = model.propagated(&means.covariance);
+    let (u_of_mean, r_of_means) = uncertainty(&of_means);
+    let (u, r) = uncertainty(&product(&DMatrix::from_row_slice(3, 3, &gradient), &of_means));
     let case = printed(EXAMPLE);
-    let (u, r) = (|at| found.standard_uncertainty(at), |one, other| found.correlation(one, other));
     vec![
-        case(MEANS, "u(V), V", 0.0032, 4, means.standard_uncertainty(0)),
-        case(MEANS, "u(I), mA", 0.0095, 4, 1e3 * means.standard_uncertainty(1)),
-        case(MEANS, "u(phi), rad", 0.00075, 5, means.standard_uncertainty(2)),
-        case(MEANS, "r(V, I)", -0.36, 2, means.correlation(0, 1)),
-        case(MEANS, "r(V, phi)", 0.86, 2, means.correlation(0, 2)),
-        case(MEANS, "r(I, phi)", -0.65, 2, means.correlation(1, 2)),
-        case(RESULTS, "R, ohm", 127.732, 3, found.values[0]),
-        case(RESULTS, "X, ohm", 219.847, 3, found.values[1]),
-        case(RESULTS, "Z, ohm", 254.260, 3, found.values[2]),
-        case(RESULTS, "u(R), ohm", 0.071, 3, u(0)),
+        case(MEANS, "u(V), V", 0.0032, 4, u_of_mean[0]),
+        case(MEANS, "u(I), mA", 0.0095, 4, 1e3 * u_of_mean[1]),
+        case(MEANS, "u(phi), rad", 0.00075, 5, u_of_mean[2]),
+        case(MEANS, "r(V, I)", -0.36, 2, r_of_means[(0, 1)]),
+        case(MEANS, "r(V, phi)", 0.86, 2, r_of_means[(0, 2)]),
+        case(MEANS, "r(I, phi)", -0.65, 2, r_of_means[(1, 2)]),
+        case(RESULTS, "R, ohm", 127.732, 3, z * cos),
+        case(RESULTS, "X, ohm", 219.847, 3, z * sin),
+        case(RESULTS, "Z, ohm", 254.260, 3, z),
+        case(RESULTS, "u(R), ohm", 0.071, 3, u[0]),
         // The guide prints 0.295, because it rounds on the way. The readings of table H.2 give 0.2956, as GTC does.
-        Case { tolerance: 0.001, ..case(RESULTS, "u(X), ohm", 0.295, 3, u(1)) },
-        case(RESULTS, "u(Z), ohm", 0.236, 3, u(2)),
-        case(RESULTS, "r(R, X)", -0.588, 3, r(0, 1)),
-        case(RESULTS, "r(R, Z)", -0.485, 3, r(0, 2)),
-        case(RESULTS, "r(X, Z)", 0.993, 3, r(1, 2)),
+        Case { tolerance: 0.001, ..case(RESULTS, "u(X), ohm", 0.295, 3, u[1]) },
+        case(RESULTS, "u(Z), ohm", 0.236, 3, u[2]),
+        case(RESULTS, "r(R, X)", -0.588, 3, r[(0, 1)]),
+        case(RESULTS, "r(R, Z)", -0.485, 3, r[(0, 2)]),
+        case(RESULTS, "r(X, Z)", 0.993, 3, r[(1, 2)]),
     ]
 }
 
@@ -147,22 +150,18 @@ fn thermometer() -> Vec<Case> {
     model.rotate(&mut right);
     let (line, _) = model.solve_rotated(&right);
     let variance = right.rows(2, 9).norm_squared() / 9.0;
-    let covariance = &model.r_inverse * model.r_inverse.transpose() * variance;
-    let line = Propagated { values: line, covariance };
-    let at_30 = Linearised {
-        values: DVector::from_element(1, line.values[0] + 10.0 * line.values[1]),
-        gradient: DMatrix::from_row_slice(1, 2, &[1.0, 10.0]),
-    };
-    let correction = at_30.propagated(&line.covariance);
+    let spread = &model.r_inverse * variance.sqrt();
+    let (u, r) = uncertainty(&spread);
+    let u_at_30 = standard_deviations(&product(&DMatrix::from_row_slice(1, 2, &[1.0, 10.0]), &spread))[0];
     let case = printed(EXAMPLE);
     vec![
-        case(LINE, "intercept, C", -0.1712, 4, line.values[0]),
-        case(LINE, "u(intercept), C", 0.0029, 4, line.standard_uncertainty(0)),
-        case(LINE, "slope", 0.00218, 5, line.values[1]),
-        case(LINE, "u(slope)", 0.00067, 5, line.standard_uncertainty(1)),
-        case(LINE, "r(intercept, slope)", -0.930, 3, line.correlation(0, 1)),
+        case(LINE, "intercept, C", -0.1712, 4, line[0]),
+        case(LINE, "u(intercept), C", 0.0029, 4, u[0]),
+        case(LINE, "slope", 0.00218, 5, line[1]),
+        case(LINE, "u(slope)", 0.00067, 5, u[1]),
+        case(LINE, "r(intercept, slope)", -0.930, 3, r[(0, 1)]),
         case(LINE, "s of the fit, C", 0.0035, 4, variance.sqrt()),
-        case(AT_30, "correction at 30 C, C", -0.1494, 4, correction.values[0]),
-        case(AT_30, "u(correction), C", 0.0041, 4, correction.standard_uncertainty(0)),
+        case(AT_30, "correction at 30 C, C", -0.1494, 4, line[0] + 10.0 * line[1]),
+        case(AT_30, "u(correction), C", 0.0041, 4, u_at_30),
     ]
 }

@@ -72,7 +72,7 @@ fn step(quantities: &[Vec<f64>]) -> f64 {
     let all = || quantities.iter().flatten().copied();
     let (last, largest) = (last_digit(all()), all().fold(0.0, |largest: f64, number| largest.max(number.abs())));
     if last > COMPUTED * largest {
-        return last * all().map(|number| (number / last).abs().round() as u64).fold(0, common_divisor) as f64;
+        return last * divisor(all(), last);
     }
     let smallest = quantities.iter().filter_map(|numbers| {
         let mut sorted = numbers.clone();
@@ -81,6 +81,11 @@ fn step(quantities: &[Vec<f64>]) -> f64 {
         gaps.filter(|gap| *gap > COMPUTED * largest).reduce(f64::min)
     });
     smallest.reduce(f64::min).unwrap_or(largest)
+}
+
+/// Returns the greatest common divisor of numbers in units of their last digit; 0 if all are 0.
+fn divisor(numbers: impl Iterator<Item = f64>, last: f64) -> f64 {
+    numbers.map(|number| (number / last).abs().round() as u64).fold(0, common_divisor) as f64
 }
 
 /// Returns the greatest common divisor of two numbers, one of which may be 0.
@@ -103,7 +108,7 @@ pub(crate) fn step_of_meter(numbers: impl Iterator<Item = f64>) -> f64 {
     sizes.sort_by(|one, other| other.total_cmp(one));
     sizes.dedup();
     let Some(largest) = sizes.first().copied() else { return 0.0 };
-    // Of numbers with more digits than single precision has, the shortest form has no fewer by chance.
+    // Numbers that were stored in single precision are those nearest to much shorter ones; others are not.
     let single: Vec<f64> = sizes.iter().filter_map(|size| (*size as f32).to_string().parse().ok()).collect();
     let [short, written] = [&single, &sizes].map(|sizes| last_digit(sizes.iter().copied()));
     if short > SINGLE * largest && short > 50.0 * written {
@@ -122,7 +127,7 @@ fn coarsest(sizes: &[f64]) -> f64 {
         return coarsest(&sizes[..coarse]);
     }
     let last = power_of_ten(finest);
-    let divisor = sizes.iter().map(|size| (size / last).round() as u64).fold(0, common_divisor) as f64;
+    let divisor = divisor(sizes.iter().copied(), last);
     if by_chance(divisor, sizes.len()) { last } else { last * divisor }
 }
 

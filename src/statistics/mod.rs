@@ -5,11 +5,11 @@
 //!   terms that both need for large parameters.
 //! * `scaled_f`: the distribution of a chi-square whose covariance was partly estimated.
 //! * [`outlier`]: Bartlett's test for unequal variances, Cochran's for the largest variance, Grubbs' for an outlier.
-//! * [`propagation`]: the law of propagation of uncertainty for any model with its gradient.
 //! * `coincidences`: readings that are copies of earlier ones.
 //! * [`random`]: streams of random numbers that do not depend on the number of threads or on the platform.
 //! * [`wide_random`]: many random numbers at a time; [`elementary`]: the sine, cosine and logarithm for them.
 //! * [`straight_line`]: a straight line through points of known uncertainty; Holm's correction for many tests.
+//! * [`welch_satterthwaite`]: effective degrees of freedom of a sum.
 //! * [`bins`]: quantiles and coverage intervals of a sample of any size.
 //! * [`summary`]: largest value, mean, standard deviation, percentiles, and the standard error of a share.
 
@@ -21,12 +21,12 @@ pub(crate) mod distributions;
 pub(crate) mod elementary;
 pub(crate) mod least_squares;
 pub(crate) mod outlier;
-pub(crate) mod propagation;
 #[cfg(feature = "monte-carlo")]
 pub(crate) mod random;
 pub(crate) mod saddle_point;
 pub(crate) mod scaled_f;
 pub(crate) mod straight_line;
 pub(crate) mod summary;
+pub(crate) mod welch_satterthwaite;
 #[cfg(feature = "monte-carlo")]
 pub(crate) mod wide_random;

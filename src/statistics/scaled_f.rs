@@ -1,6 +1,7 @@
 //! Distribution of z′ Ĉ⁻¹ z where parts of the covariance Ĉ are themselves estimates.
 //!
-//! One estimate may have very few degrees of freedom: [`larger`] averages over its own distribution.
+//! [`larger`] treats one of the estimates exactly: it averages over the distribution of this estimate, which may have very
+//! few degrees of freedom.
 //!
 //! Source: [Kenward and Roger](crate::bibliography::Bibliography::KenwardRoger97), section 4. The first two moments, to
 //! first order in the variances of the estimates, are those of a scaled F. With one estimate of all of Ĉ the
@@ -67,17 +68,21 @@ impl ScaledF {
 /// Weight, relative to the largest, below which [`larger`] leaves out the rest of a distribution.
 const NEGLIGIBLE: f64 = 1e-40;
 
-/// Returns the probability that a quadratic form in `numerator` dimensions is larger than it is. `value(w)` is the form
-/// with the estimate `poorest` multiplied by w; `parts` has all estimates in their order.
+/// Returns the probability by chance of a quadratic form in `numerator` dimensions that is larger than the one found.
 ///
-/// A true variance is w times its estimate, and ν/w has chi-square with ν degrees of freedom. The probability is the mean
-/// over w, as a Monte Carlo would draw it. The moments of [`ScaledF`] would see how much of the covariance is uncertain
-/// only through the estimate, and so least of all where this is too small by chance. With one estimate of all of Ĉ the
-/// mean is F as well. The other estimates enter by their moments.
-pub(crate) fn larger(numerator: usize, parts: &[Part], poorest: Option<usize>, value: impl Fn(f64) -> f64) -> f64 {
-    let Some(poorest) = poorest else { return ScaledF::new(numerator, parts).larger(value(1.0)) };
+/// `parts` are all estimates, and `averaged` is the index of the one over whose distribution the probability is averaged.
+/// `value(w)` is the quadratic form if this estimate is multiplied by w.
+///
+/// The true variance is w times its estimate, where ν/w has chi-square with ν degrees of freedom. The moments of
+/// [`ScaledF`] judge how uncertain the covariance is by the share of the estimate, and so least of all where the estimate
+/// is too small by chance. With one estimate of all of Ĉ the mean is F as well. The other estimates enter by their
+/// moments.
+pub(crate) fn larger(numerator: usize, parts: &[Part], averaged: Option<usize>, value: impl Fn(f64) -> f64) -> f64 {
+    let Some(averaged) = averaged.filter(|&estimate| parts[estimate].degrees_of_freedom.is_normal()) else {
+        return ScaledF::new(numerator, parts).larger(value(1.0));
+    };
     let mut others = parts.to_vec();
-    let half = others.remove(poorest).degrees_of_freedom / 2.0;
+    let half = others.remove(averaged).degrees_of_freedom / 2.0;
     let of_others = ScaledF::new(numerator, &others);
     // With w = e^(−s) the density is analytic and falls off exponentially, so that equal steps are enough.
     let step = 0.35 / half.sqrt().max(1.0);
@@ -90,7 +95,7 @@ pub(crate) fn larger(numerator: usize, parts: &[Part], poorest: Option<usize>, v
             sum += weight * of_others.larger(value(libm::exp(-s)));
             weights += weight;
             number += 1.0;
-            if weight < NEGLIGIBLE {
+            if weight.is_nan() || weight < NEGLIGIBLE {
                 break;
             }
         }

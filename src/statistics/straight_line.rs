@@ -62,7 +62,7 @@ impl StraightLine {
             u_level: 1.0 / weights.sqrt(),
             slope,
             u_slope: 1.0 / spread.sqrt(),
-            slope_degrees_of_freedom: super::propagation::effective_degrees_of_freedom(&contributions),
+            slope_degrees_of_freedom: super::welch_satterthwaite::effective_degrees_of_freedom(&contributions),
             chi_square: points.iter().map(|at| residual(at) * residual(at)).sum(),
             degrees_of_freedom: points.len().saturating_sub(2),
         })

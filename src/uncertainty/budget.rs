@@ -12,7 +12,7 @@ use crate::calibration::propagation::{covariance, product};
 use crate::calibration::result::MethodRefusal;
 use crate::calibration::{Method, Model, Options, Readings, Setup};
 use crate::statistics::beta::student_factor;
-use crate::statistics::propagation;
+use crate::statistics::welch_satterthwaite;
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 
@@ -164,5 +164,5 @@ fn effective_degrees_of_freedom(inputs: &[Input], changes: &[f64], estimates: &[
         }
     }
     let contributions: Vec<(f64, f64)> = terms.into_iter().map(|(square, known)| (square.sqrt(), known)).collect();
-    propagation::effective_degrees_of_freedom(&contributions)
+    welch_satterthwaite::effective_degrees_of_freedom(&contributions)
 }

@@ -31,7 +31,9 @@ impl Readings {
             if problems.len() >= MOST_PROBLEMS {
                 break;
             }
-            let index = position(&table, row, coefficients, &mut problems);
+            let known = coefficients.positions.iter().map(|at| at.index);
+            let advice = "check that this is the passport of this stand";
+            let index = position(&table, row, known, ("a position of the passport", advice), &mut problems);
             let x = current(&table, row, 2, range_ma, &mut problems);
             let y = current(&table, row, 3, range_ma, &mut problems);
             let mut whole = |column: Option<usize>| column.and_then(|column| table.index(row, column, &mut problems));
@@ -71,22 +73,22 @@ impl Readings {
     }
 }
 
-fn position(
+/// Returns the position of a row, from its first two columns, if it is `known`; otherwise adds a problem.
+pub(crate) fn position(
     table: &Table,
     row: &Row,
-    coefficients: &Coefficients,
+    mut known: impl Iterator<Item = PositionIndex>,
+    (expected, advice): (&str, &str),
     problems: &mut Vec<Problem>,
 ) -> Option<PositionIndex> {
     let i = table.index(row, 0, problems);
     let j = table.index(row, 1, problems);
     let index = PositionIndex { i: i?, j: j? };
-    if coefficients.positions.iter().any(|at| at.index == index) {
-        return Some(index);
+    let found = known.find(|known| *known == index);
+    if found.is_none() {
+        problems.push(table.problem(&row.cells[0], 0, format!("position {index}"), expected, advice));
     }
-    let advice = "check that this is the passport of this stand";
-    let found = format!("position {index}");
-    problems.push(table.problem(&row.cells[0], 0, found, "a position of the passport", advice));
-    None
+    found
 }
 
 fn current(table: &Table, row: &Row, column: usize, range_ma: f64, problems: &mut Vec<Problem>) -> Option<f64> {

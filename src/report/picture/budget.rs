@@ -36,11 +36,11 @@ pub(crate) fn budget(budget: &Budget) -> Option<String> {
     let corner = |place: usize| [WIDTH * (place % COLUMNS) as f64, HEIGHT * (place / COLUMNS) as f64];
     let lines = Parameter::in_paper_order(&budget.parameters, |line| line.parameter);
     let drawing = [
-        html! { @for (place, line) in lines.into_iter().enumerate() { g { (parameter(line, corner(place))) } } },
+        html! { @for (place, line) in lines.iter().enumerate() { g { (parameter(line, corner(place))) } } },
         label([14.0, height + 10.0], Anchor::Start, "", &symbols(WORDS)),
     ];
     let size = [WIDTH * COLUMNS as f64, height + WORDS_HEIGHT];
-    Some(file("budget", size, "Uncertainty budget", &in_words(budget), &drawing))
+    Some(file("budget", size, "Uncertainty budget", &in_words(&lines), &drawing))
 }
 
 fn parameter(line: &ParameterBudget, [left, top]: Point) -> Markup {
@@ -88,17 +88,12 @@ fn with_unit(line: &ParameterBudget) -> String {
     format!("{u}{BLANK}{}", unit(line.parameter).of(Language::English))
 }
 
-fn in_words(budget: &Budget) -> String {
-    let line = |line: &ParameterBudget| {
+fn in_words(lines: &[&ParameterBudget]) -> String {
+    let line = |line: &&ParameterBudget| {
         let most = line.contributions.first().map_or_else(String::new, |first| {
             format!(", {:.0} % of its variance from {}", 100.0 * first.share, first.cause.kind())
         });
         format!("{}: u = {}{most}", plain_symbol(line.parameter.symbol()), with_unit(line))
     };
-    Parameter::in_paper_order(&budget.parameters, |line| line.parameter)
-        .into_iter()
-        .map(line)
-        .collect::<Vec<_>>()
-        .join("; ")
-        + "."
+    lines.iter().map(line).collect::<Vec<_>>().join("; ") + "."
 }
