@@ -39,14 +39,14 @@ extern "C" {
 
  `question_json` is NULL or JSON, `{"time": "2026-11-20T00:00:00Z", "serial": "0017", "at": [55.7660, 37.6850],
  "issuer": "…", "revoked": ["content of a revocation list", …]}`; every key may be absent. `time` is by default now,
- `at` is latitude and longitude in degrees.
+ `at` is latitude and longitude in degrees. `time` may also be a UTC date, and an element of `revoked` a list of bytes.
 
  Returns DTG_OK and the passport in `*out`, to be freed with dtg_free; DTG_REFUSED if a check failed; DTG_UNUSABLE if
  an argument, the question or a file cannot be used. `*out` is NULL unless DTG_OK is returned.
 
  `report_json`, unless NULL, receives a text to be freed with dtg_string_free: `{"file", "valid", "id", "checks":
- [{"name", "passed", "code", "detail"}, …]}`, or after DTG_UNUSABLE `{"error": {"code", "message", "problems":
- [{"file", "line", "column", "message"}, …]}}`.
+ [{"name", "passed", "code", "detail"}, …], "remarks": [sentence, …]}`, without remarks if there are none, or after
+ DTG_UNUSABLE `{"error": {"code", "message", "problems": [{"file", "line", "column", "message"}, …]}}`.
  */
 int dtg_load(const char *path,
              const char *allowed_signers_path,
@@ -97,6 +97,18 @@ int dtg_calibrate(const dtg_passport *passport,
                   size_t rows,
                   const char *method,
                   char **result_json);
+
+/*
+ Copies the eight parameters of a result of dtg_calibrate and their standard uncertainties: K_x, K_xy, K_yx, K_y in
+ degrees per hour and mA, omega_0x and omega_0y in degrees per hour, omega_g and omega_k in degrees per hour and g.
+
+ Returns DTG_OK if they may be used; DTG_REFUSED, with the same numbers, if the readings do not fit the stand, or if a
+ mistake such as currents in another unit explains the parameters: `remarks` in the result says which; DTG_UNUSABLE if
+ `result_json` is no such result or an argument is NULL.
+ */
+int dtg_parameters(const char *result_json,
+                   double *value,
+                   double *u);
 
 /*
  Frees a passport; NULL is allowed.

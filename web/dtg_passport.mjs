@@ -9,7 +9,8 @@
 // allowed_signers file, and a question in which every key may be absent: `time` (text in RFC 3339, whole seconds, a UTC
 // date, or a Date; default: now), `serial`, `at: [latitude, longitude]` in degrees, `issuer`, and `revoked`, a list of
 // revocation lists as text or bytes. Input that cannot be used throws an Error whose `cause` is {code, message,
-// problems}; a refusal, one whose `cause` is {valid, id, checks}. No other key is accepted in a question.
+// problems}; a refusal, one whose `cause` is {valid, id, checks}. A question is a plain object without other keys, and no
+// key may be `undefined`: a check that was silently left out would look like one that passed.
 
 const WASM = "@WASM@"; // base64 of the module, compressed with gzip
 
@@ -27,12 +28,27 @@ function bytes(data) {
     throw new TypeError(`found ${data?.constructor?.name ?? data}, expected text, a Uint8Array or an ArrayBuffer`);
 }
 
+function isPlain(value) {
+    if (typeof value !== "object" || value === null) return false;
+    const prototype = Object.getPrototypeOf(value);
+    return prototype === null || Object.getPrototypeOf(prototype) === null; // of any window
+}
+
 function question(asked) {
-    if (typeof asked !== "object" || asked === null || Array.isArray(asked)) {
-        throw new TypeError(`found ${JSON.stringify(asked)}, expected a question such as { serial: "0017" }`);
+    if (!isPlain(asked)) {
+        const found = asked?.constructor?.name ?? String(asked);
+        throw new TypeError(`question: found ${found}, expected a plain object such as { serial: "0017" }`);
     }
-    const { time, revoked = [] } = asked;
-    if (!Array.isArray(revoked)) throw new TypeError("revoked is not a list of revocation lists");
+    for (const [key, value] of Object.entries(asked)) {
+        if (["undefined", "function", "symbol", "bigint"].includes(typeof value)) {
+            throw new TypeError(`${key}: found ${typeof value}; leave the key out if it is not asked`);
+        }
+    }
+    const { time, at, revoked = [] } = asked;
+    if (at?.some?.((degrees) => !Number.isFinite(degrees))) {
+        throw new TypeError(`at: found [${at}], expected latitude and longitude in degrees`);
+    }
+    if (!Array.isArray(revoked)) throw new TypeError("revoked: expected a list of revocation lists");
     return JSON.stringify({
         ...asked, // with keys that are unknown: the module names them
         time: time instanceof Date ? `${time.toISOString().slice(0, 19)}Z` : time,
@@ -71,10 +87,13 @@ function refuse({ id, checks }) {
     return new Error(`refused: ${words}`, { cause: { valid: false, id, checks } });
 }
 
-/** Verifies a passport: {valid, id, checks: [{name, passed, code, detail}]}. */
+/**
+ * Verifies a passport: {valid, id, checks: [{name, passed, code, detail}]}, and `remarks` if there is something to know
+ * about the revocation lists, such as ALARM: two of them contradict.
+ */
 export async function verify(passport, allowedSigners, asked) {
-    const { valid, id, checks } = parsed(await call("verify", passport, allowedSigners, asked));
-    return { valid, id, checks };
+    const { valid, id, checks, remarks } = parsed(await call("verify", passport, allowedSigners, asked));
+    return { valid, id, checks, ...(remarks && { remarks }) };
 }
 
 /** Verifies a passport and returns its content: the keys of the file but `signature`. Throws if a check failed. */
@@ -91,7 +110,10 @@ export async function print(passport, allowedSigners, asked) {
     return text;
 }
 
-/** Verifies a passport and calibrates a gyro from currents as CSV: the JSON of `calibrate`. Throws if refused. */
+/**
+ * Verifies a passport and calibrates a gyro from currents as CSV, by least squares: the JSON of `calibrate`. Throws if
+ * refused. Use the parameters only if `consistent` is true and `mistake` is absent; `remarks` has what else to show.
+ */
 export async function calibrate(passport, allowedSigners, currents, asked) {
     const found = parsed(await call("calibrated", passport, allowedSigners, asked, currents));
     if (refused(found)) throw refuse(found);

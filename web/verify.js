@@ -26,7 +26,8 @@ async function asked() {
     const at = place[0] === undefined ? undefined : place.map(Number);
     if (at?.some(Number.isNaN)) throw new Error("latitude and longitude are numbers with a decimal point");
     const revoked = await Promise.all([...byId("revoked").files].map(read));
-    return { serial: value("serial"), time: value("time"), at, revoked };
+    const question = { serial: value("serial"), time: value("time"), at, revoked };
+    return Object.fromEntries(Object.entries(question).filter(([, given]) => given !== undefined));
 }
 
 const shown = (rows) => rows.map((row) => row.join("  ")).join("\n");
@@ -46,9 +47,8 @@ function numbers(found) {
     return parts;
 }
 
-function parameters({ consistent, hint, mistake, results: [found] }) {
-    const warnings = consistent ? [] : [`WARNING: the readings are not consistent with this stand: ${hint}`];
-    if (mistake) warnings.push(`WARNING: the parameters are far from the gyro's; explained by ${JSON.stringify(mistake)}`);
+function parameters({ consistent, mistake, remarks = [], results: [found] }) {
+    const unusable = !consistent || mistake !== undefined;
     const rows = [];
     const u = found.standard_uncertainty;
     for (const [key, unit] of [["k_deg_per_h_per_ma", "°/(h·mA)"], ["omega0_deg_per_h", "°/h"],
@@ -56,7 +56,8 @@ function parameters({ consistent, hint, mistake, results: [found] }) {
         rows.push([key, [found[key]].flat(2).join("  "), [u[key]].flat(2).join("  "), unit]);
     }
     const { value, degrees_of_freedom, probability } = found.chi_square;
-    return [element("h2", "Calibration by least squares"), ...warnings.map((words) => element("strong", words)),
+    const said = remarks.map((words, place) => element(unusable && place === 0 ? "strong" : "p", words));
+    return [element("h2", "Calibration by least squares"), ...said,
         table(["parameter", "value", "u (k = 1)", "unit"], rows),
         element("p", `χ² ${value} with ${degrees_of_freedom} degrees of freedom, probability ${probability ?? "-"}`)];
 }
@@ -86,6 +87,7 @@ async function answer() {
     const mark = (passed) => (passed === null ? "not run" : passed ? "ok" : "FAILED");
     const rows = verdict.checks.map((check) => [mark(check.passed), check.name, check.code, check.detail]);
     const parts = [element("h2", "Answer"), large, element("p", verdict.id ?? "(id not verified)"),
+        ...(verdict.remarks ?? []).map((words) => element("strong", words)),
         table(["result", "check", "code", "detail"], rows)];
     if (!verdict.valid) return parts;
     parts.push(...numbers(await content(passport, signers, question)));

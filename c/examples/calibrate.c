@@ -17,7 +17,7 @@ static size_t read_rows(double rows[MOST_ROWS][4]) {
     char line[256], rest;
     size_t count = 0;
     for (int number = 1; fgets(line, sizeof line, stdin) != NULL; number++) {
-        if (line[0] == '#' || strncmp(line, header, sizeof header - 1) == 0) {
+        if (line[0] == '#' || line[strspn(line, " \t\r\n")] == '\0' || strncmp(line, header, sizeof header - 1) == 0) {
             continue;
         }
         double *at = rows[count];
@@ -25,6 +25,9 @@ static size_t read_rows(double rows[MOST_ROWS][4]) {
             fprintf(stderr, "line %d: expected %s, in fewer than %d rows\n", number, header, MOST_ROWS);
             return 0;
         }
+    }
+    if (count == 0) {
+        fprintf(stderr, "standard input: expected rows of %s\n", header);
     }
     return count;
 }
@@ -52,6 +55,10 @@ int main(int argc, char **argv) {
     char *result = NULL;
     code = dtg_calibrate(passport, rows[0], count, "least-squares", &result);
     puts(result);
+    double value[8], u[8]; /* K_x, K_xy, K_yx, K_y, omega_0x, omega_0y, omega_g, omega_k */
+    if (code == DTG_OK && dtg_parameters(result, value, u) == DTG_REFUSED) {
+        fputs("WARNING: do not use these parameters; the remarks of the result say why\n", stderr);
+    }
     dtg_string_free(result);
 
     /* K = B (J_1 - J_2 delta)^-1, eq. (13): columns are differences of opposite positions, eq. (11). */

@@ -2,13 +2,13 @@
 //!
 //! The comments of the functions are those of the header `dtg_passport.h`.
 
-use passports::interface::{Enquiry, Failed, calibrate, currents_csv};
+use passports::interface::{Enquiry, Failed, calibrate, currents_csv, parameters};
 use passports::jiff::Timestamp;
 use passports::passport::Content;
 use passports::text::LARGEST_DOCUMENT_BYTES;
 use std::ffi::{CStr, CString, c_char, c_double, c_int};
 use std::fs::{self, File};
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::ptr;
@@ -27,20 +27,21 @@ const LARGEST_SIGNERS_BYTES: usize = (1 << 24) + 1;
 #[allow(non_camel_case_types)]
 pub struct dtg_passport {
     content: Content,
+    verified_as_of: Timestamp,
 }
 
 /// Reads a passport and verifies it.
 ///
 /// `question_json` is NULL or JSON, `{"time": "2026-11-20T00:00:00Z", "serial": "0017", "at": [55.7660, 37.6850],
 /// "issuer": "…", "revoked": ["content of a revocation list", …]}`; every key may be absent. `time` is by default now,
-/// `at` is latitude and longitude in degrees.
+/// `at` is latitude and longitude in degrees. `time` may also be a UTC date, and an element of `revoked` a list of bytes.
 ///
 /// Returns DTG_OK and the passport in `*out`, to be freed with dtg_free; DTG_REFUSED if a check failed; DTG_UNUSABLE if
 /// an argument, the question or a file cannot be used. `*out` is NULL unless DTG_OK is returned.
 ///
 /// `report_json`, unless NULL, receives a text to be freed with dtg_string_free: `{"file", "valid", "id", "checks":
-/// [{"name", "passed", "code", "detail"}, …]}`, or after DTG_UNUSABLE `{"error": {"code", "message", "problems":
-/// [{"file", "line", "column", "message"}, …]}}`.
+/// [{"name", "passed", "code", "detail"}, …], "remarks": [sentence, …]}`, without remarks if there are none, or after
+/// DTG_UNUSABLE `{"error": {"code", "message", "problems": [{"file", "line", "column", "message"}, …]}}`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dtg_load(
     path: *const c_char,
@@ -63,7 +64,8 @@ pub unsafe extern "C" fn dtg_load(
             // One byte above the size limit is enough to show that the file is not a passport.
             let answer = enquiry.verify(&path.to_string_lossy(), &read(path, LARGEST_DOCUMENT_BYTES + 1)?);
             let Some(passport) = answer.verification.passport() else { return Ok((DTG_REFUSED, answer.to_json())) };
-            give(out, Box::into_raw(Box::new(dtg_passport { content: passport.content().clone() })));
+            let passport = dtg_passport { content: passport.content().clone(), verified_as_of: answer.time };
+            give(out, Box::into_raw(Box::new(passport)));
             Ok((DTG_OK, answer.to_json()))
         })
     }
@@ -159,8 +161,29 @@ pub unsafe extern "C" fn dtg_calibrate(
             let numbers = numbers.ok_or_else(|| Failed::unusable("rows is too large"))?;
             let (rows, _) = std::slice::from_raw_parts(currents, numbers).as_chunks::<4>();
             let csv = currents_csv(rows);
-            let found = calibrate(&passport.content, true, ("currents", &csv), method, None, None)?;
+            let verified_as_of = Some(passport.verified_as_of);
+            let found = calibrate(&passport.content, verified_as_of, ("currents", &csv), method, None, None)?;
             Ok((DTG_OK, found.json))
+        })
+    }
+}
+
+/// Copies the eight parameters of a result of dtg_calibrate and their standard uncertainties: K_x, K_xy, K_yx, K_y in
+/// degrees per hour and mA, omega_0x and omega_0y in degrees per hour, omega_g and omega_k in degrees per hour and g.
+///
+/// Returns DTG_OK if they may be used; DTG_REFUSED, with the same numbers, if the readings do not fit the stand, or if a
+/// mistake such as currents in another unit explains the parameters: `remarks` in the result says which; DTG_UNUSABLE if
+/// `result_json` is no such result or an argument is NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn dtg_parameters(result_json: *const c_char, value: *mut c_double, u: *mut c_double) -> c_int {
+    // SAFETY: the caller passes NULL, or a text and room for eight numbers each.
+    unsafe {
+        guarded(ptr::null_mut(), || {
+            let (value, u) = (room(value, 8, "value")?, room(u, 8, "u")?);
+            let (found, uncertainty, usable) = parameters(text(result_json, "result_json")?)?;
+            value.copy_from_slice(&found);
+            u.copy_from_slice(&uncertainty);
+            Ok((if usable { DTG_OK } else { DTG_REFUSED }, String::new()))
         })
     }
 }
@@ -241,9 +264,17 @@ unsafe fn file_name<'a>(pointer: *const c_char, name: &str) -> Result<&'a Path, 
 
 /// Reads at most `limit` bytes of a file. A pipe is refused, because reading it might never end.
 fn read(path: &Path, limit: usize) -> Result<Vec<u8>, Failed> {
-    let failed = |error: std::io::Error| Failed::unusable(format!("{}: cannot be read: {error}", path.display()));
-    if !fs::metadata(path).map_err(failed)?.is_file() {
-        return Err(Failed::unusable(format!("{}: expected a file", path.display())));
+    let name = path.to_string_lossy();
+    let failed = |error: std::io::Error| match error.kind() {
+        ErrorKind::NotFound if name.is_empty() => Failed::unusable("the path is empty"),
+        ErrorKind::NotFound => Failed::unreadable(&name, "no such file"),
+        ErrorKind::PermissionDenied => Failed::unreadable(&name, "permission denied"),
+        _ => Failed::unreadable(&name, format!("cannot be read: {error}")),
+    };
+    let kind = fs::metadata(path).map_err(failed)?;
+    if !kind.is_file() {
+        let found = if kind.is_dir() { "a folder" } else { "a pipe, a device or a socket" };
+        return Err(Failed::unreadable(&name, format!("found {found}, expected a file")));
     }
     let mut bytes = Vec::new();
     File::open(path).map_err(failed)?.take(limit as u64).read_to_end(&mut bytes).map_err(failed)?;

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._common import Array, Frozen, array, frozen, optional
+from ._common import Array, Frozen, array, frozen, optional, whole
 
 NAMES = ("K_x", "K_xy", "K_yx", "K_y", "ω_0x", "ω_0y", "ω_g", "ω_k")
 """Order of the eight parameters."""
@@ -159,8 +159,19 @@ class Calibration(Frozen):
 
     @property
     def consistent(self) -> bool:
-        """Whether the readings fit the stand. If not, the parameters are not valid, and `remarks` has possible causes."""
+        """Whether the readings fit the stand. If not, the parameters are not valid, and `remarks` has possible causes.
+
+        Use the parameters only if `mistake` is None too. Without degrees of freedom (`dof` 0) any readings fit.
+        """
         return bool(self._document["consistent"])
+
+    @property
+    def mistake(self) -> dict[str, Any] | None:
+        """Error that explains parameters far from the gyro's, such as currents in another unit, or None.
+
+        The keys are those of `calibrate --format json`; `remarks` has it in words.
+        """
+        return self.document.get("mistake")
 
     @property
     def verified(self) -> bool:
@@ -225,9 +236,11 @@ class Calibration(Frozen):
         >>> f"{low.omega_g:.3f} to {high.omega_g:.3f} deg/h/g"
         '9.998 to 10.003 deg/h/g'
         """
-        for name, value, least in (("trials", trials, 1), ("seed", seed, 0), ("threads", threads, 1)):
-            if value is not None and value < least:
-                raise ValueError(f"{name}: found {value}, expected a whole number from {least}")
+        trials = None if trials is None else whole("trials", trials, 1, 10**12)
+        seed = whole("seed", seed, 0, 2**64 - 1)
+        threads = None if threads is None else whole("threads", threads, 1, 1024)
+        if not (progress is None or isinstance(progress, bool) or callable(progress)):
+            raise TypeError(f"progress: found {progress!r}, expected a function, True or False")
         bar = None
         if progress is True or (progress is None and sys.stderr is not None and sys.stderr.isatty()):
             try:
@@ -286,4 +299,5 @@ class Calibration(Frozen):
     def __repr__(self) -> str:
         method, passport = self._result["method"], self._document["passport_id"]
         marks = ("" if self.verified else " NOT VERIFIED") + ("" if self.consistent else " NOT CONSISTENT")
+        marks += "" if self.mistake is None else " NOT THIS GYRO"
         return f"<Calibration by {method} with {passport}{marks}>"

@@ -5,8 +5,10 @@ from __future__ import annotations
 import datetime
 import importlib
 import json
+import operator
 import os
-from collections.abc import Mapping
+import stat
+from collections.abc import Iterable, Mapping, Set
 from typing import Any
 
 import numpy as np
@@ -49,10 +51,49 @@ def optional(module: str, extra: str) -> Any:
         raise ImportError(f'{name} is not installed; install it with: pip install "dtg-passport[{extra}]"') from error
 
 
+# No file that is read here may be longer; it is that of allowed_signers.
+LARGEST_FILE_BYTES = 1 << 24
+
+
 def named(path: Path) -> tuple[str, bytes]:
-    """Return the name and the content of a file."""
+    """Return the name and the content of a file. A pipe or a device is refused, because reading it might never end."""
+    name = os.fspath(path)
+    kind = os.stat(path).st_mode
+    if not stat.S_ISREG(kind) and not stat.S_ISDIR(kind):
+        raise ValueError(f"{name}: found a pipe, a device or a socket, expected a file")
     with open(path, "rb") as file:
-        return os.fspath(path), file.read()
+        data = file.read(LARGEST_FILE_BYTES + 1)
+    if len(data) > LARGEST_FILE_BYTES:
+        raise ValueError(f"{name}: found more than {LARGEST_FILE_BYTES} bytes; check that this is the right file")
+    return name, data
+
+
+def numbers(name: str, values: Any) -> list[float]:
+    """Return the numbers of a list; a text, a set or a mapping is none."""
+    if isinstance(values, (str, bytes, Set, Mapping)) or not isinstance(values, Iterable):
+        raise TypeError(f"{name}: found {values!r}, expected a list of numbers")
+    try:
+        return [float(value) for value in values]
+    except (TypeError, ValueError):
+        raise TypeError(f"{name}: found {values!r}, expected a list of numbers") from None
+
+
+def text(name: str, value: object) -> str | None:
+    """Return a text, or None."""
+    if value is None or isinstance(value, str):
+        return value
+    raise TypeError(f"{name}: found {value!r}, expected a text")
+
+
+def whole(name: str, value: Any, least: int, most: int) -> int:
+    """Return a whole number within limits, of any type that is one."""
+    try:
+        found = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name}: found {value!r}, expected a whole number") from None
+    if not least <= found <= most:
+        raise ValueError(f"{name}: found {found}, expected a whole number from {least} to {most}")
+    return found
 
 
 def document(file: File, name: str) -> tuple[str, bytes]:
@@ -70,15 +111,19 @@ def documents(gyro: File | None, laboratory: File | None) -> tuple[tuple[str, by
     )
 
 
-def moment(time: str | datetime.date | None) -> str | None:
+def moment(name: str, time: str | datetime.date | None) -> str | None:
     """Return a time or a date as text."""
     if isinstance(time, datetime.datetime):
         return time.isoformat(timespec="seconds")
-    return time.isoformat() if isinstance(time, datetime.date) else time
+    return time.isoformat() if isinstance(time, datetime.date) else text(name, time)
 
 
 def _plain(value: Any) -> Any:
     """Convert what JSON lacks: dates, mappings, numbers and arrays of NumPy."""
     if isinstance(value, Mapping):
         return dict(value)
-    return moment(value) if isinstance(value, datetime.date) else value.tolist()
+    if isinstance(value, datetime.date):
+        return moment("", value)
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    raise TypeError(f"found {value!r}, expected text, numbers, lists and mappings")

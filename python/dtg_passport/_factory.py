@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from . import _dtg_passport
 from ._calibration import Parameters, parameters
-from ._common import Array, File, Path, document, documents, frozen, moment
+from ._common import Array, File, Path, document, documents, frozen, moment, numbers, text, whole
 from ._load import signers
 
 
@@ -118,9 +118,9 @@ def issue(
     if not accuracy and (gyro is not None or laboratory is not None):
         raise ValueError("gyro and laboratory are those of the accuracy; give accuracy=True too")
     order = {
-        "identity": identity,
-        "issued_at": moment(issued_at),
-        "valid_until": moment(valid_until),
+        "identity": text("identity", identity) or "",
+        "issued_at": moment("issued_at", issued_at),
+        "valid_until": moment("valid_until", valid_until),
         "allow_uncalibratable": allow_uncalibratable,
     }
     id, path, sha256, new, remarks = _dtg_passport.issue(
@@ -188,9 +188,9 @@ def plan(
     "0.00084 deg/h/g, with the paper's positions 0.00120"
     """
     question = {
-        "readings": readings,
-        "step_deg": step,
-        "frame_axis_azimuths_deg": [float(azimuth) for azimuth in frame_axis_azimuths],
+        "readings": whole("readings", readings, 4, 256),
+        "step_deg": None if step is None else float(step),
+        "frame_axis_azimuths_deg": numbers("frame_axis_azimuths", frame_axis_azimuths),
         "criterion": criterion,
     }
     files = (document(site, "site"), None if stand is None else document(stand, "stand"), documents(gyro, laboratory))

@@ -5,12 +5,13 @@ from __future__ import annotations
 import datetime
 import itertools
 import json
+import math
 import os
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from . import _dtg_passport
-from ._common import Path, moment, named
+from ._common import Array, Path, moment, named, numbers, text, whole
 from ._passport import Passport, Refused, Verification, checks_of
 
 # Passports verified at a time by load_many: enough work for the threads, little memory.
@@ -20,7 +21,7 @@ CHUNK = 512
 def _enquiry(
     trust: Path | bytes,
     serial: str | None,
-    at: tuple[float, float] | None,
+    at: Sequence[float] | Array | None,
     time: str | datetime.date | None,
     issuer: str | None,
     revoked: Path | bytes | Iterable[Path | bytes],
@@ -29,8 +30,12 @@ def _enquiry(
     if isinstance(revoked, (str, bytes, os.PathLike)):
         revoked = (revoked,)
     lists = [("revoked", one) if isinstance(one, bytes) else named(one) for one in revoked]
-    place = None if at is None else [float(degrees) for degrees in at]
-    question = json.dumps({"serial": serial, "at": place, "time": moment(time), "issuer": issuer})
+    place = None if at is None else numbers("at", at)
+    if place is not None and not all(map(math.isfinite, place)):
+        raise ValueError(f"at: found {at!r}, expected latitude and longitude in degrees")
+    question = json.dumps(
+        {"serial": text("serial", serial), "at": place, "time": moment("time", time), "issuer": text("issuer", issuer)}
+    )
     folder = None if register is None else os.fspath(register)
     enquiry = _dtg_passport.Enquiry(signers(trust), lists, question, folder)
     for remark in enquiry.remarks():
@@ -76,7 +81,7 @@ def load(
     trust: Path | bytes,
     *,
     serial: str | None = None,
-    at: tuple[float, float] | None = None,
+    at: Sequence[float] | Array | None = None,
     time: str | datetime.date | None = None,
     issuer: str | None = None,
     revoked: Path | bytes | Iterable[Path | bytes] = (),
@@ -129,11 +134,11 @@ def load(
 
 
 def loads(
-    data: bytes | str,
+    data: bytes | bytearray | memoryview | str,
     trust: Path | bytes,
     *,
     serial: str | None = None,
-    at: tuple[float, float] | None = None,
+    at: Sequence[float] | Array | None = None,
     time: str | datetime.date | None = None,
     issuer: str | None = None,
     revoked: Path | bytes | Iterable[Path | bytes] = (),
@@ -155,7 +160,7 @@ def loads(
     """
     enquiry = _enquiry(trust, serial, at, time, issuer, revoked, register)
     name = "passport"
-    return _passport(name, enquiry.verify(name, data.encode() if isinstance(data, str) else data))
+    return _passport(name, enquiry.verify(name, data.encode() if isinstance(data, str) else bytes(data)))
 
 
 def verify(
@@ -163,7 +168,7 @@ def verify(
     trust: Path | bytes,
     *,
     serial: str | None = None,
-    at: tuple[float, float] | None = None,
+    at: Sequence[float] | Array | None = None,
     time: str | datetime.date | None = None,
     issuer: str | None = None,
     revoked: Path | bytes | Iterable[Path | bytes] = (),
@@ -195,7 +200,7 @@ def load_many(
     *,
     threads: int | None = None,
     serial: str | None = None,
-    at: tuple[float, float] | None = None,
+    at: Sequence[float] | Array | None = None,
     time: str | datetime.date | None = None,
     issuer: str | None = None,
     revoked: Path | bytes | Iterable[Path | bytes] = (),
@@ -227,10 +232,11 @@ def load_many(
     >>> [p.id for p in load_many(paths, "docs/allowed_signers", time="2026-11-20")]
     ['SPS-2/0017/beijing-nim/1', 'SPS-2/0017/moscow-bmstu/1']
     """
-    if threads is not None and threads < 1:
-        raise ValueError(f"threads: found {threads}, expected a number from 1")
+    if isinstance(paths, (str, bytes, os.PathLike)):
+        raise TypeError(f"paths: found {paths!r}, expected a list of paths")
+    threads = 0 if threads is None else whole("threads", threads, 1, 1024)
     # The trust is read at once, so that an error in it does not wait for the first passport.
-    return _each(paths, _enquiry(trust, serial, at, time, issuer, revoked, register), threads or 0)
+    return _each(paths, _enquiry(trust, serial, at, time, issuer, revoked, register), threads)
 
 
 def _each(paths: Iterable[Path], enquiry: _dtg_passport.Enquiry, threads: int) -> Iterator[Passport]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import functools
 import json
 import os
+import re
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -39,7 +40,7 @@ class Check(NamedTuple):
     name: str
     """Name of the check, such as `signature`."""
     passed: bool | None
-    """Whether the check passed, or None if it was not run."""
+    """Whether the check passed, or None if it was not run. Without revocation lists `revocation` passes."""
     code: str
     """Result as a code for programs, such as `altered`."""
     detail: str
@@ -422,24 +423,52 @@ class Passport(Frozen):
         return f"<div>{title}{words}<table><tr>{head}</tr>{table}</table></div>"
 
 
+# Columns of currents: those of an array, and those that a table may have too.
+_COLUMNS = ("i", "j", "jx_ma", "jy_ma")
+_OPTIONAL_COLUMNS = ("cycle", "visit", "time_s")
+
+
 def _csv(currents: object) -> tuple[str, bytes]:
     """Return currents as a name and CSV, which the library reads with every check."""
     if isinstance(currents, (str, os.PathLike)):
         return named(currents)
+    if currents is None or isinstance(currents, (bytes, Set)):
+        found = type(currents).__name__
+        raise TypeError(f"currents: found {found}, expected a path, a DataFrame, a mapping or an array")
     if hasattr(currents, "reset_index"):  # a DataFrame; i and j may be its index, as in `to_dataframe`
         frame: Any = currents
         frame = frame if "i" in frame else frame.reset_index()
         currents = {name: frame[name] for name in frame if name != "index"}
     if isinstance(currents, Mapping):
-        columns = [np.asarray(column).tolist() for column in currents.values()]
-        rows = [",".join(map(_cell, row)) for row in zip(*columns, strict=True)]
-        return "currents", "\n".join([",".join(map(str, currents)), *rows, ""]).encode()
+        known = [name for name in (*_COLUMNS, *_OPTIONAL_COLUMNS) if name in currents]
+        columns = {name: _column(name, currents[name]) for name in known}
+        if len(set(map(len, columns.values()))) > 1:
+            lengths = ", ".join(f"{name} {len(column)}" for name, column in columns.items())
+            raise ValueError(f"currents: found columns of different lengths ({lengths})")
+        # Of other columns only the name goes on, which may be a misspelt one. Their text could be read as rows.
+        others = [re.sub(r'[",;\s]+', " ", str(name)).strip() or "_" for name in currents if name not in known]
+        rows = [",".join((*row, *("" for _ in others))) for row in zip(*columns.values())]
+        return "currents", "\n".join([",".join((*known, *others)), *rows, ""]).encode()
+    _check_array("currents", currents)
     table = np.asarray(currents, dtype=np.float64)
     if table.ndim != 2 or table.shape[1] != 4:
-        raise ValueError(f"currents: found an array of shape {table.shape}, expected (N, 4): i, j, jx_ma, jy_ma")
-    return _csv(dict(zip(("i", "j", "jx_ma", "jy_ma"), table.T)))
+        raise ValueError(f"currents: found an array of shape {table.shape}, expected (N, 4): {', '.join(_COLUMNS)}")
+    return _csv(dict(zip(_COLUMNS, table.T)))
 
 
-def _cell(value: Any) -> str:
-    """Return a value as a cell of CSV. NumPy makes all columns of a table floats, even whole numbers such as i and j."""
-    return str(int(value)) if isinstance(value, float) and value.is_integer() and abs(value) < 2**53 else str(value)
+def _check_array(name: str, values: Any) -> None:
+    """Refuse numbers that would lose their mask or their imaginary part on the way."""
+    if np.ma.is_masked(values):
+        raise ValueError(f"{name}: found masked values; leave out the rows that have one")
+    if np.iscomplexobj(values):
+        raise TypeError(f"{name}: found complex numbers, expected real ones")
+
+
+def _column(name: str, values: Any) -> list[str]:
+    """Return the cells of a column of numbers. NumPy makes even whole numbers such as i and j floats."""
+    _check_array(f"currents: {name}", values)
+    try:
+        numbers = np.asarray(values).astype(np.float64).ravel().tolist()
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"currents: {name}: {error}") from None
+    return [str(int(number)) if number.is_integer() and abs(number) < 2**53 else repr(number) for number in numbers]

@@ -132,7 +132,7 @@ impl Answer {
     fn content(&self) -> Option<Content> {
         let verification = &self.0.verification;
         let passport = verification.content_from_anyone().filter(|_| verification.valid())?;
-        Some(Content { passport: passport.clone(), verified: true })
+        Some(Content { passport: passport.clone(), verified_as_of: Some(self.0.time) })
     }
 }
 
@@ -140,7 +140,7 @@ impl Answer {
 #[pyclass(frozen)]
 struct Content {
     passport: Passport,
-    verified: bool,
+    verified_as_of: Option<Timestamp>,
 }
 
 #[pymethods]
@@ -149,12 +149,12 @@ impl Content {
     #[staticmethod]
     fn unverified(file: &str, data: &[u8]) -> PyResult<Self> {
         let passport = content_from_anyone(file, data).map_err(|error| failed(error.into()))?;
-        Ok(Self { passport, verified: false })
+        Ok(Self { passport, verified_as_of: None })
     }
 
     #[getter]
     fn verified(&self) -> bool {
-        self.verified
+        self.verified_as_of.is_some()
     }
 
     #[getter]
@@ -187,9 +187,9 @@ impl Content {
         files: Files,
     ) -> PyResult<(String, Bound<'py, PyBytes>, Vec<String>)> {
         let (gyro, laboratory) = read(files)?;
-        let (passport, verified) = (&self.passport, self.verified);
+        let (passport, time) = (&self.passport, self.verified_as_of);
         let found = py.detach(|| {
-            interface::calibrate(passport, verified, given(&currents), method, laboratory.as_ref(), gyro.as_ref())
+            interface::calibrate(passport, time, given(&currents), method, laboratory.as_ref(), gyro.as_ref())
         });
         let found = found.map_err(failed)?;
         let covariance: Vec<u8> = found.covariance.into_iter().flatten().flat_map(f64::to_ne_bytes).collect();

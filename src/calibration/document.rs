@@ -84,6 +84,9 @@ pub struct CalibrationDocument {
     /// Error that explains the result if the readings fit but the parameters are not those of the gyro.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) mistake: Option<Mistake>,
+    /// What the user should know about the currents, the laboratory and the fit, a sentence each.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub(crate) remarks: Vec<String>,
     /// Comparison with the gyro type.
     #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "left_aside")]
     pub(crate) verdict: Option<Verdict>,
@@ -204,6 +207,7 @@ impl CalibrationDocument {
             digits: calibration.digits,
             hint: calibration.hint.as_ref().map(ToString::to_string),
             mistake: None,
+            remarks: Vec::new(),
             verdict: None,
             change: None,
             budget: IgnoredAny,

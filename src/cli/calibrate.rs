@@ -257,8 +257,7 @@ impl Bench<'_> {
             output::say(remark);
         }
         let asked = options.asked();
-        let verified = self.verified_as_of().is_some();
-        let done = prepared.run(&asked, verified, self.subject(), &self.previous);
+        let done = prepared.run(&asked, self.subject(), &self.previous);
         let done = done.map_err(Failure::stopped)?;
         let tolerance = self.gyro_type.as_ref().map(|gyro_type| &gyro_type.tolerance);
         let asked = (&asked, tolerance);

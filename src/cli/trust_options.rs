@@ -11,16 +11,17 @@ use crate::passport::{Question, Trust};
 use crate::text::name_of;
 use crate::trust::LARGEST_TRUST_FILE_BYTES;
 use clap::Args;
+use clap::builder::NonEmptyStringValueParser;
 use jiff::Timestamp;
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub(super) struct Asked {
     /// Require this issuer
-    #[arg(long, value_name = "WHO")]
+    #[arg(long, value_name = "WHO", value_parser = NonEmptyStringValueParser::new())]
     issuer: Option<String>,
     /// Require this serial number; read it from the stand
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = NonEmptyStringValueParser::new())]
     serial: Option<String>,
     /// Place of the stand: latitude and longitude in degrees, north and east positive
     #[arg(long, value_name = "LAT,LON", value_parser = place, allow_hyphen_values = true)]

@@ -1,6 +1,7 @@
 //! Calibration with a passport: from currents as CSV to the JSON of `calibrate`.
 
 use super::{Failed, json};
+#[cfg(not(feature = "report"))]
 use crate::calibration::diagnosis::INCONSISTENT;
 use crate::calibration::document::{NoChange, Subject};
 use crate::calibration::mistake::Mistake;
@@ -18,11 +19,8 @@ use crate::uncertainty::Budget;
 use crate::uncertainty::document::MonteCarloDocument;
 #[cfg(feature = "monte-carlo")]
 use crate::uncertainty::{self, Engine, MonteCarlo, ReadingShape, Trials};
+use jiff::Timestamp;
 use std::collections::BTreeMap;
-
-const RECORDED: &str = "what the digits of the currents show";
-
-const UNLIKE: &str = "the readings fit, but the parameters are far from the gyro's; this would explain it";
 
 /// Result of a calibration by one method.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,11 +29,12 @@ pub struct Calibrated {
     pub json: String,
     /// Covariance of the parameters, 8×8, in the order and units of [`Parameter::EIGHT`].
     pub covariance: [[f64; 8]; 8],
-    /// Remarks on the currents, the laboratory and the fit, a sentence each.
+    /// Remarks on the currents, the laboratory and the fit, a sentence each; also in the JSON.
     pub remarks: Vec<String>,
 }
 
-/// Calibrates a gyro with the content of a passport. `verified` states whether the passport was verified.
+/// Calibrates a gyro with the content of a passport. `verified_as_of` is the time for which the passport was verified, or
+/// `None` if it was not.
 ///
 /// `currents` are the name and content of a CSV file with the columns `i`, `j`, `jx_ma`, `jy_ma`; `method` is
 /// `analytic`, `iterative` or `least-squares`. Without a laboratory the paper's meter is used; without a gyro type the
@@ -46,7 +45,7 @@ pub struct Calibrated {
 /// parameters.
 pub fn calibrate(
     content: &Content,
-    verified: bool,
+    verified_as_of: Option<Timestamp>,
     (name, currents): (&str, &[u8]),
     method: &str,
     laboratory: Option<&Laboratory>,
@@ -54,20 +53,26 @@ pub fn calibrate(
 ) -> Result<Calibrated, Failed> {
     let (paper, options) = (Laboratory::paper(), by(method)?);
     let prepared = Prepared::new(content, laboratory.unwrap_or(&paper), gyro_type, (name, currents))?;
-    let mut remarks: Vec<String> = prepared.readings.remark.iter().cloned().collect();
-    let done = prepared.run(&options, verified, Subject::default(), &[])?;
-    remarks.extend(done.warning.map(|warning| warning.to_string()));
-    remarks.extend(done.document.hint.iter().map(|hint| format!("{INCONSISTENT}: {hint}")));
-    remarks.extend(done.document.digits.iter().map(|digits| format!("{RECORDED}: {}", json(digits))));
-    remarks.extend(done.document.mistake.iter().map(|mistake| format!("{UNLIKE}: {}", json(mistake))));
-    let left_out = done.document.left_out.iter().map(ToString::to_string).collect::<Vec<_>>();
-    remarks.extend((!left_out.is_empty()).then(|| format!("positions without a reading: {}", left_out.join(", "))));
+    let subject = Subject { passport_verified_as_of: verified_as_of, ..Subject::default() };
+    let done = prepared.run(&options, subject, &[])?;
     // The document has an answer, so the calibration has one.
     let result = done.calibration.answer().ok_or_else(|| Failed::refused("no result"))?;
     let place = |index: usize| Parameter::EIGHT[index].place();
     let covariance = |row, column| result.covariance.get((place(row), place(column))).copied().unwrap_or(f64::NAN);
     let covariance = std::array::from_fn(|row| std::array::from_fn(|column| covariance(row, column)));
-    Ok(Calibrated { json: json(&done.document), covariance, remarks })
+    Ok(Calibrated { json: json(&done.document), covariance, remarks: done.document.remarks })
+}
+
+/// Returns the parameters of the adopted result and their standard uncertainties, in the order and units of
+/// [`Parameter::EIGHT`], and whether they may be used: the readings fit the stand, and no mistake explains the parameters
+/// better. `result` is the JSON of [`calibrate`].
+///
+/// # Errors
+/// Returns [`Failed`] if `result` is no such JSON.
+pub fn parameters(result: &str) -> Result<([f64; 8], [f64; 8], bool), Failed> {
+    let document = CalibrationDocument::from_json("result", result.as_bytes())?;
+    let found = document.answer().ok_or_else(|| Failed::unusable("result: found no parameters"))?;
+    Ok((found.parameters.to_vector(), found.standard_uncertainty, document.is_valid()))
 }
 
 /// Returns the options of a calibration by one method.
@@ -95,7 +100,7 @@ pub fn monte_carlo(
 ) -> Result<String, Failed> {
     let (paper, options) = (Laboratory::paper(), by(method)?);
     let prepared = Prepared::new(content, laboratory.unwrap_or(&paper), gyro_type, currents)?;
-    let Done { setup, readings, calibration, .. } = prepared.run(&options, true, Subject::default(), &[])?;
+    let Done { setup, readings, calibration, .. } = prepared.run(&options, Subject::default(), &[])?;
     let method = calibration.answer().map_or(Method::LeastSquares, |answer| answer.method);
     let budget = Budget::new(&setup, &readings, method, &options).map_err(Failed::refused)?;
     Ok(json(&MonteCarloDocument::new(&distributions(&setup, &readings, (&budget, &options), run)?)))
@@ -200,7 +205,6 @@ impl<'a> Prepared<'a> {
     pub(crate) fn run(
         self,
         options: &Options,
-        verified: bool,
         subject: Subject,
         previous: &[CalibrationDocument],
     ) -> Result<Done, Stopped> {
@@ -223,6 +227,7 @@ impl<'a> Prepared<'a> {
             return Err(Stopped::Refused(words));
         }
         let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
+        let verified = subject.passport_verified_as_of.is_some();
         let mut document = CalibrationDocument::new(&content.passport.id, verified, gravity, &calibration, &missing);
         document.record(subject, &readings);
         let budget =
@@ -239,6 +244,8 @@ impl<'a> Prepared<'a> {
         let usual = usual.map_or_else(|| GyroType::gvk_6().nominal.to_model(), |found| found.parameters);
         let rate = content.earth.rate(&content.site);
         document.mistake = Mistake::explaining(&calibration, &found, &rate, gyro_type, &usual);
+        document.remarks = remarks(&calibration, &readings, document.mistake.as_ref());
+        document.remarks.extend(readings.remark.iter().cloned().chain(warning.map(|warning| warning.to_string())));
         document.verdict = gyro_type.and_then(|gyro_type| document.judged(gyro_type));
         document.change = last.zip(gyro_type).and_then(|(earlier, gyro_type)| document.changed(earlier, gyro_type));
         let earlier = last.and_then(|earlier| Some((earlier.answer()?, document.no_change(earlier))));
@@ -249,6 +256,21 @@ impl<'a> Prepared<'a> {
         });
         Ok(Done { setup, readings, calibration, missing, document, earlier, cost_of_missing, further, warning })
     }
+}
+
+/// Returns what the user should know about a result, a sentence each.
+#[cfg(feature = "report")]
+fn remarks(calibration: &Calibration, readings: &Readings, mistake: Option<&Mistake>) -> Vec<String> {
+    crate::report::calibration::remarks(calibration, readings, mistake)
+}
+
+/// Returns what makes a result unusable, a sentence each. The feature `report` has the words for the rest.
+#[cfg(not(feature = "report"))]
+fn remarks(calibration: &Calibration, _: &Readings, mistake: Option<&Mistake>) -> Vec<String> {
+    let hint = calibration.hint.iter().map(|hint| format!("{INCONSISTENT}: {hint}"));
+    let mistake =
+        mistake.map(|_| "the parameters are far from the gyro's; `mistake` states what would explain it".to_owned());
+    hint.chain(mistake).collect()
 }
 
 /// Returns rows of i, j, J_x, J_y (mA) as the CSV that [`calibrate`] reads, each number to its last bit.
@@ -263,6 +285,8 @@ pub fn currents_csv(rows: &[[f64; 4]]) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(feature = "report")]
+    use crate::calibration::diagnosis::INCONSISTENT;
     use crate::passport::content_from_anyone;
 
     const PASSPORT: &[u8] = include_bytes!("../../passports/SPS-2/0017/moscow-bmstu-1.yaml");
@@ -275,7 +299,7 @@ mod tests {
         let rows: Vec<_> =
             check.currents.iter().map(|at| [f64::from(at.i), f64::from(at.j), at.jx_ma, at.jy_ma]).collect();
         for method in ["analytic", "least-squares"] {
-            let found = calibrate(&content, true, ("c", &currents_csv(&rows)), method, None, None).unwrap();
+            let found = calibrate(&content, None, ("c", &currents_csv(&rows)), method, None, None).unwrap();
             let document = CalibrationDocument::from_json("r", found.json.as_bytes()).unwrap();
             let result = document.answer().unwrap();
             let errors = check.errors(&result.parameters);
@@ -296,12 +320,12 @@ mod tests {
         (wide.tolerance.k_main_percent, wide.tolerance.k_cross_percent) = (1e3, 1e3);
         (wide.tolerance.omega0_deg_per_h, wide.tolerance.omega_g_deg_per_h_per_g) = (1e3, 1e3);
         wide.tolerance.omega_k_deg_per_h_per_g = 1e3;
-        let found = calibrate(&content, true, currents, "least-squares", None, Some(&wide)).unwrap();
+        let found = calibrate(&content, None, currents, "least-squares", None, Some(&wide)).unwrap();
         let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
         assert_eq!((&json["consistent"], &json["verdict"]["overall"]), (&false.into(), &"undecided".into()));
         assert!(found.remarks.iter().any(|remark| remark.starts_with(INCONSISTENT)), "{:?}", found.remarks);
         let content = content_from_anyone("p", PASSPORT).unwrap();
-        let found = calibrate(&content, true, currents, "least-squares", None, Some(&wide)).unwrap();
+        let found = calibrate(&content, None, currents, "least-squares", None, Some(&wide)).unwrap();
         let json: serde_json::Value = serde_json::from_str(&found.json).unwrap();
         assert_eq!((&json["consistent"], &json["verdict"]["overall"]), (&true.into(), &"pass".into()));
         assert_eq!((&json["adopted"], found.remarks), (&"least-squares".into(), Vec::new()));
@@ -313,7 +337,7 @@ mod tests {
         let currents: (&str, &[u8]) = ("c", include_bytes!("../../docs/currents.csv"));
         let mut gyro = GyroType::gvk_6();
         gyro.nominal.k_deg_per_h_per_ma[0][1] = 0.0;
-        let refused = calibrate(&content, true, currents, "least-squares", None, Some(&gyro)).unwrap_err();
+        let refused = calibrate(&content, None, currents, "least-squares", None, Some(&gyro)).unwrap_err();
         assert!(refused.to_string().contains("no tolerance of K_xy"), "{refused}");
     }
 
@@ -321,11 +345,11 @@ mod tests {
     fn what_is_no_current_is_refused_with_its_line() {
         let content = content_from_anyone("p", PASSPORT).unwrap();
         let rows = [[1.0, 1.0, 0.1, 0.1], [1.5, 2.0, 0.1, 0.1], [1.0, 3.0, f64::NAN, f64::INFINITY]];
-        let failed = calibrate(&content, true, ("c", &currents_csv(&rows)), "analytic", None, None).unwrap_err();
+        let failed = calibrate(&content, None, ("c", &currents_csv(&rows)), "analytic", None, None).unwrap_err();
         for place in ["c:3:1", "c:4:5", "c:4:9"] {
             assert!(failed.message.contains(place), "{failed}");
         }
-        let failed = calibrate(&content, true, ("c", b""), "exact", None, None).unwrap_err();
+        let failed = calibrate(&content, None, ("c", b""), "exact", None, None).unwrap_err();
         assert!(failed.message.contains("expected one of analytic, iterative, least-squares"), "{failed}");
     }
 }

@@ -14,8 +14,8 @@ use crate::text::scalar::{day, impossible_date};
 use crate::text::{LARGEST_DOCUMENT_BYTES, name_of};
 use crate::trust::{AllowedSigners, RevokedKeys};
 use jiff::Timestamp;
-use jiff::civil::Date;
-use serde::Deserialize;
+use jiff::civil::{Date, DateTime};
+use serde::{Deserialize, Serialize};
 #[cfg(feature = "factory")]
 use std::path::{Path, PathBuf};
 
@@ -40,13 +40,27 @@ pub struct Answer {
     pub verification: Verification,
     /// SHA-256 of the whole file, in lower-case hexadecimal.
     pub sha256: String,
+    /// Time for which the passport was verified.
+    pub time: Timestamp,
+    /// What the user should know about the revocation lists and the register, a sentence each.
+    pub remarks: Vec<String>,
 }
 
 impl Answer {
-    /// Returns the verdict as JSON: `{file, valid, id, checks: [{name, passed, code, detail}]}`.
+    /// Returns the verdict as JSON: `{file, valid, id, checks: [{name, passed, code, detail}], remarks}`, without `remarks`
+    /// if there are none.
     pub fn to_json(&self) -> String {
-        json(&Verdict::of(&self.file, &self.verification))
+        json(&Remarked { verdict: Verdict::of(&self.file, &self.verification), remarks: &self.remarks })
     }
+}
+
+/// Verdict on a passport, and what the user should know about the inputs.
+#[derive(Serialize)]
+struct Remarked<'a> {
+    #[serde(flatten)]
+    verdict: Verdict,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    remarks: &'a [String],
 }
 
 /// Question as JSON.
@@ -62,7 +76,7 @@ struct Asked {
 
 /// Revocation list as JSON: text, or bytes as a list of numbers.
 #[derive(Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "revoked: expected the text of a list, or its bytes")]
 enum Listed {
     Text(String),
     Bytes(Vec<u8>),
@@ -84,11 +98,15 @@ impl Enquiry {
         now: Timestamp,
     ) -> Result<Self, Failed> {
         let asked: Asked = asked("question", question)?;
-        let refuse = |key: &str, why: String| Failed::unusable(format!("{key}: expected {why}"));
-        let time = match &asked.time {
-            Some(text) => time(text).map_err(|form| refuse("time", format!("{form}; found {text:?}")))?,
-            None => Timestamp::from_second(now.as_second()).unwrap_or(now),
-        };
+        let given = asked.time.as_deref().map(|text| read("time", text, time)).transpose()?;
+        let time = given.unwrap_or_else(|| Timestamp::from_second(now.as_second()).unwrap_or(now));
+        for (key, value) in [("serial", &asked.serial), ("issuer", &asked.issuer)] {
+            if value.as_ref().is_some_and(|value| value.trim().is_empty()) {
+                return Err(Failed::unusable(format!(
+                    "{key}: found an empty text; leave the key out if it is not asked"
+                )));
+            }
+        }
         let place = asked.at.map(|at| match at[..] {
             [latitude_deg, longitude_deg] => place(latitude_deg, longitude_deg),
             _ => Err(format!("found {at:?}, expected [latitude, longitude] in degrees")),
@@ -125,7 +143,8 @@ impl Enquiry {
         if let Some(register) = &self.register {
             verification = register.asked(verification, bytes);
         }
-        Answer { file: file.to_owned(), verification, sha256: sha256_hex(bytes) }
+        let (time, remarks) = (self.question.time, self.remarks.clone());
+        Answer { file: file.to_owned(), verification, sha256: sha256_hex(bytes), time, remarks }
     }
 
     /// Verifies files on up to `threads` threads (0: one for each processor); the answers are in the order of the
@@ -189,6 +208,11 @@ pub(crate) fn trust(
     Ok((trust, remarks))
 }
 
+/// Reads the text of a key, with a parser whose errors end a sentence about what was found.
+pub(super) fn read<T>(key: &str, text: &str, parse: fn(&str) -> Result<T, String>) -> Result<T, Failed> {
+    parse(text).map_err(|why| Failed::unusable(format!("{key}: found {text:?}; {why}")))
+}
+
 /// Parses the time of a question.
 pub(crate) fn time(text: &str) -> Result<Timestamp, String> {
     if let Ok(date) = date(text) {
@@ -199,15 +223,18 @@ pub(crate) fn time(text: &str) -> Result<Timestamp, String> {
     }
     match text.parse::<Timestamp>() {
         Ok(time) if time.subsec_nanosecond() == 0 => Ok(time),
-        Ok(_) => Err("whole seconds, such as 2026-11-02T09:30:00Z".to_owned()),
-        Err(_) => Err("a time such as 2026-11-02T09:30:00Z, or a UTC date such as 2026-11-02".to_owned()),
+        Ok(_) => Err("expected whole seconds, such as 2026-11-02T09:30:00Z".to_owned()),
+        Err(_) if text.parse::<DateTime>().is_ok() => {
+            Err("the time zone is missing; for UTC, write Z at the end, as in 2026-11-02T09:30:00Z".to_owned())
+        }
+        Err(_) => Err("expected a time such as 2026-11-02T09:30:00Z, or a UTC date such as 2026-11-02".to_owned()),
     }
 }
 
 /// Parses a date. A date with a time but no zone is rejected, because the time zone is unknown.
 pub(crate) fn date(text: &str) -> Result<Date, String> {
     let date = text.parse::<Date>().ok().filter(|date| date.to_string() == text);
-    date.ok_or_else(|| impossible_date(text).unwrap_or_else(|| "a UTC date such as 2026-11-02".to_owned()))
+    date.ok_or_else(|| impossible_date(text).unwrap_or_else(|| "expected a UTC date such as 2026-11-02".to_owned()))
 }
 
 /// Checks the place of a question, degrees.
@@ -257,8 +284,12 @@ mod tests {
         for (question, words) in [
             ("", "not usable JSON"),
             (r#"{"times": "2026-11-20"}"#, "unknown field `times`"),
-            (r#"{"time": "tomorrow"}"#, "time: expected"),
-            (r#"{"time": "2026-11-20T10:00:00"}"#, "time: expected"),
+            (r#"{"time": "tomorrow"}"#, "time: found \"tomorrow\"; expected a time such as"),
+            (r#"{"time": "2026-02-30"}"#, "time: found \"2026-02-30\"; month 02 of 2026 has 28 days"),
+            (r#"{"time": "2026-11-20T10:00:00"}"#, "the time zone is missing"),
+            (r#"{"serial": 17}"#, "serial: found integer `17`, expected a string"),
+            (r#"{"serial": " "}"#, "serial: found an empty text"),
+            (r#"{"issuer": ""}"#, "issuer: found an empty text"),
             (r#"{"time": "2026-11-20T10:00:00.5Z"}"#, "whole seconds"),
             (r#"{"at": [91, 0]}"#, "latitude 91"),
             (r#"{"at": [0, 181]}"#, "longitude 181"),

@@ -1,6 +1,6 @@
 //! Issue of one passport into a folder.
 
-use super::enquiry::{date, time, trust};
+use super::enquiry::{date, read, time, trust};
 use super::{Failed, UNWRITABLE, asked};
 use crate::folder::{Folder, FolderRefused, Issued, Seal};
 use crate::gyro::GyroType;
@@ -74,10 +74,8 @@ pub fn issue(
 /// Parses an order; its accuracy is not in it.
 fn ordered(order: &str, now: Timestamp) -> Result<Issue, Failed> {
     let asked: Asked = asked("order", order)?;
-    let expected =
-        |key: &str, form: String, found: &str| Failed::unusable(format!("{key}: expected {form}; found {found:?}"));
-    let issued_at = asked.issued_at.map(|text| time(&text).map_err(|form| expected("issued_at", form, &text)));
-    let valid_until = asked.valid_until.map(|text| date(&text).map_err(|form| expected("valid_until", form, &text)));
+    let issued_at = asked.issued_at.map(|text| read("issued_at", &text, time));
+    let valid_until = asked.valid_until.map(|text| read("valid_until", &text, date));
     let issued_at = time_of_issue(issued_at.transpose()?, now).map_err(Failed::refused)?;
     Ok(Issue {
         valid_until: valid_until.transpose()?,
@@ -114,9 +112,13 @@ mod tests {
         for (asked, code, words) in [
             ("{}", "unusable", "missing field `identity`"),
             (r#"{"identity": "a b"}"#, "unusable", "a b"),
-            (r#"{"identity": "w", "issued_at": "2026-11-10T08:00"}"#, "unusable", "issued_at: expected"),
+            (r#"{"identity": "w", "issued_at": "2026-11-10T08:00"}"#, "unusable", "the time zone is missing"),
             (r#"{"identity": "w", "issued_at": "2026-12-20"}"#, "refused", "later than the clock"),
-            (r#"{"identity": "w", "valid_until": "2026-02-30"}"#, "unusable", "valid_until: expected"),
+            (
+                r#"{"identity": "w", "valid_until": "2026-02-30"}"#,
+                "unusable",
+                "valid_until: found \"2026-02-30\"; month 02",
+            ),
             (r#"{"identity": "w", "valid_until": "2099-01-01"}"#, "refused", "certificate"),
         ] {
             let failed = order(asked, folder.path()).unwrap_err();

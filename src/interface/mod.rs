@@ -4,7 +4,7 @@
 //! checks and computes the same numbers to the bit.
 //!
 //! * [`Enquiry`]: whom to trust and what to ask, and the verification of many passports.
-//! * [`calibrate`]: currents to the parameters of a gyro; `monte_carlo` (with `monte-carlo`): their distributions.
+//! * [`calibrate`]: currents to the parameters of a gyro; [`parameters`]: the numbers of its result; `monte_carlo` (with `monte-carlo`): their distributions.
 //! * `issue` (with `factory`), `plan` (with `monte-carlo` too): a signed passport; the best positions.
 //! * [`Failed`]: refusals as JSON.
 //!
@@ -20,7 +20,7 @@
 //!
 //! assert!(content_json(passport.content()).contains("b_deg_per_h"));
 //! let currents = include_bytes!("../../docs/currents.csv");
-//! let found = calibrate(passport.content(), true, ("currents.csv", currents), "least-squares", None, None)?;
+//! let found = calibrate(passport.content(), Some(answer.time), ("currents.csv", currents), "least-squares", None, None)?;
 //! assert!(found.json.contains("chi_square"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -34,7 +34,7 @@ mod planned;
 
 #[cfg(feature = "monte-carlo")]
 pub use calibrated::monte_carlo;
-pub use calibrated::{Calibrated, calibrate, currents_csv};
+pub use calibrated::{Calibrated, calibrate, currents_csv, parameters};
 pub use enquiry::{Answer, Enquiry};
 #[cfg(feature = "factory")]
 pub use issued::issue;
@@ -109,6 +109,12 @@ impl Failed {
     /// Creates the failure for an input that cannot be used.
     pub fn unusable(why: impl std::fmt::Display) -> Self {
         Self::new(UNUSABLE, why.to_string(), Vec::new())
+    }
+
+    /// Creates the failure for a file that cannot be read.
+    pub fn unreadable(file: &str, why: impl std::fmt::Display) -> Self {
+        let message = format!("{}: {why}", printable::Printable(file));
+        Self::new(UNREADABLE, message.clone(), vec![Place::file(file.to_owned(), message)])
     }
 
     /// Returns the failure as the JSON of what it ends.
@@ -195,8 +201,21 @@ pub fn content_json(content: &Content) -> String {
 fn asked<T: DeserializeOwned>(what: &str, text: &str) -> Result<T, Failed> {
     // An array could give the values without their keys.
     let object: serde_json::Result<serde_json::Map<_, _>> = serde_json::from_str(text);
-    let asked = object.and_then(|object| serde_json::from_value(object.into()));
-    asked.map_err(|error| Failed::unusable(format!("the {what} is not usable JSON: {error}")))
+    let asked = object.as_ref().map_err(ToString::to_string);
+    let asked =
+        asked.and_then(|object| serde_json::from_value(object.clone().into()).map_err(|error| error.to_string()));
+    asked.map_err(|error| {
+        let wrong = object.iter().flatten().find_map(|(key, value)| wrong::<T>(key, value));
+        Failed::unusable(wrong.unwrap_or_else(|| format!("the {what} is not usable JSON: {error}")))
+    })
+}
+
+/// Returns what is wrong with the value of a key, or `None` if it can be used.
+fn wrong<T: DeserializeOwned>(key: &str, value: &serde_json::Value) -> Option<String> {
+    let alone = serde_json::Map::from_iter([(key.to_owned(), value.clone())]);
+    let error = serde_json::from_value::<T>(alone.into()).err()?.to_string();
+    let found = error.strip_prefix("invalid type: ").or(error.strip_prefix("invalid value: "))?;
+    Some(format!("{key}: found {found}"))
 }
 
 /// Returns a value as JSON with invisible characters escaped. The values of this module have only text keys and finite

@@ -46,6 +46,10 @@ pub(crate) struct Context<'a> {
     pub further: Option<(Parameter, FurtherVisit)>,
 }
 
+/// Sentence on a fit without degrees of freedom.
+const UNTESTED: &str = "The fit cannot be tested: there are as many unknowns as readings (0 degrees of freedom), so any \
+                        readings would fit. Measure more positions.";
+
 /// Least effect of a further visit that is worth the time, percent of the standard uncertainty.
 const LEAST_EFFECT_PERCENT: f64 = 1.0;
 
@@ -125,6 +129,23 @@ pub(crate) fn warnings(calibration: &Calibration, mistake: Option<&Mistake>) -> 
     inconsistent.chain(mistake).chain(other).collect()
 }
 
+/// Returns what a program should show with the parameters, a sentence each: what makes them unusable, what the readings
+/// cannot tell, and a scatter that is not the stated one.
+pub(crate) fn remarks(calibration: &Calibration, readings: &Readings, mistake: Option<&Mistake>) -> Vec<String> {
+    let warnings = warnings(calibration, mistake).into_iter().map(|words| match &calibration.hint {
+        Some(hint) if words.contains(INCONSISTENT) => format!("{INCONSISTENT}: {hint}."),
+        _ => words,
+    });
+    let mut remarks: Vec<String> = warnings.collect();
+    let tested = calibration.answer().is_some_and(|answer| answer.chi_square.judges());
+    remarks.extend((!tested).then(|| UNTESTED.to_owned()));
+    remarks.extend(calibration.digits.iter().flat_map(|digits| recorded::words(digits, Language::English)));
+    remarks.extend(scatter(calibration).into_iter().filter(|said| said.remarkable).map(|said| said.words));
+    remarks.extend(without_reading(readings).map(|words| words + "."));
+    // A program says in its own way that a remark is a warning.
+    remarks.into_iter().map(|words| words.trim_start_matches("WARNING: ").to_owned()).collect()
+}
+
 /// Returns the result for one of several gyros in one line: the decision, or the fit if no type was given.
 pub(crate) fn line(
     file: &str,
@@ -161,14 +182,18 @@ fn left_out(out: &mut String, readings: &Readings, cost: Option<(Parameter, f64)
         let words = format!("Left out: visit {visit} to position ({i}, {j}){cycle}: {}.", printable(why));
         columns::paragraph(out, "", &words);
     }
-    if !readings.left_out.is_empty() {
-        let positions: Vec<String> = readings.left_out.iter().map(ToString::to_string).collect();
+    if let Some(words) = without_reading(readings) {
         let cost = cost.map_or_else(String::new, |(parameter, ratio)| {
             format!("; u({}) is {ratio:.2} times as large as with all positions", parameter.symbol())
         });
-        let words = format!("Positions without a reading: {}{cost}.", positions.join(", "));
-        columns::paragraph(out, "", &words);
+        columns::paragraph(out, "", &format!("{words}{cost}."));
     }
+}
+
+/// Returns a sentence on the positions without a reading, without a full stop.
+fn without_reading(readings: &Readings) -> Option<String> {
+    let positions: Vec<String> = readings.left_out.iter().map(ToString::to_string).collect();
+    (!positions.is_empty()).then(|| format!("Positions without a reading: {}", positions.join(", ")))
 }
 
 /// Returns the decision for the type with its mark and emphasis, and which parameters pass, fail and are undecided.
@@ -322,15 +347,15 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
     if answer.chi_square.judges() {
         chi_square(out, answer);
     } else {
-        let words = "The fit cannot be tested: there are as many unknowns as readings (0 degrees of freedom), so any \
-                     readings would fit. Measure more positions.";
         let _ = writeln!(out);
-        columns::paragraph(out, "", words);
+        columns::paragraph(out, "", UNTESTED);
     }
     for words in calibration.digits.iter().flat_map(|digits| recorded::words(digits, Language::English)) {
         columns::paragraph(out, "  ", &words);
     }
-    scatter(out, calibration);
+    for Said { indent, words, .. } in scatter(calibration) {
+        columns::paragraph(out, indent, &words);
+    }
     if let Some(hint) = &calibration.hint {
         columns::paragraph(out, "", &format!("WARNING: {hint}."));
     }
@@ -373,26 +398,45 @@ fn residuals(out: &mut String, calibration: &Calibration) {
     columns::table(out, &["i", "j", "x, °/h", "y, °/h", "x / u", "y / u"], rows);
 }
 
-fn scatter(out: &mut String, calibration: &Calibration) {
+/// Sentence on the scatter of the readings.
+struct Said {
+    indent: &'static str,
+    words: String,
+    /// `true` if a program should show the sentence with the parameters.
+    remarkable: bool,
+}
+
+/// Returns what the scatter of the readings tells.
+fn scatter(calibration: &Calibration) -> Vec<Said> {
+    let mut said = Vec::new();
+    let mut say = |words: String, remarkable: bool| said.push(Said { indent: "  ", words, remarkable });
     if let Some(rows) = &calibration.row_scatter {
         let (deviation, freedom) = (rows.standard_deviation_ma * 1000.0, rows.degrees_of_freedom);
-        let words = match &rows.against_stated {
-            Some(stated) => agreement("Readings of a visit", stated, "check whether they are copies of one reading"),
-            None => format!(
-                "Readings of a visit have a standard deviation of {} uA ({freedom} degrees of freedom), \
-                 which was used as the noise of the meter, because noise_ma is not stated.",
-                columns::two_digits(deviation)
-            ),
-        };
-        columns::paragraph(out, "  ", &words);
+        match &rows.against_stated {
+            Some(stated) => {
+                let words = agreement("Readings of a visit", stated, "check whether they are copies of one reading");
+                say(words, stated.agreement() != Agreement::AsStated);
+            }
+            None => {
+                let words = format!(
+                    "Readings of a visit have a standard deviation of {} uA ({freedom} degrees of freedom), \
+                     which was used as the noise of the meter, because noise_ma is not stated.",
+                    columns::two_digits(deviation)
+                );
+                say(words, false);
+            }
+        }
     }
-    if let Some(visits) = &calibration.scatter {
-        let less =
-            "if these readings were taken without leaving the position, give them the same number in the column visit";
-        columns::paragraph(out, "  ", &agreement("Visits to a position", visits, less));
-    }
-    if let Some(turn_ons) = &calibration.turn_on_scatter {
-        columns::paragraph(out, "  ", &agreement("Turn-ons", turn_ons, "check the noise that the gyro type states"));
+    let of_visits =
+        "if these readings were taken without leaving the position, give them the same number in the column visit";
+    let each = [
+        ("Visits to a position", &calibration.scatter, of_visits),
+        ("Turn-ons", &calibration.turn_on_scatter, "check the noise that the gyro type states"),
+    ];
+    for (what, found, less) in each {
+        if let Some(found) = found {
+            say(agreement(what, found, less), found.agreement() != Agreement::AsStated);
+        }
     }
     let each = [("visit to visit", &calibration.visit_noise), ("turn-on to turn-on", &calibration.turn_on_noise)];
     for (between, noise) in each.into_iter().filter(|(_, noise)| noise.source == NoiseSource::Estimated) {
@@ -401,7 +445,12 @@ fn scatter(out: &mut String, calibration: &Calibration) {
             columns::two_digits(noise.deg_per_h),
             noise.degrees_of_freedom
         );
-        columns::paragraph(out, "  ", &words);
+        say(words, true);
+    }
+    if calibration.drift_or_noise {
+        let words = "A drift of ω_0 in time was not tested, because the repeated visits cannot tell it from the noise of the \
+                     gyro. Visit more positions again, or state noise.visit_deg_per_h in the gyro type.";
+        say(words.to_owned(), true);
     }
     if let Some(test) = calibration.drift_test.filter(|test| test.is_significant()) {
         let words = format!(
@@ -411,13 +460,9 @@ fn scatter(out: &mut String, calibration: &Calibration) {
             with_sign(test.drift_deg_per_h_per_h.y),
             columns::probability(test.probability)
         );
-        columns::paragraph(out, "", &words);
+        said.push(Said { indent: "", words, remarkable: true });
     }
-    if calibration.drift_or_noise {
-        let words = "A drift of ω_0 in time was not tested, because the repeated visits cannot tell it from the noise of the \
-                     gyro. Visit more positions again, or state noise.visit_deg_per_h in the gyro type.";
-        columns::paragraph(out, "  ", words);
-    }
+    said
 }
 
 /// Formats a value with two significant digits and its sign.

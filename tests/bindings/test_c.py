@@ -149,8 +149,37 @@ def test_every_question_is_asked() -> None:
         got = c.dtg_load(*paths, text(question), ctypes.byref(passport), ctypes.byref(report))
         codes = [check["code"] for check in json.loads(report.value)["checks"]]
         assert code in codes and got == (0 if code == "ok" else 1) and bool(passport) == (got == 0)
+        assert "remarks" not in json.loads(report.value)
         c.dtg_string_free(report)
         c.dtg_free(passport)
+
+
+def test_the_parameters_are_numbers_and_say_whether_they_may_be_used() -> None:
+    import ctypes
+
+    c = ctypes.CDLL(str(LIBRARIES / "libdtg_passport.so"))
+    c.dtg_calibrate.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_char_p, ctypes.c_void_p]
+    passport, result = ctypes.c_void_p(), ctypes.c_char_p()
+    paths = (str(PASSPORT).encode(), str(SIGNERS).encode(), QUESTION.encode())
+    assert c.dtg_load(*paths, ctypes.byref(passport), None) == 0
+    rows = np.genfromtxt(CURRENTS, delimiter=",", skip_header=1, comments="#")[-8:]
+    wrong = rows.copy()
+    wrong[3, 2] += 0.01
+    for given, code, words in ((rows, 0, None), (rows * [1, 1, 1e-3, 1e-3], 1, "factor of 1000"), (wrong, 1, "not consistent")):
+        given = np.ascontiguousarray(given)
+        assert c.dtg_calibrate(passport, given.ctypes.data, len(given), None, ctypes.byref(result)) == 0
+        value, u = np.zeros(8), np.zeros(8)
+        doubles = lambda array: array.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
+        assert c.dtg_parameters(result, doubles(value), doubles(u)) == code
+        found = json.loads(result.value)
+        for got, stated in ((value, found["results"][0]), (u, found["results"][0]["standard_uncertainty"])):
+            due = [*np.ravel(stated["k_deg_per_h_per_ma"]), *stated["omega0_deg_per_h"], stated["omega_g_deg_per_h_per_g"], stated["omega_k_deg_per_h_per_g"]]
+            assert got.tolist() == due
+        assert (words is None and "remarks" not in found) or words in found["remarks"][0]
+        c.dtg_string_free(result)
+    for text in (b"", b"{}", None):
+        assert c.dtg_parameters(text, doubles(value), doubles(u)) == 2
+    c.dtg_free(passport)
 
 
 def test_the_library_is_looked_for_by_its_name() -> None:

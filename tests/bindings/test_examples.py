@@ -14,7 +14,7 @@ import nbformat
 import numpy as np
 import pytest
 import yaml
-from conftest import PROJECT, SIGNERS, TIME, Corpus, program, result_of
+from conftest import PROJECT, SIGNERS, TIME, Corpus, program
 
 PASSPORT = PROJECT / "passports/SPS-2/0017/moscow-bmstu-1.yaml"
 CURRENTS = PROJECT / "docs/currents.csv"
@@ -142,7 +142,7 @@ def run(corpus: Corpus, fleet: Path, currents: Path, *options: str, accept: int 
 
 def answer(corpus: Corpus, passport: str, currents: Path, *options: str) -> dict:
     trust = ("--trust", corpus.signers, "--time", TIME, "--method", "least-squares", "--format", "json")
-    return {"passport": passport, **result_of(program("calibrate", passport, currents, *trust, *options))}
+    return {"passport": passport, **json.loads(program("calibrate", passport, currents, *trust, *options))}
 
 
 def test_a_thousand_stands_on_a_cluster_give_the_answers_of_the_program(corpus: Corpus, fleet: Path) -> None:

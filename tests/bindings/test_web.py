@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from conftest import PROJECT, SIGNERS, TIME, Corpus, program, result_of
+from conftest import PROJECT, SIGNERS, TIME, Corpus, program
 
 WEB = PROJECT / "target/web"
 PASSPORT = PROJECT / "passports/SPS-2/0017/moscow-bmstu-1.yaml"
@@ -105,13 +105,56 @@ def test_every_function_and_question() -> None:
         assert answer["valid"] is False and code in [check["code"] for check in answer["checks"]]
     # Without a time it is that of the clock.
     assert found[8]["checks"][-1]["name"] == "in_force" and found[8]["checks"][-1]["passed"] is not None
-    assert "time: expected" in found[9]["message"] and found[10]["code"] == "unreadable" and found[10]["problems"]
+    assert 'time: found "tomorrow"; expected a time' in found[9]["message"] and found[10]["code"] == "unreadable" and found[10]["problems"]
     assert found[11]["valid"] is False and found[11]["checks"][0]["code"] == "malformed"
     due = program("calibrate", PASSPORT, CURRENTS, "--trust", SIGNERS, "--time", TIME, "--method", "least-squares", "--format", "json")
-    assert found[12] == result_of(due)
+    assert found[12] == json.loads(due)
     assert found[13]["code"] == "unreadable" and found[14]["valid"] is False
     assert found[15].startswith("<!DOCTYPE html>") and "SPS-2/0017/moscow-bmstu/1" in found[15]
     assert found[16]["valid"] is False
+
+
+MISUSED = """
+    import { readFileSync } from "node:fs";
+    import * as dtg from "%s";
+    const [passport, signers, currents, one, other] = %s.map((path) => readFileSync(path));
+    class Stand { get serial() { return "0018"; } }
+    const wrong = [new Map([["serial", "0018"]]), new URLSearchParams("serial=0018"), Object.create({ serial: "0018" }),
+        new Stand(), { serial: () => "0018" }, { serial: Symbol("0018") }, { serial: undefined }, { serial: "" },
+        { serial: 18 }, { at: [NaN, 37] }, { at: "55,37" }, ["0018"], null, "0018"];
+    const said = (question) => dtg.verify(passport, signers, question).then(({ valid }) => `valid ${valid}`, (error) => error.message);
+    const other_world = (await import("node:vm")).runInNewContext("({ time: '2026-11-20', serial: '0018' })");
+    const semicolons = currents.toString().replaceAll(".", "¤").replaceAll(",", ";").replaceAll("¤", ",");
+    const amperes = currents.toString().replace(/-?0\\.\\d+/g, (number) => (number / 1000).toPrecision(12));
+    const calibrated = (text) => dtg.calibrate(passport, signers, new TextEncoder().encode(text), { time: "2026-11-20" });
+    console.log(JSON.stringify({
+        refused: await Promise.all(wrong.map(said)),
+        other_world: await said(other_world),
+        forked: await dtg.verify(passport, signers, { time: "2027-11-20", revoked: [one, other] }),
+        semicolons: await calibrated(semicolons),
+        amperes: await calibrated(amperes),
+    }));
+"""
+
+
+def test_a_question_is_never_left_out_and_remarks_are_handed_on(corpus: Corpus, tmp_path: Path) -> None:
+    """A check that is silently left out would make a passport of another stand valid."""
+    who = ("--key", corpus.folder / "key", "--identity", "factory@example.org", "--trust", corpus.signers)
+    lists = []
+    for name, passport in zip(("a", "b"), corpus.good):
+        program("revoke", passport, "--reason", name, "--list", tmp_path / name, *who)
+        lists += (tmp_path / name).glob("revocation-*.yaml")
+    [mine] = [path for path in corpus.good if path.parts[-2:] == ("0017", "site-60-1.yaml")]
+    paths = json.dumps([str(path) for path in (mine, corpus.signers, CURRENTS, *lists)])
+    found = json.loads(node(MISUSED % (WEB / "dtg_passport.mjs", paths)).stdout)
+    assert not [said for said in found["refused"] if said.startswith("valid")], found["refused"]
+    for words in ("question: found Map", "serial: found undefined; leave the key out", "serial: found an empty text",
+                  "serial: found integer `18`", "at: found [NaN,37]"):  # fmt: skip
+        assert any(words in said for said in found["refused"]), (words, found["refused"])
+    assert found["other_world"] == "valid false"
+    assert any("ALARM: fork" in remark for remark in found["forked"]["remarks"])
+    assert any("decimal commas" in remark for remark in found["semicolons"]["remarks"])
+    assert "too small by a factor of 1000" in found["amperes"]["remarks"][0] and found["amperes"]["mistake"]
 
 
 def test_the_printed_passport_is_that_of_the_program(tmp_path: Path) -> None:
@@ -167,7 +210,7 @@ def test_the_page_in_chromium(tmp_path: Path) -> None:
     for result, code in ((changed, "altered"), (withdrawn, "key_revoked"), (strange, "malformed")):
         assert "REFUSED" in result["text"] and code in [row[2] for row in result["rows"][0]]
         assert result["headings"] == ["Answer"] and result["frame"] is None
-    assert no_time["headings"] == ["No answer"] and "time: expected" in no_time["text"]
+    assert no_time["headings"] == ["No answer"] and "expected a time" in no_time["text"]
     assert nothing["headings"] == ["No answer"] and "choose a passport" in nothing["text"]
     assert all(result["scripts"] == 0 for result in found["results"])
     assert [result["violations"] for result in found["results"]] == [[]] * len(cases)

@@ -29,7 +29,8 @@ pub extern "C" fn room(length: usize) -> *mut u8 {
     Box::leak(vec![0_u64; length.div_ceil(8)].into_boxed_slice()).as_mut_ptr().cast()
 }
 
-/// Verifies a passport; `now_s` is the time in seconds since 1970 UTC. Gives `{file, valid, id, checks}` or `{error}`.
+/// Verifies a passport; `now_s` is the time in seconds since 1970 UTC. Gives `{file, valid, id, checks, remarks}` or
+/// `{error}`.
 #[unsafe(no_mangle)]
 pub extern "C" fn verify(inputs: &Inputs, now_s: f64) -> *const Slice {
     run(inputs, now_s, |_, answer| Ok(answer.to_json()))
@@ -62,7 +63,9 @@ pub extern "C" fn calibrated(inputs: &Inputs, now_s: f64) -> *const Slice {
     let currents = ("currents", inputs.currents.bytes());
     run(inputs, now_s, |_, answer| match answer.verification.passport() {
         None => Ok(answer.to_json()),
-        Some(passport) => Ok(calibrate(passport.content(), true, currents, "least-squares", None, None)?.json),
+        Some(passport) => {
+            Ok(calibrate(passport.content(), Some(answer.time), currents, "least-squares", None, None)?.json)
+        }
     })
 }
 
