@@ -15,6 +15,13 @@ pub(crate) type Angle = (usize, usize);
 /// Share of its own variance in its residual below which a reading is determined by itself alone.
 const LEAST_KEPT: f64 = 1e-6;
 
+/// Weight of a prediction relative to that of a reading below which the other readings do not determine the deleted ones.
+///
+/// Readings that determine the rotations of their run give predictions of 1/5 at least (three runs, one of which keeps three
+/// of eight positions). Where only the deviations of the stand, a few arcminutes, tell platform and base apart, it is 1/1000 or
+/// less, and the means are worse than without the whole run.
+const LEAST_WEIGHT: f64 = 0.1;
+
 /// Fit without the angles in [`Deletion::angles`].
 #[derive(Debug, Clone)]
 pub(crate) struct Deletion {
@@ -63,6 +70,13 @@ impl Deletion {
             Variance { value: sum.max(0.0) / left, degrees_of_freedom: all.degrees_of_freedom * left / kept }
         });
         Some(Self { angles, shifts_arcsec, squares_arcsec2, spread })
+    }
+
+    /// Returns `true` if no prediction of a deleted angle has less than [`LEAST_WEIGHT`] of a reading.
+    ///
+    /// The variance of a shift is that of a reading plus that of its prediction.
+    pub(crate) fn is_determined(&self) -> bool {
+        self.spread.diagonal().iter().all(|shift| (shift - 1.0) * LEAST_WEIGHT <= 1.0)
     }
 
     /// Returns the fit without one more angle: the one whose deletion makes the remaining readings most likely, with a

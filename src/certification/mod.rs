@@ -75,8 +75,8 @@ pub enum NotCertified {
          by, and do not copy runs"
     )]
     Constant(&'static str),
-    /// Excluded readings that the others do not determine.
-    #[error("the other readings do not determine the excluded ones; exclude the whole run, or measure again")]
+    /// Excluded readings that the others do not determine, or ten times worse than a reading would.
+    #[error("the other readings do not determine the excluded ones; exclude the whole run, or measure it again")]
     Undetermined,
     /// Readings that do not scatter once the common rotation of each run is removed.
     #[error("the readings do not vary; check whether the runs are shifted copies of each other")]
@@ -222,7 +222,7 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
 /// The means of the completed readings are the least-squares estimates from the readings that are there.
 ///
 /// # Errors
-/// Returns [`NotCertified`] if the others do not determine the excluded ones.
+/// Returns [`NotCertified`] if the others do not determine the excluded ones well enough.
 pub(crate) fn predicted(
     header: &Header,
     readings: &AngleReadings,
@@ -235,8 +235,8 @@ pub(crate) fn predicted(
     let fit = |readings: &AngleReadings| {
         let turns = turns_of(header, readings);
         let components = components::estimate(&turns, &readings.runs, &differences(&turns, readings))?;
-        let deletion = Deletion::of(&components, angles.clone()).ok_or(NotCertified::Undetermined)?;
-        Ok((turns, deletion))
+        let deletion = Deletion::of(&components, angles.clone()).filter(Deletion::is_determined);
+        Ok((turns, deletion.ok_or(NotCertified::Undetermined)?))
     };
     let mut completed = readings.clone();
     // The axes of a position depend on its mean, so the second pass removes what is left of the second order.

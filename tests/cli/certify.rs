@@ -419,6 +419,7 @@ fn bad_exclusions_are_refused() {
         ("--exclude 2,3,4 --why x --why y", 2, "found 2 --why for 1 --exclude"),
         ("--exclude 2,3,1 --exclude 2,3,2 --exclude 2,3,3 --exclude 2,3,4 --why x", 2, "1 readings of position (2, 3)"),
         ("--exclude 1 --exclude 2 --exclude 3 --exclude 4 --why x", 1, "one run"),
+        ("--exclude 2,1,3 --exclude 2,2,3 --exclude 2,3,3 --exclude 2,4,3 --why x", 1, "exclude the whole run"),
     ] {
         let (found, _, said) = run(&folder, &format!("angles.csv --stand header.yaml -o out.yaml {exclude}"));
         assert!(found == code && said.contains(words), "{exclude}: {found} {said}");
