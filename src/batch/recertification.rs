@@ -7,6 +7,7 @@
 use super::Planned;
 use super::successors::FORKED;
 use crate::certification::comparison::compare;
+use crate::certification::finding::Finding;
 use crate::certification::{AngleReadings, Certification, Comparison, Header, certify, predicted};
 use crate::files::{self, FileError, folder_of, leftovers};
 use crate::folder::archive::Superseded;
@@ -316,9 +317,12 @@ impl Recertification<'_> {
             )));
         }
         let comparison = compare(old, header, &readings, Some(&certification)).map_err(|why| of_readings(&why))?;
+        if let Some(exchanged) = comparison.findings.iter().find(|found| matches!(found, Finding::Exchanged(_))) {
+            return Err(of_readings(exchanged));
+        }
         if comparison.positions.iter().all(|at| !at.repeats) {
             return Err(of_readings(
-                &"no half of the positions agree with the certificate; check that these are the readings of this stand. \
+                &"no more than half of the positions agree with the certificate; check that these are the readings of this stand. \
                   For a stand that was rebuilt, use `certify` and `reissue --stand`",
             ));
         }

@@ -9,7 +9,7 @@
 use super::bumped_runs;
 use super::compared::{CommonTurn, ComparedPosition, Test};
 use super::components::{RunModel, Variance, case_turn, turns_at};
-use super::finding::{Finding, Untested, findings};
+use super::finding::{self, Finding, Untested, findings};
 use super::suspects::OUTLIER;
 use super::{AngleReadings, Certification, Header};
 use crate::calibration::inputs::Turn;
@@ -126,6 +126,7 @@ pub fn compare(
     let moved = common.test.is_some_and(|test| test.probability < OUTLIER);
     let same_stand = repeating.len() == places.len() && all.probability >= OUTLIER && !moved;
     let mut findings = findings(all, &positions, &common, again, moved, untested);
+    finding::name_exchanged(&mut findings, exchanged(certificate, readings, scatter, &repeating)?);
     if certificate.positions.iter().any(|at| certified_u_arcsec(at).is_none()) {
         findings.push(Finding::TreatedAsExact);
     }
@@ -142,6 +143,37 @@ pub fn compare(
     let words = findings.iter().map(ToString::to_string).collect();
     let certificate = certificate.certificate.number.clone();
     Ok(Comparison { certificate, runs, all, positions, common, same_stand, findings, words })
+}
+
+/// Returns the pairs of positions whose readings are exchanged: neither is among the `repeating` ones, the angles of each
+/// are nearest to those certified for the other, and both repeat once they are exchanged.
+fn exchanged(
+    certificate: &Stand,
+    readings: &AngleReadings,
+    scatter: Variance,
+    repeating: &[usize],
+) -> Result<Vec<[PositionIndex; 2]>, NotCompared> {
+    let certified: Vec<_> = certificate.positions.iter().map(|at| Vector3::from(at.angles_arcsec())).collect();
+    let places: Vec<usize> = (0..certified.len()).collect();
+    let nearest: Vec<usize> = readings
+        .means_arcsec()
+        .iter()
+        .map(|mean| {
+            let distance = |place: usize| (mean - certified[place]).norm();
+            places.iter().copied().min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or_default()
+        })
+        .collect();
+    let pair = |one: usize| {
+        let other = nearest[one];
+        let changed = [one, other].iter().all(|place| !repeating.contains(place));
+        (one < other && nearest[other] == one && changed).then_some([one, other])
+    };
+    let pairs: Vec<[usize; 2]> = places.iter().filter_map(|place| pair(*place)).collect();
+    let mut right = readings.clone();
+    pairs.iter().for_each(|[one, other]| right.each_arcsec.swap(*one, *other));
+    let repeating = Differences::new(certificate, &right, scatter)?.repeating(&places);
+    let repeat = |pair: &&[usize; 2]| pair.iter().all(|place| repeating.contains(place));
+    Ok(pairs.iter().filter(repeat).map(|pair| pair.map(|place| certificate.positions[place].index())).collect())
 }
 
 fn check_same(certificate: &Stand, header: &Header) -> Result<(), NotCompared> {
@@ -270,8 +302,8 @@ impl Differences {
         let mut left = places.to_vec();
         while let Some(worst) = self.worst(&left, places.len()) {
             left.retain(|place| *place != worst);
-            // If fewer than half agree, the readings do not show which ones are right.
-            if 2 * left.len() < places.len() {
+            // If no more than half agree, the readings do not show which half is right.
+            if 2 * left.len() <= places.len() {
                 return Vec::new();
             }
         }

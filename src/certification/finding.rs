@@ -4,6 +4,7 @@ use super::Certification;
 use super::bumped_runs::BumpedRun;
 use super::compared::{CommonTurn, ComparedPosition, Test};
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
+use crate::coefficients::PositionIndex;
 use crate::text::words;
 use std::fmt::{self, Display, Formatter};
 
@@ -11,8 +12,10 @@ use std::fmt::{self, Display, Formatter};
 /// `report` has the words of other languages.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Finding {
-    /// Most positions have changed.
+    /// Half of the positions or more have changed.
     AnotherStand,
+    /// Two positions, each with the angles that are certified for the other.
+    Exchanged([PositionIndex; 2]),
     /// Position that has changed relative to the others.
     Changed(ComparedPosition),
     /// Significant change that is not that of a single position.
@@ -55,7 +58,14 @@ impl Display for Finding {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         f.write_str(match self {
             Self::AnotherStand => {
-                "no half of the positions agree with each other; this is another stand or another certificate"
+                "no more than half of the positions agree with each other; this is another stand or another certificate"
+            }
+            Self::Exchanged([one, other]) => {
+                return write!(
+                    f,
+                    "positions {one} and {other} are exchanged: each has the angles that the certificate states for the \
+                     other; check the rows of the readings, and the directions in which theta and phi increase"
+                );
             }
             Self::Changed(ComparedPosition { index, turn_arcsec: [x, y, z], .. }) => {
                 return write!(
@@ -126,7 +136,10 @@ impl Finding {
 
     /// Returns `true` for a change of the stand.
     pub(crate) fn is_change(&self) -> bool {
-        matches!(self, Self::AnotherStand | Self::Changed(_) | Self::ChangedTogether | Self::Rotated)
+        matches!(
+            self,
+            Self::AnotherStand | Self::Exchanged(_) | Self::Changed(_) | Self::ChangedTogether | Self::Rotated
+        )
     }
 
     /// Returns `true` if an outlier among the readings explains the change of the position: the rest is within 3 u.
@@ -160,14 +173,27 @@ pub(super) fn findings(
     let explained = |at: &ComparedPosition| suspect.iter().any(|found| found.explains(at));
     findings.retain(|found| !matches!(found, Finding::Changed(at) if explained(at)));
     let bumped = suspect.iter().any(|found| matches!(found, Finding::BumpedRun(_)) && found.is_outlier());
-    if moved && !bumped {
+    // If no positions agree, there is no rotation that is common to them.
+    let agree = positions.iter().any(|at| at.repeats);
+    if agree && moved && !bumped {
         findings.push(Finding::Rotated);
-    } else if !moved && common.test.is_some_and(|test| test.probability < STRAGGLER) {
+    } else if agree && !moved && common.test.is_some_and(|test| test.probability < STRAGGLER) {
         findings.push(Finding::RotatedSlightly);
     }
     findings.splice(0..0, suspect);
     findings.extend(untested.map(Finding::NotTested));
     findings
+}
+
+/// Names `exchanged` positions in place of the changes that the exchange explains.
+pub(super) fn name_exchanged(findings: &mut Vec<Finding>, exchanged: Vec<[PositionIndex; 2]>) {
+    let explained = |found: &Finding| match found {
+        Finding::Changed(at) => exchanged.iter().flatten().any(|index| *index == at.index),
+        Finding::AnotherStand => !exchanged.is_empty(),
+        _ => false,
+    };
+    findings.retain(|found| !explained(found));
+    findings.splice(0..0, exchanged.into_iter().map(Finding::Exchanged));
 }
 
 /// Returns what is suspect in the readings of a check itself.

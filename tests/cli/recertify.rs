@@ -207,6 +207,16 @@ fn a_refusal_writes_nothing() {
         })
         .collect();
     fs::write(factory.path("rotated.csv"), rotated).unwrap();
+    // φ runs the wrong way, for all positions (half of them then agree) and for two.
+    for (name, frames) in [("reversed.csv", ["1", "2"].as_slice()), ("exchanged.csv", &["2"])] {
+        let exchanged = |line: &str| match line.split(',').collect::<Vec<_>>()[..] {
+            [i, j @ ("2" | "4"), ref rest @ ..] if frames.contains(&i) => {
+                format!("{i},{},{}\n", if j == "2" { "4" } else { "2" }, rest.join(","))
+            }
+            _ => format!("{line}\n"),
+        };
+        fs::write(factory.path(name), text.lines().map(exchanged).collect::<String>()).unwrap();
+    }
     let altered = fs::read_to_string(factory.path(HERE)).unwrap().replacen("alpha_arcsec: ", "alpha_arcsec: 1", 1);
     fs::create_dir_all(factory.path("other/SPS-2/0017")).unwrap();
     fs::write(factory.path("other/SPS-2/0017/here-1.yaml"), altered).unwrap();
@@ -227,6 +237,8 @@ fn a_refusal_writes_nothing() {
         ),
         (format!("{HERE} one.csv {good}"), 1, "found one run, expected at least two"),
         (format!("{HERE} rotated.csv {good}"), 1, "check that these are the readings of this stand"),
+        (format!("{HERE} reversed.csv {good}"), 1, "positions (1, 2) and (1, 4) are exchanged"),
+        (format!("{HERE} exchanged.csv {good}"), 1, "positions (2, 2) and (2, 4) are exchanged"),
         (format!("{HERE} absent.csv {good}"), 2, "no such file"),
         (format!("{HERE} here.yaml {good}"), 2, "here.yaml"),
         (format!("other/SPS-2/0017/here-1.yaml new.csv {good}"), 1, "failed verification (signature"),

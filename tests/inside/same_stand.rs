@@ -173,8 +173,10 @@ fn what_has_changed_is_named() {
     assert!(found.words.iter().any(|words| words.contains("rotated together")));
     assert!((found.common.platform_arcsec[2] - 60.0).abs() < 10.0);
     let other = Truth::new([1.0; 3], 2.0, 2.0).measured(&mut stream, 1);
-    let backwards: Vec<_> = other.each_arcsec.iter().rev().cloned().collect();
-    let found = against(&AngleReadings::new(vec![1], backwards).unwrap());
+    // The angles of each position belong to the next one, so no two are exchanged.
+    let mut shifted = other.each_arcsec.clone();
+    shifted.rotate_left(1);
+    let found = against(&AngleReadings::new(vec![1], shifted).unwrap());
     assert!(found.words.iter().any(|words| words.contains("another stand")), "{:?}", found.words);
 }
 
@@ -197,4 +199,35 @@ fn a_check_needs_the_same_stand_and_an_uncertainty() {
     exact.positions[0].u_alpha_arcsec = None;
     let found = compare(&exact, &header(), &one, None).unwrap();
     assert!(found.words.iter().any(|words| words.contains("treated as exact")));
+}
+
+/// Readings of pairs of positions in each other's rows, each also rotated by what runs vary by: the pairs are named, and
+/// nothing else has changed. Four positions of eight with new angles are another stand: the other four might as well be the
+/// ones that have changed.
+#[test]
+fn exchanged_positions_are_named() {
+    let truth = quiet();
+    let mut stream = Stream::new(71);
+    let stand = certificate(&truth, &mut stream, 5);
+    for (runs, pairs) in
+        [(1, vec![(1, 3)]), (3, vec![(5, 7)]), (1, vec![(1, 3), (5, 7)]), (3, vec![(0, 4), (1, 2), (6, 7)])]
+    {
+        let mut check = truth.measured(&mut stream, runs);
+        pairs.iter().for_each(|(one, other)| check.each_arcsec.swap(*one, *other));
+        let found = against(&stand, &check);
+        let index = |place: usize| stand.positions[place].index();
+        let named: Vec<_> = pairs
+            .iter()
+            .map(|(one, other)| format!("positions {} and {} are exchanged", index(*one), index(*other)))
+            .collect();
+        assert!(!found.same_stand && found.words.len() == named.len(), "{:?}", found.words);
+        for (said, due) in found.words.iter().zip(&named) {
+            assert!(said.contains(due), "{said}, not {due}");
+        }
+    }
+    let mut other = truth;
+    other.angles_arcsec.iter_mut().take(4).for_each(|angles| *angles *= -0.5);
+    let found = against(&stand, &other.measured(&mut stream, 3));
+    assert!(found.positions.iter().all(|at| !at.repeats), "{found:?}");
+    assert!(found.words[0].contains("another stand"), "{:?}", found.words);
 }

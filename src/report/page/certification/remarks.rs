@@ -109,6 +109,9 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
                 &[("index", index), ("run", run), ("residual", &residual), ("axis", &axis), ("mean", &mean)],
             );
         }
+        Finding::Exchanged([one, other]) => {
+            return texts::EXCHANGED.filled(language, &[("one", one), ("other", other)]);
+        }
         Finding::AnotherStand => texts::ANOTHER_STAND,
         Finding::ChangedTogether => texts::CHANGED_TOGETHER,
         Finding::Slightly => texts::CHANGED_SLIGHTLY,

@@ -102,8 +102,12 @@ texts! {
     }
 
     ANOTHER_STAND {
-        en: "No half of the positions agree with each other; this is another stand or another certificate.",
-        ru: "Согласуется менее половины положений: стенд или сертификат другой."
+        en: "No more than half of the positions agree with each other; this is another stand or another certificate.",
+        ru: "Согласуется не более половины положений: стенд или сертификат другой."
+    }
+    EXCHANGED {
+        en: "Positions {one} and {other} are exchanged: each has the angles that the certificate states for the other.",
+        ru: "Положения {one} и {other} переставлены: показания каждого соответствуют аттестованным значениям другого."
     }
     POSITION_CHANGED {
         en: "Position {index} has changed relative to the other positions: {x}″, {y}″, {z}″ about x, y, z.",
