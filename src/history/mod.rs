@@ -104,8 +104,7 @@ impl History {
         let certificates = certificates(&recorded, &mut remarks);
         let passports = passports(&recorded, trust, now);
         let withdrawals = withdrawals(&recorded, trust);
-        let used: Vec<&Stand> = certificates.iter().filter(|at| at.counts).map(|at| &at.stand).collect();
-        let drift = Drift::of(&used);
+        let drift = Drift::of(&independent(&certificates, &mut remarks));
         Self {
             stand: stand.to_owned(),
             places: places(&passports),
@@ -156,6 +155,30 @@ fn certificates(recorded: &[Recorded], remarks: &mut Vec<String>) -> Vec<PastCer
         }
     }
     found
+}
+
+/// Returns the stands whose deviations are compared: those of certificates that count, one for each file of readings.
+///
+/// The same readings again do not show that the stand has not changed. A copy is left out; a correction, which has the date
+/// of the measurement, replaces the certificate that it corrects.
+fn independent<'a>(certificates: &'a [PastCertificate], remarks: &mut Vec<String>) -> Vec<&'a Stand> {
+    let readings = |stand: &Stand| Some(stand.certificate.evidence.as_ref()?.readings_sha256.clone());
+    let mut used: Vec<&Stand> = Vec::new();
+    for stand in certificates.iter().filter(|at| at.counts).map(|at| &at.stand) {
+        let same = |other: &&mut &Stand| readings(stand).is_some() && readings(stand) == readings(other);
+        let Some(other) = used.iter_mut().find(same) else {
+            used.push(stand);
+            continue;
+        };
+        let corrects = stand.certificate.measured() == other.certificate.measured();
+        let [kept, left_out] = if corrects { [stand, *other] } else { [*other, stand] };
+        *other = kept;
+        remarks.push(format!(
+            "certificates {} and {} were computed from the same readings; the deviations of {} are not used for the drift",
+            kept.certificate.number, left_out.certificate.number, left_out.certificate.number
+        ));
+    }
+    used
 }
 
 fn passports(recorded: &[Recorded], trust: &Trust, now: Timestamp) -> Vec<PastPassport> {
@@ -227,4 +250,41 @@ fn withdrawals(recorded: &[Recorded], trust: &Trust) -> Vec<Entry> {
     found.sort_by(|a, b| (a.revoked_at, &a.id).cmp(&(b.revoked_at, &b.id)));
     found.dedup();
     found
+}
+
+#[cfg(all(test, feature = "factory"))]
+mod tests {
+    use super::*;
+    use crate::stand::Evidence;
+
+    /// Expected: of two certificates from the same readings one is used: the first, or, if both have the date of the
+    /// measurement, the one issued last. Other readings, or none stated, are used.
+    #[test]
+    fn the_same_readings_count_once() {
+        let certificate = |number: &str, performed: &str, readings: Option<&str>| {
+            let mut stand = Stand::from_yaml("s", include_bytes!("../../passports/SPS-2/0017/stand.yaml")).unwrap();
+            stand.certificate.number = number.to_owned();
+            stand.certificate.performed = Some(performed.parse().unwrap());
+            let evidence = |digit: &str| Evidence { readings_sha256: digit.repeat(64), runs: 5, excluded: None };
+            stand.certificate.evidence = readings.map(evidence);
+            PastCertificate { stand, passports: Vec::new(), counts: true }
+        };
+        let certificates = [
+            certificate("C-1", "2020-06-01", Some("1")),
+            certificate("C-2", "2021-06-01", None),
+            certificate("C-3", "2022-06-01", Some("1")),
+            certificate("C-4", "2023-06-01", None),
+            certificate("C-5", "2024-06-01", Some("2")),
+            certificate("C-6", "2024-06-01", Some("2")),
+        ];
+        let mut remarks = Vec::new();
+        let used = independent(&certificates, &mut remarks);
+        let numbers: Vec<&str> = used.iter().map(|stand| stand.certificate.number.as_str()).collect();
+        assert_eq!(numbers, ["C-1", "C-2", "C-4", "C-6"]);
+        let said = ["C-1 and C-3 were computed from the same readings; the deviations of C-3", "the deviations of C-5"];
+        assert!(
+            remarks.len() == 2 && remarks.iter().zip(said).all(|(remark, due)| remark.contains(due)),
+            "{remarks:?}"
+        );
+    }
 }
