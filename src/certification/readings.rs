@@ -102,7 +102,13 @@ impl AngleReadings {
             let advice = "check that these are the readings of this stand";
             let index = position(&table, row, known, ("a position of the stand file", advice), &mut problems);
             let run = table.index(row, 2, &mut problems);
-            let angles = [3, 4, 5].map(|column| angle(&table, row, column, &mut problems));
+            // The angles of an excluded reading are not examined; its cells may be empty.
+            let is_out = |place| excluded.iter().any(|excluded| is_excluded(excluded, place));
+            if let Some(place) = index.zip(run).filter(|place| is_out(*place)) {
+                rows.push((place, Vector3::zeros(), row));
+                continue;
+            }
+            let angles = [3, 4, 5].map(|column| angle(&table, row, column, index.zip(run), &mut problems));
             if let (Some(index), Some(run), [Some(x), Some(y), Some(z)]) = (index, run, angles) {
                 rows.push(((index, run), Vector3::new(x, y, z), row));
             }
@@ -191,7 +197,16 @@ fn averages(rows: &[Reading]) -> BTreeMap<Place, (Vector3<f64>, usize)> {
     sums.into_iter().map(|(place, (sum, count, line))| (place, (sum / count, line))).collect()
 }
 
-fn angle(table: &Table, row: &Row, column: usize, problems: &mut Vec<Problem>) -> Option<f64> {
+fn angle(table: &Table, row: &Row, column: usize, place: Option<Place>, problems: &mut Vec<Problem>) -> Option<f64> {
+    let cell = &row.cells[column];
+    let is_absent = cell.text.is_empty() || cell.text.parse().is_ok_and(|value: f64| !value.is_finite());
+    if let Some((PositionIndex { i, j }, run)) = place.filter(|_| is_absent) {
+        let found = if cell.text.is_empty() { "nothing".to_owned() } else { format!("{:?}", cell.text) };
+        // Without its row the run would be incomplete.
+        let advice = format!("measure it, or keep the row and exclude it with --exclude {i},{j},{run} and --why");
+        problems.push(table.problem(cell, column, found, "a number", &advice));
+        return None;
+    }
     let value = table.number(row, column, problems)?;
     let largest = LARGEST_DEVIATION_DEG * ARCSECONDS_PER_DEGREE;
     if value.abs() <= largest {
@@ -266,7 +281,8 @@ fn incomplete(positions: &[NominalPosition], rows: &[Reading], excluded: &[Exclu
             continue;
         }
         missing.retain(|run| !of_exclusions(*run));
-        let advice = "measure it, or omit the whole run, because only complete runs show their common part";
+        let advice = "measure it, or omit the whole run, because only complete runs show their common part; to exclude it, \
+                      add its row with empty cells";
         for run in missing.into_iter().take(MOST_PROBLEMS - problems.len()) {
             let found = format!("no reading of position {} in run {run}", at.index());
             problems.push(Problem::whole(found, "every position in every run", advice));

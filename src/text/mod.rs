@@ -20,6 +20,7 @@ pub(crate) mod kind;
 pub(crate) mod node;
 pub(crate) mod number;
 mod number_advice;
+mod other_unit;
 #[cfg(feature = "factory")]
 pub(crate) mod placeholder;
 pub(crate) mod printable;

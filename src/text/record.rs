@@ -207,6 +207,9 @@ fn unknown_key_advice(entries: &[(String, Node)], index: usize, key: &str, value
     if let Some((latin, odd)) = latin(key).filter(|(latin, _)| known.contains(&latin.as_str())) {
         return format!("the {odd} only looks like a Latin letter; type {latin} again");
     }
+    if let Some(advice) = super::other_unit::advice(known, key) {
+        return advice;
+    }
     let alike = |name: &&str| strsim::jaro_winkler(name, key);
     match known.iter().max_by(|a, b| alike(a).total_cmp(&alike(b))) {
         Some(name) if alike(name) > ALIKE => format!("did you mean {name}?"),

@@ -431,3 +431,22 @@ fn bad_exclusions_are_refused() {
     let (code, _, said) = run(&folder, again);
     assert!(code == 1 && said.contains("already states other angles"), "{said}");
 }
+
+/// A reading that was not taken: the advice is followed, and the file is then certified.
+#[test]
+fn the_advice_for_an_empty_cell_works() {
+    let folder = folder("empty_cell");
+    for cell in ["", "NaN"] {
+        fs::write(folder.join("blank.csv"), replaced("2,3,4,", 4, |_| cell.into())).unwrap();
+        let (code, _, said) = run(&folder, "blank.csv --stand header.yaml -o blank.yaml");
+        assert!(code == 2 && said.contains("exclude it with --exclude 2,3,4 and --why"), "{said}");
+        let (code, _, said) =
+            run(&folder, "blank.csv --stand header.yaml -o blank.yaml --exclude 2,3,4 --why skipped --force");
+        assert_eq!(code, 0, "{said}");
+    }
+    let row = |line: &str| if line.starts_with("2,3,4,") { "2,3,4,,,\n".to_owned() } else { format!("{line}\n") };
+    let text = fs::read_to_string(folder.join("angles.csv")).unwrap();
+    fs::write(folder.join("empty.csv"), text.lines().map(row).collect::<String>()).unwrap();
+    let (code, _, said) = run(&folder, "empty.csv --stand header.yaml -o empty.yaml --exclude 2,3,4 --why skipped");
+    assert_eq!(code, 0, "{said}");
+}
