@@ -7,27 +7,35 @@
 //! * the rotations about that axis alone, because level, azimuth and instruments vary by different amounts;
 //! * the rotations about all axes of the platform, or of the base, with their pooled variance, because a few runs agree
 //!   about one of six axes by chance.
+//!
+//! The variance is that of the other runs about all these axes: a run that is rotated about an oblique axis would else hide
+//! behind its own rotation about the axes that are not tested.
 
 use super::components::{Components, RunModel, RunTurn};
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
 use super::{AngleReadings, Header, turns_of};
 use crate::statistics::outlier::bonferroni_student;
+use nalgebra::Vector3;
 use std::ops::Range;
 
 /// Smallest number of runs that shows which one is wrong.
 const FEWEST_RUNS: usize = 3;
+
+/// Names of the axes of the base.
+const COMPASS: [&str; 3] = ["east", "north", "up"];
 
 /// Run whose common rotation differs from that of the other runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct BumpedRun {
     /// Number of the run.
     pub run: u32,
-    /// Axis: 0, 1, 2 for x, y, z of the platform, 3, 4, 5 for east, north, up of the base.
+    /// Axis of the most improbable rotation: 0, 1, 2 for x, y, z of the platform, 3, 4, 5 for east, north, up of the base.
     pub axis: usize,
-    /// Rotation about that axis relative to the mean of the other runs, other bumped runs omitted, arcsec.
-    pub turn_arcsec: f64,
-    /// Effect on the mean over all runs, arcsec.
-    pub in_the_mean_arcsec: f64,
+    /// Rotation about the three axes of platform or base relative to the mean of the other runs, other bumped runs omitted,
+    /// arcsec.
+    pub turns_arcsec: [f64; 3],
+    /// Number of runs, by which the rotation is divided in their mean.
+    pub runs: usize,
     /// Probability that any run of the series differs this much about any axis by chance.
     pub probability: f64,
 }
@@ -45,7 +53,28 @@ impl BumpedRun {
 
     /// Returns the name of the axis, without platform or base.
     pub(crate) fn axis_name(&self) -> &'static str {
-        [AXES, ["east", "north", "up"]].as_flattened()[self.axis]
+        [AXES, COMPASS].as_flattened()[self.axis]
+    }
+
+    /// Returns the rotation about the axis, arcsec.
+    pub(crate) fn turn_arcsec(&self) -> f64 {
+        self.turns_arcsec[self.axis % 3]
+    }
+
+    /// Returns the rotation that the run adds to the mean of all runs, about the three axes, arcsec.
+    pub(crate) fn in_the_mean_arcsec(&self) -> [f64; 3] {
+        self.turns_arcsec.map(|turn| turn / self.runs as f64)
+    }
+
+    /// Returns the angle of that rotation, the largest effect on a certified angle, arcsec.
+    pub(crate) fn largest_effect_arcsec(&self) -> f64 {
+        Vector3::from(self.in_the_mean_arcsec()).norm()
+    }
+
+    /// Returns the names of the three axes with platform or base.
+    pub(crate) fn axes(&self) -> String {
+        let names = if self.is_of_the_base() { COMPASS } else { AXES };
+        format!("{} of the {}", names.join(", "), self.part())
     }
 }
 
@@ -72,14 +101,14 @@ pub(crate) fn bumped(
     outliers: &[Outlier],
 ) -> Vec<BumpedRun> {
     let mut left = without(header, readings, components, outliers);
-    let runs = left.len() as f64;
+    let runs = left.len();
     let mut found: Vec<BumpedRun> = Vec::new();
     while left.len() >= FEWEST_RUNS {
         let Some(worst) = worst(&left, components.base_axes).filter(|worst| worst.probability < STRAGGLER) else {
             break;
         };
         left.retain(|(run, _)| *run != worst.run);
-        found.push(BumpedRun { in_the_mean_arcsec: worst.turn_arcsec / runs, ..worst });
+        found.push(BumpedRun { runs, ..worst });
     }
     found
 }
@@ -151,24 +180,28 @@ fn worst(turns: &[Turn], base_axes: usize) -> Option<BumpedRun> {
     let runs = turns.len() as f64;
     let groups: Vec<_> = [(0..3, 3), (3..6, base_axes)].into_iter().filter(|(_, count)| *count > 0).collect();
     let values = groups.iter().map(|(_, count)| count * turns.len()).sum::<usize>();
+    let means: [f64; 6] = std::array::from_fn(|axis| mean(turns, axis));
+    let sums: [f64; 6] = std::array::from_fn(|axis| squares(turns, axis));
     let mut found: Vec<BumpedRun> = Vec::new();
     for (axes, count) in &groups {
-        let of_group: f64 = axes.clone().map(|axis| squares(turns, axis)).sum();
-        for axis in axes.clone() {
-            let of_axis = squares(turns, axis);
-            for (run, turn) in turns {
-                let difference = turn[axis] - mean(turns, axis);
-                // What this run adds to the sum of squares of the others.
-                let own = difference * difference * runs / (runs - 1.0);
-                let student = |sum: f64, freedom: f64| (own / ((sum - own).max(0.0) / freedom)).sqrt();
-                let (alone, pooled) = (runs - 2.0, *count as f64 * (runs - 1.0) - 1.0);
-                let about_axis = bonferroni_student(student(of_axis, alone), groups.len() * turns.len(), alone);
-                let about_all = bonferroni_student(student(of_group, pooled), values, pooled);
+        for (run, turn) in turns {
+            let difference = |axis: usize| (turn[axis] - means[axis]) * runs / (runs - 1.0);
+            // What this run adds to the sum of squares of the others, and that of the others.
+            let own = |axis: usize| difference(axis) * difference(axis) * (runs - 1.0) / runs;
+            let others = |axis: usize| (sums[axis] - own(axis)).max(0.0);
+            let freedom = runs - 2.0;
+            let of_group = axes.clone().map(others).sum::<f64>();
+            for axis in axes.clone() {
+                let probability = |sum: f64, values: usize, freedom: f64| {
+                    bonferroni_student((own(axis) / (sum / freedom)).sqrt(), values, freedom)
+                };
+                let about_axis = probability(others(axis), groups.len() * turns.len(), freedom);
+                let about_all = probability(of_group, values, *count as f64 * freedom);
                 found.push(BumpedRun {
                     run: *run,
                     axis,
-                    turn_arcsec: difference * runs / (runs - 1.0),
-                    in_the_mean_arcsec: 0.0,
+                    turns_arcsec: [0, 1, 2].map(|at| difference(axes.start + at)),
+                    runs: turns.len(),
                     probability: about_axis.max(about_all),
                 });
             }
@@ -177,6 +210,6 @@ fn worst(turns: &[Turn], base_axes: usize) -> Option<BumpedRun> {
     found.retain(|run| !run.probability.is_nan());
     // A large rotation is improbable about any axis; of equally improbable ones it is the largest.
     found.into_iter().min_by(|a, b| {
-        a.probability.total_cmp(&b.probability).then(b.turn_arcsec.abs().total_cmp(&a.turn_arcsec.abs()))
+        a.probability.total_cmp(&b.probability).then(b.turn_arcsec().abs().total_cmp(&a.turn_arcsec().abs()))
     })
 }

@@ -86,14 +86,14 @@ impl Display for Finding {
                 "the common rotation of all positions is slightly larger than chance explains; measure more runs"
             }
             Self::BumpedRun(at) => {
-                let (run, turn, mean) = (at.run, at.turn_arcsec, at.in_the_mean_arcsec);
+                let (run, [x, y, z], [of_x, of_y, of_z]) = (at.run, at.turns_arcsec, at.in_the_mean_arcsec());
                 return write!(
                     f,
-                    "all positions of run {run} of the check are rotated by {turn:+.2} arcsec about {} of the {} relative \
-                     to its other runs; the common rotation includes {mean:+.2} arcsec of it; measure the run again, or \
+                    "all positions of run {run} of the check are rotated by {x:+.2}, {y:+.2}, {z:+.2} arcsec about {} \
+                     relative to its other runs; the common rotation includes {of_x:+.2}, {of_y:+.2}, {of_z:+.2} arcsec of \
+                     it; measure the run again, or \
                      exclude it with --exclude {run} and --why",
-                    at.axis_name(),
-                    at.part(),
+                    at.axes(),
                 );
             }
             Self::Outlier(Outlier { index, run, residual_arcsec: residual, axis, .. }, mean) => {

@@ -83,16 +83,15 @@ impl Display for Remark {
                 )
             }
             Self::BumpedRun(at) => {
-                let (run, turn, mean) = (at.run, at.turn_arcsec, at.in_the_mean_arcsec.abs());
+                let (run, [x, y, z], mean) = (at.run, at.turns_arcsec, at.largest_effect_arcsec());
                 write!(
                     f,
-                    "{}: all positions of run {run} are rotated by {turn:+.2} arcsec about {} of the {} relative to the other \
-                     runs (Grubbs' test: probability {}); it was not excluded, and changes certified angles by up to \
+                    "{}: all positions of run {run} are rotated by {x:+.2}, {y:+.2}, {z:+.2} arcsec about {} relative to the \
+                     other runs (Grubbs' test: probability {}); it was not excluded, and changes certified angles by up to \
                      {mean:.2} arcsec; find the cause, then measure the run again, or exclude it with --exclude {run} and \
                      --why",
                     grade(at.probability),
-                    at.axis_name(),
-                    at.part(),
+                    at.axes(),
                     probability(at.probability)
                 )
             }

@@ -43,8 +43,8 @@ fn certification_json(found: &Certification) -> Value {
     });
     let bumped = found.bumped_runs.iter().map(|at| {
         json!({
-            "run": at.run, "part": at.part(), "axis": at.axis_name(), "turn_arcsec": at.turn_arcsec,
-            "in_the_mean_arcsec": at.in_the_mean_arcsec, "probability": at.probability,
+            "run": at.run, "part": at.part(), "axis": at.axis_name(), "turn_arcsec": at.turn_arcsec(),
+            "turns_arcsec": at.turns_arcsec, "in_the_mean_arcsec": at.in_the_mean_arcsec()[at.axis % 3], "probability": at.probability,
         })
     });
     json!({

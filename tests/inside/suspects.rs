@@ -186,8 +186,7 @@ fn a_remark_says_the_same_in_both_languages() {
     use dtg_passport::report::page::certification::remarks::words;
     use dtg_passport::stand::remarks::Odd;
     let index = PositionIndex { i: 2, j: 3 };
-    let bumped =
-        |axis| BumpedRun { run: 3, axis, turn_arcsec: -299.4, in_the_mean_arcsec: -59.88, probability: 2.5e-6 };
+    let bumped = |axis| BumpedRun { run: 3, axis, turns_arcsec: [-299.4, 12.5, 0.75], runs: 5, probability: 2.5e-6 };
     let outlier = |line| Outlier { index, run: 4, line, axis: 1, residual_arcsec: -14.25, probability: 2.5e-3 };
     let remarks = [
         Remark::Worse(WorsePosition { index, place: 6, ratio: 2.25, probability: 0.031 }),

@@ -139,7 +139,7 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
         let name = languages.label_with(|language| {
             of.filled(language, &[("run", &at.run), ("axis", &remarks::axis_of_run(at, language))])
         });
-        (name, Some(Number::fixed(at.turn_arcsec, 2)), None, Some(at.probability))
+        (name, Some(Number::fixed(at.turn_arcsec(), 2)), None, Some(at.probability))
     }));
     if suspects.outliers.is_empty() {
         let count = page.certification.runs.len() * page.certification.components.keeps.nrows();

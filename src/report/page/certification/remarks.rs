@@ -44,11 +44,8 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
         }
         Remark::BumpedRun(at) => {
             let text = if at.is_of_the_base() { texts::BUMPED_RUN_BASE } else { texts::BUMPED_RUN_PLATFORM };
-            let (turn, mean) = (fixed(at.turn_arcsec, 2), fixed(at.in_the_mean_arcsec.abs(), 2));
-            let axis = axis_of_run(at, language);
-            let values: [(&str, &dyn Display); 4] =
-                [("run", &at.run), ("turn", &turn), ("axis", &axis), ("mean", &mean)];
-            suspect(text, at.probability, &values)
+            let ([x, y, z], mean) = (at.turns_arcsec.map(|turn| fixed(turn, 2)), fixed(at.largest_effect_arcsec(), 2));
+            suspect(text, at.probability, &[("run", &at.run), ("x", &x), ("y", &y), ("z", &z), ("mean", &mean)])
         }
         Remark::TwoRuns(one, other) => fill(texts::TWO_RUNS, &[("one", one), ("other", other)]),
         Remark::NotCompared => fill(texts::NOT_COMPARED, &[]),
@@ -96,10 +93,12 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
             return texts::POSITION_CHANGED.filled(language, &values);
         }
         Finding::BumpedRun(at) => {
-            let [turn, mean] = [at.turn_arcsec, at.in_the_mean_arcsec].map(arcsec);
-            let axis = axis_of_run(at, language);
+            let [x, y, z] = at.turns_arcsec.map(arcsec);
+            let [of_x, of_y, of_z] = at.in_the_mean_arcsec().map(arcsec);
             let text = if at.is_of_the_base() { texts::CHECK_BUMPED_BASE } else { texts::CHECK_BUMPED_PLATFORM };
-            return text.filled(language, &[("run", &at.run), ("turn", &turn), ("axis", &axis), ("mean", &mean)]);
+            let values: [(&str, &dyn Display); 7] =
+                [("run", &at.run), ("x", &x), ("y", &y), ("z", &z), ("of_x", &of_x), ("of_y", &of_y), ("of_z", &of_z)];
+            return text.filled(language, &values);
         }
         Finding::Outlier(out, mean) => {
             let ([residual, mean], axis) = ([out.residual_arcsec, *mean].map(arcsec), AXES[out.axis]);

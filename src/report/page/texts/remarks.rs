@@ -24,17 +24,17 @@ texts! {
              {residual}″ вокруг {axis} (критерий Граббса, p = {p}). Показание не исключено."
     }
     BUMPED_RUN_PLATFORM {
-        en: "{grade}: all positions of run {run} are rotated by {turn}″ about {axis} of the platform relative to the other \
-             runs (Grubbs’ test, p = {p}). The run was not excluded; it changes certified angles by up to {mean}″.",
-        ru: "{grade}: все положения серии {run} повёрнуты относительно других серий на {turn}″ вокруг оси {axis} платформы \
-             (критерий Граббса, p = {p}). Серия не исключена; она изменяет аттестованные отклонения не более чем на {mean}″."
+        en: "{grade}: all positions of run {run} are rotated by {x}″, {y}″, {z}″ about x, y, z of the platform relative to \
+             the other runs (Grubbs’ test, p = {p}). The run was not excluded; it changes certified angles by up to {mean}″.",
+        ru: "{grade}: все положения серии {run} повёрнуты относительно других серий на {x}″, {y}″, {z}″ вокруг осей x, y, z \
+             платформы (критерий Граббса, p = {p}). Серия не исключена; она изменяет аттестованные отклонения не более чем на {mean}″."
     }
     BUMPED_RUN_BASE {
-        en: "{grade}: all positions of run {run} are rotated by {turn}″ about {axis} of the base relative to the other runs \
-             (Grubbs’ test, p = {p}). The run was not excluded; it changes certified angles by up to {mean}″.",
-        ru: "{grade}: все положения серии {run} повёрнуты относительно других серий на {turn}″ вокруг оси основания \
-             «{axis}» (критерий Граббса, p = {p}). Серия не исключена; она изменяет аттестованные отклонения не более чем \
-             на {mean}″."
+        en: "{grade}: all positions of run {run} are rotated by {x}″, {y}″, {z}″ about east, north, up of the base relative \
+             to the other runs (Grubbs’ test, p = {p}). The run was not excluded; it changes certified angles by up to {mean}″.",
+        ru: "{grade}: все положения серии {run} повёрнуты относительно других серий на {x}″, {y}″, {z}″ вокруг осей \
+             основания «восток», «север», «вверх» (критерий Граббса, p = {p}). Серия не исключена; она изменяет \
+             аттестованные отклонения не более чем на {mean}″."
     }
     TWO_RUNS {
         en: "Two runs do not show whether run {one} or run {other} is wrong; a third run is needed.",
@@ -132,16 +132,16 @@ texts! {
         ru: "Общий поворот всех положений несколько больше случайного; требуются дополнительные серии."
     }
     CHECK_BUMPED_PLATFORM {
-        en: "All positions of run {run} of the check are rotated by {turn}″ about {axis} of the platform relative to its \
-             other runs; the common rotation includes {mean}″ of it.",
-        ru: "Все положения контрольной серии {run} повёрнуты относительно других серий на {turn}″ вокруг оси {axis} \
-             платформы; в общий поворот вошло {mean}″."
+        en: "All positions of run {run} of the check are rotated by {x}″, {y}″, {z}″ about x, y, z of the platform \
+             relative to its other runs; the common rotation includes {of_x}″, {of_y}″, {of_z}″ of it.",
+        ru: "Все положения контрольной серии {run} повёрнуты относительно других серий на {x}″, {y}″, {z}″ вокруг осей \
+             x, y, z платформы; в общий поворот вошли {of_x}″, {of_y}″, {of_z}″."
     }
     CHECK_BUMPED_BASE {
-        en: "All positions of run {run} of the check are rotated by {turn}″ about {axis} of the base relative to its other \
-             runs; the common rotation includes {mean}″ of it.",
-        ru: "Все положения контрольной серии {run} повёрнуты относительно других серий на {turn}″ вокруг оси основания \
-             «{axis}»; в общий поворот вошло {mean}″."
+        en: "All positions of run {run} of the check are rotated by {x}″, {y}″, {z}″ about east, north, up of the base \
+             relative to its other runs; the common rotation includes {of_x}″, {of_y}″, {of_z}″ of it.",
+        ru: "Все положения контрольной серии {run} повёрнуты относительно других серий на {x}″, {y}″, {z}″ вокруг осей \
+             основания «восток», «север», «вверх»; в общий поворот вошли {of_x}″, {of_y}″, {of_z}″."
     }
     CHECK_OUTLIER {
         en: "The reading of position {index} in run {run} of the check differs by {residual}″ about {axis} from its other \
