@@ -9,7 +9,7 @@ use std::borrow::Cow;
 
 /// Standard deviation of readings, in units of their last digit, above which the mean of several readings is free of the
 /// rounding of each.
-const SPREAD_OVER_DIGITS: f64 = 0.5;
+pub(crate) const SPREAD_OVER_DIGITS: f64 = 0.5;
 
 /// Digits and scatter of the currents of a file.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

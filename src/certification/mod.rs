@@ -45,6 +45,10 @@ use nalgebra::{DVector, Vector3};
 /// Smallest number of runs for which the program does not warn that there are few.
 pub(crate) const ENOUGH_RUNS: usize = 4;
 
+/// Largest difference from the other runs, in steps of the readings, that rounding explains: one step, if both are within
+/// half a step of it.
+const STEPS_OF_ROUNDING: f64 = 1.5;
+
 /// Reason why a stand was not certified.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -164,7 +168,8 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     if let Some(deletion) = &deletion {
         components.without(deletion.squares_arcsec2, &readings.missing);
     }
-    let suspects = Suspects::of(header, readings, &components);
+    let mut suspects = Suspects::of(header, readings, &components);
+    suspects.outliers.retain(|out| out.residual_arcsec.abs() > STEPS_OF_ROUNDING * readings.step_arcsec);
     let worse: Vec<usize> = suspects.worse.iter().map(|at| at.place).collect();
     let scatter = components.scatter_of_positions(&worse).filter(|_| !worse.is_empty());
     let mut stand = Stand {
@@ -187,7 +192,8 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
                 );
                 of_mean(components.own_arcsec2[axis], of_position, share, &header.certificate)
             });
-            certified(nominal, &mean, turn, &own)
+            let rounding = [0, 1, 2].map(|angle| readings.rounding_arcsec(place, angle));
+            certified(nominal, &mean, turn, &own, rounding)
         })
         .collect();
     let certificate = &mut stand.certificate;
@@ -210,6 +216,7 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     let mut remarks: Vec<Remark> = bumped_runs.iter().copied().map(Remark::BumpedRun).collect();
     remarks.extend(Remark::of_suspects(&suspects, runs));
     remarks.extend(remarks_on(&components, runs.len(), &stand.positions));
+    remarks.extend(remark_on_rounding(readings));
     remarks.extend(stand::remarks::of(&stand.certificate, &stand.positions).into_iter().map(Remark::Odd));
     let warnings = remarks.iter().map(ToString::to_string).collect();
     let (runs, repeated_rows) = (runs.to_vec(), readings.repeated_rows);
@@ -308,13 +315,20 @@ fn of_mean(axis: Variance, scatter: Option<Variance>, share: f64, certificate: &
 }
 
 /// Returns the certified position with the means `mean` (α, β, γ, arcsec) and their uncertainties, where `own` is the
-/// variance of its rotation about each axis of the case, arcsec².
-fn certified(nominal: &NominalPosition, mean: &Vector3<f64>, turn: &Turn, own: &[Variance; 3]) -> CertifiedPosition {
+/// variance of its rotation about each axis of the case, arcsec², and `rounding_arcsec` the standard uncertainty of the
+/// rounding of each angle.
+fn certified(
+    nominal: &NominalPosition,
+    mean: &Vector3<f64>,
+    turn: &Turn,
+    own: &[Variance; 3],
+    rounding_arcsec: [f64; 3],
+) -> CertifiedPosition {
     let to_angles = turn.angles_of_rotation();
     let u = |angle: usize| {
         let variance =
             (0..3).map(|axis| to_angles[(angle, axis)] * to_angles[(angle, axis)] * own[axis].value).sum::<f64>();
-        variance.sqrt()
+        libm::hypot(variance.sqrt(), rounding_arcsec[angle])
     };
     let least = own.iter().map(|variance| variance.degrees_of_freedom).fold(f64::INFINITY, f64::min);
     let mut position = nominal.with_angles([0, 1, 2].map(|angle| to_digits_of(mean[angle], u(angle))));
@@ -346,6 +360,16 @@ fn rounded(u: f64) -> f64 {
 /// Returns degrees of freedom rounded to a tenth, at least 0.1; finer digits have no practical effect.
 fn freedom(value: f64) -> f64 {
     (value * 10.0).round().max(1.0) / 10.0
+}
+
+/// Returns the remark on angles whose readings stay on one step, or `None` if there are none.
+fn remark_on_rounding(readings: &AngleReadings) -> Option<Remark> {
+    let places = 0..readings.each_arcsec.len();
+    let u_arcsec: Vec<f64> =
+        places.flat_map(|place| [0, 1, 2].map(|angle| readings.rounding_arcsec(place, angle))).collect();
+    let angles = u_arcsec.iter().filter(|u| **u > 0.0).count();
+    let rounding = Remark::Rounding { angles, of: u_arcsec.len(), step_arcsec: readings.step_arcsec };
+    (angles > 0).then_some(rounding)
 }
 
 fn remarks_on(components: &Components, runs: usize, positions: &[CertifiedPosition]) -> Vec<Remark> {

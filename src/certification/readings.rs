@@ -4,8 +4,10 @@ mod whole_runs;
 
 use super::header::NominalPosition;
 use crate::calibration::readings::csv::position;
+use crate::calibration::recorded::{SPREAD_OVER_DIGITS, rounding_of};
 use crate::coefficients::PositionIndex;
 use crate::stand::{Excluded, LARGEST_DEVIATION_DEG};
+use crate::statistics::coincidences::step_of_meter;
 use crate::text::Unreadable;
 use crate::text::problem::{MOST_PROBLEMS, Problem};
 use crate::text::scalar::sha256_hex;
@@ -29,6 +31,8 @@ pub struct AngleReadings {
     pub(crate) each_arcsec: Vec<Vec<Vector3<f64>>>,
     /// Line of the first row of each reading, `[position][run]`; empty if the readings do not come from a file.
     lines: Vec<Vec<usize>>,
+    /// Step of the angles in the file, such as their last digit, arcsec.
+    pub(crate) step_arcsec: f64,
     /// Number of rows that repeat the reading of a visit.
     pub(crate) repeated_rows: usize,
     /// SHA-256 of the file in lower-case hexadecimal; `None` if the readings do not come from a file.
@@ -63,7 +67,9 @@ impl AngleReadings {
         if balanced && each_arcsec.iter().all(|position| position.len() == runs.len()) {
             let (excluded, missing) = (Vec::new(), Vec::new());
             let lines = Vec::new();
-            Ok(Self { runs, each_arcsec, lines, repeated_rows: 0, sha256: None, remark: None, excluded, missing })
+            let step_arcsec = step_of_meter(each_arcsec.iter().flatten().flat_map(|angles| angles.iter().copied()));
+            let (repeated_rows, sha256, remark) = (0, None, None);
+            Ok(Self { runs, each_arcsec, lines, step_arcsec, repeated_rows, sha256, remark, excluded, missing })
         } else {
             Err(NotBalanced)
         }
@@ -156,6 +162,7 @@ impl AngleReadings {
             runs: runs.into_iter().collect(),
             each_arcsec,
             lines,
+            step_arcsec: step_of_meter(rows.iter().flat_map(|(_, angles, _)| angles.iter().copied())),
             repeated_rows: rows.len() - averages.len(),
             sha256: None,
             remark: None,
@@ -176,6 +183,21 @@ impl AngleReadings {
     /// its place among the runs), or `None` if the readings do not come from a file.
     pub(crate) fn line(&self, position: usize, run: usize) -> Option<usize> {
         self.lines.get(position)?.get(run).copied()
+    }
+
+    /// Returns the standard uncertainty of the rounding of α, β or γ (`angle` 0, 1, 2) of a position, arcsec, by its place in
+    /// the order requested; 0 if its readings vary over the steps, because their mean is then free of the rounding.
+    ///
+    /// Readings that stay on one step are rounded alike in every run, and their mean by as much as each of them.
+    pub(crate) fn rounding_arcsec(&self, position: usize, angle: usize) -> f64 {
+        let is_read = |run: &usize| !self.missing.contains(&(position, *run));
+        let values: Vec<f64> =
+            (0..self.runs.len()).filter(is_read).map(|run| self.each_arcsec[position][run][angle]).collect();
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let squares = values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>();
+        let spread = (squares / (count - 1.0)).sqrt();
+        if spread < SPREAD_OVER_DIGITS * self.step_arcsec { rounding_of(self.step_arcsec) } else { 0.0 }
     }
 
     /// Returns the means (α, β, γ) of each position over the runs, arcsec.

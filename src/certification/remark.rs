@@ -3,6 +3,7 @@
 
 use super::bumped_runs::BumpedRun;
 use super::suspects::{AXES, OUTLIER, Outlier, Suspects, WorsePosition};
+use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
 use std::fmt::{self, Display, Formatter};
 
@@ -27,6 +28,8 @@ pub(crate) enum Remark {
     FewRuns { runs: usize, degrees_of_freedom: usize },
     /// Number of axes of the base, 0 to 2, about which a rotation can be distinguished from one of the platform.
     BaseAxes(usize),
+    /// Number of angles whose readings stay on one step, of how many, and the step, arcsec.
+    Rounding { angles: usize, of: usize, step_arcsec: f64 },
     /// Largest angle, arcsec, if it is suspiciously small.
     SmallAngles(f64),
     /// Unusual value in the certificate.
@@ -127,6 +130,12 @@ impl Display for Remark {
                 f,
                 "in these positions only {axes} of the three axes of the base can be distinguished from the platform; \
                  common_platform_arcsec includes the rest"
+            ),
+            Self::Rounding { angles, of, step_arcsec } => write!(
+                f,
+                "the readings of {angles} of {of} angles vary by less than half their step of {step_arcsec} arcsec, so their \
+                 mean does not reduce the rounding; its standard uncertainty of {:.2} arcsec is included; record more digits",
+                rounding_of(*step_arcsec)
             ),
             Self::SmallAngles(largest_arcsec) => write!(
                 f,

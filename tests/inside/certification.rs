@@ -1,13 +1,13 @@
 //! Certification: simulated stands whose components are known come back with the uncertainty stated.
 
-use crate::inside::simulated_stands::{HEADER, Truth, certified, csv, header, normal};
+use crate::inside::simulated_stands::{HEADER, Truth, certified, csv, header, normal, read};
 use dtg_passport::attitude;
 use dtg_passport::certification::{AngleReadings, Header, NotCertified, certify};
 use dtg_passport::coefficients::{EIGHT_POSITIONS, PositionIndex};
 use dtg_passport::stand::{Excluded, Stand};
 use dtg_passport::statistics::beta::student_factor;
 use dtg_passport::statistics::random::Stream;
-use nalgebra::{DMatrix, Matrix3};
+use nalgebra::{DMatrix, Matrix3, Vector3};
 
 /// The mean of the estimated variances is the true one, for every component, at 3 and 6 runs.
 #[test]
@@ -241,4 +241,57 @@ fn excluded_readings_are_determined_by_the_others() {
     let coverage = inside / all;
     println!("{:.1} % of {all} intervals hold the true angle", 100.0 * coverage);
     assert!((0.93..0.97).contains(&coverage), "{coverage}");
+}
+
+/// Readings to whole arcseconds that vary by a fifth of that: 95 % of the certified angles or more are within their intervals
+/// (an error of rounding is never larger than half a step), no single step is called an outlier, and the rounding is named. With
+/// more digits, or more scatter, it is not. Expected: the simulated angles; GUM F.2.2.1.
+#[test]
+fn rounding_of_readings_is_included() {
+    let mut stream = Stream::new(81);
+    for (own, runs) in [(0.2, 5), (0.15, 3)] {
+        let (mut inside, mut all) = (0.0, 0.0);
+        for trial in 0..100 {
+            let mut truth = Truth::new([own; 3], 0.05, 0.05);
+            // A stand whose angles are not whole arcseconds.
+            truth
+                .angles_arcsec
+                .iter_mut()
+                .for_each(|angles| *angles += Vector3::from([(); 3].map(|()| stream.within(0.5))));
+            let exact = truth.measured(&mut stream, runs);
+            let whole = exact.each_arcsec.iter().map(|each| each.iter().map(|angles| angles.map(f64::round)).collect());
+            let found = match certify(&header(), &AngleReadings::new(exact.runs.clone(), whole.collect()).unwrap()) {
+                Err(NotCertified::Constant(_)) => continue,
+                found => found.unwrap(),
+            };
+            assert!(
+                found.suspects.outliers.iter().all(|out| out.residual_arcsec.abs() > 1.5),
+                "{:?}",
+                found.suspects.outliers
+            );
+            assert!(
+                found.warnings.iter().any(|words| words.contains("step of 1 arcsec")),
+                "{trial}: {:?}",
+                found.warnings
+            );
+            for (at, angles) in found.stand.positions.iter().zip(truth.angles_arcsec) {
+                let factor = student_factor(0.05, at.degrees_of_freedom.unwrap());
+                let apart = [at.alpha_arcsec - angles.x, at.beta_arcsec - angles.y, at.gamma_arcsec - angles.z];
+                for (apart, u) in apart.into_iter().zip(at.u_arcsec()) {
+                    inside += f64::from(u8::from(apart.abs() <= factor * u.unwrap()));
+                    all += 1.0;
+                }
+            }
+        }
+        let coverage = inside / all;
+        println!("{runs} runs: {:.1} % of 95 % intervals hold the true angle", 100.0 * coverage);
+        assert!(coverage > 0.95, "{coverage}");
+    }
+    let fine = certify(&header(), &read(&csv(&Truth::new([0.2; 3], 0.05, 0.05).measured(&mut stream, 5)))).unwrap();
+    let coarse = Truth::new([2.0; 3], 0.05, 0.05).measured(&mut stream, 10);
+    let whole = coarse.each_arcsec.iter().map(|each| each.iter().map(|angles| angles.map(f64::round)).collect());
+    let coarse = certify(&header(), &AngleReadings::new(coarse.runs.clone(), whole.collect()).unwrap()).unwrap();
+    for found in [fine, coarse] {
+        assert!(!found.warnings.iter().any(|words| words.contains("step of")), "{:?}", found.warnings);
+    }
 }

@@ -201,6 +201,7 @@ fn a_remark_says_the_same_in_both_languages() {
         Remark::FewRuns { runs: 3, degrees_of_freedom: 6 },
         Remark::BaseAxes(0),
         Remark::BaseAxes(2),
+        Remark::Rounding { angles: 15, of: 24, step_arcsec: 1.0 },
         Remark::SmallAngles(0.42),
         Remark::Odd(Odd::FarAngle { angle: 0, index, arcsec: 67833.0, usual_arcsec: 64.3 }),
         Remark::Odd(Odd::Temperature { key: "temperature_c", celsius: 293.15 }),

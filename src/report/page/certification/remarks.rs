@@ -1,5 +1,6 @@
 //! Remarks on a certification, and findings of a comparison, in the language of the page.
 
+use crate::calibration::recorded::rounding_of;
 use crate::certification::bumped_runs::BumpedRun;
 use crate::certification::compared::ComparedPosition;
 use crate::certification::finding::{Finding, Untested};
@@ -57,6 +58,10 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
         }
         Remark::BaseAxes(0) => fill(texts::BASE_NOT_SEEN, &[]),
         Remark::BaseAxes(axes) => fill(texts::BASE_IN_PART, &[("axes", axes)]),
+        Remark::Rounding { angles, of, step_arcsec } => {
+            let (step, u) = (exact(*step_arcsec), fixed(rounding_of(*step_arcsec), 2));
+            fill(texts::ROUNDING, &[("angles", angles), ("all", of), ("step", &step), ("u", &u)])
+        }
         Remark::SmallAngles(largest) => fill(texts::SMALL_ANGLES, &[("largest", &fixed(*largest, 2))]),
         Remark::Odd(Odd::FarAngle { angle, index, arcsec, usual_arcsec }) => {
             let (angle, value, usual) = (LETTERS[*angle], exact(*arcsec), exact(*usual_arcsec));

@@ -76,6 +76,12 @@ texts! {
         ru: "В этих положениях поворот основания отличим от поворота платформы не по всем трём осям (число осей {axes}); \
              остальное включено в общую составляющую платформы."
     }
+    ROUNDING {
+        en: "The readings of {angles} of {all} angles vary by less than half their step of {step}″, so their mean does not \
+             reduce the rounding; its standard uncertainty of {u}″ is included.",
+        ru: "Показания {angles} из {all} углов изменяются менее чем на половину шага отсчёта {step}″, и усреднение не \
+             уменьшает погрешность округления; её стандартная неопределённость {u}″ учтена."
+    }
     SMALL_ANGLES {
         en: "No angle is larger than {largest}″; the angles may be in degrees instead of arcseconds.",
         ru: "Ни один угол не превышает {largest}″; возможно, углы указаны в градусах, а не в секундах."
