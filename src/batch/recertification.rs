@@ -7,7 +7,6 @@
 use super::Planned;
 use super::successors::FORKED;
 use crate::certification::comparison::compare;
-use crate::certification::finding::Finding;
 use crate::certification::{AngleReadings, Certification, Comparison, Header, certify, predicted};
 use crate::files::{self, FileError, folder_of, leftovers};
 use crate::folder::archive::Superseded;
@@ -317,8 +316,8 @@ impl Recertification<'_> {
             )));
         }
         let comparison = compare(old, header, &readings, Some(&certification)).map_err(|why| of_readings(&why))?;
-        if let Some(exchanged) = comparison.findings.iter().find(|found| matches!(found, Finding::Exchanged(_))) {
-            return Err(of_readings(exchanged));
+        if let Some(misplaced) = comparison.findings.iter().find(|found| found.is_misplaced()) {
+            return Err(of_readings(misplaced));
         }
         if comparison.positions.iter().all(|at| !at.repeats) {
             return Err(of_readings(

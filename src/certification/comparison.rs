@@ -10,6 +10,7 @@ use super::bumped_runs;
 use super::compared::{CommonTurn, ComparedPosition, Test};
 use super::components::{RunModel, Variance, case_turn, turns_at};
 use super::finding::{self, Finding, Untested, findings};
+use super::misread::Misread;
 use super::suspects::OUTLIER;
 use super::{AngleReadings, Certification, Header};
 use crate::calibration::inputs::Turn;
@@ -127,6 +128,12 @@ pub fn compare(
     let same_stand = repeating.len() == places.len() && all.probability >= OUTLIER && !moved;
     let mut findings = findings(all, &positions, &common, again, moved, untested);
     finding::name_exchanged(&mut findings, exchanged(certificate, readings, scatter, &repeating)?);
+    let certified: Vec<_> = certificate.positions.iter().map(|at| Vector3::from(at.angles_arcsec())).collect();
+    if let Some(another) = findings.iter_mut().find(|found| **found == Finding::AnotherStand)
+        && let Some(misread) = Misread::of(&readings.means_arcsec(), &certified)
+    {
+        *another = Finding::Misread(misread);
+    }
     if certificate.positions.iter().any(|at| certified_u_arcsec(at).is_none()) {
         findings.push(Finding::TreatedAsExact);
     }

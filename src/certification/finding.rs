@@ -3,6 +3,7 @@
 use super::Certification;
 use super::bumped_runs::BumpedRun;
 use super::compared::{CommonTurn, ComparedPosition, Test};
+use super::misread::Misread;
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
 use crate::coefficients::PositionIndex;
 use crate::text::words;
@@ -16,6 +17,8 @@ pub(crate) enum Finding {
     AnotherStand,
     /// Two positions, each with the angles that are certified for the other.
     Exchanged([PositionIndex; 2]),
+    /// File in another unit, with another sign or with other axes.
+    Misread(Misread),
     /// Position that has changed relative to the others.
     Changed(ComparedPosition),
     /// Significant change that is not that of a single position.
@@ -67,6 +70,7 @@ impl Display for Finding {
                      other; check the rows of the readings, and the directions in which theta and phi increase"
                 );
             }
+            Self::Misread(misread) => return misread.fmt(f),
             Self::Changed(ComparedPosition { index, turn_arcsec: [x, y, z], .. }) => {
                 return write!(
                     f,
@@ -138,8 +142,18 @@ impl Finding {
     pub(crate) fn is_change(&self) -> bool {
         matches!(
             self,
-            Self::AnotherStand | Self::Exchanged(_) | Self::Changed(_) | Self::ChangedTogether | Self::Rotated
+            Self::AnotherStand
+                | Self::Exchanged(_)
+                | Self::Misread(_)
+                | Self::Changed(_)
+                | Self::ChangedTogether
+                | Self::Rotated
         )
+    }
+
+    /// Returns `true` for readings of which the angles stand in other places or in another unit.
+    pub(crate) fn is_misplaced(&self) -> bool {
+        matches!(self, Self::Exchanged(_) | Self::Misread(_))
     }
 
     /// Returns `true` if an outlier among the readings explains the change of the position: the rest is within 3 u.

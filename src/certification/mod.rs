@@ -9,6 +9,7 @@
 //! * `remark`: remarks for the signatory.
 //! * `compared`: values of the comparison of a later check run with the certificate.
 //! * `finding`: reasons for the result of that comparison, and its limits.
+//! * `misread`: errors of a whole file that the certificate shows.
 //! * `comparison`: the comparison itself.
 //! * `document`: the stand file as text, with comments on the origin of its numbers.
 //!
@@ -22,6 +23,7 @@ mod deletion;
 pub(crate) mod document;
 pub(crate) mod finding;
 pub(crate) mod header;
+pub(crate) mod misread;
 pub(crate) mod readings;
 pub(crate) mod remark;
 pub(crate) mod suspects;

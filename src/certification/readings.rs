@@ -1,6 +1,6 @@
 //! Angles read in every position and run: CSV `i,j,run,alpha_arcsec,beta_arcsec,gamma_arcsec`.
 
-mod whole_runs;
+pub(super) mod whole_runs;
 
 use super::header::NominalPosition;
 use crate::calibration::readings::csv::position;

@@ -5,6 +5,7 @@ use dtg_passport::certification::comparison::{Comparison, compare};
 use dtg_passport::certification::{AngleReadings, Header, certify};
 use dtg_passport::stand::{Evidence, Stand};
 use dtg_passport::statistics::random::Stream;
+use nalgebra::Vector3;
 
 /// The certificate of a stand measured in so many runs, as `certify` writes it from a file.
 fn certificate(truth: &Truth, stream: &mut Stream, runs: u32) -> Stand {
@@ -230,4 +231,34 @@ fn exchanged_positions_are_named() {
     let found = against(&stand, &other.measured(&mut stream, 3));
     assert!(found.positions.iter().all(|at| !at.repeats), "{found:?}");
     assert!(found.words[0].contains("another stand"), "{:?}", found.words);
+}
+
+/// A whole file in another unit, with the opposite sign or in other columns: the error is named, and nothing else has changed.
+#[test]
+fn a_misread_file_is_named() {
+    let truth = quiet();
+    let mut stream = Stream::new(72);
+    let stand = certificate(&truth, &mut stream, 5);
+    let cases: [(&dyn Fn(&Vector3<f64>) -> Vector3<f64>, &str); 6] = [
+        (&|at| at / 60.0, "divided by 60; convert them from arcminutes"),
+        (&|at| at / 3600.0, "divided by 3600; convert them from degrees"),
+        (&|at| at * 60.0, "60 times those of the certificate"),
+        (&|at| -at, "with the opposite sign"),
+        (
+            &|at| Vector3::new(at.x, at.z, at.y),
+            "have gamma where the certificate has beta, beta where the certificate has gamma;",
+        ),
+        (&|at| Vector3::new(-at.x, at.y, at.z), "have -alpha where the certificate has alpha;"),
+    ];
+    for (wrong, due) in cases {
+        let mut check = truth.measured(&mut stream, 3);
+        check.each_arcsec.iter_mut().flatten().for_each(|angles| *angles = wrong(angles));
+        let found = against(&stand, &check);
+        assert!(!found.same_stand && found.words[0].contains(due), "{due}: {:?}", found.words);
+        assert!(
+            !found.words.iter().any(|words| words.contains("rotated") || words.contains("another stand")),
+            "{:?}",
+            found.words
+        );
+    }
 }

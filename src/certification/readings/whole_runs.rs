@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Factors by which the angles of a run in another unit are too small, with the name of the unit.
-const UNITS: [(f64, &str); 3] =
+pub(in crate::certification) const UNITS: [(f64, &str); 3] =
     [(60.0, "arcminutes"), (crate::units::ARCSECONDS_PER_DEGREE, "degrees"), (206.264_806, "milliradians")];
 
 /// Tolerance of such a factor, as a factor itself.
@@ -134,15 +134,15 @@ fn other_scales(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Prob
 }
 
 /// Column of the file for each angle, with its sign.
-type Axes = [(usize, f64); 3];
+pub(in crate::certification) type Axes = [(usize, f64); 3];
 
 /// Factor by which other axes must reduce the sum of the squared differences from the other runs, a fifth of the
 /// difference. By chance they do not, not even with three positions and angles that are all scatter.
-const CLEARLY: f64 = 25.0;
+pub(in crate::certification) const CLEARLY: f64 = 25.0;
 
 /// Returns every order of the three columns with every choice of signs, those that change the fewest columns first; the
 /// first changes none. All signs reversed is a matter of scale.
-fn axes_of_runs() -> Vec<Axes> {
+pub(in crate::certification) fn axes_of_runs() -> Vec<Axes> {
     let orders = [[0, 1, 2], [1, 0, 2], [2, 1, 0], [0, 2, 1], [1, 2, 0], [2, 0, 1]];
     let signed = orders.into_iter().flat_map(|order| {
         (0..8_u8)
@@ -151,6 +151,12 @@ fn axes_of_runs() -> Vec<Axes> {
     let mut all: Vec<Axes> = signed.collect();
     all.sort_by_key(|axes| (0..3).filter(|axis| axes[*axis] != (*axis, 1.0)).count());
     all
+}
+
+/// Returns the angles whose column or sign differs: the angle, the column in its place and the sign, "-" or nothing.
+pub(in crate::certification) fn differing(axes: &Axes) -> impl Iterator<Item = (usize, usize, &'static str)> {
+    let changed = axes.iter().enumerate().filter(|(axis, of)| **of != (*axis, 1.0));
+    changed.map(|(axis, (column, sign))| (axis, *column, if *sign < 0.0 { "-" } else { "" }))
 }
 
 /// Returns a problem for each run whose angles are those of the others once columns are exchanged or signs reversed.
@@ -184,12 +190,8 @@ fn other_axes(table: &Table, rows: &[Reading], others: &OtherRuns) -> Vec<Proble
         }
         // An angle near zero does not show its sign: of about equal candidates the one with the fewest changes.
         let at = sums.iter().position(|sum| *sum <= 2.0 * least)?;
-        let changed = candidates[at].iter().enumerate().filter(|(axis, of)| **of != (*axis, 1.0));
-        let words: Vec<String> = changed
-            .map(|(axis, (column, sign))| {
-                let sign = if *sign < 0.0 { "-" } else { "" };
-                format!("{sign}{} where the other runs have {}", ANGLES[*column], ANGLES[axis])
-            })
+        let words: Vec<String> = differing(&candidates[at])
+            .map(|(axis, column, sign)| format!("{sign}{} where the other runs have {}", ANGLES[column], ANGLES[axis]))
             .collect();
         let found = format!("run {run}, which has {}", words.join(", "));
         let advice = "put the angles into the columns of the other runs, with their signs";

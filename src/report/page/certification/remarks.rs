@@ -1,9 +1,11 @@
 //! Remarks on a certification, and findings of a comparison, in the language of the page.
 
+use crate::attitude::ANGLES;
 use crate::calibration::recorded::rounding_of;
 use crate::certification::bumped_runs::BumpedRun;
 use crate::certification::compared::ComparedPosition;
 use crate::certification::finding::{Finding, Untested};
+use crate::certification::misread::Misread;
 use crate::certification::remark::Remark;
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::report::page::language::{Language, Text};
@@ -88,6 +90,24 @@ pub(super) fn axis_of_run(at: &BumpedRun, language: Language) -> String {
     }
 }
 
+/// Returns the error of a whole file as a sentence.
+fn misread_words(misread: &Misread, language: Language) -> String {
+    let factor = |value: f64| Number::fixed(value, 0).text(language);
+    match misread {
+        Misread::Smaller(by, _) => texts::SMALLER_UNIT.filled(language, &[("factor", &factor(*by))]),
+        Misread::Larger(by, _) => texts::LARGER_UNIT.filled(language, &[("factor", &factor(*by))]),
+        Misread::Sign => texts::OPPOSITE_SIGN.words(language),
+        Misread::Axes(axes) => {
+            let letter = |name: &str| ANGLES.iter().position(|angle| *angle == name).map_or("", |at| LETTERS[at]);
+            let each = Misread::columns(axes).into_iter().map(|(found, due)| {
+                let sign = if found.starts_with('-') { "−" } else { "" };
+                format!("{sign}{} → {}", letter(found.trim_start_matches('-')), letter(due))
+            });
+            texts::OTHER_AXES.filled(language, &[("columns", &each.collect::<Vec<_>>().join(", "))])
+        }
+    }
+}
+
 /// Returns a finding of a comparison with the last certificate as a sentence.
 pub(crate) fn finding(finding: &Finding, language: Language) -> String {
     let arcsec = |value: f64| Number::fixed(value, 2).text(language);
@@ -116,6 +136,7 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
         Finding::Exchanged([one, other]) => {
             return texts::EXCHANGED.filled(language, &[("one", one), ("other", other)]);
         }
+        Finding::Misread(misread) => return misread_words(misread, language),
         Finding::AnotherStand => texts::ANOTHER_STAND,
         Finding::ChangedTogether => texts::CHANGED_TOGETHER,
         Finding::Slightly => texts::CHANGED_SLIGHTLY,

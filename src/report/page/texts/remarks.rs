@@ -115,6 +115,22 @@ texts! {
         en: "Positions {one} and {other} are exchanged: each has the angles that the certificate states for the other.",
         ru: "Положения {one} и {other} переставлены: показания каждого соответствуют аттестованным значениям другого."
     }
+    SMALLER_UNIT {
+        en: "The angles are those of the certificate divided by {factor}; they are in another unit.",
+        ru: "Углы равны аттестованным, делённым на {factor}; они выражены в других единицах."
+    }
+    LARGER_UNIT {
+        en: "The angles are {factor} times those of the certificate; they are in another unit.",
+        ru: "Углы равны аттестованным, умноженным на {factor}; они выражены в других единицах."
+    }
+    OPPOSITE_SIGN {
+        en: "The angles are those of the certificate with the opposite sign.",
+        ru: "Углы равны аттестованным с обратным знаком."
+    }
+    OTHER_AXES {
+        en: "The angles are in other columns or have other signs than in the certificate (read → certified: {columns}).",
+        ru: "Углы записаны в других столбцах или с другими знаками, чем в сертификате (показание → аттестованное: {columns})."
+    }
     POSITION_CHANGED {
         en: "Position {index} has changed relative to the other positions: {x}″, {y}″, {z}″ about x, y, z.",
         ru: "Положение {index} изменилось относительно остальных: {x}″, {y}″, {z}″ вокруг x, y, z."
