@@ -176,6 +176,9 @@ fn exchanged(
         (one < other && nearest[other] == one && changed).then_some([one, other])
     };
     let pairs: Vec<[usize; 2]> = places.iter().filter_map(|place| pair(*place)).collect();
+    if pairs.is_empty() {
+        return Ok(Vec::new());
+    }
     let mut right = readings.clone();
     pairs.iter().for_each(|[one, other]| right.each_arcsec.swap(*one, *other));
     let repeating = Differences::new(certificate, &right, scatter)?.repeating(&places);

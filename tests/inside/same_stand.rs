@@ -236,19 +236,20 @@ fn exchanged_positions_are_named() {
 /// A whole file in another unit, with the opposite sign or in other columns: the error is named, and nothing else has changed.
 #[test]
 fn a_misread_file_is_named() {
+    type Wrong = fn(&Vector3<f64>) -> Vector3<f64>;
     let truth = quiet();
     let mut stream = Stream::new(72);
     let stand = certificate(&truth, &mut stream, 5);
-    let cases: [(&dyn Fn(&Vector3<f64>) -> Vector3<f64>, &str); 6] = [
-        (&|at| at / 60.0, "divided by 60; convert them from arcminutes"),
-        (&|at| at / 3600.0, "divided by 3600; convert them from degrees"),
-        (&|at| at * 60.0, "60 times those of the certificate"),
-        (&|at| -at, "with the opposite sign"),
+    let cases: [(Wrong, &str); 6] = [
+        (|at| at / 60.0, "divided by 60; convert them from arcminutes"),
+        (|at| at / 3600.0, "divided by 3600; convert them from degrees"),
+        (|at| at * 60.0, "60 times those of the certificate"),
+        (|at| -at, "with the opposite sign"),
         (
-            &|at| Vector3::new(at.x, at.z, at.y),
+            |at| Vector3::new(at.x, at.z, at.y),
             "have gamma where the certificate has beta, beta where the certificate has gamma;",
         ),
-        (&|at| Vector3::new(-at.x, at.y, at.z), "have -alpha where the certificate has alpha;"),
+        (|at| Vector3::new(-at.x, at.y, at.z), "have -alpha where the certificate has alpha;"),
     ];
     for (wrong, due) in cases {
         let mut check = truth.measured(&mut stream, 3);
