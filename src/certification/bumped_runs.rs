@@ -10,6 +10,11 @@
 //!
 //! The variance is that of the other runs about all these axes: a run that is rotated about an oblique axis would else hide
 //! behind its own rotation about the axes that are not tested.
+//!
+//! The same two tests look for a stand that moved between two runs, or that drifts, of four runs or more: a step and a
+//! straight line are fitted to the rotations in the order of the runs, as the single run is, and compared with what the fit
+//! leaves. Bonferroni's bound counts them with the runs, and only the least probable is named, so a cause has one name. A
+//! move after the first or before the last run is that run's.
 
 use super::components::{Components, RunModel, RunTurn};
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
@@ -21,26 +26,40 @@ use std::ops::Range;
 /// Smallest number of runs that shows which one is wrong.
 const FEWEST_RUNS: usize = 3;
 
+/// Smallest number of runs that shows a move: two before it and two after it, because one is a bumped run.
+pub(crate) const FEWEST_RUNS_OF_A_MOVE: usize = 4;
+
 /// Names of the axes of the base.
 const COMPASS: [&str; 3] = ["east", "north", "up"];
 
-/// Run whose common rotation differs from that of the other runs.
+/// Runs whose common rotation differs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Pattern {
+    /// Run, by its number, that differs from all others.
+    One(u32),
+    /// Stand that moved between two runs: the numbers of the last run before and the first after it.
+    Move(u32, u32),
+    /// Stand that rotates from run to run by the same amount.
+    Drift,
+}
+
+/// Runs whose common rotation differs from that of the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct BumpedRun {
-    /// Number of the run.
-    pub run: u32,
+pub(crate) struct RotatedRuns {
+    /// Runs that differ.
+    pub pattern: Pattern,
     /// Axis of the most improbable rotation: 0, 1, 2 for x, y, z of the platform, 3, 4, 5 for east, north, up of the base.
     pub axis: usize,
     /// Rotation about the three axes of platform or base relative to the mean of the other runs, other bumped runs omitted,
-    /// arcsec.
+    /// arcsec; of a drift from one run to the next.
     pub turns_arcsec: [f64; 3],
-    /// Number of runs, by which the rotation is divided in their mean.
+    /// Number of runs, by which the rotation of one is divided in their mean.
     pub runs: usize,
-    /// Probability that any run of the series differs this much about any axis by chance.
+    /// Probability that any runs of the series differ this much about any axis by chance.
     pub probability: f64,
 }
 
-impl BumpedRun {
+impl RotatedRuns {
     /// Returns `true` for a rotation of the base, `false` for one of the platform.
     pub(crate) fn is_of_the_base(&self) -> bool {
         self.axis >= 3
@@ -56,12 +75,17 @@ impl BumpedRun {
         [AXES, COMPASS].as_flattened()[self.axis]
     }
 
+    /// Returns the number of the run that differs, or `None` for a move or a drift.
+    pub(crate) fn run(&self) -> Option<u32> {
+        if let Pattern::One(run) = self.pattern { Some(run) } else { None }
+    }
+
     /// Returns the rotation about the axis, arcsec.
     pub(crate) fn turn_arcsec(&self) -> f64 {
         self.turns_arcsec[self.axis % 3]
     }
 
-    /// Returns the rotation that the run adds to the mean of all runs, about the three axes, arcsec.
+    /// Returns the rotation that a single run adds to the mean of all runs, about the three axes, arcsec.
     pub(crate) fn in_the_mean_arcsec(&self) -> [f64; 3] {
         self.turns_arcsec.map(|turn| turn / self.runs as f64)
     }
@@ -78,11 +102,11 @@ impl BumpedRun {
     }
 }
 
-/// Variances between the rotations of those runs that are no outliers, per axis.
+/// Variances between the rotations of the runs without those that are outliers, a move and a drift, per axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct RunVariance {
-    /// Number of these runs.
-    pub runs: usize,
+    /// Degrees of freedom per axis: the number of these runs less one, and one fewer for a move or a drift.
+    pub changes: usize,
     /// Variance of the platform, arcsec².
     pub platform_arcsec2: f64,
     /// Variance of the base, arcsec²; 0 if its rotations cannot be distinguished from those of the platform.
@@ -92,48 +116,51 @@ pub(crate) struct RunVariance {
 /// Rotation of one run: the number of the run, and the rotations about the six axes.
 type Turn = (u32, [f64; 6]);
 
-/// Returns the bumped runs, the least probable first. The `outliers`, single readings that are suspect already, do not
-/// count against their run.
+/// Returns the bumped runs, the least probable first, and after them a move or a drift of the others. The `outliers`, single
+/// readings that are suspect already, do not count against their run.
 pub(crate) fn bumped(
     header: &Header,
     readings: &AngleReadings,
     components: &Components,
     outliers: &[Outlier],
-) -> Vec<BumpedRun> {
+) -> Vec<RotatedRuns> {
     let mut left = without(header, readings, components, outliers);
     let runs = left.len();
-    let mut found: Vec<BumpedRun> = Vec::new();
+    let mut found: Vec<RotatedRuns> = Vec::new();
     while left.len() >= FEWEST_RUNS {
         let Some(worst) = worst(&left, components.base_axes).filter(|worst| worst.probability < STRAGGLER) else {
             break;
         };
-        left.retain(|(run, _)| *run != worst.run);
-        found.push(BumpedRun { runs, ..worst });
+        found.push(RotatedRuns { runs, ..worst });
+        let Some(bumped) = worst.run() else { break };
+        left.retain(|(run, _)| *run != bumped);
     }
     found
 }
 
-/// Returns the variances between the runs of `components`. An outlier among the `bumped` would inflate the variance by which
-/// its own effect on the mean is tested, and is omitted.
-pub(crate) fn variance(components: &Components, bumped: &[BumpedRun]) -> RunVariance {
-    let out: Vec<u32> = bumped.iter().filter(|run| run.probability < OUTLIER).map(|run| run.run).collect();
-    if out.is_empty() {
+/// Returns the variances between the runs of `components`. An outlier among the `rotated` runs would inflate the variance
+/// by which its own effect on the mean is tested; it is omitted, and with it whatever else is named.
+pub(crate) fn variance(components: &Components, rotated: &[RotatedRuns]) -> RunVariance {
+    if rotated.iter().all(|at| at.probability >= OUTLIER) {
         return RunVariance {
-            runs: components.run_turns.len(),
+            changes: components.run_turns.len() - 1,
             platform_arcsec2: components.platform.between_runs_arcsec2,
             base_arcsec2: components.base.map_or(0.0, |base| base.between_runs_arcsec2),
         };
     }
-    let left: Vec<Turn> = turns(components).into_iter().filter(|(run, _)| !out.contains(run)).collect();
-    let between = |axes: Range<usize>, count: usize| {
-        let sum = axes.map(|axis| squares(&left, axis)).sum::<f64>();
-        sum / (count.max(1) * (left.len() - 1)) as f64
-    };
-    RunVariance {
-        runs: left.len(),
-        platform_arcsec2: between(0..3, 3),
-        base_arcsec2: between(3..6, components.base_axes),
-    }
+    let (squares, changes) = left_squares(turns(components), rotated);
+    let between =
+        |axes: Range<usize>, count: usize| squares[axes].iter().sum::<f64>() / (count.max(1) * changes) as f64;
+    RunVariance { changes, platform_arcsec2: between(0..3, 3), base_arcsec2: between(3..6, components.base_axes) }
+}
+
+/// Returns the sums of squares about each axis without what is named in `rotated`, and their degrees of freedom.
+fn left_squares(mut turns: Vec<Turn>, rotated: &[RotatedRuns]) -> ([f64; 6], usize) {
+    turns.retain(|(run, _)| rotated.iter().all(|at| at.run() != Some(*run)));
+    let mut fits = fits(&turns);
+    fits.retain(|fit| fit.pattern.is_in_order() && rotated.iter().any(|at| at.pattern == fit.pattern));
+    let rest = |axis| squares(&turns, axis) - fits.iter().map(|fit| fit.squares(axis)).sum::<f64>();
+    (std::array::from_fn(|axis| rest(axis).max(0.0)), turns.len() - 1 - fits.len())
 }
 
 fn turns(components: &Components) -> Vec<Turn> {
@@ -175,39 +202,93 @@ fn mean(turns: &[Turn], axis: usize) -> f64 {
     turns.iter().map(|(_, turn)| turn[axis]).sum::<f64>() / turns.len() as f64
 }
 
-/// Returns the least probable rotation of one run, or `None` if no axis varies.
-fn worst(turns: &[Turn], base_axes: usize) -> Option<BumpedRun> {
+/// Least-squares fit of a pattern to the rotations of the runs.
+struct Fit {
+    pattern: Pattern,
+    /// Fitted rotation about each of the six axes, arcsec.
+    turn: [f64; 6],
+    /// Sum of the squares of the pattern less its mean.
+    norm: f64,
+}
+
+impl Pattern {
+    /// Returns `true` for a pattern that depends on the order of the runs.
+    fn is_in_order(self) -> bool {
+        !matches!(self, Self::One(_))
+    }
+}
+
+impl Fit {
+    /// Returns what the pattern adds to the sum of squares about an axis.
+    fn squares(&self, axis: usize) -> f64 {
+        self.turn[axis] * self.turn[axis] * self.norm
+    }
+}
+
+/// Returns the fit of every pattern that the number of runs allows.
+fn fits(turns: &[Turn]) -> Vec<Fit> {
     let runs = turns.len() as f64;
-    let groups: Vec<_> = [(0..3, 3), (3..6, base_axes)].into_iter().filter(|(_, count)| *count > 0).collect();
-    let values = groups.iter().map(|(_, count)| count * turns.len()).sum::<usize>();
     let means: [f64; 6] = std::array::from_fn(|axis| mean(turns, axis));
+    let differences: Vec<[f64; 6]> =
+        turns.iter().map(|(_, turn)| std::array::from_fn(|axis| turn[axis] - means[axis])).collect();
+    // The pattern of `count` runs is 1 for them and 0 for the others; `sum` are their differences from the mean.
+    let of_runs = |pattern: Pattern, sum: [f64; 6], count: usize| {
+        let norm = count as f64 * (1.0 - count as f64 / runs);
+        Fit { pattern, turn: sum.map(|sum| sum / norm), norm }
+    };
+    let mut fits: Vec<Fit> =
+        turns.iter().zip(&differences).map(|((run, _), at)| of_runs(Pattern::One(*run), *at, 1)).collect();
+    if turns.len() < FEWEST_RUNS_OF_A_MOVE {
+        return fits;
+    }
+    let mut before = [0.0; 6];
+    for place in 1..turns.len() - 1 {
+        before = std::array::from_fn(|axis| before[axis] + differences[place - 1][axis]);
+        if place > 1 {
+            let pattern = Pattern::Move(turns[place - 1].0, turns[place].0);
+            fits.push(of_runs(pattern, before.map(|sum| -sum), turns.len() - place));
+        }
+    }
+    let middle = turns.iter().map(|(run, _)| f64::from(*run)).sum::<f64>() / runs;
+    let (mut sum, mut norm) = ([0.0; 6], 0.0);
+    for ((run, _), difference) in turns.iter().zip(&differences) {
+        let time = f64::from(*run) - middle;
+        norm += time * time;
+        sum = std::array::from_fn(|axis| sum[axis] + time * difference[axis]);
+    }
+    fits.push(Fit { pattern: Pattern::Drift, turn: sum.map(|sum| sum / norm), norm });
+    fits
+}
+
+/// Returns the least probable rotation of some runs, or `None` if no axis varies.
+fn worst(turns: &[Turn], base_axes: usize) -> Option<RotatedRuns> {
+    let groups: Vec<_> = [(0..3, 3), (3..6, base_axes)].into_iter().filter(|(_, count)| *count > 0).collect();
+    let fits = fits(turns);
+    let values = groups.iter().map(|(_, count)| count * fits.len()).sum::<usize>();
     let sums: [f64; 6] = std::array::from_fn(|axis| squares(turns, axis));
-    let mut found: Vec<BumpedRun> = Vec::new();
+    let freedom = turns.len() as f64 - 2.0;
+    let mut found: Vec<RotatedRuns> = Vec::new();
     for (axes, count) in &groups {
-        for (run, turn) in turns {
-            let difference = |axis: usize| (turn[axis] - means[axis]) * runs / (runs - 1.0);
-            // What this run adds to the sum of squares of the others, and that of the others.
-            let own = |axis: usize| difference(axis) * difference(axis) * (runs - 1.0) / runs;
-            let others = |axis: usize| (sums[axis] - own(axis)).max(0.0);
-            let freedom = runs - 2.0;
-            let of_group = axes.clone().map(others).sum::<f64>();
+        for fit in &fits {
+            let rest = |axis: usize| (sums[axis] - fit.squares(axis)).max(0.0);
+            let of_group = axes.clone().map(rest).sum::<f64>();
             for axis in axes.clone() {
                 let probability = |sum: f64, values: usize, freedom: f64| {
-                    bonferroni_student((own(axis) / (sum / freedom)).sqrt(), values, freedom)
+                    bonferroni_student((fit.squares(axis) / (sum / freedom)).sqrt(), values, freedom)
                 };
-                let about_axis = probability(others(axis), groups.len() * turns.len(), freedom);
+                let about_axis = probability(rest(axis), groups.len() * fits.len(), freedom);
                 let about_all = probability(of_group, values, *count as f64 * freedom);
-                found.push(BumpedRun {
-                    run: *run,
+                found.push(RotatedRuns {
+                    pattern: fit.pattern,
                     axis,
-                    turns_arcsec: [0, 1, 2].map(|at| difference(axes.start + at)),
+                    turns_arcsec: [0, 1, 2].map(|at| fit.turn[axes.start + at]),
                     runs: turns.len(),
                     probability: about_axis.max(about_all),
                 });
             }
         }
     }
-    found.retain(|run| !run.probability.is_nan());
+    found.retain(|at| !at.probability.is_nan());
     // A large rotation is improbable about any axis; of equally improbable ones it is the largest.
     found.into_iter().min_by(|a, b| {
         a.probability.total_cmp(&b.probability).then(b.turn_arcsec().abs().total_cmp(&a.turn_arcsec().abs()))

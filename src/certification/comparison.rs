@@ -391,12 +391,12 @@ impl Between {
         let of_certificate = evidence.map_or(f64::INFINITY, degrees_of_freedom);
         if runs > 1 {
             let again = again.ok_or(Untested::Variation)?;
-            let of_check = bumped_runs::variance(&again.components, &again.bumped_runs);
+            let of_check = bumped_runs::variance(&again.components, &again.rotated_runs);
             return Ok(Self {
                 runs: runs as f64,
                 platform_arcsec2: of_check.platform_arcsec2,
                 base_arcsec2: of_check.base_arcsec2,
-                degrees_of_freedom: degrees_of_freedom(of_check.runs as f64).min(of_certificate),
+                degrees_of_freedom: (3.0 * of_check.changes as f64).min(of_certificate),
             });
         }
         let evidence = evidence.ok_or(Untested::NumberOfRuns)?;

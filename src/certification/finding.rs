@@ -1,7 +1,7 @@
 //! Findings of a comparison: reasons for its result, and its limits.
 
 use super::Certification;
-use super::bumped_runs::BumpedRun;
+use super::bumped_runs::{Pattern, RotatedRuns};
 use super::compared::{CommonTurn, ComparedPosition, Test};
 use super::misread::Misread;
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
@@ -29,8 +29,8 @@ pub(crate) enum Finding {
     Rotated,
     /// Common rotation that is slightly larger than chance explains.
     RotatedSlightly,
-    /// Run of the check that is rotated as a whole relative to its other runs.
-    BumpedRun(BumpedRun),
+    /// Runs of the check that are rotated as a whole relative to its other runs.
+    RotatedRuns(RotatedRuns),
     /// Outlier among the readings of the check, and its part in the mean of the position, arcsec.
     Outlier(Outlier, f64),
     /// Rotation of the stand as a whole, which was not tested.
@@ -89,16 +89,28 @@ impl Display for Finding {
             Self::RotatedSlightly => {
                 "the common rotation of all positions is slightly larger than chance explains; measure more runs"
             }
-            Self::BumpedRun(at) => {
-                let (run, [x, y, z], [of_x, of_y, of_z]) = (at.run, at.turns_arcsec, at.in_the_mean_arcsec());
-                return write!(
-                    f,
-                    "all positions of run {run} of the check are rotated by {x:+.2}, {y:+.2}, {z:+.2} arcsec about {} \
-                     relative to its other runs; the common rotation includes {of_x:+.2}, {of_y:+.2}, {of_z:+.2} arcsec of \
-                     it; measure the run again, or \
-                     exclude it with --exclude {run} and --why",
-                    at.axes(),
-                );
+            Self::RotatedRuns(at) => {
+                let ([x, y, z], [of_x, of_y, of_z], axes) = (at.turns_arcsec, at.in_the_mean_arcsec(), at.axes());
+                return match at.pattern {
+                    Pattern::One(run) => write!(
+                        f,
+                        "all positions of run {run} of the check are rotated by {x:+.2}, {y:+.2}, {z:+.2} arcsec about \
+                         {axes} relative to its other runs; the common rotation includes {of_x:+.2}, {of_y:+.2}, \
+                         {of_z:+.2} arcsec of it; measure the run again, or exclude it with --exclude {run} and --why"
+                    ),
+                    Pattern::Move(before, after) => write!(
+                        f,
+                        "the stand seems to have moved between runs {before} and {after} of the check: all positions \
+                         are rotated by {x:+.2}, {y:+.2}, {z:+.2} arcsec about {axes}; the common rotation is a mean \
+                         of both states; find the cause and measure again"
+                    ),
+                    Pattern::Drift => write!(
+                        f,
+                        "the stand seems to drift: from run to run of the check all positions rotate by {x:+.2}, \
+                         {y:+.2}, {z:+.2} arcsec about {axes}; the common rotation is that of the middle of the check; \
+                         find the cause and measure again"
+                    ),
+                };
             }
             Self::Outlier(Outlier { index, run, residual_arcsec: residual, axis, .. }, mean) => {
                 return write!(
@@ -135,7 +147,7 @@ impl Finding {
 
     /// Returns `true` for an outlier among the readings or the runs of a check, with which nothing is decided.
     pub(crate) fn is_outlier(&self) -> bool {
-        matches!(self, Self::Outlier(..)) || matches!(self, Self::BumpedRun(run) if run.probability < OUTLIER)
+        matches!(self, Self::Outlier(..)) || matches!(self, Self::RotatedRuns(run) if run.probability < OUTLIER)
     }
 
     /// Returns `true` for a change of the stand.
@@ -186,7 +198,7 @@ pub(super) fn findings(
     let suspect: Vec<Finding> = again.map_or_else(Vec::new, suspect);
     let explained = |at: &ComparedPosition| suspect.iter().any(|found| found.explains(at));
     findings.retain(|found| !matches!(found, Finding::Changed(at) if explained(at)));
-    let bumped = suspect.iter().any(|found| matches!(found, Finding::BumpedRun(_)) && found.is_outlier());
+    let bumped = suspect.iter().any(|found| matches!(found, Finding::RotatedRuns(_)) && found.is_outlier());
     // If no positions agree, there is no rotation that is common to them.
     let agree = positions.iter().any(|at| at.repeats);
     if agree && moved && !bumped {
@@ -215,5 +227,5 @@ fn suspect(check: &Certification) -> Vec<Finding> {
     let runs = check.runs.len() as f64;
     let outliers = check.suspects.outliers.iter().filter(|out| out.probability < OUTLIER);
     let outliers = outliers.map(|out| Finding::Outlier(*out, out.residual_arcsec / runs));
-    check.bumped_runs.iter().copied().map(Finding::BumpedRun).chain(outliers).collect()
+    check.rotated_runs.iter().copied().map(Finding::RotatedRuns).chain(outliers).collect()
 }

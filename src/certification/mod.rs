@@ -5,7 +5,7 @@
 //! * `components`: variance components (the positions' own scatter, and the part common to a run).
 //! * `deletion`: the fit without some of the readings.
 //! * `suspects`: positions that scatter more (Cochran), outliers (Grubbs), and runs that agree too well.
-//! * `bumped_runs`: runs rotated as a whole relative to the other runs (Grubbs).
+//! * `bumped_runs`: runs rotated as a whole relative to the other runs (Grubbs), moves and drifts of the stand.
 //! * `remark`: remarks for the signatory.
 //! * `compared`: values of the comparison of a later check run with the certificate.
 //! * `finding`: reasons for the result of that comparison, and its limits.
@@ -139,8 +139,8 @@ pub struct Certification {
     pub(crate) components: Components,
     /// Positions that scatter more than the others, outliers, and runs that agree too well.
     pub(crate) suspects: Suspects,
-    /// Runs rotated as a whole relative to the other runs, the least probable first.
-    pub(crate) bumped_runs: Vec<bumped_runs::BumpedRun>,
+    /// Runs rotated as a whole relative to the other runs, the least probable first, and a move or a drift of the stand.
+    pub(crate) rotated_runs: Vec<bumped_runs::RotatedRuns>,
     /// Remarks for the signatory of the certificate.
     pub(crate) remarks: Vec<Remark>,
     /// The remarks in words, a sentence each.
@@ -214,15 +214,15 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
         excluded: Some(readings.excluded.clone()).filter(|excluded| !excluded.is_empty()),
     };
     certificate.evidence = readings.sha256.as_deref().map(of_readings);
-    let bumped_runs = bumped_runs::bumped(header, readings, &components, &suspects.outliers);
-    let mut remarks: Vec<Remark> = bumped_runs.iter().copied().map(Remark::BumpedRun).collect();
+    let rotated_runs = bumped_runs::bumped(header, readings, &components, &suspects.outliers);
+    let mut remarks: Vec<Remark> = rotated_runs.iter().copied().map(Remark::RotatedRuns).collect();
     remarks.extend(Remark::of_suspects(&suspects, runs));
     remarks.extend(remarks_on(&components, runs.len(), &stand.positions));
     remarks.extend(remark_on_rounding(readings));
     remarks.extend(stand::remarks::of(&stand.certificate, &stand.positions).into_iter().map(Remark::Odd));
     let warnings = remarks.iter().map(ToString::to_string).collect();
     let (runs, repeated_rows) = (runs.to_vec(), readings.repeated_rows);
-    Ok(Certification { stand, runs, repeated_rows, components, suspects, bumped_runs, remarks, warnings })
+    Ok(Certification { stand, runs, repeated_rows, components, suspects, rotated_runs, remarks, warnings })
 }
 
 /// Replaces the angles of excluded readings by their predictions from all other readings (Yates' missing-plot

@@ -1,7 +1,7 @@
 //! Remarks for the signatory of a certificate, as values. Displayed, a remark is an English sentence without a full stop:
 //! the wording of the comments in a stand file. `report` has the words of other languages.
 
-use super::bumped_runs::BumpedRun;
+use super::bumped_runs::{Pattern, RotatedRuns};
 use super::suspects::{AXES, OUTLIER, Outlier, Suspects, WorsePosition};
 use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
@@ -14,8 +14,8 @@ pub(crate) enum Remark {
     Worse(WorsePosition),
     /// Reading that differs from those of the other runs.
     Outlier(Outlier),
-    /// Run that is rotated as a whole relative to the other runs.
-    BumpedRun(BumpedRun),
+    /// Runs that are rotated as a whole relative to the other runs.
+    RotatedRuns(RotatedRuns),
     /// Suspect reading in one of two runs, which do not show which one is wrong.
     TwoRuns(u32, u32),
     /// Single positions that were not compared, because a reading is suspect.
@@ -85,18 +85,34 @@ impl Display for Remark {
                     probability(out.probability)
                 )
             }
-            Self::BumpedRun(at) => {
-                let (run, [x, y, z], mean) = (at.run, at.turns_arcsec, at.largest_effect_arcsec());
-                write!(
-                    f,
-                    "{}: all positions of run {run} are rotated by {x:+.2}, {y:+.2}, {z:+.2} arcsec about {} relative to the \
-                     other runs (Grubbs' test: probability {}); it was not excluded, and changes certified angles by up to \
-                     {mean:.2} arcsec; find the cause, then measure the run again, or exclude it with --exclude {run} and \
-                     --why",
-                    grade(at.probability),
-                    at.axes(),
-                    probability(at.probability)
-                )
+            Self::RotatedRuns(at) => {
+                let ([x, y, z], axes, p) = (at.turns_arcsec, at.axes(), probability(at.probability));
+                match at.pattern {
+                    Pattern::One(run) => write!(
+                        f,
+                        "{}: all positions of run {run} are rotated by {x:+.2}, {y:+.2}, {z:+.2} arcsec about {axes} \
+                         relative to the other runs (Grubbs' test: probability {p}); it was not excluded, and changes \
+                         certified angles by up to {:.2} arcsec; find the cause, then measure the run again, or \
+                         exclude it with --exclude {run} and --why",
+                        grade(at.probability),
+                        at.largest_effect_arcsec()
+                    ),
+                    Pattern::Move(before, after) => write!(
+                        f,
+                        "the stand seems to have moved between runs {before} and {after}: all positions are rotated by \
+                         {x:+.2}, {y:+.2}, {z:+.2} arcsec about {axes} (Student's test of a step: probability {p}); no \
+                         run was excluded, and the certified angles are a mean of both states; find the cause and \
+                         measure again, or certify the runs from {after} on by themselves: exclude each earlier one \
+                         with --exclude and --why"
+                    ),
+                    Pattern::Drift => write!(
+                        f,
+                        "the stand seems to drift: from run to run all positions rotate by {x:+.2}, {y:+.2}, {z:+.2} \
+                         arcsec about {axes} (Student's test of a straight line: probability {p}); no run was \
+                         excluded, and the certified angles are those of the middle of the measurement; find the cause \
+                         and measure again"
+                    ),
+                }
             }
             Self::TwoRuns(one, other) => {
                 write!(f, "two runs do not show whether run {one} or run {other} is wrong; measure a third run")

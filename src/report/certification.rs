@@ -1,5 +1,6 @@
 //! Result of a certification, and of a check run, as text and as JSON.
 
+use crate::certification::bumped_runs::{FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
 use crate::certification::compared::Test;
 use crate::certification::comparison::Comparison;
 use crate::certification::components::{Common, Variance};
@@ -41,10 +42,18 @@ fn certification_json(found: &Certification) -> Value {
             "residual_arcsec": out.residual_arcsec, "probability": out.probability,
         })
     });
-    let bumped = found.bumped_runs.iter().map(|at| {
+    let bumped = found.rotated_runs.iter().filter_map(|at| {
+        Some(json!({
+            "run": at.run()?, "part": at.part(), "axis": at.axis_name(), "turn_arcsec": at.turn_arcsec(),
+            "turns_arcsec": at.turns_arcsec, "in_the_mean_arcsec": at.in_the_mean_arcsec()[at.axis % 3],
+            "probability": at.probability,
+        }))
+    });
+    let moved = found.rotated_runs.iter().find(|at| at.run().is_none()).map(|at| {
+        let runs = if let Pattern::Move(before, after) = at.pattern { Some([before, after]) } else { None };
         json!({
-            "run": at.run, "part": at.part(), "axis": at.axis_name(), "turn_arcsec": at.turn_arcsec(),
-            "turns_arcsec": at.turns_arcsec, "in_the_mean_arcsec": at.in_the_mean_arcsec()[at.axis % 3], "probability": at.probability,
+            "between_runs": runs, "part": at.part(), "axis": at.axis_name(), "turn_arcsec": at.turn_arcsec(),
+            "turns_arcsec": at.turns_arcsec, "probability": at.probability,
         })
     });
     json!({
@@ -61,6 +70,7 @@ fn certification_json(found: &Certification) -> Value {
         "worse_positions": found.suspects.worse,
         "outliers": out.collect::<Vec<_>>(),
         "bumped_runs": bumped.collect::<Vec<_>>(),
+        "moved": moved,
         "twins": found.suspects.twins,
         "warnings": found.warnings,
     })
@@ -167,8 +177,16 @@ fn tests(out: &mut String, found: &Certification) {
     let _ = writeln!(out, "Grubbs' test of {readings} angles: {named}");
     if found.runs.len() > 2 {
         let axes = 3 + found.components.base_axes;
-        let named = graded(found.bumped_runs.iter().map(|run| run.probability));
-        let _ = writeln!(out, "Grubbs' test of {} runs about {axes} axes: {named}", found.runs.len());
+        let (bumped, moved): (Vec<&RotatedRuns>, Vec<_>) = found.rotated_runs.iter().partition(|at| at.run().is_some());
+        let named = graded(bumped.iter().map(|at| at.probability));
+        let runs = found.runs.len();
+        let _ = writeln!(out, "Grubbs' test of {runs} runs about {axes} axes: {named}");
+        if runs >= FEWEST_RUNS_OF_A_MOVE {
+            let none = "none (below 5 %)".to_owned();
+            let named =
+                moved.first().map_or(none, |at| format!("probability {}", columns::probability(at.probability)));
+            let _ = writeln!(out, "Student's test of {runs} runs for a move or a drift of the stand: {named}");
+        }
     }
 }
 

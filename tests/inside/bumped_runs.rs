@@ -1,7 +1,7 @@
 //! A run that is rotated as a whole is named, whatever else is right or wrong in it; good runs are not.
 
 use crate::inside::simulated_stands::{Truth, header, normal};
-use dtg_passport::certification::bumped_runs::BumpedRun;
+use dtg_passport::certification::bumped_runs::{Pattern, RotatedRuns};
 use dtg_passport::certification::comparison::{Comparison, compare};
 use dtg_passport::certification::{AngleReadings, Certification, certify};
 use dtg_passport::coefficients::EIGHT_POSITIONS;
@@ -22,13 +22,25 @@ fn measured(
     of_runs: ([f64; 3], [f64; 3]),
     bumped: Option<(usize, [f64; 3], [f64; 3])>,
 ) -> AngleReadings {
+    let at = bumped.map_or(runs, |(at, ..)| at);
+    let [platform, base] = bumped.map_or([[0.0; 3]; 2], |(_, platform, base)| [platform, base]).map(Vector3::from);
+    in_order(truth, stream, runs, of_runs, |run| if run == at { [platform, base] } else { [Vector3::zeros(); 2] })
+}
+
+/// Returns readings whose runs are rotated as `rotation` says for each, about the axes of the platform and of the base.
+fn in_order(
+    truth: &Truth,
+    stream: &mut Stream,
+    runs: usize,
+    of_runs: ([f64; 3], [f64; 3]),
+    rotation: impl Fn(usize) -> [Vector3<f64>; 2],
+) -> AngleReadings {
     let mut each = vec![Vec::new(); 8];
     for run in 0..runs {
         let (mut platform, mut base) = (normal(stream, of_runs.0), normal(stream, of_runs.1));
-        if let Some((_, of_platform, of_base)) = bumped.filter(|(place, ..)| *place == run) {
-            platform += Vector3::from(of_platform);
-            base += Vector3::from(of_base);
-        }
+        let [of_platform, of_base] = rotation(run);
+        platform += of_platform;
+        base += of_base;
         for (place, (_, theta, phi)) in EIGHT_POSITIONS.iter().enumerate() {
             let own = normal(stream, truth.own);
             each[place].push(truth.read(place, *theta, *phi, platform + own, base));
@@ -43,25 +55,26 @@ fn found(readings: &AngleReadings) -> Certification {
     certify(&header(), readings).unwrap()
 }
 
-fn runs_of(found: &[BumpedRun]) -> Vec<(u32, usize)> {
-    found.iter().map(|at| (at.run, at.axis)).collect()
+fn runs_of(found: &[RotatedRuns]) -> Vec<(u32, usize)> {
+    found.iter().filter_map(|at| Some((at.run()?, at.axis))).collect()
 }
 
-/// Expected by hand: rotations of five runs about x of the platform 0, 1, 2, 3, 104, and none about the other axes. The
+/// Expected by hand: rotations of five runs about x of the platform 0, 2, 1, 3, 104, and none about the other axes. The
 /// last is 102.5 from the mean of the others, 20.5 of it in the mean of all. Their variance is 5/3, so Student's t is
 /// 102.5/√(5/3 · 5/4) = 71.01 with 3 degrees of freedom: P(|t| > 71.01) = 6.1536e-6 (SciPy, 2 stats.t.sf(71.014, 3)),
-/// times 5 runs and 2 groups of axes.
+/// times 2 groups of axes
+/// and 8 patterns: 5 runs, 2 moves with two runs or more on each side, and a drift.
 #[test]
 fn one_run_by_hand() {
     let quiet = Truth { angles_arcsec: [Vector3::zeros(); 8], ..Truth::new([1e-4; 3], 0.0, 0.0) };
     let measured = quiet.measured(&mut Stream::new(1), 5);
     let mut each = measured.each_arcsec.clone();
-    each.iter_mut().for_each(|runs| runs.iter_mut().zip([0.0, 1.0, 2.0, 3.0, 104.0]).for_each(|(at, x)| at.x += x));
+    each.iter_mut().for_each(|runs| runs.iter_mut().zip([0.0, 2.0, 1.0, 3.0, 104.0]).for_each(|(at, x)| at.x += x));
     let found = found(&AngleReadings::new(vec![1, 2, 3, 4, 5], each).unwrap());
-    let [at] = found.bumped_runs[..] else { panic!("{:?}", found.bumped_runs) };
-    assert_eq!((at.run, at.axis), (5, 0));
+    let [at] = found.rotated_runs[..] else { panic!("{:?}", found.rotated_runs) };
+    assert_eq!((at.run(), at.axis), (Some(5), 0));
     assert!((at.turn_arcsec() - 102.5).abs() < 1e-3 && (at.in_the_mean_arcsec()[0] - 20.5).abs() < 1e-3, "{at:?}");
-    assert!((at.probability / 6.1536e-5 - 1.0).abs() < 0.01, "{at:?}");
+    assert!((at.probability / 9.8458e-5 - 1.0).abs() < 0.01, "{at:?}");
     let words = &found.warnings[0];
     assert!(
         words.starts_with("outlier: all positions of run 5 are rotated by +102.50, ")
@@ -78,7 +91,7 @@ fn a_bumped_run_is_named() {
     for seed in 0..20 {
         let of = |runs, platform, base| {
             let mut stream = Stream::new(seed);
-            found(&measured(&truth(), &mut stream, runs, USUAL, Some((2, platform, base)))).bumped_runs
+            found(&measured(&truth(), &mut stream, runs, USUAL, Some((2, platform, base)))).rotated_runs
         };
         let platform = of(5, [300.0, 0.0, 0.0], [0.0; 3]);
         assert_eq!(runs_of(&platform), [(3, 0)], "{platform:?}");
@@ -105,10 +118,10 @@ fn a_wrong_reading_is_not_a_wrong_run() {
         };
         let reading = off(None);
         assert_eq!(reading.suspects.outliers[0].run, 3);
-        named += usize::from(!reading.bumped_runs.is_empty());
+        named += usize::from(!reading.rotated_runs.is_empty());
         let both = off(Some((2, [300.0, 0.0, 0.0], [0.0; 3])));
-        assert_eq!((both.suspects.outliers[0].run, runs_of(&both.bumped_runs)[0]), (3, (3, 0)));
-        others += both.bumped_runs.len() - 1;
+        assert_eq!((both.suspects.outliers[0].run, runs_of(&both.rotated_runs)[0]), (3, (3, 0)));
+        others += both.rotated_runs.len() - 1;
     }
     // Nominal: 5 of 100 each.
     assert!(named <= 10 && others <= 10, "{named}, {others} of 100");
@@ -118,11 +131,11 @@ fn a_wrong_reading_is_not_a_wrong_run() {
 #[test]
 fn good_runs_are_rarely_named() {
     for (what, of_runs) in [("equal", USUAL), ("unequal", ([1.0, 1.0, 10.0], [1.0, 1.0, 10.0]))] {
-        for runs in [3, 5] {
+        for runs in [3, 4, 5, 6] {
             let mut stream = Stream::new(31);
             let mut named = [0; 2];
             for _ in 0..1000 {
-                let found = found(&measured(&truth(), &mut stream, runs, of_runs, None)).bumped_runs;
+                let found = found(&measured(&truth(), &mut stream, runs, of_runs, None)).rotated_runs;
                 named[0] += u32::from(!found.is_empty());
                 named[1] += u32::from(found.iter().any(|run| run.probability < 0.01));
             }
@@ -150,8 +163,8 @@ fn oblique_bumps_are_named() {
                 let [platform, base] = if seed % 2 == 0 { [bump, Vector3::zeros()] } else { [Vector3::zeros(), bump] };
                 let readings =
                     measured(&truth(), &mut Stream::new(seed), 5, USUAL, Some((1, platform.into(), base.into())));
-                let found = found(&readings).bumped_runs;
-                let Some(at) = found.iter().find(|at| at.run == 2) else { continue };
+                let found = found(&readings).rotated_runs;
+                let Some(at) = found.iter().find(|at| at.run() == Some(2)) else { continue };
                 let off = Vector3::from(at.turns_arcsec) - bump;
                 assert_eq!(at.is_of_the_base(), seed % 2 == 1, "{at:?}");
                 assert!(off.amax() < 7.0 * 2.4 + 0.02 * size * 1.8, "{at:?}: {off}");
@@ -170,7 +183,7 @@ fn of_100_bumped_runs() {
         let named = [20.0, 60.0, 300.0].map(|bump| {
             let mut stream = Stream::new(32);
             let mut of = || found(&measured(&truth(), &mut stream, runs, USUAL, Some((1, [bump, 0.0, 0.0], [0.0; 3]))));
-            (0..100).filter(|_| runs_of(&of().bumped_runs).contains(&(2, 0))).count()
+            (0..100).filter(|_| runs_of(&of().rotated_runs).contains(&(2, 0))).count()
         });
         println!("{runs} runs: of 100 with a run bumped by 20″, 60″, 300″ {named:?} name it");
         if runs == 5 {
@@ -179,6 +192,83 @@ fn of_100_bumped_runs() {
             assert!(named[2] >= 80, "{named:?}");
         }
     }
+}
+
+/// Returns a random unit vector.
+fn direction(stream: &mut Stream) -> Vector3<f64> {
+    normal(stream, [1.0; 3]).normalize()
+}
+
+const SMALL: ([f64; 3], [f64; 3]) = ([1.0; 3], [1.0; 3]);
+
+/// docs/figures.md: a stand that moves for good between two runs is named with the runs and the rotation.
+#[test]
+fn a_move_is_named_once() {
+    for (runs, moved) in [(4, 2), (5, 2), (6, 3)] {
+        let named = [20.0, 60.0, 300.0].map(|size| {
+            let mut stream = Stream::new(33);
+            let mut of = || {
+                let [turn, zero] = [direction(&mut stream) * size, Vector3::zeros()];
+                let base = |run| if run >= runs - moved { [zero, turn] } else { [zero; 2] };
+                let readings = in_order(&Truth::new([1.0; 3], 1.0, 1.0), &mut stream, runs, SMALL, base);
+                let found = found(&readings);
+                let last = (runs - moved) as u32;
+                let [at] = found.rotated_runs[..] else { return false };
+                if at.pattern != Pattern::Move(last, last + 1) || !at.is_of_the_base() {
+                    return false;
+                }
+                let words = &found.warnings[0];
+                assert!(words.contains(&format!("moved between runs {last} and {}", last + 1)), "{words}");
+                // 7 u of a difference of means of two runs, √(1 + 1/8), and the second order at a degree, 0.02.
+                let off = (Vector3::from(at.turns_arcsec) - turn).amax();
+                assert!(off < 7.0 * 1.06 + 0.02 * size * 1.8, "{at:?}: {off}");
+                true
+            };
+            (0..100).filter(|_| of()).count()
+        });
+        println!("{runs} runs, the last {moved} moved by 20″, 60″, 300″: of 100 {named:?} name the move");
+        assert!(named[1] >= 90 && named[2] == 100 && (runs == 4 || named[0] >= 80), "{runs}: {named:?}");
+    }
+}
+
+/// docs/figures.md: a stand that rotates by the same amount from run to run.
+#[test]
+fn a_drift_is_named() {
+    let named = [1.0, 2.0, 4.0, 8.0].map(|rate| {
+        let mut stream = Stream::new(34);
+        let mut of = || {
+            let drift = |run| [Vector3::z() * rate * run as f64, Vector3::zeros()];
+            let found = found(&in_order(&Truth::new([1.0; 3], 1.0, 1.0), &mut stream, 6, SMALL, drift)).rotated_runs;
+            match found[..] {
+                [at] if at.pattern == Pattern::Drift => {
+                    // 5 u of a slope, √((1 + 1/8)/17.5) with Σ (run − mean)² = 17.5.
+                    assert!(at.axis == 2 && (at.turn_arcsec() - rate).abs() < 5.0 * 0.254, "{at:?}");
+                    true
+                }
+                _ => false,
+            }
+        };
+        (0..100).filter(|_| of()).count()
+    });
+    println!("6 runs: of 100 with a drift of 1″, 2″, 4″, 8″ per run {named:?} name it");
+    assert!(named[2] >= 80 && named[3] >= 95, "{named:?}");
+}
+
+/// Expected by hand: rotations 0, 1, 100, 101 about z of the platform: the step after the second run is 100. It leaves
+/// residuals of ±1/2, a variance of 1/2 with 2 degrees of freedom, and t is 100/√(1/2) = √20000:
+/// P(|t| > √20000) = 1 − √(20000/20002) = 4.99963e-5 (closed form for 2 degrees of freedom), times 2 groups of axes and 6
+/// patterns: 4 runs, a move and a drift.
+#[test]
+fn a_move_by_hand() {
+    let quiet = Truth { angles_arcsec: [Vector3::zeros(); 8], ..Truth::new([1e-4; 3], 0.0, 0.0) };
+    let mut each = quiet.measured(&mut Stream::new(1), 4).each_arcsec;
+    each.iter_mut().for_each(|runs| runs.iter_mut().zip([0.0, 1.0, 100.0, 101.0]).for_each(|(at, z)| at.z += z));
+    // A second session is numbered from where it likes.
+    let found = found(&AngleReadings::new(vec![1, 2, 5, 6], each).unwrap()).rotated_runs;
+    let [at] = found[..] else { panic!("{found:?}") };
+    assert_eq!((at.pattern, at.axis), (Pattern::Move(2, 5), 2), "{at:?}");
+    assert!((at.turn_arcsec() - 100.0).abs() < 1e-3, "{at:?}");
+    assert!((at.probability / (12.0 * 4.99963e-5) - 1.0).abs() < 0.01, "{at:?}");
 }
 
 fn against(certificate: &Stand, readings: &AngleReadings) -> Comparison {
@@ -199,6 +289,25 @@ fn a_check_with_an_oblique_bump_is_not_the_same_stand() {
         assert!(!check.words.iter().any(|words| words.contains("datum surface")), "{:?}", check.words);
         assert!(check.words[0].starts_with("all positions of run 2 of the check are rotated by"), "{:?}", check.words);
         assert!(check.words[0].contains("about east, north, up of the base"), "{:?}", check.words);
+    }
+}
+
+/// A stand that moved during the check by much more than it repeats is not the same stand.
+#[test]
+fn a_check_with_a_move_is_not_the_same_stand() {
+    for seed in 0..20 {
+        let mut stream = Stream::new(seed);
+        let mut certificate = found(&measured(&truth(), &mut stream, 5, USUAL, None)).stand;
+        certificate.certificate.evidence = Some(Evidence { readings_sha256: "0".repeat(64), runs: 5, excluded: None });
+        let base = |run| [Vector3::zeros(), Vector3::repeat(if run < 3 { 0.0 } else { 173.0 })];
+        let check = against(&certificate, &in_order(&truth(), &mut stream, 5, USUAL, base));
+        assert!(!check.same_stand, "{:?}", check.common);
+        assert!(
+            check.words[0].starts_with("the stand seems to have moved between runs 3 and 4 of the check"),
+            "{:?}",
+            check.words
+        );
+        assert!(!check.words.iter().any(|words| words.contains("datum surface")), "{:?}", check.words);
     }
 }
 

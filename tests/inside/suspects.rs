@@ -178,7 +178,7 @@ fn numbers(text: &str) -> Vec<String> {
 #[cfg(feature = "report")]
 fn a_remark_says_the_same_in_both_languages() {
     use crate::inside::language::{LATIN_IN_RUSSIAN, cyrillic, latin_words};
-    use dtg_passport::certification::bumped_runs::BumpedRun;
+    use dtg_passport::certification::bumped_runs::{Pattern, RotatedRuns};
     use dtg_passport::certification::remark::Remark;
     use dtg_passport::certification::suspects::{Outlier, WorsePosition};
     use dtg_passport::coefficients::PositionIndex;
@@ -186,15 +186,20 @@ fn a_remark_says_the_same_in_both_languages() {
     use dtg_passport::report::page::certification::remarks::words;
     use dtg_passport::stand::remarks::Odd;
     let index = PositionIndex { i: 2, j: 3 };
-    let bumped = |axis| BumpedRun { run: 3, axis, turns_arcsec: [-299.4, 12.5, 0.75], runs: 5, probability: 2.5e-6 };
+    let rotated = |pattern, axis| {
+        let turns_arcsec = [-299.4, 12.5, 0.75];
+        Remark::RotatedRuns(RotatedRuns { pattern, axis, turns_arcsec, runs: 5, probability: 2.5e-6 })
+    };
     let outlier = |line| Outlier { index, run: 4, line, axis: 1, residual_arcsec: -14.25, probability: 2.5e-3 };
     let remarks = [
         Remark::Worse(WorsePosition { index, place: 6, ratio: 2.25, probability: 0.031 }),
         Remark::Outlier(outlier(None)),
         Remark::Outlier(outlier(Some(17))),
         Remark::TwoRuns(1, 2),
-        Remark::BumpedRun(bumped(0)),
-        Remark::BumpedRun(bumped(4)),
+        rotated(Pattern::One(3), 0),
+        rotated(Pattern::One(3), 4),
+        rotated(Pattern::Move(3, 4), 0),
+        rotated(Pattern::Drift, 4),
         Remark::NotCompared,
         Remark::Twins(3, 5),
         Remark::AxesDiffer(0.0021),
@@ -221,6 +226,6 @@ fn a_remark_says_the_same_in_both_languages() {
         assert!(least.iter().all(|number| ru.contains(number)), "{en}: {ru:?}");
     }
     // Expected: 1/√(2·6) = 0.2887 (GUM, E.4.3).
-    assert!(words(&remarks[9], Language::Russian).contains("29\u{a0}%"));
+    assert!(words(&remarks[11], Language::Russian).contains("29\u{a0}%"));
     assert!(words(&remarks[1], Language::Russian).contains("\u{2212}14,25″"));
 }

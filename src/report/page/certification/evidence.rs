@@ -1,6 +1,7 @@
 //! Evidence for a certificate: readings, exclusions, components of the uncertainty, tests.
 
 use super::{CertificationPage, remarks};
+use crate::certification::bumped_runs::Pattern;
 use crate::certification::components::{Common, Variance};
 use crate::certification::suspects::AXES;
 use crate::report::page::language::{Languages, Text};
@@ -134,10 +135,17 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
         });
         (name, Some(Number::fixed(out.residual_arcsec, 2)), None, Some(out.probability))
     }));
-    found.extend(page.certification.bumped_runs.iter().map(|at| {
-        let of = if at.is_of_the_base() { texts::GRUBBS_BASE } else { texts::GRUBBS_PLATFORM };
+    found.extend(page.certification.rotated_runs.iter().map(|at| {
+        let (of, run) = match (at.pattern, at.is_of_the_base()) {
+            (Pattern::One(run), true) => (texts::GRUBBS_BASE, run),
+            (Pattern::One(run), false) => (texts::GRUBBS_PLATFORM, run),
+            (Pattern::Move(run, _), true) => (texts::MOVE_BASE, run),
+            (Pattern::Move(run, _), false) => (texts::MOVE_PLATFORM, run),
+            (Pattern::Drift, true) => (texts::DRIFT_BASE, 0),
+            (Pattern::Drift, false) => (texts::DRIFT_PLATFORM, 0),
+        };
         let name = languages.label_with(|language| {
-            of.filled(language, &[("run", &at.run), ("axis", &remarks::axis_of_run(at, language))])
+            of.filled(language, &[("run", &run), ("axis", &remarks::axis_of_run(at, language))])
         });
         (name, Some(Number::fixed(at.turn_arcsec(), 2)), None, Some(at.probability))
     }));

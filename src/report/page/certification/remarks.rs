@@ -2,7 +2,7 @@
 
 use crate::attitude::ANGLES;
 use crate::calibration::recorded::rounding_of;
-use crate::certification::bumped_runs::BumpedRun;
+use crate::certification::bumped_runs::{Pattern, RotatedRuns};
 use crate::certification::compared::ComparedPosition;
 use crate::certification::finding::{Finding, Untested};
 use crate::certification::misread::Misread;
@@ -45,10 +45,17 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
                 &[("index", &out.index), ("run", &out.run), ("residual", &residual), ("axis", &axis), ("line", &line)],
             )
         }
-        Remark::BumpedRun(at) => {
-            let text = if at.is_of_the_base() { texts::BUMPED_RUN_BASE } else { texts::BUMPED_RUN_PLATFORM };
+        Remark::RotatedRuns(at) => {
             let ([x, y, z], mean) = (at.turns_arcsec.map(|turn| fixed(turn, 2)), fixed(at.largest_effect_arcsec(), 2));
-            suspect(text, at.probability, &[("run", &at.run), ("x", &x), ("y", &y), ("z", &z), ("mean", &mean)])
+            let (text, run, after) = match at.pattern {
+                Pattern::One(run) => (texts::BUMPED_RUN, run, 0),
+                Pattern::Move(before, after) => (texts::MOVED, before, after),
+                Pattern::Drift => (texts::DRIFTS, 0, 0),
+            };
+            let axes = axes_of(at, language);
+            let values: [(&str, &dyn Display); 7] =
+                [("run", &run), ("after", &after), ("x", &x), ("y", &y), ("z", &z), ("axes", &axes), ("mean", &mean)];
+            suspect(text, at.probability, &values)
         }
         Remark::TwoRuns(one, other) => fill(texts::TWO_RUNS, &[("one", one), ("other", other)]),
         Remark::NotCompared => fill(texts::NOT_COMPARED, &[]),
@@ -83,7 +90,7 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
 }
 
 /// Returns the name of the axis about which a run is rotated, without platform or base.
-pub(super) fn axis_of_run(at: &BumpedRun, language: Language) -> String {
+pub(super) fn axis_of_run(at: &RotatedRuns, language: Language) -> String {
     match at.axis {
         axis @ 0..3 => AXES[axis].to_owned(),
         axis => [compass::EAST, compass::NORTH, compass::UP][axis - 3].words(language),
@@ -108,6 +115,11 @@ fn misread_words(misread: &Misread, language: Language) -> String {
     }
 }
 
+/// Returns the names of the three axes with platform or base.
+fn axes_of(at: &RotatedRuns, language: Language) -> String {
+    if at.is_of_the_base() { texts::AXES_OF_BASE } else { texts::AXES_OF_PLATFORM }.words(language)
+}
+
 /// Returns a finding of a comparison with the last certificate as a sentence.
 pub(crate) fn finding(finding: &Finding, language: Language) -> String {
     let arcsec = |value: f64| Number::fixed(value, 2).text(language);
@@ -117,12 +129,26 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
             let values: [(&str, &dyn Display); 4] = [("index", index), ("x", &x), ("y", &y), ("z", &z)];
             return texts::POSITION_CHANGED.filled(language, &values);
         }
-        Finding::BumpedRun(at) => {
+        Finding::RotatedRuns(at) => {
             let [x, y, z] = at.turns_arcsec.map(arcsec);
             let [of_x, of_y, of_z] = at.in_the_mean_arcsec().map(arcsec);
-            let text = if at.is_of_the_base() { texts::CHECK_BUMPED_BASE } else { texts::CHECK_BUMPED_PLATFORM };
-            let values: [(&str, &dyn Display); 7] =
-                [("run", &at.run), ("x", &x), ("y", &y), ("z", &z), ("of_x", &of_x), ("of_y", &of_y), ("of_z", &of_z)];
+            let (text, run, after) = match at.pattern {
+                Pattern::One(run) => (texts::CHECK_BUMPED, run, 0),
+                Pattern::Move(before, after) => (texts::CHECK_MOVED, before, after),
+                Pattern::Drift => (texts::CHECK_DRIFTS, 0, 0),
+            };
+            let axes = axes_of(at, language);
+            let values: [(&str, &dyn Display); 9] = [
+                ("run", &run),
+                ("after", &after),
+                ("axes", &axes),
+                ("x", &x),
+                ("y", &y),
+                ("z", &z),
+                ("of_x", &of_x),
+                ("of_y", &of_y),
+                ("of_z", &of_z),
+            ];
             return text.filled(language, &values);
         }
         Finding::Outlier(out, mean) => {

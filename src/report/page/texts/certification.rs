@@ -77,6 +77,22 @@ texts! {
         en: "Grubbs: run {run}, base about {axis}, rotation, ″",
         ru: "Граббса: серия {run}, основание, ось «{axis}», поворот, ″"
     }
+    MOVE_PLATFORM {
+        en: "Student: move after run {run}, platform about {axis}, rotation, ″",
+        ru: "Стьюдента: смещение после серии {run}, платформа вокруг {axis}, поворот, ″"
+    }
+    MOVE_BASE {
+        en: "Student: move after run {run}, base about {axis}, rotation, ″",
+        ru: "Стьюдента: смещение после серии {run}, основание, ось «{axis}», поворот, ″"
+    }
+    DRIFT_PLATFORM {
+        en: "Student: drift, platform about {axis}, rotation from run to run, ″",
+        ru: "Стьюдента: дрейф, платформа вокруг {axis}, поворот от серии к серии, ″"
+    }
+    DRIFT_BASE {
+        en: "Student: drift, base about {axis}, rotation from run to run, ″",
+        ru: "Стьюдента: дрейф, основание, ось «{axis}», поворот от серии к серии, ″"
+    }
     NO_OUTLIER {
         en: "Grubbs: no straggler or outlier (5 %) among {count} angles",
         ru: "Граббса: среди показаний углов ({count}) нет ни квазивыбросов, ни выбросов (5 %)"

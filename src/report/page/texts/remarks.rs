@@ -23,18 +23,30 @@ texts! {
         ru: "{grade}: положение {index}, серия {run} (строка {line} файла показаний), отличие от других серий \
              {residual}″ вокруг {axis} (критерий Граббса, p = {p}). Показание не исключено."
     }
-    BUMPED_RUN_PLATFORM {
-        en: "{grade}: all positions of run {run} are rotated by {x}″, {y}″, {z}″ about x, y, z of the platform relative to \
-             the other runs (Grubbs’ test, p = {p}). The run was not excluded; it changes certified angles by up to {mean}″.",
-        ru: "{grade}: все положения серии {run} повёрнуты относительно других серий на {x}″, {y}″, {z}″ вокруг осей x, y, z \
-             платформы (критерий Граббса, p = {p}). Серия не исключена; она изменяет аттестованные отклонения не более чем на {mean}″."
+    AXES_OF_PLATFORM { en: "x, y, z of the platform", ru: "осей x, y, z платформы" }
+    AXES_OF_BASE { en: "east, north, up of the base", ru: "осей основания «восток», «север», «верх»" }
+    BUMPED_RUN {
+        en: "{grade}: all positions of run {run} are rotated by {x}″, {y}″, {z}″ about {axes} relative to the other \
+             runs (Grubbs’ test, p = {p}). The run was not excluded; it changes certified angles by up to {mean}″.",
+        ru: "{grade}: все положения серии {run} повёрнуты относительно других серий на {x}″, {y}″, {z}″ вокруг {axes} \
+             (критерий Граббса, p = {p}). Серия не исключена; она изменяет аттестованные отклонения не более чем на \
+             {mean}″."
     }
-    BUMPED_RUN_BASE {
-        en: "{grade}: all positions of run {run} are rotated by {x}″, {y}″, {z}″ about east, north, up of the base relative \
-             to the other runs (Grubbs’ test, p = {p}). The run was not excluded; it changes certified angles by up to {mean}″.",
-        ru: "{grade}: все положения серии {run} повёрнуты относительно других серий на {x}″, {y}″, {z}″ вокруг осей \
-             основания «восток», «север», «вверх» (критерий Граббса, p = {p}). Серия не исключена; она изменяет \
-             аттестованные отклонения не более чем на {mean}″."
+    MOVED {
+        en: "The stand seems to have moved between runs {run} and {after}: all positions are rotated by {x}″, {y}″, \
+             {z}″ about {axes} (Student’s test of a step, p = {p}). No run was excluded; the certified angles are a \
+             mean of both states.",
+        ru: "По-видимому, между сериями {run} и {after} стенд сместился: все положения повёрнуты на {x}″, {y}″, {z}″ \
+             вокруг {axes} (критерий Стьюдента для скачка, p = {p}). Серии не исключены; аттестованные отклонения — \
+             среднее по обоим состояниям."
+    }
+    DRIFTS {
+        en: "The stand seems to drift: from run to run all positions rotate by {x}″, {y}″, {z}″ about {axes} \
+             (Student’s test of a straight line, p = {p}). No run was excluded; the certified angles are those of the \
+             middle of the measurement.",
+        ru: "По-видимому, стенд дрейфует: от серии к серии все положения поворачиваются на {x}″, {y}″, {z}″ вокруг \
+             {axes} (критерий Стьюдента для прямой, p = {p}). Серии не исключены; аттестованные отклонения относятся к \
+             середине измерений."
     }
     TWO_RUNS {
         en: "Two runs do not show whether run {one} or run {other} is wrong; a third run is needed.",
@@ -153,17 +165,23 @@ texts! {
         en: "The common rotation of all positions is slightly larger than chance explains; more runs are needed.",
         ru: "Общий поворот всех положений несколько больше случайного; требуются дополнительные серии."
     }
-    CHECK_BUMPED_PLATFORM {
-        en: "All positions of run {run} of the check are rotated by {x}″, {y}″, {z}″ about x, y, z of the platform \
-             relative to its other runs; the common rotation includes {of_x}″, {of_y}″, {of_z}″ of it.",
-        ru: "Все положения контрольной серии {run} повёрнуты относительно других серий на {x}″, {y}″, {z}″ вокруг осей \
-             x, y, z платформы; в общий поворот вошли {of_x}″, {of_y}″, {of_z}″."
+    CHECK_BUMPED {
+        en: "All positions of run {run} of the check are rotated by {x}″, {y}″, {z}″ about {axes} relative to its \
+             other runs; the common rotation includes {of_x}″, {of_y}″, {of_z}″ of it.",
+        ru: "Все положения контрольной серии {run} повёрнуты относительно других серий на {x}″, {y}″, {z}″ вокруг \
+             {axes}; в общий поворот вошли {of_x}″, {of_y}″, {of_z}″."
     }
-    CHECK_BUMPED_BASE {
-        en: "All positions of run {run} of the check are rotated by {x}″, {y}″, {z}″ about east, north, up of the base \
-             relative to its other runs; the common rotation includes {of_x}″, {of_y}″, {of_z}″ of it.",
-        ru: "Все положения контрольной серии {run} повёрнуты относительно других серий на {x}″, {y}″, {z}″ вокруг осей \
-             основания «восток», «север», «вверх»; в общий поворот вошли {of_x}″, {of_y}″, {of_z}″."
+    CHECK_MOVED {
+        en: "The stand seems to have moved between runs {run} and {after} of the check: all positions are rotated by \
+             {x}″, {y}″, {z}″ about {axes}; the common rotation is a mean of both states.",
+        ru: "По-видимому, между контрольными сериями {run} и {after} стенд сместился: все положения повёрнуты на {x}″, \
+             {y}″, {z}″ вокруг {axes}; общий поворот — среднее по обоим состояниям."
+    }
+    CHECK_DRIFTS {
+        en: "The stand seems to drift: from run to run of the check all positions rotate by {x}″, {y}″, {z}″ about \
+             {axes}; the common rotation is that of the middle of the check.",
+        ru: "По-видимому, стенд дрейфует: от одной контрольной серии к другой все положения поворачиваются на {x}″, \
+             {y}″, {z}″ вокруг {axes}; общий поворот относится к середине проверки."
     }
     CHECK_OUTLIER {
         en: "The reading of position {index} in run {run} of the check differs by {residual}″ about {axis} from its other \
