@@ -19,7 +19,7 @@
 use super::components::{Components, RunModel, RunTurn};
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
 use super::{AngleReadings, Header, turns_of};
-use crate::statistics::outlier::bonferroni_student;
+use crate::statistics::outlier::{bonferroni_student, cochran_probability};
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -161,6 +161,82 @@ fn left_squares(mut turns: Vec<Turn>, rotated: &[RotatedRuns]) -> ([f64; 6], usi
     fits.retain(|fit| fit.pattern.is_in_order() && rotated.iter().any(|at| at.pattern == fit.pattern));
     let rest = |axis| squares(&turns, axis) - fits.iter().map(|fit| fit.squares(axis)).sum::<f64>();
     (std::array::from_fn(|axis| rest(axis).max(0.0)), turns.len() - 1 - fits.len())
+}
+
+/// Axis about which the runs rotate more than about the other two of platform or base.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct UnequalAxis {
+    /// Axis: 0, 1, 2 for x, y, z of the platform, 3, 4, 5 for east, north, up of the base.
+    pub axis: usize,
+    /// Standard deviation from run to run about that axis, arcsec.
+    pub deviation_arcsec: f64,
+    /// Standard deviation from run to run about the other two axes, arcsec.
+    pub others_arcsec: f64,
+    /// Standard uncertainty of type B that brings the pooled common part to that of the axis, arcsec.
+    pub missing_arcsec: f64,
+    /// Probability that an axis of platform or base stands out this much by chance.
+    pub probability: f64,
+}
+
+impl UnequalAxis {
+    /// Returns `true` for a rotation of the base, `false` for one of the platform.
+    pub(crate) fn is_of_the_base(&self) -> bool {
+        self.axis >= 3
+    }
+
+    /// Returns the part that is rotated.
+    pub(crate) fn part(&self) -> &'static str {
+        if self.is_of_the_base() { "base" } else { "platform" }
+    }
+
+    /// Returns the name of the axis, without platform or base.
+    pub(crate) fn axis_name(&self) -> &'static str {
+        [AXES, COMPASS].as_flattened()[self.axis]
+    }
+}
+
+/// Returns the axes about which the runs, without what is named in `rotated`, rotate more than about the other two: the
+/// common parts are pooled from three axes, and too small about such an axis (Cochran's test).
+pub(crate) fn unequal_axes(
+    header: &Header,
+    readings: &AngleReadings,
+    components: &Components,
+    outliers: &[Outlier],
+    rotated: &[RotatedRuns],
+) -> Vec<UnequalAxis> {
+    let Some(model) = RunModel::new(&turns_of(header, readings)) else { return Vec::new() };
+    let (squares, changes) = left_squares(without(header, readings, components, outliers), rotated);
+    let changes = changes as f64;
+    // Axes of the base that cannot be distinguished from the platform do not vary, so the others cannot be compared.
+    let groups = &[0..3, 3..6][..if components.base_axes == 3 { 2 } else { 1 }];
+    let unequal = |axes: &Range<usize>| {
+        // The scatter of visits varies the rotations too, by an amount that may differ from axis to axis.
+        let of_scatter = |at: usize| {
+            let row = if at < 3 {
+                model.solve.row(at).into_owned()
+            } else {
+                model.base_axes.row(at - 3) * model.solve.rows(3, 3)
+            };
+            row.iter()
+                .enumerate()
+                .map(|(row, share)| share * share * components.own_arcsec2[row % 3].value)
+                .sum::<f64>()
+        };
+        let parts: Vec<(f64, f64)> = axes.clone().map(|at| (squares[at] / changes, of_scatter(at))).collect();
+        let between = parts.iter().map(|(seen, scatter)| seen - scatter).sum::<f64>().max(0.0) / 3.0;
+        let relative: Vec<(f64, f64)> = parts.iter().map(|(seen, of)| (seen / (between + of), changes)).collect();
+        let worst = (0..3).max_by(|a, b| relative[*a].0.total_cmp(&relative[*b].0))?;
+        let (seen, scatter) = parts[worst];
+        let own = (seen - scatter).max(0.0);
+        Some(UnequalAxis {
+            axis: axes.start + worst,
+            deviation_arcsec: own.sqrt(),
+            others_arcsec: ((3.0 * between - own) / 2.0).max(0.0).sqrt(),
+            missing_arcsec: ((own - between).max(0.0) / readings.runs.len() as f64).sqrt(),
+            probability: (groups.len() as f64 * cochran_probability(&relative, worst)).min(1.0),
+        })
+    };
+    groups.iter().filter_map(unequal).filter(|at| at.probability < OUTLIER).collect()
 }
 
 fn turns(components: &Components) -> Vec<Turn> {

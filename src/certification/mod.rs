@@ -141,6 +141,8 @@ pub struct Certification {
     pub(crate) suspects: Suspects,
     /// Runs rotated as a whole relative to the other runs, the least probable first, and a move or a drift of the stand.
     pub(crate) rotated_runs: Vec<bumped_runs::RotatedRuns>,
+    /// Axes about which the runs rotate more than about the others.
+    pub(crate) unequal_axes: Vec<bumped_runs::UnequalAxis>,
     /// Remarks for the signatory of the certificate.
     pub(crate) remarks: Vec<Remark>,
     /// The remarks in words, a sentence each.
@@ -215,14 +217,26 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     };
     certificate.evidence = readings.sha256.as_deref().map(of_readings);
     let rotated_runs = bumped_runs::bumped(header, readings, &components, &suspects.outliers);
+    let unequal_axes = bumped_runs::unequal_axes(header, readings, &components, &suspects.outliers, &rotated_runs);
     let mut remarks: Vec<Remark> = rotated_runs.iter().copied().map(Remark::RotatedRuns).collect();
     remarks.extend(Remark::of_suspects(&suspects, runs));
+    remarks.extend(unequal_axes.iter().copied().map(Remark::RunAxesDiffer));
     remarks.extend(remarks_on(&components, runs.len(), &stand.positions));
     remarks.extend(remark_on_rounding(readings));
     remarks.extend(stand::remarks::of(&stand.certificate, &stand.positions).into_iter().map(Remark::Odd));
     let warnings = remarks.iter().map(ToString::to_string).collect();
     let (runs, repeated_rows) = (runs.to_vec(), readings.repeated_rows);
-    Ok(Certification { stand, runs, repeated_rows, components, suspects, rotated_runs, remarks, warnings })
+    Ok(Certification {
+        stand,
+        runs,
+        repeated_rows,
+        components,
+        suspects,
+        rotated_runs,
+        unequal_axes,
+        remarks,
+        warnings,
+    })
 }
 
 /// Replaces the angles of excluded readings by their predictions from all other readings (Yates' missing-plot

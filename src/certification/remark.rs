@@ -1,7 +1,7 @@
 //! Remarks for the signatory of a certificate, as values. Displayed, a remark is an English sentence without a full stop:
 //! the wording of the comments in a stand file. `report` has the words of other languages.
 
-use super::bumped_runs::{Pattern, RotatedRuns};
+use super::bumped_runs::{Pattern, RotatedRuns, UnequalAxis};
 use super::suspects::{AXES, OUTLIER, Outlier, Suspects, WorsePosition};
 use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
@@ -24,6 +24,8 @@ pub(crate) enum Remark {
     Twins(u32, u32),
     /// Variances about x, y and z that differ, with the probability of Bartlett's test.
     AxesDiffer(f64),
+    /// Axis about which whole runs rotate more than about the others.
+    RunAxesDiffer(UnequalAxis),
     /// Number of runs that is small, and the degrees of freedom of the common part.
     FewRuns { runs: usize, degrees_of_freedom: usize },
     /// Number of axes of the base, 0 to 2, about which a rotation can be distinguished from one of the platform.
@@ -132,6 +134,20 @@ impl Display for Remark {
                  pooled from all three, which is too large for one axis and too small for another",
                 probability(*p)
             ),
+            Self::RunAxesDiffer(at) => {
+                let (part, axis) = (at.part(), at.axis_name());
+                write!(
+                    f,
+                    "from run to run the {part} rotates by {:.2} arcsec about {axis} and by {:.2} arcsec about its \
+                     other two axes (Cochran's test: probability {}); common_{part}_arcsec is pooled from all three, \
+                     which is too small about {axis}; state a line of type_b that acts on the {part}, of {:.2} arcsec, \
+                     or find the cause and measure again",
+                    at.deviation_arcsec,
+                    at.others_arcsec,
+                    probability(at.probability),
+                    at.missing_arcsec
+                )
+            }
             Self::FewRuns { runs, degrees_of_freedom } => write!(
                 f,
                 "{runs} runs are few: the common part of a run has only {degrees_of_freedom} degrees of freedom, so its \

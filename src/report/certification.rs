@@ -56,6 +56,13 @@ fn certification_json(found: &Certification) -> Value {
             "turns_arcsec": at.turns_arcsec, "probability": at.probability,
         })
     });
+    let unequal = found.unequal_axes.iter().map(|at| {
+        json!({
+            "part": at.part(), "axis": at.axis_name(), "between_runs_arcsec": at.deviation_arcsec,
+            "other_axes_arcsec": at.others_arcsec, "missing_type_b_arcsec": at.missing_arcsec,
+            "probability": at.probability,
+        })
+    });
     json!({
         "stand": File(found.stand.clone()).write().unwrap_or(Node::Null),
         "runs": found.runs,
@@ -71,6 +78,7 @@ fn certification_json(found: &Certification) -> Value {
         "outliers": out.collect::<Vec<_>>(),
         "bumped_runs": bumped.collect::<Vec<_>>(),
         "moved": moved,
+        "unequal_axes": unequal.collect::<Vec<_>>(),
         "twins": found.suspects.twins,
         "warnings": found.warnings,
     })

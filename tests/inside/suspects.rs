@@ -178,7 +178,7 @@ fn numbers(text: &str) -> Vec<String> {
 #[cfg(feature = "report")]
 fn a_remark_says_the_same_in_both_languages() {
     use crate::inside::language::{LATIN_IN_RUSSIAN, cyrillic, latin_words};
-    use dtg_passport::certification::bumped_runs::{Pattern, RotatedRuns};
+    use dtg_passport::certification::bumped_runs::{Pattern, RotatedRuns, UnequalAxis};
     use dtg_passport::certification::remark::Remark;
     use dtg_passport::certification::suspects::{Outlier, WorsePosition};
     use dtg_passport::coefficients::PositionIndex;
@@ -190,6 +190,16 @@ fn a_remark_says_the_same_in_both_languages() {
         let turns_arcsec = [-299.4, 12.5, 0.75];
         Remark::RotatedRuns(RotatedRuns { pattern, axis, turns_arcsec, runs: 5, probability: 2.5e-6 })
     };
+    let unequal = |axis| {
+        let (deviation_arcsec, others_arcsec, missing_arcsec) = (10.5, 1.25, 3.75);
+        Remark::RunAxesDiffer(UnequalAxis {
+            axis,
+            deviation_arcsec,
+            others_arcsec,
+            missing_arcsec,
+            probability: 1.5e-6,
+        })
+    };
     let outlier = |line| Outlier { index, run: 4, line, axis: 1, residual_arcsec: -14.25, probability: 2.5e-3 };
     let remarks = [
         Remark::Worse(WorsePosition { index, place: 6, ratio: 2.25, probability: 0.031 }),
@@ -200,6 +210,8 @@ fn a_remark_says_the_same_in_both_languages() {
         rotated(Pattern::One(3), 4),
         rotated(Pattern::Move(3, 4), 0),
         rotated(Pattern::Drift, 4),
+        unequal(2),
+        unequal(5),
         Remark::NotCompared,
         Remark::Twins(3, 5),
         Remark::AxesDiffer(0.0021),
@@ -226,6 +238,6 @@ fn a_remark_says_the_same_in_both_languages() {
         assert!(least.iter().all(|number| ru.contains(number)), "{en}: {ru:?}");
     }
     // Expected: 1/√(2·6) = 0.2887 (GUM, E.4.3).
-    assert!(words(&remarks[11], Language::Russian).contains("29\u{a0}%"));
+    assert!(words(&remarks[13], Language::Russian).contains("29\u{a0}%"));
     assert!(words(&remarks[1], Language::Russian).contains("\u{2212}14,25″"));
 }

@@ -61,6 +61,13 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
         Remark::NotCompared => fill(texts::NOT_COMPARED, &[]),
         Remark::Twins(one, other) => fill(texts::TWINS, &[("one", one), ("other", other)]),
         Remark::AxesDiffer(p) => fill(texts::AXES_DIFFER, &[("p", &Number::scientific(*p, 2).text(language))]),
+        Remark::RunAxesDiffer(at) => {
+            let text = if at.is_of_the_base() { texts::BASE_AXES_DIFFER } else { texts::PLATFORM_AXES_DIFFER };
+            let [own, others, missing] =
+                [at.deviation_arcsec, at.others_arcsec, at.missing_arcsec].map(|value| fixed(value, 2));
+            let (axis, p) = (axis_name(at.axis, language), Number::scientific(at.probability, 2).text(language));
+            fill(text, &[("axis", &axis), ("own", &own), ("others", &others), ("p", &p), ("missing", &missing)])
+        }
         Remark::FewRuns { runs, degrees_of_freedom: freedom } => {
             let doubt = fixed(Remark::doubt_percent(*freedom), 0);
             fill(texts::FEW_RUNS, &[("runs", runs), ("freedom", freedom), ("doubt", &doubt)])
@@ -91,7 +98,11 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
 
 /// Returns the name of the axis about which a run is rotated, without platform or base.
 pub(super) fn axis_of_run(at: &RotatedRuns, language: Language) -> String {
-    match at.axis {
+    axis_name(at.axis, language)
+}
+
+fn axis_name(axis: usize, language: Language) -> String {
+    match axis {
         axis @ 0..3 => AXES[axis].to_owned(),
         axis => [compass::EAST, compass::NORTH, compass::UP][axis - 3].words(language),
     }

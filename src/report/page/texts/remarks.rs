@@ -70,6 +70,22 @@ texts! {
         ru: "Дисперсии вокруг x, y и z различаются (критерий Бартлетта, p = {p}). Указана повторяемость, объединённая по \
              трём осям."
     }
+    PLATFORM_AXES_DIFFER {
+        en: "From run to run the platform rotates by {own}″ about {axis} and by {others}″ about its other two axes \
+             (Cochran’s test, p = {p}). The common part is pooled from all three and is too small about {axis}; a line \
+             of type B of {missing}″ makes up for it.",
+        ru: "От серии к серии стандартное отклонение поворота платформы вокруг {axis} равно {own}″, вокруг двух других \
+             осей {others}″ (критерий Кохрена, p = {p}). Общая составляющая, объединённая по трём осям, для {axis} \
+             занижена; её дополняет составляющая по типу B {missing}″."
+    }
+    BASE_AXES_DIFFER {
+        en: "From run to run the base rotates by {own}″ about {axis} and by {others}″ about its other two axes \
+             (Cochran’s test, p = {p}). The common part is pooled from all three and is too small about {axis}; a line \
+             of type B of {missing}″ makes up for it.",
+        ru: "От серии к серии стандартное отклонение поворота основания вокруг оси «{axis}» равно {own}″, вокруг двух \
+             других осей {others}″ (критерий Кохрена, p = {p}). Общая составляющая, объединённая по трём осям, для оси \
+             «{axis}» занижена; её дополняет составляющая по типу B {missing}″."
+    }
     FEW_RUNS {
         en: "The common part of a run is estimated from {runs} runs with {freedom} degrees of freedom; its uncertainty has \
              an uncertainty of {doubt} %. Five runs or more are recommended.",
