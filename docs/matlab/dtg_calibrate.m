@@ -7,7 +7,11 @@ function c = dtg_calibrate(passport, signers, currents, varargin)
 % files. c has K (deg/(h*mA)), omega_0 (deg/h), omega_g and omega_k (deg/h per local g), u with their standard
 % uncertainties, and document with everything that `dtg-passport calibrate --format json` prints.
 %
-% The warning dtg:inconsistent means that the readings do not fit the stand; the parameters are then not valid.
+% The warning dtg:inconsistent means that the readings do not fit the stand, and dtg:mistake that an error such as currents
+% in another unit explains the parameters; they are then not valid. Other remarks are warnings dtg:remark.
+    if ~isnumeric(currents) || ~isreal(currents)
+        error('dtg:unusable', 'currents are not real numbers');
+    end
     if size(currents, 2) ~= 4
         error('dtg:unusable', 'currents have %d columns, expected 4: i, j, J_x, J_y', size(currents, 2));
     end
@@ -20,10 +24,20 @@ function c = dtg_calibrate(passport, signers, currents, varargin)
     known = {'serial', 'at', 'time', 'issuer', 'revoked', 'laboratory', 'gyro'};
     fixed = {'--method=least-squares', ['--trust=', signers]};
     c.document = jsondecode(dtg_run('calibrate', fixed, varargin, known, {passport, file}));
+    remarks = {};
+    if isfield(c.document, 'remarks')
+        remarks = cellstr(c.document.remarks);
+    end
+    ids = repmat({'dtg:remark'}, size(remarks));
+    % The first remark says why the parameters are not valid.
     if ~c.document.consistent
-        warning('dtg:inconsistent', 'the readings are not consistent with this stand: %s', c.document.hint);
+        ids{1} = 'dtg:inconsistent';
     elseif isfield(c.document, 'mistake')
-        warning('dtg:mistake', 'the parameters are far from the gyro''s, although the readings fit; see document.mistake');
+        ids{1} = 'dtg:mistake';
+    end
+    % It comes last, where lastwarn finds it.
+    for k = numel(remarks):-1:1
+        warning(ids{k}, '%s', remarks{k});
     end
     result = c.document.results;
     c = parameters(c, result);

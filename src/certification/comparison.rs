@@ -6,11 +6,11 @@
 //! with the worst, and are excluded from the common rotation. One bad position therefore does not make the others look
 //! bad.
 
-use super::bumped_runs;
 use super::compared::{CommonTurn, ComparedPosition, Test};
 use super::components::{RunModel, Variance, case_turn, turns_at};
 use super::finding::{self, Finding, Untested, findings};
 use super::misread::Misread;
+use super::rotated_runs;
 use super::suspects::OUTLIER;
 use super::{AngleReadings, Certification, Header};
 use crate::calibration::inputs::Turn;
@@ -391,7 +391,7 @@ impl Between {
         let of_certificate = evidence.map_or(f64::INFINITY, degrees_of_freedom);
         if runs > 1 {
             let again = again.ok_or(Untested::Variation)?;
-            let of_check = bumped_runs::variance(&again.components, &again.rotated_runs);
+            let of_check = rotated_runs::variance(&again.components, &again.rotated_runs);
             return Ok(Self {
                 runs: runs as f64,
                 platform_arcsec2: of_check.platform_arcsec2,

@@ -1,9 +1,9 @@
 //! Findings of a comparison: reasons for its result, and its limits.
 
 use super::Certification;
-use super::bumped_runs::{Pattern, RotatedRuns};
 use super::compared::{CommonTurn, ComparedPosition, Test};
 use super::misread::Misread;
+use super::rotated_runs::{Pattern, RotatedRuns};
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
 use crate::coefficients::PositionIndex;
 use crate::text::words;
@@ -90,7 +90,7 @@ impl Display for Finding {
                 "the common rotation of all positions is slightly larger than chance explains; measure more runs"
             }
             Self::RotatedRuns(at) => {
-                let ([x, y, z], [of_x, of_y, of_z], axes) = (at.turns_arcsec, at.in_the_mean_arcsec(), at.axes());
+                let ([x, y, z], [of_x, of_y, of_z], axes) = (at.turns_arcsec, at.in_the_mean_arcsec(), at.axis.names());
                 return match at.pattern {
                     Pattern::One(run) => write!(
                         f,

@@ -5,7 +5,9 @@
 //! * `components`: variance components (the positions' own scatter, and the part common to a run).
 //! * `deletion`: the fit without some of the readings.
 //! * `suspects`: positions that scatter more (Cochran), outliers (Grubbs), and runs that agree too well.
-//! * `bumped_runs`: runs rotated as a whole relative to the other runs (Grubbs), moves and drifts of the stand.
+//! * `rotated_runs`: runs rotated as a whole relative to the other runs (Grubbs), moves and drifts of the stand.
+//! * `unequal_axes`: axes about which the runs rotate more than about the others (Cochran).
+//! * `shared_settings`: settings of an angle that several positions of a run share.
 //! * `remark`: remarks for the signatory.
 //! * `compared`: values of the comparison of a later check run with the certificate.
 //! * `finding`: reasons for the result of that comparison, and its limits.
@@ -15,7 +17,6 @@
 //!
 //! The model and the meaning of each number are described in docs/certification.md.
 
-pub(crate) mod bumped_runs;
 pub(crate) mod compared;
 pub(crate) mod comparison;
 pub(crate) mod components;
@@ -26,7 +27,10 @@ pub(crate) mod header;
 pub(crate) mod misread;
 pub(crate) mod readings;
 pub(crate) mod remark;
+pub(crate) mod rotated_runs;
+pub(crate) mod shared_settings;
 pub(crate) mod suspects;
+pub(crate) mod unequal_axes;
 
 pub use compared::{CommonTurn, ComparedPosition, Test};
 pub use comparison::{Comparison, NotCompared, compare};
@@ -140,9 +144,11 @@ pub struct Certification {
     /// Positions that scatter more than the others, outliers, and runs that agree too well.
     pub(crate) suspects: Suspects,
     /// Runs rotated as a whole relative to the other runs, the least probable first, and a move or a drift of the stand.
-    pub(crate) rotated_runs: Vec<bumped_runs::RotatedRuns>,
+    pub(crate) rotated_runs: Vec<rotated_runs::RotatedRuns>,
     /// Axes about which the runs rotate more than about the others.
-    pub(crate) unequal_axes: Vec<bumped_runs::UnequalAxis>,
+    pub(crate) unequal_axes: Vec<unequal_axes::UnequalAxis>,
+    /// Settings of θ or φ that positions share.
+    pub(crate) shared_settings: Vec<shared_settings::SharedSetting>,
     /// Remarks for the signatory of the certificate.
     pub(crate) remarks: Vec<Remark>,
     /// The remarks in words, a sentence each.
@@ -216,11 +222,13 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
         excluded: Some(readings.excluded.clone()).filter(|excluded| !excluded.is_empty()),
     };
     certificate.evidence = readings.sha256.as_deref().map(of_readings);
-    let rotated_runs = bumped_runs::bumped(header, readings, &components, &suspects.outliers);
-    let unequal_axes = bumped_runs::unequal_axes(header, readings, &components, &suspects.outliers, &rotated_runs);
+    let rotated_runs = rotated_runs::bumped(header, readings, &components, &suspects.outliers);
+    let unequal_axes = unequal_axes::find(header, readings, &components, &suspects.outliers, &rotated_runs);
+    let shared_settings = shared_settings::find(header, &turns, &components);
     let mut remarks: Vec<Remark> = rotated_runs.iter().copied().map(Remark::RotatedRuns).collect();
     remarks.extend(Remark::of_suspects(&suspects, runs));
     remarks.extend(unequal_axes.iter().copied().map(Remark::RunAxesDiffer));
+    remarks.extend(shared_settings.iter().copied().map(Remark::SharedSetting));
     remarks.extend(remarks_on(&components, runs.len(), &stand.positions));
     remarks.extend(remark_on_rounding(readings));
     remarks.extend(stand::remarks::of(&stand.certificate, &stand.positions).into_iter().map(Remark::Odd));
@@ -234,6 +242,7 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
         suspects,
         rotated_runs,
         unequal_axes,
+        shared_settings,
         remarks,
         warnings,
     })

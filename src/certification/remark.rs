@@ -1,8 +1,10 @@
 //! Remarks for the signatory of a certificate, as values. Displayed, a remark is an English sentence without a full stop:
 //! the wording of the comments in a stand file. `report` has the words of other languages.
 
-use super::bumped_runs::{Pattern, RotatedRuns, UnequalAxis};
+use super::rotated_runs::{Pattern, RotatedRuns};
+use super::shared_settings::SharedSetting;
 use super::suspects::{AXES, OUTLIER, Outlier, Suspects, WorsePosition};
+use super::unequal_axes::UnequalAxis;
 use crate::calibration::recorded::rounding_of;
 use crate::stand::remarks::Odd;
 use std::fmt::{self, Display, Formatter};
@@ -26,6 +28,8 @@ pub(crate) enum Remark {
     AxesDiffer(f64),
     /// Axis about which whole runs rotate more than about the others.
     RunAxesDiffer(UnequalAxis),
+    /// Setting of an angle that several positions of a run share.
+    SharedSetting(SharedSetting),
     /// Number of runs that is small, and the degrees of freedom of the common part.
     FewRuns { runs: usize, degrees_of_freedom: usize },
     /// Number of axes of the base, 0 to 2, about which a rotation can be distinguished from one of the platform.
@@ -88,7 +92,7 @@ impl Display for Remark {
                 )
             }
             Self::RotatedRuns(at) => {
-                let ([x, y, z], axes, p) = (at.turns_arcsec, at.axes(), probability(at.probability));
+                let ([x, y, z], axes, p) = (at.turns_arcsec, at.axis.names(), probability(at.probability));
                 match at.pattern {
                     Pattern::One(run) => write!(
                         f,
@@ -135,7 +139,7 @@ impl Display for Remark {
                 probability(*p)
             ),
             Self::RunAxesDiffer(at) => {
-                let (part, axis) = (at.part(), at.axis_name());
+                let (part, axis) = (at.axis.part(), at.axis.name());
                 write!(
                     f,
                     "from run to run the {part} rotates by {:.2} arcsec about {axis} and by {:.2} arcsec about its \
@@ -148,6 +152,15 @@ impl Display for Remark {
                     at.missing_arcsec
                 )
             }
+            Self::SharedSetting(SharedSetting { setting, deviation_arcsec, probability: p }) => write!(
+                f,
+                "in each run the positions with the same {0} share an error of {deviation_arcsec:.2} arcsec (standard \
+                 deviation; F test: probability {1}), as if {0} were set once for all of them; the uncertainties take \
+                 the errors of positions as independent, and are too small; set both angles again before every position, \
+                 and measure again",
+                setting.symbol(),
+                probability(*p)
+            ),
             Self::FewRuns { runs, degrees_of_freedom } => write!(
                 f,
                 "{runs} runs are few: the common part of a run has only {degrees_of_freedom} degrees of freedom, so its \

@@ -1,9 +1,9 @@
 //! Result of a certification, and of a check run, as text and as JSON.
 
-use crate::certification::bumped_runs::{FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
 use crate::certification::compared::Test;
 use crate::certification::comparison::Comparison;
 use crate::certification::components::{Common, Variance};
+use crate::certification::rotated_runs::{FEWEST_RUNS_OF_A_MOVE, Pattern, RotatedRuns};
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::certification::{Certification, NotCertified};
 use crate::report::{columns, style};
@@ -44,24 +44,27 @@ fn certification_json(found: &Certification) -> Value {
     });
     let bumped = found.rotated_runs.iter().filter_map(|at| {
         Some(json!({
-            "run": at.run()?, "part": at.part(), "axis": at.axis_name(), "turn_arcsec": at.turn_arcsec(),
-            "turns_arcsec": at.turns_arcsec, "in_the_mean_arcsec": at.in_the_mean_arcsec()[at.axis % 3],
+            "run": at.run()?, "part": at.axis.part(), "axis": at.axis.name(), "turn_arcsec": at.turn_arcsec(),
+            "turns_arcsec": at.turns_arcsec, "in_the_mean_arcsec": at.in_the_mean_arcsec()[at.axis.0 % 3],
             "probability": at.probability,
         }))
     });
     let moved = found.rotated_runs.iter().find(|at| at.run().is_none()).map(|at| {
         let runs = if let Pattern::Move(before, after) = at.pattern { Some([before, after]) } else { None };
         json!({
-            "between_runs": runs, "part": at.part(), "axis": at.axis_name(), "turn_arcsec": at.turn_arcsec(),
+            "between_runs": runs, "part": at.axis.part(), "axis": at.axis.name(), "turn_arcsec": at.turn_arcsec(),
             "turns_arcsec": at.turns_arcsec, "probability": at.probability,
         })
     });
     let unequal = found.unequal_axes.iter().map(|at| {
         json!({
-            "part": at.part(), "axis": at.axis_name(), "between_runs_arcsec": at.deviation_arcsec,
+            "part": at.axis.part(), "axis": at.axis.name(), "between_runs_arcsec": at.deviation_arcsec,
             "other_axes_arcsec": at.others_arcsec, "missing_type_b_arcsec": at.missing_arcsec,
             "probability": at.probability,
         })
+    });
+    let shared = found.shared_settings.iter().map(|at| {
+        json!({"angle": at.setting.key(), "between_runs_arcsec": at.deviation_arcsec, "probability": at.probability})
     });
     json!({
         "stand": File(found.stand.clone()).write().unwrap_or(Node::Null),
@@ -79,6 +82,7 @@ fn certification_json(found: &Certification) -> Value {
         "bumped_runs": bumped.collect::<Vec<_>>(),
         "moved": moved,
         "unequal_axes": unequal.collect::<Vec<_>>(),
+        "shared_settings": shared.collect::<Vec<_>>(),
         "twins": found.suspects.twins,
         "warnings": found.warnings,
     })

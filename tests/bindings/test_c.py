@@ -259,10 +259,13 @@ def test_octave_and_matlab_functions(tmp_path: Path) -> None:
         try, dtg_load('{PASSPORT}', '{SIGNERS}', 'trust', '{PASSPORT}'); catch e, disp(e.identifier); end
         try, dtg_load('--help', '{SIGNERS}'); catch e, disp(e.identifier); end
         try, dtg_calibrate('{PASSPORT}', '{SIGNERS}', ones(8, 5)); catch e, disp(e.identifier); end
+        try, dtg_calibrate('{PASSPORT}', '{SIGNERS}', [{rows}] + 1i); catch e, disp(e.identifier); end
         try, dtg_load('{PASSPORT}', '{SIGNERS}', 'at', [10 20], 'time', '{TIME}'); catch e, disp(e.message); end
         lastwarn('', '');
         dtg_calibrate('{OTHER}', '{SIGNERS}', [{rows}], 'time', '{TIME}');
         [~, identifier] = lastwarn(); disp(identifier);
+        dtg_calibrate('{PASSPORT}', '{SIGNERS}', [{rows}] * diag([1 1 1e-3 1e-3]), 'time', '{TIME}');
+        [words, identifier] = lastwarn(); disp(identifier); disp(words);
     """)
     loaded, found, *refused = octave(script).splitlines()
     ulp = lambda printed, numbers: np.testing.assert_array_max_ulp(np.array(printed.split(), dtype=float), np.array(numbers), 1)
@@ -270,6 +273,7 @@ def test_octave_and_matlab_functions(tmp_path: Path) -> None:
     ulp(found, [*np.ravel(calibrated["k_deg_per_h_per_ma"]), *calibrated["omega0_deg_per_h"],
                 calibrated["omega_g_deg_per_h_per_g"], calibrated["omega_k_deg_per_h_per_g"],
                 *np.ravel(calibrated["standard_uncertainty"]["k_deg_per_h_per_ma"])])  # fmt: skip
-    expected = ["refused", "option", "unusable", "option", "option", "unusable", "unusable"]
-    assert refused[:7] == [f"dtg:{identifier}" for identifier in expected]
-    assert re.fullmatch(r"exit code 1: \d+ m from moscow-bmstu; .*", refused[7]) and refused[-1] == "dtg:inconsistent"
+    expected = ["refused", "option", "unusable", "option", "option", "unusable", "unusable", "unusable"]
+    assert refused[:8] == [f"dtg:{identifier}" for identifier in expected]
+    assert re.fullmatch(r"exit code 1: \d+ m from moscow-bmstu; .*", refused[8])
+    assert refused[9:11] == ["dtg:inconsistent", "dtg:mistake"] and "too small by a factor of 1000" in refused[11]

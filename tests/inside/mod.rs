@@ -24,8 +24,6 @@ fn written(content: &crate::passport::Content, key: &crate::trust::SigningKey) -
     fixtures::signed(&crate::passport::annotations::payload(content), key)
 }
 
-#[cfg(all(feature = "factory", feature = "monte-carlo"))]
-mod bumped_runs;
 #[cfg(feature = "monte-carlo")]
 mod calibration;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
@@ -53,12 +51,16 @@ mod reissue;
 mod repeats;
 #[cfg(feature = "monte-carlo")]
 mod robustness;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod rotated_runs;
 #[cfg(feature = "monte-carlo")]
 mod runs;
 #[cfg(all(feature = "factory", feature = "monte-carlo"))]
 mod same_stand;
 #[cfg(feature = "report")]
 mod selftest;
+#[cfg(all(feature = "factory", feature = "monte-carlo"))]
+mod shared_settings;
 #[cfg(feature = "factory")]
 mod site;
 mod slow;

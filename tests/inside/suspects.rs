@@ -178,9 +178,11 @@ fn numbers(text: &str) -> Vec<String> {
 #[cfg(feature = "report")]
 fn a_remark_says_the_same_in_both_languages() {
     use crate::inside::language::{LATIN_IN_RUSSIAN, cyrillic, latin_words};
-    use dtg_passport::certification::bumped_runs::{Pattern, RotatedRuns, UnequalAxis};
     use dtg_passport::certification::remark::Remark;
+    use dtg_passport::certification::rotated_runs::{CommonAxis, Pattern, RotatedRuns};
+    use dtg_passport::certification::shared_settings::{Setting, SharedSetting};
     use dtg_passport::certification::suspects::{Outlier, WorsePosition};
+    use dtg_passport::certification::unequal_axes::UnequalAxis;
     use dtg_passport::coefficients::PositionIndex;
     use dtg_passport::report::page::Language;
     use dtg_passport::report::page::certification::remarks::words;
@@ -188,12 +190,12 @@ fn a_remark_says_the_same_in_both_languages() {
     let index = PositionIndex { i: 2, j: 3 };
     let rotated = |pattern, axis| {
         let turns_arcsec = [-299.4, 12.5, 0.75];
-        Remark::RotatedRuns(RotatedRuns { pattern, axis, turns_arcsec, runs: 5, probability: 2.5e-6 })
+        Remark::RotatedRuns(RotatedRuns { pattern, axis: CommonAxis(axis), turns_arcsec, runs: 5, probability: 2.5e-6 })
     };
     let unequal = |axis| {
         let (deviation_arcsec, others_arcsec, missing_arcsec) = (10.5, 1.25, 3.75);
         Remark::RunAxesDiffer(UnequalAxis {
-            axis,
+            axis: CommonAxis(axis),
             deviation_arcsec,
             others_arcsec,
             missing_arcsec,
@@ -212,6 +214,7 @@ fn a_remark_says_the_same_in_both_languages() {
         rotated(Pattern::Drift, 4),
         unequal(2),
         unequal(5),
+        Remark::SharedSetting(SharedSetting { setting: Setting::Phi, deviation_arcsec: 3.25, probability: 1.5e-6 }),
         Remark::NotCompared,
         Remark::Twins(3, 5),
         Remark::AxesDiffer(0.0021),
@@ -238,6 +241,6 @@ fn a_remark_says_the_same_in_both_languages() {
         assert!(least.iter().all(|number| ru.contains(number)), "{en}: {ru:?}");
     }
     // Expected: 1/√(2·6) = 0.2887 (GUM, E.4.3).
-    assert!(words(&remarks[13], Language::Russian).contains("29\u{a0}%"));
+    assert!(words(&remarks[14], Language::Russian).contains("29\u{a0}%"));
     assert!(words(&remarks[1], Language::Russian).contains("\u{2212}14,25″"));
 }

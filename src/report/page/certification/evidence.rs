@@ -1,8 +1,8 @@
 //! Evidence for a certificate: readings, exclusions, components of the uncertainty, tests.
 
 use super::{CertificationPage, remarks};
-use crate::certification::bumped_runs::Pattern;
 use crate::certification::components::{Common, Variance};
+use crate::certification::rotated_runs::Pattern;
 use crate::certification::suspects::AXES;
 use crate::report::page::language::{Languages, Text};
 use crate::report::page::number::{Number, column};
@@ -136,7 +136,7 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
         (name, Some(Number::fixed(out.residual_arcsec, 2)), None, Some(out.probability))
     }));
     found.extend(page.certification.rotated_runs.iter().map(|at| {
-        let (of, run) = match (at.pattern, at.is_of_the_base()) {
+        let (of, run) = match (at.pattern, at.axis.is_of_the_base()) {
             (Pattern::One(run), true) => (texts::GRUBBS_BASE, run),
             (Pattern::One(run), false) => (texts::GRUBBS_PLATFORM, run),
             (Pattern::Move(run, _), true) => (texts::MOVE_BASE, run),
@@ -145,7 +145,7 @@ pub(super) fn tests(page: &CertificationPage, languages: &Languages) -> Markup {
             (Pattern::Drift, false) => (texts::DRIFT_PLATFORM, 0),
         };
         let name = languages.label_with(|language| {
-            of.filled(language, &[("run", &run), ("axis", &remarks::axis_of_run(at, language))])
+            of.filled(language, &[("run", &run), ("axis", &remarks::axis_name(at.axis, language))])
         });
         (name, Some(Number::fixed(at.turn_arcsec(), 2)), None, Some(at.probability))
     }));

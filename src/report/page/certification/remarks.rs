@@ -2,11 +2,11 @@
 
 use crate::attitude::ANGLES;
 use crate::calibration::recorded::rounding_of;
-use crate::certification::bumped_runs::{Pattern, RotatedRuns};
 use crate::certification::compared::ComparedPosition;
 use crate::certification::finding::{Finding, Untested};
 use crate::certification::misread::Misread;
 use crate::certification::remark::Remark;
+use crate::certification::rotated_runs::{CommonAxis, Pattern};
 use crate::certification::suspects::{AXES, OUTLIER};
 use crate::report::page::language::{Language, Text};
 use crate::report::page::number::Number;
@@ -52,7 +52,7 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
                 Pattern::Move(before, after) => (texts::MOVED, before, after),
                 Pattern::Drift => (texts::DRIFTS, 0, 0),
             };
-            let axes = axes_of(at, language);
+            let axes = axes_of(at.axis, language);
             let values: [(&str, &dyn Display); 7] =
                 [("run", &run), ("after", &after), ("x", &x), ("y", &y), ("z", &z), ("axes", &axes), ("mean", &mean)];
             suspect(text, at.probability, &values)
@@ -62,11 +62,16 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
         Remark::Twins(one, other) => fill(texts::TWINS, &[("one", one), ("other", other)]),
         Remark::AxesDiffer(p) => fill(texts::AXES_DIFFER, &[("p", &Number::scientific(*p, 2).text(language))]),
         Remark::RunAxesDiffer(at) => {
-            let text = if at.is_of_the_base() { texts::BASE_AXES_DIFFER } else { texts::PLATFORM_AXES_DIFFER };
+            let text = if at.axis.is_of_the_base() { texts::BASE_AXES_DIFFER } else { texts::PLATFORM_AXES_DIFFER };
             let [own, others, missing] =
                 [at.deviation_arcsec, at.others_arcsec, at.missing_arcsec].map(|value| fixed(value, 2));
             let (axis, p) = (axis_name(at.axis, language), Number::scientific(at.probability, 2).text(language));
             fill(text, &[("axis", &axis), ("own", &own), ("others", &others), ("p", &p), ("missing", &missing)])
+        }
+        Remark::SharedSetting(at) => {
+            let (angle, u) = (at.setting.symbol(), fixed(at.deviation_arcsec, 2));
+            let p = Number::scientific(at.probability, 2).text(language);
+            fill(texts::SHARED_SETTING, &[("angle", &angle), ("u", &u), ("p", &p)])
         }
         Remark::FewRuns { runs, degrees_of_freedom: freedom } => {
             let doubt = fixed(Remark::doubt_percent(*freedom), 0);
@@ -96,13 +101,9 @@ pub(crate) fn words(remark: &Remark, language: Language) -> String {
     }
 }
 
-/// Returns the name of the axis about which a run is rotated, without platform or base.
-pub(super) fn axis_of_run(at: &RotatedRuns, language: Language) -> String {
-    axis_name(at.axis, language)
-}
-
-fn axis_name(axis: usize, language: Language) -> String {
-    match axis {
+/// Returns the name of the axis of a common rotation, without platform or base.
+pub(super) fn axis_name(axis: CommonAxis, language: Language) -> String {
+    match axis.0 {
         axis @ 0..3 => AXES[axis].to_owned(),
         axis => [compass::EAST, compass::NORTH, compass::UP][axis - 3].words(language),
     }
@@ -127,8 +128,8 @@ fn misread_words(misread: &Misread, language: Language) -> String {
 }
 
 /// Returns the names of the three axes with platform or base.
-fn axes_of(at: &RotatedRuns, language: Language) -> String {
-    if at.is_of_the_base() { texts::AXES_OF_BASE } else { texts::AXES_OF_PLATFORM }.words(language)
+fn axes_of(axis: CommonAxis, language: Language) -> String {
+    if axis.is_of_the_base() { texts::AXES_OF_BASE } else { texts::AXES_OF_PLATFORM }.words(language)
 }
 
 /// Returns a finding of a comparison with the last certificate as a sentence.
@@ -148,7 +149,7 @@ pub(crate) fn finding(finding: &Finding, language: Language) -> String {
                 Pattern::Move(before, after) => (texts::CHECK_MOVED, before, after),
                 Pattern::Drift => (texts::CHECK_DRIFTS, 0, 0),
             };
-            let axes = axes_of(at, language);
+            let axes = axes_of(at.axis, language);
             let values: [(&str, &dyn Display); 9] = [
                 ("run", &run),
                 ("after", &after),

@@ -86,6 +86,15 @@ texts! {
              других осей {others}″ (критерий Кохрена, p = {p}). Общая составляющая, объединённая по трём осям, для оси \
              «{axis}» занижена; её дополняет составляющая по типу B {missing}″."
     }
+    SHARED_SETTING {
+        en: "In each run the positions with the same {angle} share an error with a standard deviation of {u}″ (F test, \
+             p = {p}), as if {angle} were set once for all of them. The uncertainties take the errors of positions as \
+             independent, and are too small. Both angles are to be set again before every position.",
+        ru: "В каждой серии положения с одинаковым {angle} имеют общую погрешность со стандартным отклонением {u}″ \
+             (критерий Фишера, p = {p}), как если бы {angle} устанавливался один раз для всех этих положений. \
+             Неопределённости рассчитаны для независимых погрешностей положений и занижены. Оба угла следует \
+             устанавливать заново перед каждым положением."
+    }
     FEW_RUNS {
         en: "The common part of a run is estimated from {runs} runs with {freedom} degrees of freedom; its uncertainty has \
              an uncertainty of {doubt} %. Five runs or more are recommended.",

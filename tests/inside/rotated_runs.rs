@@ -1,8 +1,8 @@
 //! A run that is rotated as a whole is named, whatever else is right or wrong in it; good runs are not.
 
 use crate::inside::simulated_stands::{Truth, header, normal};
-use dtg_passport::certification::bumped_runs::{Pattern, RotatedRuns};
 use dtg_passport::certification::comparison::{Comparison, compare};
+use dtg_passport::certification::rotated_runs::{Pattern, RotatedRuns};
 use dtg_passport::certification::{AngleReadings, Certification, certify};
 use dtg_passport::coefficients::EIGHT_POSITIONS;
 use dtg_passport::stand::{Evidence, Stand};
@@ -56,7 +56,7 @@ fn found(readings: &AngleReadings) -> Certification {
 }
 
 fn runs_of(found: &[RotatedRuns]) -> Vec<(u32, usize)> {
-    found.iter().filter_map(|at| Some((at.run()?, at.axis))).collect()
+    found.iter().filter_map(|at| Some((at.run()?, at.axis.0))).collect()
 }
 
 /// Expected by hand: rotations of five runs about x of the platform 0, 2, 1, 3, 104, and none about the other axes. The
@@ -72,7 +72,7 @@ fn one_run_by_hand() {
     each.iter_mut().for_each(|runs| runs.iter_mut().zip([0.0, 2.0, 1.0, 3.0, 104.0]).for_each(|(at, x)| at.x += x));
     let found = found(&AngleReadings::new(vec![1, 2, 3, 4, 5], each).unwrap());
     let [at] = found.rotated_runs[..] else { panic!("{:?}", found.rotated_runs) };
-    assert_eq!((at.run(), at.axis), (Some(5), 0));
+    assert_eq!((at.run(), at.axis.0), (Some(5), 0));
     assert!((at.turn_arcsec() - 102.5).abs() < 1e-3 && (at.in_the_mean_arcsec()[0] - 20.5).abs() < 1e-3, "{at:?}");
     assert!((at.probability / 9.8458e-5 - 1.0).abs() < 0.01, "{at:?}");
     let words = &found.warnings[0];
@@ -166,7 +166,7 @@ fn oblique_bumps_are_named() {
                 let found = found(&readings).rotated_runs;
                 let Some(at) = found.iter().find(|at| at.run() == Some(2)) else { continue };
                 let off = Vector3::from(at.turns_arcsec) - bump;
-                assert_eq!(at.is_of_the_base(), seed % 2 == 1, "{at:?}");
+                assert_eq!(at.axis.is_of_the_base(), seed % 2 == 1, "{at:?}");
                 assert!(off.amax() < 7.0 * 2.4 + 0.02 * size * 1.8, "{at:?}: {off}");
                 *named += 1;
             }
@@ -214,7 +214,7 @@ fn a_move_is_named_once() {
                 let found = found(&readings);
                 let last = (runs - moved) as u32;
                 let [at] = found.rotated_runs[..] else { return false };
-                if at.pattern != Pattern::Move(last, last + 1) || !at.is_of_the_base() {
+                if at.pattern != Pattern::Move(last, last + 1) || !at.axis.is_of_the_base() {
                     return false;
                 }
                 let words = &found.warnings[0];
@@ -242,7 +242,7 @@ fn a_drift_is_named() {
             match found[..] {
                 [at] if at.pattern == Pattern::Drift => {
                     // 5 u of a slope, √((1 + 1/8)/17.5) with Σ (run − mean)² = 17.5.
-                    assert!(at.axis == 2 && (at.turn_arcsec() - rate).abs() < 5.0 * 0.254, "{at:?}");
+                    assert!(at.axis.0 == 2 && (at.turn_arcsec() - rate).abs() < 5.0 * 0.254, "{at:?}");
                     true
                 }
                 _ => false,
@@ -266,7 +266,7 @@ fn a_move_by_hand() {
     // A second session is numbered from where it likes.
     let found = found(&AngleReadings::new(vec![1, 2, 5, 6], each).unwrap()).rotated_runs;
     let [at] = found[..] else { panic!("{found:?}") };
-    assert_eq!((at.pattern, at.axis), (Pattern::Move(2, 5), 2), "{at:?}");
+    assert_eq!((at.pattern, at.axis.0), (Pattern::Move(2, 5), 2), "{at:?}");
     assert!((at.turn_arcsec() - 100.0).abs() < 1e-3, "{at:?}");
     assert!((at.probability / (12.0 * 4.99963e-5) - 1.0).abs() < 0.01, "{at:?}");
 }
@@ -290,7 +290,7 @@ fn unequal_axes_are_named() {
             let [unequal, equal] = [[1.0, 1.0, 10.0], [1.0; 3]];
             let of_runs = if base { (equal, unequal) } else { (unequal, equal) };
             let found = counted(runs, of_runs);
-            let named = found.iter().filter(|found| found.iter().any(|at| at.axis == axis)).count();
+            let named = found.iter().filter(|found| found.iter().any(|at| at.axis.0 == axis)).count();
             println!(
                 "{runs} runs that vary by 10″ about one axis, 1″ about the others: of 300 {named} name axis {axis}"
             );
@@ -311,7 +311,7 @@ fn an_unequal_axis_by_hand() {
     each.iter_mut().for_each(|runs| runs.iter_mut().zip(rotations).for_each(|(at, turn)| *at += Vector3::from(turn)));
     let found = found(&AngleReadings::new(vec![1, 2, 3, 4, 5], each).unwrap());
     let [at] = found.unequal_axes[..] else { panic!("{:?}", found.unequal_axes) };
-    assert_eq!(at.axis, 1);
+    assert_eq!(at.axis.0, 1);
     let numbers = [at.deviation_arcsec, at.others_arcsec, at.missing_arcsec, at.probability];
     let due = [14.5_f64.sqrt(), 1.0, 1.3416, 6.0 * 9.74668e-4];
     assert!(numbers.iter().zip(due).all(|(found, due)| (found / due - 1.0).abs() < 1e-3), "{numbers:?}, not {due:?}");

@@ -19,7 +19,7 @@
 use super::components::{Components, RunModel, RunTurn};
 use super::suspects::{AXES, OUTLIER, Outlier, STRAGGLER};
 use super::{AngleReadings, Header, turns_of};
-use crate::statistics::outlier::{bonferroni_student, cochran_probability};
+use crate::statistics::outlier::bonferroni_student;
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -31,6 +31,33 @@ pub(crate) const FEWEST_RUNS_OF_A_MOVE: usize = 4;
 
 /// Names of the axes of the base.
 const COMPASS: [&str; 3] = ["east", "north", "up"];
+
+/// Axis of a rotation common to all positions: 0, 1, 2 for x, y, z of the platform, 3, 4, 5 for east, north, up of the base.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct CommonAxis(pub usize);
+
+impl CommonAxis {
+    /// Returns `true` for a rotation of the base, `false` for one of the platform.
+    pub(crate) fn is_of_the_base(self) -> bool {
+        self.0 >= 3
+    }
+
+    /// Returns the part that is rotated.
+    pub(crate) fn part(self) -> &'static str {
+        if self.is_of_the_base() { "base" } else { "platform" }
+    }
+
+    /// Returns the name of the axis, without platform or base.
+    pub(crate) fn name(self) -> &'static str {
+        [AXES, COMPASS].as_flattened()[self.0]
+    }
+
+    /// Returns the names of the three axes of the part, with its name.
+    pub(crate) fn names(self) -> String {
+        let names = if self.is_of_the_base() { COMPASS } else { AXES };
+        format!("{} of the {}", names.join(", "), self.part())
+    }
+}
 
 /// Runs whose common rotation differs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,8 +75,8 @@ pub(crate) enum Pattern {
 pub(crate) struct RotatedRuns {
     /// Runs that differ.
     pub pattern: Pattern,
-    /// Axis of the most improbable rotation: 0, 1, 2 for x, y, z of the platform, 3, 4, 5 for east, north, up of the base.
-    pub axis: usize,
+    /// Axis of the most improbable rotation.
+    pub axis: CommonAxis,
     /// Rotation about the three axes of platform or base relative to the mean of the other runs, other bumped runs omitted,
     /// arcsec; of a drift from one run to the next.
     pub turns_arcsec: [f64; 3],
@@ -60,21 +87,6 @@ pub(crate) struct RotatedRuns {
 }
 
 impl RotatedRuns {
-    /// Returns `true` for a rotation of the base, `false` for one of the platform.
-    pub(crate) fn is_of_the_base(&self) -> bool {
-        self.axis >= 3
-    }
-
-    /// Returns the part that is rotated.
-    pub(crate) fn part(&self) -> &'static str {
-        if self.is_of_the_base() { "base" } else { "platform" }
-    }
-
-    /// Returns the name of the axis, without platform or base.
-    pub(crate) fn axis_name(&self) -> &'static str {
-        [AXES, COMPASS].as_flattened()[self.axis]
-    }
-
     /// Returns the number of the run that differs, or `None` for a move or a drift.
     pub(crate) fn run(&self) -> Option<u32> {
         if let Pattern::One(run) = self.pattern { Some(run) } else { None }
@@ -82,7 +94,7 @@ impl RotatedRuns {
 
     /// Returns the rotation about the axis, arcsec.
     pub(crate) fn turn_arcsec(&self) -> f64 {
-        self.turns_arcsec[self.axis % 3]
+        self.turns_arcsec[self.axis.0 % 3]
     }
 
     /// Returns the rotation that a single run adds to the mean of all runs, about the three axes, arcsec.
@@ -93,12 +105,6 @@ impl RotatedRuns {
     /// Returns the angle of that rotation, the largest effect on a certified angle, arcsec.
     pub(crate) fn largest_effect_arcsec(&self) -> f64 {
         Vector3::from(self.in_the_mean_arcsec()).norm()
-    }
-
-    /// Returns the names of the three axes with platform or base.
-    pub(crate) fn axes(&self) -> String {
-        let names = if self.is_of_the_base() { COMPASS } else { AXES };
-        format!("{} of the {}", names.join(", "), self.part())
     }
 }
 
@@ -155,88 +161,12 @@ pub(crate) fn variance(components: &Components, rotated: &[RotatedRuns]) -> RunV
 }
 
 /// Returns the sums of squares about each axis without what is named in `rotated`, and their degrees of freedom.
-fn left_squares(mut turns: Vec<Turn>, rotated: &[RotatedRuns]) -> ([f64; 6], usize) {
+pub(super) fn left_squares(mut turns: Vec<Turn>, rotated: &[RotatedRuns]) -> ([f64; 6], usize) {
     turns.retain(|(run, _)| rotated.iter().all(|at| at.run() != Some(*run)));
     let mut fits = fits(&turns);
     fits.retain(|fit| fit.pattern.is_in_order() && rotated.iter().any(|at| at.pattern == fit.pattern));
     let rest = |axis| squares(&turns, axis) - fits.iter().map(|fit| fit.squares(axis)).sum::<f64>();
     (std::array::from_fn(|axis| rest(axis).max(0.0)), turns.len() - 1 - fits.len())
-}
-
-/// Axis about which the runs rotate more than about the other two of platform or base.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct UnequalAxis {
-    /// Axis: 0, 1, 2 for x, y, z of the platform, 3, 4, 5 for east, north, up of the base.
-    pub axis: usize,
-    /// Standard deviation from run to run about that axis, arcsec.
-    pub deviation_arcsec: f64,
-    /// Standard deviation from run to run about the other two axes, arcsec.
-    pub others_arcsec: f64,
-    /// Standard uncertainty of type B that brings the pooled common part to that of the axis, arcsec.
-    pub missing_arcsec: f64,
-    /// Probability that an axis of platform or base stands out this much by chance.
-    pub probability: f64,
-}
-
-impl UnequalAxis {
-    /// Returns `true` for a rotation of the base, `false` for one of the platform.
-    pub(crate) fn is_of_the_base(&self) -> bool {
-        self.axis >= 3
-    }
-
-    /// Returns the part that is rotated.
-    pub(crate) fn part(&self) -> &'static str {
-        if self.is_of_the_base() { "base" } else { "platform" }
-    }
-
-    /// Returns the name of the axis, without platform or base.
-    pub(crate) fn axis_name(&self) -> &'static str {
-        [AXES, COMPASS].as_flattened()[self.axis]
-    }
-}
-
-/// Returns the axes about which the runs, without what is named in `rotated`, rotate more than about the other two: the
-/// common parts are pooled from three axes, and too small about such an axis (Cochran's test).
-pub(crate) fn unequal_axes(
-    header: &Header,
-    readings: &AngleReadings,
-    components: &Components,
-    outliers: &[Outlier],
-    rotated: &[RotatedRuns],
-) -> Vec<UnequalAxis> {
-    let Some(model) = RunModel::new(&turns_of(header, readings)) else { return Vec::new() };
-    let (squares, changes) = left_squares(without(header, readings, components, outliers), rotated);
-    let changes = changes as f64;
-    // Axes of the base that cannot be distinguished from the platform do not vary, so the others cannot be compared.
-    let groups = &[0..3, 3..6][..if components.base_axes == 3 { 2 } else { 1 }];
-    let unequal = |axes: &Range<usize>| {
-        // The scatter of visits varies the rotations too, by an amount that may differ from axis to axis.
-        let of_scatter = |at: usize| {
-            let row = if at < 3 {
-                model.solve.row(at).into_owned()
-            } else {
-                model.base_axes.row(at - 3) * model.solve.rows(3, 3)
-            };
-            row.iter()
-                .enumerate()
-                .map(|(row, share)| share * share * components.own_arcsec2[row % 3].value)
-                .sum::<f64>()
-        };
-        let parts: Vec<(f64, f64)> = axes.clone().map(|at| (squares[at] / changes, of_scatter(at))).collect();
-        let between = parts.iter().map(|(seen, scatter)| seen - scatter).sum::<f64>().max(0.0) / 3.0;
-        let relative: Vec<(f64, f64)> = parts.iter().map(|(seen, of)| (seen / (between + of), changes)).collect();
-        let worst = (0..3).max_by(|a, b| relative[*a].0.total_cmp(&relative[*b].0))?;
-        let (seen, scatter) = parts[worst];
-        let own = (seen - scatter).max(0.0);
-        Some(UnequalAxis {
-            axis: axes.start + worst,
-            deviation_arcsec: own.sqrt(),
-            others_arcsec: ((3.0 * between - own) / 2.0).max(0.0).sqrt(),
-            missing_arcsec: ((own - between).max(0.0) / readings.runs.len() as f64).sqrt(),
-            probability: (groups.len() as f64 * cochran_probability(&relative, worst)).min(1.0),
-        })
-    };
-    groups.iter().filter_map(unequal).filter(|at| at.probability < OUTLIER).collect()
 }
 
 fn turns(components: &Components) -> Vec<Turn> {
@@ -248,7 +178,12 @@ fn turns(components: &Components) -> Vec<Turn> {
 }
 
 /// Returns the rotations of the runs as they are with the `outliers` brought to where the other readings put them.
-fn without(header: &Header, readings: &AngleReadings, components: &Components, outliers: &[Outlier]) -> Vec<Turn> {
+pub(super) fn without(
+    header: &Header,
+    readings: &AngleReadings,
+    components: &Components,
+    outliers: &[Outlier],
+) -> Vec<Turn> {
     let mut turns = turns(components);
     let Some(model) = RunModel::new(&turns_of(header, readings)).filter(|_| turns.len() > 2) else { return turns };
     let runs = turns.len() as f64;
@@ -356,7 +291,7 @@ fn worst(turns: &[Turn], base_axes: usize) -> Option<RotatedRuns> {
                 let about_all = probability(of_group, values, *count as f64 * freedom);
                 found.push(RotatedRuns {
                     pattern: fit.pattern,
-                    axis,
+                    axis: CommonAxis(axis),
                     turns_arcsec: [0, 1, 2].map(|at| fit.turn[axes.start + at]),
                     runs: turns.len(),
                     probability: about_axis.max(about_all),

@@ -1,0 +1,67 @@
+//! Axes about which whole runs rotate more than about the others, although the common parts are pooled from all three.
+
+use super::components::{Components, RunModel};
+use super::rotated_runs::{CommonAxis, RotatedRuns, left_squares, without};
+use super::suspects::{OUTLIER, Outlier};
+use super::{AngleReadings, Header, turns_of};
+use crate::statistics::outlier::cochran_probability;
+use std::ops::Range;
+
+/// Axis about which the runs rotate more than about the other two of platform or base.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct UnequalAxis {
+    /// The axis.
+    pub axis: CommonAxis,
+    /// Standard deviation from run to run about that axis, arcsec.
+    pub deviation_arcsec: f64,
+    /// Standard deviation from run to run about the other two axes, arcsec.
+    pub others_arcsec: f64,
+    /// Standard uncertainty of type B that brings the pooled common part to that of the axis, arcsec.
+    pub missing_arcsec: f64,
+    /// Probability that an axis of platform or base stands out this much by chance.
+    pub probability: f64,
+}
+
+/// Returns the axes about which the runs, without what is named in `rotated`, rotate more than about the other two: the
+/// common parts are pooled from three axes, and too small about such an axis (Cochran's test).
+pub(crate) fn find(
+    header: &Header,
+    readings: &AngleReadings,
+    components: &Components,
+    outliers: &[Outlier],
+    rotated: &[RotatedRuns],
+) -> Vec<UnequalAxis> {
+    let Some(model) = RunModel::new(&turns_of(header, readings)) else { return Vec::new() };
+    let (squares, changes) = left_squares(without(header, readings, components, outliers), rotated);
+    let changes = changes as f64;
+    // Axes of the base that cannot be distinguished from the platform do not vary, so the others cannot be compared.
+    let groups = &[0..3, 3..6][..if components.base_axes == 3 { 2 } else { 1 }];
+    let unequal = |axes: &Range<usize>| {
+        // The scatter of visits varies the rotations too, by an amount that may differ from axis to axis.
+        let of_scatter = |at: usize| {
+            let row = if at < 3 {
+                model.solve.row(at).into_owned()
+            } else {
+                model.base_axes.row(at - 3) * model.solve.rows(3, 3)
+            };
+            row.iter()
+                .enumerate()
+                .map(|(row, share)| share * share * components.own_arcsec2[row % 3].value)
+                .sum::<f64>()
+        };
+        let parts: Vec<(f64, f64)> = axes.clone().map(|at| (squares[at] / changes, of_scatter(at))).collect();
+        let between = parts.iter().map(|(seen, scatter)| seen - scatter).sum::<f64>().max(0.0) / 3.0;
+        let relative: Vec<(f64, f64)> = parts.iter().map(|(seen, of)| (seen / (between + of), changes)).collect();
+        let worst = (0..3).max_by(|a, b| relative[*a].0.total_cmp(&relative[*b].0))?;
+        let (seen, scatter) = parts[worst];
+        let own = (seen - scatter).max(0.0);
+        Some(UnequalAxis {
+            axis: CommonAxis(axes.start + worst),
+            deviation_arcsec: own.sqrt(),
+            others_arcsec: ((3.0 * between - own) / 2.0).max(0.0).sqrt(),
+            missing_arcsec: ((own - between).max(0.0) / readings.runs.len() as f64).sqrt(),
+            probability: (groups.len() as f64 * cochran_probability(&relative, worst)).min(1.0),
+        })
+    };
+    groups.iter().filter_map(unequal).filter(|at| at.probability < OUTLIER).collect()
+}
