@@ -226,9 +226,10 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     let unequal_axes = unequal_axes::find(header, readings, &components, &suspects.outliers, &rotated_runs);
     let shared_settings = shared_settings::find(header, &turns, &components);
     let mut remarks: Vec<Remark> = rotated_runs.iter().copied().map(Remark::RotatedRuns).collect();
+    // A shared setting may be the cause of what follows.
+    remarks.extend(shared_settings.iter().copied().map(Remark::SharedSetting));
     remarks.extend(Remark::of_suspects(&suspects, runs));
     remarks.extend(unequal_axes.iter().copied().map(Remark::RunAxesDiffer));
-    remarks.extend(shared_settings.iter().copied().map(Remark::SharedSetting));
     remarks.extend(remarks_on(&components, runs.len(), &stand.positions));
     remarks.extend(remark_on_rounding(readings));
     remarks.extend(stand::remarks::of(&stand.certificate, &stand.positions).into_iter().map(Remark::Odd));
