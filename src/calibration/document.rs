@@ -84,7 +84,7 @@ pub struct CalibrationDocument {
     /// Error that explains the result if the readings fit but the parameters are not those of the gyro.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub(crate) mistake: Option<Mistake>,
-    /// What the user should know about the currents, the laboratory and the fit, a sentence each.
+    /// Remarks for the user on the currents, the laboratory and the fit, one sentence each.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub(crate) remarks: Vec<String>,
     /// Comparison with the gyro type.

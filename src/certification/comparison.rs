@@ -8,7 +8,7 @@
 
 use super::compared::{CommonTurn, ComparedPosition, Test};
 use super::components::{RunModel, Variance, case_turn, turns_at};
-use super::finding::{self, Finding, Untested, findings};
+use super::finding::{Finding, Untested, findings};
 use super::misread::Misread;
 use super::rotated_runs;
 use super::suspects::OUTLIER;
@@ -126,14 +126,13 @@ pub fn compare(
     let untested = between.err().or(common.test.is_none().then_some(Untested::CommonParts));
     let moved = common.test.is_some_and(|test| test.probability < OUTLIER);
     let same_stand = repeating.len() == places.len() && all.probability >= OUTLIER && !moved;
-    let mut findings = findings(all, &positions, &common, again, moved, untested);
-    finding::name_exchanged(&mut findings, exchanged(certificate, readings, scatter, &repeating)?);
     let certified: Vec<_> = certificate.positions.iter().map(|at| Vector3::from(at.angles_arcsec())).collect();
-    if let Some(another) = findings.iter_mut().find(|found| **found == Finding::AnotherStand)
-        && let Some(misread) = Misread::of(&readings.means_arcsec(), &certified)
-    {
-        *another = Finding::Misread(misread);
+    let exchanged = exchanged(certificate, &certified, readings, scatter, &repeating)?;
+    let mut misplaced: Vec<Finding> = exchanged.into_iter().map(Finding::Exchanged).collect();
+    if misplaced.is_empty() && repeating.is_empty() {
+        misplaced.extend(Misread::of(&readings.means_arcsec(), &certified).map(Finding::Misread));
     }
+    let mut findings = findings(all, &positions, &common, again, moved, untested, misplaced);
     if certificate.positions.iter().any(|at| certified_u_arcsec(at).is_none()) {
         findings.push(Finding::TreatedAsExact);
     }
@@ -153,14 +152,14 @@ pub fn compare(
 }
 
 /// Returns the pairs of positions whose readings are exchanged: neither is among the `repeating` ones, the angles of each
-/// are nearest to those certified for the other, and both repeat once they are exchanged.
+/// are nearest to those `certified` for the other (α, β, γ, arcsec), and both repeat once they are exchanged.
 fn exchanged(
     certificate: &Stand,
+    certified: &[Vector3<f64>],
     readings: &AngleReadings,
     scatter: Variance,
     repeating: &[usize],
 ) -> Result<Vec<[PositionIndex; 2]>, NotCompared> {
-    let certified: Vec<_> = certificate.positions.iter().map(|at| Vector3::from(at.angles_arcsec())).collect();
     let places: Vec<usize> = (0..certified.len()).collect();
     let nearest: Vec<usize> = readings
         .means_arcsec()

@@ -168,8 +168,12 @@ impl Finding {
         matches!(self, Self::Exchanged(_) | Self::Misread(_))
     }
 
-    /// Returns `true` if an outlier among the readings explains the change of the position: the rest is within 3 u.
+    /// Returns `true` if exchanged readings explain the change of the position, or an outlier among them: the rest is within
+    /// 3 u.
     fn explains(&self, at: &ComparedPosition) -> bool {
+        if let Self::Exchanged(pair) = self {
+            return pair.contains(&at.index);
+        }
         let Self::Outlier(out, mean) = self else { return false };
         let part = |axis: usize| if axis == out.axis { *mean } else { 0.0 };
         out.index == at.index && (0..3).all(|axis| (at.turn_arcsec[axis] - part(axis)).abs() <= 3.0 * at.u_arcsec[axis])
@@ -178,7 +182,8 @@ impl Finding {
 
 /// Returns the findings of a comparison: of `all` positions relative to each other, of each of the `positions`, and of
 /// their `common` rotation, where `moved` states that it is significant. An outlier among the readings of the check,
-/// whose certification is `again`, or among its runs does not show that the position, or the stand, has changed.
+/// whose certification is `again`, or among its runs does not show that the position, or the stand, has changed, and
+/// neither do `misplaced` readings.
 pub(super) fn findings(
     all: Test,
     positions: &[ComparedPosition],
@@ -186,17 +191,18 @@ pub(super) fn findings(
     again: Option<&Certification>,
     moved: bool,
     untested: Option<Untested>,
+    misplaced: Vec<Finding>,
 ) -> Vec<Finding> {
     let mut findings: Vec<Finding> = positions.iter().filter(|at| !at.repeats).copied().map(Finding::Changed).collect();
     if !findings.is_empty() && findings.len() == positions.len() {
-        findings = vec![Finding::AnotherStand];
+        findings = if misplaced.is_empty() { vec![Finding::AnotherStand] } else { Vec::new() };
     } else if findings.is_empty() && all.probability < OUTLIER {
         findings.push(Finding::ChangedTogether);
     } else if findings.is_empty() && all.probability < STRAGGLER {
         findings.push(Finding::Slightly);
     }
     let suspect: Vec<Finding> = again.map_or_else(Vec::new, suspect);
-    let explained = |at: &ComparedPosition| suspect.iter().any(|found| found.explains(at));
+    let explained = |at: &ComparedPosition| suspect.iter().chain(&misplaced).any(|found| found.explains(at));
     findings.retain(|found| !matches!(found, Finding::Changed(at) if explained(at)));
     let bumped = suspect.iter().any(|found| matches!(found, Finding::RotatedRuns(_)) && found.is_outlier());
     // If no positions agree, there is no rotation that is common to them.
@@ -206,20 +212,9 @@ pub(super) fn findings(
     } else if agree && !moved && common.test.is_some_and(|test| test.probability < STRAGGLER) {
         findings.push(Finding::RotatedSlightly);
     }
-    findings.splice(0..0, suspect);
+    findings.splice(0..0, misplaced.into_iter().chain(suspect));
     findings.extend(untested.map(Finding::NotTested));
     findings
-}
-
-/// Names `exchanged` positions in place of the changes that the exchange explains.
-pub(super) fn name_exchanged(findings: &mut Vec<Finding>, exchanged: Vec<[PositionIndex; 2]>) {
-    let explained = |found: &Finding| match found {
-        Finding::Changed(at) => exchanged.iter().flatten().any(|index| *index == at.index),
-        Finding::AnotherStand => !exchanged.is_empty(),
-        _ => false,
-    };
-    findings.retain(|found| !explained(found));
-    findings.splice(0..0, exchanged.into_iter().map(Finding::Exchanged));
 }
 
 /// Returns what is suspect in the readings of a check itself.

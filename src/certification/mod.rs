@@ -51,10 +51,6 @@ use nalgebra::{DVector, Vector3};
 /// Smallest number of runs for which the program does not warn that there are few.
 pub(crate) const ENOUGH_RUNS: usize = 4;
 
-/// Largest difference from the other runs, in steps of the readings, that rounding explains: one step, if both are within
-/// half a step of it.
-const STEPS_OF_ROUNDING: f64 = 1.5;
-
 /// Reason why a stand was not certified.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -178,8 +174,7 @@ pub fn certify(header: &Header, readings: &AngleReadings) -> Result<Certificatio
     if let Some(deletion) = &deletion {
         components.without(deletion.squares_arcsec2, &readings.missing);
     }
-    let mut suspects = Suspects::of(header, readings, &components);
-    suspects.outliers.retain(|out| out.residual_arcsec.abs() > STEPS_OF_ROUNDING * readings.step_arcsec);
+    let suspects = Suspects::of(header, readings, &components);
     let worse: Vec<usize> = suspects.worse.iter().map(|at| at.place).collect();
     let scatter = components.scatter_of_positions(&worse).filter(|_| !worse.is_empty());
     let mut stand = Stand {

@@ -100,6 +100,7 @@ impl AngleReadings {
         let table = Table::read(name, bytes, &COLUMNS, &[])?;
         let mut problems = Vec::new();
         let mut rows: Vec<Reading> = Vec::new();
+        let is_out = |place| excluded.iter().any(|excluded| is_excluded(excluded, place));
         for row in &table.rows {
             if problems.len() >= MOST_PROBLEMS {
                 break;
@@ -109,7 +110,6 @@ impl AngleReadings {
             let index = position(&table, row, known, ("a position of the stand file", advice), &mut problems);
             let run = table.index(row, 2, &mut problems);
             // The angles of an excluded reading are not examined; its cells may be empty.
-            let is_out = |place| excluded.iter().any(|excluded| is_excluded(excluded, place));
             if let Some(place) = index.zip(run).filter(|place| is_out(*place)) {
                 rows.push((place, Vector3::zeros(), row));
                 continue;
@@ -124,7 +124,7 @@ impl AngleReadings {
         }
         if problems.is_empty() {
             problems = not_there(&rows, excluded);
-            rows.retain(|(place, ..)| !excluded.iter().any(|excluded| is_excluded(excluded, *place)));
+            rows.retain(|(place, ..)| !is_out(*place));
         }
         if problems.is_empty() {
             problems = incomplete(positions, &rows, excluded);

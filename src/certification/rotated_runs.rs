@@ -11,7 +11,7 @@
 //! The variance is that of the other runs about all these axes: a run that is rotated about an oblique axis would else hide
 //! behind its own rotation about the axes that are not tested.
 //!
-//! The same two tests look for a stand that moved between two runs, or that drifts, of four runs or more: a step and a
+//! With four runs or more, the same two tests also look for a stand that moved between two runs or that drifts: a step and a
 //! straight line are fitted to the rotations in the order of the runs, as the single run is, and compared with what the fit
 //! leaves. Bonferroni's bound counts them with the runs, and only the least probable is named, so a cause has one name. A
 //! move after the first or before the last run is that run's.

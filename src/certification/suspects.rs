@@ -7,6 +7,10 @@ use crate::coefficients::PositionIndex;
 use crate::statistics::outlier::{Bartlett, bartlett, bonferroni_student, cochran_probability};
 use serde::Serialize;
 
+/// Largest difference from the other runs, in steps of the readings, that rounding explains: one step, if both are within
+/// half a step of it.
+const STEPS_OF_ROUNDING: f64 = 1.5;
+
 /// Probability below which a value is reported: a straggler in
 /// [ISO 5725-2](crate::bibliography::Bibliography::Iso5725).
 pub(crate) const STRAGGLER: f64 = 0.05;
@@ -76,7 +80,8 @@ pub(crate) struct Suspects {
 
 impl Suspects {
     pub(crate) fn of(header: &Header, readings: &AngleReadings, components: &Components) -> Self {
-        let outliers = outliers(header, readings, components);
+        let mut outliers = outliers(header, readings, components);
+        outliers.retain(|out| out.residual_arcsec.abs() > STEPS_OF_ROUNDING * readings.step_arcsec);
         let twins = twins(&readings.runs, components);
         // An outlier increases the scatter of its position and its axis and, through the common part, of its whole run.
         if !outliers.is_empty() {

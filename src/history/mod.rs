@@ -159,8 +159,8 @@ fn certificates(recorded: &[Recorded], remarks: &mut Vec<String>) -> Vec<PastCer
 
 /// Returns the stands whose deviations are compared: those of certificates that count, one for each file of readings.
 ///
-/// The same readings again do not show that the stand has not changed. A copy is left out; a correction, which has the date
-/// of the measurement, replaces the certificate that it corrects.
+/// A second certificate from the same readings is no evidence that the stand has not changed, and is left out. A correction
+/// has the same date of measurement as the certificate that it corrects, and replaces it.
 fn independent<'a>(certificates: &'a [PastCertificate], remarks: &mut Vec<String>) -> Vec<&'a Stand> {
     let readings = |stand: &Stand| Some(stand.certificate.evidence.as_ref()?.readings_sha256.clone());
     let mut used: Vec<&Stand> = Vec::new();

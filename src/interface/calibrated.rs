@@ -258,7 +258,7 @@ impl<'a> Prepared<'a> {
     }
 }
 
-/// Returns what the user should know about a result, a sentence each.
+/// Returns the remarks for the user on a result, one sentence each.
 #[cfg(feature = "report")]
 fn remarks(calibration: &Calibration, readings: &Readings, mistake: Option<&Mistake>) -> Vec<String> {
     crate::report::calibration::remarks(calibration, readings, mistake)

@@ -26,7 +26,7 @@ pub struct Enquiry {
     pub trust: Trust,
     /// Question to verify passports for.
     pub question: Question,
-    /// What the user should know about the revocation lists and the register, a sentence each.
+    /// Remarks for the user on the revocation lists and the register, one sentence each.
     pub remarks: Vec<String>,
     register: Option<Register>,
 }
@@ -42,7 +42,7 @@ pub struct Answer {
     pub sha256: String,
     /// Time for which the passport was verified.
     pub time: Timestamp,
-    /// What the user should know about the revocation lists and the register, a sentence each.
+    /// Remarks for the user on the revocation lists and the register, one sentence each.
     pub remarks: Vec<String>,
 }
 
@@ -54,7 +54,7 @@ impl Answer {
     }
 }
 
-/// Verdict on a passport, and what the user should know about the inputs.
+/// Verdict on a passport, and remarks on the lists by which it was verified.
 #[derive(Serialize)]
 struct Remarked<'a> {
     #[serde(flatten)]

@@ -120,30 +120,33 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
 
 /// Returns what makes the parameters unusable, a sentence each.
 pub(crate) fn warnings(calibration: &Calibration, mistake: Option<&Mistake>) -> Vec<String> {
-    let inconsistent = calibration.hint.iter().map(|_| format!("WARNING: {INCONSISTENT}."));
-    let mistake = mistake.map(|mistake| format!("WARNING: {}", mistake::words(mistake, Language::English)));
+    let inconsistent = calibration.hint.iter().map(|_| format!("{INCONSISTENT}."));
+    inconsistent.chain(not_of_this_gyro(calibration, mistake)).map(|words| format!("WARNING: {words}")).collect()
+}
+
+/// Returns what makes the parameters unusable although the readings fit.
+fn not_of_this_gyro(calibration: &Calibration, mistake: Option<&Mistake>) -> impl Iterator<Item = String> {
+    let mistake = mistake.map(|mistake| mistake::words(mistake, Language::English));
     let other = calibration.refused.iter().find(|(method, _)| *method == Method::LeastSquares);
     let other = other.zip(calibration.answer()).map(|((_, why), answer)| {
-        format!("WARNING: least squares gave no result ({why}); this is that of the {} method.", answer.method.key())
+        format!("least squares gave no result ({why}); this is that of the {} method.", answer.method.key())
     });
-    inconsistent.chain(mistake).chain(other).collect()
+    mistake.into_iter().chain(other)
 }
 
 /// Returns what a program should show with the parameters, a sentence each: what makes them unusable, what the readings
 /// cannot tell, and a scatter that is not the stated one.
 pub(crate) fn remarks(calibration: &Calibration, readings: &Readings, mistake: Option<&Mistake>) -> Vec<String> {
-    let warnings = warnings(calibration, mistake).into_iter().map(|words| match &calibration.hint {
-        Some(hint) if words.contains(INCONSISTENT) => format!("{INCONSISTENT}: {hint}."),
-        _ => words,
-    });
-    let mut remarks: Vec<String> = warnings.collect();
+    let inconsistent = calibration.hint.iter().map(|hint| format!("{INCONSISTENT}: {hint}."));
+    let mut remarks: Vec<String> = inconsistent.chain(not_of_this_gyro(calibration, mistake)).collect();
     let tested = calibration.answer().is_some_and(|answer| answer.chi_square.judges());
     remarks.extend((!tested).then(|| UNTESTED.to_owned()));
     remarks.extend(calibration.digits.iter().flat_map(|digits| recorded::words(digits, Language::English)));
-    remarks.extend(scatter(calibration).into_iter().filter(|said| said.remarkable).map(|said| said.words));
+    remarks.extend(
+        scatter(calibration).into_iter().filter(|(weight, _)| *weight != Weight::Usual).map(|(_, words)| words),
+    );
     remarks.extend(without_reading(readings).map(|words| words + "."));
-    // A program says in its own way that a remark is a warning.
-    remarks.into_iter().map(|words| words.trim_start_matches("WARNING: ").to_owned()).collect()
+    remarks
 }
 
 /// Returns the result for one of several gyros in one line: the decision, or the fit if no type was given.
@@ -353,8 +356,11 @@ fn fit(out: &mut String, calibration: &Calibration, missing: &[NotStated]) {
     for words in calibration.digits.iter().flat_map(|digits| recorded::words(digits, Language::English)) {
         columns::paragraph(out, "  ", &words);
     }
-    for Said { indent, words, .. } in scatter(calibration) {
-        columns::paragraph(out, indent, &words);
+    for (weight, words) in scatter(calibration) {
+        match weight {
+            Weight::Warning => columns::paragraph(out, "", &format!("WARNING: {words}")),
+            Weight::Usual | Weight::Remark => columns::paragraph(out, "  ", &words),
+        }
     }
     if let Some(hint) = &calibration.hint {
         columns::paragraph(out, "", &format!("WARNING: {hint}."));
@@ -398,24 +404,25 @@ fn residuals(out: &mut String, calibration: &Calibration) {
     columns::table(out, &["i", "j", "x, °/h", "y, °/h", "x / u", "y / u"], rows);
 }
 
-/// Sentence on the scatter of the readings.
-struct Said {
-    indent: &'static str,
-    words: String,
-    /// `true` if a program should show the sentence with the parameters.
-    remarkable: bool,
+/// Weight of a sentence. Programs show remarks and warnings with the parameters.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Weight {
+    Usual,
+    Remark,
+    Warning,
 }
 
 /// Returns what the scatter of the readings tells.
-fn scatter(calibration: &Calibration) -> Vec<Said> {
+fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
     let mut said = Vec::new();
-    let mut say = |words: String, remarkable: bool| said.push(Said { indent: "  ", words, remarkable });
+    let mut say = |words: String, weight: Weight| said.push((weight, words));
+    let of = |found: &Scatter| if found.agreement() == Agreement::AsStated { Weight::Usual } else { Weight::Remark };
     if let Some(rows) = &calibration.row_scatter {
         let (deviation, freedom) = (rows.standard_deviation_ma * 1000.0, rows.degrees_of_freedom);
         match &rows.against_stated {
             Some(stated) => {
                 let words = agreement("Readings of a visit", stated, "check whether they are copies of one reading");
-                say(words, stated.agreement() != Agreement::AsStated);
+                say(words, of(stated));
             }
             None => {
                 let words = format!(
@@ -423,7 +430,7 @@ fn scatter(calibration: &Calibration) -> Vec<Said> {
                      which was used as the noise of the meter, because noise_ma is not stated.",
                     columns::two_digits(deviation)
                 );
-                say(words, false);
+                say(words, Weight::Usual);
             }
         }
     }
@@ -435,7 +442,7 @@ fn scatter(calibration: &Calibration) -> Vec<Said> {
     ];
     for (what, found, less) in each {
         if let Some(found) = found {
-            say(agreement(what, found, less), found.agreement() != Agreement::AsStated);
+            say(agreement(what, found, less), of(found));
         }
     }
     let each = [("visit to visit", &calibration.visit_noise), ("turn-on to turn-on", &calibration.turn_on_noise)];
@@ -445,22 +452,22 @@ fn scatter(calibration: &Calibration) -> Vec<Said> {
             columns::two_digits(noise.deg_per_h),
             noise.degrees_of_freedom
         );
-        say(words, true);
+        say(words, Weight::Remark);
     }
     if calibration.drift_or_noise {
         let words = "A drift of ω_0 in time was not tested, because the repeated visits cannot tell it from the noise of the \
                      gyro. Visit more positions again, or state noise.visit_deg_per_h in the gyro type.";
-        say(words.to_owned(), true);
+        say(words.to_owned(), Weight::Remark);
     }
     if let Some(test) = calibration.drift_test.filter(|test| test.is_significant()) {
         let words = format!(
-            "WARNING: the residuals show a drift of ω_0 in time, ({}, {}) °/h per hour, which is not fitted \
+            "the residuals show a drift of ω_0 in time, ({}, {}) °/h per hour, which is not fitted \
              (probability of a larger one: {}). Fit it with --drift.",
             with_sign(test.drift_deg_per_h_per_h.x),
             with_sign(test.drift_deg_per_h_per_h.y),
             columns::probability(test.probability)
         );
-        said.push(Said { indent: "", words, remarkable: true });
+        say(words, Weight::Warning);
     }
     said
 }

@@ -7,8 +7,8 @@ const UNITS: [&str; 36] = [
     "mas",
 ];
 
-/// Returns the advice for the name `found` if it is one of the `known` quantities in another unit, or an expanded uncertainty
-/// in place of a standard uncertainty; `None` otherwise.
+/// Returns the advice for an unknown name that is one of the `known` quantities in another unit, or an expanded uncertainty
+/// where a standard uncertainty is expected; `None` for other names.
 pub(super) fn advice(known: &[&str], found: &str) -> Option<String> {
     if let Some(name) = known.iter().find(|name| found.starts_with("U_") && **name == found.to_lowercase()) {
         return Some(format!(

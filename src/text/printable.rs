@@ -83,7 +83,7 @@ pub(crate) fn outgoing(text: &str, codes: &[&str]) -> String {
     shown
 }
 
-/// Returns the JSON of a value; invisible characters in its strings are escaped as `\uXXXX`.
+/// Returns a value as indented JSON, in which invisible characters are escaped as `\uXXXX`.
 ///
 /// # Errors
 /// Returns an error if the value cannot be written as JSON.

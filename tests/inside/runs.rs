@@ -411,8 +411,8 @@ fn few_degrees_of_freedom_of_the_noise_are_no_drift() {
     }
 }
 
-/// One position visited again determines either the noise or a drift: the drift is then neither tested nor fitted, unless
-/// the noise is stated. With more visits a drift is found.
+/// If only one position is visited again, the noise and a drift cannot both be estimated: the drift is then neither tested
+/// nor fitted, unless the noise is stated. With more visits a drift is found.
 #[test]
 fn a_drift_or_noise() {
     let read = |setup: &Setup, again: &[usize], per_hour: f64| {
