@@ -208,7 +208,7 @@ where
 /// Joins payload and signature into the file that [`SignedText::split`] separates.
 pub(crate) fn join(payload: &str, signature: &Signature) -> String {
     let armor: String = signature.to_armor().lines().map(|line| format!("{INDENT}{line}\n")).collect();
-    format!("{payload}{SIGNATURE_LINE}{armor}")
+    [payload, SIGNATURE_LINE, &armor].concat()
 }
 
 #[cfg(all(test, feature = "factory"))]

@@ -108,14 +108,16 @@ fn wrapped(out: &mut String, mut column: usize, indent: usize, words: &str, colu
     out.push('\n');
 }
 
-/// Splits a text into words; a unit belongs to the word of its number.
+/// Splits a text into words; a unit belongs to the word of its number, and a sign of equality to both its sides.
 fn unbroken(text: &str) -> Vec<String> {
     const UNITS: [&str; 9] = ["%", "arcsec", "deg", "°/h", "mA", "uA", "m", "m/s2", "m/s²"];
     let mut words: Vec<String> = Vec::new();
     for word in text.split(' ') {
         let is_unit = UNITS.contains(&word.trim_end_matches([',', ';', '.', ':', ')'])) || word.starts_with("°/(");
-        match words.last_mut().filter(|last| is_unit && last.ends_with(|c: char| c.is_numeric())) {
-            Some(number) => *number += &format!(" {word}"),
+        let belongs =
+            |last: &str| word == "=" || last.ends_with('=') || is_unit && last.ends_with(|c: char| c.is_numeric());
+        match words.last_mut().filter(|last| belongs(last)) {
+            Some(last) => *last += &format!(" {word}"),
             None => words.push(word.to_owned()),
         }
     }
@@ -341,6 +343,7 @@ mod tests {
     fn a_number_stays_with_its_unit() {
         assert_eq!(unbroken("is 2 °/(h·mA); a 5 % b"), ["is", "2 °/(h·mA);", "a", "5 %", "b"]);
         assert_eq!(unbroken("of 4.6×10⁻⁹ °/(h·mA)"), ["of", "4.6×10⁻⁹ °/(h·mA)"]);
+        assert_eq!(unbroken("U = 1.96 u = 0.022 °/h; a"), ["U = 1.96", "u = 0.022 °/h;", "a"]);
         let mut out = String::new();
         paragraph(&mut out, "", &format!("{}0.13 %", "word ".repeat(19)));
         assert_eq!(out.lines().last(), Some("0.13 %"));

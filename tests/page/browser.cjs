@@ -80,6 +80,7 @@ function said() {
     checked: document.querySelector(".checked")?.textContent ?? "",
     greens: all(".passed").map(text),
     headline: document.querySelector(".headline").textContent,
+    status: (document.querySelector(".band > div") || document.body).textContent,
     refused: document.querySelector(".verdict.refused") !== null,
   };
 }
@@ -89,6 +90,11 @@ function unfit() {
   const found = [];
   const name = (element) => `${element.tagName.toLowerCase()}.${element.getAttribute("class") || ""} ${element.textContent.slice(0, 60)}`;
   const width = document.documentElement.clientWidth;
+  for (const link of document.querySelectorAll("a[href^='#']")) {
+    const target = document.getElementById(link.hash.slice(1));
+    const seen = (element) => element !== null && element.getClientRects().length > 0;
+    if (seen(link) && !seen(target)) found.push(`a link to what is not seen: ${name(link)}`);
+  }
   if (document.documentElement.scrollWidth > width) found.push(`the page scrolls sideways: ${document.documentElement.scrollWidth} > ${width}`);
   for (const element of document.querySelectorAll("body *")) {
     if (element.closest(".unseen, .pad, thead") && getComputedStyle(element.closest(".unseen, .pad, thead")).position === "absolute") continue;

@@ -52,7 +52,7 @@ pub fn all() -> Vec<Case> {
         full("full-ru", &[Russian]).asking(right),
         case("hostile-both", &hostile(fixtures::ARC_MINUTES), fixtures::SITE, &[Russian, English]),
         case("hostile-en", &hostile(fixtures::DEGREES), BARE_SITE, &[English]),
-        case("many-en", &many_positions(), fixtures::SITE, &[English]),
+        many("many-en", &[English]),
         case("many-ru", &many_positions(), fixtures::SITE, &[Russian]),
         case("four-ru", &four_positions(), BARE_SITE, &[Russian]),
         case("north-both", fixtures::DEGREES, &pointing(0.0), &[Russian, English]),
@@ -90,10 +90,14 @@ fn issued(name: &'static str, stand: &str, site: &str, order: &Issue, languages:
     Case { name, passport, trust: fixtures::trust(&key), question: fixtures::question(), languages: of(languages) }
 }
 
+/// Twenty-four positions at a surveyed site, with the expected uncertainty.
+fn many(name: &'static str, languages: &[Language]) -> Case {
+    let order = Issue { accuracy: Some(stated()), ..Issue::first(fixtures::ISSUER, fixtures::at(fixtures::ISSUED_AT)) };
+    issued(name, &many_positions(), fixtures::SITE, &order, languages)
+}
+
 /// All that a file can state, after a re-issue for a reason that took a page to tell.
 fn full(name: &'static str, languages: &[Language]) -> Case {
-    let laboratory = Laboratory::from_yaml("laboratory", FULL_LABORATORY.as_bytes()).unwrap();
-    let gyro = GyroType::from_yaml("gyro", FULL_GYRO.as_bytes()).unwrap();
     let reason = "the building was renovated, and the pillar was set up anew on a foundation of its own; ".repeat(8);
     let predecessor = Predecessor {
         id: "SPS-2/0017/bench/1".to_owned(),
@@ -102,7 +106,7 @@ fn full(name: &'static str, languages: &[Language]) -> Case {
         changed: "site: deflection_arcsec, azimuth_mark".to_owned(),
     };
     let order = Issue {
-        accuracy: Some(Stated { gyro, laboratory }),
+        accuracy: Some(stated()),
         revision: 2,
         reissued: Some(Reissued { from: predecessor, supersedes: true }),
         ..Issue::first(fixtures::ISSUER, fixtures::at(fixtures::ISSUED_AT))
@@ -113,6 +117,13 @@ fn full(name: &'static str, languages: &[Language]) -> Case {
         .replace("datum:", TYPE_B);
     let site = fixtures::SITE.replace("height_m", "gravity_m_per_s2: 9.81563\ngravity_u_m_per_s2: 2.5e-05\nheight_m");
     issued(name, &stand, &site, &order, languages)
+}
+
+fn stated() -> Stated {
+    Stated {
+        gyro: GyroType::from_yaml("gyro", FULL_GYRO.as_bytes()).unwrap(),
+        laboratory: Laboratory::from_yaml("laboratory", FULL_LABORATORY.as_bytes()).unwrap(),
+    }
 }
 
 const TYPE_B: &str = r#"  type_b:

@@ -159,6 +159,14 @@ fn what_was_not_asked_is_not_called_passed() {
             assert!(named.next().is_none(), "{}: {name} has two rows", case.name);
             state
         });
+        let in_force = ["In force", "Действует"]
+            .iter()
+            .any(|words| found["said"]["headline"].as_str().unwrap().starts_with(words));
+        for words in [("withdrawal not checked", Language::English), ("отзыв не проверен", Language::Russian)]
+        {
+            let said = found["said"]["status"].as_str().unwrap().replace('\u{a0}', " ").contains(words.0);
+            assert_eq!(said, in_force && case.languages.iter().any(|language| language == words.1), "{}", case.name);
+        }
         let not_asked = |place: usize| states[place].starts_with("○ ");
         let question = &case.question;
         let due =

@@ -63,6 +63,11 @@ impl Number {
         Self::to_place(value, number::exponent_as_printed(value, digits) - digits + 1)
     }
 
+    /// Creates a whole number from 10 upwards, and one with two significant digits below.
+    pub(crate) fn whole_or_two_digits(value: f64) -> Self {
+        if value < 10.0 { Self::significant(value, 2) } else { Self::fixed(value, 0) }
+    }
+
     /// Creates a number with `digits` significant digits, and a power of ten if it would otherwise have many zeros.
     pub(crate) fn scientific(value: f64, digits: i32) -> Self {
         let plain = value == 0.0 || (1e-3..1e5).contains(&value.abs());

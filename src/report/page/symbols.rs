@@ -48,7 +48,9 @@ fn is_symbol(before: Option<char>, letter: char, after: &str) -> bool {
     let (next, second) = (next.next(), next.next());
     // In 2u, u is a symbol.
     let factor = |c: char| c.is_ascii_digit() && matches!(letter, 'u' | 'U');
-    let begins = before.is_none_or(|c| factor(c) || !c.is_alphanumeric() && !"·°'’.-_@".contains(c));
+    // In 1/g, g is the unit.
+    let unit = letter == 'g' && before == Some('/');
+    let begins = !unit && before.is_none_or(|c| factor(c) || !c.is_alphanumeric() && !"·°'’.-_@".contains(c));
     let subscript = |c: char| c == '_' || ('₀'..='₉').contains(&c);
     let squared = |c: char| letter == 'u' && c == '²';
     let ends = next.is_none_or(|c| greek && subscript(c) || squared(c) || !c.is_alphanumeric() && !"'’_@".contains(c));
@@ -56,16 +58,16 @@ fn is_symbol(before: Option<char>, letter: char, after: &str) -> bool {
     begins && ends && !abbreviated
 }
 
-/// Writes the index of a symbol: names of axes and running numbers are italic, words upright (ISO 80000-1, 7.1.2).
-pub(crate) fn index(index: &str) -> Markup {
+/// Returns the letters of an index with `true` for those that are italic: names of axes and running numbers. Words are
+/// upright (ISO 80000-1, 7.1.2).
+pub(crate) fn index_letters(index: &str) -> impl Iterator<Item = (char, bool)> {
     let running = index.chars().all(|c| c.is_ascii_digit() || "ijxyz".contains(c));
-    html! {
-        sub {
-            @for c in index.chars() {
-                @if running && c.is_ascii_alphabetic() { i { (c) } } @else { (c) }
-            }
-        }
-    }
+    index.chars().map(move |c| (c, running && c.is_ascii_alphabetic()))
+}
+
+/// Writes the index of a symbol.
+pub(crate) fn index(index: &str) -> Markup {
+    html! { sub { @for (c, italic) in index_letters(index) { @if italic { i { (c) } } @else { (c) } } } }
 }
 
 /// Writes a text with its symbols.
@@ -90,7 +92,7 @@ mod tests {
     fn quantities_are_italic_and_units_are_not() {
         for due in [
             "*u*(*α*), *k* = 1, ±2*u*, *U* = 2*u*",
-            "5 m/s², 3 °/(h·g), °/h, 20 °C, 5 mA, µA",
+            "5 m/s², 3 °/(h·g), 1/g, °/h, 20 °C, 5 mA, µA; *x*/*u*",
             "the frame’s axis *ξ*, the platform's; a file.s, a-u, i.e. a text",
             "*g*-sensitive drift, отнесены к *g*; в осях *x*, *y*, *z*",
             "test whether *ω*_g and *ω*_k; *ω*₃; position (*i*, *j*); labels are *i*,*j*",

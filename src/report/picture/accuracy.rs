@@ -123,7 +123,7 @@ fn in_words(language: Language, rows: &[Row]) -> String {
         let (name, u) = (plain_symbol(row.parameter.symbol()), Number::uncertainty(row.u).text(language));
         let unit = unit(row.parameter).of(language);
         let (text, share) = match row.share {
-            Some(share) => (texts::ACCURACY_IN_WORDS, Number::significant(100.0 * share, 2).text(language)),
+            Some(share) => (texts::ACCURACY_IN_WORDS, Number::whole_or_two_digits(100.0 * share).text(language)),
             None => (texts::ACCURACY_NO_TOLERANCE_IN_WORDS, String::new()),
         };
         text.filled(language, &[("parameter", &name), ("u", &u), ("unit", &unit), ("share", &share)])

@@ -12,7 +12,7 @@ use maud::{Markup, html};
 const PANEL_PIXELS: u32 = 240;
 const SIZE: Point = [300.0, 166.0];
 /// Plot area: left and upper, right and lower end.
-const FIELD: [Point; 2] = [[40.0, 10.0], [290.0, 126.0]];
+const FIELD: [Point; 2] = [[40.0, 22.0], [290.0, 126.0]];
 
 /// Largest number of decades of the axis below the limit. Smaller values, and zero, are drawn at its end.
 const MOST_DECADES: i32 = 12;
@@ -91,7 +91,7 @@ fn axes(languages: &Languages, field: &Field) -> Markup {
     let [[_, top], [right, bottom]] = FIELD;
     html! {
         (field.axes(&steps, &decades))
-        (label([right, top + 10.0], Anchor::End, "small", &html! { (languages.plain(texts::CONVERGENCE_SHARE)) }))
+        (label([right, top - 8.0], Anchor::End, "small", &html! { (languages.plain(texts::CONVERGENCE_SHARE)) }))
         (label([right, bottom + 32.0], Anchor::End, "small", &html! { (languages.plain(texts::CONVERGENCE_STEP)) }))
     }
 }

@@ -6,7 +6,7 @@
 
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{Number, localised};
-use crate::report::page::symbols::{Piece, pieces};
+use crate::report::page::symbols::{Piece, index_letters, pieces};
 use maud::{Markup, html};
 
 /// A point of a drawing: distance to the right and down, in units of the drawing.
@@ -204,9 +204,17 @@ pub(crate) fn number(at: Point, anchor: Anchor, class: &str, value: f64, printed
 /// Writes a symbol of the paper: the part after the underscore is a subscript.
 pub(crate) fn symbol(name: &str) -> Markup {
     let (letter, index) = name.split_once('_').unwrap_or((name, ""));
+    with_index(letter, index)
+}
+
+fn with_index(letter: &str, index: &str) -> Markup {
     html! {
         tspan.letter { (letter) }
-        @if !index.is_empty() { tspan.index dy="3" { (index) } }
+        @if !index.is_empty() {
+            tspan.index dy="3" {
+                @for (c, italic) in index_letters(index) { @if italic { tspan.letter { (c) } } @else { (c) } }
+            }
+        }
     }
 }
 
@@ -216,7 +224,7 @@ pub(crate) fn symbols(words: &str) -> Markup {
         @for piece in pieces(words) {
             @match piece {
                 Piece::Words(words) => (words),
-                Piece::Symbol(letter, _) => tspan.letter { (letter) },
+                Piece::Symbol(letter, index) => (with_index(letter, index)),
             }
         }
     }
@@ -431,6 +439,7 @@ mod tests {
     #[test]
     fn an_index_stands_lower() {
         let html = symbol("ω_0x").into_string();
-        assert_eq!(html, r#"<tspan class="letter">ω</tspan><tspan class="index" dy="3">0x</tspan>"#);
+        let index = r#"<tspan class="index" dy="3">0<tspan class="letter">x</tspan></tspan>"#;
+        assert_eq!(html, format!(r#"<tspan class="letter">ω</tspan>{index}"#));
     }
 }

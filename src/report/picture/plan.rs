@@ -13,7 +13,7 @@ use maud::{Markup, html};
 /// Left and right end of the bars of both panels. Names are to their left, numbers to their right.
 const BARS: [Point; 2] = [[52.0, 262.0], [520.0, 730.0]];
 const WIDTH: f64 = 790.0;
-const TOP: f64 = 62.0;
+const TOP: f64 = 82.0;
 const ROW: f64 = 30.0;
 const BAR: f64 = 12.0;
 
@@ -41,7 +41,10 @@ pub(crate) fn plan(plan: &Plan) -> String {
     });
     let errors: Vec<Row> = errors.collect();
     let rows = uncertainties.len().max(errors.len());
+    let readings: u32 = plan.readings.iter().map(|visited| visited.visits).sum();
+    let title = format!("Plan of {readings} readings in {} positions", plan.readings.len());
     let drawing = [
+        words([14.0, 18.0], Anchor::Start, "title", &title),
         key(plan),
         words([14.0, TOP - 12.0], Anchor::Start, "title", "Standard uncertainty, % of the tolerance"),
         words([400.0, TOP - 12.0], Anchor::Start, "title", "Largest change by a common error, % of the tolerance"),
@@ -49,7 +52,7 @@ pub(crate) fn plan(plan: &Plan) -> String {
         panel(&errors, BARS[1]),
     ];
     let size = [WIDTH, TOP + ROW * rows as f64 + 10.0];
-    file("plan", size, "Plan of readings", &in_words(&uncertainties, &errors), &drawing)
+    file("plan", size, &title, &in_words(&uncertainties, &errors), &drawing)
 }
 
 fn name_of(effect: &Effect) -> String {
@@ -68,7 +71,7 @@ fn key(plan: &Plan) -> Markup {
     if plan.paper.is_some() {
         entries.push((sample("bar open"), "paper’s eight positions, axis at 90°"));
     }
-    caption([14.0, 20.0], "", &entries)
+    caption([14.0, 40.0], "", &entries)
 }
 
 fn panel(rows: &[Row], [left, right]: Point) -> Markup {
@@ -97,9 +100,9 @@ fn panel(rows: &[Row], [left, right]: Point) -> Markup {
     }
 }
 
-/// Formats a percentage: two digits, or 0 where only rounding is left.
+/// Formats a percentage, as 0 where only rounding is left.
 fn percent(value: f64) -> String {
-    if value < 1e-6 { "0".to_owned() } else { Number::significant(value, 2).text(Language::English) }
+    if value < 1e-6 { "0".to_owned() } else { Number::whole_or_two_digits(value).text(Language::English) }
 }
 
 fn in_words(uncertainties: &[Row], errors: &[Row]) -> String {

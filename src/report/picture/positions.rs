@@ -22,11 +22,12 @@ const PANEL_PIXELS: u32 = 155;
 const COLUMNS: u32 = 4;
 const SIZE: Point = [210.0, 222.0];
 /// Centre of the stand on a drawing, and length of its unit.
-const CENTRE: Point = [106.0, 108.0];
-const UNIT: f64 = 55.0;
+const CENTRE: Point = [106.0, 113.0];
+const UNIT: f64 = 52.0;
 
-/// Direction from which the stand is viewed: east of south, and above the horizon.
-const VIEW_EAST_OF_SOUTH_DEG: f64 = 34.0;
+/// Direction from which the stand is viewed: from −η towards ξ, and above the horizon. It turns with the frame's axis,
+/// so that no azimuth hides a part.
+const VIEW_TOWARDS_XI_DEG: f64 = 34.0;
 const VIEW_ABOVE_DEG: f64 = 24.0;
 
 /// Dimensions of the frame in units of the stand: half its length along ξ and across, half the thickness of its bars.
@@ -92,11 +93,12 @@ pub(super) struct View {
 }
 
 impl View {
-    pub(super) fn new(centre: Point, unit: f64) -> Self {
-        let (sa, ca) = sin_cos_of_degrees(VIEW_EAST_OF_SOUTH_DEG);
+    pub(super) fn new(centre: Point, unit: f64, base_axes: &Matrix3<f64>) -> Self {
+        let (sa, ca) = sin_cos_of_degrees(VIEW_TOWARDS_XI_DEG);
         let (se, ce) = sin_cos_of_degrees(VIEW_ABOVE_DEG);
-        let towards = Vector3::new(sa * ce, -ca * ce, se);
-        Self { right: Vector3::new(ca, sa, 0.0), up: Vector3::new(-sa * se, ca * se, ce), towards, centre, unit }
+        let of_base = |xi: f64, eta: f64, zeta: f64| base_axes.tr_mul(&Vector3::new(xi, eta, zeta));
+        let (right, up) = (of_base(ca, sa, 0.0), of_base(-sa * se, ca * se, ce));
+        Self { right, up, towards: of_base(sa * ce, -ca * ce, se), centre, unit }
     }
 
     /// Returns the place on the drawing of a point, given east, north and up.
@@ -159,7 +161,7 @@ fn position(languages: &Languages, at: &CertifiedPosition, base_axes: &Matrix3<f
     let drawn = Deviation { alpha_rad: factor * alpha_rad, beta_rad: factor * beta_rad, gamma_rad: factor * gamma_rad };
     let (true_axes, real) = (turned(&position.deviation), turned(&drawn));
     let frame = attitude::nominal(at.theta_deg, 0.0) * base_axes;
-    let view = View::new(CENTRE, UNIT);
+    let view = View::new(CENTRE, UNIT, base_axes);
     let drawing = [
         heading(at, languages),
         plate(&view, base_axes),
@@ -256,7 +258,7 @@ fn axes(view: &View, designed: &Matrix3<f64>, real: &Matrix3<f64>) -> Markup {
 /// Returns the place of an axis letter: beyond the arrow head, even if the axis points at the viewer, or next to it if
 /// words are there.
 fn letter(view: &View, direction: &Vector3<f64>, taken: &[Area]) -> Point {
-    const GAPS: [f64; 2] = [10.0, 15.0];
+    const GAPS: [f64; 3] = [10.0, 15.0, 20.0];
     const TURNS_DEG: [f64; 7] = [0.0, 45.0, -45.0, 90.0, -90.0, 135.0, -135.0];
     let ([cx, cy], [x, y]) = (CENTRE, view.point(&(direction * AXIS)));
     let length = libm::hypot(x - cx, y - cy);
@@ -274,7 +276,7 @@ fn letter(view: &View, direction: &Vector3<f64>, taken: &[Area]) -> Point {
 
 /// Returns the area that the letter of an axis covers.
 fn about_letter([x, y]: Point) -> Area {
-    Area { low: [x - 5.4, y - 9.2], high: [x + 5.4, y + 8.2] }
+    Area { low: [x - 7.0, y - 16.0], high: [x + 7.0, y + 9.0] }
 }
 
 /// Returns the axes of the case or of the base, each east, north, up: the rows of the matrix.

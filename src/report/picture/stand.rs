@@ -12,13 +12,13 @@ use maud::{Markup, html};
 use nalgebra::{Matrix3, Vector3};
 
 const PANEL_PIXELS: u32 = 300;
-const SIZE: Point = [500.0, 316.0];
-const CENTRE: Point = [262.0, 148.0];
+const SIZE: Point = [500.0, 282.0];
+const CENTRE: Point = [262.0, 114.0];
 const UNIT: f64 = 86.0;
 
 /// Place and unit of the three directions east, north and up.
-const COMPASS: Point = [40.0, 284.0];
-const COMPASS_UNIT: f64 = 46.0;
+const COMPASS: Point = [92.0, 250.0];
+const COMPASS_UNIT: f64 = 36.0;
 
 /// Angles of the drawing: large enough for their arcs, and no position of a stand.
 const THETA_DEG: f64 = 40.0;
@@ -31,8 +31,8 @@ const PHI_ARC: f64 = 0.75;
 
 /// Draws the stand; its frame's axis ξ points to the azimuth `frame_axis_azimuth_deg`.
 pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Markup {
-    let view = View::new(CENTRE, UNIT);
     let base = attitude::base(frame_axis_azimuth_deg);
+    let view = View::new(CENTRE, UNIT, &base);
     let turned = |theta_deg: f64, phi_deg: f64| attitude::nominal(theta_deg, phi_deg) * base;
     let (frame, platform) = (turned(THETA_DEG, 0.0), turned(THETA_DEG, PHI_DEG));
     let ([xi, across, _], [x, y, z]) = (rows(&frame), rows(&platform));
@@ -49,7 +49,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         (texts::PART_PINS, x * -0.5),
         (texts::PART_GYRO, z * GYRO_HEIGHT),
         (texts::PART_BASE, near_the_right_corner(&view, &base)),
-        (texts::PART_AXIS, xi * 1.75),
+        (texts::PART_AXIS, xi * 1.5),
     ];
     let named = named.map(|(text, at)| {
         let name = |language| text.filled(language, &[("azimuth", &azimuth(language))]);
@@ -59,7 +59,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
         plate(&view, &base),
         parts(&view, &base, &frame, &platform),
         line(view.point(&(xi * -1.1)), view.point(&(xi * -1.6)), "axle"),
-        arrow(view.point(&(xi * 1.1)), view.point(&(xi * 1.75)), "base-axis"),
+        arrow(view.point(&(xi * 1.1)), view.point(&(xi * 1.5)), "base-axis"),
         axis(&x, GYRO),
         axis(&y, GYRO),
         axis(&z, GYRO_HEIGHT),
@@ -69,7 +69,7 @@ pub(crate) fn stand(languages: &Languages, frame_axis_azimuth_deg: f64) -> Marku
             &view,
             &[("x", x * 1.37), ("y", y * 1.37), ("z", z * 1.37), ("θ", theta_letter(&theta)), ("φ", phi(0.5) * 1.2)],
         ),
-        compass_rose(languages),
+        compass_rose(languages, &base),
         leaders(&named),
     ];
     let panel = Panel { name: "stand", languages, size: SIZE };
@@ -119,16 +119,25 @@ fn letters(view: &View, letters: &[(&str, Vector3<f64>)]) -> Markup {
     }
 }
 
-/// Draws east, north and up, as the view shows them.
-fn compass_rose(languages: &Languages) -> Markup {
-    let view = View::new(COMPASS, COMPASS_UNIT);
+/// Draws east, north and up, as the view shows them. Names stand on the outer side of the heads, each language on its own
+/// line.
+fn compass_rose(languages: &Languages, base: &Matrix3<f64>) -> Markup {
+    const LINE: f64 = 16.0;
+    let view = View::new(COMPASS, COMPASS_UNIT, base);
     let named = [compass::EAST, compass::NORTH, compass::UP];
     let directions = [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().zip(named);
     html! {
         @for (direction, name) in directions {
-            @let [x, y] = view.point(&(direction * 1.1));
+            @let ([x, y], vertical) = (view.point(&(direction * 1.1)), direction.z > 0.0);
+            @let names: Vec<&str> = languages.iter().map(|language| name.of(language)).collect();
+            @let anchor = if vertical { Anchor::Middle } else if x < COMPASS[0] { Anchor::End } else { Anchor::Start };
+            // Above an upward head, around a downward one.
+            @let share = if vertical || y < COMPASS[1] { 1.0 } else { 0.5 };
+            @let first = y + 12.0 * (1.0 - share) - share * LINE * (names.len() - 1) as f64;
             (arrow(COMPASS, view.point(&direction), "meridian"))
-            (words([x, y + if direction.z > 0.0 { 0.0 } else { 6.0 }], if direction.z > 0.0 { Anchor::Middle } else { Anchor::Start }, "", &languages.plain(name)))
+            @for (row, name) in names.iter().enumerate() {
+                (words([x, first + LINE * row as f64], anchor, if row == 0 { "" } else { "soft" }, name))
+            }
         }
     }
 }

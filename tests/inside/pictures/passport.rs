@@ -153,21 +153,24 @@ fn deviations_turn_the_axes_the_right_way() {
     same(found[3][1], combination(&[(cos, u), (-sin, n)]));
 }
 
-/// By hand: with θ = φ = 0 x is along the frame's axis, which points to its azimuth; at 0° y is then west. The axle is drawn
-/// along it, and the arrow of north does not turn.
+/// By hand: the view turns with the frame's axis, so at every azimuth the axes are drawn where they are at 90°, and east
+/// and north turn. With the axis at 0°, y is west, so east is drawn where −y is, and north where x is.
 #[test]
 fn the_frames_axis_points_to_its_azimuth() {
-    let ([e, n, u], middle) = drawn_directions();
-    let [w, s] = [e, n].map(|[x, y]| [-x, -y]);
+    let ([x, y, up], middle) = drawn_directions();
     let first = [position(1, 1, [0.0, 0.0], [0.0; 3])];
-    for (azimuth_deg, expected) in [(0.0, [n, w, u]), (180.0, [s, e, u]), (270.0, [w, s, u])] {
-        for (found, expected) in axes_at(azimuth_deg, &first, middle)[0].iter().zip(expected) {
+    let opposite = |[x, y]: [f64; 2]| [-x, -y];
+    let at_60 = [combination(&[(0.75_f64.sqrt(), x), (-0.5, y)]), combination(&[(0.5, x), (0.75_f64.sqrt(), y)])];
+    for (azimuth_deg, [east, north]) in [
+        (0.0, [opposite(y), x]),
+        (60.0, at_60),
+        (90.0, [x, y]),
+        (180.0, [y, opposite(x)]),
+        (270.0, [opposite(x), opposite(y)]),
+    ] {
+        for (found, expected) in axes_at(azimuth_deg, &first, middle)[0].iter().zip([x, y, up]) {
             same(*found, expected);
         }
-    }
-    let (sin, cos) = libm::sincos(30_f64.to_radians());
-    same(axes_at(30.0, &first, middle)[0][0], combination(&[(sin, e), (cos, n)]));
-    for azimuth_deg in [0.0, 30.0, 90.0, 250.0] {
         let text = whole(&[stand::stand(&english(), azimuth_deg)]);
         let page = Document::parse(&text).unwrap();
         let along = |arrow: Node| {
@@ -175,15 +178,14 @@ fn the_frames_axis_points_to_its_azimuth() {
             let ([x, y], [x1, y1]) = (tip(arrow), [number(shaft, "x1"), number(shaft, "y1")]);
             [x - x1, y - y1]
         };
-        // The arrows of east, north and up do not turn; they are one unit of 46 long, an axis of the positions 1.27 of 55.
-        let scale = 46.0 / (1.27 * 55.0);
-        for (arrow, expected) in of_class(page.root(), "meridian").into_iter().zip([e, n, u]) {
+        // The arrows of east, north and up are one unit of 36 long, an axis of the positions 1.27 of 52.
+        let scale = 36.0 / (1.27 * 52.0);
+        for (arrow, expected) in of_class(page.root(), "meridian").into_iter().zip([east, north, up]) {
             same(along(arrow), expected.map(|part| scale * part));
         }
-        // ξ turns with the base: it is 0.65 units of 86 long.
-        let (sin, cos) = libm::sincos(f64::to_radians(azimuth_deg));
-        let scale = 0.65 * 86.0 / (1.27 * 55.0);
-        same(along(of_class(page.root(), "base-axis")[0]), combination(&[(scale * sin, e), (scale * cos, n)]));
+        // The arrow of ξ is 0.4 units of 86 long.
+        let scale = 0.4 * 86.0 / (1.27 * 52.0);
+        same(along(of_class(page.root(), "base-axis")[0]), x.map(|part| scale * part));
     }
 }
 

@@ -9,9 +9,9 @@ use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
 use crate::gyro::GyroType;
 use crate::report::page::language::{Language, Languages, Text};
 use crate::report::page::number::{Cell, Number, column};
-use crate::report::page::parts::{Column, Table, date_text, heading, quantity, symbol};
+use crate::report::page::parts::{Column, Table, date_text, heading, quantity, symbol, symbol_and_unit};
 use crate::report::page::symbols::italic;
-use crate::report::page::texts::{calibration as texts, passport, units};
+use crate::report::page::texts::{calibration as texts, units};
 use crate::report::picture::accuracy::unit;
 use crate::report::picture::tolerances::{Strips, decision, key, parameter_of, printed, unit_of};
 use maud::{Markup, html};
@@ -78,13 +78,9 @@ fn alone(page: &CalibrationPage, languages: &Languages) -> Markup {
         found.map(|parameter| (parameter, values[parameter.place()], us[parameter.place()])).collect();
     let values = column(languages, found.iter().map(|(_, x, u)| Number::measured(*x, *u)));
     let us = column(languages, found.iter().map(|(.., u)| Number::uncertainty(*u)));
-    let units = found.iter().map(|(parameter, ..)| languages.inline(unit(*parameter)));
-    let columns = [
-        Column::named(languages, texts::FOUND, values),
-        Column::new(symbol("u", ""), us),
-        Column::named(languages, passport::UNIT, units.collect()),
-    ];
-    let names = found.iter().map(|(parameter, ..)| vec![name_of(parameter.symbol())]).collect();
+    let columns = [Column::named(languages, texts::FOUND, values), Column::new(symbol("u", ""), us)];
+    let with_unit = |parameter: Parameter| symbol_and_unit(languages, &name_of(parameter.symbol()), unit(parameter));
+    let names = found.iter().map(|(parameter, ..)| vec![with_unit(*parameter)]).collect();
     let table = Table::of(vec![languages.label(texts::PARAMETER)], names, &columns);
     Table { class: "numbers narrow", ..table }.captioned(languages, texts::RESULT_CAPTION)
 }
@@ -177,11 +173,9 @@ fn parameter(row: &ParameterVerdict) -> Markup {
     name_of(parameter_of(row).map_or(row.parameter, Parameter::symbol))
 }
 
-/// Writes the mark of simple acceptance, in colour only if guarded acceptance decides; screen readers say the word.
+/// Writes the mark of simple acceptance without colour, which guarded acceptance alone has; screen readers say the word.
 fn mark_of(languages: &Languages, row: &ParameterVerdict) -> Markup {
-    let (class, mark) = mark(row.simple);
-    let class = if row.guarded == Decision::Undecided { "state" } else { class };
-    html! { span class=(class) { (mark) span.unseen { " " (languages.spoken(decision(row.simple))) } } }
+    html! { span.state { (mark(row.simple).1) span.unseen { " " (languages.spoken(decision(row.simple))) } } }
 }
 
 /// Writes a decision with its mark, in the first language only: the key below the table has the mark in all of them.
@@ -210,7 +204,7 @@ fn probability_cell(languages: &Languages, p: f64) -> Cell {
     if p < LEAST_RISK {
         let limit = Number::scientific(LEAST_RISK, 1).text(languages.first());
         Cell::Words(languages.inline_with(|language| texts::BELOW.filled(language, &[("limit", &limit)])))
-    } else if p < 0.01 {
+    } else if p < 0.1 {
         Cell::Number(Number::scientific(p, 2))
     } else {
         Cell::Number(Number::fixed(p, 2))

@@ -145,8 +145,7 @@ fn budget_table(budget: &Budget, languages: &Languages) -> Markup {
         each(&|line| match line.effective_degrees_of_freedom {
             known if known > MANY => Cell::Words(html! { "∞" }),
             // Rounding to tens would print a number that differs from the one in the result.
-            known if known >= 10.0 => Cell::Number(Number::fixed(known, 0)),
-            known => Cell::Number(Number::significant(known, 2)),
+            known => Cell::Number(Number::whole_or_two_digits(known)),
         }),
     ));
     rows.push((

@@ -10,7 +10,7 @@ use crate::report::page::number::{Number, column};
 use crate::report::page::parts::{
     Column, Table, boxed, field, fields, heading, section as part, starts, symbol, symbol_and_unit,
 };
-use crate::report::page::texts::{certification as texts, pictures, units};
+use crate::report::page::texts::{certification as texts, checks, pictures, units};
 use crate::report::picture::residuals::{Bars, key_of};
 use maud::{Markup, html};
 
@@ -58,8 +58,7 @@ fn compared(comparison: &Comparison, changes: &[NumberDifference], languages: &L
             field(languages, texts::ALL_TOGETHER, Some(test(&comparison.all, languages))),
             field(languages, texts::COMMON_TURN, Some(common.map_or_else(|| html! { "–" }, |of| test(of, languages)))),
         ]))
-        p { (languages.label_with(caption)) }
-        (table(changes, languages))
+        (table(changes, languages.label_with(caption), languages))
     }
 }
 
@@ -83,18 +82,21 @@ fn rotations(comparison: &Comparison, languages: &Languages) -> Markup {
     }
     let p = positions.iter().map(|at| Number::scientific(at.test.probability, 2));
     columns.push(Column::named(languages, texts::PROBABILITY, column(languages, p)));
-    let word = |repeats: bool| languages.inline(if repeats { texts::REPEATS } else { texts::REPEATS_NOT });
-    columns.push(Column::new(html! {}, positions.iter().map(|at| word(at.repeats)).collect()));
+    let found = |repeats: bool| match repeats {
+        true => html! { span class="state passed" { "●" } " " (languages.inline(texts::REPEATS)) },
+        false => html! { span class="state failed" { "✕" } " " (languages.inline(texts::REPEATS_NOT)) },
+    };
+    columns.push(Column::named(languages, checks::RESULT, positions.iter().map(|at| found(at.repeats)).collect()));
     let names = positions.iter().map(|at| vec![html! { (at.index.to_string()) }]).collect();
     let table = Table::of(vec![languages.label(texts::POSITION)], names, &columns);
     table.markup(languages.spoken(texts::ROTATIONS))
 }
 
 /// Writes the deviations of both certificates, and their change as a number and as a bar.
-fn table(changes: &[NumberDifference], languages: &Languages) -> Markup {
+fn table(changes: &[NumberDifference], caption: Markup, languages: &Languages) -> Markup {
     let of = |heading: Text, number: fn(&NumberDifference) -> Option<f64>| {
         let each = changes.iter().map(|at| Some(Number::measured(number(at)?, at.standard_uncertainty.unwrap_or(0.0))));
-        Column::named(languages, heading, column(languages, each))
+        Column::new(symbol_and_unit(languages, &languages.label(heading), units::ARCSEC), column(languages, each))
     };
     let us = changes.iter().map(|at| at.standard_uncertainty.map(Number::uncertainty));
     let ratios = changes.iter().map(|at| at.ratio().map(|ratio| Number::fixed(ratio, 1)));
@@ -114,6 +116,7 @@ fn table(changes: &[NumberDifference], languages: &Languages) -> Markup {
         vec![html! { "(" (index.replace(',', ", ")) ")" }, symbol(angle, "")]
     });
     let table = Table {
+        caption: Some(caption),
         starts: starts(changes.iter().map(|at| of_key(&at.key).0)),
         class: "numbers residuals",
         ..Table::of(vec![languages.label(texts::POSITION), html! {}], names.collect(), &columns)

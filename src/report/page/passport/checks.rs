@@ -76,11 +76,11 @@ pub(crate) fn refusal(page: &PassportPage, languages: &Languages) -> Markup {
     if page.verification.valid() {
         return html! {};
     }
-    let why = languages.paragraph_with(|language| {
-        let why: Vec<String> = failed(page).map(|check| words(page, check, language)).collect();
-        let time = time_text(language, page.question.time);
-        html! { (texts::GENUINE.filled(language, &[("time", &time), ("why", &why.join("; "))])) }
-    });
+    let time = |language| texts::GENUINE.filled(language, &[("time", &time_text(language, page.question.time))]);
+    let why = html! {
+        p { (languages.label_with(time)) }
+        ul { @for check in failed(page) { li { (languages.label_with(|language| words(page, check, language))) } } }
+    };
     boxed("verdict refused", languages.label_with(|language| headline(page, language)), why)
 }
 

@@ -52,17 +52,17 @@ fn answers(page: &PassportPage, languages: &Languages) -> Markup {
     let status = html! {
         @if valid { p.headline { (languages.label(status)) } } @else { span.failed { (languages.label(status)) } }
     };
+    let unchecked = valid && checks::withdrawal_not_checked(page);
     let until = match content.last_day() {
         Some((day, _)) if valid => {
-            let checked = !checks::withdrawal_not_checked(page);
-            let words = if checked { texts::INCLUSIVE } else { texts::INCLUSIVE_NOT_CHECKED };
+            let words = if unchecked { texts::INCLUSIVE_NOT_CHECKED } else { texts::INCLUSIVE };
             html! { p.large { (languages.inline(texts::UNTIL)) " " (date(languages, day)) } p { (languages.label(words)) } }
         }
         // Below "Not to be used", "until" would say that it may be used later.
         Some((day, _)) => html! {
             p { (languages.label_with(|language| texts::PERIOD.filled(language, &[("day", &date_text(language, day))]))) }
         },
-        None => html! { p { (languages.label(texts::NO_END)) } },
+        None => html! { p { (languages.label(if unchecked { texts::NO_END_NOT_CHECKED } else { texts::NO_END })) } },
     };
     let degrees = |value: f64| quantity(languages, &Number::exact(value), units::DEGREES);
     let latitude = site.latitude_deg.or(site.astronomic_latitude_deg).unwrap_or(content.earth.latitude_deg);

@@ -28,8 +28,8 @@ pub(crate) fn stand(stand: &Identity, languages: &Languages) -> Markup {
             stated(languages, texts::NAME, stand.name.as_deref().map(given)),
             stated(languages, texts::CONFIGURATION, stand.configuration.as_deref().map(given)),
             stated(languages, texts::MANUFACTURER, stand.manufacturer.as_deref().map(given)),
-            field(languages, record::MANUFACTURED, None),
             stated(languages, texts::CUSTOMER, stand.customer.as_deref().map(given)),
+            field(languages, record::MANUFACTURED, None),
             field(languages, record::CUSTOMER_CONTACT, None),
         ]))
     }

@@ -134,7 +134,7 @@ texts! {
         ru: "Поворот каждого положения относительно остальных"
     }
     REPEATS { en: "unchanged", ru: "без изменений" }
-    REPEATS_NOT { en: "CHANGED", ru: "ИЗМЕНИЛОСЬ" }
+    REPEATS_NOT { en: "changed", ru: "изменилось" }
     OLD { en: "before", ru: "было" }
     NEW { en: "now", ru: "стало" }
     DIFFERENCE { en: "change", ru: "изменение" }

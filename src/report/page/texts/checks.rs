@@ -22,7 +22,7 @@ texts! {
 
     IN_FORCE { en: "In force", ru: "Действует" }
     NOT_TO_BE_USED { en: "Not to be used", ru: "Не применять" }
-    GENUINE { en: "The passport is authentic. As of {time}: {why}.", ru: "Паспорт подлинный. На {time}: {why}." }
+    GENUINE { en: "The passport is authentic. As of {time}:", ru: "Паспорт подлинный. На {time}:" }
     EXPIRED { en: "expired", ru: "срок действия истёк" }
     NOT_YET { en: "not yet in force", ru: "ещё не вступил в силу" }
     ANOTHER_STAND { en: "for another stand", ru: "относится к другому стенду" }
@@ -91,18 +91,18 @@ texts! {
     STAND { en: "Stand", ru: "Стенд" }
     STAND_OK { en: "for stand {serial}, as required", ru: "относится к стенду {serial}, как требовалось" }
     STAND_WRONG {
-        en: "for stand {serial}, not {asked}; its deviations do not apply to that stand",
-        ru: "относится к стенду {serial}, а не к {asked}; отклонения другого стенда неприменимы"
+        en: "the passport is for stand {serial}, not {asked}; its deviations do not apply to that stand",
+        ru: "паспорт относится к стенду {serial}, а не к {asked}; отклонения другого стенда неприменимы"
     }
     STAND_NOT_ASKED { en: "no serial number was given", ru: "заводской номер не задан" }
     PLACE { en: "Place", ru: "Место" }
     PLACE_OK {
-        en: "{distance} from the site; validity radius {radius}",
-        ru: "{distance} от места установки; радиус применимости {radius}"
+        en: "the stand is {distance} from the site; validity radius {radius}",
+        ru: "стенд в {distance} от места установки; радиус применимости {radius}"
     }
     PLACE_WRONG {
-        en: "{distance} from the site; validity radius {radius}; request a re-issue for this place",
-        ru: "{distance} от места установки; радиус применимости {radius}; следует запросить перевыпуск для этого места"
+        en: "the stand is {distance} from the site, outside the validity radius of {radius}; request a re-issue for this place",
+        ru: "стенд в {distance} от места установки, за пределами радиуса применимости {radius}; следует запросить перевыпуск для этого места"
     }
     PLACE_NOT_ASKED { en: "no place was given", ru: "место не задано" }
     REGISTER { en: "Register", ru: "Реестр" }

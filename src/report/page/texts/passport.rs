@@ -16,6 +16,10 @@ texts! {
     }
     PERIOD { en: "validity period until {day} (inclusive)", ru: "срок действия по {day} включительно" }
     NO_END { en: "no expiry date is stated", ru: "срок действия не указан" }
+    NO_END_NOT_CHECKED {
+        en: "no expiry date is stated; withdrawal not checked",
+        ru: "срок действия не указан; отзыв не\u{a0}проверен"
+    }
     WHERE { en: "Place of use: within", ru: "Применять в пределах" }
     AROUND { en: "of latitude and longitude", ru: "от точки с координатами" }
     AROUND_PARALLEL { en: "north or south of latitude", ru: "к северу и югу от широты" }
@@ -104,8 +108,8 @@ texts! {
              число её степеней свободы (прочерк — не указано). В неопределённостях две значащие цифры, значения — до того же разряда."
     }
     FIGURE_POSITIONS {
-        en: "The stand in its positions (i, j), viewed from above and south-south-east.",
-        ru: "Стенд в положениях (i, j), вид с юго-юго-востока и сверху."
+        en: "The stand in its positions (i, j), viewed as in Figure 1.",
+        ru: "Стенд в положениях (i, j); вид тот же, что на рисунке\u{a0}1."
     }
     COMMON {
         en: "Uncertainty common to all positions (k = 1)",

@@ -75,7 +75,7 @@ texts! {
 
     REPAIRS { en: "Repairs and work under bulletins", ru: "Ремонт и учёт работы по бюллетеням и указаниям" }
     REPAIR { en: "Reason, work performed", ru: "Основание, работы" }
-    CERTIFIED_AGAIN { en: "Recertification, certificate No.", ru: "Калибровка, № сертификата" }
+    CERTIFIED_AGAIN { en: "Recertification, certificate No.", ru: "Повторная калибровка, № сертификата" }
 
     NOTES { en: "Notes on use and storage", ru: "Заметки по эксплуатации и хранению" }
     DISPOSAL { en: "Disposal", ru: "Сведения об утилизации" }
