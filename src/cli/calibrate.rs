@@ -318,8 +318,8 @@ impl Bench<'_> {
         };
         inputs::each(&options.currents, Purpose::Tables, calibrate, |done| match done {
             Each::Done(found) => {
-                let (file, mistake) = (found.currents.0.as_str(), found.done.document.mistake.as_ref());
-                let text = report::line(file, &found.done.calibration, mistake, self.verdict(&found));
+                let file = found.currents.0.as_str();
+                let text = report::line(file, &found.done, self.gyro_name());
                 inputs::print(&Each::Done((Line { file, result: found.whole() }, text)), options.format)
             }
             Each::Refused { file, refusal } => {
@@ -359,10 +359,9 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Returns the name of the gyro type and the decision for it, if one was asked for.
-    fn verdict<'f>(&'f self, found: &'f Found) -> Option<(&'f str, &'f Verdict)> {
-        let name = self.gyro_type.as_ref().map(|gyro_type| gyro_type.r#type.as_str());
-        name.zip(found.done.document.verdict.as_ref())
+    /// Returns the name of the gyro type, if one was given.
+    fn gyro_name(&self) -> Option<&str> {
+        self.gyro_type.as_ref().map(|gyro_type| gyro_type.r#type.as_str())
     }
 
     /// Returns the report for paper.
@@ -396,20 +395,7 @@ impl Bench<'_> {
     }
 
     fn text(&self, found: &Found) -> String {
-        let (done, document) = (&found.done, &found.done.document);
-        let context = report::Context {
-            passport_id: &self.passport.content.passport.id,
-            verified_as_of: self.verified_as_of(),
-            gravity_m_per_s2: (document.gravity_m_per_s2, document.gravity_u_m_per_s2),
-            missing: &done.missing,
-            meter_assumed: self.options.laboratory.is_none(),
-            mistake: document.mistake.as_ref(),
-            verdict: self.verdict(found),
-            change: done.earlier.as_ref().map(|(earlier, no_change)| (earlier, *no_change, document.change.as_ref())),
-            readings: Some((&done.readings, done.cost_of_missing)),
-            further: done.further,
-        };
-        report::text(&done.calibration, &context) + &found.uncertainty.text()
+        report::text(&found.done, self.gyro_name(), self.options.laboratory.is_none()) + &found.uncertainty.text()
     }
 }
 

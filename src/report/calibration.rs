@@ -1,50 +1,24 @@
 //! Result of a calibration as text: the decision, the parameters and the fit come first, the evidence below.
 
+use super::scatter::{Weight, scatter};
+use super::tolerance::{factors, headline, verdict_table, word};
 use crate::calibration::diagnosis::INCONSISTENT;
-use crate::calibration::document::NoChange;
 use crate::calibration::iterative::LARGEST_NUMBER_OF_STEPS;
 use crate::calibration::mistake::Mistake;
-use crate::calibration::noise::NoiseSource;
 use crate::calibration::parameter::Parameter;
 use crate::calibration::prediction::FurtherVisit;
 use crate::calibration::readings::Exclusion;
-use crate::calibration::scatter::{Agreement, Scatter};
 use crate::calibration::stated::NotStated;
-use crate::calibration::verdict::{Decision, Found, ParameterVerdict, Verdict, change_in_uncertainties};
+use crate::calibration::verdict::{Verdict, change_in_uncertainties};
 use crate::calibration::{Calibration, Method, MethodResult, Readings};
+use crate::interface::calibrated::Done;
 use crate::report::page::Language;
 use crate::report::page::calibration::why_no_change;
 use crate::report::page::texts::calibration as texts;
-use crate::report::{columns, mistake, recorded, style};
+use crate::report::{columns, mistake, recorded};
 use crate::text::printable::printable;
 use crate::units::printed;
 use std::fmt::Write;
-
-/// The data printed with a calibration besides its numbers.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Context<'a> {
-    /// Id of the passport.
-    pub passport_id: &'a str,
-    /// Time for which the passport was verified, or `None` if it was not.
-    pub verified_as_of: Option<jiff::Timestamp>,
-    /// Value of g that the drifts refer to, m/s², and its standard uncertainty if stated, m/s².
-    pub gravity_m_per_s2: (f64, Option<f64>),
-    /// Inputs whose uncertainty no file states.
-    pub missing: &'a [NotStated],
-    /// `true` if no laboratory was given, so that the meter is the paper's.
-    pub meter_assumed: bool,
-    /// Mistake that explains the result, if one does.
-    pub mistake: Option<&'a Mistake>,
-    /// Name of the gyro type, and the verdict against it.
-    pub verdict: Option<(&'a str, &'a Verdict)>,
-    /// An earlier result, the reason why the difference is no change, and the verdict on the change since then against
-    /// the same tolerance.
-    pub change: Option<(&'a Found, Option<NoChange>, Option<&'a Verdict>)>,
-    /// Readings, and the parameter that suffers most from positions without a reading, with the ratio of its uncertainty.
-    pub readings: Option<(&'a Readings, Option<(Parameter, f64)>)>,
-    /// Parameter whose uncertainty takes most of its tolerance, and the further visit that would reduce it most.
-    pub further: Option<(Parameter, FurtherVisit)>,
-}
 
 /// Sentence on a fit without degrees of freedom.
 const UNTESTED: &str = "The fit cannot be tested: there are as many unknowns as readings (0 degrees of freedom), so any \
@@ -54,45 +28,46 @@ const UNTESTED: &str = "The fit cannot be tested: there are as many unknowns as 
 const LEAST_EFFECT_PERCENT: f64 = 1.0;
 
 /// Returns the whole result: decision, parameters, fit; then methods, residuals, comparisons, and errors that the
-/// residuals do not show.
-pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
+/// residuals do not show. `gyro_type` is the name of the type that the verdict is for; without a laboratory the meter of
+/// the paper was assumed.
+pub(crate) fn text(done: &Done, gyro_type: Option<&str>, meter_assumed: bool) -> String {
+    let Done { calibration, document, readings, .. } = done;
+    let verdict = gyro_type.zip(document.verdict.as_ref());
     let mut out = String::new();
-    for warning in warnings(calibration, context.mistake) {
+    for warning in warnings(calibration, document.mistake.as_ref()) {
         columns::paragraph(&mut out, "", &warning);
     }
-    if let Some((name, verdict)) = context.verdict {
+    if let Some((name, verdict)) = verdict {
         let (style, mark, words) = headline(name, verdict);
         let _ = writeln!(out, "{}", style(&format!("{mark}  {words}")));
     }
-    let state =
-        context.verified_as_of.map_or_else(|| "NOT VERIFIED".to_owned(), |time| format!("verified as of {time}"));
-    columns::paragraph(&mut out, "", &format!("Calibrated with passport {} ({state})", context.passport_id));
-    let gravity = match context.gravity_m_per_s2 {
+    let verified_as_of = document.subject.as_ref().and_then(|subject| subject.passport_verified_as_of);
+    let state = verified_as_of.map_or_else(|| "NOT VERIFIED".to_owned(), |time| format!("verified as of {time}"));
+    columns::paragraph(&mut out, "", &format!("Calibrated with passport {} ({state})", document.passport_id));
+    let gravity = match (document.gravity_m_per_s2, document.gravity_u_m_per_s2) {
         (gravity, Some(u)) => format!("{gravity:.0$} m/s² (u {u:.0$})", columns::decimals(u)),
         (gravity, None) => format!("{gravity} m/s²"),
     };
     let words = format!("g-sensitive drifts refer to local g, {gravity}. u: standard uncertainty (k = 1).");
     columns::paragraph(&mut out, "", &words);
-    if let Some((readings, cost)) = context.readings {
-        left_out(&mut out, readings, cost);
-    }
-    parameters(&mut out, calibration, context.verdict.map(|(_, verdict)| verdict));
+    left_out(&mut out, readings, done.cost_of_missing);
+    parameters(&mut out, calibration, verdict.map(|(_, verdict)| verdict));
     if let Some(answer) = calibration.answer() {
         beyond_the_paper(&mut out, answer);
     }
-    if let Some((_, verdict)) = context.verdict
-        && verdict.gravity_m_per_s2 != context.gravity_m_per_s2.0
+    if let Some((_, verdict)) = verdict
+        && verdict.gravity_m_per_s2 != document.gravity_m_per_s2
     {
         let words = format!("ω_g and ω_k are decided at the type's g, {} m/s² (see below).", verdict.gravity_m_per_s2);
         columns::paragraph(&mut out, "", &words);
     }
-    fit(&mut out, calibration, context.missing);
-    if context.meter_assumed {
+    fit(&mut out, calibration, &done.missing);
+    if meter_assumed {
         columns::paragraph(&mut out, "", texts::METER_ASSUMED.of(Language::English));
     }
     methods(&mut out, calibration);
     residuals(&mut out, calibration);
-    if let Some((name, verdict)) = context.verdict {
+    if let Some((name, verdict)) = verdict {
         let _ = writeln!(
             out,
             "\nComparison with gyro type {name}, in the unit of the tolerance; U = k u, k = {};",
@@ -101,7 +76,7 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
         let _ = writeln!(out, "g-sensitive drifts refer to the g of the type, {} m/s²:", verdict.gravity_m_per_s2);
         verdict_table(&mut out, verdict, "minus nominal");
     }
-    if let Some((parameter, FurtherVisit { index, ratio })) = context.further {
+    if let Some((parameter, FurtherVisit { index, ratio })) = done.further {
         let (symbol, percent) = (parameter.symbol(), 100.0 * (1.0 - ratio));
         let effect = match percent < LEAST_EFFECT_PERCENT {
             true => format!("No single further visit would reduce it by {LEAST_EFFECT_PERCENT} %."),
@@ -110,9 +85,7 @@ pub(crate) fn text(calibration: &Calibration, context: &Context) -> String {
         let words = format!("The uncertainty of {symbol} takes most of its tolerance. {effect}");
         columns::paragraph(&mut out, "  ", &words);
     }
-    if let Some(of) = context.change {
-        change(&mut out, calibration, context.gravity_m_per_s2, of);
-    }
+    change(&mut out, done);
     let _ = writeln!(out);
     columns::paragraph(&mut out, "", texts::CANNOT_TELL.of(Language::English));
     out
@@ -149,15 +122,12 @@ pub(crate) fn remarks(calibration: &Calibration, readings: &Readings, mistake: O
     remarks
 }
 
-/// Returns the result for one of several gyros in one line: the decision, or the fit if no type was given.
-pub(crate) fn line(
-    file: &str,
-    calibration: &Calibration,
-    mistake: Option<&Mistake>,
-    verdict: Option<(&str, &Verdict)>,
-) -> String {
+/// Returns the result for one of several gyros in one line: the decision for the type of this name, or the fit if there is
+/// none.
+pub(crate) fn line(file: &str, done: &Done, gyro_type: Option<&str>) -> String {
+    let Done { calibration, document, .. } = done;
     let file = printable(file);
-    let mut out = match (verdict, calibration.answer()) {
+    let mut out = match (gyro_type.zip(document.verdict.as_ref()), calibration.answer()) {
         (Some((name, verdict)), _) => {
             let (style, mark, words) = headline(name, verdict);
             format!("{}  {file}  {words}", style(&format!("{mark:<11}")))
@@ -171,7 +141,7 @@ pub(crate) fn line(
     if calibration.hint.is_some() {
         out.push_str("; WARNING: the readings are not consistent with this stand; calibrate it by itself");
     }
-    if let Some(mistake) = mistake {
+    if let Some(mistake) = &document.mistake {
         let _ = write!(out, "; WARNING: {}", mistake::words(mistake, Language::English));
     }
     out.push('\n');
@@ -197,40 +167,6 @@ fn left_out(out: &mut String, readings: &Readings, cost: Option<(Parameter, f64)
 fn without_reading(readings: &Readings) -> Option<String> {
     let positions: Vec<String> = readings.left_out.iter().map(ToString::to_string).collect();
     (!positions.is_empty()).then(|| format!("Positions without a reading: {}", positions.join(", ")))
-}
-
-/// Returns the decision for the type with its mark and emphasis, and which parameters pass, fail and are undecided.
-fn headline(name: &str, verdict: &Verdict) -> (fn(&str) -> String, String, String) {
-    let of = |decision: Decision| -> Vec<&str> {
-        let rows = verdict.parameters.iter().filter(|row| row.guarded == decision);
-        rows.map(|row| symbol_of(row.parameter)).collect()
-    };
-    let (passed, all) = (of(Decision::Pass).len(), verdict.parameters.len());
-    let mut words = format!("gyro type {}: {passed} of {all} parameters pass", printable(name));
-    for (what, which) in [("fail", of(Decision::Fail)), ("undecided", of(Decision::Undecided))] {
-        if !which.is_empty() {
-            let _ = write!(words, "; {what}: {}", which.join(", "));
-        }
-    }
-    let (style, mark): (fn(&str) -> String, _) = match verdict.overall {
-        Decision::Pass => (style::good, style::PASSED),
-        Decision::Fail => (style::bad, style::FAILED),
-        Decision::Undecided => (style::heading, style::NOT_ASKED),
-    };
-    (style, format!("{mark} {}", word(verdict.overall).to_uppercase()), words)
-}
-
-fn word(decision: Decision) -> &'static str {
-    match decision {
-        Decision::Pass => "pass",
-        Decision::Fail => "FAIL",
-        Decision::Undecided => "undecided",
-    }
-}
-
-/// Returns the symbol of a parameter from its key, or the key itself if no parameter has it.
-pub(super) fn symbol_of(key: &'static str) -> &'static str {
-    Parameter::NINE.into_iter().find(|parameter| parameter.key() == key).map_or(key, Parameter::symbol)
 }
 
 fn in_paper_order(answer: &MethodResult) -> Vec<Parameter> {
@@ -404,147 +340,9 @@ fn residuals(out: &mut String, calibration: &Calibration) {
     columns::table(out, &["i", "j", "x, °/h", "y, °/h", "x / u", "y / u"], rows);
 }
 
-/// Weight of a sentence. Programs show remarks and warnings with the parameters.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Weight {
-    Usual,
-    Remark,
-    Warning,
-}
-
-/// Returns what the scatter of the readings tells.
-fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
-    let mut said = Vec::new();
-    let mut say = |words: String, weight: Weight| said.push((weight, words));
-    let of = |found: &Scatter| if found.agreement() == Agreement::AsStated { Weight::Usual } else { Weight::Remark };
-    if let Some(rows) = &calibration.row_scatter {
-        let (deviation, freedom) = (rows.standard_deviation_ma * 1000.0, rows.degrees_of_freedom);
-        match &rows.against_stated {
-            Some(stated) => {
-                let words = agreement("Readings of a visit", stated, "check whether they are copies of one reading");
-                say(words, of(stated));
-            }
-            None => {
-                let words = format!(
-                    "Readings of a visit have a standard deviation of {} uA ({freedom} degrees of freedom), \
-                     which was used as the noise of the meter, because noise_ma is not stated.",
-                    columns::two_digits(deviation)
-                );
-                say(words, Weight::Usual);
-            }
-        }
-    }
-    let of_visits =
-        "if these readings were taken without leaving the position, give them the same number in the column visit";
-    let each = [
-        ("Visits to a position", &calibration.scatter, of_visits),
-        ("Turn-ons", &calibration.turn_on_scatter, "check the noise that the gyro type states"),
-    ];
-    for (what, found, less) in each {
-        if let Some(found) = found {
-            say(agreement(what, found, less), of(found));
-        }
-    }
-    let each = [("visit to visit", &calibration.visit_noise), ("turn-on to turn-on", &calibration.turn_on_noise)];
-    for (between, noise) in each.into_iter().filter(|(_, noise)| noise.source == NoiseSource::Estimated) {
-        let words = format!(
-            "Noise of the gyro from {between}, estimated: {} °/h ({} degrees of freedom).",
-            columns::two_digits(noise.deg_per_h),
-            noise.degrees_of_freedom
-        );
-        say(words, Weight::Remark);
-    }
-    if calibration.drift_or_noise {
-        let words = "A drift of ω_0 in time was not tested, because the repeated visits cannot tell it from the noise of the \
-                     gyro. Visit more positions again, or state noise.visit_deg_per_h in the gyro type.";
-        say(words.to_owned(), Weight::Remark);
-    }
-    if let Some(test) = calibration.drift_test.filter(|test| test.is_significant()) {
-        let words = format!(
-            "the residuals show a drift of ω_0 in time, ({}, {}) °/h per hour, which is not fitted \
-             (probability of a larger one: {}). Fit it with --drift.",
-            with_sign(test.drift_deg_per_h_per_h.x),
-            with_sign(test.drift_deg_per_h_per_h.y),
-            columns::probability(test.probability)
-        );
-        say(words, Weight::Warning);
-    }
-    said
-}
-
-/// Formats a value with two significant digits and its sign.
-fn with_sign(value: f64) -> String {
-    if value > 0.0 { format!("+{}", columns::two_digits(value)) } else { columns::two_digits(value) }
-}
-
-/// Returns a sentence that compares an observed scatter with the stated uncertainty; `less` is the advice if the
-/// scatter is smaller.
-fn agreement(what: &str, found: &Scatter, less: &str) -> String {
-    let verdict = match found.agreement() {
-        Agreement::More if found.variance_factor > 1.0 => {
-            format!("more than stated, so the variance was multiplied by {:.1}", found.variance_factor)
-        }
-        Agreement::More => "more than stand and meter explain; the rest is taken as noise of the gyro".to_owned(),
-        Agreement::AsStated => "as stated".to_owned(),
-        Agreement::Less => format!("less than stated; {less}"),
-    };
-    format!(
-        "{what} vary with chi-square {:.2} for {} degrees of freedom (probability of a larger value: {}): {verdict}.",
-        found.chi_square,
-        found.degrees_of_freedom,
-        columns::probability(found.probability)
-    )
-}
-
-/// Returns the coverage factor of a verdict, or their range.
-fn factors(verdict: &Verdict) -> String {
-    let factors = || verdict.parameters.iter().map(|row| row.coverage_factor);
-    let [least, most] =
-        [factors().fold(f64::INFINITY, f64::min), factors().fold(0.0, f64::max)].map(|k| format!("{k:.2}"));
-    if least == most { least } else { format!("{least} to {most}") }
-}
-
-/// Appends the lines of a verdict; `deviation` is the heading of the differences.
-fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
-    let rows = verdict.parameters.iter().map(|row| {
-        let digits = columns::decimals(row.expanded_uncertainty);
-        let places = columns::decimals(row.coverage_factor * row.standard_uncertainty);
-        vec![
-            symbol_of(row.parameter).to_owned(),
-            format!("{:.places$}", row.value),
-            columns::signed(row.deviation, digits),
-            format!("{:.digits$}", row.expanded_uncertainty),
-            format!("{} {}", row.tolerance, printed(row.unit)),
-            word(row.simple).to_owned(),
-            columns::probability(row.specific_risk),
-            word(row.guarded).to_owned(),
-        ]
-    });
-    columns::table(out, &["", "result", deviation, "U", "tolerance", "simple", "risk", "guarded"], rows);
-    let _ = writeln!(out, "  Overall, by guarded acceptance: {}", word(verdict.overall).to_uppercase());
-    if verdict.parameters.iter().any(ParameterVerdict::is_close) && verdict.overall == Decision::Undecided {
-        columns::paragraph(out, "  ", "undecided: the uncertainty does not permit a decision.");
-    }
-    for row in verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()) {
-        let words = format!(
-            "local g contributes most of U of {}: {} {}; to reduce it, measure gravity or state the height of the \
-             site.",
-            symbol_of(row.parameter),
-            columns::two_digits(row.expanded_uncertainty_from_gravity.unwrap_or(0.0)),
-            printed(row.unit),
-        );
-        columns::paragraph(out, "  ", &words);
-    }
-}
-
-fn change(
-    out: &mut String,
-    calibration: &Calibration,
-    (gravity, u): (f64, Option<f64>),
-    (earlier, no_change, verdict): (&Found, Option<NoChange>, Option<&Verdict>),
-) {
-    let Some(answer) = calibration.answer() else { return };
-    let found = answer.found(gravity, u.unwrap_or(0.0));
+/// Writes the change since the earlier result, and the verdict on it, if there is one.
+fn change(out: &mut String, Done { document, earlier, .. }: &Done) {
+    let Some(((earlier, no_change), found)) = earlier.as_ref().zip(document.answer()) else { return };
     let change = change_in_uncertainties(&found, earlier);
     let each = Parameter::in_paper_order(Parameter::EIGHT.into_iter().zip(change), |(parameter, _)| *parameter);
     let words: Vec<String> = each
@@ -558,9 +356,9 @@ fn change(
     );
     columns::paragraph(out, "  ", &(words.join(", ") + "."));
     if let Some(why) = no_change {
-        columns::paragraph(out, "  ", &format!("WARNING: {}", why_no_change(why).of(Language::English)));
+        columns::paragraph(out, "  ", &format!("WARNING: {}", why_no_change(*why).of(Language::English)));
     }
-    if let Some(verdict) = verdict {
+    if let Some(verdict) = &document.change {
         let _ =
             writeln!(out, "Change compared with the tolerance of the type, which the paper states as an instability:");
         verdict_table(out, verdict, "minus previous");

@@ -17,9 +17,11 @@
 //! * `recertification`: a new certificate of a stand, and the successors of its passports.
 //! * `recorded`: what the digits of the currents show.
 //! * `register`: the passports in a folder and their states.
+//! * `scatter`: agreement of repeated readings with what was stated.
 //! * `selftest`: the reference cases.
 //! * `simulation`: the tables of simulations.
 //! * `style`: emphasis in a terminal.
+//! * `tolerance`: decisions on the tolerances of a gyro type.
 //! * `uncertainty`: the uncertainty budget; coverage intervals, and the test of linear propagation.
 
 pub(crate) mod calibration;
@@ -42,9 +44,11 @@ pub(crate) mod plan;
 pub(crate) mod recertification;
 pub(crate) mod recorded;
 pub(crate) mod register;
+mod scatter;
 pub(crate) mod selftest;
 pub(crate) mod simulation;
 pub(crate) mod style;
+mod tolerance;
 pub(crate) mod uncertainty;
 pub(crate) mod verdict;
 

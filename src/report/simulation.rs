@@ -1,6 +1,6 @@
 //! Tables of simulations, with the paper's figures next to ours.
 
-use super::calibration::symbol_of;
+use super::tolerance::symbol_of;
 use crate::simulation::accuracy::Accuracy;
 use crate::simulation::convergence::Convergence;
 use crate::units::printed;

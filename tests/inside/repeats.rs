@@ -5,7 +5,10 @@ use dtg_passport::calibration::noise::NoiseSource;
 use dtg_passport::calibration::parameter::Parameter;
 use dtg_passport::calibration::readings::Reading;
 use dtg_passport::calibration::scatter::Agreement;
-use dtg_passport::calibration::{Calibration, InputUncertainty, Method, Options, Readings, Setup, calibrate};
+use dtg_passport::calibration::{
+    Calibration, CalibrationDocument, InputUncertainty, Method, Options, Readings, Setup, calibrate,
+};
+use dtg_passport::interface::calibrated::Done;
 use dtg_passport::report::calibration as report;
 use dtg_passport::statistics::random::Stream;
 use dtg_passport::uncertainty::engine::{Engine, ReadingShape};
@@ -41,6 +44,26 @@ fn rows(setup: &Setup, visits: u32, rows: u32, mut error: impl FnMut(usize, u32,
 fn solved(setup: &Setup, rows: &[Reading]) -> Calibration {
     let readings = Readings::of_rows(setup.coefficients(), rows).unwrap();
     calibrate(setup, &readings, &Options::default()).unwrap()
+}
+
+/// A calibration as `calibrate` prints it, with nothing else to say.
+fn done(setup: &Setup, readings: Readings, calibration: Calibration) -> Done {
+    Done {
+        setup: setup.clone(),
+        readings,
+        missing: Vec::new(),
+        document: CalibrationDocument::new("SPS-2/0017/here/1", true, (9.8, None), &calibration, &[]),
+        calibration,
+        earlier: None,
+        cost_of_missing: None,
+        further: None,
+        warning: None,
+    }
+}
+
+fn text_of(setup: &Setup, rows: &[Reading], calibration: Calibration) -> String {
+    let readings = Readings::of_rows(setup.coefficients(), rows).unwrap();
+    report::text(&done(setup, readings, calibration), None, false)
 }
 
 fn u(calibration: &Calibration, parameter: Parameter) -> f64 {
@@ -129,30 +152,18 @@ fn uncertainties_are_those_of_the_formula() {
 #[test]
 fn scatter_is_judged_in_both_tails() {
     let setup = bench(2e-5);
-    let context = report::Context {
-        passport_id: "SPS-2/0017/here/1",
-        verified_as_of: Some(jiff::Timestamp::UNIX_EPOCH),
-        gravity_m_per_s2: (9.8, None),
-        missing: &[],
-        meter_assumed: false,
-        verdict: None,
-        change: None,
-        readings: None,
-        further: None,
-        mistake: None,
-    };
     let with = |visit_ma: f64, row_ma: f64| {
         let mut stream = Stream::new(12);
         let mut of_visit = Vector2::zeros();
-        let rows = rows(&setup, 6, 3, |_, _, row| {
+        let read = rows(&setup, 6, 3, |_, _, row| {
             if row == 0 {
                 of_visit = Vector2::from_fn(|_, _| visit_ma * stream.normal());
             }
             of_visit + Vector2::from_fn(|_, _| row_ma * stream.normal())
         });
-        let found = solved(&setup, &rows);
+        let found = solved(&setup, &read);
         let (visits, rows) = (found.scatter.unwrap(), found.row_scatter.unwrap().against_stated.unwrap());
-        (visits.agreement(), rows.agreement(), rows.variance_factor, report::text(&found, &context))
+        (visits.agreement(), rows.agreement(), rows.variance_factor, text_of(&setup, &read, found))
     };
     let (visits, rows, factor, text) = with(0.0, 1e-6);
     assert_eq!((visits, rows, factor), (Agreement::Less, Agreement::Less, 1.0));
@@ -227,30 +238,15 @@ fn too_few_readings_to_judge() {
     let found = calibrate(&setup, &readings(&setup, &exact), &options).unwrap();
     let chi_square = found.results[0].chi_square;
     assert!(!chi_square.judges() && chi_square.value == 0.0, "{chi_square:?}");
-    let document =
-        dtg_passport::calibration::document::CalibrationDocument::new("a/b/c/1", true, (9.8, None), &found, &[]);
+    let document = CalibrationDocument::new("a/b/c/1", true, (9.8, None), &found, &[]);
     let json: serde_json::Value = serde_json::to_value(&document).unwrap();
     let result = &json["results"][0];
     assert_eq!(result["chi_square"], serde_json::json!({"value": 0.0, "degrees_of_freedom": 0}));
     assert!(result.get("residuals_deg_per_h").is_none());
     let bytes = serde_json::to_vec(&document).unwrap();
-    assert_eq!(
-        dtg_passport::calibration::document::CalibrationDocument::from_json("earlier.json", &bytes).unwrap(),
-        document
-    );
-    let context = report::Context {
-        passport_id: "a/b/c/1",
-        verified_as_of: Some(jiff::Timestamp::UNIX_EPOCH),
-        gravity_m_per_s2: (9.8, None),
-        missing: &[],
-        meter_assumed: false,
-        verdict: None,
-        change: None,
-        readings: None,
-        further: None,
-        mistake: None,
-    };
-    let text = report::text(&found, &context);
+    assert_eq!(CalibrationDocument::from_json("earlier.json", &bytes).unwrap(), document);
+    let done = done(&setup, readings(&setup, &exact), found);
+    let text = report::text(&done, None, false);
     assert!(text.contains("The fit cannot be tested") && !text.contains("chi-square"), "{text}");
     assert!(!text.contains("x, °/h"), "{text}");
 }

@@ -4,7 +4,7 @@ use crate::inside::reference::*;
 use dtg_passport::calibration::document::CalibrationDocument;
 use dtg_passport::calibration::stated::{NotStated, uncertainties};
 use dtg_passport::calibration::verdict::{Decision, Found, against_earlier, against_type, change_in_uncertainties};
-use dtg_passport::calibration::{InputUncertainty, Options, Setup, calibrate};
+use dtg_passport::calibration::{InputUncertainty, Options, Parameter, Setup, calibrate};
 use dtg_passport::coefficients::EarthRate;
 use dtg_passport::gyro::{GyroParameters, GyroType};
 use dtg_passport::laboratory::Laboratory;
@@ -241,7 +241,9 @@ fn json_is_read_back() {
     let found = calibrate(&setup, &readings(&setup, &currents), &Options::default()).unwrap();
     let mut document =
         CalibrationDocument::new("SPS-2/0017/moscow/1", true, (9.8156, Some(5e-4)), &found, &[NotStated::Latitude]);
-    let answer = found.results.last().unwrap().found(9.8156, 5e-4);
+    let (result, answer) = (found.results.last().unwrap(), document.answer().unwrap());
+    let u = Parameter::EIGHT.map(|parameter| result.standard_uncertainty(parameter).unwrap());
+    assert_eq!((answer.parameters, answer.standard_uncertainty), (result.parameters, u));
     document.verdict = Some(against_type(&answer, &GyroType::gvk_6()));
     let json = serde_json::to_string_pretty(&document).unwrap();
     for key in ["\"spectral_radius\"", "\"iterations\": 2", "\"least-squares\"", "\"guarded\": \"", "\"probability\""] {

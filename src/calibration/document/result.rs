@@ -346,14 +346,3 @@ impl UncertaintyDocument {
         }
     }
 }
-
-impl MethodResult {
-    /// Returns values and standard uncertainties for a comparison, with the local g and its standard uncertainty, m/s².
-    pub(crate) fn found(&self, gravity_m_per_s2: f64, gravity_u_m_per_s2: f64) -> Found {
-        let standard_uncertainty = Parameter::EIGHT.map(|p| self.standard_uncertainty(p).unwrap_or(f64::NAN));
-        let values = Parameter::EIGHT.map(|parameter| self.value(parameter).unwrap_or(f64::NAN));
-        let parameters = GyroParameters::from_vector(&values);
-        let degrees_of_freedom = [f64::INFINITY; 8];
-        Found { parameters, standard_uncertainty, degrees_of_freedom, gravity_m_per_s2, gravity_u_m_per_s2 }
-    }
-}

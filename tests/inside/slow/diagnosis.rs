@@ -6,7 +6,7 @@ use dtg_passport::attitude::Deviation;
 use dtg_passport::calibration::diagnosis::Explanation;
 use dtg_passport::calibration::mistake::{CurrentsMistaken, Mistake};
 use dtg_passport::calibration::parameter::Parameter;
-use dtg_passport::calibration::{Calibration, InputUncertainty, Options, Setup, calibrate};
+use dtg_passport::calibration::{Calibration, CalibrationDocument, InputUncertainty, Options, Setup, calibrate};
 use dtg_passport::coefficients::{EarthRate, Position};
 use dtg_passport::earth::{STANDARD_GRAVITY_M_PER_S2, normal_gravity_m_per_s2};
 use dtg_passport::gyro::{GyroParameters, GyroType};
@@ -257,7 +257,8 @@ fn a_wrong_reading_is_named_with_its_size() {
 /// paper's, and what it is called without a type.
 fn explained(stand: &[Position], latitude_deg: f64, currents_ma: &[Vector2<f64>]) -> [Option<Mistake>; 2] {
     let calibration = solve(&setup(stand, latitude_deg), currents_ma);
-    let found = calibration.results[0].found(normal_gravity_m_per_s2(latitude_deg, 0.0), 7.1e-3);
+    let gravity = (normal_gravity_m_per_s2(latitude_deg, 0.0), Some(7.1e-3));
+    let found = CalibrationDocument::new("a/b/c/1", true, gravity, &calibration, &[]).answer().unwrap();
     let rate = EarthRate::at_astronomic_latitude(latitude_deg);
     let explaining = |gyro_type| Mistake::explaining(&calibration, &found, &rate, gyro_type, &gvk_6());
     [explaining(Some(&GyroType::gvk_6())), explaining(None)]

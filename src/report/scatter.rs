@@ -1,0 +1,98 @@
+//! Sentences on the scatter of the readings: rows of a visit, visits, turn-ons, and the noise and drift of the gyro.
+
+use super::columns;
+use crate::calibration::Calibration;
+use crate::calibration::noise::NoiseSource;
+use crate::calibration::scatter::{Agreement, Scatter};
+
+/// Weight of a sentence. Programs show remarks and warnings with the parameters.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Weight {
+    Usual,
+    Remark,
+    Warning,
+}
+
+/// Returns what the scatter of the readings tells.
+pub(super) fn scatter(calibration: &Calibration) -> Vec<(Weight, String)> {
+    let mut said = Vec::new();
+    let mut say = |words: String, weight: Weight| said.push((weight, words));
+    let of = |found: &Scatter| if found.agreement() == Agreement::AsStated { Weight::Usual } else { Weight::Remark };
+    if let Some(rows) = &calibration.row_scatter {
+        let (deviation, freedom) = (rows.standard_deviation_ma * 1000.0, rows.degrees_of_freedom);
+        match &rows.against_stated {
+            Some(stated) => {
+                let words = agreement("Readings of a visit", stated, "check whether they are copies of one reading");
+                say(words, of(stated));
+            }
+            None => {
+                let words = format!(
+                    "Readings of a visit have a standard deviation of {} uA ({freedom} degrees of freedom), \
+                     which was used as the noise of the meter, because noise_ma is not stated.",
+                    columns::two_digits(deviation)
+                );
+                say(words, Weight::Usual);
+            }
+        }
+    }
+    let of_visits =
+        "if these readings were taken without leaving the position, give them the same number in the column visit";
+    let each = [
+        ("Visits to a position", &calibration.scatter, of_visits),
+        ("Turn-ons", &calibration.turn_on_scatter, "check the noise that the gyro type states"),
+    ];
+    for (what, found, less) in each {
+        if let Some(found) = found {
+            say(agreement(what, found, less), of(found));
+        }
+    }
+    let each = [("visit to visit", &calibration.visit_noise), ("turn-on to turn-on", &calibration.turn_on_noise)];
+    for (between, noise) in each.into_iter().filter(|(_, noise)| noise.source == NoiseSource::Estimated) {
+        let words = format!(
+            "Noise of the gyro from {between}, estimated: {} °/h ({} degrees of freedom).",
+            columns::two_digits(noise.deg_per_h),
+            noise.degrees_of_freedom
+        );
+        say(words, Weight::Remark);
+    }
+    if calibration.drift_or_noise {
+        let words = "A drift of ω_0 in time was not tested, because the repeated visits cannot tell it from the noise of the \
+                     gyro. Visit more positions again, or state noise.visit_deg_per_h in the gyro type.";
+        say(words.to_owned(), Weight::Remark);
+    }
+    if let Some(test) = calibration.drift_test.filter(|test| test.is_significant()) {
+        let words = format!(
+            "the residuals show a drift of ω_0 in time, ({}, {}) °/h per hour, which is not fitted \
+             (probability of a larger one: {}). Fit it with --drift.",
+            with_sign(test.drift_deg_per_h_per_h.x),
+            with_sign(test.drift_deg_per_h_per_h.y),
+            columns::probability(test.probability)
+        );
+        say(words, Weight::Warning);
+    }
+    said
+}
+
+/// Formats a value with two significant digits and its sign.
+fn with_sign(value: f64) -> String {
+    if value > 0.0 { format!("+{}", columns::two_digits(value)) } else { columns::two_digits(value) }
+}
+
+/// Returns a sentence that compares an observed scatter with the stated uncertainty; `less` is the advice if the
+/// scatter is smaller.
+fn agreement(what: &str, found: &Scatter, less: &str) -> String {
+    let verdict = match found.agreement() {
+        Agreement::More if found.variance_factor > 1.0 => {
+            format!("more than stated, so the variance was multiplied by {:.1}", found.variance_factor)
+        }
+        Agreement::More => "more than stand and meter explain; the rest is taken as noise of the gyro".to_owned(),
+        Agreement::AsStated => "as stated".to_owned(),
+        Agreement::Less => format!("less than stated; {less}"),
+    };
+    format!(
+        "{what} vary with chi-square {:.2} for {} degrees of freedom (probability of a larger value: {}): {verdict}.",
+        found.chi_square,
+        found.degrees_of_freedom,
+        columns::probability(found.probability)
+    )
+}

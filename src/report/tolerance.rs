@@ -1,0 +1,83 @@
+//! Decisions on the tolerances of a gyro type as text.
+
+use super::{columns, style};
+use crate::calibration::parameter::Parameter;
+use crate::calibration::verdict::{Decision, ParameterVerdict, Verdict};
+use crate::text::printable::printable;
+use crate::units::printed;
+use std::fmt::Write;
+
+/// Returns the decision for the type with its mark and emphasis, and which parameters pass, fail and are undecided.
+pub(super) fn headline(name: &str, verdict: &Verdict) -> (fn(&str) -> String, String, String) {
+    let of = |decision: Decision| -> Vec<&str> {
+        let rows = verdict.parameters.iter().filter(|row| row.guarded == decision);
+        rows.map(|row| symbol_of(row.parameter)).collect()
+    };
+    let (passed, all) = (of(Decision::Pass).len(), verdict.parameters.len());
+    let mut words = format!("gyro type {}: {passed} of {all} parameters pass", printable(name));
+    for (what, which) in [("fail", of(Decision::Fail)), ("undecided", of(Decision::Undecided))] {
+        if !which.is_empty() {
+            let _ = write!(words, "; {what}: {}", which.join(", "));
+        }
+    }
+    let (style, mark): (fn(&str) -> String, _) = match verdict.overall {
+        Decision::Pass => (style::good, style::PASSED),
+        Decision::Fail => (style::bad, style::FAILED),
+        Decision::Undecided => (style::heading, style::NOT_ASKED),
+    };
+    (style, format!("{mark} {}", word(verdict.overall).to_uppercase()), words)
+}
+
+pub(super) fn word(decision: Decision) -> &'static str {
+    match decision {
+        Decision::Pass => "pass",
+        Decision::Fail => "FAIL",
+        Decision::Undecided => "undecided",
+    }
+}
+
+/// Returns the symbol of a parameter from its key, or the key itself if no parameter has it.
+pub(super) fn symbol_of(key: &'static str) -> &'static str {
+    Parameter::NINE.into_iter().find(|parameter| parameter.key() == key).map_or(key, Parameter::symbol)
+}
+
+/// Returns the coverage factor of a verdict, or their range.
+pub(super) fn factors(verdict: &Verdict) -> String {
+    let factors = || verdict.parameters.iter().map(|row| row.coverage_factor);
+    let [least, most] =
+        [factors().fold(f64::INFINITY, f64::min), factors().fold(0.0, f64::max)].map(|k| format!("{k:.2}"));
+    if least == most { least } else { format!("{least} to {most}") }
+}
+
+/// Appends the lines of a verdict; `deviation` is the heading of the differences.
+pub(super) fn verdict_table(out: &mut String, verdict: &Verdict, deviation: &str) {
+    let rows = verdict.parameters.iter().map(|row| {
+        let digits = columns::decimals(row.expanded_uncertainty);
+        let places = columns::decimals(row.coverage_factor * row.standard_uncertainty);
+        vec![
+            symbol_of(row.parameter).to_owned(),
+            format!("{:.places$}", row.value),
+            columns::signed(row.deviation, digits),
+            format!("{:.digits$}", row.expanded_uncertainty),
+            format!("{} {}", row.tolerance, printed(row.unit)),
+            word(row.simple).to_owned(),
+            columns::probability(row.specific_risk),
+            word(row.guarded).to_owned(),
+        ]
+    });
+    columns::table(out, &["", "result", deviation, "U", "tolerance", "simple", "risk", "guarded"], rows);
+    let _ = writeln!(out, "  Overall, by guarded acceptance: {}", word(verdict.overall).to_uppercase());
+    if verdict.parameters.iter().any(ParameterVerdict::is_close) && verdict.overall == Decision::Undecided {
+        columns::paragraph(out, "  ", "undecided: the uncertainty does not permit a decision.");
+    }
+    for row in verdict.parameters.iter().filter(|row| row.is_mostly_from_gravity()) {
+        let words = format!(
+            "local g contributes most of U of {}: {} {}; to reduce it, measure gravity or state the height of the \
+             site.",
+            symbol_of(row.parameter),
+            columns::two_digits(row.expanded_uncertainty_from_gravity.unwrap_or(0.0)),
+            printed(row.unit),
+        );
+        columns::paragraph(out, "  ", &words);
+    }
+}
