@@ -18,7 +18,8 @@ use nalgebra::{DMatrix, Matrix2, Matrix2x3, Vector2};
 use serde::{Deserialize, Serialize};
 
 /// Method of calibration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[non_exhaustive]
 pub enum Method {

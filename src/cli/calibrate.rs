@@ -27,7 +27,6 @@ use crate::report::calibration as report;
 use crate::report::page::{CalibrationPage, PassportPage, UsedPassport};
 use crate::text::kind::Kind;
 use crate::text::{Printable, name_of, printable, shown};
-use crate::uncertainty::document::WholeDocument;
 use clap::{Args, ValueEnum};
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -190,9 +189,8 @@ struct Found {
 }
 
 impl Found {
-    fn whole(&self) -> WholeDocument<'_> {
-        let (budget, monte_carlo) = self.uncertainty.documents();
-        WholeDocument { calibration: &self.done.document, budget, monte_carlo }
+    fn whole(&self) -> uncertainty::WholeDocument<'_> {
+        self.uncertainty.with(&self.done.document)
     }
 
     fn code(&self) -> Code {
@@ -207,7 +205,7 @@ impl Found {
 struct Line<'a> {
     file: &'a str,
     #[serde(flatten)]
-    result: WholeDocument<'a>,
+    result: uncertainty::WholeDocument<'a>,
 }
 
 impl Bench<'_> {

@@ -1,16 +1,17 @@
 //! Options of `calibrate` for the uncertainty budget and the Monte Carlo method.
 
 use super::{Failure, long_run, output};
-use crate::calibration::{Calibration, Method, Options as CalibrationOptions, Readings, Setup};
+use crate::calibration::{Calibration, CalibrationDocument, Method, Options as CalibrationOptions, Readings, Setup};
 use crate::gyro::Tolerance;
 use crate::interface::calibrated::distributions;
 use crate::report::{picture, uncertainty as report};
-use crate::uncertainty::document::{BudgetDocument, MonteCarloDocument};
 use crate::uncertainty::dominant::Dominant;
 use crate::uncertainty::monte_carlo::{Trials, check_model};
 use crate::uncertainty::{Budget, MonteCarlo};
 use clap::Args;
 use indicatif::HumanDuration;
+use serde::Serialize;
+use serde_json::Value;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -72,11 +73,22 @@ impl Found {
         budget.unwrap_or_default() + &trials.unwrap_or_default()
     }
 
-    /// Returns the results as JSON documents; `None` for each that was not requested.
-    pub(super) fn documents(&self) -> (Option<BudgetDocument>, Option<MonteCarloDocument>) {
-        let budget = self.budget.as_ref().map(|(budget, words)| BudgetDocument::new(budget, words.clone()));
-        (budget, self.monte_carlo.as_ref().map(MonteCarloDocument::new))
+    /// Returns the result of a calibration with these, as JSON.
+    pub(super) fn with<'a>(&'a self, calibration: &'a CalibrationDocument) -> WholeDocument<'a> {
+        let budget = self.budget.as_ref().map(|(budget, words)| report::budget_json(budget, words.as_deref()));
+        WholeDocument { calibration, budget, monte_carlo: self.monte_carlo.as_ref() }
     }
+}
+
+/// Calibration result with the requested budget and Monte Carlo.
+#[derive(Serialize)]
+pub(super) struct WholeDocument<'a> {
+    #[serde(flatten)]
+    calibration: &'a CalibrationDocument,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    budget: Option<Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    monte_carlo: Option<&'a MonteCarlo>,
 }
 
 impl UncertaintyOptions {

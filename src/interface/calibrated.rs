@@ -16,8 +16,6 @@ use crate::passport::Content;
 use crate::text::{Unreadable, printable};
 use crate::uncertainty::Budget;
 #[cfg(feature = "monte-carlo")]
-use crate::uncertainty::document::MonteCarloDocument;
-#[cfg(feature = "monte-carlo")]
 use crate::uncertainty::{self, Engine, MonteCarlo, ReadingShape, Trials};
 use jiff::Timestamp;
 use std::collections::BTreeMap;
@@ -103,7 +101,7 @@ pub fn monte_carlo(
     let Done { setup, readings, calibration, .. } = prepared.run(&options, Subject::default(), &[])?;
     let method = calibration.answer().map_or(Method::LeastSquares, |answer| answer.method);
     let budget = Budget::new(&setup, &readings, method, &options).map_err(Failed::refused)?;
-    Ok(json(&MonteCarloDocument::new(&distributions(&setup, &readings, (&budget, &options), run)?)))
+    Ok(json(&distributions(&setup, &readings, (&budget, &options), run)?))
 }
 
 /// Runs the trials of a calibration.

@@ -1,11 +1,13 @@
-//! Uncertainty budget, and result of a Monte Carlo run, as text.
+//! Uncertainty budget as text and as JSON, and result of a Monte Carlo run as text.
 
+use crate::calibration::document::finite;
 use crate::calibration::parameter::Parameter;
 use crate::report::columns;
 use crate::uncertainty::budget::{COVERAGE, Contribution, ParameterBudget};
 use crate::uncertainty::monte_carlo::Distribution;
 use crate::uncertainty::{Budget, MonteCarlo};
 use crate::units::printed;
+use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// Share of the variance below which contributions are combined into one line.
@@ -71,6 +73,52 @@ fn contribution(part: &Contribution, digits: usize) -> Vec<String> {
 
 fn short(value: f64) -> String {
     if value < 1e-3 { columns::two_digits(value) } else { format!("{:.*}", columns::decimals(value).max(1), value) }
+}
+
+/// Returns a budget as JSON, `{method, sentence, parameters, covariance, inputs}`: the key `budget` of `calibrate`. The
+/// parameters have their `contributions`; `changes` of an input are those of the parameters, for one standard uncertainty.
+pub(crate) fn budget_json(budget: &Budget, sentence: Option<&str>) -> Value {
+    let contribution = |part: &Contribution| {
+        json!({
+            "input": part.cause.kind(), "inputs": part.inputs, "source": part.cause.source(),
+            "input_unit": part.cause.unit(),
+            "input_standard_uncertainty": part.cause.shown(part.standard_uncertainty[1]),
+            "contribution": part.contribution, "share": part.share,
+        })
+    };
+    let parameters = budget.parameters.iter().map(|line| {
+        stated(json!({
+            "parameter": line.parameter.key(), "unit": line.parameter.unit(), "value": line.value,
+            "standard_uncertainty": line.standard_uncertainty,
+            "effective_degrees_of_freedom": finite(line.effective_degrees_of_freedom),
+            "coverage_probability": COVERAGE, "coverage_factor": line.coverage_factor,
+            "expanded_uncertainty": line.expanded_uncertainty(),
+            "contributions": line.contributions.iter().map(contribution).collect::<Vec<_>>(),
+        }))
+    });
+    let inputs = budget.inputs.iter().zip(budget.spread.column_iter()).map(|(input, changes)| {
+        stated(json!({
+            "input": input.cause.name(), "unit": input.cause.unit(),
+            "standard_uncertainty": input.cause.shown(input.standard_uncertainty),
+            "degrees_of_freedom": finite(input.degrees_of_freedom), "changes": changes.as_slice(),
+        }))
+    });
+    let covariance = budget.covariance();
+    stated(json!({
+        "method": budget.method.key(),
+        "sentence": sentence,
+        "parameters": parameters.collect::<Vec<_>>(),
+        "covariance": covariance.row_iter().map(|row| row.iter().copied().collect()).collect::<Vec<Vec<f64>>>(),
+        "inputs": inputs.collect::<Vec<_>>(),
+    }))
+}
+
+/// Returns an object without the keys that have no value: infinite degrees of freedom, no sentence.
+fn stated(mut object: Value) -> Value {
+    if let Value::Object(keys) = &mut object {
+        keys.retain(|_, value| !value.is_null());
+    }
+    object
 }
 
 /// Returns uncertainties and coverage intervals, and for every parameter whether the linear approximation is valid.

@@ -2,7 +2,6 @@
 //!
 //! * `budget`: first-order contributions of every input, effective degrees of freedom, covariance.
 //! * `dominant`: the dominant contribution of a budget, and what would halve an uncertainty.
-//! * `document`: budgets and Monte Carlo results as JSON.
 //! * `engine`: vectorised trials of a Monte Carlo.
 //! * `entries`: covariance of the numbers of a passport.
 //! * `monte_carlo`: distributions by Monte Carlo, and whether first order is valid; `accumulator`: sums over trials.
@@ -10,8 +9,6 @@
 #[cfg(feature = "monte-carlo")]
 pub(crate) mod accumulator;
 pub(crate) mod budget;
-#[cfg(feature = "monte-carlo")]
-pub(crate) mod document;
 pub(crate) mod dominant;
 #[cfg(feature = "monte-carlo")]
 pub(crate) mod engine;

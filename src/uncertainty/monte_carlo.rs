@@ -14,6 +14,7 @@ use crate::parallel;
 use crate::statistics::wide_random::WideRandom;
 use crate::text::number::exponent_as_printed;
 use nalgebra::DMatrix;
+use serde::{Serialize, Serializer};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -30,17 +31,13 @@ const MOST_BLOCKS_IN_A_WAVE: u64 = 512;
 /// Number of trials after which an adaptive run stops.
 pub(crate) const MOST_TRIALS: u64 = 200_000_000;
 
-/// Reason why a calibration has no Monte Carlo: its model has parameters that the trials do not have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("the Monte Carlo method has the paper's model with one constant drift")]
-pub(crate) struct OtherModel;
-
 /// Checks that the trials can have the model of a calibration.
 ///
 /// # Errors
-/// Returns [`OtherModel`] unless it is the paper's model without a drift in time.
-pub(crate) fn check_model(options: &Options) -> Result<(), OtherModel> {
-    if options.model == Model::Paper && !options.drift { Ok(()) } else { Err(OtherModel) }
+/// Returns the reason unless it is the paper's model without a drift in time.
+pub(crate) fn check_model(options: &Options) -> Result<(), &'static str> {
+    let same = options.model == Model::Paper && !options.drift;
+    if same { Ok(()) } else { Err("the Monte Carlo method has the paper's model with one constant drift") }
 }
 
 /// Settings of a Monte Carlo run.
@@ -73,8 +70,8 @@ impl Trials<'_> {
     }
 }
 
-/// Result of a Monte Carlo run.
-#[derive(Debug, Clone, PartialEq)]
+/// Result of a Monte Carlo run; as JSON the key `monte_carlo` of `calibrate`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MonteCarlo {
     /// Method of the calibration.
     pub method: Method,
@@ -89,42 +86,63 @@ pub struct MonteCarlo {
     /// Distributions of the parameters, in the order of [`Parameter::EIGHT`].
     pub parameters: Vec<Distribution>,
     /// Covariance of the parameters, 8×8.
+    #[serde(serialize_with = "by_rows")]
     pub covariance: DMatrix<f64>,
 }
 
 /// Distribution of one parameter.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Distribution {
     /// Parameter of the distribution.
+    #[serde(flatten, serialize_with = "with_unit")]
     pub parameter: Parameter,
     /// Mean of the trials.
     pub mean: f64,
     /// Standard deviation of the trials.
     pub standard_uncertainty: f64,
-    /// Probabilistically symmetric coverage interval with probability `COVERAGE`.
+    /// Coverage probability of the intervals.
+    pub coverage_probability: f64,
+    /// Probabilistically symmetric coverage interval.
+    #[serde(rename = "symmetric_interval")]
     pub symmetric: [f64; 2],
-    /// Shortest coverage interval with that probability.
+    /// Shortest coverage interval.
+    #[serde(rename = "shortest_interval")]
     pub shortest: [f64; 2],
     /// Numerical uncertainties: twice the standard deviations of the mean, of the standard uncertainty and of the two
     /// ends of the symmetric interval.
+    #[serde(skip)]
     pub numerical: [f64; 4],
     /// Comparison with first order.
+    #[serde(flatten)]
     pub first_order: FirstOrder,
 }
 
 /// Comparison of first order with Monte Carlo (JCGM 101, clause 8).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct FirstOrder {
     /// Standard uncertainty by first order.
+    #[serde(skip)]
     pub standard_uncertainty: f64,
     /// First-order interval, y − U and y + U.
+    #[serde(rename = "first_order_interval")]
     pub interval: [f64; 2],
     /// Distances between the lower and between the upper ends of the two intervals.
     pub differences: [f64; 2],
     /// Largest valid distance: half a unit of the second significant digit of the standard uncertainty.
     pub tolerance: f64,
     /// `true` if both distances are within the tolerance; `None` if there are too few trials to decide.
+    #[serde(rename = "first_order_valid")]
     pub valid: Option<bool>,
+}
+
+/// Writes a parameter as its key and its unit.
+fn with_unit<S: Serializer>(parameter: &Parameter, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map([("parameter", parameter.key()), ("unit", parameter.unit())])
+}
+
+/// Writes a matrix as the list of its rows.
+fn by_rows<S: Serializer>(matrix: &DMatrix<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(matrix.row_iter().map(|row| row.iter().copied().collect::<Vec<f64>>()))
 }
 
 /// Runs the trials of `engine`, and compares them with the first-order `budget`.
@@ -309,6 +327,7 @@ impl Series {
                 parameter: line.parameter,
                 mean: value(self.sums[place] / self.count.max(1) as f64),
                 standard_uncertainty,
+                coverage_probability: COVERAGE,
                 symmetric,
                 shortest: bins.shortest(COVERAGE).map(value),
                 numerical,
