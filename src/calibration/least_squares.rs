@@ -271,7 +271,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
         }
         let scaled: Vec<_> = self.currents_ma.iter().map(|current| current / unit_ma).collect();
         let design = design(positions, &scaled, self.model);
-        let model = Factorised::new(design.clone()).ok().filter(|model| model.condition_bound() <= LARGEST_CONDITION);
+        let model = Factorised::new(design.clone()).filter(|model| model.condition_bound() <= LARGEST_CONDITION);
         match model {
             Some(model) => Ok(model),
             None => self.checked(design),
@@ -300,7 +300,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
     fn checked(&self, design: DMatrix<f64>) -> Result<Factorised, NoLeastSquares> {
         let found = condition(&design, LARGEST_CONDITION).ok_or(NoLeastSquares::NotUsable)?;
         if found.number <= LARGEST_CONDITION {
-            return Factorised::new(design).map_err(|_| NoLeastSquares::NotUsable);
+            return Factorised::new(design).ok_or(NoLeastSquares::NotUsable);
         }
         let groups = mixed(&found.undetermined, &self.names());
         Err(NoLeastSquares::Inseparable { groups, condition: found.number })
@@ -320,7 +320,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
             design.rows_range_mut(first..).unscale_mut(largest);
         }
         let design = scaled_columns(design);
-        if Factorised::new(design.clone()).is_ok_and(|model| model.condition_bound() <= SINGULAR) {
+        if Factorised::new(design.clone()).is_some_and(|model| model.condition_bound() <= SINGULAR) {
             return Ok(());
         }
         let found = condition(&design, SINGULAR).ok_or(NoLeastSquares::NotUsable)?;
@@ -407,7 +407,7 @@ impl<F: Fn(usize, &Unknowns, &Vector2<f64>) -> Matrix2<f64>> Problem<'_, F> {
             multiply_rows(&mut design, place, &whiten);
             whitening.push(whiten);
         }
-        let model = Factorised::new(design).ok()?;
+        let model = Factorised::new(design)?;
         let (unknowns, changing, currents_ma, of) = (*unknowns, changing.clone(), regressors_ma, self.model);
         let fit = Fit { unknowns, changing, positions, currents_ma, whitening, model, settled: true, of };
         if self.offsets.columns() > 0 {

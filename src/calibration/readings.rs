@@ -69,32 +69,6 @@ pub(crate) struct Exclusion {
     pub why: String,
 }
 
-/// Reason why a visit cannot be left out.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub(crate) enum NotExcluded {
-    /// No such visit.
-    #[error("found no visit {visit} to position {index} to exclude")]
-    Missing {
-        /// Index (i, j) of the position.
-        index: PositionIndex,
-        /// Number of the visit.
-        visit: u32,
-    },
-    /// Visits of that number in several cycles.
-    #[error("position {index} has a visit {visit} in the cycles {cycles:?}; add the number of one as i,j,visit,cycle")]
-    Ambiguous {
-        /// Index (i, j) of the position.
-        index: PositionIndex,
-        /// Number of the visit.
-        visit: u32,
-        /// Cycles with that visit.
-        cycles: Vec<u32>,
-    },
-    /// No other reading would be left.
-    #[error("the last reading cannot be excluded")]
-    Last,
-}
-
 impl PositionReadings {
     pub(super) fn new(index: PositionIndex, visits: Vec<Visit>) -> Self {
         let mean_ma = mean(visits.iter().map(|visit| &visit.mean_ma));
@@ -189,24 +163,28 @@ impl Readings {
     /// Leaves a visit out, with the reason on record.
     ///
     /// # Errors
-    /// Returns [`NotExcluded`] if there is no such visit, or one in several cycles, or no other reading would be left.
-    pub(crate) fn exclude(&mut self, exclusion: Exclusion) -> Result<(), NotExcluded> {
+    /// Returns the reason if there is no such visit, or one in several cycles, or no other reading would be left.
+    pub(crate) fn exclude(&mut self, exclusion: Exclusion) -> Result<(), String> {
         let Exclusion { i, j, visit: number, cycle, .. } = exclusion;
         let index = PositionIndex { i, j };
         let is_it = |visit: &&Visit| visit.number == number && cycle.is_none_or(|cycle| visit.cycle == cycle);
-        let missing = NotExcluded::Missing { index, visit: number };
-        let place = self.positions.iter().position(|at| at.index == index).ok_or(missing)?;
+        let missing = || format!("found no visit {number} to position {index} to exclude");
+        let place = self.positions.iter().position(|at| at.index == index).ok_or_else(missing)?;
         let at = &self.positions[place];
         let found: Vec<u32> = at.visits.iter().filter(is_it).map(|visit| visit.cycle).collect();
         match found.as_slice() {
-            [] => return Err(NotExcluded::Missing { index, visit: number }),
+            [] => return Err(missing()),
             [_] => {}
-            _ => return Err(NotExcluded::Ambiguous { index, visit: number, cycles: found }),
+            cycles => {
+                return Err(format!(
+                    "position {index} has a visit {number} in the cycles {cycles:?}; add the number of one as i,j,visit,cycle"
+                ));
+            }
         }
         let rest: Vec<Visit> = at.visits.iter().filter(|visit| !is_it(visit)).cloned().collect();
         if rest.is_empty() {
             if self.positions.len() == 1 {
-                return Err(NotExcluded::Last);
+                return Err("the last reading cannot be excluded".to_owned());
             }
             self.positions.remove(place);
             self.left_out.push(index);

@@ -256,7 +256,7 @@ impl Differences {
         });
         let mut right =
             DMatrix::from_fn(rows.len(), 1, |row, _| self.turns_arcsec[rows[row]] / self.u_arcsec[rows[row]]);
-        let model = Factorised::new(weighted).ok()?;
+        let model = Factorised::new(weighted)?;
         if model.condition_bound() > 1e6 {
             return None;
         }

@@ -111,7 +111,7 @@ impl RunModel {
             base_axes = eigen.eigenvectors.select_columns(&columns);
         }
         let design = design(turns, &base_axes);
-        let factorised = Factorised::new(design.clone()).ok()?;
+        let factorised = Factorised::new(design.clone())?;
         let (rows, columns) = design.shape();
         let mut rotated = DMatrix::identity(rows, rows);
         factorised.rotate(&mut rotated);

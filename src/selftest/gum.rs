@@ -144,7 +144,7 @@ fn thermometer() -> Vec<Case> {
     ];
     let design = DMatrix::from_fn(11, 2, |row, column| if column == 0 { 1.0 } else { READINGS[row].0 - 20.0 });
     let mut right = DMatrix::from_fn(11, 1, |row, _| READINGS[row].1);
-    let Ok(model) = Factorised::new(design) else {
+    let Some(model) = Factorised::new(design) else {
         return vec![printed(EXAMPLE)(LINE, "cannot be computed", 0.0, 0, f64::NAN)];
     };
     model.rotate(&mut right);

@@ -84,7 +84,7 @@ struct Set {
 impl Set {
     fn cases(&self, design: DMatrix<f64>, mut right: DMatrix<f64>) -> Vec<Case> {
         let (rows, columns) = design.shape();
-        let Ok(model) = Factorised::new(design) else { return vec![self.case("fit".to_owned(), 1.0, f64::NAN)] };
+        let Some(model) = Factorised::new(design) else { return vec![self.case("fit".to_owned(), 1.0, f64::NAN)] };
         model.rotate(&mut right);
         let (estimates, _) = model.solve_rotated(&right);
         let residual = (right.rows(columns, rows - columns).norm_squared() / (rows - columns) as f64).sqrt();

@@ -17,28 +17,21 @@ pub(crate) struct Factorised {
     pub(crate) columns: usize,
 }
 
-/// Error for an X with dependent columns, or with fewer rows than columns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("the model is singular: it does not determine all of its parameters")]
-pub(crate) struct Singular;
-
 impl Factorised {
-    /// Factorises X, rows × columns, with at least as many rows as columns.
-    ///
-    /// # Errors
-    /// Returns [`Singular`] if R has no inverse in binary64. Near-singularity is a separate test: see [`condition`].
-    pub(crate) fn new(design: DMatrix<f64>) -> Result<Self, Singular> {
+    /// Factorises X, rows × columns. Returns `None` if there are fewer rows than columns, or R has no inverse in binary64.
+    /// Near-singularity is a separate test: see [`condition`].
+    pub(crate) fn new(design: DMatrix<f64>) -> Option<Self> {
         let (rows, columns) = design.shape();
         if rows < columns || columns == 0 || design.iter().any(|x| !x.is_finite()) {
-            return Err(Singular);
+            return None;
         }
         let qr = QR::new(design);
         let mut r_inverse = DMatrix::identity(columns, columns);
         let solved = qr.r().solve_upper_triangular_mut(&mut r_inverse);
         if !solved || r_inverse.iter().any(|x| !x.is_finite()) {
-            return Err(Singular);
+            return None;
         }
-        Ok(Self { qr, r_inverse, rows, columns })
+        Some(Self { qr, r_inverse, rows, columns })
     }
 
     /// Replaces M (rows × any) by Q'M: its first `columns` rows determine the parameters, the others are residuals.
@@ -127,9 +120,9 @@ mod tests {
         let direction = &found.undetermined[0];
         assert!((direction[0] + direction[1]).abs() < 1e-12 && direction[2].abs() < 1e-12);
         let wide = DMatrix::from_row_slice(1, 2, &[1.0, 0.0]);
-        assert!(Factorised::new(wide.clone()).is_err());
+        assert!(Factorised::new(wide.clone()).is_none());
         assert_eq!(condition(&wide, 1e6).unwrap().number, f64::INFINITY);
         assert!(condition(&DMatrix::from_element(2, 2, f64::NAN), 1e6).is_none());
-        assert!(Factorised::new(DMatrix::from_element(2, 2, 0.0)).is_err());
+        assert!(Factorised::new(DMatrix::from_element(2, 2, 0.0)).is_none());
     }
 }
