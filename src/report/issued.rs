@@ -4,7 +4,7 @@
 //! for many it contains only the failures and a summary.
 
 use super::columns::csv_row;
-use crate::batch::{Failure, Outcome};
+use crate::batch::{Failure, Outcome, Planned};
 use crate::calibration::prediction::NoiseGrowth;
 use crate::folder::Issued;
 use crate::passport::issue::Remarks;
@@ -66,23 +66,30 @@ pub(crate) struct Report {
 }
 
 impl Report {
-    fn new(id: String, state: State) -> Self {
+    pub(super) fn new(id: String, state: State) -> Self {
         let absences = Vec::new();
         Self { id, state, file: None, sha256: None, noise_growth: None, absences, reason: None, passports: None }
+    }
+
+    /// Creates the report of a passport that exists now.
+    pub(super) fn issued(Issued { id, path, sha256, new, remarks }: &Issued) -> Self {
+        Self {
+            file: Some(name_of(path)),
+            sha256: Some(sha256.clone()),
+            ..Self::new(id.clone(), if *new { State::Issued } else { State::Unchanged }).with(remarks)
+        }
+    }
+
+    /// Creates the report of a passport that a dry run would issue.
+    pub(super) fn planned(Planned { id, path, remarks }: &Planned) -> Self {
+        Self { file: Some(name_of(path)), ..Self::new(id.clone(), State::Planned).with(remarks) }
     }
 
     /// Creates the report of an order of a batch.
     pub(crate) fn of(outcome: &Outcome) -> Self {
         match outcome {
-            Outcome::There(Issued { id, path, sha256, new, remarks }) => Self {
-                file: Some(name_of(path)),
-                sha256: Some(sha256.clone()),
-                ..Self::new(id.clone(), if *new { State::Issued } else { State::Unchanged }).with(remarks)
-            },
-            Outcome::Planned(planned) => Self {
-                file: Some(name_of(&planned.path)),
-                ..Self::new(planned.id.clone(), State::Planned).with(&planned.remarks)
-            },
+            Outcome::There(issued) => Self::issued(issued),
+            Outcome::Planned(planned) => Self::planned(planned),
             Outcome::Skipped { id, file, why } => {
                 Self { file: Some(name_of(file)), reason: Some(why.clone()), ..Self::new(id.clone(), State::Skipped) }
             }
@@ -113,12 +120,15 @@ pub(crate) fn failure(failure: &Failure) -> String {
     }
 }
 
+/// Returns the line of an order, and the SHA-256 of its passport below.
+pub(super) fn named(report: &Report) -> String {
+    let sha256 = report.sha256.as_ref().map(|sha256| format!("           sha256 {sha256}\n"));
+    line(report) + &sha256.unwrap_or_default()
+}
+
 /// Returns the line of an order, and its details below.
 fn text(report: &Report) -> String {
-    let mut text = line(report);
-    if let Some(sha256) = &report.sha256 {
-        let _ = writeln!(text, "           sha256 {sha256}");
-    }
+    let mut text = named(report);
     if let Some(NoiseGrowth { k, omega0, omega_g, omega_k }) = report.noise_growth {
         let _ = writeln!(
             text,

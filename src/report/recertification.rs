@@ -1,39 +1,21 @@
 //! Result of a recertification, as text and as JSON.
 
-use crate::batch::Planned;
 use crate::batch::recertification::{NewPassport, Recertified};
+use crate::report::issued::{self, Report, State};
 use crate::report::{certification, columns, difference, style};
-use crate::text::{Printable, name_of, shown};
+use crate::text::{name_of, shown};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Passport of a recertification, as it is reported.
-struct Row<'a> {
-    state: &'static str,
-    id: &'a str,
-    file: String,
-    sha256: Option<&'a str>,
-}
-
-impl<'a> Row<'a> {
-    fn of(passport: &'a NewPassport) -> Self {
-        match passport {
-            NewPassport::There(issued) => Self {
-                state: if issued.new { "issued" } else { "unchanged" },
-                id: &issued.id,
-                file: name_of(&issued.path),
-                sha256: Some(&issued.sha256),
-            },
-            NewPassport::Done(line) => Self {
-                state: "unchanged",
-                id: line.id.as_deref().unwrap_or_default(),
-                file: line.file.clone(),
-                sha256: Some(&line.sha256),
-            },
-            NewPassport::Planned(Planned { id, path, .. }) => {
-                Self { state: "planned", id, file: name_of(path), sha256: None }
-            }
-        }
+fn report(passport: &NewPassport) -> Report {
+    match passport {
+        NewPassport::There(issued) => Report::issued(issued),
+        NewPassport::Planned(planned) => Report::planned(planned),
+        NewPassport::Done(line) => Report {
+            file: Some(line.file.clone()),
+            sha256: Some(line.sha256.clone()),
+            ..Report::new(line.id.clone().unwrap_or_default(), State::Unchanged)
+        },
     }
 }
 
@@ -44,7 +26,7 @@ pub(crate) fn to_json(found: &Recertified, dry_run: bool) -> Value {
     let passports = found
         .passports
         .iter()
-        .map(Row::of)
+        .map(report)
         .map(|row| json!({"id": row.id, "state": row.state, "file": row.file, "sha256": row.sha256}));
     json!({
         "dry_run": dry_run,
@@ -68,11 +50,8 @@ pub(crate) fn text(found: &Recertified, dry_run: bool) -> String {
     let _ = writeln!(out, "\n{}", style::heading(&heading));
     difference::numbers(&mut out, &found.changes);
     let _ = writeln!(out);
-    for row in found.passports.iter().map(Row::of) {
-        let _ = writeln!(out, "{:<9}  {}  {}", row.state, Printable(row.id), Printable(row.file));
-        if let Some(sha256) = row.sha256 {
-            let _ = writeln!(out, "           sha256 {sha256}");
-        }
+    for report in found.passports.iter().map(report) {
+        out += &issued::named(&report);
     }
     let verb = if dry_run { "planned" } else { "certified" };
     let _ = writeln!(out, "{verb:<9}  certificate {number}  {}", shown(&found.stand_file));
