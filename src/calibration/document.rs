@@ -2,11 +2,11 @@
 
 mod result;
 
-pub(crate) use result::{ChangeDocument, ResidualDocument, ResultDocument, RowScatterDocument, finite};
+pub(crate) use result::{ResidualDocument, ResultDocument, RowScatterDocument, finite};
 
 use super::mistake::Mistake;
 use super::parameter::Parameter;
-use super::readings::{Exclusion, Readings};
+use super::readings::Exclusion;
 use super::recorded::Digits;
 use super::result::Calibration;
 use super::scatter::Scatter;
@@ -24,7 +24,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeMap;
 
 /// JSON result of a calibration, with the keys in the order of writing.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CalibrationDocument {
     /// Identifier of the passport used.
@@ -187,12 +187,8 @@ impl CalibrationDocument {
             passport_verified,
             gravity_m_per_s2,
             gravity_u_m_per_s2,
-            subject: None,
-            excluded: Vec::new(),
-            left_out: Vec::new(),
             adopted: calibration.answer().map_or_else(String::new, |answer| answer.method.key().to_owned()),
             consistent: calibration.hint.is_none(),
-            degrees_of_freedom: BTreeMap::new(),
             results: calibration.results.iter().map(|result| ResultDocument::new(result, calibration)).collect(),
             refused: calibration
                 .refused
@@ -206,20 +202,8 @@ impl CalibrationDocument {
             row_scatter: calibration.row_scatter.as_ref().map(RowScatterDocument::new),
             digits: calibration.digits,
             hint: calibration.hint.as_ref().map(ToString::to_string),
-            mistake: None,
-            remarks: Vec::new(),
-            verdict: None,
-            change: None,
-            budget: IgnoredAny,
-            monte_carlo: IgnoredAny,
+            ..Self::default()
         }
-    }
-
-    /// Adds what was calibrated, and what of its readings was left out.
-    pub(crate) fn record(&mut self, subject: Subject, readings: &Readings) {
-        self.subject = Some(subject);
-        self.excluded = readings.exclusions.clone();
-        self.left_out = readings.left_out.clone();
     }
 
     /// Returns the serial number of the gyro, if it was stated.

@@ -72,8 +72,11 @@ pub enum NoIterativeSolution {
 }
 
 /// Change in one step of the parameters that the stop rule compares.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "struct ChangeDocument")]
 pub struct StepChange {
+    /// Number of the step; the first approximation is step 1.
+    pub step: u32,
     /// Larger change of K_x and K_y, percent of the value.
     pub main_scale_factors_percent: f64,
     /// Larger change of ω_g and ω_k, °/(h·g).
@@ -190,7 +193,7 @@ impl Plan {
             let next_omega_n = self.omega_n(&next_k);
             let (change, change_omega_n) = (next_k - k, next_omega_n - omega_n);
             (k, omega_n) = (next_k, next_omega_n);
-            let moved = StepChange::new(&k, &change, &change_omega_n);
+            let moved = StepChange::new(step, &k, &change, &change_omega_n);
             watch(moved);
             if meets(rule, &k, &change, &change_omega_n) {
                 return Some(LastStep { k, omega_n, change, steps: step });
@@ -215,7 +218,7 @@ struct LastStep {
 }
 
 impl StepChange {
-    fn new(k: &Matrix2<f64>, change: &Matrix2<f64>, change_omega_n: &Matrix2<f64>) -> Self {
+    fn new(step: u32, k: &Matrix2<f64>, change: &Matrix2<f64>, change_omega_n: &Matrix2<f64>) -> Self {
         let [omega_g, omega_k] = g_drifts(change_omega_n);
         // A value that passes through 0 changes by more than any percentage, but JSON needs finite numbers.
         let percent = |change: f64, value: f64| match change {
@@ -223,6 +226,7 @@ impl StepChange {
             change => (100.0 * (change / value).abs()).min(f64::MAX),
         };
         Self {
+            step,
             main_scale_factors_percent: percent(change.m11, k.m11).max(percent(change.m22, k.m22)),
             g_drifts_deg_per_h_per_g: omega_g.abs().max(omega_k.abs()),
         }

@@ -227,7 +227,8 @@ impl<'a> Prepared<'a> {
         let gravity = (content.earth.gravity_m_per_s2, content.site.gravity_u_m_per_s2());
         let verified = subject.passport_verified_as_of.is_some();
         let mut document = CalibrationDocument::new(&content.passport.id, verified, gravity, &calibration, &missing);
-        document.record(subject, &readings);
+        document.subject = Some(subject);
+        (document.excluded, document.left_out) = (readings.exclusions.clone(), readings.left_out.clone());
         let budget =
             calibration.answer().and_then(|answer| Budget::new(&setup, &readings, answer.method, options).ok());
         document.degrees_of_freedom = budget.map_or_else(BTreeMap::new, |budget| budget.degrees_of_freedom());

@@ -62,7 +62,7 @@ pub(crate) struct ResultDocument {
     pub(crate) stop_rule: Option<StopRule>,
     /// Changes of the parameters in each step after the first approximation.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) changes: Option<Vec<ChangeDocument>>,
+    pub(crate) changes: Option<Vec<StepChange>>,
     /// Spectral radius ρ(T).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) spectral_radius: Option<f64>,
@@ -134,18 +134,6 @@ impl NoiseDocument {
             turn_on_degrees_of_freedom: finite(turn_on.degrees_of_freedom),
         }
     }
-}
-
-/// Changes of the parameters in one step of the iterative method.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ChangeDocument {
-    /// Number of the step; the first approximation is step 1.
-    pub(crate) step: u32,
-    /// Larger change of K_x and K_y, percent.
-    pub(crate) main_scale_factors_percent: f64,
-    /// Larger change of ω_g and ω_k, °/(h·g).
-    pub(crate) g_drifts_deg_per_h_per_g: f64,
 }
 
 /// Standard uncertainties of the values of one method.
@@ -270,7 +258,7 @@ impl ResultDocument {
                 .and_then(|iteration| iteration.predicted_steps)
                 .filter(|steps| *steps <= LARGEST_NUMBER_OF_STEPS),
             stop_rule: iteration.map(|iteration| iteration.stop_rule),
-            changes: iteration.map(|iteration| (2..).zip(&iteration.changes).map(ChangeDocument::new).collect()),
+            changes: iteration.map(|iteration| iteration.changes.clone()),
             spectral_radius: iteration.map(|iteration| iteration.spectral_radius),
             remainder_k_deg_per_h_per_ma: iteration.map(|it| rows(&it.remainder_k_deg_per_h_per_ma)),
             remainder_omega_n_deg_per_h_per_g: iteration.map(|it| rows(&it.remainder_omega_n_deg_per_h_per_g)),
@@ -320,13 +308,6 @@ impl RowScatterDocument {
             probability: stated.map(|stated| stated.probability),
             variance_factor: stated.map(|stated| stated.variance_factor),
         }
-    }
-}
-
-impl ChangeDocument {
-    fn new((step, change): (u32, &StepChange)) -> Self {
-        let StepChange { main_scale_factors_percent, g_drifts_deg_per_h_per_g } = *change;
-        Self { step, main_scale_factors_percent, g_drifts_deg_per_h_per_g }
     }
 }
 

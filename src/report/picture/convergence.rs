@@ -2,8 +2,8 @@
 
 use super::chart::{Field, Look, sample};
 use super::drawing::{Anchor, Panel, Point, Scale, Ticks, label, legend, line, panels, power};
-use crate::calibration::document::{ChangeDocument, ResultDocument};
-use crate::calibration::iterative::StopRule;
+use crate::calibration::document::ResultDocument;
+use crate::calibration::iterative::{StepChange, StopRule};
 use crate::report::page::language::{Language, Languages};
 use crate::report::page::number::Number;
 use crate::report::page::texts::pictures as texts;
@@ -18,7 +18,7 @@ const FIELD: [Point; 2] = [[40.0, 22.0], [290.0, 126.0]];
 const MOST_DECADES: i32 = 12;
 
 /// A function that returns the change in a step as a share of its limit.
-type Share = fn(&ChangeDocument, &StopRule) -> f64;
+type Share = fn(&StepChange, &StopRule) -> f64;
 
 /// The series: appearance, and values.
 const SERIES: [(Look, Share); 2] = [
@@ -39,7 +39,7 @@ pub(crate) fn convergence(languages: &Languages, result: &ResultDocument) -> Opt
     let [[left, _], [right, _]] = FIELD;
     let mut drawing = vec![axes(languages, &field), line([left, limit], [right, limit], "limit")];
     drawing.extend(SERIES.map(|(look, share)| {
-        let point = |change: &ChangeDocument| [f64::from(change.step), power_of(share(change, &rule))];
+        let point = |change: &StepChange| [f64::from(change.step), power_of(share(change, &rule))];
         field.series(&changes.iter().map(point).collect::<Vec<_>>(), look)
     }));
     let svg = panel.svg(
@@ -61,7 +61,7 @@ fn key(languages: &Languages) -> Markup {
 }
 
 /// Returns the plot area: steps to the right, the power of ten of change over limit upwards.
-fn field(changes: &[ChangeDocument], rule: &StopRule) -> Field {
+fn field(changes: &[StepChange], rule: &StopRule) -> Field {
     let powers = SERIES.iter().flat_map(|(_, share)| changes.iter().map(|change| power_of(share(change, rule))));
     let finite = powers.filter(|power| power.is_finite());
     let (low, high) = finite.fold((-1.0, 1.0), |(low, high), power| (f64::min(low, power), f64::max(high, power)));
@@ -100,7 +100,7 @@ fn decade(exponent: i32, language: Language) -> String {
     if exponent == 0 { "1".to_owned() } else { power(exponent, language) }
 }
 
-fn in_words(language: Language, changes: &[ChangeDocument], rule: &StopRule) -> String {
+fn in_words(language: Language, changes: &[StepChange], rule: &StopRule) -> String {
     let each = changes.iter().map(|change| {
         let [k, g] = [change.main_scale_factors_percent, change.g_drifts_deg_per_h_per_g]
             .map(|value| Number::scientific(value, 2).text(language));
